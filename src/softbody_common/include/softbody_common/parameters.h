@@ -1,0 +1,40 @@
+#pragma once
+
+#include <yaml-cpp/node/node.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace softbody {
+
+/// One node's parameters as a YAML map, from a ROS namespace (ros_parameters.h) or from a file. Every reader throws
+/// std::invalid_argument with the full key, the value and what is allowed.
+class Parameters {
+ public:
+  /// @param prefix is put before keys in messages, e.g. "/softbody/simulator/".
+  explicit Parameters(YAML::Node values = YAML::Node(), std::string prefix = "");
+
+  double number(const std::string& key, double fallback, double min, double max);
+  int integer(const std::string& key, int fallback, int min, int max);
+  bool flag(const std::string& key, bool fallback);
+  std::string text(const std::string& key, const std::string& fallback);
+  /// One of the allowed words.
+  std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& allowed);
+  std::string requiredText(const std::string& key);
+  /// As many finite numbers as the fallback has.
+  std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback);
+
+  /// Full keys that were given but that no reader has asked for: worth a warning.
+  std::vector<std::string> unknown() const;
+
+ private:
+  template <typename T>
+  T get(const std::string& key, const T& fallback, const char* expected);
+
+  YAML::Node values_;
+  std::string prefix_;
+  std::set<std::string> known_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Signed volume of every tet [m^3], #T.
+Eigen::VectorXd tetVolumes(const Points& vertices, const Tets& tets);
+
+/// Volume enclosed by a closed, outward triangle mesh [m^3] (divergence theorem).
+double enclosedVolume(const Points& vertices, const Triangles& triangles);
+
+/// Triangles that belong to exactly one tet, outward, for tets of positive volume.
+Triangles boundaryTriangles(const Tets& tets);
+
+/// Connected piece of every tet (tets that share a vertex are connected), numbered from 0 in order of appearance.
+std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count);
+
+/// Connected piece of every triangle, numbered from 0 in order of appearance.
+std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex_count);
+
+/// Unit normals, area-weighted mean of the adjacent triangles, #V by 3; zero where no triangle touches the vertex.
+Points vertexNormals(const Points& vertices, const Triangles& triangles);
+
+/// Barycentric coordinates of a point in a tet; they sum to 1 whether it lies inside or not.
+/// @throw std::invalid_argument if the tet has no volume.
+Eigen::Vector4d barycentricCoordinates(const Eigen::Vector3d& point, const Points& vertices,
+                                       const Eigen::Vector4i& tet);
+
+/// Position of a material point for the given vertices [m].
+inline Eigen::Vector3d positionOf(const MaterialPoint& place, const Points& vertices, const Tets& tets) {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 4; ++k) {
+    position += place.barycentric[k] * vertices.row(tets(place.tet, k)).transpose();
+  }
+  return position;
+}
+
+/// Mean length of the tets' edges [m].
+double meanEdgeLength(const Points& vertices, const Tets& tets);
+
+}  // namespace softbody

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Finds the tet that contains a point, or the nearest one, by a uniform grid over the tets' bounding boxes.
+class TetLocator {
+ public:
+  /// @throw std::invalid_argument if there is no tet.
+  TetLocator(const Points& vertices, const Tets& tets);
+
+  /// The containing tet with barycentric coordinates; outside of the mesh the nearest tet, coordinates extrapolated
+  /// (they reproduce the point exactly). Ties go to the lowest tet index.
+  MaterialPoint locate(const Eigen::Vector3d& point) const;
+
+ private:
+  struct Candidate {
+    int tet;
+    double squared_distance;
+    Eigen::Vector4d barycentric;
+  };
+  Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const;
+  const std::vector<int>& tetsIn(const Eigen::Vector3i& cell) const;
+  void consider(const Eigen::Vector3d& point, int tet, Candidate* best) const;
+
+  Points vertices_;
+  Tets tets_;
+  std::vector<Eigen::Matrix3d> inverse_edges_;
+  Eigen::Vector3d origin_;
+  Eigen::Vector3i cells_;
+  double cell_size_ = 0.0;
+  std::vector<std::vector<int>> grid_;
+};
+
+/// Material points of many points, one each.
+std::vector<MaterialPoint> bindPoints(const Points& points, const Points& vertices, const Tets& tets);
+
+/// Positions of material points for the given tet vertices, #places by 3 [m].
+Points applyBinding(const std::vector<MaterialPoint>& places, const Points& vertices, const Tets& tets);
+
+}  // namespace softbody

@@ -1,0 +1,28 @@
+#pragma once
+
+/// Topic names relative to the graph's namespaces; launch files and remappings change them, nothing else does.
+/// Nodes run in the namespace "/softbody"; the camera's topics are remapped from "camera/...".
+namespace softbody::topics {
+
+constexpr char kCameraColor[] = "camera/color/image_raw";
+constexpr char kCameraColorInfo[] = "camera/color/camera_info";
+constexpr char kCameraDepth[] = "camera/aligned_depth_to_color/image_raw";
+constexpr char kCameraDepthInfo[] = "camera/aligned_depth_to_color/camera_info";
+
+constexpr char kRgbRect[] = "rgb/image_rect_color";
+constexpr char kRgbInfo[] = "rgb/camera_info";
+constexpr char kDepthRect[] = "depth/image_rect";
+constexpr char kPoints[] = "points";
+
+constexpr char kFeatures[] = "features";
+constexpr char kFeaturesMarker[] = "features/marker";
+constexpr char kTargets[] = "targets";
+constexpr char kStatus[] = "status";
+constexpr char kVolumeTopology[] = "volume/topology";
+constexpr char kVolumeState[] = "volume/state";
+constexpr char kSurfaceTopology[] = "surface/topology";
+constexpr char kSurfaceState[] = "surface/state";
+constexpr char kSurfaceMarker[] = "surface/marker";
+constexpr char kTiming[] = "timing";
+
+}  // namespace softbody::topics

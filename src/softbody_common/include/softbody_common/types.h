@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace softbody {
+
+/// #V by 3 vertex positions [m], one row a vertex.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// #F by 3 vertex indices, counter-clockwise seen from outside.
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// #T by 4 vertex indices, positive volume.
+using Tets = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+/// Stamps in the core are nanoseconds since the epoch (ros::Time without ROS).
+using Nanoseconds = std::int64_t;
+
+struct TriangleMesh {
+  Points vertices;
+  Triangles triangles;
+};
+
+struct TetMesh {
+  Points vertices;
+  Tets tets;
+};
+
+/// A place in the rest body: barycentric coordinates in a tet. They sum to 1; one below 0 means outside of the tet.
+struct MaterialPoint {
+  int tet = -1;
+  Eigen::Vector4d barycentric = Eigen::Vector4d::Zero();
+};
+
+/// What a target was made from (softbody_msgs/Target).
+enum class TargetKind : std::uint8_t { kFeature = 0, kDepth = 1, kVertex = 2, kManual = 3 };
+
+/// A material point and where it was measured. A zero normal means that all three directions count.
+struct Target {
+  TargetKind kind = TargetKind::kManual;
+  MaterialPoint place;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, or zero
+  double weight = 1.0;                                 ///< relative to the simulator's target_stiffness, > 0
+};
+
+/// One frame's soft constraints (softbody_msgs/Targets without its header).
+struct TargetSet {
+  std::uint32_t revision = 0;
+  bool reset = false;                                                ///< forget the state, start from body_pose
+  Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();       ///< rest frame in the targets' frame
+  std::vector<Target> targets;
+};
+
+/// The volumetric model at rest and its boundary (softbody_msgs/TetTopology without its header).
+struct TetTopology {
+  std::uint32_t revision = 0;
+  Points rest_vertices;
+  Tets tets;
+  Triangles surface;                    ///< boundary of the tets, outward
+  std::vector<int> vertex_parents;      ///< #V: index in revision 0, or -1
+  std::vector<std::uint32_t> bodies;    ///< #T: connected piece
+  bool has_initial_pose = false;
+  Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity();  ///< rest frame in the colour optical frame, rough
+};
+
+/// The visual mesh at rest (softbody_msgs/MeshTopology without its header).
+struct MeshTopology {
+  std::uint32_t revision = 0;
+  Points rest_vertices;
+  Triangles triangles;
+  std::vector<int> vertex_parents;        ///< #V: index in the input file, or -1
+  std::vector<std::uint32_t> bodies;      ///< #F: connected piece
+  std::vector<bool> cut;                  ///< #F: fills a cut
+  Points texture_coordinates;             ///< empty, or 3 #F rows (u, v, 0), in the order of the triangles' corners
+};
+
+/// Where a topology's vertices are (softbody_msgs/MeshState without its header).
+struct MeshState {
+  std::uint32_t revision = 0;
+  Nanoseconds observed = 0;               ///< stamp of the last image that went in
+  Points vertices;                        ///< [m]
+  std::vector<float> confidence;          ///< per vertex, 0..1
+};
+
+enum class TrackingState : std::uint8_t { kInitializing = 0, kTracking = 1, kDegraded = 2, kLost = 3, kRecovering = 4 };
+
+/// How the tracker fares (softbody_msgs/TrackingStatus without its header).
+struct TrackingStatus {
+  TrackingState state = TrackingState::kInitializing;
+  std::uint32_t features_tracked = 0;
+  std::uint32_t features_total = 0;
+  double inlier_ratio = 0.0;
+  double residual_rms = 0.0;  ///< [m]
+  std::string reason;
+};
+
+}  // namespace softbody

@@ -1,0 +1,120 @@
+#include "softbody_common/tet_geometry.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+namespace softbody {
+namespace {
+
+/// Union-find over vertices that numbers the connected pieces of elements.
+template <typename Elements>
+std::vector<std::uint32_t> connectedPieces(const Elements& elements, int vertex_count) {
+  std::vector<int> parent(static_cast<std::size_t>(vertex_count));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&parent](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (Eigen::Index e = 0; e < elements.rows(); ++e) {
+    for (Eigen::Index k = 1; k < elements.cols(); ++k) parent[find(elements(e, k))] = find(elements(e, 0));
+  }
+  std::map<int, std::uint32_t> numbers;
+  std::vector<std::uint32_t> pieces(static_cast<std::size_t>(elements.rows()));
+  for (Eigen::Index e = 0; e < elements.rows(); ++e) {
+    const auto next = static_cast<std::uint32_t>(numbers.size());
+    pieces[e] = numbers.emplace(find(elements(e, 0)), next).first->second;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+Eigen::VectorXd tetVolumes(const Points& vertices, const Tets& tets) {
+  Eigen::VectorXd volumes(tets.rows());
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.row(k) = vertices.row(tets(t, k + 1)) - vertices.row(tets(t, 0));
+    volumes[t] = edges.determinant() / 6.0;
+  }
+  return volumes;
+}
+
+double enclosedVolume(const Points& vertices, const Triangles& triangles) {
+  double volume = 0.0;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    const Eigen::Vector3d a = vertices.row(triangles(f, 0)), b = vertices.row(triangles(f, 1)),
+                          c = vertices.row(triangles(f, 2));
+    volume += a.dot(b.cross(c)) / 6.0;
+  }
+  return volume;
+}
+
+Triangles boundaryTriangles(const Tets& tets) {
+  static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  std::map<std::array<int, 3>, int> uses;
+  const auto key = [&tets](Eigen::Index t, const int* face) {
+    std::array<int, 3> corners{tets(t, face[0]), tets(t, face[1]), tets(t, face[2])};
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    for (const auto& face : kFaces) ++uses[key(t, face)];
+  }
+  std::vector<Eigen::Vector3i> boundary;
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    for (const auto& face : kFaces) {
+      if (uses[key(t, face)] == 1) boundary.emplace_back(tets(t, face[0]), tets(t, face[1]), tets(t, face[2]));
+    }
+  }
+  Triangles triangles(static_cast<Eigen::Index>(boundary.size()), 3);
+  for (std::size_t f = 0; f < boundary.size(); ++f) triangles.row(static_cast<Eigen::Index>(f)) = boundary[f];
+  return triangles;
+}
+
+std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count) {
+  return connectedPieces(tets, vertex_count);
+}
+
+std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex_count) {
+  return connectedPieces(triangles, vertex_count);
+}
+
+Points vertexNormals(const Points& vertices, const Triangles& triangles) {
+  Points normals = Points::Zero(vertices.rows(), 3);
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    const Eigen::Vector3d a = vertices.row(triangles(f, 0)), b = vertices.row(triangles(f, 1)),
+                          c = vertices.row(triangles(f, 2));
+    const Eigen::RowVector3d doubled_area = (b - a).cross(c - a).transpose();
+    for (int k = 0; k < 3; ++k) normals.row(triangles(f, k)) += doubled_area;
+  }
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) normals.row(v).normalize();
+  return normals;
+}
+
+Eigen::Vector4d barycentricCoordinates(const Eigen::Vector3d& point, const Points& vertices,
+                                       const Eigen::Vector4i& tet) {
+  Eigen::Matrix3d edges;
+  for (int k = 0; k < 3; ++k) edges.col(k) = (vertices.row(tet[k + 1]) - vertices.row(tet[0])).transpose();
+  if (edges.determinant() == 0.0) throw std::invalid_argument("barycentric coordinates of a tet without volume");
+  const Eigen::Vector3d tail = edges.inverse() * (point - vertices.row(tet[0]).transpose());
+  return {1.0 - tail.sum(), tail[0], tail[1], tail[2]};
+}
+
+double meanEdgeLength(const Points& vertices, const Tets& tets) {
+  std::set<std::pair<int, int>> edges;
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      for (int j = i + 1; j < 4; ++j) edges.insert(std::minmax(tets(t, i), tets(t, j)));
+    }
+  }
+  double sum = 0.0;
+  for (const auto& [a, b] : edges) sum += (vertices.row(a) - vertices.row(b)).norm();
+  return edges.empty() ? 0.0 : sum / static_cast<double>(edges.size());
+}
+
+}  // namespace softbody

@@ -1,0 +1,140 @@
+#include "softbody_common/tet_locator.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+/// Nearest point of a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
+Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                  const Eigen::Vector3d& c) {
+  const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return a;
+  const Eigen::Vector3d bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0.0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
+  const Eigen::Vector3d cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0.0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+  const double scale = 1.0 / (va + vb + vc);
+  return a + vb * scale * ab + vc * scale * ac;
+}
+
+double squaredDistanceToTet(const Eigen::Vector3d& p, const Points& vertices, const Tets& tets, int t) {
+  static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  std::array<Eigen::Vector3d, 4> corner;
+  for (int k = 0; k < 4; ++k) corner[k] = vertices.row(tets(t, k));
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& face : kFaces) {
+    best = std::min(best, (nearestOnTriangle(p, corner[face[0]], corner[face[1]], corner[face[2]]) - p).squaredNorm());
+  }
+  return best;
+}
+
+}  // namespace
+
+TetLocator::TetLocator(const Points& vertices, const Tets& tets) : vertices_(vertices), tets_(tets) {
+  if (tets.rows() == 0) throw std::invalid_argument("TetLocator: the mesh has no tet");
+  inverse_edges_.resize(static_cast<std::size_t>(tets.rows()));
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.col(k) = (vertices.row(tets(t, k + 1)) - vertices.row(tets(t, 0))).transpose();
+    inverse_edges_[t] = edges.inverse();
+  }
+  const Eigen::Vector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
+  const Eigen::Vector3d extent = high - low;
+  // About one tet a cell; a floor keeps flat meshes from asking for endless cells.
+  const double volume = std::max(extent.prod(), std::pow(0.1 * extent.maxCoeff(), 3));
+  cell_size_ = std::max(std::cbrt(volume / static_cast<double>(tets.rows())), extent.maxCoeff() / 64.0);
+  origin_ = low;
+  cells_ = (extent / cell_size_).array().floor().cast<int>() + 1;
+  grid_.resize(static_cast<std::size_t>(cells_.prod()));
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    Eigen::Vector3d tet_low = vertices.row(tets(t, 0)), tet_high = tet_low;
+    for (int k = 1; k < 4; ++k) {
+      tet_low = tet_low.cwiseMin(vertices.row(tets(t, k)).transpose());
+      tet_high = tet_high.cwiseMax(vertices.row(tets(t, k)).transpose());
+    }
+    const Eigen::Vector3i first = cellOf(tet_low), last = cellOf(tet_high);
+    for (int x = first.x(); x <= last.x(); ++x) {
+      for (int y = first.y(); y <= last.y(); ++y) {
+        for (int z = first.z(); z <= last.z(); ++z) {
+          grid_[(x * cells_.y() + y) * cells_.z() + z].push_back(static_cast<int>(t));
+        }
+      }
+    }
+  }
+}
+
+Eigen::Vector3i TetLocator::cellOf(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3i cell = ((point - origin_) / cell_size_).array().floor().cast<int>();
+  return cell.cwiseMax(0).cwiseMin(cells_ - Eigen::Vector3i::Ones());
+}
+
+const std::vector<int>& TetLocator::tetsIn(const Eigen::Vector3i& cell) const {
+  return grid_[(cell.x() * cells_.y() + cell.y()) * cells_.z() + cell.z()];
+}
+
+void TetLocator::consider(const Eigen::Vector3d& point, int tet, Candidate* best) const {
+  const Eigen::Vector3d tail = inverse_edges_[tet] * (point - vertices_.row(tets_(tet, 0)).transpose());
+  const Eigen::Vector4d barycentric(1.0 - tail.sum(), tail[0], tail[1], tail[2]);
+  const double distance =
+      barycentric.minCoeff() >= 0.0 ? 0.0 : squaredDistanceToTet(point, vertices_, tets_, tet);
+  if (distance < best->squared_distance || (distance == best->squared_distance && tet < best->tet)) {
+    *best = {tet, distance, barycentric};
+  }
+}
+
+MaterialPoint TetLocator::locate(const Eigen::Vector3d& point) const {
+  Candidate best{-1, std::numeric_limits<double>::infinity(), Eigen::Vector4d::Zero()};
+  const Eigen::Vector3i center = cellOf(point);
+  const Eigen::Vector3d clamped =
+      point.cwiseMax(origin_).cwiseMin(origin_ + cell_size_ * cells_.cast<double>());
+  const int reach = cells_.maxCoeff();
+  for (int ring = 0; ring <= reach; ++ring) {
+    // Cells of this ring are at least (ring - 1) cells away from the clamped point, and the point no nearer than that.
+    const double ring_distance = std::max(0, ring - 1) * cell_size_;
+    if (best.tet >= 0 && ring_distance * ring_distance + (point - clamped).squaredNorm() > best.squared_distance) break;
+    for (int x = center.x() - ring; x <= center.x() + ring; ++x) {
+      for (int y = center.y() - ring; y <= center.y() + ring; ++y) {
+        for (int z = center.z() - ring; z <= center.z() + ring; ++z) {
+          const Eigen::Vector3i cell(x, y, z);
+          if ((cell - center).cwiseAbs().maxCoeff() != ring) continue;
+          if ((cell.array() < 0).any() || (cell.array() >= cells_.array()).any()) continue;
+          for (int tet : tetsIn(cell)) consider(point, tet, &best);
+        }
+      }
+    }
+  }
+  return {best.tet, best.barycentric};
+}
+
+std::vector<MaterialPoint> bindPoints(const Points& points, const Points& vertices, const Tets& tets) {
+  const TetLocator locator(vertices, tets);
+  std::vector<MaterialPoint> places(static_cast<std::size_t>(points.rows()));
+  for (Eigen::Index p = 0; p < points.rows(); ++p) places[p] = locator.locate(points.row(p));
+  return places;
+}
+
+Points applyBinding(const std::vector<MaterialPoint>& places, const Points& vertices, const Tets& tets) {
+  Points points(static_cast<Eigen::Index>(places.size()), 3);
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    points.row(static_cast<Eigen::Index>(p)) = positionOf(places[p], vertices, tets);
+  }
+  return points;
+}
+
+}  // namespace softbody

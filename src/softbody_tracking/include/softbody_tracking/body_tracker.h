@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "softbody_common/parameters.h"
+#include "softbody_common/stage_timer.h"
+#include "softbody_common/types.h"
+#include "softbody_tracking/rgbd_frame.h"
+
+namespace softbody {
+
+struct TrackerConfig {
+  int max_features = 1000;                 ///< N_p
+};
+
+/// @throw std::invalid_argument as Parameters does.
+TrackerConfig readTrackerConfig(Parameters& parameters);
+
+/// A feature bound to the body, as seen in one frame.
+struct TrackedFeature {
+  int id = 0;
+  Eigen::Vector2d pixel;                   ///< (u, v) [px]
+  Eigen::Vector3d position;                ///< measured, camera frame [m]
+  Eigen::Vector3d reference;               ///< where it was measured in its reference frame [m]
+  double confidence = 0.0;                 ///< 0..1
+};
+
+/// What one frame gave.
+struct TrackingResult {
+  bool has_targets = false;                ///< false: nothing to simulate (waiting, or nothing was found)
+  TargetSet targets;                       ///< camera frame
+  std::vector<TrackedFeature> features;
+  TrackingStatus status;
+};
+
+/// From RGB-D frames and the last simulated state to targets: registration, ORB features bound in rest space, depth
+/// points on the visible surface, outliers and occluders rejected.
+class BodyTracker {
+ public:
+  explicit BodyTracker(const TrackerConfig& config);
+  ~BodyTracker();
+
+  /// The body's models; tracking starts anew when they change.
+  void setTopologies(const TetTopology& volume, const MeshTopology& surface);
+  bool ready() const;
+
+  /// @param volume the newest state of the volume in the camera frame, nullptr where there is none yet.
+  TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
+
+  /// Forgets everything seen; topologies stay.
+  void reset();
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace softbody
