@@ -4,39 +4,32 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/parameters.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
 #include "softbody_tracking/rgbd_frame.h"
+#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
-
-struct TrackerConfig {
-  int max_features = 1000;                 ///< N_p
-};
-
-/// @throw std::invalid_argument as Parameters does.
-TrackerConfig readTrackerConfig(Parameters& parameters);
 
 /// A feature bound to the body, as seen in one frame.
 struct TrackedFeature {
   int id = 0;
-  Eigen::Vector2d pixel;                   ///< (u, v) [px]
-  Eigen::Vector3d position;                ///< measured, camera frame [m]
-  Eigen::Vector3d reference;               ///< where it was measured in its reference frame [m]
-  double confidence = 0.0;                 ///< 0..1
+  Eigen::Vector2d pixel;      ///< (u, v) [px]
+  Eigen::Vector3d position;   ///< measured, camera frame [m]
+  Eigen::Vector3d reference;  ///< where it was measured in its reference frame [m]
+  double confidence = 0.0;    ///< 0..1
 };
 
 /// What one frame gave.
 struct TrackingResult {
-  bool has_targets = false;                ///< false: nothing to simulate (waiting, or nothing was found)
-  TargetSet targets;                       ///< camera frame
+  bool has_targets = false;  ///< false: nothing to simulate (waiting, or nothing was found)
+  TargetSet targets;         ///< camera frame
   std::vector<TrackedFeature> features;
   TrackingStatus status;
 };
 
-/// From RGB-D frames and the last simulated state to targets: registration, ORB features bound in rest space, depth
-/// points on the visible surface, outliers and occluders rejected.
+/// From RGB-D frames and the last simulated state to targets: registration, ORB features bound in rest space,
+/// depth points on the visible surface, outliers and occluders rejected.
 class BodyTracker {
  public:
   explicit BodyTracker(const TrackerConfig& config);

@@ -1,0 +1,80 @@
+#include "association.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace softbody {
+namespace {
+
+constexpr double kSmallestScale = 0.003;  // [m], of the Cauchy weights: below the noise nothing is an outlier
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// d(point moved by (rotation, translation)) = J (rotation, translation), about the centre.
+Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
+      -arm.z(), 0.0, arm.x(), 0.0, 1.0, 0.0,   //
+      arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
+  return J;
+}
+
+}  // namespace
+
+Eigen::Isometry3d rigidStep(const std::vector<Association>& associations) {
+  if (associations.empty()) return Eigen::Isometry3d::Identity();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const Association& a : associations) center += a.predicted;
+  center /= static_cast<double>(associations.size());
+
+  const double scale = std::max(kSmallestScale, 2.0 * medianResidual(associations));
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d g = Vector6d::Zero();
+  double size = 0.0;
+  for (const Association& a : associations) {
+    const double ratio = a.residual() / scale;
+    const double w = a.weight / (1.0 + ratio * ratio);
+    const Eigen::Matrix<double, 3, 6> J = motionJacobian(a.predicted - center);
+    const Eigen::Vector3d difference = a.measured - a.predicted;
+    if (a.normal.isZero()) {
+      H += w * J.transpose() * J;
+      g += w * J.transpose() * difference;
+    } else {
+      const Vector6d row = J.transpose() * a.normal;
+      H += w * row * row.transpose();
+      g += w * row * a.normal.dot(difference);
+    }
+    size += w * (a.predicted - center).squaredNorm();
+  }
+  // A little of the mean stiffness in every direction: what the data does not fix does not move.
+  H.topLeftCorner<3, 3>().diagonal().array() += 1e-3 * size + 1e-12;
+  H.bottomRightCorner<3, 3>().diagonal().array() += 1e-3 * H.bottomRightCorner<3, 3>().trace() / 3.0 + 1e-12;
+  const Vector6d motion = H.ldlt().solve(g);
+  if (!motion.allFinite()) return Eigen::Isometry3d::Identity();
+
+  const double angle = motion.head<3>().norm();
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  if (angle > 0.0) T.linear() = Eigen::AngleAxisd(angle, motion.head<3>() / angle).toRotationMatrix();
+  T.translation() = center + motion.tail<3>() - T.linear() * center;
+  return T;
+}
+
+double rmsResidual(const std::vector<Association>& associations) {
+  double sum = 0.0;
+  for (const Association& a : associations) sum += a.residual() * a.residual();
+  return associations.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(associations.size()));
+}
+
+double medianResidual(const std::vector<Association>& associations) {
+  if (associations.empty()) return 0.0;
+  std::vector<double> residuals;
+  residuals.reserve(associations.size());
+  for (const Association& a : associations) residuals.push_back(std::abs(a.residual()));
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  return *middle;
+}
+
+}  // namespace softbody

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// A material point, where the prediction puts it and where the frame shows it; camera frame [m].
+struct Association {
+  TargetKind kind = TargetKind::kDepth;
+  MaterialPoint place;
+  Eigen::Vector3d predicted = Eigen::Vector3d::Zero();
+  Eigen::Vector3d measured = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal =
+      Eigen::Vector3d::Zero();  ///< unit: only the distance along it counts; zero: all three
+  double weight = 1.0;
+
+  /// Signed distance along the normal, or plain distance [m].
+  double residual() const {
+    return normal.isZero() ? (measured - predicted).norm() : normal.dot(measured - predicted);
+  }
+};
+
+/// The small rigid motion that best takes predictions to measurements: one Gauss-Newton step with Cauchy
+/// weights (point-to-plane where there is a normal, point-to-point elsewhere; Chen and Medioni 1992).
+/// @return identity where the associations do not fix a motion at all.
+Eigen::Isometry3d rigidStep(const std::vector<Association>& associations);
+
+/// Root mean square of the residuals [m]; 0 for none.
+double rmsResidual(const std::vector<Association>& associations);
+
+/// Median of the absolute residuals [m]; 0 for none.
+double medianResidual(const std::vector<Association>& associations);
+
+}  // namespace softbody

@@ -1,0 +1,270 @@
+#include "softbody_tracking/body_tracker.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "color_model.h"
+#include "depth_associations.h"
+#include "feature_map.h"
+#include "knn_targets.h"
+#include "orb_extractor.h"
+#include "predicted_surface.h"
+#include "registration.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kRigidIterations = 3;
+constexpr double kRigidConvergence = 3e-4;  // [m]
+constexpr double kLearnTolerance = 0.008;   // [m], depth agrees well enough to learn the body's colours
+constexpr int kFewestAssociations = 12;
+constexpr double kDegradedShare = 0.3;  // of the visible surface that must be explained
+constexpr int kLostFramesBeforeRecovery = 10;
+
+std::vector<Association> inliers(const std::vector<FeatureMatch>& matches) {
+  std::vector<Association> result;
+  for (const FeatureMatch& match : matches) {
+    if (match.inlier) result.push_back(match.association);
+  }
+  return result;
+}
+
+Target toTarget(const Association& a) { return {a.kind, a.place, a.measured, a.normal, a.weight}; }
+
+}  // namespace
+
+struct BodyTracker::Implementation {
+  explicit Implementation(const TrackerConfig& tracker_config)
+      : config(tracker_config), orb(config.features.max_features), map(config.features), knn(config.knn) {}
+
+  /// What this frame's images gave against the prediction.
+  struct Observation {
+    std::vector<Keypoint> keypoints;
+    std::vector<FeatureMatch> matches;
+    DepthAssociations depth;
+  };
+
+  bool start(const RgbdFrame& frame, StageTimer* timer);
+  Points predictedVolume(const MeshState* volume) const;
+  Observation observe(const RgbdFrame& frame, Points vertices, bool first);
+  void learnColors(const RgbdFrame& frame);
+  std::vector<Association> all(const Observation& seen) const;
+  std::vector<TrackedFeature> trackedFeatures(const Observation& seen) const;
+  TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations);
+  TrackingStatus waiting(const std::string& reason) const;
+  void reset();
+
+  TrackerConfig config;
+  OrbExtractor orb;
+  FeatureMap map;
+  KnnTargets knn;
+  ColorModel colors;
+  std::unique_ptr<PredictedSurface> surface;
+  TriangleMesh rest_surface;
+  double volume_edge_m = 0.0;
+
+  bool registered = false;
+  bool recovering = false;
+  Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();
+  Nanoseconds placed_since = 0;  ///< stamp of the frame that placed the body; older states do not count
+  Nanoseconds last_stamp = 0;
+  int lost_frames = 0;
+};
+
+BodyTracker::BodyTracker(const TrackerConfig& config)
+    : implementation_(std::make_unique<Implementation>(config)) {}
+BodyTracker::~BodyTracker() = default;
+
+void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
+  Implementation& self = *implementation_;
+  self.surface = std::make_unique<PredictedSurface>(volume, surface);
+  self.rest_surface = {surface.rest_vertices, surface.triangles};
+  self.volume_edge_m = meanEdgeLength(volume.rest_vertices, volume.tets);
+  self.reset();
+}
+
+bool BodyTracker::ready() const { return implementation_->surface != nullptr; }
+
+void BodyTracker::reset() { implementation_->reset(); }
+
+void BodyTracker::Implementation::reset() {
+  registered = recovering = false;
+  if (surface != nullptr) body_pose = surface->volume().initial_pose;
+  last_stamp = 0;
+  lost_frames = 0;
+  map.reset();
+  knn.reset();
+  colors.reset();
+}
+
+bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* timer) {
+  const auto scope = timer->stage("Model Registration", true);
+  const RegistrationResult found = registerBody(frame, rest_surface, body_pose, config.registration);
+  if (found.cost > config.registration.max_cost) return false;
+  body_pose = found.pose;
+  registered = true;
+  placed_since = frame.stamp;
+  return true;
+}
+
+Points BodyTracker::Implementation::predictedVolume(const MeshState* volume) const {
+  const bool simulated =
+      volume != nullptr && volume->observed >= placed_since && volume->revision == surface->volume().revision;
+  return simulated ? volume->vertices : transformed(surface->volume().rest_vertices, body_pose);
+}
+
+void BodyTracker::Implementation::learnColors(const RgbdFrame& frame) {
+  const cv::Mat1f& rendered = surface->image().depth;
+  cv::Mat1b mask(rendered.size(), 0);
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      const bool agrees =
+          rendered(v, u) > 0.0f && std::abs(rendered(v, u) - frame.depth(v, u)) < kLearnTolerance;
+      mask(v, u) = agrees ? 255 : 0;
+    }
+  }
+  cv::erode(mask, mask, cv::Mat());
+  colors.learn(frame.color, mask);
+}
+
+BodyTracker::Implementation::Observation BodyTracker::Implementation::observe(const RgbdFrame& frame,
+                                                                              Points vertices, bool first) {
+  Observation seen;
+  surface->update(frame.camera, vertices);
+  if (first) learnColors(frame);
+  const int margin = config.features.search_radius_px;
+  const cv::Rect covered = surface->image().region;
+  const cv::Rect region = cv::Rect(covered.x - margin, covered.y - margin, covered.width + 2 * margin,
+                                   covered.height + 2 * margin) &
+                          cv::Rect(cv::Point(), frame.color.size());
+  const cv::Mat1b body_colors = colors.mask(frame.color, region);
+  if (!covered.empty()) {
+    seen.keypoints = orb.extract(frame.color, body_colors, region);
+    seen.matches = map.match(frame, seen.keypoints, *surface);
+  }
+  for (int i = 0;; ++i) {
+    seen.depth = associateDepth(frame, *surface, body_colors, volume_edge_m, config.depth);
+    std::vector<Association> associations = inliers(seen.matches);
+    associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
+    const Eigen::Isometry3d step = rigidStep(associations);
+    const double moved = (transformed(vertices, step) - vertices).rowwise().norm().maxCoeff();
+    if (i == kRigidIterations || moved < kRigidConvergence) break;
+    vertices = transformed(vertices, step);
+    surface->update(frame.camera, vertices);
+    for (FeatureMatch& match : seen.matches) {
+      match.association.predicted = surface->position(match.association.place);
+    }
+  }
+  body_pose = fitRigid(surface->volume().rest_vertices, surface->volumeVertices());
+  return seen;
+}
+
+std::vector<Association> BodyTracker::Implementation::all(const Observation& seen) const {
+  std::vector<Association> associations =
+      config.knn_targets ? knn.associations(map.features(), seen.matches, surface->volumeVertices())
+                         : inliers(seen.matches);
+  if (config.use_depth && !config.knn_targets) {
+    associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
+  }
+  return associations;
+}
+
+std::vector<TrackedFeature> BodyTracker::Implementation::trackedFeatures(const Observation& seen) const {
+  std::vector<TrackedFeature> result;
+  for (const FeatureMatch& match : seen.matches) {
+    if (!match.inlier) continue;
+    const MapFeature& feature = map.features()[match.feature];
+    const cv::Point2f pixel = seen.keypoints[match.keypoint].pixel;
+    const double confidence =
+        feature.predicted > 0 ? static_cast<double>(feature.matched) / feature.predicted : 0.0;
+    result.push_back(
+        {feature.id, {pixel.x, pixel.y}, match.association.measured, feature.reference, confidence});
+  }
+  return result;
+}
+
+TrackingStatus BodyTracker::Implementation::waiting(const std::string& reason) const {
+  TrackingStatus status;
+  status.state = recovering ? TrackingState::kRecovering : TrackingState::kInitializing;
+  status.reason = reason;
+  return status;
+}
+
+TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
+                                                  const std::vector<Association>& associations) {
+  TrackingStatus status;
+  const auto kept = inliers(seen.matches);
+  status.features_tracked = static_cast<std::uint32_t>(kept.size());
+  status.features_total = static_cast<std::uint32_t>(map.features().size());
+  status.inlier_ratio = seen.matches.empty()
+                            ? 0.0
+                            : static_cast<double>(kept.size()) / static_cast<double>(seen.matches.size());
+  status.residual_rms = rmsResidual(associations);
+  const int visible = seen.depth.visible_blocks;
+  const auto explained = static_cast<double>(seen.depth.associations.size());
+  if (static_cast<int>(explained + kept.size()) < kFewestAssociations) {
+    ++lost_frames;
+    status.state = TrackingState::kLost;
+    status.reason = visible == 0 ? "the body is out of view or nothing is measured there"
+                                 : "neither depth nor features agree with the prediction";
+    return status;
+  }
+  lost_frames = 0;
+  recovering = false;
+  status.state = TrackingState::kTracking;
+  if (explained < kDegradedShare * visible) {
+    status.state = TrackingState::kDegraded;
+    status.reason = seen.depth.occluded_blocks > seen.depth.absent_blocks
+                        ? "most of the body is occluded"
+                        : "most of the body is not where predicted";
+  }
+  return status;
+}
+
+TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
+  Implementation& self = *implementation_;
+  TrackingResult result;
+  if (!ready()) {
+    result.status = self.waiting("waiting for the topologies of simulator and surface");
+    return result;
+  }
+  if (frame.stamp < self.last_stamp) self.reset();
+  self.last_stamp = frame.stamp;
+  if (self.lost_frames >= kLostFramesBeforeRecovery) {
+    self.registered = false;
+    self.recovering = true;
+  }
+  const bool first = !self.registered;
+  if (first && !self.surface->volume().has_initial_pose) {
+    result.status = self.waiting("no initial pose: give object.initial_pose in the object's YAML file");
+    return result;
+  }
+  if (first && !self.start(frame, timer)) {
+    result.status = self.waiting("the body was not found near its rough pose");
+    return result;
+  }
+
+  const auto scope = timer->stage("Feature-Point Tracking", first);
+  const bool placed = !first && volume != nullptr && volume->observed >= self.placed_since;
+  const Implementation::Observation seen =
+      self.observe(frame, self.predictedVolume(first ? nullptr : volume), first);
+  const std::vector<Association> associations = self.all(seen);
+  result.status = self.judge(seen, associations);
+  result.features = self.trackedFeatures(seen);
+  result.has_targets = true;
+  result.targets.revision = self.surface->volume().revision;
+  result.targets.reset = !placed;
+  result.targets.body_pose = self.body_pose;
+  for (const Association& association : associations) result.targets.targets.push_back(toTarget(association));
+  if (result.status.state == TrackingState::kTracking) {
+    const bool bind = self.map.features().empty();
+    self.map.admit(frame, seen.keypoints, seen.matches, *self.surface);
+    if (bind) self.knn.bind(self.map.features(), self.surface->volume(), self.surface->volumeVertices());
+    result.status.features_total = static_cast<std::uint32_t>(self.map.features().size());
+  }
+  return result;
+}
+
+}  // namespace softbody

@@ -1,0 +1,235 @@
+#include "feature_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace softbody {
+namespace {
+
+constexpr double kVisibleTolerance = 0.01;  // [m], feature behind the rendered surface by more: hidden
+constexpr float kRatio = 0.85f;             // best to second-best distance
+constexpr float kSamePlacePx = 3.0f;        // two keypoints nearer than this are no rivals
+constexpr float kFreeRadiusPx = 8.0f;       // around a known feature no other is admitted
+constexpr int kNeighborhoodPx = 40;
+constexpr std::size_t kFewestNeighbors = 4;
+constexpr double kBindTolerance = 0.01;  // [m], surface and depth must agree where a feature is bound
+constexpr int kTrialFrames = 20;
+constexpr double kWorstHitRate = 0.2;
+
+/// Indices of points by square cells of an image.
+class PixelGrid {
+ public:
+  PixelGrid(const Pinhole& camera, int cell_px)
+      : cell_(cell_px),
+        columns_(camera.width / cell_px + 1),
+        rows_(camera.height / cell_px + 1),
+        cells_(static_cast<std::size_t>(columns_) * rows_) {}
+
+  void insert(const cv::Point2f& pixel, int index) {
+    cells_[cellIndex(column(pixel.x), row(pixel.y))].push_back(index);
+  }
+
+  /// Calls visit(index) for everything in the 3x3 cells around a pixel.
+  template <typename Visitor>
+  void around(double u, double v, Visitor visit) const {
+    const int x = column(u), y = row(v);
+    for (int j = std::max(0, y - 1); j <= std::min(rows_ - 1, y + 1); ++j) {
+      for (int i = std::max(0, x - 1); i <= std::min(columns_ - 1, x + 1); ++i) {
+        for (int index : cells_[cellIndex(i, j)]) visit(index);
+      }
+    }
+  }
+
+ private:
+  int column(double u) const { return std::clamp(static_cast<int>(u) / cell_, 0, columns_ - 1); }
+  int row(double v) const { return std::clamp(static_cast<int>(v) / cell_, 0, rows_ - 1); }
+  std::size_t cellIndex(int x, int y) const { return static_cast<std::size_t>(y) * columns_ + x; }
+
+  int cell_, columns_, rows_;
+  std::vector<std::vector<int>> cells_;
+};
+
+cv::Point2f toPoint2f(const Eigen::Vector2d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y())};
+}
+
+cv::Point toPixel(const cv::Point2f& p) { return {cvRound(p.x), cvRound(p.y)}; }
+
+/// The keypoint in the window that matches best, -1 where none does clearly.
+int bestKeypoint(const Descriptor& descriptor, const cv::Point2f& predicted,
+                 const std::vector<Keypoint>& keypoints, const PixelGrid& grid, const FeatureConfig& config,
+                 int* distance) {
+  const float radius2 =
+      static_cast<float>(config.search_radius_px) * static_cast<float>(config.search_radius_px);
+  std::vector<std::pair<int, int>> candidates;  // distance, keypoint
+  grid.around(predicted.x, predicted.y, [&](int k) {
+    const cv::Point2f d = keypoints[k].pixel - predicted;
+    if (d.dot(d) <= radius2) candidates.emplace_back(hammingDistance(descriptor, keypoints[k].descriptor), k);
+  });
+  if (candidates.empty()) return -1;
+  const auto best = *std::min_element(candidates.begin(), candidates.end());
+  if (best.first > config.max_hamming_distance) return -1;
+  for (const auto& [other_distance, k] : candidates) {
+    const cv::Point2f d = keypoints[k].pixel - keypoints[best.second].pixel;
+    const bool rival = d.dot(d) > kSamePlacePx * kSamePlacePx;
+    if (rival && static_cast<float>(best.first) > kRatio * static_cast<float>(other_distance)) return -1;
+  }
+  *distance = best.first;
+  return best.second;
+}
+
+bool predictedVisible(const PredictedSurface& surface, const Eigen::Vector3d& position, cv::Point2f* pixel) {
+  if (position.z() <= 0.0) return false;
+  const Eigen::Vector2d projected = surface.camera().project(position);
+  if (!surface.camera().contains(projected.x(), projected.y())) return false;
+  *pixel = toPoint2f(projected);
+  const float rendered = surface.image().depth(toPixel(*pixel));
+  return rendered > 0.0f && position.z() - rendered < kVisibleTolerance;
+}
+
+double median(std::vector<double>* values) {
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return *middle;
+}
+
+/// Local rigidity: neighbouring features move alike relative to the prediction.
+void markOutliers(const Pinhole& camera, const std::vector<Keypoint>& keypoints, double max_disagreement,
+                  std::vector<FeatureMatch>* matches) {
+  PixelGrid grid(camera, kNeighborhoodPx);
+  for (std::size_t m = 0; m < matches->size(); ++m) {
+    grid.insert(keypoints[(*matches)[m].keypoint].pixel, static_cast<int>(m));
+  }
+  const auto motion = [matches](int m) {
+    return Eigen::Vector3d((*matches)[m].association.measured - (*matches)[m].association.predicted);
+  };
+  for (std::size_t m = 0; m < matches->size(); ++m) {
+    const cv::Point2f pixel = keypoints[(*matches)[m].keypoint].pixel;
+    std::array<std::vector<double>, 3> motions;
+    grid.around(pixel.x, pixel.y, [&](int other) {
+      for (int k = 0; k < 3; ++k) motions[k].push_back(motion(other)[k]);
+    });
+    if (motions[0].size() < kFewestNeighbors) {
+      (*matches)[m].inlier = motion(static_cast<int>(m)).norm() < max_disagreement;
+      continue;
+    }
+    const Eigen::Vector3d typical(median(&motions[0]), median(&motions[1]), median(&motions[2]));
+    (*matches)[m].inlier = (motion(static_cast<int>(m)) - typical).norm() < max_disagreement;
+  }
+}
+
+}  // namespace
+
+double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
+  const cv::Point center = toPixel(pixel);
+  if (!cv::Rect(cv::Point(), depth.size()).contains(center)) return 0.0;
+  const float middle = depth(center);
+  if (middle <= 0.0f) return 0.0;
+  double sum = 0.0;
+  int count = 0;
+  const cv::Rect window = cv::Rect(center.x - 2, center.y - 2, 5, 5) & cv::Rect(cv::Point(), depth.size());
+  for (int v = window.y; v < window.br().y; ++v) {
+    for (int u = window.x; u < window.br().x; ++u) {
+      if (std::abs(depth(v, u) - middle) > 0.02f * middle) continue;
+      sum += depth(v, u);
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+std::vector<FeatureMatch> FeatureMap::match(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
+                                            const PredictedSurface& surface) {
+  PixelGrid grid(frame.camera, config_.search_radius_px);
+  for (std::size_t k = 0; k < keypoints.size(); ++k) grid.insert(keypoints[k].pixel, static_cast<int>(k));
+
+  std::vector<int> owner(keypoints.size(), -1),
+      owner_distance(keypoints.size(), std::numeric_limits<int>::max());
+  std::vector<Eigen::Vector3d> predicted(features_.size());
+  for (std::size_t f = 0; f < features_.size(); ++f) {
+    predicted[f] = surface.position(features_[f].place);
+    cv::Point2f pixel;
+    if (!predictedVisible(surface, predicted[f], &pixel)) continue;
+    ++features_[f].predicted;
+    int distance = 0;
+    const int k = bestKeypoint(features_[f].descriptor, pixel, keypoints, grid, config_, &distance);
+    if (k >= 0 && distance < owner_distance[k]) {
+      owner[k] = static_cast<int>(f);
+      owner_distance[k] = distance;
+    }
+  }
+
+  std::vector<FeatureMatch> matches;
+  for (std::size_t k = 0; k < keypoints.size(); ++k) {
+    const double z = owner[k] >= 0 ? featureDepth(frame.depth, keypoints[k].pixel) : 0.0;
+    if (z <= 0.0) continue;
+    FeatureMatch match;
+    match.feature = owner[k];
+    match.keypoint = static_cast<int>(k);
+    match.association.kind = TargetKind::kFeature;
+    match.association.place = features_[owner[k]].place;
+    match.association.predicted = predicted[owner[k]];
+    match.association.measured = frame.camera.unproject(keypoints[k].pixel.x, keypoints[k].pixel.y, z);
+    match.association.weight = config_.weight;
+    matches.push_back(match);
+  }
+  markOutliers(frame.camera, keypoints, config_.max_disagreement_m, &matches);
+  for (const FeatureMatch& match : matches) features_[match.feature].matched += match.inlier ? 1 : 0;
+  return matches;
+}
+
+void FeatureMap::retire() {
+  const auto hopeless = [](const MapFeature& f) {
+    return f.predicted >= kTrialFrames && f.matched < kWorstHitRate * f.predicted;
+  };
+  features_.erase(std::remove_if(features_.begin(), features_.end(), hopeless), features_.end());
+}
+
+void FeatureMap::admit(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
+                       const std::vector<FeatureMatch>& matches, const PredictedSurface& surface) {
+  std::vector<cv::Point2f> taken;
+  PixelGrid grid(frame.camera, static_cast<int>(kFreeRadiusPx));
+  const auto take = [&](const cv::Point2f& pixel) {
+    grid.insert(pixel, static_cast<int>(taken.size()));
+    taken.push_back(pixel);
+  };
+  const auto isFree = [&](const cv::Point2f& pixel) {
+    bool free = true;
+    grid.around(pixel.x, pixel.y, [&](int i) {
+      const cv::Point2f d = taken[i] - pixel;
+      free = free && d.dot(d) > kFreeRadiusPx * kFreeRadiusPx;
+    });
+    return free;
+  };
+  for (const FeatureMatch& match : matches) take(keypoints[match.keypoint].pixel);
+  for (const MapFeature& feature : features_) {
+    cv::Point2f pixel;
+    if (predictedVisible(surface, surface.position(feature.place), &pixel)) take(pixel);
+  }
+  const bool first = features_.empty();
+  for (const Keypoint& keypoint : keypoints) {
+    if (static_cast<int>(features_.size()) >= config_.max_features) break;
+    // The reference frame takes every keypoint, like the paper; later ones fill gaps.
+    if (!first && !isFree(keypoint.pixel)) continue;
+    const cv::Point pixel = toPixel(keypoint.pixel);
+    const double z = featureDepth(frame.depth, keypoint.pixel);
+    if (z <= 0.0 || surface.image().triangle(pixel) < 0) continue;
+    if (std::abs(z - surface.image().depth(pixel)) > kBindTolerance) continue;
+    MapFeature feature;
+    feature.id = next_id_++;
+    feature.place = surface.materialPoint(pixel);
+    feature.descriptor = keypoint.descriptor;
+    feature.reference = frame.camera.unproject(keypoint.pixel.x, keypoint.pixel.y, z);
+    features_.push_back(feature);
+    if (!first) take(keypoint.pixel);
+  }
+  retire();
+}
+
+void FeatureMap::reset() {
+  features_.clear();
+  next_id_ = 0;
+}
+
+}  // namespace softbody

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/features2d.hpp>
+#include <vector>
+
+namespace softbody {
+
+/// 256-bit ORB descriptor (Rublee et al. 2011).
+using Descriptor = std::array<std::uint64_t, 4>;
+
+/// Differing bits, 0..256.
+int hammingDistance(const Descriptor& a, const Descriptor& b);
+
+struct Keypoint {
+  cv::Point2f pixel;
+  int octave = 0;
+  Descriptor descriptor{};
+};
+
+/// ORB keypoints with descriptors inside a mask.
+class OrbExtractor {
+ public:
+  explicit OrbExtractor(int max_features);
+
+  /// @param region only this part of the image is looked at. @param mask size of the image, 0: nowhere.
+  std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
+
+ private:
+  cv::Ptr<cv::ORB> orb_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "softbody_common/pinhole.h"
+#include "softbody_common/rasterizer.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// The visual surface where the volume's state puts it, and what the camera sees of it.
+class PredictedSurface {
+ public:
+  PredictedSurface(const TetTopology& volume, const MeshTopology& surface);
+
+  /// Moves the surface with the volume's vertices (camera frame) and renders it.
+  void update(const Pinhole& camera, const Points& volume_vertices);
+
+  const Pinhole& camera() const { return camera_; }
+  const Points& volumeVertices() const { return volume_vertices_; }
+  const Points& vertices() const { return vertices_; }
+  /// Which triangle lies at a pixel, and how deep.
+  const RasterImage& image() const { return image_; }
+  const TetTopology& volume() const { return volume_; }
+
+  /// The place in the rest body of a visible pixel.
+  MaterialPoint materialPoint(const cv::Point& pixel) const;
+  /// Outward unit normal at a visible pixel, camera frame.
+  Eigen::Vector3d normal(const cv::Point& pixel) const;
+  Eigen::Vector3d position(const MaterialPoint& place) const;
+
+ private:
+  Eigen::Vector3d corners(const cv::Point& pixel, const Points& values) const;
+
+  TetTopology volume_;
+  MeshTopology surface_;
+  std::vector<MaterialPoint> binding_;
+  Pinhole camera_;
+  Points volume_vertices_, vertices_, normals_;
+  RasterImage image_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,37 @@
+#include "softbody_tracking/tracker_config.h"
+
+namespace softbody {
+
+TrackerConfig readTrackerConfig(Parameters& parameters) {
+  TrackerConfig config;
+  config.knn_targets = parameters.choice("target_mode", "material", {"material", "knn"}) == "knn";
+  config.use_depth = parameters.flag("depth_targets", config.use_depth);
+
+  RegistrationConfig& registration = config.registration;
+  registration.distance_scale_m =
+      parameters.number("registration_distance_scale_m", registration.distance_scale_m, 0.001, 1.0);
+  registration.max_cost = parameters.number("registration_max_cost", registration.max_cost, 0.01, 1.0);
+
+  FeatureConfig& features = config.features;
+  features.max_features = parameters.integer("max_features", features.max_features, 0, 20000);
+  features.search_radius_px =
+      parameters.integer("feature_search_radius_px", features.search_radius_px, 1, 200);
+  features.max_hamming_distance =
+      parameters.integer("feature_max_hamming_distance", features.max_hamming_distance, 0, 256);
+  features.max_disagreement_m =
+      parameters.number("feature_max_disagreement_m", features.max_disagreement_m, 1e-4, 1.0);
+  features.weight = parameters.number("feature_weight", features.weight, 1e-6, 1e6);
+
+  DepthConfig& depth = config.depth;
+  depth.max_targets = parameters.integer("max_depth_targets", depth.max_targets, 1, 100000);
+  depth.max_distance_m = parameters.number("depth_max_distance_m", depth.max_distance_m, 1e-3, 1.0);
+  depth.weight = parameters.number("depth_weight", depth.weight, 1e-6, 1e6);
+
+  KnnConfig& knn = config.knn;
+  knn.max_neighbors = parameters.integer("max_neighbors", knn.max_neighbors, 1, 1000);
+  knn.radius_m = parameters.number("neighbor_radius_m", knn.radius_m, 1e-4, 10.0);
+  knn.local_rotation = parameters.flag("neighbor_local_rotation", knn.local_rotation);
+  return config;
+}
+
+}  // namespace softbody
