@@ -1,0 +1,74 @@
+#include "softbody_bringup/camera_bag.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "softbody_common/conversions.h"
+
+namespace softbody {
+namespace {
+
+constexpr char kFrame[] = "camera_color_optical_frame";
+
+}  // namespace
+
+CameraBag::CameraBag(std::filesystem::path output, sensor_msgs::CameraInfo info)
+    : output_(std::move(output)), temporary_(output_.string() + ".part"), info_(std::move(info)) {
+  bag_.open(temporary_.string(), rosbag::bagmode::Write);
+  bag_.setCompression(rosbag::compression::LZ4);
+}
+
+CameraBag::~CameraBag() {
+  if (!bag_.isOpen()) return;
+  bag_.close();
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void CameraBag::writeOpticalFrame(Nanoseconds stamp) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = toTime(stamp);
+  transform.header.frame_id = "camera_link";
+  transform.child_frame_id = kFrame;
+  transform.transform.rotation.x = -0.5;
+  transform.transform.rotation.y = 0.5;
+  transform.transform.rotation.z = -0.5;
+  transform.transform.rotation.w = 0.5;
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(transform);
+  const auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = ros::message_traits::datatype(message);
+  (*header)["md5sum"] = ros::message_traits::md5sum(message);
+  (*header)["message_definition"] = ros::message_traits::definition(message);
+  (*header)["latching"] = "1";
+  bag_.write("/tf_static", toTime(stamp), message, header);
+}
+
+void CameraBag::writeColor(Nanoseconds stamp, const cv::Mat3b& bgr) {
+  writeImage("/camera/color/", stamp, bgr, sensor_msgs::image_encodings::BGR8.c_str());
+}
+
+void CameraBag::writeDepth(Nanoseconds stamp, const cv::Mat& depth) {
+  const bool metres = depth.type() == CV_32FC1;
+  writeImage(
+      "/camera/aligned_depth_to_color/", stamp, depth,
+      (metres ? sensor_msgs::image_encodings::TYPE_32FC1 : sensor_msgs::image_encodings::TYPE_16UC1).c_str());
+}
+
+void CameraBag::writeImage(const std::string& topics, Nanoseconds stamp, const cv::Mat& image,
+                           const char* encoding) {
+  std_msgs::Header header;
+  header.stamp = toTime(stamp);
+  header.frame_id = kFrame;
+  info_.header = header;
+  bag_.write(topics + "camera_info", header.stamp, info_);
+  bag_.write(topics + "image_raw", header.stamp, *cv_bridge::CvImage(header, encoding, image).toImageMsg());
+}
+
+void CameraBag::finish() {
+  bag_.close();
+  std::filesystem::rename(temporary_, output_);
+}
+
+}  // namespace softbody
