@@ -16,11 +16,14 @@ geometry_msgs::Point32 toPoint32(const Eigen::Vector3d& p) {
   return message;
 }
 
-Eigen::Vector3d fromPoint32(const geometry_msgs::Point32& message) { return {message.x, message.y, message.z}; }
+Eigen::Vector3d fromPoint32(const geometry_msgs::Point32& message) {
+  return {message.x, message.y, message.z};
+}
 
 std::vector<geometry_msgs::Point32> toPoint32s(const Points& points) {
   std::vector<geometry_msgs::Point32> message(static_cast<std::size_t>(points.rows()));
-  for (std::size_t i = 0; i < message.size(); ++i) message[i] = toPoint32(points.row(static_cast<Eigen::Index>(i)));
+  for (std::size_t i = 0; i < message.size(); ++i)
+    message[i] = toPoint32(points.row(static_cast<Eigen::Index>(i)));
   return message;
 }
 
@@ -93,8 +96,9 @@ Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& message) {
                              message.orientation.z);
   const Eigen::Vector3d t(message.position.x, message.position.y, message.position.z);
   if (!t.allFinite() || !(std::abs(q.norm() - 1.0) < 1e-3)) {
-    throw std::invalid_argument(fmt::format("pose ({} {} {}; {} {} {} {}): not finite, or the quaternion is not of unit length",
-                                            t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()));
+    throw std::invalid_argument(
+        fmt::format("pose ({} {} {}; {} {} {} {}): not finite, or the quaternion is not of unit length",
+                    t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()));
   }
   return Eigen::Translation3d(t) * q.normalized();
 }
@@ -234,6 +238,19 @@ softbody_msgs::TrackingStatus toMessage(const TrackingStatus& status) {
   return message;
 }
 
+softbody_msgs::StageTiming timingMessage(const std::string& node, const std::vector<StageTime>& stages) {
+  softbody_msgs::StageTiming message;
+  message.node = node;
+  for (const StageTime& stage : stages) {
+    softbody_msgs::StageTime row;
+    row.stage = stage.stage;
+    row.milliseconds = static_cast<float>(stage.milliseconds);
+    row.initialization = stage.initialization;
+    message.stages.push_back(row);
+  }
+  return message;
+}
+
 Pinhole pinholeFromMessage(const sensor_msgs::CameraInfo& info) {
   const bool has_projection = info.P[0] != 0.0;
   Pinhole camera;
@@ -245,8 +262,8 @@ Pinhole pinholeFromMessage(const sensor_msgs::CameraInfo& info) {
   camera.cy = has_projection ? info.P[6] : info.K[5];
   if (!(camera.fx > 0.0 && camera.fy > 0.0)) {
     throw std::invalid_argument(
-        fmt::format("camera_info: focal lengths fx {} and fy {} must be above 0 (is the camera calibrated?)", camera.fx,
-                    camera.fy));
+        fmt::format("camera_info: focal lengths fx {} and fy {} must be above 0 (is the camera calibrated?)",
+                    camera.fx, camera.fy));
   }
   return camera;
 }

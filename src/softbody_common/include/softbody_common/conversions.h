@@ -5,22 +5,29 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
+#include <softbody_msgs/StageTiming.h>
 #include <softbody_msgs/Targets.h>
 #include <softbody_msgs/TetTopology.h>
 #include <softbody_msgs/TrackingStatus.h>
 
+#include <string>
+#include <vector>
+
 #include "softbody_common/pinhole.h"
+#include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
 
-/// Between the core's structs and softbody_msgs, and nothing else. fromMessage throws std::invalid_argument, with the
-/// field and the index, where array sizes, indices or numbers do not make sense. Headers are the caller's.
+/// Between the core's structs and softbody_msgs, and nothing else. fromMessage throws std::invalid_argument,
+/// with the field and the index, where array sizes, indices or numbers do not make sense. Headers are the
+/// caller's.
 namespace softbody {
 
 Nanoseconds toNanoseconds(const ros::Time& time);
 ros::Time toTime(Nanoseconds time);
 
 geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose);
-/// @throw std::invalid_argument if the quaternion is not of unit length (within 1e-3) or a number is not finite.
+/// @throw std::invalid_argument if the quaternion is not of unit length (within 1e-3) or a number is not
+/// finite.
 Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& pose);
 
 softbody_msgs::TetTopology toMessage(const TetTopology& topology);
@@ -38,7 +45,11 @@ TargetSet fromMessage(const softbody_msgs::Targets& message);
 
 softbody_msgs::TrackingStatus toMessage(const TrackingStatus& status);
 
-/// The projection matrix P of a rectified image; K where P is zero. @throw std::invalid_argument if fx or fy <= 0.
+/// A node's rows for one stamp.
+softbody_msgs::StageTiming timingMessage(const std::string& node, const std::vector<StageTime>& stages);
+
+/// The projection matrix P of a rectified image; K where P is zero. @throw std::invalid_argument if fx or fy
+/// <= 0.
 Pinhole pinholeFromMessage(const sensor_msgs::CameraInfo& info);
 /// A CameraInfo without distortion.
 sensor_msgs::CameraInfo toMessage(const Pinhole& camera);
