@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "softbody_bringup/virtual_camera/virtual_camera.h"
+
+namespace softbody::virtual_camera {
+
+/// What a user chooses, on the command line or as parameters.
+struct CameraSetup {
+  std::string scene = "bend";
+  std::string mesh;  ///< OBJ in metres
+  std::uint64_t seed = 1;
+  int width = 640, height = 480;  ///< [px]
+  double rate_hz = 30.0;
+  NoiseOptions noise;
+};
+
+/// @throw std::invalid_argument if the scene is unknown or the mesh cannot be read.
+VirtualCamera makeCamera(const CameraSetup& setup);
+
+/// Names of the parts of the noise: color, disparity, quantization, edges, holes.
+std::vector<std::string> noiseParts();
+/// @throw std::invalid_argument with the known names if there is no such part.
+void switchOff(const std::string& noise_part, NoiseOptions* noise);
+
+}  // namespace softbody::virtual_camera

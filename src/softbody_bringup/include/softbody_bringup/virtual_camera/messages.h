@@ -1,0 +1,37 @@
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/MeshTopology.h>
+
+#include "softbody_bringup/virtual_camera/virtual_camera.h"
+
+namespace softbody::virtual_camera {
+
+constexpr char kCameraFrame[] = "camera_link";
+constexpr char kOpticalFrame[] = "camera_color_optical_frame";
+constexpr char kBodyFrame[] = "ground_truth_softbody";
+
+constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
+constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
+
+/// One frame as the contract's messages, all with one stamp.
+struct CaptureMessages {
+  sensor_msgs::ImagePtr color, depth;    ///< rgb8; 16UC1 [mm], registered to colour
+  sensor_msgs::CameraInfoPtr info;       ///< of both
+  softbody_msgs::MeshStatePtr truth;     ///< optical frame
+  geometry_msgs::TransformStamped body;  ///< optical frame -> ground_truth_softbody
+};
+
+CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,
+                           std::uint32_t sequence);
+
+/// The truth's topology in the body's frame.
+softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp);
+
+/// camera_link (x forward, z up) -> camera_color_optical_frame (z forward, y down).
+geometry_msgs::TransformStamped opticalFrameTransform(const ros::Time& stamp);
+
+}  // namespace softbody::virtual_camera

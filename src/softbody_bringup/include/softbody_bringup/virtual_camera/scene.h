@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "softbody_bringup/virtual_camera/texture.h"
+#include "softbody_common/types.h"
+
+namespace softbody::virtual_camera {
+
+/// Something to be seen.
+struct Actor {
+  TriangleMesh rest;              ///< [m]
+  Texture texture;                ///< of the rest coordinates
+  double texel_m = 0.4e-3;        ///< spacing at which the texture is sampled
+  double crease_angle_rad = 0.7;  ///< edges that are sharper than this at rest are shaded as edges
+};
+
+/// Where everything is at one instant.
+struct SceneState {
+  Eigen::Isometry3d T_camera_body = Eigen::Isometry3d::Identity();  ///< the body's frame in the optical frame
+  std::vector<Points> vertices;  ///< one entry an actor, in the colour optical frame [m]
+};
+
+/// What the virtual camera looks at. The first actor is the soft body, whose vertices are the truth.
+struct Scene {
+  std::string name;
+  double duration_s = 0.0;  ///< one run; the motion goes on after it
+  std::vector<Actor> actors;
+  Eigen::Vector3d to_light = -Eigen::Vector3d::UnitZ();  ///< unit, in the colour optical frame
+  std::function<SceneState(double t)> state;             ///< t in seconds from 0
+};
+
+/// Names of the scenes that makeScene knows.
+std::vector<std::string> sceneNames();
+
+/// @param body the soft body at rest. @param seed of the textures.
+/// @throw std::invalid_argument with the known names if there is no such scene.
+Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed);
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+
+namespace softbody::virtual_camera {
+
+/// A solid texture: the colour (r, g, b in 0..1) of a place in an actor's rest coordinates [m].
+using Texture = std::function<Eigen::Vector3f(const Eigen::Vector3d& place)>;
+
+/// Colourful cells (Worley 1996) of 18, 8 and 4 mm with dark pores: many corners, no two places alike.
+Texture cellTexture(std::uint64_t seed);
+
+/// Pale wood: weak streaks along x, few corners.
+Texture woodTexture(std::uint64_t seed);
+
+/// Painted plaster: nearly uniform.
+Texture plasterTexture(std::uint64_t seed);
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "softbody_bringup/virtual_camera/noise.h"
+#include "softbody_bringup/virtual_camera/renderer.h"
+#include "softbody_bringup/virtual_camera/scene.h"
+
+namespace softbody::virtual_camera {
+
+/// Colour intrinsics of a RealSense D435 at 640 x 480 and 848 x 480, scaled with the image height for other
+/// sizes.
+Pinhole d435(int width, int height);
+
+struct NoiseOptions {
+  ColorNoiseOptions color;
+  DepthNoiseOptions depth;
+};
+/// Every part switched off.
+NoiseOptions noNoise();
+
+/// One frame and its truth.
+struct Capture {
+  cv::Mat3b color;     ///< r, g, b
+  cv::Mat1w depth_mm;  ///< registered to colour; 0: none
+  MeshState truth;     ///< colour optical frame; confidence 1 visible, 0 hidden
+  Eigen::Isometry3d T_camera_body;
+};
+
+/// A seeded RGB-D camera before a scene: the same seed, scene and frame give the same bytes.
+class VirtualCamera {
+ public:
+  VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOptions& noise, std::uint64_t seed);
+
+  /// @param frame picks the noise. @param t time of the scene [s].
+  Capture capture(int frame, double t);
+
+  const Pinhole& pinhole() const { return camera_; }
+  const Scene& scene() const { return scene_; }
+  /// The soft body at rest, vertex by vertex the input mesh.
+  const MeshTopology& topology() const { return topology_; }
+
+ private:
+  Scene scene_;
+  Pinhole camera_;
+  Renderer renderer_;
+  ColorNoise color_noise_;
+  DepthNoise depth_noise_;
+  MeshTopology topology_;
+  RenderedImage image_;
+};
+
+}  // namespace softbody::virtual_camera

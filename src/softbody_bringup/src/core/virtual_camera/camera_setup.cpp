@@ -1,0 +1,45 @@
+#include "softbody_bringup/virtual_camera/camera_setup.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+
+#include "softbody_bringup/virtual_camera/obj_file.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+std::map<std::string, bool*> switches(NoiseOptions* noise) {
+  return {{"color", &noise->color.enabled},
+          {"disparity", &noise->depth.disparity_noise},
+          {"quantization", &noise->depth.quantization},
+          {"edges", &noise->depth.edge_dropouts},
+          {"holes", &noise->depth.holes}};
+}
+
+}  // namespace
+
+VirtualCamera makeCamera(const CameraSetup& setup) {
+  return VirtualCamera(makeScene(setup.scene, readObj(setup.mesh), setup.seed),
+                       d435(setup.width, setup.height), setup.noise, setup.seed);
+}
+
+std::vector<std::string> noiseParts() {
+  NoiseOptions any;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : switches(&any)) names.push_back(name);
+  return names;
+}
+
+void switchOff(const std::string& noise_part, NoiseOptions* noise) {
+  const auto parts = switches(noise);
+  const auto found = parts.find(noise_part);
+  if (found == parts.end()) {
+    throw std::invalid_argument(
+        fmt::format("the noise has no part '{}'; known: {}", noise_part, fmt::join(noiseParts(), ", ")));
+  }
+  *found->second = false;
+}
+
+}  // namespace softbody::virtual_camera

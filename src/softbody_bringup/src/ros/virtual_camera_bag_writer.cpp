@@ -1,0 +1,83 @@
+#include <rosbag/bag.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <boost/make_shared.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "softbody_bringup/virtual_camera/bag_writer.h"
+#include "softbody_bringup/virtual_camera/messages.h"
+#include "softbody_common/topics.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+const ros::Time kStart(1600000000, 0);
+
+/// What a latched publisher's connection says in a recorded bag.
+template <typename Message>
+boost::shared_ptr<ros::M_string> latchedConnection() {
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = ros::message_traits::datatype<Message>();
+  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+  (*header)["message_definition"] = ros::message_traits::definition<Message>();
+  (*header)["latching"] = "1";
+  return header;
+}
+
+tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) {
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(transform);
+  return message;
+}
+
+std::string absolute(const char* topic) { return std::string("/") + topic; }
+
+void writeLatched(const VirtualCamera& camera, const ros::Time& stamp, rosbag::Bag* bag) {
+  bag->write("/tf_static", stamp, tfMessage(opticalFrameTransform(stamp)),
+             latchedConnection<tf2_msgs::TFMessage>());
+  bag->write(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(), stamp),
+             latchedConnection<softbody_msgs::MeshTopology>());
+}
+
+void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, rosbag::Bag* bag) {
+  bag->write("/tf", stamp, tfMessage(messages.body));
+  bag->write(absolute(topics::kCameraColorInfo), stamp, messages.info);
+  bag->write(absolute(topics::kCameraDepthInfo), stamp, messages.info);
+  bag->write(absolute(topics::kCameraColor), stamp, messages.color);
+  bag->write(absolute(topics::kCameraDepth), stamp, messages.depth);
+  bag->write(absolute(kTruthStateTopic), stamp, messages.truth);
+}
+
+void writeAll(VirtualCamera* camera, const BagOptions& options, const std::string& path,
+              const std::function<void(int)>& progress) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  bag.setCompression(rosbag::compression::LZ4);
+  const int frames_a_second = std::max(1, static_cast<int>(std::lround(options.rate_hz)));
+  for (int frame = 0; frame < options.frames; ++frame) {
+    const double t = frame / options.rate_hz;
+    const ros::Time stamp = kStart + ros::Duration(t);
+    if (frame % frames_a_second == 0) writeLatched(*camera, stamp, &bag);
+    writeFrame(
+        toMessages(camera->capture(frame, t), camera->pinhole(), stamp, static_cast<std::uint32_t>(frame)),
+        stamp, &bag);
+    progress(frame + 1);
+  }
+  bag.close();
+}
+
+}  // namespace
+
+void writeBag(VirtualCamera* camera, const BagOptions& options, const std::function<void(int)>& progress) {
+  const std::string unfinished = options.path + ".unfinished";
+  try {
+    writeAll(camera, options, unfinished, progress);
+    std::filesystem::rename(unfinished, options.path);
+  } catch (...) {
+    std::remove(unfinished.c_str());
+    throw;
+  }
+}
+
+}  // namespace softbody::virtual_camera

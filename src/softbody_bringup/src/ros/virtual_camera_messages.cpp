@@ -1,0 +1,62 @@
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <boost/make_shared.hpp>
+
+#include "softbody_bringup/virtual_camera/messages.h"
+#include "softbody_common/conversions.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+geometry_msgs::TransformStamped transformMessage(const std_msgs::Header& header, const char* child,
+                                                 const Eigen::Isometry3d& T) {
+  const geometry_msgs::Pose pose = toMessage(T);
+  geometry_msgs::TransformStamped message;
+  message.header = header;
+  message.child_frame_id = child;
+  message.transform.translation.x = pose.position.x;
+  message.transform.translation.y = pose.position.y;
+  message.transform.translation.z = pose.position.z;
+  message.transform.rotation = pose.orientation;
+  return message;
+}
+
+}  // namespace
+
+CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,
+                           std::uint32_t sequence) {
+  std_msgs::Header header;
+  header.seq = sequence;
+  header.stamp = stamp;
+  header.frame_id = kOpticalFrame;
+  CaptureMessages messages;
+  messages.color = cv_bridge::CvImage(header, sensor_msgs::image_encodings::RGB8, capture.color).toImageMsg();
+  messages.depth =
+      cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_16UC1, capture.depth_mm).toImageMsg();
+  messages.info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(camera));
+  messages.info->header = header;
+  messages.truth = boost::make_shared<softbody_msgs::MeshState>(toMessage(capture.truth));
+  messages.truth->header = header;
+  messages.truth->observed = stamp;
+  messages.body = transformMessage(header, kBodyFrame, capture.T_camera_body);
+  return messages;
+}
+
+softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp) {
+  softbody_msgs::MeshTopology message = toMessage(topology);
+  message.header.stamp = stamp;
+  message.header.frame_id = kBodyFrame;
+  return message;
+}
+
+geometry_msgs::TransformStamped opticalFrameTransform(const ros::Time& stamp) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = kCameraFrame;
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5).toRotationMatrix();
+  return transformMessage(header, kOpticalFrame, T);
+}
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,90 @@
+#include "softbody_bringup/virtual_camera/node.h"
+
+#include <ros/init.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+
+#include "softbody_bringup/virtual_camera/messages.h"
+#include "softbody_common/ros_parameters.h"
+#include "softbody_common/topics.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+constexpr int kQueue = 2;
+
+tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) {
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(transform);
+  return message;
+}
+
+CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
+  CameraSetup setup = defaults;
+  setup.scene = parameters->choice("scene", setup.scene, sceneNames());
+  setup.mesh = parameters->text("mesh", setup.mesh);
+  setup.seed =
+      static_cast<std::uint64_t>(parameters->integer("seed", static_cast<int>(setup.seed), 0, 1 << 30));
+  setup.width = parameters->integer("width", setup.width, 16, 4096);
+  setup.height = parameters->integer("height", setup.height, 16, 4096);
+  setup.rate_hz = parameters->number("rate", setup.rate_hz, 0.1, 1000.0);
+  if (!parameters->flag("noise", true)) setup.noise = noNoise();
+  return setup;
+}
+
+}  // namespace
+
+VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle private_node,
+                                     const CameraSetup& setup) {
+  Parameters parameters = readParameters(private_node);
+  setup_ = readSetup(setup, &parameters);
+  loop_ = parameters.flag("loop", true);
+  publish_camera_tf_ = parameters.flag("publish_camera_tf", true);
+  warnUnknown(parameters);
+  camera_.emplace(makeCamera(setup_));
+
+  color_ = node.advertise<sensor_msgs::Image>(topics::kCameraColor, kQueue);
+  color_info_ = node.advertise<sensor_msgs::CameraInfo>(topics::kCameraColorInfo, kQueue);
+  depth_ = node.advertise<sensor_msgs::Image>(topics::kCameraDepth, kQueue);
+  depth_info_ = node.advertise<sensor_msgs::CameraInfo>(topics::kCameraDepthInfo, kQueue);
+  truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(kTruthTopologyTopic, 1, true);
+  truth_state_ = node.advertise<softbody_msgs::MeshState>(kTruthStateTopic, kQueue);
+  tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
+  if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), &VirtualCameraNode::publishFrame, this);
+}
+
+void VirtualCameraNode::publishLatched(const ros::Time& stamp) {
+  if (publish_camera_tf_) tf_static_.publish(tfMessage(opticalFrameTransform(stamp)));
+  truth_topology_.publish(topologyMessage(camera_->topology(), stamp));
+}
+
+void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
+  const ros::Time stamp = ros::Time::now();
+  const double t = frame_ / setup_.rate_hz;
+  if (!loop_ && t >= camera_->scene().duration_s) {
+    ROS_INFO("scene %s is over", setup_.scene.c_str());
+    timer_.stop();
+    return;
+  }
+  if (frame_ % std::max(1, static_cast<int>(std::lround(setup_.rate_hz))) == 0) publishLatched(stamp);
+  const CaptureMessages messages =
+      toMessages(camera_->capture(frame_, t), camera_->pinhole(), stamp, static_cast<std::uint32_t>(frame_));
+  tf_.publish(tfMessage(messages.body));
+  color_info_.publish(messages.info);
+  depth_info_.publish(messages.info);
+  color_.publish(messages.color);
+  depth_.publish(messages.depth);
+  truth_state_.publish(messages.truth);
+  ++frame_;
+}
+
+int runNode(int argc, char** argv, const CameraSetup& setup) {
+  ros::init(argc, argv, "virtual_camera");
+  VirtualCameraNode node(ros::NodeHandle(), ros::NodeHandle("~"), setup);
+  ros::spin();
+  return 0;
+}
+
+}  // namespace softbody::virtual_camera

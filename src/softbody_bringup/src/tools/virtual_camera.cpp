@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <ros/init.h>
+#include <ros/package.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "softbody_bringup/virtual_camera/bag_writer.h"
+#include "softbody_bringup/virtual_camera/node.h"
+
+namespace {
+
+using namespace softbody::virtual_camera;
+
+struct Arguments {
+  CameraSetup setup;
+  std::string output;
+  double duration_s = 0.0;
+  bool noise = true;
+  std::vector<std::string> without;
+};
+
+void declare(CLI::App* app, Arguments* arguments) {
+  CameraSetup& setup = arguments->setup;
+  const std::map<std::string, bool> on_off = {{"on", true}, {"off", false}};
+  app->add_option("--output", arguments->output, "bag to write; without it: a live node");
+  app->add_option("--scene", setup.scene, "what to look at")
+      ->check(CLI::IsMember(sceneNames()))
+      ->capture_default_str();
+  app->add_option("--mesh", setup.mesh, "soft body at rest, OBJ in metres")
+      ->check(CLI::ExistingFile)
+      ->capture_default_str();
+  app->add_option("--seed", setup.seed, "of textures and noise")->capture_default_str();
+  app->add_option("--noise", arguments->noise, "sensor noise: on or off")
+      ->transform(CLI::CheckedTransformer(on_off));
+  app->add_option("--without", arguments->without, "parts of the noise to switch off")
+      ->check(CLI::IsMember(noiseParts()));
+  app->add_option("--duration", arguments->duration_s, "[s]; default: the scene's")
+      ->check(CLI::Range(0.001, 36000.0));
+  app->add_option("--rate", setup.rate_hz, "[Hz]")->check(CLI::Range(0.1, 1000.0))->capture_default_str();
+  app->add_option("--width", setup.width, "[px]")->check(CLI::Range(16, 4096))->capture_default_str();
+  app->add_option("--height", setup.height, "[px]")->check(CLI::Range(16, 4096))->capture_default_str();
+}
+
+void write(const Arguments& arguments) {
+  VirtualCamera camera = makeCamera(arguments.setup);
+  const double duration_s = arguments.duration_s > 0.0 ? arguments.duration_s : camera.scene().duration_s;
+  const int frames = std::max(1, static_cast<int>(std::lround(duration_s * arguments.setup.rate_hz)));
+  writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz},
+           [&](int done) { fmt::print(stderr, "\rframe {} of {}", done, frames); });
+  fmt::print(stderr, "\n{}: scene {}, {} frames\n", arguments.output, arguments.setup.scene, frames);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> words;
+  ros::removeROSArgs(argc, argv, words);
+  words.erase(words.begin());
+  std::reverse(words.begin(), words.end());
+
+  Arguments arguments;
+  arguments.setup.mesh = ros::package::getPath("softbody_bringup") + "/config/sponge.obj";
+  CLI::App app("Virtual RGB-D camera before a deforming body, with exact truth");
+  declare(&app, &arguments);
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (!arguments.noise) arguments.setup.noise = noNoise();
+    for (const std::string& part : arguments.without) switchOff(part, &arguments.setup.noise);
+    if (arguments.output.empty()) return runNode(argc, argv, arguments.setup);
+    write(arguments);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "virtual_camera: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
