@@ -1,0 +1,46 @@
+# The project's front door: every target installs what is missing, builds what has changed, and then does its work.
+# A Python or a ROS workspace of the user's must not get into the build, hence the bare environment.
+export PATH := /usr/bin:/bin
+unexport MAKEFLAGS CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH LD_LIBRARY_PATH
+
+# catkin and ROS write to HOME; without a usable one they write into the workspace.
+ifneq ($(shell test -d "$$HOME" -a -w "$$HOME" && echo usable),usable)
+export HOME := $(CURDIR)/catkin_ws/logs/home
+$(shell mkdir -p $(HOME))
+endif
+
+.PHONY: build test demo bench evaluate tidy format clean help dependencies
+
+build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
+	scripts/build
+
+test: dependencies  ## build, then run unit tests, rostests, launch file checks, catkin_lint and the format check
+	scripts/build
+	scripts/build tests
+	scripts/run_tests
+
+demo: build  ## follow a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
+	scripts/demo
+
+bench: build  ## run the benchmarks; writes bench/summary.json
+	scripts/bench
+
+evaluate: build  ## accuracy over all scenes of the virtual camera; writes docs/evaluation.md
+	scripts/evaluate
+
+tidy: build  ## clang-tidy over all sources (slow)
+	scripts/install_dependencies scripts/apt-packages-tidy.txt
+	scripts/tidy
+
+format: dependencies  ## clang-format all sources in place
+	find src -name '*.h' -o -name '*.cpp' | xargs clang-format -i
+
+clean:  ## remove everything that was built or written
+	rm -rf catkin_ws/build catkin_ws/devel catkin_ws/install catkin_ws/logs catkin_ws/.catkin_tools
+	rm -rf bench demo_output evaluation
+
+help:  ## this list
+	@sed -n 's/^\([a-z]*\):.*##  *\(.*\)/\1\t\2/p' Makefile | expand -t 12
+
+dependencies:
+	@scripts/install_dependencies scripts/apt-packages.txt
