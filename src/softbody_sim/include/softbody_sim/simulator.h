@@ -9,12 +9,13 @@
 namespace softbody {
 
 struct SimulatorConfig {
-  bool simulate = true;             ///< false: surface vertices go where their targets are (Kang et al. 2022, Fig. 6)
-  int iterations = 20;              ///< local/global iterations a step at most
-  double tolerance = 1e-4;          ///< stop when no vertex moves further in an iteration [mean edge lengths]
-  double target_stiffness = 20.0;   ///< stiffness of a target of weight 1, in units of E * mean edge length
-  double max_time_step_s = 0.1;     ///< longer gaps between frames are simulated as this
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s^2]; zero: the rest shape already hangs or lies as it does
+  bool simulate = true;     ///< false: surface vertices go where their targets are (Kang et al. 2022, Fig. 6)
+  int iterations = 20;      ///< local/global iterations a step at most
+  double tolerance = 1e-4;  ///< stop when no vertex moves further in an iteration [mean edge lengths]
+  double target_stiffness = 20.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
+  double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
+  Eigen::Vector3d gravity =
+      Eigen::Vector3d::Zero();  ///< [m/s^2]; zero: the rest shape already hangs or lies as it does
 };
 
 /// @throw std::invalid_argument as Parameters does.
@@ -24,11 +25,11 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters);
 struct StepReport {
   int iterations = 0;
   bool converged = false;
-  double last_move_m = 0.0;         ///< largest move of a vertex in the last iteration [m]
+  double last_move_m = 0.0;  ///< largest move of a vertex in the last iteration [m]
 };
 
-/// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective dynamics
-/// (Bouaziz et al. 2014) with corotated elasticity.
+/// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective
+/// dynamics (Bouaziz et al. 2014) with corotated elasticity.
 class Simulator {
  public:
   Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config);
@@ -39,10 +40,10 @@ class Simulator {
   /// False until the first TargetSet with `reset` has placed the body.
   bool placed() const;
 
-  /// Advances to `stamp` under the targets. Before anything else a TargetSet with `reset` places the rest shape at
-  /// body_pose at rest. A stamp not after the last one advances by no time, only the targets act.
-  /// @throw std::invalid_argument, leaving the state as it was, if the revision is not the topology's, a target names a
-  /// tet beyond it, a number is not finite, or the body has not been placed.
+  /// Advances to `stamp` under the targets. Before anything else a TargetSet with `reset` places the rest
+  /// shape at body_pose at rest. A stamp not after the last one advances by no time, only the targets act.
+  /// @throw std::invalid_argument, leaving the state as it was, if the revision is not the topology's, a
+  /// target names a tet beyond it, a number is not finite, or the body has not been placed.
   void step(const TargetSet& targets, Nanoseconds stamp);
 
   /// Back to "not placed".

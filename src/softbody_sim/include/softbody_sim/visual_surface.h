@@ -1,12 +1,14 @@
 #pragma once
 
+#include <vector>
+
 #include "softbody_common/types.h"
 
 namespace softbody {
 
-/// The high-resolution mesh driven by the low-resolution surface: mean value coordinates (Ju et al. 2005) for the visual
-/// vertices inside of it, the nearest tet for those outside. On the low-resolution surface both agree, so the binding is
-/// continuous.
+/// The high-resolution mesh driven by the low-resolution surface: mean value coordinates (Ju et al. 2005) for
+/// the visual vertices inside of it, the nearest tet for those outside. On the low-resolution surface both
+/// agree, so the binding is continuous.
 class VisualSurface {
  public:
   /// Computes the weights, once. @throw std::invalid_argument if the volume's surface is not closed.
@@ -15,14 +17,27 @@ class VisualSurface {
   const MeshTopology& topology() const { return visual_; }
 
   /// Number of visual vertices that lie outside the low-resolution surface.
-  int outsideCount() const;
+  int outsideCount() const { return static_cast<int>(outside_.size()); }
 
   /// Visual vertices, and their confidences, for a state of the volume.
   /// @throw std::invalid_argument if the revision or the number of vertices is not the volume's.
   MeshState apply(const MeshState& volume) const;
 
  private:
+  using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  void bindInside(const TetTopology& volume);
+  void bindOutside(const TetTopology& volume);
+
   MeshTopology visual_;
+  std::uint32_t volume_revision_;
+  Eigen::Index volume_vertex_count_;
+  Tets tets_;
+  std::vector<int> surface_vertices_;  ///< of the volume, in ascending order
+  std::vector<int> inside_;            ///< visual vertices
+  Weights inside_weights_;             ///< #inside by #surface vertices, rows sum to 1
+  std::vector<int> outside_;           ///< visual vertices
+  std::vector<MaterialPoint> outside_places_;
 };
 
 }  // namespace softbody

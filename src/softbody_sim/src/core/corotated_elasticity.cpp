@@ -1,0 +1,70 @@
+#include "core/corotated_elasticity.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <stdexcept>
+
+#include "core/rotation.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+
+Lame lameParameters(double youngs_modulus_pa, double poisson_ratio) {
+  if (!(youngs_modulus_pa > 0.0) || !(poisson_ratio >= 0.0 && poisson_ratio < 0.5)) {
+    throw std::invalid_argument(
+        fmt::format("material: youngs_modulus_pa {} must be above 0, poisson_ratio {} in [0, 0.5)",
+                    youngs_modulus_pa, poisson_ratio));
+  }
+  return {youngs_modulus_pa / (2.0 * (1.0 + poisson_ratio)),
+          youngs_modulus_pa * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio))};
+}
+
+double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix3d* stress) {
+  Eigen::Matrix3d R;
+  const double dilation = extractRotation(F, &R) - 3.0;
+  const Eigen::Matrix3d strain = F - R;
+  *stress = 2.0 * lame.mu * strain + (lame.lambda * dilation) * R;
+  return lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * dilation * dilation;
+}
+
+CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame)
+    : tets_(tets), inverse_edges_(tets.rows(), 9), volumes_(tetVolumes(rest_vertices, tets)), lame_(lame) {
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    if (!(volumes_[t] > 0.0))
+      throw std::invalid_argument(fmt::format("tet {} has volume {} m^3", t, volumes_[t]));
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k)
+      edges.col(k) = rest_vertices.row(tets(t, k + 1)) - rest_vertices.row(tets(t, 0));
+    const Eigen::Matrix3d inverse = edges.inverse();
+    inverse_edges_.row(t) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(inverse.data());
+  }
+}
+
+double CorotatedElasticity::addTo(const Points& x, Points* gradient) const {
+  double energy = 0.0;
+  for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
+    Eigen::Matrix3d inverse, edges, stress;
+    for (int k = 0; k < 9; ++k) inverse(k) = inverse_edges_(t, k);
+    for (int k = 0; k < 3; ++k) edges.col(k) = x.row(tets_(t, k + 1)) - x.row(tets_(t, 0));
+    energy += volumes_[t] * corotatedEnergy(edges * inverse, lame_, &stress);
+    const Eigen::Matrix3d forces = volumes_[t] * stress * inverse.transpose();
+    for (int k = 0; k < 3; ++k) gradient->row(tets_(t, k + 1)) += forces.col(k).transpose();
+    gradient->row(tets_(t, 0)) -= (forces.col(0) + forces.col(1) + forces.col(2)).transpose();
+  }
+  return energy;
+}
+
+void CorotatedElasticity::addMetric(TetMatrix* matrix) const {
+  const double stiffness = 2.0 * lame_.mu + 3.0 * lame_.lambda;
+  for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
+    Eigen::Matrix<double, 3, 4> G;  // gradients of the shape functions
+    const Eigen::Matrix<double, 1, 9> row = inverse_edges_.row(t);
+    const Eigen::Matrix3d inverse = Eigen::Map<const Eigen::Matrix3d>(row.data());
+    G.rightCols<3>() = inverse.transpose();
+    G.col(0) = -G.rightCols<3>().rowwise().sum();
+    matrix->addToTet(static_cast<int>(t), stiffness * volumes_[t] * G.transpose() * G);
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/tet_matrix.h"
+#include "softbody_common/types.h"
+#include "softbody_sim/object_model.h"
+
+namespace softbody {
+
+/// Lame parameters [Pa].
+struct Lame {
+  double mu = 0.0;
+  double lambda = 0.0;
+};
+
+/// @throw std::invalid_argument unless E > 0 and 0 <= nu < 0.5.
+Lame lameParameters(double youngs_modulus_pa, double poisson_ratio);
+
+/// Energy density [J/m^3] of the corotated material, mu |F - R|^2 + lambda/2 tr^2(R^T F - I), and its
+/// derivative by F. The second term is the projective-dynamics distance 3/2 lambda |F - T|^2 to the nearest T
+/// whose singular values sum to 3. Finite for every finite F, inverted ones included.
+double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix3d* stress);
+
+/// The elastic energy of linear tets. Arrays are one contiguous column per quantity and component.
+class CorotatedElasticity {
+ public:
+  /// @throw std::invalid_argument if a rest tet has no positive volume.
+  CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame);
+
+  /// Energy [J]; adds its gradient [N], #V by 3.
+  double addTo(const Points& x, Points* gradient) const;
+
+  /// Adds the constant metric sum_t k_t G_t^T G_t that bounds the energy's curvature near rest.
+  void addMetric(TetMatrix* matrix) const;
+
+ private:
+  Eigen::Matrix<int, Eigen::Dynamic, 4> tets_;
+  Eigen::Matrix<double, Eigen::Dynamic, 9>
+      inverse_edges_;        ///< of the rest edge matrices, column by column [1/m]
+  Eigen::VectorXd volumes_;  ///< [m^3]
+  Lame lame_;
+};
+
+}  // namespace softbody

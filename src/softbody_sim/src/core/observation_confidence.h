@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// How far each vertex's position rests on this frame's measurements: 1 where targets act on the vertex
+/// itself, and exp(-d / (2 mean edge lengths)) at the distance d along the tets' rest edges from the nearest
+/// such vertex.
+class ObservationConfidence {
+ public:
+  ObservationConfidence(const Points& rest_vertices, const Tets& tets);
+
+  /// A vertex is observed when its barycentric shares, times the targets' weights, sum to at least 1/4.
+  std::vector<float> of(const std::vector<Target>& targets) const;
+
+ private:
+  struct Neighbor {
+    int vertex;
+    double distance;  ///< [m]
+  };
+  const Tets tets_;
+  std::vector<std::vector<Neighbor>> neighbors_;
+  double decay_length_;  ///< [m]
+};
+
+}  // namespace softbody

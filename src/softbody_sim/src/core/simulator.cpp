@@ -1,0 +1,195 @@
+#include "softbody_sim/simulator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/corotated_elasticity.h"
+#include "core/incremental_potential.h"
+#include "core/observation_confidence.h"
+#include "core/positive_definite_solver.h"
+#include "core/quasi_newton.h"
+#include "core/surface_follower.h"
+#include "core/target_energy.h"
+#include "core/tet_matrix.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+/// The frame interval that Material::damping refers to, and the inertia of a step that takes no time.
+constexpr double kNominalTimeStep = 1.0 / 30.0;
+
+/// A quarter of each tet's mass to each of its vertices [kg].
+Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) {
+  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    for (int k = 0; k < 4; ++k) masses[topology.tets(t, k)] += 0.25 * density_kg_m3 * volumes[t];
+  }
+  for (Eigen::Index v = 0; v < masses.size(); ++v) {
+    if (!(masses[v] > 0.0))
+      throw std::invalid_argument(fmt::format("vertex {} has no mass: no tet uses it", v));
+  }
+  return masses;
+}
+
+TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& elasticity) {
+  TetMatrix metric(topology.tets, topology.rest_vertices.rows());
+  elasticity.addMetric(&metric);
+  return metric;
+}
+
+void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_count) {
+  if (target.place.tet < 0 || target.place.tet >= tet_count) {
+    throw std::invalid_argument(
+        fmt::format("targets[{}] names tet {} of {}", index, target.place.tet, tet_count));
+  }
+  const bool finite = target.place.barycentric.allFinite() && target.position.allFinite() &&
+                      target.normal.allFinite() && std::isfinite(target.weight);
+  if (!finite || target.weight <= 0.0) {
+    throw std::invalid_argument(fmt::format("targets[{}]: not finite, or its weight is not above 0", index));
+  }
+}
+
+}  // namespace
+
+struct Simulator::Implementation {
+  Implementation(const TetTopology& topology_in, const Material& material_in,
+                 const SimulatorConfig& config_in);
+
+  void requireUsable(const TargetSet& targets) const;
+  void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
+  double elapsed(Nanoseconds stamp) const;
+  void simulate(const TargetSet& targets, double elapsed_s);
+
+  const TetTopology topology;
+  const Material material;
+  const SimulatorConfig config;
+  const double edge_length;  ///< mean [m]
+
+  Eigen::VectorXd masses;
+  CorotatedElasticity elasticity;
+  TargetEnergy target_energy;
+  IncrementalPotential potential;
+  TetMatrix metric;
+  const Eigen::VectorXd elastic_metric;  ///< the metric's values that never change
+  PositiveDefiniteSolver solver;
+  QuasiNewton minimizer;
+  ObservationConfidence confidence;
+
+  bool placed = false;
+  Nanoseconds stamp = 0;
+  Points velocity;  ///< [m/s]
+  MeshState state;
+  StepReport report;
+};
+
+Simulator::Implementation::Implementation(const TetTopology& topology_in, const Material& material_in,
+                                          const SimulatorConfig& config_in)
+    : topology(topology_in),
+      material(material_in),
+      config(config_in),
+      edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
+      masses(lumpedMasses(topology, material.density_kg_m3)),
+      elasticity(topology.rest_vertices, topology.tets,
+                 lameParameters(material.youngs_modulus_pa, material.poisson_ratio)),
+      potential{elasticity, target_energy, masses, topology.rest_vertices},
+      metric(elasticMetric(topology, elasticity)),
+      elastic_metric(metric.values()),
+      solver(metric.lower()),
+      minimizer(topology.rest_vertices.rows()),
+      confidence(topology.rest_vertices, topology.tets) {
+  state.revision = topology.revision;
+}
+
+void Simulator::Implementation::requireUsable(const TargetSet& targets) const {
+  if (targets.revision != topology.revision) {
+    throw std::invalid_argument(fmt::format("targets are for revision {} of the volume, which is at {}",
+                                            targets.revision, topology.revision));
+  }
+  if (!placed && !targets.reset) {
+    throw std::invalid_argument("the body has no place yet: waiting for targets with reset and a body_pose");
+  }
+  if (targets.reset && !targets.body_pose.matrix().allFinite())
+    throw std::invalid_argument("body_pose is not finite");
+  for (std::size_t i = 0; i < targets.targets.size(); ++i) {
+    softbody::requireUsable(targets.targets[i], i, topology.tets.rows());
+  }
+}
+
+void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds now) {
+  state.vertices = transformed(topology.rest_vertices, pose);
+  velocity = Points::Zero(state.vertices.rows(), 3);
+  stamp = now;
+  placed = true;
+}
+
+double Simulator::Implementation::elapsed(Nanoseconds now) const {
+  return std::clamp(1e-9 * static_cast<double>(now - stamp), 0.0, config.max_time_step_s);
+}
+
+void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s) {
+  const double h = elapsed_s > 0.0 ? elapsed_s : kNominalTimeStep;
+  potential.prediction = state.vertices;
+  if (elapsed_s > 0.0) {
+    velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
+    velocity.rowwise() += h * config.gravity.transpose();
+    potential.prediction += h * velocity;
+  }
+  potential.inertia = masses / (h * h);
+  target_energy.set(targets.targets, topology.tets,
+                    config.target_stiffness * material.youngs_modulus_pa * edge_length);
+
+  metric.values() = elastic_metric;
+  metric.addToDiagonal(potential.inertia);
+  target_energy.addMetric(&metric);
+  solver.factorize(metric.lower());
+
+  const auto energy = [this](const Points& x, Points* gradient) { return potential.evaluate(x, gradient); };
+  Points x = potential.prediction;
+  report = minimizer.minimize(energy, solver, {config.iterations, config.tolerance * edge_length}, &x);
+  if (elapsed_s > 0.0) velocity = (x - state.vertices) / h;
+  state.vertices.swap(x);
+}
+
+Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
+    : implementation_(std::make_unique<Implementation>(topology, material, config)) {}
+
+Simulator::~Simulator() = default;
+
+const TetTopology& Simulator::topology() const { return implementation_->topology; }
+
+bool Simulator::placed() const { return implementation_->placed; }
+
+void Simulator::step(const TargetSet& targets, Nanoseconds stamp) {
+  Implementation& s = *implementation_;
+  s.requireUsable(targets);
+  if (targets.reset) s.place(targets.body_pose, stamp);
+  if (s.config.simulate) {
+    s.simulate(targets, s.elapsed(stamp));
+  } else {
+    followTargets(targets.targets, s.topology, &s.state.vertices);
+    s.report = {0, true, 0.0};
+  }
+  s.stamp = std::max(s.stamp, stamp);
+  s.state.confidence = s.confidence.of(targets.targets);
+  if (!targets.targets.empty()) s.state.observed = stamp;
+}
+
+void Simulator::reset() {
+  Implementation& s = *implementation_;
+  s.placed = false;
+  s.state = {};
+  s.state.revision = s.topology.revision;
+  s.report = {};
+}
+
+const MeshState& Simulator::state() const { return implementation_->state; }
+
+const StepReport& Simulator::report() const { return implementation_->report; }
+
+}  // namespace softbody

@@ -1,0 +1,34 @@
+#include "core/target_energy.h"
+
+namespace softbody {
+
+void TargetEnergy::set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness) {
+  springs_.clear();
+  springs_.reserve(targets.size());
+  for (const Target& target : targets) {
+    springs_.push_back({target.place.tet, tets.row(target.place.tet), target.place.barycentric,
+                        target.position, target.normal.normalized(), target.weight * unit_stiffness});
+  }
+}
+
+double TargetEnergy::addTo(const Points& x, Points* gradient) const {
+  double energy = 0.0;
+  for (const Spring& spring : springs_) {
+    Eigen::Vector3d offset = -spring.position;
+    for (int k = 0; k < 4; ++k) offset += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
+    if (!spring.normal.isZero(0.0)) offset = spring.normal.dot(offset) * spring.normal;
+    energy += 0.5 * spring.stiffness * offset.squaredNorm();
+    for (int k = 0; k < 4; ++k) {
+      gradient->row(spring.vertices[k]) += spring.stiffness * spring.barycentric[k] * offset.transpose();
+    }
+  }
+  return energy;
+}
+
+void TargetEnergy::addMetric(TetMatrix* matrix) const {
+  for (const Spring& spring : springs_) {
+    matrix->addToTet(spring.tet, spring.stiffness * spring.barycentric * spring.barycentric.transpose());
+  }
+}
+
+}  // namespace softbody

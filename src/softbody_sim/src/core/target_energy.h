@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/tet_matrix.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Springs between material points and where they were measured: k/2 |S x - p|^2, or k/2 (n . (S x - p))^2
+/// where a normal is given. S interpolates barycentrically.
+class TargetEnergy {
+ public:
+  /// @param unit_stiffness of a target of weight 1 [N/m]. Indices and numbers must have been checked.
+  void set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness);
+
+  /// Energy [J]; adds its gradient [N], #V by 3.
+  double addTo(const Points& x, Points* gradient) const;
+
+  /// Adds sum k S^T S: the exact curvature of point targets and an upper bound for those with a normal (n n^T
+  /// <= I).
+  void addMetric(TetMatrix* matrix) const;
+
+ private:
+  struct Spring {
+    int tet;
+    Eigen::Vector4i vertices;
+    Eigen::Vector4d barycentric;
+    Eigen::Vector3d position;
+    Eigen::Vector3d normal;  ///< unit, or zero
+    double stiffness;        ///< [N/m]
+  };
+  std::vector<Spring> springs_;
+};
+
+}  // namespace softbody

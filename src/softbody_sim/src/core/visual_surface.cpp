@@ -1,0 +1,110 @@
+#include "softbody_sim/visual_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "softbody_common/tet_geometry.h"
+#include "softbody_common/tet_locator.h"
+#include "softbody_sim/mean_value_coordinates.h"
+
+namespace softbody {
+namespace {
+
+std::vector<int> verticesOf(const Triangles& triangles) {
+  std::vector<int> vertices(triangles.data(), triangles.data() + triangles.size());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// The surface over its own vertices alone: those inside the volume would only be columns of zeros.
+MeanValueCage compactCage(const TetTopology& volume, const std::vector<int>& surface_vertices) {
+  Points vertices(static_cast<Eigen::Index>(surface_vertices.size()), 3);
+  std::vector<int> numbers(static_cast<std::size_t>(volume.rest_vertices.rows()), -1);
+  for (std::size_t k = 0; k < surface_vertices.size(); ++k) {
+    numbers[surface_vertices[k]] = static_cast<int>(k);
+    vertices.row(static_cast<Eigen::Index>(k)) = volume.rest_vertices.row(surface_vertices[k]);
+  }
+  return {vertices, volume.surface.unaryExpr([&numbers](int v) { return numbers[v]; })};
+}
+
+}  // namespace
+
+VisualSurface::VisualSurface(MeshTopology visual, const TetTopology& volume)
+    : visual_(std::move(visual)),
+      volume_revision_(volume.revision),
+      volume_vertex_count_(volume.rest_vertices.rows()),
+      tets_(volume.tets),
+      surface_vertices_(verticesOf(volume.surface)) {
+  bindInside(volume);
+  bindOutside(volume);
+}
+
+void VisualSurface::bindInside(const TetTopology& volume) {
+  MeanValueCage cage = compactCage(volume, surface_vertices_);
+  const Eigen::Index count = visual_.rest_vertices.rows();
+  Eigen::VectorXd row(static_cast<Eigen::Index>(surface_vertices_.size()));
+  inside_weights_.resize(count, row.size());
+  for (Eigen::Index v = 0; v < count; ++v) {
+    if (cage.coordinates(visual_.rest_vertices.row(v), row) == 0) {
+      outside_.push_back(static_cast<int>(v));
+      continue;
+    }
+    inside_weights_.row(static_cast<Eigen::Index>(inside_.size())) = row.cast<float>();
+    inside_.push_back(static_cast<int>(v));
+  }
+  inside_weights_.conservativeResize(static_cast<Eigen::Index>(inside_.size()), Eigen::NoChange);
+}
+
+void VisualSurface::bindOutside(const TetTopology& volume) {
+  Points points(static_cast<Eigen::Index>(outside_.size()), 3);
+  for (std::size_t k = 0; k < outside_.size(); ++k) {
+    points.row(static_cast<Eigen::Index>(k)) = visual_.rest_vertices.row(outside_[k]);
+  }
+  outside_places_ = bindPoints(points, volume.rest_vertices, volume.tets);
+}
+
+MeshState VisualSurface::apply(const MeshState& volume) const {
+  const auto vertex_count = static_cast<std::size_t>(volume_vertex_count_);
+  if (volume.revision != volume_revision_ || volume.vertices.rows() != volume_vertex_count_ ||
+      volume.confidence.size() != vertex_count) {
+    throw std::invalid_argument(fmt::format(
+        "state of revision {} with {} vertices and {} confidences; the volume is at revision {} with {} "
+        "vertices",
+        volume.revision, volume.vertices.rows(), volume.confidence.size(), volume_revision_, vertex_count));
+  }
+  MeshState state;
+  state.revision = visual_.revision;
+  state.observed = volume.observed;
+  state.vertices.resize(visual_.rest_vertices.rows(), 3);
+  state.confidence.resize(static_cast<std::size_t>(visual_.rest_vertices.rows()));
+
+  // Relative to the centre: single precision then costs nothing that shows, wherever the body is.
+  const Eigen::RowVector3d center = volume.vertices.colwise().mean();
+  Eigen::Matrix<float, Eigen::Dynamic, 4> values(static_cast<Eigen::Index>(surface_vertices_.size()), 4);
+  for (std::size_t k = 0; k < surface_vertices_.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    values.block<1, 3>(row, 0) = (volume.vertices.row(surface_vertices_[k]) - center).cast<float>();
+    values(row, 3) = volume.confidence[surface_vertices_[k]];
+  }
+  const Eigen::Matrix<float, Eigen::Dynamic, 4> interpolated = inside_weights_ * values;
+  for (std::size_t k = 0; k < inside_.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    state.vertices.row(inside_[k]) = interpolated.block<1, 3>(row, 0).cast<double>() + center;
+    state.confidence[inside_[k]] = std::clamp(interpolated(row, 3), 0.0f, 1.0f);
+  }
+  for (std::size_t k = 0; k < outside_.size(); ++k) {
+    const MaterialPoint& place = outside_places_[k];
+    state.vertices.row(outside_[k]) = positionOf(place, volume.vertices, tets_);
+    float confidence = 0.0f;
+    for (int c = 0; c < 4; ++c) {
+      confidence += static_cast<float>(place.barycentric[c]) * volume.confidence[tets_(place.tet, c)];
+    }
+    state.confidence[outside_[k]] = std::clamp(confidence, 0.0f, 1.0f);
+  }
+  return state;
+}
+
+}  // namespace softbody

@@ -1,0 +1,112 @@
+#include "nodes/surface_node.h"
+
+#include <softbody_msgs/StageTiming.h>
+#include <visualization_msgs/Marker.h>
+
+#include <boost/make_shared.hpp>
+
+#include "softbody_common/conversions.h"
+#include "softbody_common/ros_parameters.h"
+#include "softbody_common/topics.h"
+#include "softbody_sim/conversions.h"
+#include "softbody_sim/object_model.h"
+
+namespace softbody {
+
+SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
+  Parameters parameters = readParameters(private_node);
+  const std::string object = parameters.requiredText("object");
+  body_frame_ = parameters.text("body_frame", "softbody");
+  warnUnknown(parameters);
+  visual_ = buildObjectModel(loadObjectDescription(object)).visual;
+
+  topology_publisher_ = node.advertise<softbody_msgs::MeshTopology>(topics::kSurfaceTopology, 1, true);
+  state_publisher_ = node.advertise<softbody_msgs::MeshState>(topics::kSurfaceState, 1);
+  marker_publisher_ = node.advertise<visualization_msgs::Marker>(topics::kSurfaceMarker, 1);
+  timing_publisher_ = node.advertise<softbody_msgs::StageTiming>(topics::kTiming, 10);
+  topology_timer_ =
+      node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); });
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  topology_subscriber_ = node.subscribe(topics::kVolumeTopology, 1, &SurfaceNode::onTopology, this, hints);
+  state_subscriber_ = node.subscribe(topics::kVolumeState, 1, &SurfaceNode::onState, this, hints);
+}
+
+void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) {
+  // Sent again every second; only another body, or another revision, needs new weights.
+  if (volume_topology_ && *volume_topology_ == *message) return;
+  try {
+    bind(*message);
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM_THROTTLE(
+        1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
+    return;
+  }
+  volume_topology_ = message;
+  publishTopology();
+  if (waiting_state_ && waiting_state_->revision == message->revision) onState(waiting_state_);
+}
+
+void SurfaceNode::bind(const softbody_msgs::TetTopology& message) {
+  const TetTopology volume = fromMessage(message);
+  {
+    const auto scope = timer_.stage("Resolution Enhancement", true);
+    surface_.emplace(visual_, volume);
+  }
+  if (surface_->outsideCount() > 0) {
+    ROS_WARN("%d of %d visual vertices lie outside the volume; they follow the nearest tet",
+             surface_->outsideCount(), static_cast<int>(visual_.rest_vertices.rows()));
+  }
+  topology_message_ = boost::make_shared<softbody_msgs::MeshTopology>(toMessage(surface_->topology()));
+  topology_message_->header.frame_id = body_frame_;
+  topology_message_->header.stamp = message.header.stamp;
+}
+
+void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) {
+  if (!volume_topology_ || volume_topology_->revision != message->revision) {
+    waiting_state_ = message;
+    ROS_WARN_THROTTLE(5.0, "waiting for the volume's topology of revision %u", message->revision);
+    return;
+  }
+  waiting_state_.reset();
+  try {
+    publishState(*message);
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM_THROTTLE(1.0,
+                             "volume state of " << message->header.stamp << " is not used: " << error.what());
+  }
+}
+
+void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {
+  MeshState surface;
+  {
+    const MeshState state = fromMessage(volume);
+    const auto scope = timer_.stage("Resolution Enhancement");
+    surface = surface_->apply(state);
+  }
+  const auto message = boost::make_shared<softbody_msgs::MeshState>(toMessage(surface));
+  message->header = volume.header;
+  state_publisher_.publish(message);
+  if (marker_publisher_.getNumSubscribers() > 0) {
+    const auto marker =
+        boost::make_shared<visualization_msgs::Marker>(makeSurfaceMarker(surface_->topology(), surface));
+    marker->header = volume.header;
+    marker_publisher_.publish(marker);
+  }
+  publishTiming(volume.header);
+}
+
+void SurfaceNode::publishTiming(const std_msgs::Header& header) {
+  std::vector<StageTime> stages = timer_.take();
+  // Only a clock that runs with the stamps tells the latency; a bag beside the wall clock does not.
+  const double latency = (ros::Time::now() - header.stamp).toSec();
+  if (latency >= 0.0 && latency < 10.0) stages.push_back({"camera-to-mesh latency", 1e3 * latency, false});
+  const auto timing = boost::make_shared<softbody_msgs::StageTiming>(timingMessage("surface", stages));
+  timing->header = header;
+  timing_publisher_.publish(timing);
+}
+
+void SurfaceNode::publishTopology() {
+  if (topology_message_) topology_publisher_.publish(topology_message_);
+}
+
+}  // namespace softbody
