@@ -1,0 +1,6 @@
+#include "nodes/camera_ingest_node.h"
+#include "softbody_common/run_node.h"
+
+int main(int argc, char** argv) {
+  return softbody::runNode<softbody::CameraIngestNode>(argc, argv, "camera_ingest");
+}

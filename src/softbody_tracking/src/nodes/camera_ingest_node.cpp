@@ -1,0 +1,162 @@
+#include "nodes/camera_ingest_node.h"
+
+#include <fmt/format.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <softbody_msgs/StageTiming.h>
+
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "softbody_common/conversions.h"
+#include "softbody_common/ros_parameters.h"
+#include "softbody_common/topics.h"
+#include "softbody_tracking/conversions.h"
+#include "softbody_tracking/point_cloud.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kWatchPeriod_s = 0.5;
+
+}  // namespace
+
+CameraIngestNode::CameraIngestNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
+    : handle_(std::move(handle)),
+      private_handle_(std::move(private_handle)),
+      start_(ros::WallTime::now()),
+      last_diagnosis_(start_),
+      transport_(handle_),
+      diagnostics_(handle_, private_handle_, private_handle_.getNamespace()) {
+  Parameters parameters = readParameters(private_handle_);
+  readConfig(parameters);
+  ingest_ = std::make_unique<CameraIngest>(readCameraIngestConfig(parameters));
+  // Read by image_transport itself.
+  parameters.text("image_transport", "raw");
+  warnUnknown(parameters);
+  monitor_ = std::make_unique<StreamMonitor>(
+      config_.exact_sync ? 0 : toNanoseconds(ros::Time(config_.sync_tolerance_s)));
+  resetPairer();
+  advertise();
+  subscribe();
+  diagnostics_.setHardwareID("RGB-D camera");
+  diagnostics_.add("frames", this, &CameraIngestNode::diagnose);
+  // Wall time: without /clock a simulated timer would never fire, and that is worth saying.
+  watch_timer_ = handle_.createWallTimer(ros::WallDuration(kWatchPeriod_s), [this](const auto&) { watch(); });
+}
+
+void CameraIngestNode::readConfig(Parameters& parameters) {
+  config_.exact_sync = parameters.choice("sync", "approximate", {"approximate", "exact"}) == "exact";
+  config_.sync_tolerance_s = parameters.number("sync_tolerance_s", config_.sync_tolerance_s, 0.0001, 1.0);
+  config_.queue_size = parameters.integer("queue_size", config_.queue_size, 1, 1000);
+  config_.voxel_size_m = parameters.number("voxel_size_m", config_.voxel_size_m, 0.0, 1.0);
+  config_.silence_timeout_s = parameters.number("silence_timeout_s", config_.silence_timeout_s, 0.1, 3600.0);
+}
+
+void CameraIngestNode::advertise() {
+  color_ = handle_.advertise<sensor_msgs::Image>(topics::kRgbRect, 1);
+  info_publisher_ = handle_.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, 1);
+  depth_ = handle_.advertise<sensor_msgs::Image>(topics::kDepthRect, 1);
+  points_ = handle_.advertise<sensor_msgs::PointCloud2>(topics::kPoints, 1);
+  timing_ = handle_.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
+}
+
+void CameraIngestNode::subscribe() {
+  const auto queue = static_cast<std::uint32_t>(config_.queue_size);
+  const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(), private_handle_);
+  info_subscriber_ = handle_.subscribe(topics::kCameraColorInfo, queue, &CameraIngestNode::onInfo, this);
+  color_subscriber_ =
+      transport_.subscribe(topics::kCameraColor, queue, &CameraIngestNode::onColor, this, hints);
+  depth_subscriber_ =
+      transport_.subscribe(topics::kCameraDepth, queue, &CameraIngestNode::onDepth, this, hints);
+}
+
+void CameraIngestNode::resetPairer() {
+  const auto on_pair = [this](const auto& color, const auto& depth) { onPair(color, depth); };
+  pairer_ = config_.exact_sync ? makeExactPairer(config_.queue_size, on_pair)
+                               : makeApproximatePairer(config_.queue_size, config_.sync_tolerance_s, on_pair);
+}
+
+void CameraIngestNode::noteArrival(Stream stream, const ros::Time& stamp, ros::Time* last) {
+  if (stamp < *last) {
+    ROS_INFO_STREAM("time jumped back by " << (*last - stamp)
+                                           << " s: the images that wait for a partner are dropped");
+    resetPairer();
+    monitor_->completed();
+    last_color_ = last_depth_ = ros::Time();
+  }
+  *last = stamp;
+  monitor_->arrived(stream, toNanoseconds(stamp));
+}
+
+void CameraIngestNode::onColor(const sensor_msgs::ImageConstPtr& image) {
+  noteArrival(Stream::kColor, image->header.stamp, &last_color_);
+  pairer_->addColor(image);
+}
+
+void CameraIngestNode::onDepth(const sensor_msgs::ImageConstPtr& image) {
+  noteArrival(Stream::kDepth, image->header.stamp, &last_depth_);
+  pairer_->addDepth(image);
+}
+
+void CameraIngestNode::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
+  info_ = info;
+  monitor_->arrived(Stream::kColorInfo, toNanoseconds(info->header.stamp));
+}
+
+void CameraIngestNode::onPair(const sensor_msgs::ImageConstPtr& color,
+                              const sensor_msgs::ImageConstPtr& depth) {
+  if (!info_) return;
+  if (!anySubscriber()) return completeFrame(color->header.stamp);
+  try {
+    RgbdFrame frame;
+    {
+      const auto stage = timer_.stage("camera ingest");
+      frame = frameFromMessages(*color, depth.get(), *info_, ingest_.get());
+    }
+    publish(frame, color->header);
+    completeFrame(color->header.stamp);
+  } catch (const std::invalid_argument& error) {
+    ++refused_;
+    monitor_->refused(error.what());
+    warn(error.what());
+  }
+}
+
+bool CameraIngestNode::anySubscriber() const {
+  for (const ros::Publisher* publisher : {&color_, &info_publisher_, &depth_, &points_, &timing_}) {
+    if (publisher->getNumSubscribers() > 0) return true;
+  }
+  return false;
+}
+
+void CameraIngestNode::publish(const RgbdFrame& frame, const std_msgs::Header& header) {
+  if (info_publisher_.getNumSubscribers() > 0) {
+    const auto info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(frame.camera));
+    info->header = header;
+    info_publisher_.publish(info);
+  }
+  if (color_.getNumSubscribers() > 0) color_.publish(toMessage(frame.color, header));
+  if (depth_.getNumSubscribers() > 0) depth_.publish(toMessage(frame.depth, header));
+  if (points_.getNumSubscribers() > 0) {
+    const auto stage = timer_.stage("point cloud");
+    const bool organized = config_.voxel_size_m == 0.0;
+    points_.publish(organized ? toMessage(organizedCloud(frame), frame.camera.width, header)
+                              : toMessage(voxelCloud(frame, config_.voxel_size_m), 0, header));
+  }
+  const std::vector<StageTime> stages = timer_.take();
+  if (timing_.getNumSubscribers() > 0) {
+    const auto timing =
+        boost::make_shared<softbody_msgs::StageTiming>(timingMessage("camera_ingest", stages));
+    timing->header = header;
+    timing_.publish(timing);
+  }
+}
+
+void CameraIngestNode::completeFrame(const ros::Time& stamp) {
+  ++frames_;
+  last_frame_ = ros::Time::now();
+  latency_s_ = (last_frame_ - stamp).toSec();
+  monitor_->completed();
+}
+
+}  // namespace softbody

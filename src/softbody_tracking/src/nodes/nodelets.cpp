@@ -1,0 +1,16 @@
+#include "softbody_common/node_nodelet.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "nodes/camera_ingest_node.h"
+#include "nodes/feature_tracker_node.h"
+
+namespace softbody {
+
+class CameraIngestNodelet : public NodeNodelet<CameraIngestNode> {};
+class FeatureTrackerNodelet : public NodeNodelet<FeatureTrackerNode> {};
+
+}  // namespace softbody
+
+PLUGINLIB_EXPORT_CLASS(softbody::CameraIngestNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(softbody::FeatureTrackerNodelet, nodelet::Nodelet)

@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include "softbody_common/rigid_fit.h"
+#include "softbody_tracking/body_tracker.h"
+#include "synthetic_scene.h"
+
+namespace softbody {
+namespace {
+
+constexpr Nanoseconds kFrame = 33'333'333;
+
+/// Drives a tracker with rendered frames; the "simulator" answers every frame with the truth.
+class TrackedBox {
+ public:
+  explicit TrackedBox(const TrackerConfig& config = TrackerConfig()) : tracker_(config) {
+    box_.volume.has_initial_pose = true;
+    box_.volume.initial_pose = Eigen::Translation3d(0.01, -0.008, 0.01) * boxPose() *
+                               Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ());
+    tracker_.setTopologies(box_.volume, box_.surface);
+  }
+
+  const BoxBody& box() const { return box_; }
+  BodyTracker& tracker() { return tracker_; }
+  const RgbdFrame& frame() const { return frame_; }
+
+  TrackingResult show(const Points& vertices) {
+    return show(vertices, [](RgbdFrame*) {});
+  }
+
+  template <typename Edit>
+  TrackingResult show(const Points& vertices, Edit edit) {
+    stamp_ += kFrame;
+    frame_ = renderFrame(box_, vertices, stamp_);
+    edit(&frame_);
+    StageTimer timer;
+    const TrackingResult result = tracker_.track(frame_, has_state_ ? &state_ : nullptr, &timer);
+    if (result.has_targets) {
+      state_ = {0, stamp_, vertices, {}};
+      has_state_ = true;
+    }
+    return result;
+  }
+
+  /// Whether it tracks again within so many frames.
+  bool tracksWithin(int frames, const Points& vertices) {
+    for (int i = 0; i < frames; ++i) {
+      if (show(vertices).status.state == TrackingState::kTracking) return true;
+    }
+    return false;
+  }
+
+  /// Largest distance of the targets from where their material points truly are, along their normals if they
+  /// have one.
+  double worstTarget(const TrackingResult& result, const Points& vertices, TargetKind kind) const {
+    double worst = 0.0;
+    for (const Target& target : result.targets.targets) {
+      if (target.kind != kind) continue;
+      const Eigen::Vector3d d = target.position - positionOf(target.place, vertices, box_.volume.tets);
+      worst = std::max(worst, target.normal.isZero() ? d.norm() : std::abs(target.normal.dot(d)));
+    }
+    return worst;
+  }
+
+ private:
+  BoxBody box_ = makeBox();
+  BodyTracker tracker_;
+  RgbdFrame frame_;
+  MeshState state_;
+  bool has_state_ = false;
+  Nanoseconds stamp_ = 1'000'000'000;
+};
+
+Points posedBox(const BoxBody& box, double shift = 0.0, double turn = 0.0) {
+  return transformed(box.volume.rest_vertices,
+                     Eigen::Translation3d(shift, 0.5 * shift, shift) * boxPose() *
+                         Eigen::AngleAxisd(turn, Eigen::Vector3d(0.3, 1.0, 0.2).normalized()));
+}
+
+TEST(BodyTracker, WaitsForTopologies) {
+  BodyTracker tracker{TrackerConfig()};
+  StageTimer timer;
+  const BoxBody box = makeBox();
+  const TrackingResult result = tracker.track(renderFrame(box, posedBox(box), 1), nullptr, &timer);
+  EXPECT_FALSE(result.has_targets);
+  EXPECT_EQ(result.status.state, TrackingState::kInitializing);
+  EXPECT_FALSE(result.status.reason.empty());
+}
+
+TEST(BodyTracker, RegistersAndAsksForAResetUntilTheSimulatorAnswers) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  const TrackingResult first = tracked.show(rest);
+  ASSERT_TRUE(first.has_targets);
+  EXPECT_TRUE(first.targets.reset);
+  EXPECT_LT((transformed(tracked.box().volume.rest_vertices, first.targets.body_pose) - rest)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.002);
+  EXPECT_FALSE(tracked.show(rest).targets.reset);
+}
+
+TEST(BodyTracker, TargetsLieWhereTheBodyIs) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 1; i <= 10; ++i) {
+    const Points truth = posedBox(tracked.box(), 0.002 * i, 0.01 * i);
+    const TrackingResult result = tracked.show(truth);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    EXPECT_GT(result.targets.targets.size(), 500u);
+    EXPECT_GT(result.status.features_tracked, 100u);
+    EXPECT_GT(result.status.inlier_ratio, 0.8);
+    EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.002);
+    EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kFeature), 0.009);
+  }
+}
+
+TEST(BodyTracker, AnOccluderMakesNoTargets) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  const cv::Rect hand(300, 200, 100, 80);
+  const TrackingResult result = tracked.show(rest, [&](RgbdFrame* frame) {
+    frame->depth(hand) -= 0.012f;
+    frame->color(hand).setTo(cv::Vec3b(250, 20, 20));
+  });
+  for (const Target& target : result.targets.targets) {
+    const Eigen::Vector2d pixel = tracked.frame().camera.project(target.position);
+    const bool covered = pixel.x() > hand.x + 4 && pixel.x() < hand.br().x - 4 && pixel.y() > hand.y + 4 &&
+                         pixel.y() < hand.br().y - 4;
+    EXPECT_FALSE(covered) << "target at " << pixel.transpose() << " lies on the hand";
+  }
+}
+
+TEST(BodyTracker, SaysThatTheBodyIsGoneAndFindsItAgain) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  for (int i = 0; i < 12; ++i) {
+    const TrackingResult gone = tracked.show(rest, [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+    EXPECT_NE(gone.status.state, TrackingState::kTracking);
+    EXPECT_FALSE(gone.status.reason.empty());
+  }
+  EXPECT_TRUE(tracked.tracksWithin(15, rest));
+}
+
+TEST(BodyTracker, SurvivesFramesWithoutAnyMeasurement) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(rest, [](RgbdFrame* frame) {
+      frame->depth.setTo(0.0f);
+      frame->color.setTo(cv::Vec3b());
+    });
+  }
+  EXPECT_TRUE(tracked.tracksWithin(15, rest));
+}
+
+TEST(BodyTracker, KnnModeMovesVertices) {
+  TrackerConfig config;
+  config.knn_targets = true;
+  TrackedBox tracked(config);
+  tracked.show(posedBox(tracked.box()));
+  const Points truth = posedBox(tracked.box(), 0.005, 0.05);
+  const TrackingResult result = tracked.show(truth);
+  ASSERT_FALSE(result.targets.targets.empty());
+  for (const Target& target : result.targets.targets) EXPECT_EQ(target.kind, TargetKind::kVertex);
+  EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kVertex), 0.006);
+}
+
+}  // namespace
+}  // namespace softbody
