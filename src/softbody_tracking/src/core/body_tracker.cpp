@@ -22,6 +22,7 @@ constexpr double kLearnTolerance = 0.008;   // [m], depth agrees well enough to 
 constexpr int kFewestAssociations = 12;
 constexpr double kDegradedShare = 0.3;  // of the visible surface that must be explained
 constexpr int kLostFramesBeforeRecovery = 10;
+constexpr int kFramesBetweenRegistrations = 10;  // it takes about a second
 
 std::vector<Association> inliers(const std::vector<FeatureMatch>& matches) {
   std::vector<Association> result;
@@ -53,7 +54,7 @@ struct BodyTracker::Implementation {
   std::vector<Association> all(const Observation& seen) const;
   std::vector<TrackedFeature> trackedFeatures(const Observation& seen) const;
   TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations);
-  TrackingStatus waiting(const std::string& reason) const;
+  TrackingResult waiting(const std::string& reason) const;
   void reset();
 
   TrackerConfig config;
@@ -71,6 +72,7 @@ struct BodyTracker::Implementation {
   Nanoseconds placed_since = 0;  ///< stamp of the frame that placed the body; older states do not count
   Nanoseconds last_stamp = 0;
   int lost_frames = 0;
+  int frames_to_registration = 0;
 };
 
 BodyTracker::BodyTracker(const TrackerConfig& config)
@@ -93,18 +95,21 @@ void BodyTracker::Implementation::reset() {
   registered = recovering = false;
   if (surface != nullptr) body_pose = surface->volume().initial_pose;
   last_stamp = 0;
-  lost_frames = 0;
+  lost_frames = frames_to_registration = 0;
   map.reset();
   knn.reset();
   colors.reset();
 }
 
 bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* timer) {
+  if (frames_to_registration-- > 0) return false;
+  frames_to_registration = kFramesBetweenRegistrations;
   const auto scope = timer->stage("Model Registration", true);
   const RegistrationResult found = registerBody(frame, rest_surface, body_pose, config.registration);
   if (found.cost > config.registration.max_cost) return false;
   body_pose = found.pose;
   registered = true;
+  frames_to_registration = 0;
   placed_since = frame.stamp;
   return true;
 }
@@ -185,11 +190,15 @@ std::vector<TrackedFeature> BodyTracker::Implementation::trackedFeatures(const O
   return result;
 }
 
-TrackingStatus BodyTracker::Implementation::waiting(const std::string& reason) const {
-  TrackingStatus status;
-  status.state = recovering ? TrackingState::kRecovering : TrackingState::kInitializing;
-  status.reason = reason;
-  return status;
+TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) const {
+  TrackingResult result;
+  result.status.state = recovering ? TrackingState::kRecovering : TrackingState::kInitializing;
+  result.status.reason = reason;
+  // A body that was lost is simulated on without targets.
+  result.has_targets = recovering;
+  result.targets.body_pose = body_pose;
+  if (surface != nullptr) result.targets.revision = surface->volume().revision;
+  return result;
 }
 
 TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
@@ -225,27 +234,21 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
 
 TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
   Implementation& self = *implementation_;
-  TrackingResult result;
-  if (!ready()) {
-    result.status = self.waiting("waiting for the topologies of simulator and surface");
-    return result;
-  }
+  if (!ready()) return self.waiting("waiting for the topologies of simulator and surface");
   if (frame.stamp < self.last_stamp) self.reset();
   self.last_stamp = frame.stamp;
   if (self.lost_frames >= kLostFramesBeforeRecovery) {
     self.registered = false;
     self.recovering = true;
+    self.lost_frames = 0;
   }
   const bool first = !self.registered;
   if (first && !self.surface->volume().has_initial_pose) {
-    result.status = self.waiting("no initial pose: give object.initial_pose in the object's YAML file");
-    return result;
+    return self.waiting("no initial pose: give object.initial_pose in the object's YAML file");
   }
-  if (first && !self.start(frame, timer)) {
-    result.status = self.waiting("the body was not found near its rough pose");
-    return result;
-  }
+  if (first && !self.start(frame, timer)) return self.waiting("the body was not found near its rough pose");
 
+  TrackingResult result;
   const auto scope = timer->stage("Feature-Point Tracking", first);
   const bool placed = !first && volume != nullptr && volume->observed >= self.placed_since;
   const Implementation::Observation seen =

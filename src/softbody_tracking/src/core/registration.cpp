@@ -16,6 +16,8 @@ namespace {
 constexpr double kUnmeasuredCost = 0.3;
 constexpr double kNearerCost =
     0.7;  // less than free space: an occluder is possible, seeing through a body is not
+constexpr double kFewestMeasured = 0.25;  // of the covered pixels; with fewer a pose cannot be judged
+constexpr double kImprovement = 1e-6;     // of the cost; less is rounding
 constexpr int kIcpIterations = 15;
 constexpr std::size_t kBestStarts = 4;
 
@@ -65,15 +67,16 @@ int continuingOutlinePixels(const RgbdFrame& frame, const RasterImage& image, do
 
 double renderedCost(const RgbdFrame& frame, const RasterImage& image, double scale) {
   double sum = 0.0;
-  int covered = 0;
+  int covered = 0, measured = 0;
   for (int v = image.region.y; v < image.region.br().y; ++v) {
     for (int u = image.region.x; u < image.region.br().x; ++u) {
       if (image.triangle(v, u) < 0) continue;
       ++covered;
+      measured += frame.depth(v, u) > 0.0f ? 1 : 0;
       sum += pixelCost(frame.depth(v, u), image.depth(v, u), scale);
     }
   }
-  if (covered == 0) return 1.0;
+  if (measured <= kFewestMeasured * covered) return 1.0;
   return (sum + 0.5 * continuingOutlinePixels(frame, image, scale)) / covered;
 }
 
@@ -118,7 +121,7 @@ class PoseSearch {
           (axis < 3 ? turn[axis] : shift[axis - 3]) = sign * (axis < 3 ? turn_step : shift_step);
           const Eigen::Isometry3d pose = moved(best.pose, turn, shift);
           const double pose_cost = cost(pose);
-          if (pose_cost < best.cost) {
+          if (pose_cost < best.cost - kImprovement) {
             best = {pose, pose_cost};
             improved = true;
             break;

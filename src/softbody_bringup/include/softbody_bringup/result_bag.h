@@ -1,0 +1,44 @@
+#pragma once
+
+#include <rosbag/bag.h>
+#include <std_msgs/Header.h>
+
+#include <filesystem>
+#include <string>
+
+#include "softbody_bringup/pipeline.h"
+
+namespace softbody {
+
+/// Writes what the graph would publish into a bag (lz4, record time = header stamp, so that the same input
+/// gives the same bytes). The file appears under its name when finish() is called; without that an earlier
+/// file stays as it was.
+class ResultBag {
+ public:
+  /// @param topic_namespace of the output topics, e.g. "/softbody". @param with_timing wall-clock rows too.
+  /// @throw rosbag::BagException if the file cannot be written.
+  ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
+            bool with_timing);
+  ~ResultBag();
+  ResultBag(const ResultBag&) = delete;
+  ResultBag& operator=(const ResultBag&) = delete;
+
+  /// Both topologies, latched; to be written at the start and again every second.
+  void writeTopologies(const Pipeline& pipeline, const ros::Time& stamp);
+  /// One frame. @param header of the colour image.
+  void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
+  void finish();
+
+ private:
+  std::string topic(const char* name) const { return namespace_ + "/" + name; }
+  template <typename Message>
+  void write(const std::string& topic, Message message, const std_msgs::Header& header);
+  void writeTransform(const Eigen::Isometry3d& body_pose, const std_msgs::Header& header);
+
+  std::filesystem::path output_, temporary_;
+  std::string namespace_, body_frame_;
+  bool with_timing_;
+  rosbag::Bag bag_;
+};
+
+}  // namespace softbody

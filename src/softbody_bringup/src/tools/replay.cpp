@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <opencv2/core/utility.hpp>
+
+#include "softbody_bringup/bag_frames.h"
+#include "softbody_bringup/pipeline.h"
+#include "softbody_bringup/result_bag.h"
+
+namespace {
+
+struct Options {
+  std::string input, object, output, parameters;
+  std::string camera = "/camera", topic_namespace = "/softbody", body_frame = "softbody";
+  bool timing = false;
+};
+
+/// Parameters of every node, from one file with a section a node, as launch files take it.
+struct GraphConfig {
+  softbody::CameraIngestConfig ingest;
+  softbody::TrackerConfig tracker;
+  softbody::SimulatorConfig simulator;
+};
+
+/// Reads one section; says which of its keys nobody knows.
+template <typename Reader>
+auto readSection(const YAML::Node& file, const std::string& name, Reader reader) {
+  softbody::Parameters parameters(file[name], name + "/");
+  const auto config = reader(parameters);
+  for (const std::string& key : parameters.unknown())
+    fmt::print(stderr, "replay: unknown parameter {} is ignored\n", key);
+  return config;
+}
+
+GraphConfig readGraphConfig(const std::string& path) {
+  const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : YAML::LoadFile(path);
+  return {readSection(file, "camera_ingest", softbody::readCameraIngestConfig),
+          readSection(file, "feature_tracker", softbody::readTrackerConfig),
+          readSection(file, "simulator", softbody::readSimulatorConfig)};
+}
+
+/// What the summary counts.
+struct Tally {
+  int states = 0;
+  std::map<softbody::TrackingState, int> by_state;
+  double milliseconds = 0.0;
+};
+
+void showProgress(double share) {
+  static int shown = -1;
+  const int percent = static_cast<int>(100.0 * share);
+  if (percent == shown) return;
+  shown = percent;
+  fmt::print(stderr, "\rreplay: {:3d} %", percent);
+  if (percent >= 100) fmt::print(stderr, "\n");
+}
+
+void printSummary(const softbody::BagFramesReport& report, const Tally& tally, const std::string& output) {
+  using softbody::TrackingState;
+  const auto count = [&tally](TrackingState state) {
+    const auto found = tally.by_state.find(state);
+    return found == tally.by_state.end() ? 0 : found->second;
+  };
+  fmt::print("frames {}, with a surface {}, without depth {}, unusable {}\n", report.frames, tally.states,
+             report.without_depth, report.unusable);
+  fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
+             count(TrackingState::kTracking), count(TrackingState::kDegraded), count(TrackingState::kLost),
+             count(TrackingState::kRecovering), count(TrackingState::kInitializing));
+  if (report.unusable > 0) fmt::print("last unusable frame: {}\n", report.last_error);
+  fmt::print(stderr, "replay: {:.1f} ms a frame; wrote {}\n", tally.milliseconds / std::max(1, report.frames),
+             output);
+}
+
+void replay(const Options& options) {
+  const GraphConfig config = readGraphConfig(options.parameters);
+  const softbody::ObjectModel model =
+      softbody::buildObjectModel(softbody::loadObjectDescription(options.object));
+  for (const std::string& warning : model.warnings)
+    fmt::print(stderr, "replay: {}: {}\n", options.object, warning);
+  rosbag::Bag input(options.input, rosbag::bagmode::Read);
+  softbody::Pipeline pipeline(model, config.tracker, config.simulator);
+  softbody::CameraIngest ingest(config.ingest);
+  softbody::ResultBag output(options.output, options.topic_namespace, options.body_frame, options.timing);
+
+  Tally tally;
+  ros::Time topologies_written;
+  const auto use = [&](const softbody::RgbdFrame& frame, const std_msgs::Header& header, double progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const softbody::FrameOutput result = pipeline.process(frame);
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    tally.milliseconds += elapsed.count();
+    tally.states += result.surface ? 1 : 0;
+    ++tally.by_state[result.tracking.status.state];
+    const bool due =
+        header.stamp < topologies_written || header.stamp - topologies_written >= ros::Duration(1.0);
+    if (topologies_written.isZero() || due) {
+      output.writeTopologies(pipeline, header.stamp);
+      topologies_written = header.stamp;
+    }
+    output.writeFrame(result, header);
+    showProgress(progress);
+  };
+  softbody::BagFramesConfig frames;
+  frames.camera = options.camera;
+  const softbody::BagFramesReport report = softbody::readBagFrames(input, frames, &ingest, use);
+  if (tally.by_state.empty()) {
+    throw std::runtime_error(fmt::format("{} holds no usable frame{}{}", options.input,
+                                         report.last_error.empty() ? "" : ": ", report.last_error));
+  }
+  output.finish();
+  printSummary(report, tally, options.output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "Runs the graph's cores over a bag without a master: every frame, in order, as fast as it goes");
+  app.add_option("input", options.input, "bag with the camera topics")->required()->check(CLI::ExistingFile);
+  app.add_option("--object", options.object, "object YAML")->required()->check(CLI::ExistingFile);
+  app.add_option("--output", options.output, "bag to write")->required();
+  app.add_option("--parameters", options.parameters, "YAML with a section of parameters for each node")
+      ->check(CLI::ExistingFile);
+  app.add_option("--camera", options.camera, "namespace of the camera topics", true);
+  app.add_option("--namespace", options.topic_namespace, "namespace of the output topics", true);
+  app.add_flag("--timing", options.timing,
+               "write wall-clock stage times too (then the output differs from run to run)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  // One thread: the order of floating-point sums must not depend on scheduling.
+  cv::setNumThreads(1);
+  try {
+    replay(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "replay: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
