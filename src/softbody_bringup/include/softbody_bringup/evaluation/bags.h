@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "softbody_common/pinhole.h"
+#include "softbody_common/types.h"
+
+namespace softbody::evaluation {
+
+/// A deforming surface out of a bag.
+struct SurfaceRecord {
+  std::string frame_id;                              ///< of the states
+  std::map<std::uint32_t, MeshTopology> topologies;  ///< by revision
+  std::map<Nanoseconds, MeshState> states;           ///< by stamp
+};
+
+/// @throw std::invalid_argument with path and topic if a topic is missing or a state has no topology.
+SurfaceRecord readSurface(const std::string& path, const std::string& topology_topic,
+                          const std::string& state_topic);
+
+/// A colour image and its depth, without distortion.
+struct RecordedFrame {
+  Nanoseconds stamp = 0;  ///< of the colour image
+  std::string frame_id;
+  Pinhole camera;
+  cv::Mat3b color;  ///< b, g, r
+  cv::Mat1f depth;  ///< registered to colour [m]; 0: none. Empty where no depth image came
+};
+
+/// Calls `use` for every colour image in order. @param camera namespace of the camera's topics, e.g.
+/// "/camera".
+/// @throw std::invalid_argument with path and topic if a topic is missing or an image cannot be used.
+void readRecording(const std::string& path, const std::string& camera,
+                   const std::function<void(const RecordedFrame&)>& use);
+
+/// Whether the bag holds the camera's colour and depth.
+bool hasRecording(const std::string& path, const std::string& camera);
+
+}  // namespace softbody::evaluation

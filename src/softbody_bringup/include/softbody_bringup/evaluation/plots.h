@@ -1,0 +1,26 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "softbody_common/pinhole.h"
+#include "softbody_common/types.h"
+
+namespace softbody::evaluation {
+
+/// A line plot with axes from zero. @param x increasing.
+cv::Mat3b linePlot(const std::string& title, const std::string& x_label, const std::vector<double>& x,
+                   const std::vector<double>& y);
+
+/// A histogram from zero to the 99.5th percentile; what is beyond falls into the last bin.
+cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values);
+
+/// Draws the edges of the triangles that face the camera.
+void drawWireframe(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
+                   cv::Mat3b* image);
+
+/// Pictures of one size side by side, `columns` a row.
+cv::Mat3b contactSheet(const std::vector<cv::Mat3b>& pictures, int columns);
+
+}  // namespace softbody::evaluation

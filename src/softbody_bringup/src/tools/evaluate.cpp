@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "softbody_bringup/evaluation/evaluator.h"
+
+int main(int argc, char** argv) {
+  softbody::evaluation::EvaluatorOptions options;
+  CLI::App app(
+      "Measures a tracking result against the truth, or against the depth of the recording it was made from");
+  app.add_option("result", options.result, "bag with the tracker's output")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--truth", options.truth, "bag with /ground_truth/surface/...")->check(CLI::ExistingFile);
+  app.add_option("--recording", options.recording,
+                 "bag with the camera's topics; default: the truth, if it has them")
+      ->check(CLI::ExistingFile);
+  app.add_option("--report", options.report_folder, "folder for report.json and pictures");
+  app.add_option("--namespace", options.result_namespace, "of the result's topics")->capture_default_str();
+  app.add_option("--camera", options.camera, "namespace of the recording's topics")->capture_default_str();
+  app.add_option("--occluder", options.occluder_m, "what is nearer than the surface by more hides it [m]")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  app.add_option("--window", options.window, "frames a row of the depth residual's table")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    const softbody::evaluation::Report report = softbody::evaluation::evaluate(options);
+    fmt::print(stderr, "{}", toText(report));
+    fmt::print("{}\n", toJson(report).dump(2));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "evaluate: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
