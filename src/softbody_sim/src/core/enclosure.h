@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// A point outside of a tet mesh and the nearest place on the mesh's boundary.
+struct OutsidePoint {
+  Eigen::Index point = 0;
+  int triangle = -1;  ///< of the boundary
+  Eigen::Vector3d on_boundary = Eigen::Vector3d::Zero();
+  double distance = 0.0;  ///< [m]
+};
+
+/// The points that lie outside of the tets by more than 1e-9 of the mesh's size.
+/// @param boundary of the tets.
+std::vector<OutsidePoint> pointsOutside(const Points& points, const TetMesh& mesh, const Triangles& boundary);
+
+/// Largest distance, 0 for none [m].
+double largestDistance(const std::vector<OutsidePoint>& outside);
+
+/// Pushes boundary vertices outward until the tets enclose all points, as far as no tet collapses.
+/// @return whether all points are enclosed.
+bool growToEnclose(const Points& points, TetMesh* mesh);
+
+}  // namespace softbody

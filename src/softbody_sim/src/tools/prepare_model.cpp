@@ -1,0 +1,36 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "model_folder.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Makes a ready object folder of a surface mesh: visual mesh, cage, tet mesh, object.yaml and a "
+      "report."};
+  std::string mesh, output, unit = "m";
+  softbody::VolumeSettings settings;
+  settings.use_cache = false;
+  app.add_option("MESH", mesh, "OBJ, PLY, STL or OFF")->required();
+  app.add_option("--output", output, "folder to write")->required();
+  app.add_option("--unit", unit, "unit of the mesh")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
+      ->capture_default_str();
+  app.add_option("--cage-vertices", settings.cage_vertices, "about as many vertices has the cage")
+      ->check(CLI::Range(20, 20000))
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    softbody::prepareModel(mesh, unit, output, settings, std::cerr);
+  } catch (const std::exception& error) {
+    std::cerr << "prepare_model: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
