@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace softbody {
 namespace {
+
+constexpr double kUnitTolerance = 1e-3;  // numbers went through float
 
 geometry_msgs::Point32 toPoint32(const Eigen::Vector3d& p) {
   geometry_msgs::Point32 message;
@@ -95,7 +98,7 @@ Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& message) {
   const Eigen::Quaterniond q(message.orientation.w, message.orientation.x, message.orientation.y,
                              message.orientation.z);
   const Eigen::Vector3d t(message.position.x, message.position.y, message.position.z);
-  if (!t.allFinite() || !(std::abs(q.norm() - 1.0) < 1e-3)) {
+  if (!t.allFinite() || !(std::abs(q.norm() - 1.0) < kUnitTolerance)) {
     throw std::invalid_argument(
         fmt::format("pose ({} {} {}; {} {} {} {}): not finite, or the quaternion is not of unit length",
                     t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()));
@@ -180,6 +183,12 @@ MeshState fromMessage(const softbody_msgs::MeshState& message) {
   state.vertices = fromPoint32s(message.vertices, "vertices");
   state.confidence = message.confidence;
   requireSize(state.confidence.size(), message.vertices.size(), "confidence");
+  for (std::size_t i = 0; i < state.confidence.size(); ++i) {
+    if (!(state.confidence[i] >= 0.0f && state.confidence[i] <= 1.0f)) {
+      throw std::invalid_argument(
+          fmt::format("confidence[{}] is {}; allowed: 0 to 1", i, state.confidence[i]));
+    }
+  }
   return state;
 }
 
@@ -210,6 +219,12 @@ TargetSet fromMessage(const softbody_msgs::Targets& message) {
   targets.targets.reserve(message.targets.size());
   for (std::size_t i = 0; i < message.targets.size(); ++i) {
     const softbody_msgs::Target& in = message.targets[i];
+    if (in.kind > softbody_msgs::Target::MANUAL) {
+      throw std::invalid_argument(fmt::format("targets[{}]: kind {} is unknown", i, in.kind));
+    }
+    if (in.tet > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) {
+      throw std::invalid_argument(fmt::format("targets[{}]: tet {} is out of range", i, in.tet));
+    }
     Target target;
     target.kind = static_cast<TargetKind>(in.kind);
     target.place.tet = static_cast<int>(in.tet);
@@ -221,6 +236,14 @@ TargetSet fromMessage(const softbody_msgs::Targets& message) {
                         target.normal.allFinite() && std::isfinite(target.weight);
     if (!finite || target.weight <= 0.0) {
       throw std::invalid_argument(fmt::format("targets[{}]: not finite, or its weight is not above 0", i));
+    }
+    if (std::abs(target.place.barycentric.sum() - 1.0) > kUnitTolerance) {
+      throw std::invalid_argument(fmt::format("targets[{}]: its barycentric coordinates do not sum to 1", i));
+    }
+    const double length = target.normal.norm();
+    if (length != 0.0 && std::abs(length - 1.0) > kUnitTolerance) {
+      throw std::invalid_argument(
+          fmt::format("targets[{}]: its normal is neither zero nor of unit length", i));
     }
     targets.targets.push_back(target);
   }
@@ -260,7 +283,14 @@ Pinhole pinholeFromMessage(const sensor_msgs::CameraInfo& info) {
   camera.fy = has_projection ? info.P[5] : info.K[4];
   camera.cx = has_projection ? info.P[2] : info.K[2];
   camera.cy = has_projection ? info.P[6] : info.K[5];
-  if (!(camera.fx > 0.0 && camera.fy > 0.0)) {
+  if (camera.width <= 0 || camera.height <= 0) {
+    throw std::invalid_argument(fmt::format("camera_info: the image size is {}x{}", info.width, info.height));
+  }
+  if (!std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
+    throw std::invalid_argument(
+        fmt::format("camera_info: the centre ({}, {}) is not finite", camera.cx, camera.cy));
+  }
+  if (!(camera.fx > 0.0 && camera.fy > 0.0 && std::isfinite(camera.fx * camera.fy))) {
     throw std::invalid_argument(
         fmt::format("camera_info: focal lengths fx {} and fy {} must be above 0 (is the camera calibrated?)",
                     camera.fx, camera.fy));

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "softbody_common/tet_geometry.h"
 
@@ -12,8 +13,8 @@ namespace softbody {
 namespace {
 
 /// Nearest point of a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
-Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                  const Eigen::Vector3d& c) {
+Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0.0 && d2 <= 0.0) return a;
@@ -39,7 +40,8 @@ double squaredDistanceToTet(const Eigen::Vector3d& p, const Points& vertices, co
   for (int k = 0; k < 4; ++k) corner[k] = vertices.row(tets(t, k));
   double best = std::numeric_limits<double>::infinity();
   for (const auto& face : kFaces) {
-    best = std::min(best, (nearestOnTriangle(p, corner[face[0]], corner[face[1]], corner[face[2]]) - p).squaredNorm());
+    best = std::min(
+        best, (nearestOnTriangle(p, corner[face[0]], corner[face[1]], corner[face[2]]) - p).squaredNorm());
   }
   return best;
 }
@@ -48,11 +50,18 @@ double squaredDistanceToTet(const Eigen::Vector3d& p, const Points& vertices, co
 
 TetLocator::TetLocator(const Points& vertices, const Tets& tets) : vertices_(vertices), tets_(tets) {
   if (tets.rows() == 0) throw std::invalid_argument("TetLocator: the mesh has no tet");
+  if (tets.minCoeff() < 0 || tets.maxCoeff() >= vertices.rows()) {
+    throw std::invalid_argument("TetLocator: a tet names a vertex that is not there");
+  }
   inverse_edges_.resize(static_cast<std::size_t>(tets.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) edges.col(k) = (vertices.row(tets(t, k + 1)) - vertices.row(tets(t, 0))).transpose();
+    for (int k = 0; k < 3; ++k)
+      edges.col(k) = (vertices.row(tets(t, k + 1)) - vertices.row(tets(t, 0))).transpose();
     inverse_edges_[t] = edges.inverse();
+    if (!inverse_edges_[t].allFinite()) {
+      throw std::invalid_argument("TetLocator: tet " + std::to_string(t) + " has no volume");
+    }
   }
   const Eigen::Vector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
   const Eigen::Vector3d extent = high - low;
@@ -80,8 +89,9 @@ TetLocator::TetLocator(const Points& vertices, const Tets& tets) : vertices_(ver
 }
 
 Eigen::Vector3i TetLocator::cellOf(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3i cell = ((point - origin_) / cell_size_).array().floor().cast<int>();
-  return cell.cwiseMax(0).cwiseMin(cells_ - Eigen::Vector3i::Ones());
+  // Clamped as numbers: far points do not fit into an int.
+  const Eigen::Array3d cell = ((point - origin_) / cell_size_).array().floor();
+  return cell.max(0.0).min((cells_.array() - 1).cast<double>()).cast<int>();
 }
 
 const std::vector<int>& TetLocator::tetsIn(const Eigen::Vector3i& cell) const {
@@ -99,15 +109,19 @@ void TetLocator::consider(const Eigen::Vector3d& point, int tet, Candidate* best
 }
 
 MaterialPoint TetLocator::locate(const Eigen::Vector3d& point) const {
+  if (!point.allFinite()) throw std::invalid_argument("TetLocator: the point is not finite");
   Candidate best{-1, std::numeric_limits<double>::infinity(), Eigen::Vector4d::Zero()};
   const Eigen::Vector3i center = cellOf(point);
   const Eigen::Vector3d clamped =
       point.cwiseMax(origin_).cwiseMin(origin_ + cell_size_ * cells_.cast<double>());
   const int reach = cells_.maxCoeff();
   for (int ring = 0; ring <= reach; ++ring) {
-    // Cells of this ring are at least (ring - 1) cells away from the clamped point, and the point no nearer than that.
+    // Cells of this ring are at least (ring - 1) cells away from the clamped point, and the point no nearer
+    // than that.
     const double ring_distance = std::max(0, ring - 1) * cell_size_;
-    if (best.tet >= 0 && ring_distance * ring_distance + (point - clamped).squaredNorm() > best.squared_distance) break;
+    if (best.tet >= 0 &&
+        ring_distance * ring_distance + (point - clamped).squaredNorm() > best.squared_distance)
+      break;
     for (int x = center.x() - ring; x <= center.x() + ring; ++x) {
       for (int y = center.y() - ring; y <= center.y() + ring; ++y) {
         for (int z = center.z() - ring; z <= center.z() + ring; ++z) {

@@ -9,11 +9,12 @@ namespace softbody {
 /// Finds the tet that contains a point, or the nearest one, by a uniform grid over the tets' bounding boxes.
 class TetLocator {
  public:
-  /// @throw std::invalid_argument if there is no tet.
+  /// @throw std::invalid_argument if there is no tet, an index is out of range or a tet has no volume.
   TetLocator(const Points& vertices, const Tets& tets);
 
-  /// The containing tet with barycentric coordinates; outside of the mesh the nearest tet, coordinates extrapolated
-  /// (they reproduce the point exactly). Ties go to the lowest tet index.
+  /// The containing tet with barycentric coordinates; outside of the mesh the nearest tet, coordinates
+  /// extrapolated (they reproduce the point exactly). Ties go to the lowest tet index.
+  /// @throw std::invalid_argument if the point is not finite.
   MaterialPoint locate(const Eigen::Vector3d& point) const;
 
  private:
