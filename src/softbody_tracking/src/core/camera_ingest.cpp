@@ -33,17 +33,16 @@ void checkImages(const cv::Mat3b& color, const cv::Mat& depth, const Pinhole& ca
 
 /// NaN fails both comparisons.
 template <typename Depth>
-cv::Mat1f metresInRange(const cv::Mat& depth, float unit_m, float min, float max) {
-  cv::Mat1f metres(depth.size());
+void metresInRange(const cv::Mat& depth, float unit_m, float min, float max, cv::Mat1f* metres) {
+  metres->create(depth.size());
   for (int v = 0; v < depth.rows; ++v) {
     const Depth* in = depth.ptr<Depth>(v);
-    float* out = metres[v];
+    float* out = (*metres)[v];
     for (int u = 0; u < depth.cols; ++u) {
       const float z = static_cast<float>(in[u]) * unit_m;
       out[u] = z >= min && z <= max ? z : 0.0f;
     }
   }
-  return metres;
 }
 
 }  // namespace
@@ -57,17 +56,33 @@ CameraIngestConfig readCameraIngestConfig(Parameters& parameters) {
 }
 
 struct CameraIngest::Implementation {
-  explicit Implementation(const CameraIngestConfig& c) : config(c) {}
+  explicit Implementation(const CameraIngestConfig& c) : config(c), filter(c.edge_jump_ratio) {}
 
-  cv::Mat1f cleanDepth(const cv::Mat& raw) const {
+  void cleanDepth(const cv::Mat& raw, cv::Mat1f* result) {
     const auto min = static_cast<float>(config.min_depth_m), max = static_cast<float>(config.max_depth_m);
-    const cv::Mat1f metres = raw.type() == CV_16UC1 ? metresInRange<std::uint16_t>(raw, 0.001f, min, max)
-                                                    : metresInRange<float>(raw, 1.0f, min, max);
-    return removeFlyingPixels(metres, config.edge_jump_ratio);
+    if (raw.type() == CV_16UC1) {
+      metresInRange<std::uint16_t>(raw, 0.001f, min, max, &metres);
+    } else {
+      metresInRange<float>(raw, 1.0f, min, max, &metres);
+    }
+    filter.apply(metres, result);
+  }
+
+  /// Frames are handed on, so their depth has memory of its own; what lies between is kept for the next one.
+  cv::Mat1f rectifiedDepth(const cv::Mat& raw) {
+    cv::Mat1f result;
+    if (rectifier.isIdentity()) {
+      cleanDepth(raw, &result);
+      return result;
+    }
+    cleanDepth(raw, &clean);
+    return rectifier.depth(clean);
   }
 
   CameraIngestConfig config;
+  FlyingPixelFilter filter;
   Rectifier rectifier;
+  cv::Mat1f metres, clean;
 };
 
 CameraIngest::CameraIngest(const CameraIngestConfig& config)
@@ -83,8 +98,8 @@ RgbdFrame CameraIngest::process(const cv::Mat3b& color, const cv::Mat& depth, co
   frame.stamp = stamp;
   frame.camera = rectified;
   frame.color = rectifier.color(color);
-  frame.depth = depth.empty() ? cv::Mat1f(cv::Mat1f::zeros(color.size()))
-                              : rectifier.depth(implementation_->cleanDepth(depth));
+  frame.depth =
+      depth.empty() ? cv::Mat1f(cv::Mat1f::zeros(color.size())) : implementation_->rectifiedDepth(depth);
   return frame;
 }
 

@@ -12,6 +12,7 @@ class Rectifier {
   /// @throw std::invalid_argument if the distortion makes no sense.
   void setCamera(const Distortion& distortion, const Pinhole& rectified);
 
+  bool isIdentity() const { return identity_; }
   /// Bilinear; black outside. The same image where there is nothing to rectify.
   cv::Mat3b color(const cv::Mat3b& raw) const;
   /// Nearest, as depths of two surfaces must not be mixed; 0 outside. z is turned into the rectified frame

@@ -4,6 +4,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <softbody_msgs/StageTiming.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <utility>
 
@@ -155,7 +156,8 @@ void CameraIngestNode::publish(const RgbdFrame& frame, const std_msgs::Header& h
 void CameraIngestNode::completeFrame(const ros::Time& stamp) {
   ++frames_;
   last_frame_ = ros::Time::now();
-  latency_s_ = (last_frame_ - stamp).toSec();
+  // A simulated clock may lag behind the stamps that it is made of.
+  latency_s_ = std::max(0.0, (last_frame_ - stamp).toSec());
   monitor_->completed();
 }
 
