@@ -14,8 +14,8 @@ struct SimulatorConfig {
   double tolerance = 1e-4;  ///< stop when no vertex moves further in an iteration [mean edge lengths]
   double target_stiffness = 20.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
   double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
-  Eigen::Vector3d gravity =
-      Eigen::Vector3d::Zero();  ///< [m/s^2]; zero: the rest shape already hangs or lies as it does
+  /// [m/s^2], in the frame of the targets; zero: the rest shape already hangs or lies as it does.
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 
 /// @throw std::invalid_argument as Parameters does.
@@ -28,8 +28,8 @@ struct StepReport {
   double last_move_m = 0.0;  ///< largest move of a vertex in the last iteration [m]
 };
 
-/// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective
-/// dynamics (Bouaziz et al. 2014) with corotated elasticity.
+/// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective dynamics
+/// (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz, Kavan 2017).
 class Simulator {
  public:
   Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config);

@@ -36,6 +36,7 @@ struct PositiveDefiniteSolver::Implementation {
     cholmod_start(&common);
     common.print = 0;
     common.supernodal = CHOLMOD_SIMPLICIAL;
+    common.final_ll = 1;  // LDL' would accept an indefinite matrix
   }
   ~Implementation() {
     for (cholmod_dense** workspace : {&B, &X, &Y, &E}) cholmod_free_dense(workspace, &common);
