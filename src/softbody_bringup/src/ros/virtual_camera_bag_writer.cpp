@@ -53,7 +53,7 @@ void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, rosbag:
 void writeAll(VirtualCamera* camera, const BagOptions& options, const std::string& path,
               const std::function<void(int)>& progress) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
-  bag.setCompression(rosbag::compression::LZ4);
+  bag.setCompression(options.small ? rosbag::compression::BZ2 : rosbag::compression::LZ4);
   const int frames_a_second = std::max(1, static_cast<int>(std::lround(options.rate_hz)));
   for (int frame = 0; frame < options.frames; ++frame) {
     const double t = frame / options.rate_hz;

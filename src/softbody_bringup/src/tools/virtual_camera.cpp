@@ -18,6 +18,7 @@ struct Arguments {
   std::string output;
   double duration_s = 0.0;
   bool noise = true;
+  bool small = false;
   std::vector<std::string> without;
 };
 
@@ -36,6 +37,7 @@ void declare(CLI::App* app, Arguments* arguments) {
       ->transform(CLI::CheckedTransformer(on_off));
   app->add_option("--without", arguments->without, "parts of the noise to switch off")
       ->check(CLI::IsMember(noiseParts()));
+  app->add_flag("--small", arguments->small, "compress by bz2: half the size, but slow");
   app->add_option("--duration", arguments->duration_s, "[s]; default: the scene's")
       ->check(CLI::Range(0.001, 36000.0));
   app->add_option("--rate", setup.rate_hz, "[Hz]")->check(CLI::Range(0.1, 1000.0))->capture_default_str();
@@ -47,9 +49,10 @@ void write(const Arguments& arguments) {
   VirtualCamera camera = makeCamera(arguments.setup);
   const double duration_s = arguments.duration_s > 0.0 ? arguments.duration_s : camera.scene().duration_s;
   const int frames = std::max(1, static_cast<int>(std::lround(duration_s * arguments.setup.rate_hz)));
-  writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz},
-           [&](int done) { fmt::print(stderr, "\rframe {} of {}", done, frames); });
-  fmt::print(stderr, "\n{}: scene {}, {} frames\n", arguments.output, arguments.setup.scene, frames);
+  writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz, arguments.small}, [&](int done) {
+    if (done % 30 == 0) fmt::print(stderr, "frame {} of {}\n", done, frames);
+  });
+  fmt::print(stderr, "{}: scene {}, {} frames\n", arguments.output, arguments.setup.scene, frames);
 }
 
 }  // namespace

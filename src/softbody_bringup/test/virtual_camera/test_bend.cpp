@@ -36,7 +36,9 @@ TEST(Bend, ReachesBothDirectionsSmoothlyWithinFiveSeconds) {
   for (int frame = 0; frame < 5000; ++frame) {
     const double t = frame / 1000.0, step = bendCurvature(t + 1e-3) - bendCurvature(t);
     EXPECT_LT(std::abs(step), 0.03) << "at " << t << " s";
-    if (t < 0.5) EXPECT_EQ(bendCurvature(t), 0.0);
+    if (t < 0.5) {
+      EXPECT_EQ(bendCurvature(t), 0.0);
+    }
     largest = std::max(largest, bendCurvature(t));
     smallest = std::min(smallest, bendCurvature(t));
   }

@@ -15,6 +15,9 @@ class BakedTexture {
   /// Appends a mesh's triangles. @param texel_m largest spacing of the texels [m].
   void add(const TriangleMesh& rest, const Texture& texture, double texel_m);
 
+  /// Spacing of a triangle's texels [m].
+  float texel(int triangle) const { return blocks_[static_cast<std::size_t>(triangle)].texel_m; }
+
   /// Colour (0..255) in a triangle, counted over all meshes.
   cv::Vec3f at(int triangle, float w1, float w2) const {
     const Block& block = blocks_[static_cast<std::size_t>(triangle)];
@@ -35,6 +38,7 @@ class BakedTexture {
   struct Block {
     std::size_t first;  ///< of its (cells + 1)^2 texels, w1 fastest
     int cells;
+    float texel_m;
   };
   std::vector<Block> blocks_;
   std::vector<cv::Vec3b> texels_;

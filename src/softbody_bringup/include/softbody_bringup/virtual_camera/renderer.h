@@ -11,7 +11,7 @@
 namespace softbody::virtual_camera {
 
 struct RenderedImage {
-  cv::Mat3b color;                ///< r, g, b; mean of 2 by 2 samples a pixel
+  cv::Mat3b color;                ///< r, g, b; anti-aliased by 2 by 2 samples a pixel
   cv::Mat1f depth;                ///< z of the nearest surface at the pixel's centre [m]; 0: nothing
   std::vector<float> visibility;  ///< per vertex of the first actor: 1 seen, 0 hidden
 };
@@ -26,7 +26,8 @@ class Renderer {
 
  private:
   void gather(const std::vector<Points>& vertices);
-  cv::Vec3f sampleColor(int row, int column) const;
+  cv::Vec3f colorAt(int triangle, double u, double v) const;
+  cv::Vec3f pixelColor(int u, int v) const;
   void shade(cv::Mat3b* color) const;
 
   Pinhole camera_;

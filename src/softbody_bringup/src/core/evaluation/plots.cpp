@@ -91,6 +91,7 @@ cv::Mat3b histogram(const std::string& title, const std::string& x_label, const 
 void drawWireframe(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
                    cv::Mat3b* image) {
   constexpr int kFractionBits = 4;
+  cv::Mat3b lines = image->clone();
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     std::vector<cv::Point> corners;
     Eigen::Vector2d pixel[3];
@@ -105,9 +106,11 @@ void drawWireframe(const Pinhole& camera, const Points& vertices, const Triangle
     const Eigen::Vector2d a = pixel[1] - pixel[0], b = pixel[2] - pixel[0];
     const bool faces_camera = a.x() * b.y() - a.y() * b.x() < 0.0;
     if (in_front && faces_camera) {
-      cv::polylines(*image, corners, true, cv::Scalar(60, 255, 60), 1, cv::LINE_AA, kFractionBits);
+      cv::polylines(lines, corners, true, cv::Scalar(60, 255, 60), 1, cv::LINE_AA, kFractionBits);
     }
   }
+  // Half transparent, so that the image can be judged below the lines.
+  cv::addWeighted(lines, 0.5, *image, 0.5, 0.0, *image);
 }
 
 cv::Mat3b contactSheet(const std::vector<cv::Mat3b>& pictures, int columns) {

@@ -13,7 +13,7 @@ void BakedTexture::add(const TriangleMesh& rest, const Texture& texture, double 
     const double length = std::max((rest.vertices.row(rest.triangles(f, 1)) - origin).norm(),
                                    (rest.vertices.row(rest.triangles(f, 2)) - origin).norm());
     const int cells = std::max(1, static_cast<int>(std::ceil(length / texel_m)));
-    blocks_.push_back({size, cells});
+    blocks_.push_back({size, cells, static_cast<float>(length / cells)});
     size += static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 1);
   }
   texels_.resize(size);

@@ -113,7 +113,7 @@ void Renderer::render(const std::vector<Points>& vertices, RenderedImage* image)
   gather(vertices);
   projected_ = projectTriangles(camera_, vertices_, triangles_);
   brightness_ = cornerBrightness(areaNormals(vertices_, triangles_), smooth_neighbors_, to_light_);
-  rasterize(camera_, projected_, kColorSamples, &color_samples_);
+  rasterize(camera_, projected_, 2, &color_samples_);
   rasterize(camera_, projected_, 1, &depth_samples_);
   shade(&image->color);
   image->depth.create(camera_.height, camera_.width);
@@ -131,16 +131,33 @@ void Renderer::gather(const std::vector<Points>& vertices) {
   }
 }
 
-cv::Vec3f Renderer::sampleColor(int row, int column) const {
-  const int f = color_samples_.triangle(row, column);
-  if (f < 0) return kBackground;
-  const ProjectedTriangle& t = projected_[static_cast<std::size_t>(f)];
-  const double u = color_samples_.pixelOf(column), v = color_samples_.pixelOf(row);
-  const float z = 1.0f / color_samples_.inverse_z(row, column);
-  const float w1 = static_cast<float>(t.weight_by_z[0](u, v)) * z,
-              w2 = static_cast<float>(t.weight_by_z[1](u, v)) * z;
-  const float* b = &brightness_[3 * static_cast<std::size_t>(f)];
-  return (b[0] + w1 * (b[1] - b[0]) + w2 * (b[2] - b[0])) * texture_.at(f, w1, w2);
+cv::Vec3f Renderer::colorAt(int triangle, double u, double v) const {
+  const ProjectedTriangle& t = projected_[static_cast<std::size_t>(triangle)];
+  const double z = 1.0 / t.inverse_z(u, v);
+  const float w1 = static_cast<float>(t.weight_by_z[0](u, v) * z),
+              w2 = static_cast<float>(t.weight_by_z[1](u, v) * z);
+  const float* b = &brightness_[3 * static_cast<std::size_t>(triangle)];
+  return (b[0] + w1 * (b[1] - b[0]) + w2 * (b[2] - b[0])) * texture_.at(triangle, w1, w2);
+}
+
+cv::Vec3f Renderer::pixelColor(int u, int v) const {
+  const VisibilityBuffer& samples = color_samples_;
+  const int* above = samples.triangle[2 * v] + 2 * u;
+  const int* below = samples.triangle[2 * v + 1] + 2 * u;
+  const int triangles[4] = {above[0], above[1], below[0], below[1]};
+  const bool uniform =
+      triangles[1] == triangles[0] && triangles[2] == triangles[0] && triangles[3] == triangles[0];
+  if (uniform && triangles[0] < 0) return kBackground;
+  // Texels that are larger than the pixel cannot alias: one sample is enough.
+  if (uniform && texture_.texel(triangles[0]) * camera_.fx * samples.inverse_z(2 * v, 2 * u) > 1.0) {
+    return colorAt(triangles[0], u, v);
+  }
+  cv::Vec3f sum(0.0f, 0.0f, 0.0f);
+  for (int i = 0; i < 4; ++i) {
+    const double sample_u = samples.pixelOf(2 * u + i % 2), sample_v = samples.pixelOf(2 * v + i / 2);
+    sum += triangles[i] < 0 ? kBackground : colorAt(triangles[i], sample_u, sample_v);
+  }
+  return 0.25f * sum;
 }
 
 void Renderer::shade(cv::Mat3b* color) const {
@@ -148,14 +165,9 @@ void Renderer::shade(cv::Mat3b* color) const {
   cv::parallel_for_(cv::Range(0, camera_.height), [&](const cv::Range& range) {
     for (int v = range.start; v < range.end; ++v) {
       for (int u = 0; u < camera_.width; ++u) {
-        cv::Vec3f sum(0.0f, 0.0f, 0.0f);
-        for (int j = 0; j < kColorSamples; ++j) {
-          for (int i = 0; i < kColorSamples; ++i)
-            sum += sampleColor(kColorSamples * v + j, kColorSamples * u + i);
-        }
-        sum *= 1.0f / (kColorSamples * kColorSamples);
-        (*color)(v, u) = cv::Vec3b(cv::saturate_cast<uchar>(sum[0]), cv::saturate_cast<uchar>(sum[1]),
-                                   cv::saturate_cast<uchar>(sum[2]));
+        const cv::Vec3f c = pixelColor(u, v);
+        (*color)(v, u) = cv::Vec3b(cv::saturate_cast<uchar>(c[0]), cv::saturate_cast<uchar>(c[1]),
+                                   cv::saturate_cast<uchar>(c[2]));
       }
     }
   });

@@ -59,7 +59,7 @@ Stage makeStage(const std::string& name, const TriangleMesh& body, std::uint64_t
   const TriangleMesh table = rectangle({-0.8, -0.3, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.8, 0.0});
   const TriangleMesh wall = rectangle({-0.8, 0.5, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.0, 0.8});
   stage.scene.actors = {{body, cellTexture(hash(seed, 1))},
-                        {table, woodTexture(hash(seed, 2)), 1.0e-3},
+                        {table, woodTexture(hash(seed, 2)), 1.6e-3},
                         {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
   return stage;
 }

@@ -1,0 +1,141 @@
+#include "softbody_bringup/evaluation/evaluator.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/MeshTopology.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "softbody_bringup/virtual_camera/bag_writer.h"
+#include "softbody_bringup/virtual_camera/camera_setup.h"
+
+namespace softbody::evaluation {
+namespace {
+
+constexpr int kFrames = 20;
+
+/// A clean recording with its truth, made once.
+const std::string& recording() {
+  static const std::string path = [] {
+    virtual_camera::CameraSetup setup;
+    setup.mesh = std::string(CONFIG_DIR) + "/sponge.obj";
+    setup.width = 160;
+    setup.height = 120;
+    setup.noise = virtual_camera::noNoise();
+    virtual_camera::VirtualCamera camera = makeCamera(setup);
+    const std::string file = testing::TempDir() + "evaluator_recording.bag";
+    writeBag(&camera, {file, kFrames, 4.0}, [](int) {});
+    return file;
+  }();
+  return path;
+}
+
+/// The truth as if it were a result, after a change. A state whose change returns false is left out.
+std::string resultFromTruth(const std::string& name,
+                            const std::function<bool(softbody_msgs::MeshState*, int)>& change) {
+  const std::string path = testing::TempDir() + name;
+  rosbag::Bag in(recording()), out(path, rosbag::bagmode::Write);
+  rosbag::View view(in, rosbag::TopicQuery(std::vector<std::string>{"/ground_truth/surface/topology",
+                                                                    "/ground_truth/surface/state"}));
+  int frame = 0;
+  for (const rosbag::MessageInstance& m : view) {
+    if (const auto topology = m.instantiate<softbody_msgs::MeshTopology>()) {
+      out.write("/softbody/surface/topology", m.getTime(), topology);
+    } else if (const auto state = m.instantiate<softbody_msgs::MeshState>()) {
+      softbody_msgs::MeshState changed = *state;
+      if (change(&changed, frame++)) out.write("/softbody/surface/state", m.getTime(), changed);
+    }
+  }
+  out.close();
+  return path;
+}
+
+bool shift(softbody_msgs::MeshState* state, float dz) {
+  for (geometry_msgs::Point32& p : state->vertices) p.z += dz;
+  return true;
+}
+
+std::string failure(const EvaluatorOptions& options) {
+  try {
+    evaluate(options);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Evaluator, ThePerfectResultHasNoErrorButTheMillimetreGrid) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("perfect.bag", [](softbody_msgs::MeshState*, int) { return true; });
+  options.truth = recording();
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(report.vertex_error->all.max, 0.0);
+  EXPECT_EQ(report.vertex_error->all.count, static_cast<std::size_t>(522 * kFrames));
+  EXPECT_LT(report.residual->residual.max, 0.51e-3);
+  EXPECT_EQ(report.residual->occluded_share, 0.0);
+  EXPECT_TRUE(report.volume.closed);
+  EXPECT_LT(std::abs(report.volume.largest_change), 0.002);
+}
+
+TEST(Evaluator, AKnownDisplacementIsTheErrorAndTheFolderHoldsTheReport) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("shifted.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.002f); });
+  options.truth = recording();
+  options.report_folder = testing::TempDir() + "evaluator_report";
+  const Report report = evaluate(options);
+  EXPECT_NEAR(report.vertex_error->all.mean, 0.002, 1e-7);
+  EXPECT_NEAR(report.vertex_error->visible.p95, 0.002, 1e-7);
+  EXPECT_NEAR(report.vertex_error->hidden.max, 0.002, 1e-7);
+  EXPECT_NEAR(toJson(report)["vertex_error"]["all"]["mean_mm"].get<double>(), 2.0, 1e-4);
+  for (const char* file :
+       {"report.json", "vertex_error.png", "depth_residual_histogram.png", "overlay.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(options.report_folder) / file)) << file;
+  }
+}
+
+TEST(Evaluator, MissingFramesAreCountedNotSkipped) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("gaps.bag", [](softbody_msgs::MeshState*, int frame) { return frame % 4 != 0; });
+  options.truth = recording();
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.expected, static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames - kFrames / 4));
+  options.truth.clear();
+  options.recording = recording();
+  EXPECT_EQ(evaluate(options).frames.answered, static_cast<std::size_t>(kFrames - kFrames / 4));
+}
+
+TEST(Evaluator, WhatDoesNotFitIsSaidInASentence) {
+  EvaluatorOptions options;
+  options.result = recording();
+  EXPECT_NE(failure(options).find("there is nothing on /softbody/surface/topology"), std::string::npos);
+
+  options.result = resultFromTruth("late.bag", [](softbody_msgs::MeshState* s, int) {
+    s->header.stamp += ros::Duration(0.001);
+    return true;
+  });
+  options.truth = recording();
+  EXPECT_NE(failure(options).find("no surface has the stamp"), std::string::npos);
+
+  options.result = resultFromTruth("world.bag", [](softbody_msgs::MeshState* s, int) {
+    s->header.frame_id = "world";
+    return true;
+  });
+  EXPECT_NE(failure(options).find("'world'"), std::string::npos);
+
+  options.result = resultFromTruth("revision.bag", [](softbody_msgs::MeshState* s, int) {
+    s->revision = 3;
+    return true;
+  });
+  EXPECT_NE(failure(options).find("revision 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace softbody::evaluation
