@@ -57,15 +57,23 @@ std::vector<ColoredPoint> voxelCloud(const RgbdFrame& frame, double voxel_size_m
   if (!(voxel_size_m > 0.0)) throw std::invalid_argument("voxelCloud: the voxel size must be above 0");
   std::unordered_map<std::uint64_t, std::size_t> index;
   std::vector<Voxel> voxels;
+  std::uint64_t last_key = 0;
+  std::size_t last = 0;
   for (int v = 0; v < frame.depth.rows; ++v) {
     for (int u = 0; u < frame.depth.cols; ++u) {
       const double z = frame.depth(v, u);
       if (z <= 0.0) continue;
       const Eigen::Vector3d p = frame.camera.unproject(u, v, z);
-      const auto [entry, is_new] = index.emplace(voxelKey(p, voxel_size_m), voxels.size());
-      if (is_new) voxels.emplace_back();
+      const std::uint64_t key = voxelKey(p, voxel_size_m);
+      // Pixels side by side mostly share their voxel.
+      if (voxels.empty() || key != last_key) {
+        const auto [entry, is_new] = index.emplace(key, voxels.size());
+        if (is_new) voxels.emplace_back();
+        last_key = key;
+        last = entry->second;
+      }
       const cv::Vec3b& bgr = frame.color(v, u);
-      Voxel& sum = voxels[entry->second];
+      Voxel& sum = voxels[last];
       sum = {sum.x + p.x(),      sum.y + p.y(),    sum.z + p.z(),   sum.blue + bgr[0],
              sum.green + bgr[1], sum.red + bgr[2], sum.pixels + 1.0};
     }
