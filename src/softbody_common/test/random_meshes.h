@@ -38,11 +38,21 @@ inline TetMesh blockOfTets(int nx, int ny, int nz, double cell) {
   return mesh;
 }
 
-/// A block whose vertices are shaken by up to `share` of a cell; 0.15 keeps every tet's volume positive.
+/// A block whose vertices are shaken by up to `share` of a cell (0.15 keeps every tet's volume positive), the
+/// corners of each tet in a random order of the same orientation.
 inline TetMesh shakenBlock(int nx, int ny, int nz, double cell, double share, std::mt19937* random) {
   TetMesh mesh = blockOfTets(nx, ny, nz, cell);
   std::uniform_real_distribution<double> shake(-share * cell, share * cell);
   for (Eigen::Index i = 0; i < mesh.vertices.size(); ++i) mesh.vertices.data()[i] += shake(*random);
+  for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+    for (int turns = static_cast<int>((*random)() % 12); turns > 0; --turns) {
+      const int first = turns % 2;  // a cycle of three corners
+      const int kept = mesh.tets(t, first);
+      mesh.tets(t, first) = mesh.tets(t, first + 1);
+      mesh.tets(t, first + 1) = mesh.tets(t, first + 2);
+      mesh.tets(t, first + 2) = kept;
+    }
+  }
   return mesh;
 }
 
