@@ -28,8 +28,9 @@ struct StepReport {
   double last_move_m = 0.0;  ///< largest move of a vertex in the last iteration [m]
 };
 
-/// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective dynamics
-/// (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz, Kavan 2017).
+/// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective
+/// dynamics (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz, Kavan
+/// 2017).
 class Simulator {
  public:
   Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config);

@@ -16,8 +16,8 @@ class VisualSurface {
 
   const MeshTopology& topology() const { return visual_; }
 
-  /// Number of visual vertices that lie outside the low-resolution surface.
-  int outsideCount() const { return static_cast<int>(outside_.size()); }
+  /// Number of visual vertices that lie outside the low-resolution surface by more than rounding.
+  int outsideCount() const;
 
   /// Visual vertices, and their confidences, for a state of the volume.
   /// @throw std::invalid_argument if the revision or the number of vertices is not the volume's.
@@ -28,6 +28,8 @@ class VisualSurface {
 
   void bindInside(const TetTopology& volume);
   void bindOutside(const TetTopology& volume);
+  void applyInside(const MeshState& volume, MeshState* state) const;
+  void applyOutside(const MeshState& volume, MeshState* state) const;
 
   MeshTopology visual_;
   std::uint32_t volume_revision_;

@@ -66,6 +66,13 @@ void VisualSurface::bindOutside(const TetTopology& volume) {
   outside_places_ = bindPoints(points, volume.rest_vertices, volume.tets);
 }
 
+int VisualSurface::outsideCount() const {
+  constexpr double kRounding = 1e-5;  // of a tet's height; single-precision coordinates are off by less
+  return static_cast<int>(
+      std::count_if(outside_places_.begin(), outside_places_.end(),
+                    [](const MaterialPoint& place) { return place.barycentric.minCoeff() < -kRounding; }));
+}
+
 MeshState VisualSurface::apply(const MeshState& volume) const {
   const auto vertex_count = static_cast<std::size_t>(volume_vertex_count_);
   if (volume.revision != volume_revision_ || volume.vertices.rows() != volume_vertex_count_ ||
@@ -80,31 +87,38 @@ MeshState VisualSurface::apply(const MeshState& volume) const {
   state.observed = volume.observed;
   state.vertices.resize(visual_.rest_vertices.rows(), 3);
   state.confidence.resize(static_cast<std::size_t>(visual_.rest_vertices.rows()));
+  applyInside(volume, &state);
+  applyOutside(volume, &state);
+  return state;
+}
 
+void VisualSurface::applyInside(const MeshState& volume, MeshState* state) const {
   // Relative to the centre: single precision then costs nothing that shows, wherever the body is.
   const Eigen::RowVector3d center = volume.vertices.colwise().mean();
-  Eigen::Matrix<float, Eigen::Dynamic, 4> values(static_cast<Eigen::Index>(surface_vertices_.size()), 4);
+  Eigen::MatrixX4f values(static_cast<Eigen::Index>(surface_vertices_.size()), 4);
   for (std::size_t k = 0; k < surface_vertices_.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     values.block<1, 3>(row, 0) = (volume.vertices.row(surface_vertices_[k]) - center).cast<float>();
     values(row, 3) = volume.confidence[surface_vertices_[k]];
   }
-  const Eigen::Matrix<float, Eigen::Dynamic, 4> interpolated = inside_weights_ * values;
+  const Eigen::MatrixX4f interpolated = inside_weights_ * values;
   for (std::size_t k = 0; k < inside_.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    state.vertices.row(inside_[k]) = interpolated.block<1, 3>(row, 0).cast<double>() + center;
-    state.confidence[inside_[k]] = std::clamp(interpolated(row, 3), 0.0f, 1.0f);
+    state->vertices.row(inside_[k]) = interpolated.block<1, 3>(row, 0).cast<double>() + center;
+    state->confidence[inside_[k]] = std::clamp(interpolated(row, 3), 0.0f, 1.0f);
   }
+}
+
+void VisualSurface::applyOutside(const MeshState& volume, MeshState* state) const {
   for (std::size_t k = 0; k < outside_.size(); ++k) {
     const MaterialPoint& place = outside_places_[k];
-    state.vertices.row(outside_[k]) = positionOf(place, volume.vertices, tets_);
     float confidence = 0.0f;
     for (int c = 0; c < 4; ++c) {
       confidence += static_cast<float>(place.barycentric[c]) * volume.confidence[tets_(place.tet, c)];
     }
-    state.confidence[outside_[k]] = std::clamp(confidence, 0.0f, 1.0f);
+    state->vertices.row(outside_[k]) = positionOf(place, volume.vertices, tets_);
+    state->confidence[outside_[k]] = std::clamp(confidence, 0.0f, 1.0f);
   }
-  return state;
 }
 
 }  // namespace softbody

@@ -12,6 +12,15 @@
 #include "softbody_sim/object_model.h"
 
 namespace softbody {
+namespace {
+
+/// Whether weights for one serve the other; headers differ each time that a topology is sent.
+bool sameMesh(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopology& b) {
+  return a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.tets == b.tets &&
+         a.surface_triangles == b.surface_triangles;
+}
+
+}  // namespace
 
 SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
   Parameters parameters = readParameters(private_node);
@@ -33,7 +42,7 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
 
 void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) {
   // Sent again every second; only another body, or another revision, needs new weights.
-  if (volume_topology_ && *volume_topology_ == *message) return;
+  if (volume_topology_ && sameMesh(*volume_topology_, *message)) return;
   try {
     bind(*message);
   } catch (const std::exception& error) {
