@@ -30,7 +30,8 @@ struct GraphConfig {
 /// Reads one section; says which of its keys nobody knows.
 template <typename Reader>
 auto readSection(const YAML::Node& file, const std::string& name, Reader reader) {
-  softbody::Parameters parameters(file[name], name + "/");
+  const YAML::Node section = file[name];
+  softbody::Parameters parameters(section.IsDefined() ? section : YAML::Node(), name + "/");
   const auto config = reader(parameters);
   for (const std::string& key : parameters.unknown())
     fmt::print(stderr, "replay: unknown parameter {} is ignored\n", key);
@@ -127,8 +128,9 @@ int main(int argc, char** argv) {
   app.add_option("--output", options.output, "bag to write")->required();
   app.add_option("--parameters", options.parameters, "YAML with a section of parameters for each node")
       ->check(CLI::ExistingFile);
-  app.add_option("--camera", options.camera, "namespace of the camera topics", true);
-  app.add_option("--namespace", options.topic_namespace, "namespace of the output topics", true);
+  app.add_option("--camera", options.camera, "namespace of the camera topics")->capture_default_str();
+  app.add_option("--namespace", options.topic_namespace, "namespace of the output topics")
+      ->capture_default_str();
   app.add_flag("--timing", options.timing,
                "write wall-clock stage times too (then the output differs from run to run)");
   try {

@@ -12,7 +12,7 @@ struct SimulatorConfig {
   bool simulate = true;     ///< false: surface vertices go where their targets are (Kang et al. 2022, Fig. 6)
   int iterations = 20;      ///< local/global iterations a step at most
   double tolerance = 1e-4;  ///< stop when no vertex moves further in an iteration [mean edge lengths]
-  double target_stiffness = 20.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
+  double target_stiffness = 10.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
   double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
   /// [m/s^2], in the frame of the targets; zero: the rest shape already hangs or lies as it does.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();

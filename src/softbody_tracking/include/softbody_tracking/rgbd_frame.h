@@ -11,8 +11,8 @@ namespace softbody {
 struct RgbdFrame {
   Nanoseconds stamp = 0;
   Pinhole camera;
-  cv::Mat3b color;   ///< BGR
-  cv::Mat1f depth;   ///< z [m]; 0: none
+  cv::Mat3b color;  ///< BGR
+  cv::Mat1f depth;  ///< z [m]; 0: none
 };
 
 }  // namespace softbody

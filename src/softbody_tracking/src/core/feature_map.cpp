@@ -14,6 +14,8 @@ constexpr float kFreeRadiusPx = 8.0f;       // around a known feature no other i
 constexpr int kNeighborhoodPx = 40;
 constexpr std::size_t kFewestNeighbors = 4;
 constexpr double kBindTolerance = 0.01;  // [m], surface and depth must agree where a feature is bound
+constexpr double kMostGrazing = 0.35;           // cosine of normal and ray where a feature is bound
+constexpr int kFewestDepths = 20;               // of the 25 pixels around a feature: fewer is a depth edge
 constexpr int kTrialFrames = 20;
 constexpr double kWorstHitRate = 0.2;
 
@@ -136,7 +138,7 @@ double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
       ++count;
     }
   }
-  return sum / count;
+  return count >= kFewestDepths ? sum / count : 0.0;
 }
 
 std::vector<FeatureMatch> FeatureMap::match(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
@@ -216,9 +218,11 @@ void FeatureMap::admit(const RgbdFrame& frame, const std::vector<Keypoint>& keyp
     const double z = featureDepth(frame.depth, keypoint.pixel);
     if (z <= 0.0 || surface.image().triangle(pixel) < 0) continue;
     if (std::abs(z - surface.image().depth(pixel)) > kBindTolerance) continue;
+    const Eigen::Vector3d ray = frame.camera.unproject(pixel.x, pixel.y, 1.0).normalized();
+    if (-surface.normal(pixel).dot(ray) < kMostGrazing) continue;
     MapFeature feature;
     feature.id = next_id_++;
-    feature.place = surface.materialPoint(pixel);
+    feature.place = surface.materialPoint(keypoint.pixel);
     feature.descriptor = keypoint.descriptor;
     feature.reference = frame.camera.unproject(keypoint.pixel.x, keypoint.pixel.y, z);
     features_.push_back(feature);

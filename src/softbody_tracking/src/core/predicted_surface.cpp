@@ -1,5 +1,7 @@
 #include "predicted_surface.h"
 
+#include <Eigen/Dense>
+
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 
@@ -14,34 +16,39 @@ void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertic
   camera_ = camera;
   volume_vertices_ = volume_vertices;
   vertices_ = applyBinding(binding_, volume_vertices, volume_.tets);
-  normals_ = vertexNormals(vertices_, surface_.triangles);
   rasterize(camera, vertices_, surface_.triangles, &image_);
 }
 
-Eigen::Vector3d PredictedSurface::corners(const cv::Point& pixel, const Points& values) const {
-  const int f = image_.triangle(pixel);
-  const cv::Vec2f b = image_.barycentric(pixel);
-  return b[0] * values.row(surface_.triangles(f, 0)) + b[1] * values.row(surface_.triangles(f, 1)) +
-         (1.0f - b[0] - b[1]) * values.row(surface_.triangles(f, 2));
+Eigen::Vector3d PredictedSurface::interpolated(int triangle, const Eigen::Vector3d& barycentric,
+                                               const Points& values) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) sum += barycentric[k] * values.row(surface_.triangles(triangle, k)).transpose();
+  return sum;
 }
 
-MaterialPoint PredictedSurface::materialPoint(const cv::Point& pixel) const {
-  const Eigen::Vector3d rest = corners(pixel, surface_.rest_vertices);
-  // One of the tets that hold the triangle's corners holds the point too, or nearly so: far cheaper than a
-  // search.
+MaterialPoint PredictedSurface::materialPoint(const cv::Point2f& pixel) const {
+  const int triangle = image_.triangle(cvRound(pixel.y), cvRound(pixel.x));
+  // The ray's multiples of the corners: solving sum_k b_k corner_k = z ray gives barycentric coordinates up to scale.
+  Eigen::Matrix3d corners;
+  for (int k = 0; k < 3; ++k) corners.col(k) = vertices_.row(surface_.triangles(triangle, k)).transpose();
+  const Eigen::Vector3d weights = corners.fullPivLu().solve(camera_.unproject(pixel.x, pixel.y, 1.0));
+  const Eigen::Vector3d rest = interpolated(triangle, weights / weights.sum(), surface_.rest_vertices);
+  // One of the tets that hold the triangle's corners holds the point too, or nearly so: far cheaper than a search.
   MaterialPoint best;
   for (int k = 0; k < 3; ++k) {
-    const int tet = binding_[surface_.triangles(image_.triangle(pixel), k)].tet;
+    const int tet = binding_[surface_.triangles(triangle, k)].tet;
     if (tet == best.tet) continue;
-    const Eigen::Vector4d barycentric =
-        barycentricCoordinates(rest, volume_.rest_vertices, volume_.tets.row(tet));
+    const Eigen::Vector4d barycentric = barycentricCoordinates(rest, volume_.rest_vertices, volume_.tets.row(tet));
     if (best.tet < 0 || barycentric.minCoeff() > best.barycentric.minCoeff()) best = {tet, barycentric};
   }
   return best;
 }
 
 Eigen::Vector3d PredictedSurface::normal(const cv::Point& pixel) const {
-  return corners(pixel, normals_).normalized();
+  const auto corner = [&](int k) -> Eigen::Vector3d {
+    return vertices_.row(surface_.triangles(image_.triangle(pixel), k));
+  };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
 }
 
 Eigen::Vector3d PredictedSurface::position(const MaterialPoint& place) const {

@@ -23,20 +23,22 @@ class PredictedSurface {
   const RasterImage& image() const { return image_; }
   const TetTopology& volume() const { return volume_; }
 
-  /// The place in the rest body of a visible pixel.
-  MaterialPoint materialPoint(const cv::Point& pixel) const;
-  /// Outward unit normal at a visible pixel, camera frame.
+  /// The place in the rest body that a ray through (u, v) meets, on the plane of the triangle at the nearest pixel, which
+  /// must be covered.
+  MaterialPoint materialPoint(const cv::Point2f& pixel) const;
+  /// Outward unit normal of the triangle at a visible pixel, camera frame. Not smoothed: near a sharp edge a mean of
+  /// both sides' normals would pull the surface off either.
   Eigen::Vector3d normal(const cv::Point& pixel) const;
   Eigen::Vector3d position(const MaterialPoint& place) const;
 
  private:
-  Eigen::Vector3d corners(const cv::Point& pixel, const Points& values) const;
+  Eigen::Vector3d interpolated(int triangle, const Eigen::Vector3d& barycentric, const Points& values) const;
 
   TetTopology volume_;
   MeshTopology surface_;
   std::vector<MaterialPoint> binding_;
   Pinhole camera_;
-  Points volume_vertices_, vertices_, normals_;
+  Points volume_vertices_, vertices_;
   RasterImage image_;
 };
 

@@ -8,7 +8,6 @@
 #include "association.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
@@ -139,7 +138,6 @@ class PoseSearch {
  private:
   std::vector<Association> associations(const Eigen::Isometry3d& pose, double gate) {
     const Points vertices = transformed(mesh_.vertices, pose);
-    const Points normals = vertexNormals(vertices, mesh_.triangles);
     rasterize(frame_.camera, vertices, mesh_.triangles, &image_);
     std::vector<Association> result;
     for (int v = image_.region.y; v < image_.region.br().y; ++v) {
@@ -150,9 +148,9 @@ class PoseSearch {
         Association a;
         a.predicted = frame_.camera.unproject(u, v, image_.depth(v, u));
         a.measured = frame_.camera.unproject(u, v, z);
-        a.normal = (normals.row(mesh_.triangles(f, 0)) + normals.row(mesh_.triangles(f, 1)) +
-                    normals.row(mesh_.triangles(f, 2)))
-                       .transpose()
+        const Eigen::Vector3d corner = vertices.row(mesh_.triangles(f, 0));
+        a.normal = (vertices.row(mesh_.triangles(f, 1)).transpose() - corner)
+                       .cross(vertices.row(mesh_.triangles(f, 2)).transpose() - corner)
                        .normalized();
         if (!a.normal.isZero()) result.push_back(a);
       }

@@ -1,0 +1,202 @@
+#include "nodes/feature_tracker_node.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+#include <softbody_msgs/StageTiming.h>
+#include <softbody_msgs/Targets.h>
+#include <softbody_msgs/TrackingStatus.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <utility>
+
+#include "softbody_common/conversions.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/ros_parameters.h"
+#include "softbody_common/topics.h"
+#include "softbody_tracking/feature_messages.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kSyncQueue = 4;
+constexpr double kTfPatience_s = 0.05;
+
+/// A target set moved to another frame.
+TargetSet transformed(TargetSet targets, const Eigen::Isometry3d& T) {
+  targets.body_pose = T * targets.body_pose;
+  for (Target& target : targets.targets) {
+    target.position = T * target.position;
+    target.normal = T.linear() * target.normal;
+  }
+  return targets;
+}
+
+}  // namespace
+
+FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
+    : handle_(handle),
+      tf_listener_(tf_buffer_),
+      synchronizer_(kSyncQueue),
+      diagnostics_(handle, private_handle) {
+  Parameters parameters = readParameters(private_handle);
+  body_frame_ = parameters.text("body_frame", "softbody");
+  output_frame_ = parameters.text("output_frame", "");
+  tracker_ = std::make_unique<BodyTracker>(readTrackerConfig(parameters));
+  warnUnknown(parameters);
+
+  features_ = handle_.advertise<sensor_msgs::PointCloud2>(topics::kFeatures, 1);
+  features_marker_ = handle_.advertise<visualization_msgs::Marker>(topics::kFeaturesMarker, 1);
+  targets_ = handle_.advertise<softbody_msgs::Targets>(topics::kTargets, 1);
+  status_ = handle_.advertise<softbody_msgs::TrackingStatus>(topics::kStatus, 1);
+  timing_ = handle_.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
+
+  volume_topology_subscriber_ =
+      handle_.subscribe(topics::kVolumeTopology, 1, &FeatureTrackerNode::onVolumeTopology, this);
+  surface_topology_subscriber_ =
+      handle_.subscribe(topics::kSurfaceTopology, 1, &FeatureTrackerNode::onSurfaceTopology, this);
+  volume_state_subscriber_ =
+      handle_.subscribe(topics::kVolumeState, 1, &FeatureTrackerNode::onVolumeState, this);
+  color_subscriber_.subscribe(handle_, topics::kRgbRect, 1);
+  depth_subscriber_.subscribe(handle_, topics::kDepthRect, 1);
+  info_subscriber_.subscribe(handle_, topics::kRgbInfo, 1);
+  synchronizer_.connectInput(color_subscriber_, depth_subscriber_, info_subscriber_);
+  synchronizer_.registerCallback(&FeatureTrackerNode::onFrame, this);
+
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("tracking",
+                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
+  diagnostics_timer_ =
+      handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+}
+
+void FeatureTrackerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) try {
+  TetTopology topology = fromMessage(*message);
+  // The topology is sent again every second; only a new one starts tracking anew.
+  const bool same = has_volume_topology_ && topology.revision == volume_topology_.revision &&
+                    topology.rest_vertices == volume_topology_.rest_vertices &&
+                    topology.tets == volume_topology_.tets;
+  if (same) return;
+  volume_topology_ = std::move(topology);
+  has_volume_topology_ = true;
+  adoptTopologies();
+} catch (const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(5.0, volume_topology_subscriber_.getTopic() << " is unusable: " << error.what());
+}
+
+void FeatureTrackerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
+  MeshTopology topology = fromMessage(*message);
+  const bool same = has_surface_topology_ && topology.revision == surface_topology_.revision &&
+                    topology.rest_vertices == surface_topology_.rest_vertices &&
+                    topology.triangles == surface_topology_.triangles;
+  if (same) return;
+  surface_topology_ = std::move(topology);
+  has_surface_topology_ = true;
+  adoptTopologies();
+} catch (const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(5.0, surface_topology_subscriber_.getTopic() << " is unusable: " << error.what());
+}
+
+void FeatureTrackerNode::adoptTopologies() {
+  const bool complete = has_volume_topology_ && has_surface_topology_ &&
+                        volume_topology_.revision == surface_topology_.revision;
+  if (complete) tracker_->setTopologies(volume_topology_, surface_topology_);
+}
+
+void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr& message) {
+  volume_state_ = message;
+}
+
+std::optional<Eigen::Isometry3d> FeatureTrackerNode::cameraPose(const std_msgs::Header& header) const try {
+  if (output_frame_.empty() || output_frame_ == header.frame_id) return Eigen::Isometry3d::Identity();
+  return tf2::transformToEigen(
+      tf_buffer_.lookupTransform(output_frame_, header.frame_id, header.stamp, ros::Duration(kTfPatience_s)));
+} catch (const tf2::TransformException& error) {
+  ROS_WARN_STREAM_THROTTLE(5.0, "no transform from " << header.frame_id << " to output_frame "
+                                                     << output_frame_ << ": " << error.what());
+  return std::nullopt;
+}
+
+std::optional<MeshState> FeatureTrackerNode::volumeInCamera(const Eigen::Isometry3d& T_output_camera) const
+    try {
+  if (!volume_state_) return std::nullopt;
+  MeshState state = fromMessage(*volume_state_);
+  if (state.vertices.rows() != volume_topology_.rest_vertices.rows()) return std::nullopt;
+  state.vertices = softbody::transformed(state.vertices, T_output_camera.inverse());
+  return state;
+} catch (const std::invalid_argument& error) {
+  ROS_ERROR_STREAM_THROTTLE(5.0, volume_state_subscriber_.getTopic() << " is unusable: " << error.what());
+  return std::nullopt;
+}
+
+void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
+                                 const sensor_msgs::ImageConstPtr& depth,
+                                 const sensor_msgs::CameraInfoConstPtr& info) try {
+  const std::optional<Eigen::Isometry3d> T_output_camera = cameraPose(color->header);
+  if (!T_output_camera) return;
+  // A bag that loops: what the simulator said of later times is void.
+  if (color->header.stamp < last_stamp_) volume_state_.reset();
+  last_stamp_ = color->header.stamp;
+
+  const auto color_image = cv_bridge::toCvShare(color, sensor_msgs::image_encodings::BGR8);
+  const auto depth_image = cv_bridge::toCvShare(depth, sensor_msgs::image_encodings::TYPE_32FC1);
+  RgbdFrame frame{toNanoseconds(color->header.stamp), pinholeFromMessage(*info), color_image->image,
+                  depth_image->image};
+  const std::optional<MeshState> volume = volumeInCamera(*T_output_camera);
+  StageTimer timer;
+  const TrackingResult result = tracker_->track(frame, volume ? &*volume : nullptr, &timer);
+  last_status_ = result.status;
+  publish(color->header, *T_output_camera, result);
+  softbody_msgs::StageTiming timing = timingMessage(ros::this_node::getName(), timer.take());
+  timing.header = color->header;
+  timing_.publish(timing);
+} catch (const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(5.0, "frame " << color->header.stamp << " cannot be tracked: " << error.what());
+}
+
+void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
+                                 const Eigen::Isometry3d& T_output_camera, const TrackingResult& result) {
+  const auto status = boost::make_shared<softbody_msgs::TrackingStatus>(toMessage(result.status));
+  status->header = camera_header;
+  status_.publish(status);
+  if (!result.has_targets) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "not tracking: " << result.status.reason);
+    return;
+  }
+  if (features_.getNumSubscribers() != 0) {
+    const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(makeFeatureCloud(result.features));
+    cloud->header = camera_header;
+    features_.publish(cloud);
+  }
+  if (features_marker_.getNumSubscribers() != 0) {
+    const auto marker = boost::make_shared<visualization_msgs::Marker>(makeFeatureMarker(result.features));
+    marker->header = camera_header;
+    features_marker_.publish(marker);
+  }
+  const auto targets =
+      boost::make_shared<softbody_msgs::Targets>(toMessage(transformed(result.targets, T_output_camera)));
+  targets->header = camera_header;
+  if (!output_frame_.empty()) targets->header.frame_id = output_frame_;
+  targets_.publish(targets);
+
+  geometry_msgs::TransformStamped body = tf2::eigenToTransform(result.targets.body_pose);
+  body.header = camera_header;
+  body.child_frame_id = body_frame_;
+  tf_broadcaster_.sendTransform(body);
+}
+
+void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  static constexpr const char* kNames[] = {"initializing", "tracking", "degraded", "lost", "recovering"};
+  const bool good = last_status_.state == TrackingState::kTracking;
+  const bool lost = last_status_.state == TrackingState::kLost;
+  status.summary(
+      good ? diagnostic_msgs::DiagnosticStatus::OK
+           : (lost ? diagnostic_msgs::DiagnosticStatus::ERROR : diagnostic_msgs::DiagnosticStatus::WARN),
+      std::string(kNames[static_cast<int>(last_status_.state)]) +
+          (last_status_.reason.empty() ? "" : ": " + last_status_.reason));
+  status.add("features tracked", last_status_.features_tracked);
+  status.add("features bound", last_status_.features_total);
+  status.add("inlier ratio", last_status_.inlier_ratio);
+  status.add("residual rms [m]", last_status_.residual_rms);
+}
+
+}  // namespace softbody

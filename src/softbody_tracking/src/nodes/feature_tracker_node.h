@@ -1,0 +1,69 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <message_filters/subscriber.h>
+#include <message_filters/time_synchronizer.h>
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/MeshTopology.h>
+#include <softbody_msgs/TetTopology.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "softbody_common/parameters.h"
+#include "softbody_tracking/body_tracker.h"
+
+namespace softbody {
+
+/// Rectified images and the simulator's last state in; targets, features, status and the body's tf out.
+class FeatureTrackerNode {
+ public:
+  /// @throw std::invalid_argument for a bad parameter.
+  FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+
+ private:
+  void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
+  void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
+  void onVolumeState(const softbody_msgs::MeshState::ConstPtr& message);
+  void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
+               const sensor_msgs::CameraInfoConstPtr& info);
+
+  void adoptTopologies();
+  /// Camera in the frame in which targets are published; nothing where tf does not know it.
+  std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header) const;
+  std::optional<MeshState> volumeInCamera(const Eigen::Isometry3d& T_output_camera) const;
+  void publish(const std_msgs::Header& camera_header, const Eigen::Isometry3d& T_output_camera,
+               const TrackingResult& result);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  ros::NodeHandle handle_;
+  std::string body_frame_, output_frame_;
+  std::unique_ptr<BodyTracker> tracker_;
+  TetTopology volume_topology_;
+  MeshTopology surface_topology_;
+  bool has_volume_topology_ = false, has_surface_topology_ = false;
+  softbody_msgs::MeshState::ConstPtr volume_state_;
+  TrackingStatus last_status_;
+  ros::Time last_stamp_;
+
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_;
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  ros::Publisher features_, features_marker_, targets_, status_, timing_;
+  ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, volume_state_subscriber_;
+  message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
+  message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
+  message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>
+      synchronizer_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Timer diagnostics_timer_;
+};
+
+}  // namespace softbody
