@@ -10,8 +10,10 @@ namespace softbody {
 template <typename Node>
 int runNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
+  // Outlives the node: with the last handle ROS shuts down, and with it the log.
+  const ros::NodeHandle handle;
   try {
-    const Node node(ros::NodeHandle(), ros::NodeHandle("~"));
+    const Node node(handle, ros::NodeHandle("~"));
     ros::spin();
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
