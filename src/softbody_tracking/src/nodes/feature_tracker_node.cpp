@@ -146,7 +146,7 @@ void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
   const TrackingResult result = tracker_->track(frame, volume ? &*volume : nullptr, &timer);
   last_status_ = result.status;
   publish(color->header, *T_output_camera, result);
-  softbody_msgs::StageTiming timing = timingMessage(ros::this_node::getName(), timer.take());
+  softbody_msgs::StageTiming timing = timingMessage("feature_tracker", timer.take());
   timing.header = color->header;
   timing_.publish(timing);
 } catch (const std::exception& error) {
