@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""A bad parameter ends a node with exit code 1 and a sentence that names key and value."""
+import subprocess
+import sys
+import unittest
+
+import rospkg
+import rospy
+import rostest
+
+OBJECT = rospkg.RosPack().get_path("softbody_bringup") + "/config/sponge.yaml"
+
+
+class BadParameters(unittest.TestCase):
+    def check(self, package, node, parameters, words):
+        command = ["rosrun", package, node, f"__name:={node}"]
+        run = subprocess.run(command + [f"_{key}:={value}" for key, value in parameters.items()],
+                             capture_output=True, text=True, timeout=120, check=False)
+        output = run.stdout + run.stderr
+        self.assertEqual(run.returncode, 1, output)
+        for word in words:
+            self.assertIn(word, output)
+
+    def test_camera_ingest(self):
+        self.check("softbody_tracking", "camera_ingest", {"queue_size": 0}, ["/camera_ingest/queue_size", "0"])
+
+    def test_feature_tracker(self):
+        self.check("softbody_tracking", "feature_tracker", {"target_mode": "magic"},
+                   ["/feature_tracker/target_mode", "magic", "knn"])
+
+    def test_simulator(self):
+        self.check("softbody_sim", "simulator", {"object": OBJECT, "iterations": -3},
+                   ["/simulator/iterations", "-3"])
+
+    def test_simulator_without_an_object(self):
+        self.check("softbody_sim", "simulator", {}, ["/simulator/object"])
+
+    def test_surface_with_a_missing_object(self):
+        self.check("softbody_sim", "surface", {"object": "/nowhere/sponge.yaml"}, ["/nowhere/sponge.yaml"])
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_bad_parameters")
+    rostest.rosrun("softbody_bringup", "test_bad_parameters", BadParameters, sys.argv)

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""The whole graph on a bag that is played again and again."""
+import sys
+import unittest
+
+import rosnode
+import rospy
+import rostest
+import tf2_ros
+from recorder import Recorder
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2
+from softbody_msgs.msg import MeshState, MeshTopology, StageTiming, Targets, TetTopology, TrackingStatus
+from visualization_msgs.msg import Marker
+
+OPTICAL_FRAME = "camera_color_optical_frame"
+NODES = ["camera_ingest", "feature_tracker", "simulator", "surface"]
+FRAME_OUTPUTS = ["rgb/image_rect_color", "rgb/camera_info", "depth/image_rect", "points", "features",
+                 "features/marker", "targets", "status", "volume/state", "surface/state", "surface/marker"]
+
+
+class Graph(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(
+            camera__color__image_raw=Image, softbody__rgb__image_rect_color=Image,
+            softbody__rgb__camera_info=CameraInfo, softbody__depth__image_rect=Image, softbody__points=PointCloud2,
+            softbody__features=PointCloud2, softbody__features__marker=Marker, softbody__targets=Targets,
+            softbody__status=TrackingStatus, softbody__volume__topology=TetTopology,
+            softbody__volume__state=MeshState, softbody__surface__topology=MeshTopology,
+            softbody__surface__state=MeshState, softbody__surface__marker=Marker, softbody__timing=StageTiming)
+
+    def test_every_node_answers(self):
+        self.recorder.wait_for("softbody/surface/state")
+        for name in NODES:
+            self.assertTrue(rosnode.rosnode_ping(f"/softbody/{name}", max_count=1), name)
+
+    def test_a_frames_outputs_carry_its_stamp_and_frame(self):
+        for name in FRAME_OUTPUTS:
+            messages = self.recorder.wait_for(f"softbody/{name}", 5)
+            stamps = {message.header.stamp for message in messages[:5]}
+            self.recorder.wait(
+                lambda seen: stamps <= {image.header.stamp for image in seen["camera/color/image_raw"]},
+                f"/softbody/{name}: stamps of colour images")
+            self.assertEqual({message.header.frame_id for message in messages}, {OPTICAL_FRAME}, name)
+
+    def test_states_belong_to_the_latched_topologies(self):
+        for body in ("volume", "surface"):
+            topology = self.recorder.wait_for(f"softbody/{body}/topology")[-1]
+            self.assertTrue(self.recorder.latched(f"softbody/{body}/topology"), body)
+            self.assertEqual(topology.header.frame_id, "softbody")
+            for state in self.recorder.wait_for(f"softbody/{body}/state", 3):
+                self.assertEqual(len(state.vertices), len(topology.rest_vertices))
+                self.assertEqual(len(state.confidence), len(state.vertices))
+                self.assertEqual(state.revision, topology.revision)
+                self.assertEqual(state.observed, state.header.stamp)
+
+    def test_the_sponge_has_the_papers_vertex_counts(self):
+        volume = self.recorder.wait_for("softbody/volume/topology")[-1]
+        surface = self.recorder.wait_for("softbody/surface/topology")[-1]
+        self.assertEqual((len(volume.rest_vertices), len(volume.tets), len(volume.surface_triangles)),
+                         (132, 300, 260))
+        self.assertEqual((len(surface.rest_vertices), len(surface.triangles)), (522, 1040))
+
+    def test_the_body_is_tracked(self):
+        self.recorder.wait(
+            lambda seen: any(status.state == TrackingStatus.TRACKING for status in seen["softbody/status"]),
+            "a status of TRACKING")
+
+    def test_targets_name_tets_of_the_topology(self):
+        tets = len(self.recorder.wait_for("softbody/volume/topology")[-1].tets)
+        targets = self.recorder.wait(
+            lambda seen: [target for message in seen["softbody/targets"] for target in message.targets], "targets")
+        for target in targets:
+            self.assertLess(target.tet, tets)
+            self.assertAlmostEqual(sum(target.barycentric), 1.0, places=4)
+
+    def test_every_node_tells_its_stage_times(self):
+        for name in NODES:
+            self.recorder.wait(
+                lambda seen: any(timing.node == name for timing in seen["softbody/timing"]),
+                f"stage times of {name}")
+
+    def test_tf_leads_from_the_camera_to_the_body(self):
+        buffer = tf2_ros.Buffer()
+        listener = tf2_ros.TransformListener(buffer)
+        self.recorder.wait(lambda seen: buffer.can_transform(OPTICAL_FRAME, "softbody", rospy.Time(0)),
+                           f"tf from {OPTICAL_FRAME} to softbody")
+        depth_m = buffer.lookup_transform(OPTICAL_FRAME, "softbody", rospy.Time(0)).transform.translation.z
+        self.assertTrue(0.3 < depth_m < 0.7, depth_m)
+        listener.unregister()
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_graph")
+    rostest.rosrun("softbody_bringup", "test_graph", Graph, sys.argv)

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""A bag that starts again: time jumps back, and the graph starts anew without help."""
+import sys
+import unittest
+
+import rospy
+import rostest
+from recorder import Recorder
+from softbody_msgs.msg import MeshState, TrackingStatus
+
+
+def since_last_jump(messages):
+    """The messages after the last stamp that went backwards, and whether there was one."""
+    start = 0
+    for i in range(1, len(messages)):
+        if messages[i].header.stamp < messages[i - 1].header.stamp:
+            start = i
+    return messages[start:] if start else []
+
+
+class Loop(unittest.TestCase):
+    def test_states_and_tracking_come_back(self):
+        recorder = Recorder(softbody__surface__state=MeshState, softbody__status=TrackingStatus)
+        states = recorder.wait(
+            lambda seen: len(since_last_jump(seen["softbody/surface/state"])) >= 10
+            and since_last_jump(seen["softbody/surface/state"]), "ten surface states after a jump back")
+        stamps = [state.header.stamp for state in states]
+        self.assertEqual(stamps, sorted(set(stamps)))
+        recorder.wait(
+            lambda seen: any(status.state == TrackingStatus.TRACKING
+                             for status in since_last_jump(seen["softbody/status"])), "TRACKING after a jump back")
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_loop")
+    rostest.rosrun("softbody_bringup", "test_loop", Loop, sys.argv)

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""The simulator under targets made by hand, with no camera."""
+import sys
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import Point32, Pose, Quaternion
+from recorder import Recorder
+from rosgraph_msgs.msg import Log
+from softbody_msgs.msg import MeshState, Target, Targets, TetTopology
+
+FRAME = "made_by_hand"
+TURN_Z_90 = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+
+
+def array(points):
+    return np.array([[p.x, p.y, p.z] for p in points])
+
+
+class SimulatorAlone(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState, rosout=Log)
+        cls.publisher = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
+        cls.topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
+        cls.rest = array(cls.topology.rest_vertices)
+        cls.recorder.wait(lambda _: cls.publisher.get_num_connections() > 0, "a simulator that listens")
+        cls.stamp = rospy.Time(1000)
+
+    def next_stamp(self):
+        type(self).stamp += rospy.Duration(nsecs=33333333)
+        return self.stamp
+
+    def send(self, targets, **fields):
+        """Publishes a frame's targets. @return its stamp."""
+        message = Targets(targets=targets, **{"body_pose": Pose(orientation=Quaternion(w=1.0)), **fields})
+        message.header.stamp, message.header.frame_id = self.next_stamp(), FRAME
+        self.publisher.publish(message)
+        return message.header.stamp
+
+    def state_of(self, stamp):
+        return self.recorder.wait(
+            lambda seen: next((s for s in seen["softbody/volume/state"] if s.header.stamp == stamp), None),
+            f"the volume state of {stamp.to_sec():.3f}")
+
+    def step(self, targets, **fields):
+        return self.state_of(self.send(targets, **fields))
+
+    def centers(self, rotation, translation):
+        """A target for every tet's centre, moved rigidly."""
+        targets = []
+        for i, tet in enumerate(self.topology.tets):
+            center = self.rest[list(tet.vertex_indices)].mean(axis=0)
+            targets.append(Target(kind=Target.MANUAL, tet=i, barycentric=[0.25] * 4, weight=1.0,
+                                  position=Point32(*(rotation @ center + translation))))
+        return targets
+
+    def place(self, **fields):
+        return self.step([], reset=True, **fields)
+
+    def test_reset_places_the_rest_shape(self):
+        pose = Pose()
+        pose.position.z = 0.5
+        pose.orientation.z = pose.orientation.w = np.sqrt(0.5)
+        state = self.place(body_pose=pose)
+        expected = self.rest @ TURN_Z_90.T + [0.0, 0.0, 0.5]
+        np.testing.assert_allclose(array(state.vertices), expected, atol=1e-5)
+        self.assertEqual(state.header.frame_id, FRAME)
+        self.assertEqual(state.revision, self.topology.revision)
+
+    def test_follows_rigidly_moved_targets(self):
+        self.place()
+        translation = np.array([0.02, -0.01, 0.03])
+        expected = self.rest + translation
+        targets = self.centers(np.eye(3), translation)
+        for _ in range(100):
+            error = np.abs(array(self.step(targets).vertices) - expected).max()
+            if error < 1e-3:
+                break
+        self.assertLess(error, 1e-3)
+
+    def test_refuses_targets_beyond_the_topology_and_goes_on(self):
+        self.place()
+        bad = self.centers(np.eye(3), np.zeros(3))
+        bad[0].tet = len(self.topology.tets)
+        refused = self.send(bad)
+        self.recorder.wait(
+            lambda seen: [log for log in seen["rosout"] if log.level >= Log.WARN and "simulator" in log.name
+                          and "targets" in log.msg], "a warning of the simulator")
+        after = self.step(self.centers(np.eye(3), np.zeros(3)))
+        self.assertEqual(len(after.vertices), len(self.rest))
+        stamps = [state.header.stamp for state in self.recorder.messages["softbody/volume/state"]]
+        self.assertNotIn(refused, stamps)
+
+    def test_inverted_targets_give_finite_vertices(self):
+        self.place()
+        state = self.step(self.centers(-np.eye(3), np.zeros(3)))
+        self.assertTrue(np.isfinite(array(state.vertices)).all())
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_simulator_alone")
+    rostest.rosrun("softbody_bringup", "test_simulator_alone", SimulatorAlone, sys.argv)
