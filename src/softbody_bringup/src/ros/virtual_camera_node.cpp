@@ -41,6 +41,7 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle priva
   setup_ = readSetup(setup, &parameters);
   loop_ = parameters.flag("loop", true);
   publish_camera_tf_ = parameters.flag("publish_camera_tf", true);
+  hold_s_ = parameters.number("hold", hold_s_, 0.0, 3600.0);
   warnUnknown(parameters);
   camera_.emplace(makeCamera(setup_));
 
@@ -52,6 +53,7 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle priva
   truth_state_ = node.advertise<softbody_msgs::MeshState>(kTruthStateTopic, kQueue);
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
   if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  publishLatched(ros::Time::now());
   timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), &VirtualCameraNode::publishFrame, this);
 }
 
@@ -60,9 +62,14 @@ void VirtualCameraNode::publishLatched(const ros::Time& stamp) {
   truth_topology_.publish(topologyMessage(camera_->topology(), stamp));
 }
 
+bool VirtualCameraNode::watched() const {
+  return color_.getNumSubscribers() + depth_.getNumSubscribers() + truth_state_.getNumSubscribers() > 0;
+}
+
 void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
+  if (!watched()) return;
   const ros::Time stamp = ros::Time::now();
-  const double t = frame_ / setup_.rate_hz;
+  const double t = std::max(0.0, frame_ / setup_.rate_hz - hold_s_);
   if (!loop_ && t >= camera_->scene().duration_s) {
     ROS_INFO("scene %s is over", setup_.scene.c_str());
     timer_.stop();

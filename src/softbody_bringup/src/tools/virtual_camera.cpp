@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
 
   Arguments arguments;
   arguments.setup.mesh = ros::package::getPath("softbody_bringup") + "/config/sponge.obj";
-  CLI::App app("Virtual RGB-D camera before a deforming body, with exact truth");
+  CLI::App app("Virtual RGB-D camera before a deforming body, with exact truth", "virtual_camera");
   declare(&app, &arguments);
   try {
     app.parse(words);

@@ -86,12 +86,12 @@ TEST(VertexError, GrowingErrorIsDrift) {
 }
 
 TEST(VertexError, WeldedAndNewVerticesAreMatchedThroughTheirParents) {
-  // The result dropped the input's vertices 1 and 3, copied vertex 4 and made one by a cut.
-  const std::vector<int> matches = matchVertices({0, 2, 4, 4, -1}, identity(5));
-  EXPECT_EQ(matches, (std::vector<int>{0, 2, 4, 4, -1}));
-  const Points truth = Points::Random(5, 3);
+  // The result dropped the input's vertices 1 and 3, copied vertex 4 and made one by a cut; so did the truth.
+  const std::vector<int> matches = matchVertices({0, 2, 4, 4, -1}, {-1, 0, 1, 2, 3, 4});
+  EXPECT_EQ(matches, (std::vector<int>{1, 3, 5, 5, -1}));
+  const Points truth = Points::Random(6, 3);
   Points result(5, 3);
-  result << truth.row(0), truth.row(2), truth.row(4), truth.row(4), Eigen::RowVector3d::Constant(9.0);
+  result << truth.row(1), truth.row(3), truth.row(5), truth.row(5), Eigen::RowVector3d::Constant(9.0);
   const FrameVertexError frame = vertexError(stateOf(result), stateOf(truth), matches);
   EXPECT_EQ(frame.visible.size(), 4u);
   EXPECT_EQ(frame.mean(), 0.0);

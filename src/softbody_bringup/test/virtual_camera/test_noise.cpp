@@ -40,6 +40,9 @@ TEST(DepthNoise, IsOneToTwoMillimetresAtHalfAMetreAndUnbiased) {
   const Temporal noise = temporalNoise(DepthNoise({}, 7), 0.5);
   EXPECT_GE(noise.deviation, 0.8e-3);
   EXPECT_LE(noise.deviation, 2.0e-3);
+  const double expected =
+      0.5 * 0.5 / (425.0 * 0.050) * 0.1;  // z^2 / (focal baseline) times the disparity's deviation
+  EXPECT_NEAR(noise.deviation, expected, 0.1e-3);
   EXPECT_NEAR(noise.mean, 0.0, 0.1e-3);
 }
 

@@ -19,11 +19,13 @@ class VirtualCameraNode {
   VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle private_node, const CameraSetup& setup);
 
  private:
+  bool watched() const;
   void publishLatched(const ros::Time& stamp);
   void publishFrame(const ros::TimerEvent& event);
 
   CameraSetup setup_;
   bool loop_ = true, publish_camera_tf_ = true;
+  double hold_s_ = 2.0;
   std::optional<VirtualCamera> camera_;
   ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, tf_, tf_static_;
   ros::Timer timer_;

@@ -27,13 +27,19 @@ struct Nearest {
   double distance = 1e9;  ///< in cells
 };
 
+/// Distance from a place within a unit cell (0..1) to the neighbouring cell on this side, along one axis.
+double gap(double within, int side) { return side == 0 ? 0.0 : side < 0 ? within : 1.0 - within; }
+
 /// The nearest of the random points, one in each cell of a unit lattice.
 Nearest nearestPoint(const Eigen::Vector3d& p, std::uint64_t seed) {
   const Cell home = cellOf(p);
+  const Eigen::Vector3d within = p - Eigen::Vector3d(home[0], home[1], home[2]);
   Nearest nearest;
-  for (int dx = -1; dx <= 1; ++dx) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dz = -1; dz <= 1; ++dz) {
+  for (const int dx : {0, -1, 1}) {
+    for (const int dy : {0, -1, 1}) {
+      for (const int dz : {0, -1, 1}) {
+        const Eigen::Vector3d gaps(gap(within.x(), dx), gap(within.y(), dy), gap(within.z(), dz));
+        if (gaps.squaredNorm() >= nearest.distance * nearest.distance) continue;
         const Cell cell = {home[0] + dx, home[1] + dy, home[2] + dz};
         const std::uint64_t h = cellHash(cell, seed);
         const Eigen::Vector3d point(cell[0] + unit(h), cell[1] + unit(hash(h, 1)),
