@@ -20,7 +20,7 @@
 namespace softbody::evaluation {
 namespace {
 
-constexpr int kOverlays = 12, kOverlayColumns = 4, kOverlayWidth = 480;
+constexpr int kOverlays = 12, kOverlayColumns = 4, kOverlayWidth = 640;
 
 /// Pictures for the report, by file name.
 using Pictures = std::map<std::string, cv::Mat3b>;
