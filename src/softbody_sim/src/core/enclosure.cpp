@@ -57,6 +57,16 @@ void moveWithoutCollapse(const Eigen::VectorXd& least_volumes, Points moves, Tet
   }
 }
 
+std::vector<OutsidePoint> stillOutside(const std::vector<OutsidePoint>& before, const Points& points,
+                                       const TetMesh& mesh, const Triangles& boundary) {
+  Points checked(static_cast<Eigen::Index>(before.size()), 3);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    checked.row(static_cast<Eigen::Index>(i)) = points.row(before[i].point);
+  std::vector<OutsidePoint> outside = pointsOutside(checked, mesh, boundary);
+  for (OutsidePoint& out : outside) out.point = before[static_cast<std::size_t>(out.point)].point;
+  return outside;
+}
+
 }  // namespace
 
 std::vector<OutsidePoint> pointsOutside(const Points& points, const TetMesh& mesh,
@@ -85,10 +95,12 @@ bool growToEnclose(const Points& points, TetMesh* mesh) {
   const Triangles boundary = boundaryTriangles(mesh->tets);
   const Eigen::VectorXd least_volumes = kLeastVolume * tetVolumes(mesh->vertices, mesh->tets);
   const double margin = kMargin * sizeOf(mesh->vertices);
-  for (int round = 0; round < kRounds; ++round) {
-    const std::vector<OutsidePoint> outside = pointsOutside(points, *mesh, boundary);
-    if (outside.empty()) return true;
+  std::vector<OutsidePoint> outside = pointsOutside(points, *mesh, boundary);
+  for (int round = 0; round < kRounds && !outside.empty(); ++round) {
     moveWithoutCollapse(least_volumes, outwardMoves(outside, points, *mesh, boundary, margin), mesh);
+    // Those that were outside are all that matters until they are in: then the others are looked at again.
+    outside = stillOutside(outside, points, *mesh, boundary);
+    if (outside.empty()) outside = pointsOutside(points, *mesh, boundary);
   }
   return pointsOutside(points, *mesh, boundary).empty();
 }

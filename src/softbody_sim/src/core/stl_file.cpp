@@ -34,7 +34,9 @@ std::uint32_t facetCount(const std::string& bytes) {
 /// "solid" at the beginning is no proof of ascii: some programs write it into binary headers.
 bool isBinary(const std::string& bytes) {
   if (bytes.compare(0, 5, "solid") != 0) return true;
-  return bytes.size() >= kHeaderBytes && bytes.size() == kHeaderBytes + kFacetBytes * facetCount(bytes);
+  if (bytes.size() < kHeaderBytes) return false;
+  return bytes.size() == kHeaderBytes + kFacetBytes * facetCount(bytes) ||
+         bytes.find("facet") == std::string::npos;
 }
 
 SurfaceFile readBinary(const std::string& path, const std::string& bytes) {

@@ -11,7 +11,7 @@ namespace softbody {
 namespace {
 
 void addFanOff(const TextReader& reader, int vertex_count, std::vector<Eigen::RowVector3i>* triangles) {
-  const int corners = reader.count(0);
+  const int corners = reader.integer(0);
   if (corners < 3) reader.fail(fmt::format("a face of {} corners", corners));
   for (int k = 1; k <= corners; ++k) {
     const int vertex = reader.integer(static_cast<std::size_t>(k));

@@ -65,15 +65,26 @@ Surface toSurface(const TriangleMesh& mesh) {
   return surface;
 }
 
-/// Vertices of a surface, none nearer to another than the distance.
-std::vector<Kernel::Point_3> spreadVertices(const TriangleMesh& mesh, double distance) {
+/// Vertices of a surface, and points of its triangles where those are larger than the distance, none nearer
+/// to another than the distance.
+std::vector<Kernel::Point_3> spreadPoints(const TriangleMesh& mesh, double distance) {
   std::vector<Kernel::Point_3> chosen;
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    const Kernel::Point_3 point(mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2));
+  const auto add = [&chosen, distance](const Eigen::RowVector3d& p) {
+    const Kernel::Point_3 point(p[0], p[1], p[2]);
     const auto near = [&](const Kernel::Point_3& other) {
       return CGAL::squared_distance(point, other) < distance * distance;
     };
     if (std::none_of(chosen.begin(), chosen.end(), near)) chosen.push_back(point);
+  };
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) add(mesh.vertices.row(v));
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    const Eigen::RowVector3d a = mesh.vertices.row(mesh.triangles(f, 0));
+    const Eigen::RowVector3d u = mesh.vertices.row(mesh.triangles(f, 1)) - a;
+    const Eigen::RowVector3d v = mesh.vertices.row(mesh.triangles(f, 2)) - a;
+    const int steps = static_cast<int>(std::max({u.norm(), v.norm(), (u - v).norm()}) / distance);
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; i + j <= steps && steps > 1; ++j) add(a + (i * u + j * v) / steps);
+    }
   }
   return chosen;
 }
@@ -108,16 +119,18 @@ TetMesh meshInside(const TriangleMesh& surface, double edge_length_m) {
   // Seeded anew, so that earlier calls do not change the result.
   CGAL::get_default_random() = CGAL::Random(0);
   CGAL::Random random(0);
-  const Domain domain(boundary, spreadVertices(surface, kSeedSpacing * edge_length_m), &random);
+  const Domain domain(boundary, spreadPoints(surface, kSeedSpacing * edge_length_m), &random);
   // A regular triangle's circumradius is 0.58 edge lengths, a tet's 0.61; the refinement stops somewhere
   // below the bound.
   const Criteria criteria(parameters::facet_angle = 25.0, parameters::facet_size = 0.75 * edge_length_m,
                           parameters::facet_topology = CGAL::MANIFOLD,
                           parameters::cell_radius_edge_ratio = 2.5, parameters::cell_size = edge_length_m);
-  // No perturbation: its order depends on addresses, and the same input must give the same mesh.
-  const Complex complex =
-      CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
-                                 parameters::exude(parameters::sliver_bound = kSmallestAngle));
+  // Left alone, sliver removal takes as long as the refinement took: another mesh every time. 0 means no
+  // limit.
+  const Complex complex = CGAL::make_mesh_3<Complex>(
+      domain, criteria,
+      parameters::perturb(parameters::time_limit = 0.0, parameters::sliver_bound = kSmallestAngle),
+      parameters::exude(parameters::time_limit = 0.0, parameters::sliver_bound = kSmallestAngle));
   if (complex.number_of_cells_in_complex() == 0)
     throw std::runtime_error("the cage could not be filled with tets");
   return toTetMesh(complex);

@@ -1,6 +1,7 @@
 #include "volume_maker.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include "alpha_wrap.h"
 #include "enclosure.h"
 #include "softbody_common/tet_geometry.h"
+#include "surface_repair.h"
 #include "tet_mesher.h"
 
 namespace softbody {
@@ -16,6 +18,7 @@ namespace {
 constexpr double kAlpha = 0.5;  ///< gaps narrower than this are closed [edge lengths]
 constexpr double kCountTolerance = 0.15;
 constexpr int kSizings = 6;
+constexpr int kFewestVertices = 100;  ///< a given box of eight corners could not bend
 
 /// Edge length at which near regular triangles, two per vertex, cover the area.
 double edgeLengthFor(double area, int vertices) {
@@ -27,6 +30,8 @@ int boundaryVertexCount(const TetMesh& mesh) {
   const auto corners = boundary.reshaped();
   return static_cast<int>(std::set<int>(corners.begin(), corners.end()).size());
 }
+
+bool hasManifoldBoundary(const TetMesh& mesh) { return examineEdges(boundaryTriangles(mesh.tets)).closed(); }
 
 /// Tets around the mesh with about the wanted number of boundary vertices: refinement only bounds sizes from
 /// above, so the size is found by trying.
@@ -64,18 +69,24 @@ double areaOf(const TriangleMesh& mesh) {
 
 TetMesh volumeAround(const TriangleMesh& visual, int cage_vertices) {
   TetMesh mesh;
-  // A tight cage first; a wider one where a tight one cannot be pushed around all vertices.
+  // A tight cage first; a wider one where that is too thin for its edges, or cannot be pushed around all
+  // vertices.
   for (const double offset : {0.15, 0.3, 0.5}) {
     mesh = sizedVolume(visual, cage_vertices, offset);
-    if (growToEnclose(visual.vertices, &mesh)) break;
+    if (hasManifoldBoundary(mesh) && growToEnclose(visual.vertices, &mesh)) break;
   }
   return mesh;
 }
 
 TetMesh volumeInside(const TriangleMesh& cage, const Points& enclosed) {
-  const double edge_length = edgeLengthFor(areaOf(cage), static_cast<int>(cage.vertices.rows()));
-  TetMesh mesh = meshInside(cage, edge_length);
-  growToEnclose(enclosed, &mesh);
+  const int vertices = std::max(kFewestVertices, static_cast<int>(cage.vertices.rows()));
+  const double edge_length = edgeLengthFor(areaOf(cage), vertices);
+  TetMesh mesh;
+  // As coarse as the cage first; finer where that is too coarse for its thin parts.
+  for (const double share : {1.0, 0.7, 0.5}) {
+    mesh = meshInside(cage, share * edge_length);
+    if (hasManifoldBoundary(mesh) && growToEnclose(enclosed, &mesh)) break;
+  }
   return mesh;
 }
 

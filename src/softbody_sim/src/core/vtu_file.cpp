@@ -84,13 +84,13 @@ class VtuReader {
         fail(fmt::format("cell {}: offset {} does not lie between {} and {}", c, offsets[c], begin,
                          connectivity.size()));
       }
-      addCell(c, static_cast<int>(types[c]), connectivity, begin, offsets[c], first_vertex);
+      addCell(c, types[c], connectivity, begin, offsets[c], first_vertex);
       begin = offsets[c];
     }
   }
 
-  void addCell(std::size_t cell, int type, const std::vector<double>& connectivity, double begin, double end,
-               int first_vertex) {
+  void addCell(std::size_t cell, double type, const std::vector<double>& connectivity, double begin,
+               double end, int first_vertex) {
     if (type != kVtkTetra) {
       if (skipped_++ == 0) first_skipped_type_ = type;
       return;
@@ -145,7 +145,7 @@ class VtuReader {
   std::vector<Eigen::RowVector3d> vertices_;
   std::vector<Eigen::RowVector4i> tets_;
   std::size_t skipped_ = 0;
-  int first_skipped_type_ = 0;
+  double first_skipped_type_ = 0.0;
 };
 
 }  // namespace
