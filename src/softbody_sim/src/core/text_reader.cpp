@@ -13,12 +13,13 @@ namespace softbody {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kBlank(" \t\r\f\v\0", 6);  // some exporters end a file with a zero byte
 
 void splitFields(std::string_view line, std::vector<std::string_view>* fields) {
   fields->clear();
   std::size_t begin = 0;
-  while ((begin = line.find_first_not_of(" \t\r\f\v", begin)) != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r\f\v", begin), line.size());
+  while ((begin = line.find_first_not_of(kBlank, begin)) != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
     fields->push_back(line.substr(begin, end - begin));
     begin = end;
   }
