@@ -4,12 +4,12 @@
 #include <set>
 #include <sstream>
 
-#include "enclosure.h"
+#include "core/enclosure.h"
+#include "core/model_folder.h"
+#include "core/surface_repair.h"
 #include "model_files.h"
-#include "model_folder.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/object_model.h"
-#include "surface_repair.h"
 
 namespace softbody {
 namespace {

@@ -3,10 +3,10 @@
 #include <numeric>
 #include <random>
 
+#include "core/surface_repair.h"
 #include "model_files.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/object_model.h"
-#include "surface_repair.h"
 
 namespace softbody {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "model_folder.h"
+#include "core/model_folder.h"
 
 int main(int argc, char** argv) {
   CLI::App app{
