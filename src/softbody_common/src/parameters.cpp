@@ -21,7 +21,8 @@ Number inRange(const std::string& name, Number value, Number min, Number max) {
 
 }  // namespace
 
-Parameters::Parameters(YAML::Node values, std::string prefix) : values_(std::move(values)), prefix_(std::move(prefix)) {
+Parameters::Parameters(YAML::Node values, std::string prefix)
+    : values_(std::move(values)), prefix_(std::move(prefix)) {
   if (values_.IsDefined() && !values_.IsNull() && !values_.IsMap()) {
     throw std::invalid_argument(fmt::format("parameters {} must be a map of keys and values", prefix_));
   }
@@ -74,8 +75,8 @@ std::vector<double> Parameters::numbers(const std::string& key, const std::vecto
   const std::vector<double> values = get(key, fallback, "a list of numbers");
   const bool finite = std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
   if (values.size() != fallback.size() || !finite) {
-    throw std::invalid_argument(fmt::format("parameter {}{} is [{}]; it must be {} finite numbers", prefix_, key,
-                                            fmt::join(values, ", "), fallback.size()));
+    throw std::invalid_argument(fmt::format("parameter {}{} is [{}]; it must be {} finite numbers", prefix_,
+                                            key, fmt::join(values, ", "), fallback.size()));
   }
   return values;
 }

@@ -14,7 +14,8 @@ Eigen::Isometry3d fitRigid(const Points& source, const Points& target, const Eig
   if (!source.allFinite() || !target.allFinite() || !w.allFinite()) {
     throw std::invalid_argument("fitRigid: a value is not finite");
   }
-  if (n == 0 || w.minCoeff() < 0.0 || w.sum() <= 0.0) throw std::invalid_argument("fitRigid: no positive weight");
+  if (n == 0 || w.minCoeff() < 0.0 || w.sum() <= 0.0)
+    throw std::invalid_argument("fitRigid: no positive weight");
 
   const Eigen::RowVector3d source_mean = w.transpose() * source / w.sum();
   const Eigen::RowVector3d target_mean = w.transpose() * target / w.sum();

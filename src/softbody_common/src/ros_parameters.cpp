@@ -41,7 +41,8 @@ Parameters readParameters(const ros::NodeHandle& private_handle) {
 }
 
 void warnUnknown(const Parameters& parameters) {
-  for (const std::string& key : parameters.unknown()) ROS_WARN_STREAM("unknown parameter " << key << " is ignored");
+  for (const std::string& key : parameters.unknown())
+    ROS_WARN_STREAM("unknown parameter " << key << " is ignored");
 }
 
 }  // namespace softbody

@@ -68,7 +68,8 @@ Triangles boundaryTriangles(const Tets& tets) {
   std::vector<Eigen::Vector3i> boundary;
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     for (const auto& face : kFaces) {
-      if (uses[key(t, face)] == 1) boundary.emplace_back(tets(t, face[0]), tets(t, face[1]), tets(t, face[2]));
+      if (uses[key(t, face)] == 1)
+        boundary.emplace_back(tets(t, face[0]), tets(t, face[1]), tets(t, face[2]));
     }
   }
   Triangles triangles(static_cast<Eigen::Index>(boundary.size()), 3);
@@ -100,7 +101,8 @@ Eigen::Vector4d barycentricCoordinates(const Eigen::Vector3d& point, const Point
                                        const Eigen::Vector4i& tet) {
   Eigen::Matrix3d edges;
   for (int k = 0; k < 3; ++k) edges.col(k) = (vertices.row(tet[k + 1]) - vertices.row(tet[0])).transpose();
-  if (edges.determinant() == 0.0) throw std::invalid_argument("barycentric coordinates of a tet without volume");
+  if (edges.determinant() == 0.0)
+    throw std::invalid_argument("barycentric coordinates of a tet without volume");
   const Eigen::Vector3d tail = edges.inverse() * (point - vertices.row(tet[0]).transpose());
   return {1.0 - tail.sum(), tail[0], tail[1], tail[2]};
 }

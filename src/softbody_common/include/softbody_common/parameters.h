@@ -8,8 +8,8 @@
 
 namespace softbody {
 
-/// One node's parameters as a YAML map, from a ROS namespace (ros_parameters.h) or from a file. Every reader throws
-/// std::invalid_argument with the full key, the value and what is allowed.
+/// One node's parameters as a YAML map, from a ROS namespace (ros_parameters.h) or from a file. Every reader
+/// throws std::invalid_argument with the full key, the value and what is allowed.
 class Parameters {
  public:
   /// @param prefix is put before keys in messages, e.g. "/softbody/simulator/".
@@ -20,7 +20,8 @@ class Parameters {
   bool flag(const std::string& key, bool fallback);
   std::string text(const std::string& key, const std::string& fallback);
   /// One of the allowed words.
-  std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& allowed);
+  std::string choice(const std::string& key, const std::string& fallback,
+                     const std::vector<std::string>& allowed);
   std::string requiredText(const std::string& key);
   /// As many finite numbers as the fallback has.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback);

@@ -36,7 +36,9 @@ class StageTimer {
   };
 
   /// Times from now to the end of the returned object's life.
-  Scope stage(std::string name, bool initialization = false) { return {this, std::move(name), initialization}; }
+  Scope stage(std::string name, bool initialization = false) {
+    return {this, std::move(name), initialization};
+  }
 
   /// The rows so far, in order of completion; the timer is empty afterwards.
   std::vector<StageTime> take() { return std::move(times_); }

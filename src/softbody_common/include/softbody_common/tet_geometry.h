@@ -16,13 +16,15 @@ double enclosedVolume(const Points& vertices, const Triangles& triangles);
 /// Triangles that belong to exactly one tet, outward, for tets of positive volume.
 Triangles boundaryTriangles(const Tets& tets);
 
-/// Connected piece of every tet (tets that share a vertex are connected), numbered from 0 in order of appearance.
+/// Connected piece of every tet (tets that share a vertex are connected), numbered from 0 in order of
+/// appearance.
 std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count);
 
 /// Connected piece of every triangle, numbered from 0 in order of appearance.
 std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex_count);
 
-/// Unit normals, area-weighted mean of the adjacent triangles, #V by 3; zero where no triangle touches the vertex.
+/// Unit normals, area-weighted mean of the adjacent triangles, #V by 3; zero where no triangle touches the
+/// vertex.
 Points vertexNormals(const Points& vertices, const Triangles& triangles);
 
 /// Barycentric coordinates of a point in a tet; they sum to 1 whether it lies inside or not.

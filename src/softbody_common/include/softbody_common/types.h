@@ -28,7 +28,8 @@ struct TetMesh {
   Tets tets;
 };
 
-/// A place in the rest body: barycentric coordinates in a tet. They sum to 1; one below 0 means outside of the tet.
+/// A place in the rest body: barycentric coordinates in a tet. They sum to 1; one below 0 means outside of
+/// the tet.
 struct MaterialPoint {
   int tet = -1;
   Eigen::Vector4d barycentric = Eigen::Vector4d::Zero();
@@ -49,8 +50,8 @@ struct Target {
 /// One frame's soft constraints (softbody_msgs/Targets without its header).
 struct TargetSet {
   std::uint32_t revision = 0;
-  bool reset = false;                                                ///< forget the state, start from body_pose
-  Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();       ///< rest frame in the targets' frame
+  bool reset = false;                                           ///< forget the state, start from body_pose
+  Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();  ///< rest frame in the targets' frame
   std::vector<Target> targets;
 };
 
@@ -59,11 +60,12 @@ struct TetTopology {
   std::uint32_t revision = 0;
   Points rest_vertices;
   Tets tets;
-  Triangles surface;                    ///< boundary of the tets, outward
-  std::vector<int> vertex_parents;      ///< #V: index in revision 0, or -1
-  std::vector<std::uint32_t> bodies;    ///< #T: connected piece
+  Triangles surface;                  ///< boundary of the tets, outward
+  std::vector<int> vertex_parents;    ///< #V: index in revision 0, or -1
+  std::vector<std::uint32_t> bodies;  ///< #T: connected piece
   bool has_initial_pose = false;
-  Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity();  ///< rest frame in the colour optical frame, rough
+  Eigen::Isometry3d initial_pose =
+      Eigen::Isometry3d::Identity();  ///< rest frame in the colour optical frame, rough
 };
 
 /// The visual mesh at rest (softbody_msgs/MeshTopology without its header).
@@ -71,21 +73,27 @@ struct MeshTopology {
   std::uint32_t revision = 0;
   Points rest_vertices;
   Triangles triangles;
-  std::vector<int> vertex_parents;        ///< #V: index in the input file, or -1
-  std::vector<std::uint32_t> bodies;      ///< #F: connected piece
-  std::vector<bool> cut;                  ///< #F: fills a cut
-  Points texture_coordinates;             ///< empty, or 3 #F rows (u, v, 0), in the order of the triangles' corners
+  std::vector<int> vertex_parents;    ///< #V: index in the input file, or -1
+  std::vector<std::uint32_t> bodies;  ///< #F: connected piece
+  std::vector<bool> cut;              ///< #F: fills a cut
+  Points texture_coordinates;  ///< empty, or 3 #F rows (u, v, 0), in the order of the triangles' corners
 };
 
 /// Where a topology's vertices are (softbody_msgs/MeshState without its header).
 struct MeshState {
   std::uint32_t revision = 0;
-  Nanoseconds observed = 0;               ///< stamp of the last image that went in
-  Points vertices;                        ///< [m]
-  std::vector<float> confidence;          ///< per vertex, 0..1
+  Nanoseconds observed = 0;       ///< stamp of the last image that went in
+  Points vertices;                ///< [m]
+  std::vector<float> confidence;  ///< per vertex, 0..1
 };
 
-enum class TrackingState : std::uint8_t { kInitializing = 0, kTracking = 1, kDegraded = 2, kLost = 3, kRecovering = 4 };
+enum class TrackingState : std::uint8_t {
+  kInitializing = 0,
+  kTracking = 1,
+  kDegraded = 2,
+  kLost = 3,
+  kRecovering = 4
+};
 
 /// How the tracker fares (softbody_msgs/TrackingStatus without its header).
 struct TrackingStatus {

@@ -14,8 +14,8 @@ constexpr float kFreeRadiusPx = 8.0f;       // around a known feature no other i
 constexpr int kNeighborhoodPx = 40;
 constexpr std::size_t kFewestNeighbors = 4;
 constexpr double kBindTolerance = 0.01;  // [m], surface and depth must agree where a feature is bound
-constexpr double kMostGrazing = 0.35;           // cosine of normal and ray where a feature is bound
-constexpr int kFewestDepths = 20;               // of the 25 pixels around a feature: fewer is a depth edge
+constexpr double kMostGrazing = 0.35;    // cosine of normal and ray where a feature is bound
+constexpr int kFewestDepths = 20;        // of the 25 pixels around a feature: fewer is a depth edge
 constexpr int kTrialFrames = 20;
 constexpr double kWorstHitRate = 0.2;
 

@@ -28,17 +28,20 @@ Eigen::Vector3d PredictedSurface::interpolated(int triangle, const Eigen::Vector
 
 MaterialPoint PredictedSurface::materialPoint(const cv::Point2f& pixel) const {
   const int triangle = image_.triangle(cvRound(pixel.y), cvRound(pixel.x));
-  // The ray's multiples of the corners: solving sum_k b_k corner_k = z ray gives barycentric coordinates up to scale.
+  // The ray's multiples of the corners: solving sum_k b_k corner_k = z ray gives barycentric coordinates up
+  // to scale.
   Eigen::Matrix3d corners;
   for (int k = 0; k < 3; ++k) corners.col(k) = vertices_.row(surface_.triangles(triangle, k)).transpose();
   const Eigen::Vector3d weights = corners.fullPivLu().solve(camera_.unproject(pixel.x, pixel.y, 1.0));
   const Eigen::Vector3d rest = interpolated(triangle, weights / weights.sum(), surface_.rest_vertices);
-  // One of the tets that hold the triangle's corners holds the point too, or nearly so: far cheaper than a search.
+  // One of the tets that hold the triangle's corners holds the point too, or nearly so: far cheaper than a
+  // search.
   MaterialPoint best;
   for (int k = 0; k < 3; ++k) {
     const int tet = binding_[surface_.triangles(triangle, k)].tet;
     if (tet == best.tet) continue;
-    const Eigen::Vector4d barycentric = barycentricCoordinates(rest, volume_.rest_vertices, volume_.tets.row(tet));
+    const Eigen::Vector4d barycentric =
+        barycentricCoordinates(rest, volume_.rest_vertices, volume_.tets.row(tet));
     if (best.tet < 0 || barycentric.minCoeff() > best.barycentric.minCoeff()) best = {tet, barycentric};
   }
   return best;

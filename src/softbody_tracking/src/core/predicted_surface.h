@@ -23,11 +23,11 @@ class PredictedSurface {
   const RasterImage& image() const { return image_; }
   const TetTopology& volume() const { return volume_; }
 
-  /// The place in the rest body that a ray through (u, v) meets, on the plane of the triangle at the nearest pixel, which
-  /// must be covered.
+  /// The place in the rest body that a ray through (u, v) meets, on the plane of the triangle at the nearest
+  /// pixel, which must be covered.
   MaterialPoint materialPoint(const cv::Point2f& pixel) const;
-  /// Outward unit normal of the triangle at a visible pixel, camera frame. Not smoothed: near a sharp edge a mean of
-  /// both sides' normals would pull the surface off either.
+  /// Outward unit normal of the triangle at a visible pixel, camera frame. Not smoothed: near a sharp edge a
+  /// mean of both sides' normals would pull the surface off either.
   Eigen::Vector3d normal(const cv::Point& pixel) const;
   Eigen::Vector3d position(const MaterialPoint& place) const;
 
