@@ -13,6 +13,8 @@ OBJECT = rospkg.RosPack().get_path("softbody_bringup") + "/config/sponge.yaml"
 
 class BadParameters(unittest.TestCase):
     def check(self, package, node, parameters, words):
+        if rospy.has_param(f"/{node}"):
+            rospy.delete_param(f"/{node}")
         command = ["rosrun", package, node, f"__name:={node}"]
         run = subprocess.run(command + [f"_{key}:={value}" for key, value in parameters.items()],
                              capture_output=True, text=True, timeout=120, check=False)
