@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/feature_map.h"
+#include "softbody_common/rigid_fit.h"
+#include "synthetic_scene.h"
+
+namespace softbody {
+namespace {
+
+/// A map bound to the box in its first pose.
+class FeatureMapTest : public ::testing::Test {
+ protected:
+  FeatureMapTest() : surface_(box_.volume, box_.surface), orb_(1000), map_(FeatureConfig()) {
+    look(transformed(box_.volume.rest_vertices, boxPose()));
+    map_.admit(frame_, keypoints_, {}, surface_);
+  }
+
+  /// Renders the box at the vertices and predicts it there, moved by an error.
+  void look(const Points& truth, const Eigen::Vector3d& prediction_error = Eigen::Vector3d::Zero()) {
+    frame_ = renderFrame(box_, truth, 1);
+    surface_.update(frame_.camera,
+                    transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))));
+    keypoints_ = orb_.extract(frame_.color, cv::Mat1b(frame_.color.size(), 255), surface_.image().region);
+  }
+
+  BoxBody box_ = makeBox();
+  PredictedSurface surface_;
+  OrbExtractor orb_;
+  FeatureMap map_;
+  RgbdFrame frame_;
+  std::vector<Keypoint> keypoints_;
+};
+
+TEST_F(FeatureMapTest, BindsFeaturesWhereTheirPixelsSeeTheBody) {
+  ASSERT_GT(map_.features().size(), 200u);
+  for (const MapFeature& feature : map_.features()) {
+    EXPECT_LT((surface_.position(feature.place) - feature.reference).norm(), 0.003);
+    EXPECT_NEAR(feature.place.barycentric.sum(), 1.0, 1e-9);
+  }
+}
+
+TEST_F(FeatureMapTest, FindsThemAgainWhenTheBodyMoves) {
+  look(transformed(box_.volume.rest_vertices, Eigen::Translation3d(0.004, -0.002, 0.003) * boxPose() *
+                                                  Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ())),
+       {0.003, 0.002, 0.0});
+  const std::vector<FeatureMatch> matches = map_.match(frame_, keypoints_, surface_);
+  int inliers = 0;
+  for (const FeatureMatch& match : matches) inliers += match.inlier ? 1 : 0;
+  EXPECT_GT(inliers, 100);
+  EXPECT_GT(inliers, 0.8 * static_cast<double>(matches.size()));
+  std::vector<int> used(keypoints_.size(), 0);
+  for (const FeatureMatch& match : matches)
+    EXPECT_EQ(used[match.keypoint]++, 0) << "a keypoint serves two features";
+}
+
+TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
+  const cv::Mat1f true_depth = frame_.depth.clone();
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+  // Wrong depth around every tenth keypoint.
+  for (const Keypoint& keypoint : keypoints_) {
+    if (uniform(random) > 0.1f) continue;
+    const cv::Rect spot = cv::Rect(cvRound(keypoint.pixel.x) - 2, cvRound(keypoint.pixel.y) - 2, 5, 5) &
+                          cv::Rect(cv::Point(), frame_.depth.size());
+    frame_.depth(spot) = true_depth(spot) + 0.02f;
+  }
+  int wrong_inliers = 0, right_outliers = 0, wrong = 0;
+  for (const FeatureMatch& match : map_.match(frame_, keypoints_, surface_)) {
+    const bool is_wrong = (match.association.measured - match.association.predicted).norm() > 0.015;
+    wrong += is_wrong ? 1 : 0;
+    wrong_inliers += is_wrong && match.inlier ? 1 : 0;
+    right_outliers += !is_wrong && !match.inlier ? 1 : 0;
+  }
+  EXPECT_GT(wrong, 10);
+  EXPECT_EQ(wrong_inliers, 0);
+  EXPECT_LT(right_outliers, 30);
+}
+
+TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
+  const std::size_t bound = map_.features().size();
+  map_.admit(frame_, keypoints_, map_.match(frame_, keypoints_, surface_), surface_);
+  EXPECT_LT(map_.features().size(), bound + bound / 5) << "the surface was covered with features already";
+  for (int i = 0; i < 40; ++i) map_.match(frame_, {}, surface_);
+  map_.admit(frame_, {}, {}, surface_);
+  EXPECT_TRUE(map_.features().empty());
+}
+
+TEST_F(FeatureMapTest, HoldsNoMoreThanAsked) {
+  FeatureConfig config;
+  config.max_features = 50;
+  FeatureMap small(config);
+  small.admit(frame_, keypoints_, {}, surface_);
+  EXPECT_EQ(small.features().size(), 50u);
+}
+
+TEST(FeatureDepth, AveragesSurfacesAndRefusesEdgesAndHoles) {
+  cv::Mat1f depth(20, 20, 0.5f);
+  EXPECT_NEAR(featureDepth(depth, {10.0f, 10.0f}), 0.5, 1e-6);
+  depth.colRange(11, 20).setTo(0.8f);
+  EXPECT_EQ(featureDepth(depth, {10.0f, 10.0f}), 0.0);
+  EXPECT_EQ(featureDepth(cv::Mat1f(20, 20, 0.0f), {10.0f, 10.0f}), 0.0);
+  EXPECT_EQ(featureDepth(depth, {-5.0f, 300.0f}), 0.0);
+}
+
+TEST(OrbExtractor, FindsNothingWhereNothingIs) {
+  OrbExtractor orb(100);
+  EXPECT_TRUE(
+      orb.extract(cv::Mat3b(200, 200, cv::Vec3b(50, 50, 50)), cv::Mat1b(200, 200, 255), {0, 0, 200, 200})
+          .empty());
+  EXPECT_TRUE(orb.extract(cv::Mat3b(40, 40, cv::Vec3b()), cv::Mat1b(40, 40, 255), {0, 0, 10, 10}).empty());
+  EXPECT_TRUE(
+      OrbExtractor(0).extract(cv::Mat3b(200, 200), cv::Mat1b(200, 200, 255), {0, 0, 200, 200}).empty());
+}
+
+TEST(HammingDistance, CountsDifferingBits) {
+  std::mt19937_64 random(9);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Descriptor a{random(), random(), random(), random()};
+    Descriptor b = a;
+    EXPECT_EQ(hammingDistance(a, b), 0);
+    b[trial % 4] ^= (1ULL << (trial % 64)) | (1ULL << ((trial + 1) % 64));
+    EXPECT_EQ(hammingDistance(a, b), 2);
+    EXPECT_EQ(hammingDistance(b, a), 2);
+  }
+}
+
+}  // namespace
+}  // namespace softbody
