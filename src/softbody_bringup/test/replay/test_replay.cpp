@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "softbody_bringup/bag_frames.h"
+#include "softbody_bringup/pipeline.h"
+#include "softbody_bringup/result_bag.h"
+#include "softbody_common/conversions.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kBag = ROSBAGS_DIR "/bend_small.bag";
+const std::string kObject = CONFIG_DIR "/sponge.yaml";
+
+class ReplayTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("softbody_replay_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Replays the small bag into a file and returns what went by.
+  std::vector<FrameOutput> replay(const fs::path& output) {
+    const ObjectModel model = buildObjectModel(loadObjectDescription(kObject));
+    Pipeline pipeline(model, TrackerConfig(), SimulatorConfig());
+    CameraIngest ingest{CameraIngestConfig()};
+    const rosbag::Bag input(kBag, rosbag::bagmode::Read);
+    ResultBag result(output, "/softbody", "softbody", false);
+    std::vector<FrameOutput> frames;
+    const auto use = [&](const RgbdFrame& frame, const std_msgs::Header& header, double) {
+      if (frames.empty()) result.writeTopologies(pipeline, header.stamp);
+      frames.push_back(pipeline.process(frame));
+      result.writeFrame(frames.back(), header);
+    };
+    readBagFrames(input, BagFramesConfig(), &ingest, use);
+    result.finish();
+    return frames;
+  }
+
+  static std::string bytes(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ReplayTest, AnswersEveryFrameAndGivesTheSameBytesTwice) {
+  const std::vector<FrameOutput> frames = replay(folder_ / "first.bag");
+  ASSERT_EQ(frames.size(), 45u);
+  for (const FrameOutput& frame : frames) {
+    ASSERT_TRUE(frame.surface.has_value());
+    EXPECT_EQ(frame.surface->vertices.rows(), 522);
+    EXPECT_EQ(frame.volume->vertices.rows(), 132);
+    EXPECT_TRUE(frame.surface->vertices.allFinite());
+    EXPECT_EQ(frame.tracking.status.state, TrackingState::kTracking) << frame.tracking.status.reason;
+  }
+  replay(folder_ / "second.bag");
+  EXPECT_TRUE(bytes(folder_ / "first.bag") == bytes(folder_ / "second.bag"));
+  EXPECT_FALSE(fs::exists(folder_ / "first.bag.part"));
+}
+
+TEST_F(ReplayTest, LeavesAnEarlierResultAloneWhenItDoesNotFinish) {
+  const fs::path output = folder_ / "result.bag";
+  std::ofstream(output) << "an earlier result";
+  { const ResultBag unfinished(output, "/softbody", "softbody", false); }
+  EXPECT_EQ(bytes(output), "an earlier result");
+  EXPECT_FALSE(fs::exists(folder_ / "result.bag.part"));
+}
+
+TEST_F(ReplayTest, NamesTheMissingTopicAndWhatIsThere) {
+  const rosbag::Bag input(kBag, rosbag::bagmode::Read);
+  CameraIngest ingest{CameraIngestConfig()};
+  BagFramesConfig config;
+  config.camera = "/other";
+  try {
+    readBagFrames(input, config, &ingest, [](const RgbdFrame&, const std_msgs::Header&, double) {});
+    FAIL() << "a bag without the camera's topics must be refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("/other/color/image_raw"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("/camera/color/image_raw"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace softbody
