@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "softbody_bringup/virtual_camera/scene.h"
+#include "softbody_bringup/virtual_camera/shapes.h"
 
 namespace softbody::virtual_camera {
 
@@ -16,10 +17,6 @@ inline TriangleMesh rectangleMesh(double half_x, double half_y) {
   mesh.vertices << -half_x, -half_y, 0, half_x, -half_y, 0, half_x, half_y, 0, -half_x, half_y, 0;
   mesh.triangles << 0, 2, 1, 0, 3, 2;
   return mesh;
-}
-
-inline Points transformed(const Eigen::Isometry3d& T, const Points& points) {
-  return (points * T.linear().transpose()).rowwise() + T.translation().transpose();
 }
 
 /// Actors that stand still at these poses in the camera's frame.

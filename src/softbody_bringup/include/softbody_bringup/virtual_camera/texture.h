@@ -18,4 +18,7 @@ Texture woodTexture(std::uint64_t seed);
 /// Painted plaster: nearly uniform.
 Texture plasterTexture(std::uint64_t seed);
 
+/// Skin: nearly uniform.
+Texture skinTexture();
+
 }  // namespace softbody::virtual_camera

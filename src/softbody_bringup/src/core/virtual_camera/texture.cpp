@@ -108,4 +108,11 @@ Texture plasterTexture(std::uint64_t seed) {
   };
 }
 
+Texture skinTexture() {
+  return [](const Eigen::Vector3d& p) -> Eigen::Vector3f {
+    const float level = static_cast<float>(0.95 + 0.10 * (valueNoise(p / 0.02, 31) - 0.5));
+    return clamped(level * Eigen::Vector3f(0.87f, 0.65f, 0.54f));
+  };
+}
+
 }  // namespace softbody::virtual_camera

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody::virtual_camera {
+
+/// A rectangle from a corner and two edges [m]; its front is edge_u x edge_v.
+TriangleMesh rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& edge_u,
+                       const Eigen::Vector3d& edge_v);
+
+/// A cylinder from a to b with half spheres as ends, closed.
+TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_m);
+
+/// The meshes side by side, vertices and triangles in their order.
+TriangleMesh merge(const std::vector<TriangleMesh>& meshes);
+
+/// A right hand of overlapping capsules, palm down: the fingers point along +x and end near the origin, the
+/// forearm reaches to x = -0.45; 100 mm wide along y, thickness along z.
+TriangleMesh hand();
+
+/// Rows of a rigid transform of rows.
+Points transformed(const Eigen::Isometry3d& T, const Points& points);
+
+}  // namespace softbody::virtual_camera
