@@ -29,9 +29,8 @@ void declare(CLI::App* app, Arguments* arguments) {
   app->add_option("--scene", setup.scene, "what to look at")
       ->check(CLI::IsMember(sceneNames()))
       ->capture_default_str();
-  app->add_option("--mesh", setup.mesh, "soft body at rest, OBJ in metres")
-      ->check(CLI::ExistingFile)
-      ->capture_default_str();
+  app->add_option("--mesh", setup.mesh, "soft body at rest, OBJ in metres; default: the scene's own")
+      ->check(CLI::ExistingFile);
   app->add_option("--seed", setup.seed, "of textures and noise")->capture_default_str();
   app->add_option("--noise", arguments->noise, "sensor noise: on or off")
       ->transform(CLI::CheckedTransformer(on_off));
@@ -64,7 +63,7 @@ int main(int argc, char** argv) {
   std::reverse(words.begin(), words.end());
 
   Arguments arguments;
-  arguments.setup.mesh = ros::package::getPath("softbody_bringup") + "/config/sponge.obj";
+  arguments.setup.config_folder = ros::package::getPath("softbody_bringup") + "/config";
   CLI::App app("Virtual RGB-D camera before a deforming body, with exact truth", "virtual_camera");
   declare(&app, &arguments);
   try {

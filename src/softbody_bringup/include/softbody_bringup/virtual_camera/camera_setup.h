@@ -10,7 +10,8 @@ namespace softbody::virtual_camera {
 /// What a user chooses, on the command line or as parameters.
 struct CameraSetup {
   std::string scene = "bend";
-  std::string mesh;  ///< OBJ in metres
+  std::string mesh;           ///< OBJ in metres; empty: the scene's own object
+  std::string config_folder;  ///< of the shipped objects
   std::uint64_t seed = 1;
   int width = 640, height = 480;  ///< [px]
   double rate_hz = 30.0;

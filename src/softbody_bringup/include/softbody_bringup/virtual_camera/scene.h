@@ -35,6 +35,9 @@ struct Scene {
 /// Names of the scenes that makeScene knows.
 std::vector<std::string> sceneNames();
 
+/// The shipped object that a scene is made for: "doll" if its name says so, otherwise "sponge".
+std::string objectOf(const std::string& scene);
+
 /// @param body the soft body at rest. @param seed of the textures.
 /// @throw std::invalid_argument with the known names if there is no such scene.
 Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed);

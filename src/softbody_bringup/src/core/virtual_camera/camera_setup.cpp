@@ -21,8 +21,10 @@ std::map<std::string, bool*> switches(NoiseOptions* noise) {
 }  // namespace
 
 VirtualCamera makeCamera(const CameraSetup& setup) {
-  return VirtualCamera(makeScene(setup.scene, readObj(setup.mesh), setup.seed),
-                       d435(setup.width, setup.height), setup.noise, setup.seed);
+  const std::string mesh =
+      setup.mesh.empty() ? setup.config_folder + "/" + objectOf(setup.scene) + ".obj" : setup.mesh;
+  return VirtualCamera(makeScene(setup.scene, readObj(mesh), setup.seed), d435(setup.width, setup.height),
+                       setup.noise, setup.seed);
 }
 
 std::vector<std::string> noiseParts() {

@@ -9,6 +9,8 @@
 namespace softbody::virtual_camera {
 namespace {
 
+const std::string kDoll = "doll_";
+
 using PlayMaker = Play (*)(const Stage& stage);
 
 const std::map<std::string, PlayMaker>& makers() {
@@ -19,22 +21,29 @@ const std::map<std::string, PlayMaker>& makers() {
   return makers;
 }
 
+bool isDoll(const std::string& scene) { return scene.compare(0, kDoll.size(), kDoll) == 0; }
+
 }  // namespace
 
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
   for (const auto& [name, maker] : makers()) names.push_back(name);
+  for (const auto& [name, maker] : makers()) names.push_back(kDoll + name);
   return names;
 }
 
+std::string objectOf(const std::string& scene) { return isDoll(scene) ? "doll" : "sponge"; }
+
 Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed) {
-  const auto found = makers().find(name);
+  const auto found = makers().find(isDoll(name) ? name.substr(kDoll.size()) : name);
   if (found == makers().end()) {
     throw std::invalid_argument(
         fmt::format("there is no scene '{}'; known: {}", name, fmt::join(sceneNames(), ", ")));
   }
   const Stage stage = makeStage(body, seed);
-  return perform(stage, found->second(stage));
+  Play play = found->second(stage);
+  play.name = name;
+  return perform(stage, play);
 }
 
 }  // namespace softbody::virtual_camera
