@@ -68,6 +68,29 @@ TEST(BagWriter, HoldsTheContractsTopicsWithOneStampAFrame) {
   for (const auto& [stamp, images] : stamps) EXPECT_EQ(images, 3);
 }
 
+TEST(BagWriter, WritesWideImagesAtSixtyHertz) {
+  CameraSetup setup;
+  setup.scene = "shake";
+  setup.config_folder = CONFIG_DIR;
+  setup.width = 848;
+  setup.rate_hz = 60.0;
+  VirtualCamera camera = makeCamera(setup);
+  const std::string path = testing::TempDir() + "wide.bag";
+  writeBag(&camera, {path, 4, 60.0}, [](int) {});
+  rosbag::Bag bag(path);
+  ros::Time last;
+  for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/camera/color/image_raw"))) {
+    const auto image = m.instantiate<sensor_msgs::Image>();
+    EXPECT_EQ(image->width, 848u);
+    EXPECT_EQ(image->height, 480u);
+    if (!last.isZero()) {
+      EXPECT_NEAR((m.getTime() - last).toSec(), 1.0 / 60.0, 1e-8);
+    }
+    last = m.getTime();
+  }
+  EXPECT_EQ(camera.pinhole().cx, 424.0);
+}
+
 TEST(BagWriter, TheTruthIsTheMeshFileVertexByVertex) {
   rosbag::Bag bag(write("truth.bag", 1));
   rosbag::View view(bag, rosbag::TopicQuery("/ground_truth/surface/topology"));

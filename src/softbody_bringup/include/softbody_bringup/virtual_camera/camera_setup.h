@@ -21,7 +21,7 @@ struct CameraSetup {
 /// @throw std::invalid_argument if the scene is unknown or the mesh cannot be read.
 VirtualCamera makeCamera(const CameraSetup& setup);
 
-/// Names of the parts of the noise: color, disparity, quantization, edges, holes.
+/// Names of the parts of the noise: exposure, blur, color, disparity, quantization, edges, holes.
 std::vector<std::string> noiseParts();
 /// @throw std::invalid_argument with the known names if there is no such part.
 void switchOff(const std::string& noise_part, NoiseOptions* noise);

@@ -23,6 +23,7 @@ class Renderer {
 
   /// @param vertices one entry an actor, in the camera's frame [m].
   void render(const std::vector<Points>& vertices, RenderedImage* image);
+  void renderColor(const std::vector<Points>& vertices, cv::Mat3b* color);
 
  private:
   void gather(const std::vector<Points>& vertices);

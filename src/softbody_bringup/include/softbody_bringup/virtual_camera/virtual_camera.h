@@ -1,5 +1,6 @@
 #pragma once
 
+#include "softbody_bringup/virtual_camera/exposure.h"
 #include "softbody_bringup/virtual_camera/noise.h"
 #include "softbody_bringup/virtual_camera/renderer.h"
 #include "softbody_bringup/virtual_camera/scene.h"
@@ -11,6 +12,8 @@ namespace softbody::virtual_camera {
 Pinhole d435(int width, int height);
 
 struct NoiseOptions {
+  ExposureDriftOptions exposure;
+  MotionBlurOptions blur;
   ColorNoiseOptions color;
   DepthNoiseOptions depth;
 };
@@ -39,9 +42,13 @@ class VirtualCamera {
   const MeshTopology& topology() const { return topology_; }
 
  private:
+  void blur(double t, cv::Mat3b* color);
+
   Scene scene_;
   Pinhole camera_;
   Renderer renderer_;
+  MotionBlurOptions blur_;
+  ExposureDrift exposure_drift_;
   ColorNoise color_noise_;
   DepthNoise depth_noise_;
   MeshTopology topology_;

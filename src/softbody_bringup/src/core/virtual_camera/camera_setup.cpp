@@ -11,7 +11,9 @@ namespace softbody::virtual_camera {
 namespace {
 
 std::map<std::string, bool*> switches(NoiseOptions* noise) {
-  return {{"color", &noise->color.enabled},
+  return {{"exposure", &noise->exposure.enabled},
+          {"blur", &noise->blur.enabled},
+          {"color", &noise->color.enabled},
           {"disparity", &noise->depth.disparity_noise},
           {"quantization", &noise->depth.quantization},
           {"edges", &noise->depth.edge_dropouts},

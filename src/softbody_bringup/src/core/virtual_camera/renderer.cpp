@@ -109,13 +109,17 @@ Renderer::Renderer(const Scene& scene, const Pinhole& camera)
   }
 }
 
-void Renderer::render(const std::vector<Points>& vertices, RenderedImage* image) {
+void Renderer::renderColor(const std::vector<Points>& vertices, cv::Mat3b* color) {
   gather(vertices);
   projected_ = projectTriangles(camera_, vertices_, triangles_);
   brightness_ = cornerBrightness(areaNormals(vertices_, triangles_), smooth_neighbors_, to_light_);
-  rasterize(camera_, projected_, 2, &color_samples_);
+  rasterize(camera_, projected_, kColorSamples, &color_samples_);
+  shade(color);
+}
+
+void Renderer::render(const std::vector<Points>& vertices, RenderedImage* image) {
+  renderColor(vertices, &image->color);
   rasterize(camera_, projected_, 1, &depth_samples_);
-  shade(&image->color);
   image->depth.create(camera_.height, camera_.width);
   std::transform(depth_samples_.inverse_z.begin(), depth_samples_.inverse_z.end(), image->depth.begin(),
                  [](float inverse_z) { return inverse_z > 0.0f ? 1.0f / inverse_z : 0.0f; });

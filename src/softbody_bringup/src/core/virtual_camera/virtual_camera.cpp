@@ -1,6 +1,8 @@
 #include "softbody_bringup/virtual_camera/virtual_camera.h"
 
+#include <algorithm>
 #include <numeric>
+#include <opencv2/imgproc.hpp>
 
 #include "softbody_bringup/virtual_camera/random.h"
 #include "softbody_common/tet_geometry.h"
@@ -19,6 +21,21 @@ MeshTopology topologyOf(const TriangleMesh& rest) {
   return topology;
 }
 
+/// Farthest way of a vertex on the image [px]; what is not before the camera at both times does not count.
+double largestMotion(const Pinhole& camera, const SceneState& from, const SceneState& to) {
+  constexpr double kNear = 0.05;  // [m]
+  double largest = 0.0;
+  for (std::size_t actor = 0; actor < from.vertices.size(); ++actor) {
+    for (Eigen::Index i = 0; i < from.vertices[actor].rows(); ++i) {
+      const Eigen::Vector3d a = from.vertices[actor].row(i), b = to.vertices[actor].row(i);
+      if (a.z() > kNear && b.z() > kNear) {
+        largest = std::max(largest, (camera.project(a) - camera.project(b)).norm());
+      }
+    }
+  }
+  return largest;
+}
+
 }  // namespace
 
 Pinhole d435(int width, int height) {
@@ -29,7 +46,7 @@ Pinhole d435(int width, int height) {
 
 NoiseOptions noNoise() {
   NoiseOptions noise;
-  noise.color.enabled = false;
+  noise.exposure.enabled = noise.blur.enabled = noise.color.enabled = false;
   noise.depth.disparity_noise = noise.depth.quantization = noise.depth.edge_dropouts = noise.depth.holes =
       false;
   return noise;
@@ -40,6 +57,8 @@ VirtualCamera::VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOpti
     : scene_(std::move(scene)),
       camera_(camera),
       renderer_(scene_, camera),
+      blur_(noise.blur),
+      exposure_drift_(noise.exposure, hash(seed, 103)),
       color_noise_(noise.color, hash(seed, 101)),
       depth_noise_(noise.depth, hash(seed, 102)),
       topology_(topologyOf(scene_.actors.at(0).rest)) {}
@@ -49,6 +68,8 @@ Capture VirtualCamera::capture(int frame, double t) {
   renderer_.render(state.vertices, &image_);
   Capture capture;
   capture.color = image_.color.clone();
+  blur(t, &capture.color);
+  exposure_drift_.apply(t, &capture.color);
   color_noise_.apply(frame, &capture.color);
   depth_noise_.apply(frame, camera_.fx, &image_.depth);
   capture.depth_mm = toMillimetres(image_.depth);
@@ -56,6 +77,21 @@ Capture VirtualCamera::capture(int frame, double t) {
   capture.truth.confidence = image_.visibility;
   capture.T_camera_body = state.T_camera_body;
   return capture;
+}
+
+void VirtualCamera::blur(double t, cv::Mat3b* color) {
+  if (!blur_.enabled) return;
+  const auto opened = scene_.state(std::max(0.0, t - 0.5 * blur_.exposure_s));
+  const auto closed = scene_.state(t + 0.5 * blur_.exposure_s);
+  const int images = blurImages(blur_, largestMotion(camera_, opened, closed));
+  if (images == 1) return;
+  cv::Mat3f sum = cv::Mat3f::zeros(color->size());
+  for (int i = 0; i < images; ++i) {
+    const double offset = blur_.exposure_s * ((i + 0.5) / images - 0.5);
+    renderer_.renderColor(scene_.state(std::max(0.0, t + offset)).vertices, color);
+    cv::accumulate(*color, sum);
+  }
+  sum.convertTo(*color, CV_8U, 1.0 / images);
 }
 
 }  // namespace softbody::virtual_camera
