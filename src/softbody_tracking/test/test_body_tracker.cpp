@@ -160,6 +160,56 @@ TEST(BodyTracker, SurvivesFramesWithoutAnyMeasurement) {
   EXPECT_TRUE(tracked.tracksWithin(15, rest));
 }
 
+TEST(BodyTracker, WrongDepthDoesNotCarryTheBodyAway) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  for (int i = 0; i < 5; ++i) {
+    const TrackingResult result = tracked.show(rest, [](RgbdFrame* frame) { frame->depth.setTo(3.0f); });
+    EXPECT_NE(result.status.state, TrackingState::kTracking);
+    EXPECT_LT((result.targets.body_pose.translation() - boxPose().translation()).norm(), 0.01);
+    for (const Target& target : result.targets.targets) EXPECT_LT(target.position.z(), 1.0);
+  }
+}
+
+TEST(BodyTracker, SaysThatItsFeaturesAreCovered) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  const TrackingResult result =
+      tracked.show(rest, [](RgbdFrame* frame) { frame->color.setTo(cv::Vec3b(35, 90, 140)); });
+  EXPECT_EQ(result.status.state, TrackingState::kDegraded);
+  EXPECT_FALSE(result.status.reason.empty());
+}
+
+TEST(BodyTracker, IgnoresStatesThatDoNotAnswerItsTargets) {
+  BoxBody box = makeBox();
+  box.volume.has_initial_pose = true;
+  box.volume.initial_pose = boxPose();
+  BodyTracker tracker{TrackerConfig()};
+  tracker.setTopologies(box.volume, box.surface);
+  StageTimer timer;
+  const Points rest = posedBox(box);
+  const RgbdFrame first = renderFrame(box, rest, 1000), second = renderFrame(box, rest, 2000);
+  ASSERT_TRUE(tracker.track(first, nullptr, &timer).targets.reset);
+  const auto resetsWith = [&](const MeshState& state) {
+    return tracker.track(second, &state, &timer).targets.reset;
+  };
+  EXPECT_TRUE(resetsWith({0, 500, rest, {}})) << "from before the body was placed";
+  EXPECT_TRUE(resetsWith({0, 5000, rest, {}})) << "from a later pass of a looping bag";
+  EXPECT_TRUE(resetsWith({7, 1000, rest, {}})) << "of another revision";
+  EXPECT_TRUE(resetsWith({0, 1000, rest.topRows(5), {}})) << "of another size";
+  EXPECT_FALSE(resetsWith({0, 1000, rest, {}}));
+}
+
+TEST(BodyTracker, RefusesImagesOfAnotherSizeThanTheCameras) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  EXPECT_THROW(tracked.show(rest, [](RgbdFrame* frame) { frame->depth.release(); }), std::invalid_argument);
+  EXPECT_THROW(tracked.show(rest, [](RgbdFrame* frame) { frame->color.create(2, 2); }),
+               std::invalid_argument);
+}
+
 TEST(BodyTracker, KnnModeMovesVertices) {
   TrackerConfig config;
   config.knn_targets = true;

@@ -39,6 +39,7 @@ class BodyTracker {
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   bool ready() const;
 
+  /// Colour and depth have the camera's size. @throw std::invalid_argument otherwise.
   /// @param volume the newest state of the volume in the camera frame, nullptr where there is none yet.
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 #include "color_model.h"
 #include "depth_associations.h"
@@ -21,6 +22,11 @@ constexpr double kRigidConvergence = 3e-4;  // [m]
 constexpr double kLearnTolerance = 0.008;   // [m], depth agrees well enough to learn the body's colours
 constexpr int kFewestAssociations = 12;
 constexpr double kDegradedShare = 0.3;  // of the visible surface that must be explained
+constexpr int kFewestExpectedFeatures =
+    30;                                // with so many expected, hardly any found says that they are covered
+constexpr double kFewestFound = 0.05;  // of the expected features
+constexpr double kWorstInlierRatio = 0.2;
+constexpr double kLargestRigidStep = 0.1;  // [m] of any vertex; more is no tracking
 constexpr int kLostFramesBeforeRecovery = 10;
 constexpr int kFramesBetweenRegistrations = 10;  // it takes about a second
 
@@ -30,6 +36,10 @@ std::vector<Association> inliers(const std::vector<FeatureMatch>& matches) {
     if (match.inlier) result.push_back(match.association);
   }
   return result;
+}
+
+std::string sizeText(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 Target toTarget(const Association& a) { return {a.kind, a.place, a.measured, a.normal, a.weight}; }
@@ -48,7 +58,8 @@ struct BodyTracker::Implementation {
   };
 
   bool start(const RgbdFrame& frame, StageTimer* timer);
-  Points predictedVolume(const MeshState* volume) const;
+  /// Whether a state of the volume answers the targets sent since the body was placed.
+  bool answers(const MeshState* volume, Nanoseconds stamp) const;
   Observation observe(const RgbdFrame& frame, Points vertices, bool first);
   void learnColors(const RgbdFrame& frame);
   std::vector<Association> all(const Observation& seen) const;
@@ -114,10 +125,10 @@ bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* time
   return true;
 }
 
-Points BodyTracker::Implementation::predictedVolume(const MeshState* volume) const {
-  const bool simulated =
-      volume != nullptr && volume->observed >= placed_since && volume->revision == surface->volume().revision;
-  return simulated ? volume->vertices : transformed(surface->volume().rest_vertices, body_pose);
+bool BodyTracker::Implementation::answers(const MeshState* volume, Nanoseconds stamp) const {
+  return volume != nullptr && volume->observed >= placed_since && volume->observed <= stamp &&
+         volume->revision == surface->volume().revision &&
+         volume->vertices.rows() == surface->volume().rest_vertices.rows();
 }
 
 void BodyTracker::Implementation::learnColors(const RgbdFrame& frame) {
@@ -153,9 +164,10 @@ BodyTracker::Implementation::Observation BodyTracker::Implementation::observe(co
     seen.depth = associateDepth(frame, *surface, body_colors, volume_edge_m, config.depth);
     std::vector<Association> associations = inliers(seen.matches);
     associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
+    if (static_cast<int>(associations.size()) < kFewestAssociations) break;
     const Eigen::Isometry3d step = rigidStep(associations);
     const double moved = (transformed(vertices, step) - vertices).rowwise().norm().maxCoeff();
-    if (i == kRigidIterations || moved < kRigidConvergence) break;
+    if (i == kRigidIterations || moved < kRigidConvergence || moved > kLargestRigidStep) break;
     vertices = transformed(vertices, step);
     surface->update(frame.camera, vertices);
     for (FeatureMatch& match : seen.matches) {
@@ -228,12 +240,25 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
     status.reason = seen.depth.occluded_blocks > seen.depth.absent_blocks
                         ? "most of the body is occluded"
                         : "most of the body is not where predicted";
+  } else if (map.expected() >= kFewestExpectedFeatures &&
+             static_cast<double>(kept.size()) < kFewestFound * map.expected()) {
+    status.state = TrackingState::kDegraded;
+    status.reason = "hardly any of the expected features are found";
+  } else if (static_cast<int>(seen.matches.size()) >= kFewestExpectedFeatures &&
+             status.inlier_ratio < kWorstInlierRatio) {
+    status.state = TrackingState::kDegraded;
+    status.reason = "most feature matches disagree with their neighbours";
   }
   return status;
 }
 
 TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
   Implementation& self = *implementation_;
+  const cv::Size size(frame.camera.width, frame.camera.height);
+  if (frame.color.size() != size || frame.depth.size() != size) {
+    throw std::invalid_argument("colour is " + sizeText(frame.color.size()) + ", depth " +
+                                sizeText(frame.depth.size()) + ", but the camera " + sizeText(size));
+  }
   if (!ready()) return self.waiting("waiting for the topologies of simulator and surface");
   if (frame.stamp < self.last_stamp) self.reset();
   self.last_stamp = frame.stamp;
@@ -250,9 +275,10 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
 
   TrackingResult result;
   const auto scope = timer->stage("Feature-Point Tracking", first);
-  const bool placed = !first && volume != nullptr && volume->observed >= self.placed_since;
-  const Implementation::Observation seen =
-      self.observe(frame, self.predictedVolume(first ? nullptr : volume), first);
+  const bool placed = !first && self.answers(volume, frame.stamp);
+  const Points predicted =
+      placed ? volume->vertices : transformed(self.surface->volume().rest_vertices, self.body_pose);
+  const Implementation::Observation seen = self.observe(frame, predicted, first);
   const std::vector<Association> associations = self.all(seen);
   result.status = self.judge(seen, associations);
   result.features = self.trackedFeatures(seen);

@@ -7,6 +7,7 @@
 namespace softbody {
 namespace {
 
+constexpr double kLargestMotion = 0.1;      // [m] a frame; 3 m/s at 30 Hz
 constexpr double kVisibleTolerance = 0.01;  // [m], feature behind the rendered surface by more: hidden
 constexpr float kRatio = 0.85f;             // best to second-best distance
 constexpr float kSamePlacePx = 3.0f;        // two keypoints nearer than this are no rivals
@@ -82,7 +83,7 @@ int bestKeypoint(const Descriptor& descriptor, const cv::Point2f& predicted,
 }
 
 bool predictedVisible(const PredictedSurface& surface, const Eigen::Vector3d& position, cv::Point2f* pixel) {
-  if (position.z() <= 0.0) return false;
+  if (!(position.z() > 0.0)) return false;
   const Eigen::Vector2d projected = surface.camera().project(position);
   if (!surface.camera().contains(projected.x(), projected.y())) return false;
   *pixel = toPoint2f(projected);
@@ -114,6 +115,10 @@ void markOutliers(const Pinhole& camera, const std::vector<Keypoint>& keypoints,
     });
     if (motions[0].size() < kFewestNeighbors) {
       (*matches)[m].inlier = motion(static_cast<int>(m)).norm() < max_disagreement;
+      continue;
+    }
+    if (motion(static_cast<int>(m)).norm() > kLargestMotion) {
+      (*matches)[m].inlier = false;
       continue;
     }
     const Eigen::Vector3d typical(median(&motions[0]), median(&motions[1]), median(&motions[2]));
@@ -149,11 +154,13 @@ std::vector<FeatureMatch> FeatureMap::match(const RgbdFrame& frame, const std::v
   std::vector<int> owner(keypoints.size(), -1),
       owner_distance(keypoints.size(), std::numeric_limits<int>::max());
   std::vector<Eigen::Vector3d> predicted(features_.size());
+  expected_ = 0;
   for (std::size_t f = 0; f < features_.size(); ++f) {
     predicted[f] = surface.position(features_[f].place);
     cv::Point2f pixel;
     if (!predictedVisible(surface, predicted[f], &pixel)) continue;
     ++features_[f].predicted;
+    ++expected_;
     int distance = 0;
     const int k = bestKeypoint(features_[f].descriptor, pixel, keypoints, grid, config_, &distance);
     if (k >= 0 && distance < owner_distance[k]) {

@@ -35,9 +35,13 @@ class FeatureMap {
 
   const std::vector<MapFeature>& features() const { return features_; }
 
-  /// Matches with outliers marked: a match that disagrees with the median motion of its neighbourhood is one.
+  /// Matches with outliers marked: a match that disagrees with the median motion of its neighbourhood is one,
+  /// and so is one further from its prediction than a body moves in a frame.
   std::vector<FeatureMatch> match(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
                                   const PredictedSurface& surface);
+
+  /// How many features the last match() expected to see.
+  int expected() const { return expected_; }
 
   /// Binds keypoints on visible surface where no feature is, and drops features that are hardly ever found
   /// again.
@@ -52,6 +56,7 @@ class FeatureMap {
   FeatureConfig config_;
   std::vector<MapFeature> features_;
   int next_id_ = 0;
+  int expected_ = 0;
 };
 
 /// Depth at a keypoint [m]: mean over the 5x5 pixels that lie within 2 % of the middle one; 0 where there is

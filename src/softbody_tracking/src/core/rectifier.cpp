@@ -28,6 +28,15 @@ bool leavesPixels(const Distortion& distortion, const Pinhole& rectified) {
   return no_calibration || (distortion.R == cv::Matx33d::eye() && distortion.K == cameraMatrix(rectified));
 }
 
+void checkRotation(const cv::Matx33d& R, const cv::Matx33d& K) {
+  const double centre[] = {K(0, 2), K(1, 2)};
+  const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]);
+  // Negated so that NaN is refused too.
+  if (!finite || !(std::abs(cv::determinant(R) - 1.0) < 1e-3)) {
+    throw std::invalid_argument("camera_info: the centre in K is not finite, or R is no rotation");
+  }
+}
+
 void check(const Distortion& distortion) {
   const std::set<std::size_t> counts =
       distortion.fisheye ? std::set<std::size_t>{4} : std::set<std::size_t>{0, 4, 5, 8, 12, 14};
@@ -43,6 +52,7 @@ void check(const Distortion& distortion) {
     throw std::invalid_argument(fmt::format("camera_info: the focal lengths {} and {} in K must be above 0",
                                             distortion.K(0, 0), distortion.K(1, 1)));
   }
+  checkRotation(distortion.R, distortion.K);
 }
 
 /// z of a point in the rectified frame per z in the raw frame, for every rectified pixel.

@@ -1,6 +1,14 @@
 #include "softbody_tracking/tracker_config.h"
 
+#include <stdexcept>
+#include <string>
+
 namespace softbody {
+namespace {
+
+constexpr int kFewestKnnFeatures = 50;
+
+}  // namespace
 
 TrackerConfig readTrackerConfig(Parameters& parameters) {
   TrackerConfig config;
@@ -10,7 +18,7 @@ TrackerConfig readTrackerConfig(Parameters& parameters) {
   RegistrationConfig& registration = config.registration;
   registration.distance_scale_m =
       parameters.number("registration_distance_scale_m", registration.distance_scale_m, 0.001, 1.0);
-  registration.max_cost = parameters.number("registration_max_cost", registration.max_cost, 0.01, 1.0);
+  registration.max_cost = parameters.number("registration_max_cost", registration.max_cost, 0.01, 0.9);
 
   FeatureConfig& features = config.features;
   features.max_features = parameters.integer("max_features", features.max_features, 0, 20000);
@@ -23,10 +31,14 @@ TrackerConfig readTrackerConfig(Parameters& parameters) {
   features.weight = parameters.number("feature_weight", features.weight, 1e-6, 1e6);
 
   DepthConfig& depth = config.depth;
-  depth.max_targets = parameters.integer("max_depth_targets", depth.max_targets, 1, 100000);
+  depth.max_targets = parameters.integer("max_depth_targets", depth.max_targets, 100, 100000);
   depth.max_distance_m = parameters.number("depth_max_distance_m", depth.max_distance_m, 1e-3, 1.0);
   depth.weight = parameters.number("depth_weight", depth.weight, 1e-6, 1e6);
 
+  if (config.knn_targets && features.max_features < kFewestKnnFeatures) {
+    throw std::invalid_argument("parameter max_features must be at least " +
+                                std::to_string(kFewestKnnFeatures) + " for target_mode knn");
+  }
   KnnConfig& knn = config.knn;
   knn.max_neighbors = parameters.integer("max_neighbors", knn.max_neighbors, 1, 1000);
   knn.radius_m = parameters.number("neighbor_radius_m", knn.radius_m, 1e-4, 10.0);

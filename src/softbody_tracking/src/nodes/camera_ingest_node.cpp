@@ -116,7 +116,8 @@ void CameraIngestNode::onPair(const sensor_msgs::ImageConstPtr& color,
     }
     publish(frame, color->header);
     completeFrame(color->header.stamp);
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
+    timer_.take();
     ++refused_;
     monitor_->refused(error.what());
     warn(error.what());

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kSyncQueue = 4;
 constexpr double kTfPatience_s = 0.05;
+constexpr double kSilence_s = 2.0;
 
 /// A target set moved to another frame.
 TargetSet transformed(TargetSet targets, const Eigen::Isometry3d& T) {
@@ -76,9 +77,9 @@ void FeatureTrackerNode::onVolumeTopology(const softbody_msgs::TetTopology::Cons
                     topology.rest_vertices == volume_topology_.rest_vertices &&
                     topology.tets == volume_topology_.tets;
   if (same) return;
+  if (has_surface_topology_) adoptTopologies(topology, surface_topology_);
   volume_topology_ = std::move(topology);
   has_volume_topology_ = true;
-  adoptTopologies();
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, volume_topology_subscriber_.getTopic() << " is unusable: " << error.what());
 }
@@ -89,17 +90,15 @@ void FeatureTrackerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::Co
                     topology.rest_vertices == surface_topology_.rest_vertices &&
                     topology.triangles == surface_topology_.triangles;
   if (same) return;
+  if (has_volume_topology_) adoptTopologies(volume_topology_, topology);
   surface_topology_ = std::move(topology);
   has_surface_topology_ = true;
-  adoptTopologies();
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, surface_topology_subscriber_.getTopic() << " is unusable: " << error.what());
 }
 
-void FeatureTrackerNode::adoptTopologies() {
-  const bool complete = has_volume_topology_ && has_surface_topology_ &&
-                        volume_topology_.revision == surface_topology_.revision;
-  if (complete) tracker_->setTopologies(volume_topology_, surface_topology_);
+void FeatureTrackerNode::adoptTopologies(const TetTopology& volume, const MeshTopology& surface) {
+  if (volume.revision == surface.revision) tracker_->setTopologies(volume, surface);
 }
 
 void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr& message) {
@@ -120,7 +119,10 @@ std::optional<MeshState> FeatureTrackerNode::volumeInCamera(const Eigen::Isometr
     try {
   if (!volume_state_) return std::nullopt;
   MeshState state = fromMessage(*volume_state_);
-  if (state.vertices.rows() != volume_topology_.rest_vertices.rows()) return std::nullopt;
+  if (state.vertices.rows() != volume_topology_.rest_vertices.rows()) {
+    throw std::invalid_argument(std::to_string(state.vertices.rows()) + " vertices, but the topology has " +
+                                std::to_string(volume_topology_.rest_vertices.rows()));
+  }
   state.vertices = softbody::transformed(state.vertices, T_output_camera.inverse());
   return state;
 } catch (const std::invalid_argument& error) {
@@ -132,7 +134,12 @@ void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
                                  const sensor_msgs::ImageConstPtr& depth,
                                  const sensor_msgs::CameraInfoConstPtr& info) try {
   const std::optional<Eigen::Isometry3d> T_output_camera = cameraPose(color->header);
-  if (!T_output_camera) return;
+  if (!T_output_camera) {
+    last_status_.state = TrackingState::kInitializing;
+    last_status_.reason =
+        "tf does not connect " + color->header.frame_id + " with output_frame " + output_frame_;
+    return publishStatus(color->header);
+  }
   // A bag that loops: what the simulator said of later times is void.
   if (color->header.stamp < last_stamp_) volume_state_.reset();
   last_stamp_ = color->header.stamp;
@@ -145,6 +152,7 @@ void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
   StageTimer timer;
   const TrackingResult result = tracker_->track(frame, volume ? &*volume : nullptr, &timer);
   last_status_ = result.status;
+  publishStatus(color->header);
   publish(color->header, *T_output_camera, result);
   softbody_msgs::StageTiming timing = timingMessage("feature_tracker", timer.take());
   timing.header = color->header;
@@ -153,11 +161,14 @@ void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
   ROS_ERROR_STREAM_THROTTLE(5.0, "frame " << color->header.stamp << " cannot be tracked: " << error.what());
 }
 
+void FeatureTrackerNode::publishStatus(const std_msgs::Header& header) {
+  const auto status = boost::make_shared<softbody_msgs::TrackingStatus>(toMessage(last_status_));
+  status->header = header;
+  status_.publish(status);
+}
+
 void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
                                  const Eigen::Isometry3d& T_output_camera, const TrackingResult& result) {
-  const auto status = boost::make_shared<softbody_msgs::TrackingStatus>(toMessage(result.status));
-  status->header = camera_header;
-  status_.publish(status);
   if (!result.has_targets) {
     ROS_WARN_STREAM_THROTTLE(5.0, "not tracking: " << result.status.reason);
     return;
@@ -186,6 +197,13 @@ void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
 
 void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   static constexpr const char* kNames[] = {"initializing", "tracking", "degraded", "lost", "recovering"};
+  const double silence_s = (ros::Time::now() - last_stamp_).toSec();
+  if (last_stamp_.isZero() || silence_s > kSilence_s) {
+    status.summary(
+        diagnostic_msgs::DiagnosticStatus::WARN,
+        "no frame from camera_ingest for over " + std::to_string(static_cast<int>(kSilence_s)) + " s");
+    return;
+  }
   const bool good = last_status_.state == TrackingState::kTracking;
   const bool lost = last_status_.state == TrackingState::kLost;
   status.summary(

@@ -35,10 +35,11 @@ class FeatureTrackerNode {
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);
 
-  void adoptTopologies();
+  void adoptTopologies(const TetTopology& volume, const MeshTopology& surface);
   /// Camera in the frame in which targets are published; nothing where tf does not know it.
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header) const;
   std::optional<MeshState> volumeInCamera(const Eigen::Isometry3d& T_output_camera) const;
+  void publishStatus(const std_msgs::Header& header);
   void publish(const std_msgs::Header& camera_header, const Eigen::Isometry3d& T_output_camera,
                const TrackingResult& result);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
