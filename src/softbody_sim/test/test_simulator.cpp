@@ -200,6 +200,25 @@ TEST(Simulator, ClampsLongGapsAndTakesNoTimeForARepeatedStamp) {
   EXPECT_LT(largestDistance(simulator.state().vertices, fallen), 1e-12);
 }
 
+TEST(Simulator, DoesNotFlyOnAfterAGap) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, undamped(), accurate());
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  const Eigen::Vector3d way(0.05, 0.0, 0.0);
+  TargetSet targets;
+  targets.targets = vertexTargets(
+      topology, transformed(topology.rest_vertices, Eigen::Isometry3d(Eigen::Translation3d(way))));
+  constexpr Nanoseconds kGap = 2000000000;
+  simulator.step(targets, kGap);
+  const Points before = simulator.state().vertices;
+  const double reached = (before - topology.rest_vertices).col(0).mean();
+  EXPECT_GT(reached, 0.045);
+  simulator.step({}, kGap + kFrame);
+  // On at the gap's mean speed.
+  const double on = (simulator.state().vertices - before).col(0).mean();
+  EXPECT_NEAR(on, reached * static_cast<double>(kFrame) / static_cast<double>(kGap), 1e-6);
+}
+
 TEST(Simulator, RunsTheSameTwice) {
   const auto run = [] {
     const TetTopology topology = sponge();
@@ -282,10 +301,34 @@ TEST(Simulator, RefusesWhatItCannotUseAndKeepsItsState) {
   bad = good;
   bad.weight = -1.0;
   refuses(placing(Eigen::Isometry3d::Identity()), bad);
+  bad = good;
+  bad.place.barycentric = {1e12, -1e12, 1.0, 0.0};
+  refuses(placing(Eigen::Isometry3d::Identity()), bad);
 
   simulator.reset();
   EXPECT_FALSE(simulator.placed());
   EXPECT_EQ(simulator.state().vertices.rows(), 0);
+}
+
+TEST(Simulator, AStepThatFailsOnTheWayLeavesNoTrace) {
+  const TetTopology topology = sponge();
+  SimulatorConfig config;
+  config.gravity = {0.0, 0.0, -9.81};
+  Simulator failing(topology, Material(), config), untouched(topology, Material(), config);
+  for (Simulator* simulator : {&failing, &untouched}) {
+    simulator->step(placing(somePose()), 0);
+    simulator->step({}, kFrame);
+  }
+  TargetSet impossible = placing(Eigen::Isometry3d::Identity());
+  impossible.targets = {vertexTargets(topology, topology.rest_vertices).front()};
+  // Stiffer by so much than the rest that rounding leaves the system without a Cholesky factor.
+  impossible.targets[0].place.barycentric = {7.0, -3.0, 0.3, -3.3};
+  impossible.targets[0].weight = 1e24;
+  EXPECT_THROW(failing.step(impossible, 2 * kFrame), std::runtime_error);
+  for (int frame = 2; frame <= 4; ++frame) {
+    EXPECT_TRUE(failing.state().vertices == untouched.state().vertices) << frame;
+    for (Simulator* simulator : {&failing, &untouched}) simulator->step({}, frame * kFrame);
+  }
 }
 
 TEST(Simulator, RefusesVerticesThatNoTetUses) {

@@ -43,8 +43,10 @@ class Simulator {
 
   /// Advances to `stamp` under the targets. Before anything else a TargetSet with `reset` places the rest
   /// shape at body_pose at rest. A stamp not after the last one advances by no time, only the targets act.
-  /// @throw std::invalid_argument, leaving the state as it was, if the revision is not the topology's, a
-  /// target names a tet beyond it, a number is not finite, or the body has not been placed.
+  /// Leaves the state as it was where it throws.
+  /// @throw std::invalid_argument if the revision is not the topology's, a target names a tet beyond it, a
+  /// number is not finite, a barycentric coordinate is beyond 100, or the body has not been placed;
+  /// std::runtime_error if the targets' weights leave a system that cannot be solved.
   void step(const TargetSet& targets, Nanoseconds stamp);
 
   /// Back to "not placed".

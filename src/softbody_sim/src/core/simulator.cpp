@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/corotated_elasticity.h"
 #include "core/incremental_potential.h"
@@ -22,6 +23,10 @@ namespace {
 
 /// The frame interval that Material::damping refers to, and the inertia of a step that takes no time.
 constexpr double kNominalTimeStep = 1.0 / 30.0;
+
+/// Beyond it a target lies so far out of its tet that it says nothing about the tet, and its square in the
+/// metric drowns the body's own stiffness.
+constexpr double kLargestBarycentric = 100.0;
 
 /// A quarter of each tet's mass to each of its vertices [kg].
 Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) {
@@ -53,7 +58,20 @@ void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_cou
   if (!finite || target.weight <= 0.0) {
     throw std::invalid_argument(fmt::format("targets[{}]: not finite, or its weight is not above 0", index));
   }
+  if (target.place.barycentric.cwiseAbs().maxCoeff() > kLargestBarycentric) {
+    throw std::invalid_argument(fmt::format("targets[{}] has a barycentric coordinate beyond {} either way",
+                                            index, kLargestBarycentric));
+  }
 }
+
+/// All that a step changes.
+struct Body {
+  bool placed = false;
+  Nanoseconds stamp = 0;
+  Points velocity;  ///< [m/s]
+  MeshState state;
+  StepReport report;
+};
 
 }  // namespace
 
@@ -62,9 +80,9 @@ struct Simulator::Implementation {
                  const SimulatorConfig& config_in);
 
   void requireUsable(const TargetSet& targets) const;
-  void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
-  double elapsed(Nanoseconds stamp) const;
-  void simulate(const TargetSet& targets, double elapsed_s);
+  void place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const;
+  void advance(const TargetSet& targets, Nanoseconds stamp, Body* next);
+  void simulate(const TargetSet& targets, double elapsed_s, Body* next);
 
   const TetTopology topology;
   const Material material;
@@ -81,11 +99,7 @@ struct Simulator::Implementation {
   QuasiNewton minimizer;
   ObservationConfidence confidence;
 
-  bool placed = false;
-  Nanoseconds stamp = 0;
-  Points velocity;  ///< [m/s]
-  MeshState state;
-  StepReport report;
+  Body body;
 };
 
 Simulator::Implementation::Implementation(const TetTopology& topology_in, const Material& material_in,
@@ -103,7 +117,7 @@ Simulator::Implementation::Implementation(const TetTopology& topology_in, const 
       solver(metric.lower()),
       minimizer(topology.rest_vertices.rows()),
       confidence(topology.rest_vertices, topology.tets) {
-  state.revision = topology.revision;
+  body.state.revision = topology.revision;
 }
 
 void Simulator::Implementation::requireUsable(const TargetSet& targets) const {
@@ -111,7 +125,7 @@ void Simulator::Implementation::requireUsable(const TargetSet& targets) const {
     throw std::invalid_argument(fmt::format("targets are for revision {} of the volume, which is at {}",
                                             targets.revision, topology.revision));
   }
-  if (!placed && !targets.reset) {
+  if (!body.placed && !targets.reset) {
     throw std::invalid_argument("the body has no place yet: waiting for targets with reset and a body_pose");
   }
   if (targets.reset && !targets.body_pose.matrix().allFinite())
@@ -121,24 +135,33 @@ void Simulator::Implementation::requireUsable(const TargetSet& targets) const {
   }
 }
 
-void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds now) {
-  state.vertices = transformed(topology.rest_vertices, pose);
-  velocity = Points::Zero(state.vertices.rows(), 3);
-  stamp = now;
-  placed = true;
+void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const {
+  next->state.vertices = transformed(topology.rest_vertices, pose);
+  next->velocity = Points::Zero(next->state.vertices.rows(), 3);
+  next->stamp = stamp;
+  next->placed = true;
 }
 
-double Simulator::Implementation::elapsed(Nanoseconds now) const {
-  return std::clamp(1e-9 * static_cast<double>(now - stamp), 0.0, config.max_time_step_s);
+void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds stamp, Body* next) {
+  if (targets.reset) place(targets.body_pose, stamp, next);
+  if (config.simulate) {
+    simulate(targets, std::max(0.0, 1e-9 * static_cast<double>(stamp - next->stamp)), next);
+  } else {
+    followTargets(targets.targets, topology, &next->state.vertices);
+    next->report = {0, true, 0.0};
+  }
+  next->stamp = std::max(next->stamp, stamp);
+  next->state.confidence = confidence.of(targets.targets);
+  if (!targets.targets.empty()) next->state.observed = stamp;
 }
 
-void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s) {
-  const double h = elapsed_s > 0.0 ? elapsed_s : kNominalTimeStep;
-  potential.prediction = state.vertices;
+void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s, Body* next) {
+  const double h = elapsed_s > 0.0 ? std::min(elapsed_s, config.max_time_step_s) : kNominalTimeStep;
+  potential.prediction = next->state.vertices;
   if (elapsed_s > 0.0) {
-    velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
-    velocity.rowwise() += h * config.gravity.transpose();
-    potential.prediction += h * velocity;
+    next->velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
+    next->velocity.rowwise() += h * config.gravity.transpose();
+    potential.prediction += h * next->velocity;
   }
   potential.inertia = masses / (h * h);
   target_energy.set(targets.targets, topology.tets,
@@ -151,9 +174,10 @@ void Simulator::Implementation::simulate(const TargetSet& targets, double elapse
 
   const auto energy = [this](const Points& x, Points* gradient) { return potential.evaluate(x, gradient); };
   Points x = potential.prediction;
-  report = minimizer.minimize(energy, solver, {config.iterations, config.tolerance * edge_length}, &x);
-  if (elapsed_s > 0.0) velocity = (x - state.vertices) / h;
-  state.vertices.swap(x);
+  next->report = minimizer.minimize(energy, solver, {config.iterations, config.tolerance * edge_length}, &x);
+  // Over a gap that is simulated as a shorter step the body still took the whole gap for its way.
+  if (elapsed_s > 0.0) next->velocity = (x - next->state.vertices) / elapsed_s;
+  next->state.vertices.swap(x);
 }
 
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
@@ -163,33 +187,24 @@ Simulator::~Simulator() = default;
 
 const TetTopology& Simulator::topology() const { return implementation_->topology; }
 
-bool Simulator::placed() const { return implementation_->placed; }
+bool Simulator::placed() const { return implementation_->body.placed; }
 
 void Simulator::step(const TargetSet& targets, Nanoseconds stamp) {
   Implementation& s = *implementation_;
   s.requireUsable(targets);
-  if (targets.reset) s.place(targets.body_pose, stamp);
-  if (s.config.simulate) {
-    s.simulate(targets, s.elapsed(stamp));
-  } else {
-    followTargets(targets.targets, s.topology, &s.state.vertices);
-    s.report = {0, true, 0.0};
-  }
-  s.stamp = std::max(s.stamp, stamp);
-  s.state.confidence = s.confidence.of(targets.targets);
-  if (!targets.targets.empty()) s.state.observed = stamp;
+  Body next = s.body;
+  s.advance(targets, stamp, &next);
+  s.body = std::move(next);
 }
 
 void Simulator::reset() {
   Implementation& s = *implementation_;
-  s.placed = false;
-  s.state = {};
-  s.state.revision = s.topology.revision;
-  s.report = {};
+  s.body = {};
+  s.body.state.revision = s.topology.revision;
 }
 
-const MeshState& Simulator::state() const { return implementation_->state; }
+const MeshState& Simulator::state() const { return implementation_->body.state; }
 
-const StepReport& Simulator::report() const { return implementation_->report; }
+const StepReport& Simulator::report() const { return implementation_->body.report; }
 
 }  // namespace softbody
