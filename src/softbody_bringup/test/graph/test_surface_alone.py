@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The surface under a volume made by hand, with no simulator: a box of tets around the visual mesh."""
+import copy
 import itertools
 import sys
 import unittest
@@ -9,6 +10,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point32
 from recorder import Recorder
+from rosgraph_msgs.msg import Log
 from shape_msgs.msg import MeshTriangle
 from softbody_msgs.msg import MeshState, MeshTopology, TetTopology, Tetrahedron
 
@@ -45,7 +47,8 @@ def boundary(tets):
 class SurfaceAlone(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState)
+        cls.recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
+                                rosout=Log)
         cls.corners, tets = box_tets()
         cls.topology = TetTopology(
             rest_vertices=points32(cls.corners), tets=[Tetrahedron(vertex_indices=tet) for tet in tets],
@@ -85,6 +88,17 @@ class SurfaceAlone(unittest.TestCase):
         self.surface_for(self.corners, 21)
         stamps = [message.header.stamp for message in self.recorder.messages["softbody/surface/state"]]
         self.assertNotIn(rospy.Time(20), stamps)
+
+    def test_refuses_an_open_volume_and_keeps_the_last_one(self):
+        open_topology = copy.deepcopy(self.topology)
+        open_topology.surface_triangles.pop()
+        self.topology_publisher.publish(open_topology)
+        self.recorder.wait(
+            lambda seen: [log for log in seen["rosout"] if log.level >= Log.ERROR and "surface" in log.name
+                          and "topology" in log.msg], "an error of the surface node")
+        state = self.surface_for(self.corners, 30)
+        np.testing.assert_allclose(array(state.vertices), array(self.surface.rest_vertices), atol=2e-6)
+        self.topology_publisher.publish(self.topology)
 
 
 if __name__ == "__main__":

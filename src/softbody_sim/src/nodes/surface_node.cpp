@@ -27,7 +27,10 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
   const std::string object = parameters.requiredText("object");
   body_frame_ = parameters.text("body_frame", "softbody");
   warnUnknown(parameters);
-  visual_ = buildObjectModel(loadObjectDescription(object)).visual;
+  const ObjectDescription description = loadObjectDescription(object);
+  Warnings warnings = description.warnings;
+  visual_ = loadVisualMesh(description, &warnings);
+  for (const std::string& warning : warnings) ROS_WARN_STREAM(object << ": " << warning);
 
   topology_publisher_ = node.advertise<softbody_msgs::MeshTopology>(topics::kSurfaceTopology, 1, true);
   state_publisher_ = node.advertise<softbody_msgs::MeshState>(topics::kSurfaceState, 1);
@@ -59,7 +62,8 @@ void SurfaceNode::bind(const softbody_msgs::TetTopology& message) {
   const TetTopology volume = fromMessage(message);
   {
     const auto scope = timer_.stage("Resolution Enhancement", true);
-    surface_.emplace(visual_, volume);
+    // Not emplace: it ends the old surface even where the new one cannot be made.
+    surface_ = VisualSurface(visual_, volume);
   }
   if (surface_->outsideCount() > 0) {
     ROS_WARN("%d of %d visual vertices lie outside the volume; they follow the nearest tet",
