@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point32, Pose, Quaternion
 from recorder import Recorder
 from rosgraph_msgs.msg import Log
@@ -22,7 +23,8 @@ def array(points):
 class SimulatorAlone(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState, rosout=Log)
+        cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState, rosout=Log,
+                                diagnostics=DiagnosticArray)
         cls.publisher = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
         cls.rest = array(cls.topology.rest_vertices)
@@ -33,10 +35,10 @@ class SimulatorAlone(unittest.TestCase):
         type(self).stamp += rospy.Duration(nsecs=33333333)
         return self.stamp
 
-    def send(self, targets, **fields):
+    def send(self, targets, stamp=None, **fields):
         """Publishes a frame's targets. @return its stamp."""
         message = Targets(targets=targets, **{"body_pose": Pose(orientation=Quaternion(w=1.0)), **fields})
-        message.header.stamp, message.header.frame_id = self.next_stamp(), FRAME
+        message.header.stamp, message.header.frame_id = stamp or self.next_stamp(), FRAME
         self.publisher.publish(message)
         return message.header.stamp
 
@@ -59,6 +61,39 @@ class SimulatorAlone(unittest.TestCase):
 
     def place(self, **fields):
         return self.step([], reset=True, **fields)
+
+    def diagnosis(self, condition, what):
+        """The values of the first diagnosis of the simulation that meets a condition on them."""
+        def find(seen):
+            for message in seen["diagnostics"]:
+                for status in message.status:
+                    values = {value.key: value.value for value in status.values}
+                    if status.name.endswith("simulation") and condition(values):
+                        return status, values
+            return None
+        return self.recorder.wait(find, what)
+
+    def test_refused_targets_of_the_future_do_not_turn_time_back(self):
+        self.place()
+        bad = self.centers(np.eye(3), np.zeros(3))
+        bad[0].tet = len(self.topology.tets)
+        self.send(bad, stamp=self.stamp + rospy.Duration(100))
+        status, _ = self.diagnosis(lambda values: int(values["messages refused"]) > 0, "refused targets in a diagnosis")
+        self.assertEqual(status.level, status.WARN)
+        # Time that jumped back would have taken the body's place: no state would come.
+        self.step(self.centers(np.eye(3), np.zeros(3)))
+
+    def test_diagnostics_tell_how_the_steps_ended(self):
+        self.place()
+        self.step([])
+        _, values = self.diagnosis(lambda values: int(values["steps"]) > 0, "steps in a diagnosis")
+        self.assertGreater(int(values["iterations of the last step"]), 0)
+        # A body turned inside out at once takes more iterations than a step has.
+        self.step(self.centers(-np.eye(3), np.zeros(3)))
+        status, values = self.diagnosis(lambda values: int(values["steps not converged"]) > 0,
+                                        "a step that did not converge in a diagnosis")
+        self.assertEqual(status.level, status.WARN)
+        self.assertGreater(float(values["last move [mm]"]), 0.0)
 
     def test_reset_places_the_rest_shape(self):
         pose = Pose()

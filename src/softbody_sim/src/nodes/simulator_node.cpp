@@ -1,5 +1,7 @@
 #include "nodes/simulator_node.h"
 
+#include <fmt/format.h>
+
 #include <boost/make_shared.hpp>
 
 #include "softbody_common/conversions.h"
@@ -11,7 +13,8 @@
 
 namespace softbody {
 
-SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node) {
+SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : diagnostics_(node, private_node) {
   Parameters parameters = readParameters(private_node);
   const std::string object = parameters.requiredText("object");
   const std::string body_frame = parameters.text("body_frame", "softbody");
@@ -35,13 +38,19 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); });
   targets_subscriber_ = node.subscribe(topics::kTargets, 1, &SimulatorNode::onTargets, this,
                                        ros::TransportHints().tcpNoDelay());
+
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("simulation",
+                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
+  diagnostics_timer_ =
+      node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
-  restartIfTimeJumpedBack(message->header.stamp);
   try {
     step(*message);
   } catch (const std::exception& error) {
+    ++refused_;
     ROS_WARN_STREAM_THROTTLE(1.0,
                              "targets of " << message->header.stamp << " are not used: " << error.what());
     return;
@@ -53,15 +62,19 @@ void SimulatorNode::restartIfTimeJumpedBack(const ros::Time& stamp) {
   if (stamp < last_stamp_) {
     ROS_INFO("time jumped back by %.3f s: the simulation starts anew", (last_stamp_ - stamp).toSec());
     simulator_->reset();
+    last_stamp_ = {};
     publishTopology();
   }
-  last_stamp_ = stamp;
 }
 
 void SimulatorNode::step(const softbody_msgs::Targets& message) {
   const TargetSet targets = fromMessage(message);
+  restartIfTimeJumpedBack(message.header.stamp);
   const auto scope = timer_.stage("Soft-body Simulation");
   simulator_->step(targets, toNanoseconds(message.header.stamp));
+  last_stamp_ = message.header.stamp;
+  ++steps_;
+  if (!simulator_->report().converged) ++steps_not_converged_;
 }
 
 void SimulatorNode::publishState(const std_msgs::Header& header) {
@@ -72,6 +85,28 @@ void SimulatorNode::publishState(const std_msgs::Header& header) {
       boost::make_shared<softbody_msgs::StageTiming>(timingMessage("simulator", timer_.take()));
   timing->header = header;
   timing_publisher_.publish(timing);
+}
+
+void SimulatorNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const StepReport& last = simulator_->report();
+  if (refused_ > 0) {
+    status.summary(DiagnosticStatus::WARN, fmt::format("{} messages with targets were not used", refused_));
+  } else if (!simulator_->placed()) {
+    status.summary(DiagnosticStatus::WARN, "the body has no place yet: waiting for targets");
+  } else if (steps_not_converged_ > 0) {
+    status.summary(DiagnosticStatus::WARN,
+                   fmt::format("{} of {} steps did not converge", steps_not_converged_, steps_));
+  } else {
+    status.summary(DiagnosticStatus::OK, fmt::format("all of {} steps converged", steps_));
+  }
+  status.add("steps", steps_);
+  status.add("steps not converged", steps_not_converged_);
+  status.add("messages refused", refused_);
+  status.add("iterations of the last step", last.iterations);
+  status.add("last step converged", last.converged);
+  status.add("last move [mm]", fmt::format("{:.4f}", 1e3 * last.last_move_m));
+  steps_ = steps_not_converged_ = refused_ = 0;
 }
 
 }  // namespace softbody
