@@ -47,8 +47,8 @@ std::string objectYaml(const std::string& mesh, const Material& material) {
       "# Made by prepare_model from {}. The material is a guess (soft foam); set it to yours.\n"
       "object:\n  visual_mesh: visual.obj\n  cage_mesh: cage.obj\n  tet_mesh: tets.vtu\n"
       "  material: {{youngs_modulus_pa: {}, poisson_ratio: {}, density_kg_m3: {}, damping: {}}}\n"
-      "  # initial_pose: [x, y, z, qx, qy, qz, qw]   # in the colour optical frame; without it the pose is "
-      "searched for\n",
+      "  # initial_pose: [x, y, z, qx, qy, qz, qw]   # in the colour optical frame, roughly; without it "
+      "nothing is tracked\n",
       fs::path(mesh).filename().string(), material.youngs_modulus_pa, material.poisson_ratio,
       material.density_kg_m3, material.damping);
 }
