@@ -103,6 +103,38 @@ TEST(QuasiNewton, NeverRaisesTheEnergy) {
   }
 }
 
+/// A tilted washboard for the first vertex: it falls on and on, and half of the way its curvature is
+/// negative.
+double washboard(const Points& x, Points* gradient) {
+  Eigen::Matrix3d waves;
+  waves << 1.0, 0.7, -0.2, 0.3, -1.5, 0.4, -0.6, 0.5, 2.1;
+  const Eigen::Vector3d slope(1.0, 0.8, 0.6), p = x.row(0);
+  const Eigen::Array3d phases = waves * p;
+  gradient->setZero();
+  gradient->row(0) = slope - 0.25 * waves.transpose() * phases.sin().matrix();
+  return slope.dot(p) + 0.25 * phases.cos().sum();
+}
+
+TEST(QuasiNewton, FallsInEveryIterationAcrossNegativeCurvature) {
+  std::mt19937 random(5);
+  Problem problem;
+  problem.matrix.addToDiagonal(Eigen::VectorXd::Constant(problem.count, 1.0));
+  PositiveDefiniteSolver metric(problem.matrix.lower());
+  metric.factorize(problem.matrix.lower());
+  Points unused(problem.count, 3);
+  for (int start = 0; start < 100; ++start) {
+    const Points x0 = randomPoints(problem.count, 10.0, &random);
+    double previous = washboard(x0, &unused);
+    for (int iterations = 1; iterations <= 30; ++iterations) {
+      Points x = x0;
+      problem.minimizer.minimize(washboard, metric, {iterations, 0.0}, &x);
+      const double energy = washboard(x, &unused);
+      ASSERT_LT(energy, previous) << "start " << start << ", iteration " << iterations;
+      previous = energy;
+    }
+  }
+}
+
 TEST(QuasiNewton, ReportsConvergenceHonestly) {
   Problem problem;
   const Points goal = transformed(problem.topology.rest_vertices, testing::somePose());

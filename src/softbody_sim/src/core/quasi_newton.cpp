@@ -18,7 +18,8 @@ QuasiNewton::QuasiNewton(Eigen::Index vertex_count)
       direction_(vertex_count, 3),
       residual_(vertex_count, 3),
       trial_(vertex_count, 3),
-      trial_gradient_(vertex_count, 3) {
+      trial_gradient_(vertex_count, 3),
+      trial_gradient_change_(vertex_count, 3) {
   for (Pair& pair : pairs_) {
     pair.move.resize(vertex_count, 3);
     pair.gradient_change.resize(vertex_count, 3);
@@ -86,14 +87,14 @@ bool QuasiNewton::searchLine(const Energy& energy, Points* x, double* step) {
 
 /// Keeps the accepted move (in residual_) where the curvature along it is positive, as the update needs.
 void QuasiNewton::remember() {
-  const int next = (newest_ + 1) % kHistory;
-  Pair& pair = pairs_[static_cast<std::size_t>(next)];
-  pair.move = residual_;
-  pair.gradient_change = trial_gradient_ - gradient_;
-  const double product = dot(pair.move, pair.gradient_change);
-  if (!(product > 1e-12 * pair.move.norm() * pair.gradient_change.norm())) return;
+  trial_gradient_change_ = trial_gradient_ - gradient_;
+  const double product = dot(residual_, trial_gradient_change_);
+  if (!(product > 1e-12 * residual_.norm() * trial_gradient_change_.norm())) return;
+  newest_ = (newest_ + 1) % kHistory;
+  Pair& pair = recent(0);
+  pair.move.swap(residual_);
+  pair.gradient_change.swap(trial_gradient_change_);
   pair.inverse_product = 1.0 / product;
-  newest_ = next;
   if (pair_count_ < kHistory) ++pair_count_;
 }
 

@@ -45,7 +45,7 @@ class QuasiNewton {
   int pair_count_ = 0;
   int newest_ = 0;
   double energy_ = 0.0;
-  Points gradient_, direction_, residual_, trial_, trial_gradient_;
+  Points gradient_, direction_, residual_, trial_, trial_gradient_, trial_gradient_change_;
 };
 
 }  // namespace softbody
