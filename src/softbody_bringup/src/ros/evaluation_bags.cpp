@@ -158,6 +158,14 @@ void readRecording(const std::string& path, const std::string& camera,
   drain(true);
 }
 
+std::string recordingFrame(const std::string& path, const std::string& camera) {
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const CameraTopics topics(camera);
+  requireTopic(bag, topics.color);
+  rosbag::View view(bag, rosbag::TopicQuery(topics.color));
+  return instantiate<sensor_msgs::Image>(*view.begin(), bag)->header.frame_id;
+}
+
 bool hasRecording(const std::string& path, const std::string& camera) {
   const rosbag::Bag bag(path, rosbag::bagmode::Read);
   const CameraTopics topics(camera);

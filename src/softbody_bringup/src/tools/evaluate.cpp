@@ -6,8 +6,25 @@
 
 #include "softbody_bringup/evaluation/evaluator.h"
 
+namespace {
+
+void run(const softbody::evaluation::EvaluatorOptions& options, const std::string& other) {
+  if (other.empty()) {
+    const softbody::evaluation::Report report = softbody::evaluation::evaluate(options);
+    fmt::print(stderr, "{}", toText(report));
+    fmt::print("{}\n", toJson(report).dump(2));
+  } else {
+    const softbody::evaluation::Comparison comparison = softbody::evaluation::evaluateBoth(options, other);
+    fmt::print(stderr, "{}", toText(compare(comparison.first, comparison.second)));
+    fmt::print("{}\n", toJson(comparison).dump(2));
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   softbody::evaluation::EvaluatorOptions options;
+  std::string other;
   CLI::App app(
       "Measures a tracking result against the truth, or against the depth of the recording it was made from");
   app.add_option("result", options.result, "bag with the tracker's output")
@@ -17,11 +34,16 @@ int main(int argc, char** argv) {
   app.add_option("--recording", options.recording,
                  "bag with the camera's topics; default: the truth, if it has them")
       ->check(CLI::ExistingFile);
-  app.add_option("--report", options.report_folder, "folder for report.json and pictures");
+  app.add_option("--compare", other, "bag with another result, shown beside the first")
+      ->check(CLI::ExistingFile);
+  app.add_option("--report", options.report_folder, "folder for report.json, report.html and pictures");
   app.add_option("--namespace", options.result_namespace, "of the result's topics")->capture_default_str();
   app.add_option("--camera", options.camera, "namespace of the recording's topics")->capture_default_str();
   app.add_option("--occluder", options.occluder_m, "what is nearer than the surface by more hides it [m]")
       ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  app.add_option("--near-cut", options.near_cut_m, "vertices so near to a cut have a row of their own [m]")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   app.add_option("--window", options.window, "frames a row of the depth residual's table")
       ->check(CLI::Range(1, 1000000))
@@ -32,9 +54,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    const softbody::evaluation::Report report = softbody::evaluation::evaluate(options);
-    fmt::print(stderr, "{}", toText(report));
-    fmt::print("{}\n", toJson(report).dump(2));
+    run(options, other);
   } catch (const std::exception& error) {
     fmt::print(stderr, "evaluate: {}\n", error.what());
     return 1;

@@ -1,11 +1,16 @@
 #include "softbody_bringup/evaluation/evaluator.h"
 
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
+#include <softbody_msgs/StageTiming.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include <Eigen/Core>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -110,6 +115,110 @@ TEST(Evaluator, MissingFramesAreCountedNotSkipped) {
   options.truth.clear();
   options.recording = recording();
   EXPECT_EQ(evaluate(options).frames.answered, static_cast<std::size_t>(kFrames - kFrames / 4));
+}
+
+TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("timed.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.001f); });
+  {
+    rosbag::Bag bag(options.result, rosbag::bagmode::Append);
+    softbody_msgs::StageTiming timing;
+    timing.node = "replay";
+    timing.stages.resize(1);
+    timing.stages[0].stage = "registration";
+    for (int k = 1; k <= 20; ++k) {
+      timing.stages[0].milliseconds = static_cast<float>(k);
+      bag.write("/softbody/timing", ros::Time(1.6e9 + k), timing);
+    }
+  }
+  options.truth = recording();
+  options.report_folder = testing::TempDir() + "evaluator_page";
+  const Report report = evaluate(options);
+  EXPECT_TRUE(report.silhouette->against_truth);
+  EXPECT_GT(report.silhouette->worst, 0.9);
+  EXPECT_EQ(report.stages.size(), 1u);
+  EXPECT_EQ(report.stages.begin()->second.mean, 10.5);
+  EXPECT_EQ(report.stages.begin()->second.p95, 19.0);
+  EXPECT_TRUE(std::filesystem::exists(options.report_folder + "/report.html"));
+
+  options.truth.clear();
+  options.recording = recording();
+  EXPECT_FALSE(evaluate(options).silhouette->against_truth);
+}
+
+TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
+  EvaluatorOptions options;
+  const Eigen::Vector3d offset(0.5, -0.25, 2.0);
+  // world = camera turned by a quarter about z, then moved.
+  options.result = resultFromTruth("in_world.bag", [&](softbody_msgs::MeshState* s, int) {
+    for (geometry_msgs::Point32& p : s->vertices) {
+      const geometry_msgs::Point32 camera = p;
+      p.x = static_cast<float>(offset.x() - camera.y);
+      p.y = static_cast<float>(offset.y() + camera.x);
+      p.z = static_cast<float>(offset.z() + camera.z);
+    }
+    s->header.frame_id = "world";
+    return true;
+  });
+  {
+    rosbag::Bag bag(options.result, rosbag::bagmode::Append);
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    geometry_msgs::TransformStamped& t = message.transforms[0];
+    t.header.frame_id = "world";
+    t.header.stamp = ros::Time(1.0);
+    t.child_frame_id = "camera_color_optical_frame";
+    t.transform.translation.x = offset.x();
+    t.transform.translation.y = offset.y();
+    t.transform.translation.z = offset.z();
+    t.transform.rotation.z = t.transform.rotation.w = std::sqrt(0.5);
+    bag.write("/tf_static", ros::Time(1.6e9), message);
+  }
+  options.truth = recording();
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
+  EXPECT_LT(report.vertex_error->all.max, 1e-6);
+  EXPECT_TRUE(report.notes.empty());
+}
+
+TEST(Evaluator, TwoResultsSideBySide) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("first_of_two.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.001f); });
+  const std::string other =
+      resultFromTruth("second_of_two.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.004f); });
+  options.truth = recording();
+  options.report_folder = testing::TempDir() + "evaluator_two";
+  const Comparison comparison = evaluateBoth(options, other);
+  EXPECT_NEAR(comparison.first.vertex_error->all.mean, 0.001, 1e-7);
+  EXPECT_NEAR(comparison.second.vertex_error->all.mean, 0.004, 1e-7);
+  EXPECT_EQ(toJson(comparison)["other"]["frames"]["answered"], kFrames);
+  for (const char* file : {"report.json", "report.html", "overlay.png", "other_overlay.png"})
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(options.report_folder) / file)) << file;
+}
+
+TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("tool.bag", [](softbody_msgs::MeshState*, int) { return true; });
+  options.truth = testing::TempDir() + "tool_truth.bag";
+  std::filesystem::copy_file(recording(), options.truth, std::filesystem::copy_options::overwrite_existing);
+  rosbag::Bag result(options.result, rosbag::bagmode::Append), truth(options.truth, rosbag::bagmode::Append);
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.pose.pose.orientation.w = 1.0;
+  for (int k = 0; k < 5; ++k) {
+    pose.header.stamp = ros::Time(1.6e9 + k);
+    pose.pose.pose.position.x = 0.0;
+    truth.write("/ground_truth/tool/pose", pose.header.stamp, pose);
+    pose.pose.pose.position.x = 0.002;
+    if (k > 0) result.write("/softbody/tool/pose", pose.header.stamp, pose);
+  }
+  result.close();
+  truth.close();
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.tool->expected, 5u);
+  EXPECT_EQ(report.tool->answered, 4u);
+  EXPECT_NEAR(report.tool->position.mean, 0.002, 1e-8);
 }
 
 TEST(Evaluator, WhatDoesNotFitIsSaidInASentence) {

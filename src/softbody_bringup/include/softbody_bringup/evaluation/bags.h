@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "softbody_bringup/evaluation/pose_error.h"
+#include "softbody_bringup/evaluation/stage_times.h"
 #include "softbody_common/pinhole.h"
 #include "softbody_common/types.h"
 
@@ -21,6 +23,19 @@ struct SurfaceRecord {
 SurfaceRecord readSurface(const std::string& path, const std::string& topology_topic,
                           const std::string& state_topic);
 
+/// Moves the surface's states into another frame by the /tf and /tf_static of these bags, at each state's
+/// stamp. States without a transform are left out. @return how many were.
+/// @throw std::invalid_argument if no state has a transform.
+std::size_t expressIn(const std::string& frame_id, const std::vector<std::string>& paths,
+                      SurfaceRecord* surface);
+
+/// PoseStamped or PoseWithCovarianceStamped; empty if the topic is not there.
+/// @throw std::invalid_argument if it is of another type.
+PoseRecord readPoses(const std::string& path, const std::string& topic);
+
+/// StageTiming; empty if the topic is not there.
+StageTimes readStageTimes(const std::string& path, const std::string& topic);
+
 /// A colour image and its depth, without distortion.
 struct RecordedFrame {
   Nanoseconds stamp = 0;  ///< of the colour image
@@ -35,6 +50,9 @@ struct RecordedFrame {
 /// @throw std::invalid_argument with path and topic if a topic is missing or an image cannot be used.
 void readRecording(const std::string& path, const std::string& camera,
                    const std::function<void(const RecordedFrame&)>& use);
+
+/// frame_id of the first colour image. @throw std::invalid_argument if there is none.
+std::string recordingFrame(const std::string& path, const std::string& camera);
 
 /// Whether the bag holds the camera's colour and depth.
 bool hasRecording(const std::string& path, const std::string& camera);

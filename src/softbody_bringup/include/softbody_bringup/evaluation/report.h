@@ -1,11 +1,16 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "softbody_bringup/evaluation/depth_residual.h"
+#include "softbody_bringup/evaluation/pose_error.h"
+#include "softbody_bringup/evaluation/silhouette.h"
+#include "softbody_bringup/evaluation/stage_times.h"
+#include "softbody_bringup/evaluation/steadiness.h"
 #include "softbody_bringup/evaluation/vertex_error.h"
 #include "softbody_bringup/evaluation/volume.h"
 
@@ -17,9 +22,23 @@ struct FrameCount {
   std::size_t answered = 0;  ///< of these: with a surface of the same stamp
 };
 
+/// The result's pieces against the true ones, in frames of a truth that is cut.
+struct PiecesReport {
+  std::size_t frames = 0;       ///< answered ones after the truth's first cut
+  double frames_right = 0.0;    ///< share of them with as many pieces as the truth, 0..1
+  double vertices_right = 0.0;  ///< mean share of the vertices that are in the right piece, 0..1
+  std::size_t result_pieces = 0, true_pieces = 0;  ///< in the last of them
+};
+
 struct Report {
   FrameCount frames;
+  std::vector<std::string> notes;  ///< what was left out, in sentences
   std::optional<VertexErrorReport> vertex_error;
+  std::optional<PiecesReport> pieces;
+  std::optional<JitterReport> jitter;            ///< where the truth is still, if it ever is
+  std::optional<PoseErrorReport> tool;           ///< if the truth has a tool
+  std::optional<SilhouetteReport> silhouette;    ///< if there is a recording
+  std::map<StageName, Summary> stages;           ///< [ms], if the result has timing
   std::optional<ResidualReport> residual;        ///< over all frames
   std::vector<ResidualReport> residual_windows;  ///< every so many frames
   VolumeReport volume;
@@ -30,5 +49,24 @@ nlohmann::json toJson(const Report& report);
 
 /// A table for people.
 std::string toText(const Report& report);
+
+/// One number of a report.
+struct Figure {
+  std::string name, unit;
+  double value = 0.0;
+};
+
+/// The numbers that results are compared by, in the order of the report.
+std::vector<Figure> figures(const Report& report);
+
+/// Two results side by side: figure by figure, with the difference; those that only one has are left blank.
+struct ComparedFigure {
+  std::string name, unit;
+  std::optional<double> first, second;
+};
+
+std::vector<ComparedFigure> compare(const Report& first, const Report& second);
+nlohmann::json toJson(const std::vector<ComparedFigure>& comparison);
+std::string toText(const std::vector<ComparedFigure>& comparison);
 
 }  // namespace softbody::evaluation

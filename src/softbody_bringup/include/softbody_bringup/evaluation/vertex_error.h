@@ -3,33 +3,35 @@
 #include <vector>
 
 #include "softbody_bringup/evaluation/statistics.h"
+#include "softbody_bringup/evaluation/vertex_match.h"
 #include "softbody_common/types.h"
 
 namespace softbody::evaluation {
-
-/// Which truth vertex each result vertex stands for (the one with the same index in the input file); -1:
-/// none, as for vertices made by a cut. @param parents MeshTopology::vertex_parents of both.
-std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
 
 /// Distances to the truth of one frame [m].
 struct FrameVertexError {
   Nanoseconds stamp = 0;
   std::vector<float> visible, hidden;  ///< by the truth's confidence
+  std::vector<float> near_cut;         ///< of these: near a cut
+  std::size_t unmatched = 0;           ///< vertices that stand for none of the truth's
 
   double mean() const;
 };
 
-/// @param matches of matchVertices. @throw std::invalid_argument if the states do not have the vertices
-/// matched.
-FrameVertexError vertexError(const MeshState& result, const MeshState& truth,
-                             const std::vector<int>& matches);
+/// @param matches of matchVertices. @param near_cut per truth vertex; empty: none is.
+/// @throw std::invalid_argument if the states do not have the vertices matched.
+FrameVertexError vertexError(const MeshState& result, const MeshState& truth, const std::vector<int>& matches,
+                             const std::vector<bool>& near_cut = {});
 
 /// Over a sequence [m].
 struct VertexErrorReport {
-  Summary all, visible, hidden;
+  Summary all, visible, hidden, near_cut;
+  double unmatched_share = 0.0;     ///< of the result's vertices, 0..1
   std::vector<double> times;        ///< of the frames, from the first [s]
   std::vector<double> frame_means;  ///< [m]
   double drift_m_per_s = 0.0;       ///< slope of frame_means over time
+  double drift_window_s = 0.0;      ///< 5 s, or half of a shorter sequence
+  double drift_m = 0.0;             ///< mean of frame_means in the last window minus that in the first
 };
 
 VertexErrorReport summarize(const std::vector<FrameVertexError>& frames);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+
+#include "softbody_bringup/evaluation/statistics.h"
+#include "softbody_common/types.h"
+
+namespace softbody::evaluation {
+
+using PoseRecord = std::map<Nanoseconds, Eigen::Isometry3d>;  ///< by stamp
+
+/// A tool's pose against the truth.
+struct PoseErrorReport {
+  std::size_t expected = 0, answered = 0;  ///< true poses; of these with an answer of the same stamp
+  Summary position;                        ///< [m]
+  Summary rotation;                        ///< [rad]
+};
+
+PoseErrorReport poseError(const PoseRecord& result, const PoseRecord& truth);
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody::evaluation {
+
+/// Which truth vertex each result vertex stands for (the one with the same index in the input file); -1:
+/// none, as for vertices made by a cut. @param parents MeshTopology::vertex_parents of both.
+std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
+
+/// The same across cuts: a vertex that a cut copied stands for the copy on the same side (the one whose
+/// triangles lie nearer at rest), one that a cut made for the nearest such vertex of the truth, if it is
+/// within `largest_m` at rest. Both topologies' rest vertices are in the same frame.
+std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& truth, double largest_m);
+
+/// Which true piece each piece of the result stands for: the one that shares most vertices with it, largest
+/// share first, each at most once.
+struct PieceMatch {
+  std::size_t result_pieces = 0, true_pieces = 0;
+  std::vector<int> true_piece;  ///< per piece of the result, -1: none
+  double vertices_right = 0.0;  ///< share of the matched vertices that are in the right piece, 0..1
+};
+
+/// @param matches of matchVertices.
+PieceMatch matchPieces(const MeshTopology& result, const MeshTopology& truth,
+                       const std::vector<int>& matches);
+
+/// Which vertices are at rest within `near_m` of a corner of a triangle that fills a cut.
+std::vector<bool> nearCut(const MeshTopology& topology, double near_m);
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,152 @@
+#include "softbody_bringup/evaluation/vertex_match.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+namespace softbody::evaluation {
+namespace {
+
+/// Mean centre of the triangles around every vertex: tells copies of one vertex apart.
+Points fanCentres(const MeshTopology& topology) {
+  Points centres = Points::Zero(topology.rest_vertices.rows(), 3);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
+  for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
+    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+    for (int k = 0; k < 3; ++k) centre += topology.rest_vertices.row(topology.triangles(f, k)) / 3.0;
+    for (int k = 0; k < 3; ++k) {
+      centres.row(topology.triangles(f, k)) += centre;
+      count[topology.triangles(f, k)] += 1.0;
+    }
+  }
+  for (Eigen::Index v = 0; v < centres.rows(); ++v) {
+    centres.row(v) =
+        count[v] > 0.0 ? (centres.row(v) / count[v]).eval() : topology.rest_vertices.row(v).eval();
+  }
+  return centres;
+}
+
+std::unordered_map<int, std::vector<int>> verticesByParent(const std::vector<int>& parents) {
+  std::unordered_map<int, std::vector<int>> vertices;
+  for (std::size_t i = 0; i < parents.size(); ++i) vertices[parents[i]].push_back(static_cast<int>(i));
+  return vertices;
+}
+
+/// Piece of every vertex; -1 where no triangle is.
+std::vector<int> vertexPieces(const MeshTopology& topology) {
+  std::vector<int> pieces(static_cast<std::size_t>(topology.rest_vertices.rows()), -1);
+  for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      pieces[static_cast<std::size_t>(topology.triangles(f, k))] =
+          static_cast<int>(topology.bodies[static_cast<std::size_t>(f)]);
+    }
+  }
+  return pieces;
+}
+
+std::size_t pieceCount(const MeshTopology& topology) {
+  return topology.bodies.empty() ? 0 : 1 + *std::max_element(topology.bodies.begin(), topology.bodies.end());
+}
+
+/// Copies lie at one place at rest; where they come from files of different welding, the place decides
+/// first, then the side.
+int nearestCopy(const Eigen::RowVector3d& place, const Eigen::RowVector3d& fan,
+                const std::vector<int>& candidates, const Points& places, const Points& fans,
+                double largest_m) {
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int candidate : candidates) {
+    const double distance = (places.row(candidate) - place).norm();
+    const double cost = distance + (fans.row(candidate) - fan).norm();
+    if (distance > largest_m || cost >= least) continue;
+    least = cost;
+    best = candidate;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<int> matchVertices(const std::vector<int>& result_parents,
+                               const std::vector<int>& truth_parents) {
+  std::unordered_map<int, int> truth_of_parent;
+  for (std::size_t i = 0; i < truth_parents.size(); ++i)
+    truth_of_parent.emplace(truth_parents[i], static_cast<int>(i));
+  truth_of_parent.erase(-1);
+  std::vector<int> matches;
+  matches.reserve(result_parents.size());
+  for (const int parent : result_parents) {
+    const auto found = truth_of_parent.find(parent);
+    matches.push_back(found == truth_of_parent.end() ? -1 : found->second);
+  }
+  return matches;
+}
+
+std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& truth, double largest_m) {
+  const Points result_fans = fanCentres(result), truth_fans = fanCentres(truth);
+  const auto truth_vertices = verticesByParent(truth.vertex_parents);
+  std::vector<int> matches(result.vertex_parents.size(), -1);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const auto candidates = truth_vertices.find(result.vertex_parents[i]);
+    if (candidates == truth_vertices.end()) continue;
+    const bool of_the_file = result.vertex_parents[i] >= 0;
+    const auto row = static_cast<Eigen::Index>(i);
+    matches[i] = nearestCopy(result.rest_vertices.row(row), result_fans.row(row), candidates->second,
+                             truth.rest_vertices, truth_fans,
+                             of_the_file ? std::numeric_limits<double>::infinity() : largest_m);
+  }
+  return matches;
+}
+
+PieceMatch matchPieces(const MeshTopology& result, const MeshTopology& truth,
+                       const std::vector<int>& matches) {
+  PieceMatch match;
+  match.result_pieces = pieceCount(result);
+  match.true_pieces = pieceCount(truth);
+  match.true_piece.assign(match.result_pieces, -1);
+  const std::vector<int> result_pieces = vertexPieces(result), truth_pieces = vertexPieces(truth);
+  std::map<std::pair<int, int>, int> votes;
+  int all = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i] < 0 || result_pieces[i] < 0) continue;
+    ++votes[{result_pieces[i], truth_pieces[static_cast<std::size_t>(matches[i])]}];
+    ++all;
+  }
+  std::vector<std::tuple<int, int, int>> by_votes;  // minus votes, so that most come first
+  for (const auto& [pair, count] : votes) by_votes.emplace_back(-count, pair.first, pair.second);
+  std::sort(by_votes.begin(), by_votes.end());
+  int right = 0;
+  for (const auto& [minus_count, mine, its] : by_votes) {
+    int& assigned = match.true_piece[static_cast<std::size_t>(mine)];
+    const bool taken =
+        std::find(match.true_piece.begin(), match.true_piece.end(), its) != match.true_piece.end();
+    if (its < 0 || assigned >= 0 || taken) continue;
+    assigned = its;
+    right -= minus_count;
+  }
+  match.vertices_right = all == 0 ? 0.0 : static_cast<double>(right) / all;
+  return match;
+}
+
+std::vector<bool> nearCut(const MeshTopology& topology, double near_m) {
+  std::vector<Eigen::Index> corners;
+  for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
+    if (!topology.cut[static_cast<std::size_t>(f)]) continue;
+    for (int k = 0; k < 3; ++k) corners.push_back(topology.triangles(f, k));
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  std::vector<bool> near(static_cast<std::size_t>(topology.rest_vertices.rows()), false);
+  for (Eigen::Index v = 0; v < topology.rest_vertices.rows(); ++v) {
+    near[static_cast<std::size_t>(v)] = std::any_of(corners.begin(), corners.end(), [&](Eigen::Index c) {
+      return (topology.rest_vertices.row(c) - topology.rest_vertices.row(v)).norm() <= near_m;
+    });
+  }
+  return near;
+}
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "softbody_bringup/evaluation/bags.h"
+#include "softbody_bringup/evaluation/evaluator.h"
+#include "softbody_bringup/evaluation/report_folder.h"
+
+namespace softbody::evaluation {
+
+/// The result against the recording, frame by frame: frames answered, depth residuals, silhouettes (against
+/// the truth's, if there is a truth) and overlays.
+void compareWithRecording(const EvaluatorOptions& options, const std::string& recording,
+                          const SurfaceRecord& result, const SurfaceRecord* truth, Report* report,
+                          Pictures* pictures);
+
+/// The result against the truth: frames answered, vertex errors, pieces, jitter.
+/// @param result in the truth's frame.
+void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
+                      const SurfaceRecord& truth, Report* report, Pictures* pictures);
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,43 @@
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <softbody_msgs/StageTiming.h>
+
+#include "softbody_bringup/evaluation/bags.h"
+#include "softbody_common/conversions.h"
+
+namespace softbody::evaluation {
+
+PoseRecord readPoses(const std::string& path, const std::string& topic) {
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  PoseRecord record;
+  for (const rosbag::MessageInstance& instance : view) {
+    if (const auto pose = instance.instantiate<geometry_msgs::PoseStamped>()) {
+      record[toNanoseconds(pose->header.stamp)] = fromMessage(pose->pose);
+    } else if (const auto uncertain = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>()) {
+      record[toNanoseconds(uncertain->header.stamp)] = fromMessage(uncertain->pose.pose);
+    } else {
+      throw std::invalid_argument(path + ": " + topic + " is of type " + instance.getDataType() +
+                                  " instead of geometry_msgs/PoseWithCovarianceStamped");
+    }
+  }
+  return record;
+}
+
+StageTimes readStageTimes(const std::string& path, const std::string& topic) {
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  StageTimes times;
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto timing = instance.instantiate<softbody_msgs::StageTiming>();
+    if (!timing) continue;
+    for (const softbody_msgs::StageTime& row : timing->stages) {
+      times[{timing->node, row.stage, row.initialization != 0}].push_back(row.milliseconds);
+    }
+  }
+  return times;
+}
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <opencv2/imgproc.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "softbody_bringup/evaluation/plots.h"
+#include "softbody_common/rasterizer.h"
+#include "evaluation_comparisons.h"
+
+namespace softbody::evaluation {
+namespace {
+
+constexpr int kOverlays = 12, kOverlayColumns = 4, kOverlayWidth = 640;
+
+const MeshTopology& topologyOf(const SurfaceRecord& surface, const MeshState& state) {
+  return surface.topologies.at(state.revision);
+}
+
+/// Stamps of about `count` states, evenly spread.
+std::set<Nanoseconds> spread(const std::map<Nanoseconds, MeshState>& states, int count) {
+  std::vector<Nanoseconds> stamps;
+  for (const auto& [stamp, state] : states) stamps.push_back(stamp);
+  std::set<Nanoseconds> chosen;
+  for (int i = 0; i < count && !stamps.empty(); ++i) {
+    chosen.insert(
+        stamps[static_cast<std::size_t>(i) * (stamps.size() - 1) / static_cast<std::size_t>(count - 1)]);
+  }
+  return chosen;
+}
+
+cv::Mat3b overlay(const RecordedFrame& frame, const MeshState& state, const Triangles& triangles,
+                  int number) {
+  const double scale = static_cast<double>(kOverlayWidth) / frame.camera.width;
+  cv::Mat3b picture;
+  cv::resize(frame.color, picture, cv::Size(), scale, scale, scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  Pinhole camera = frame.camera;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.cx = (camera.cx + 0.5) * scale - 0.5;
+  camera.cy = (camera.cy + 0.5) * scale - 0.5;
+  drawWireframe(camera, state.vertices, triangles, &picture);
+  cv::putText(picture, fmt::format("frame {}", number), cv::Point(8, 20), cv::FONT_HERSHEY_SIMPLEX, 0.55,
+              cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
+  return picture;
+}
+
+std::vector<float> inMillimetres(std::vector<float> metres) {
+  for (float& value : metres) value *= 1e3f;
+  return metres;
+}
+
+void plotResiduals(const std::vector<FrameResidual>& frames, Pictures* pictures) {
+  std::vector<double> times, medians;
+  std::vector<float> all;
+  for (const FrameResidual& frame : frames) {
+    if (frame.residuals.empty()) continue;
+    times.push_back(1e-9 * static_cast<double>(frame.stamp - frames.front().stamp));
+    medians.push_back(1e3 * summarize(frame.residuals).median);
+    all.insert(all.end(), frame.residuals.begin(), frame.residuals.end());
+  }
+  (*pictures)["depth_residual.png"] = linePlot("median depth residual [mm]", "time [s]", times, medians);
+  (*pictures)["depth_residual_histogram.png"] =
+      histogram("depth residual", "[mm]", inMillimetres(std::move(all)));
+}
+
+void addResiduals(const EvaluatorOptions& options, const std::vector<FrameResidual>& residuals,
+                  Report* report) {
+  const std::size_t window = static_cast<std::size_t>(options.window);
+  for (std::size_t first = 0; first < residuals.size(); first += window) {
+    report->residual_windows.push_back(summarize(residuals, first, window));
+  }
+  report->residual = summarize(residuals, 0, residuals.size());
+}
+
+/// What is gathered frame by frame.
+class Comparer {
+ public:
+  Comparer(const EvaluatorOptions& options, const SurfaceRecord& result, const SurfaceRecord* truth)
+      : options_(options),
+        result_(result),
+        truth_(truth),
+        shown_(spread(result.states, options.report_folder.empty() ? 0 : kOverlays)) {}
+
+  void add(const RecordedFrame& frame) {
+    const int number = static_cast<int>(residuals_.size());
+    residuals_.emplace_back();
+    residuals_.back().stamp = frame.stamp;
+    const auto answer = result_.states.find(frame.stamp);
+    if (answer == result_.states.end()) return;
+    ++answered_;
+    requireFrame(frame);
+    const MeshState& state = answer->second;
+    const Triangles& triangles = topologyOf(result_, state).triangles;
+    rasterize(frame.camera, state.vertices, triangles, &raster_);
+    if (!frame.depth.empty()) {
+      residuals_.back() = depthResidual(raster_.depth, frame.depth, options_.occluder_m);
+      residuals_.back().stamp = frame.stamp;
+    }
+    addSilhouette(frame);
+    if (shown_.count(frame.stamp) != 0) overlays_.push_back(overlay(frame, state, triangles, number));
+  }
+
+  void finish(Report* report, Pictures* pictures) const {
+    report->frames = {residuals_.size(), answered_};
+    addResiduals(options_, residuals_, report);
+    if (!silhouettes_.empty()) {
+      report->silhouette = summarizeSilhouettes(silhouettes_, truth_ != nullptr);
+      (*pictures)["silhouette.png"] = linePlot("silhouette IoU", "time [s]", silhouette_times_, silhouettes_);
+    }
+    plotResiduals(residuals_, pictures);
+    (*pictures)["overlay.png"] = contactSheet(overlays_, kOverlayColumns);
+  }
+
+ private:
+  void requireFrame(const RecordedFrame& frame) const {
+    if (frame.frame_id == result_.frame_id) return;
+    throw std::invalid_argument(
+        fmt::format("the recording is in frame '{}' but the truth and the result in '{}'", frame.frame_id,
+                    result_.frame_id));
+  }
+
+  /// Against the truth's, or else against what is measured at the model's depth.
+  void addSilhouette(const RecordedFrame& frame) {
+    const cv::Mat1b mine = silhouette(raster_.depth);
+    cv::Mat1b expected;
+    if (truth_ != nullptr) {
+      const auto state = truth_->states.find(frame.stamp);
+      if (state == truth_->states.end()) return;
+      rasterize(frame.camera, state->second.vertices, topologyOf(*truth_, state->second).triangles,
+                &truth_raster_);
+      expected = silhouette(truth_raster_.depth);
+    } else if (!frame.depth.empty()) {
+      expected = measuredSilhouette(frame.depth, raster_.depth, options_.occluder_m);
+    } else {
+      return;
+    }
+    silhouettes_.push_back(intersectionOverUnion(mine, expected));
+    silhouette_times_.push_back(1e-9 * static_cast<double>(frame.stamp - residuals_.front().stamp));
+  }
+
+  const EvaluatorOptions& options_;
+  const SurfaceRecord& result_;
+  const SurfaceRecord* truth_;
+  std::set<Nanoseconds> shown_;
+  RasterImage raster_, truth_raster_;
+  std::size_t answered_ = 0;
+  std::vector<FrameResidual>
+      residuals_;  ///< one a frame of the recording, empty where there is no answer or no depth
+  std::vector<double> silhouettes_, silhouette_times_;
+  std::vector<cv::Mat3b> overlays_;
+};
+
+}  // namespace
+
+void compareWithRecording(const EvaluatorOptions& options, const std::string& recording,
+                          const SurfaceRecord& result, const SurfaceRecord* truth, Report* report,
+                          Pictures* pictures) {
+  Comparer comparer(options, result, truth);
+  readRecording(recording, options.camera, [&](const RecordedFrame& frame) { comparer.add(frame); });
+  comparer.finish(report, pictures);
+}
+
+}  // namespace softbody::evaluation

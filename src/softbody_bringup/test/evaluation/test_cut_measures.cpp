@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "softbody_bringup/evaluation/vertex_error.h"
+#include "softbody_bringup/evaluation/vertex_match.h"
+
+namespace softbody::evaluation {
+namespace {
+
+/// Two squares side by side along x, each of two triangles; cut apart, the seam's two vertices are doubled.
+MeshTopology strip(bool cut) {
+  MeshTopology mesh;
+  mesh.revision = cut ? 1 : 0;
+  mesh.rest_vertices.resize(cut ? 8 : 6, 3);
+  mesh.rest_vertices.topRows(6) << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0;
+  mesh.vertex_parents = {0, 1, 2, 3, 4, 5};
+  mesh.triangles.resize(4, 3);
+  const int a = cut ? 6 : 2, b = cut ? 7 : 3;
+  mesh.triangles << 0, 2, 3, 0, 3, 1, a, 4, 5, a, 5, b;
+  mesh.bodies = {0, 0, cut ? 1u : 0u, cut ? 1u : 0u};
+  mesh.cut.assign(4, false);
+  if (cut) {
+    mesh.rest_vertices.bottomRows(2) = mesh.rest_vertices.middleRows(2, 2);
+    mesh.vertex_parents.insert(mesh.vertex_parents.end(), {2, 3});
+  }
+  return mesh;
+}
+
+/// The same mesh with its vertices and pieces in another order.
+MeshTopology shuffled(const MeshTopology& mesh, const std::vector<int>& order) {
+  MeshTopology result = mesh;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    result.rest_vertices.row(order[i]) = mesh.rest_vertices.row(static_cast<Eigen::Index>(i));
+    result.vertex_parents[static_cast<std::size_t>(order[i])] = mesh.vertex_parents[i];
+  }
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k)
+      result.triangles(f, k) = order[static_cast<std::size_t>(mesh.triangles(f, k))];
+  }
+  for (std::uint32_t& body : result.bodies) body = 1 - body;
+  return result;
+}
+
+TEST(VertexMatch, CopiesAreMatchedToTheirOwnSideInAnyOrder) {
+  const MeshTopology truth = strip(true);
+  std::vector<int> order{0, 1, 2, 3, 4, 5, 6, 7};
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::shuffle(order.begin(), order.end(), random);
+    const MeshTopology result = shuffled(truth, order);
+    const std::vector<int> matches = matchVertices(result, truth, 0.002);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      EXPECT_EQ(matches[static_cast<std::size_t>(order[i])], static_cast<int>(i));
+    const PieceMatch pieces = matchPieces(result, truth, matches);
+    EXPECT_EQ(pieces.true_piece, (std::vector<int>{1, 0}));
+    EXPECT_EQ(pieces.vertices_right, 1.0);
+  }
+}
+
+TEST(VertexMatch, WithoutACutItIsTheMatchByParents) {
+  const MeshTopology mesh = strip(false);
+  EXPECT_EQ(matchVertices(mesh, mesh, 0.002), matchVertices(mesh.vertex_parents, mesh.vertex_parents));
+}
+
+TEST(VertexMatch, VerticesMadeByACutStandForTheNearestSuchOneIfItIsNear) {
+  MeshTopology result = strip(false), truth = strip(false);
+  result.vertex_parents[2] = truth.vertex_parents[3] = truth.vertex_parents[2] = -1;
+  result.rest_vertices(2, 1) = 0.001;
+  EXPECT_EQ(matchVertices(result, truth, 0.002)[2], 2);
+  EXPECT_EQ(matchVertices(result, truth, 0.0005)[2], -1);
+}
+
+TEST(VertexMatch, AMissedCutLeavesHalfTheVerticesInTheWrongPiece) {
+  const MeshTopology result = strip(false), truth = strip(true);
+  const PieceMatch pieces = matchPieces(result, truth, matchVertices(result, truth, 0.002));
+  EXPECT_EQ(pieces.result_pieces, 1u);
+  EXPECT_EQ(pieces.true_pieces, 2u);
+  // Six vertices: those of one square, at least, are in the piece that the only one stands for.
+  EXPECT_NEAR(pieces.vertices_right, 0.5, 0.17);
+}
+
+TEST(NearCut, OnlyVerticesWithinTheDistanceOfACutTriangle) {
+  MeshTopology mesh = strip(false);
+  mesh.cut = {true, false, false, false};  // its corners are 0, 2 and 3
+  EXPECT_EQ(nearCut(mesh, 0.5), (std::vector<bool>{true, false, true, true, false, false}));
+  EXPECT_EQ(nearCut(mesh, 1.0), (std::vector<bool>{true, true, true, true, true, true}));
+  mesh.cut.assign(4, false);
+  EXPECT_EQ(nearCut(mesh, 9.0), std::vector<bool>(6, false));
+}
+
+TEST(VertexError, NearACutHasItsOwnRowAndUnmatchedVerticesAreCounted) {
+  MeshState truth, result;
+  truth.vertices = strip(false).rest_vertices;
+  truth.confidence.assign(6, 1.0f);
+  result = truth;
+  result.vertices(0, 2) += 0.003;
+  result.vertices(1, 2) += 0.001;
+  const FrameVertexError frame =
+      vertexError(result, truth, {0, 1, 2, 3, 4, -1}, {true, false, false, false, false, true});
+  const VertexErrorReport report = summarize(std::vector<FrameVertexError>{frame});
+  EXPECT_EQ(report.near_cut.count, 1u);
+  EXPECT_NEAR(report.near_cut.mean, 0.003, 1e-9);
+  EXPECT_EQ(report.all.count, 5u);
+  EXPECT_NEAR(report.unmatched_share, 1.0 / 6.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace softbody::evaluation
