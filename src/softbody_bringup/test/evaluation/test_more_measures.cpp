@@ -93,6 +93,13 @@ TEST(Silhouette, MeasuredIsWhatIsAtTheModelsDepth) {
   EXPECT_EQ(cv::countNonZero(measuredSilhouette(measured, cv::Mat1f::zeros(10, 10), 0.03)), 0);
 }
 
+TEST(Silhouette, WhatIsFarBesideTheModelIsNotTheBody) {
+  cv::Mat1f model(100, 100, 0.0f);
+  model(cv::Rect(40, 40, 20, 20)).setTo(0.5f);
+  const cv::Mat1b mask = measuredSilhouette(cv::Mat1f(100, 100, 0.5f), model, 0.03);
+  EXPECT_EQ(cv::countNonZero(mask), 50 * 50);
+}
+
 TEST(PoseError, AKnownMotionIsTheError) {
   PoseRecord truth, result;
   for (int k = 0; k < 10; ++k) {

@@ -14,8 +14,8 @@ double intersectionOverUnion(const cv::Mat1b& a, const cv::Mat1b& b);
 /// Where a rendered depth image shows something.
 cv::Mat1b silhouette(const cv::Mat1f& rendered_depth);
 
-/// Where something is measured at the model's depth, give or take `margin_m`: a body before a distant or
-/// unmeasured background. What stands beside the body at its depth counts as body.
+/// Where something is measured at the model's depth, give or take `margin_m`, at most 15 pixels beside it: a
+/// body before a distant or unmeasured background. What touches the body at its depth counts as body.
 cv::Mat1b measuredSilhouette(const cv::Mat1f& measured, const cv::Mat1f& model, double margin_m);
 
 struct SilhouetteReport {

@@ -4,9 +4,15 @@
 
 #include <algorithm>
 #include <numeric>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace softbody::evaluation {
+namespace {
+
+constexpr int kReach = 15;  // how far from the model something can still be the body [px]
+
+}  // namespace
 
 double intersectionOverUnion(const cv::Mat1b& a, const cv::Mat1b& b) {
   if (a.size() != b.size()) {
@@ -24,7 +30,9 @@ cv::Mat1b measuredSilhouette(const cv::Mat1f& measured, const cv::Mat1f& model, 
   if (cv::countNonZero(covered) == 0) return cv::Mat1b::zeros(measured.size());
   double nearest = 0.0, farthest = 0.0;
   cv::minMaxLoc(model, &nearest, &farthest, nullptr, nullptr, covered);
-  return (measured >= nearest - margin_m) & (measured <= farthest + margin_m);
+  cv::Mat1b around;
+  cv::dilate(covered, around, cv::Mat1b::ones(2 * kReach + 1, 2 * kReach + 1));
+  return (measured >= nearest - margin_m) & (measured <= farthest + margin_m) & around;
 }
 
 SilhouetteReport summarizeSilhouettes(const std::vector<double>& values, bool against_truth) {
