@@ -1,12 +1,12 @@
 #pragma once
 
-#include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
 
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "softbody_bringup/atomic_bag.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
@@ -17,23 +17,19 @@ class CameraBag {
  public:
   /// @param info without header. @throw rosbag::BagException if the file cannot be written.
   CameraBag(std::filesystem::path output, sensor_msgs::CameraInfo info);
-  ~CameraBag();
-  CameraBag(const CameraBag&) = delete;
-  CameraBag& operator=(const CameraBag&) = delete;
 
   /// Latched /tf_static camera_link -> camera_color_optical_frame (REP-103).
   void writeOpticalFrame(Nanoseconds stamp);
   void writeColor(Nanoseconds stamp, const cv::Mat3b& bgr);
   /// @param depth CV_16UC1 [mm] or CV_32FC1 [m].
   void writeDepth(Nanoseconds stamp, const cv::Mat& depth);
-  void finish();
+  void finish() { bag_.finish(); }
 
  private:
   void writeImage(const std::string& topics, Nanoseconds stamp, const cv::Mat& image, const char* encoding);
 
-  std::filesystem::path output_, temporary_;
   sensor_msgs::CameraInfo info_;
-  rosbag::Bag bag_;
+  AtomicBag bag_;
 };
 
 }  // namespace softbody

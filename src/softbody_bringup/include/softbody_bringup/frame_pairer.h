@@ -25,14 +25,14 @@ class FramePairer {
   void addColor(Nanoseconds stamp, ColorPtr color) { colors_.emplace_back(stamp, std::move(color)); }
   void addDepth(Nanoseconds stamp, DepthPtr depth) {
     depths_.emplace_back(stamp, std::move(depth));
-    if (colors_.empty() && depths_.size() > kMostWaiting) depths_.pop_front();
+    if (depths_.size() > kMostWaiting) depths_.pop_front();
   }
 
   /// The next colour image once its depth is certain; with `finish` even if more might have come.
   std::optional<Pair> next(bool finish) {
     if (colors_.empty()) return std::nullopt;
     const auto [stamp, color] = colors_.front();
-    const std::size_t nearest = nearestDepth(stamp);
+    const std::size_t nearest = nearestTo(depths_, stamp);
     const bool exact = nearest < depths_.size() && depths_[nearest].first == stamp;
     const bool overtaken = !depths_.empty() && depths_.back().first > stamp + tolerance_;
     // Depth drivers lag by a few frames at most; a stream that stays silent must not hold all colour images
@@ -40,7 +40,10 @@ class FramePairer {
     const bool overdue = colors_.size() > kMostWaiting;
     if (!exact && !overtaken && !overdue && !finish) return std::nullopt;
     Pair pair{stamp, color, nullptr};
-    if (nearest < depths_.size() && std::llabs(depths_[nearest].first - stamp) <= tolerance_) {
+    // A depth image that fits a later colour image better is that one's: one that was dropped must not shift
+    // all pairs.
+    const bool near = nearest < depths_.size() && std::llabs(depths_[nearest].first - stamp) <= tolerance_;
+    if (near && nearestTo(colors_, depths_[nearest].first) == 0) {
       pair.depth = depths_[nearest].second;
       depths_.erase(depths_.begin(), depths_.begin() + static_cast<std::ptrdiff_t>(nearest) + 1);
     }
@@ -51,12 +54,14 @@ class FramePairer {
  private:
   static constexpr std::size_t kMostWaiting = 30;
 
-  std::size_t nearestDepth(Nanoseconds stamp) const {
-    std::size_t best = depths_.size();
-    for (std::size_t d = 0; d < depths_.size(); ++d) {
-      const bool nearer = best == depths_.size() ||
-                          std::llabs(depths_[d].first - stamp) < std::llabs(depths_[best].first - stamp);
-      if (nearer) best = d;
+  /// Index of the element nearest in time, the first of equals; the size where there is none.
+  template <typename Queue>
+  static std::size_t nearestTo(const Queue& queue, Nanoseconds stamp) {
+    std::size_t best = queue.size();
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const bool nearer =
+          best == queue.size() || std::llabs(queue[i].first - stamp) < std::llabs(queue[best].first - stamp);
+      if (nearer) best = i;
     }
     return best;
   }

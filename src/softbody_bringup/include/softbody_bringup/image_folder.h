@@ -18,6 +18,7 @@ struct FolderCamera {
   std::string distortion_model = "plumb_bob";
   std::vector<double> distortion;
   double depth_units_per_m = 1000.0;
+  std::vector<std::string> warnings;  ///< unknown keys
 };
 
 struct ImageFile {

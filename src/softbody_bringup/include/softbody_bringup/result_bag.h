@@ -1,11 +1,11 @@
 #pragma once
 
-#include <rosbag/bag.h>
 #include <std_msgs/Header.h>
 
 #include <filesystem>
 #include <string>
 
+#include "softbody_bringup/atomic_bag.h"
 #include "softbody_bringup/pipeline.h"
 
 namespace softbody {
@@ -19,15 +19,13 @@ class ResultBag {
   /// @throw rosbag::BagException if the file cannot be written.
   ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
             bool with_timing);
-  ~ResultBag();
-  ResultBag(const ResultBag&) = delete;
-  ResultBag& operator=(const ResultBag&) = delete;
 
-  /// Both topologies, latched; to be written at the start and again every second.
+  /// Both topologies, latched; to be written at the start and again every second. Their stamp stays that of
+  /// the first.
   void writeTopologies(const Pipeline& pipeline, const ros::Time& stamp);
   /// One frame. @param header of the colour image.
   void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
-  void finish();
+  void finish() { bag_.finish(); }
 
  private:
   std::string topic(const char* name) const { return namespace_ + "/" + name; }
@@ -35,10 +33,10 @@ class ResultBag {
   void write(const std::string& topic, Message message, const std_msgs::Header& header);
   void writeTransform(const Eigen::Isometry3d& body_pose, const std_msgs::Header& header);
 
-  std::filesystem::path output_, temporary_;
   std::string namespace_, body_frame_;
   bool with_timing_;
-  rosbag::Bag bag_;
+  ros::Time first_stamp_;
+  AtomicBag bag_;
 };
 
 }  // namespace softbody

@@ -35,6 +35,19 @@ T read(const YAML::Node& node, const char* key, const fs::path& file) {
   }
 }
 
+std::vector<std::string> unknownKeys(const YAML::Node& map, const std::set<std::string>& known,
+                                     const fs::path& file) {
+  std::vector<std::string> warnings;
+  for (const auto& entry : map) {
+    const auto key = entry.first.as<std::string>();
+    if (known.count(key) == 0) {
+      warnings.push_back(fmt::format("{}: unknown key {} is ignored; known: {}", file.string(), key,
+                                     fmt::join(known, ", ")));
+    }
+  }
+  return warnings;
+}
+
 double depthUnitsPerMetre(const YAML::Node& depth, const fs::path& file) {
   if (!depth) return 1000.0;
   if (depth["scale"]) {
@@ -56,8 +69,10 @@ long fileNumber(const fs::path& file) {
   const auto last = std::find_if(name.rbegin(), name.rend(), is_digit);
   const auto first = std::find_if_not(last, name.rend(), is_digit);
   const std::string digits(first.base(), last.base());
-  if (digits.empty() || digits.size() > 9)
-    fail("{}: the file's name must hold its frame number", file.string());
+  const bool timestamp = first != name.rend() && *first == '.' && std::next(first) != name.rend() &&
+                         is_digit(static_cast<unsigned char>(*std::next(first)));
+  if (digits.empty() || digits.size() > 9 || timestamp)
+    fail("{}: the file's name must hold its frame number, not a time or nothing", file.string());
   return std::stol(digits);
 }
 
@@ -108,6 +123,22 @@ cv::Mat readImage(const fs::path& file, const Pinhole& camera) {
   return image;
 }
 
+void checkDistortion(const FolderCamera& camera, const fs::path& file) {
+  static const std::map<std::string, std::set<std::size_t>> kCounts{
+      {"plumb_bob", {0, 4, 5}}, {"rational_polynomial", {8}}, {"equidistant", {4}}};
+  const auto model = kCounts.find(camera.distortion_model);
+  if (model == kCounts.end()) {
+    fail("{}: distortion_model is '{}'; allowed: plumb_bob, rational_polynomial, equidistant", file.string(),
+         camera.distortion_model);
+  }
+  const bool finite = std::all_of(camera.distortion.begin(), camera.distortion.end(),
+                                  [](double x) { return std::isfinite(x); });
+  if (!finite || model->second.count(camera.distortion.size()) == 0) {
+    fail("{}: D must be {} finite numbers for distortion_model {}", file.string(),
+         fmt::join(model->second, " or "), camera.distortion_model);
+  }
+}
+
 }  // namespace
 
 FolderCamera readFolderCamera(const fs::path& file) {
@@ -129,9 +160,16 @@ FolderCamera readFolderCamera(const fs::path& file) {
                       std::all_of(K.begin(), K.end(), [](double x) { return std::isfinite(x); });
   if (!usable)
     fail("{}: image_width, image_height and the focal lengths in K must be above 0", file.string());
+  result.warnings = unknownKeys(
+      root, {"image_width", "image_height", "K", "D", "distortion_model", "depth", "color", "fps"}, file);
+  if (root["depth"].IsMap()) {
+    const auto unknown = unknownKeys(root["depth"], {"scale", "unit", "format", "invalid"}, file);
+    result.warnings.insert(result.warnings.end(), unknown.begin(), unknown.end());
+  }
   if (root["D"]) result.distortion = read<std::vector<double>>(root, "D", file);
   if (result.distortion.size() == 8) result.distortion_model = "rational_polynomial";
   if (root["distortion_model"]) result.distortion_model = read<std::string>(root, "distortion_model", file);
+  checkDistortion(result, file);
   result.depth_units_per_m = depthUnitsPerMetre(root["depth"], file);
   return result;
 }
@@ -144,6 +182,8 @@ ImageFolder readImageFolder(const fs::path& directory, const fs::path& camera_fi
     if (!camera_file.empty() || fs::exists(camera)) {
       const double units = folder.camera.depth_units_per_m;
       folder.camera = readFolderCamera(camera);
+      folder.warnings.insert(folder.warnings.end(), folder.camera.warnings.begin(),
+                             folder.camera.warnings.end());
       if (!YAML::LoadFile(camera.string())["depth"]) folder.camera.depth_units_per_m = units;
     } else {
       folder.warnings.push_back(tumCameraWarning(directory));
@@ -158,6 +198,7 @@ ImageFolder readImageFolder(const fs::path& directory, const fs::path& camera_fi
   }
   ImageFolder folder;
   folder.camera = readFolderCamera(camera);
+  folder.warnings = folder.camera.warnings;
   folder.color = numberedFiles(directory / "color", rate_hz, &folder.warnings);
   folder.depth = numberedFiles(directory / "depth", rate_hz, &folder.warnings);
   return folder;

@@ -32,36 +32,46 @@ void requireTopics(const rosbag::Bag& bag, const std::vector<std::string>& topic
   }
 }
 
+template <typename Message>
+boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& instance, const char* type) {
+  const boost::shared_ptr<const Message> message = instance.instantiate<Message>();
+  if (!message) {
+    throw std::invalid_argument(
+        fmt::format("{} holds {}; it must be {}", instance.getTopic(), instance.getDataType(), type));
+  }
+  return message;
+}
+
+/// The first CameraInfo, since images may come before it.
+sensor_msgs::CameraInfoConstPtr firstInfo(const rosbag::Bag& bag, const std::string& topic) {
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    return instantiate<sensor_msgs::CameraInfo>(message, "sensor_msgs/CameraInfo");
+  }
+  throw std::invalid_argument(fmt::format("{} has no message", topic));
+}
+
 class Reader {
  public:
-  Reader(const BagFramesConfig& config, CameraIngest* ingest,
+  Reader(const BagFramesConfig& config, sensor_msgs::CameraInfoConstPtr info, CameraIngest* ingest,
          const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use)
-      : ingest_(ingest), use_(use), pairer_(config.sync_tolerance) {}
+      : ingest_(ingest), use_(use), pairer_(config.sync_tolerance), info_(std::move(info)) {}
 
   void add(const rosbag::MessageInstance& message, const std::string& color, const std::string& info,
            const std::string& depth) {
     if (message.getTopic() == info) {
-      const auto camera_info = message.instantiate<sensor_msgs::CameraInfo>();
-      if (camera_info) info_ = camera_info;
+      info_ = instantiate<sensor_msgs::CameraInfo>(message, "sensor_msgs/CameraInfo");
     } else if (message.getTopic() == color || message.getTopic() == depth) {
-      const auto image = message.instantiate<sensor_msgs::Image>();
-      if (!image) {
-        throw std::invalid_argument(fmt::format("{} holds {}; it must be sensor_msgs/Image",
-                                                message.getTopic(), message.getDataType()));
-      }
+      const auto image = instantiate<sensor_msgs::Image>(message, "sensor_msgs/Image");
       const Nanoseconds stamp = toNanoseconds(image->header.stamp);
       message.getTopic() == color ? pairer_.addColor(stamp, image) : pairer_.addDepth(stamp, image);
     }
   }
 
   void drain(bool finish, double progress) {
-    // Nothing can be rectified before the first CameraInfo; it may come after the first images.
-    if (!info_) return;
     while (const auto pair = pairer_.next(finish)) process(*pair, progress);
   }
 
   const BagFramesReport& report() const { return report_; }
-  bool hasInfo() const { return info_ != nullptr; }
 
  private:
   using Pairer = FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr>;
@@ -71,8 +81,9 @@ class Reader {
     if (!pair.depth) ++report_.without_depth;
     RgbdFrame frame;
     try {
+      if (pair.stamp <= 0) throw std::invalid_argument("an image without a stamp");
       frame = frameFromMessages(*pair.color, pair.depth.get(), *info_, ingest_);
-    } catch (const std::invalid_argument& error) {
+    } catch (const std::exception& error) {
       ++report_.unusable;
       report_.last_error = error.what();
       return;
@@ -97,15 +108,13 @@ BagFramesReport readBagFrames(
   const std::string depth = cameraTopic(config.camera, topics::kCameraDepth);
   requireTopics(bag, {color, info, depth});
   rosbag::View view(bag, rosbag::TopicQuery({color, info, depth}));
-  Reader reader(config, ingest, use);
+  Reader reader(config, firstInfo(bag, info), ingest, use);
   const double total = view.size();
   double count = 0.0;
   for (const rosbag::MessageInstance& message : view) {
     reader.add(message, color, info, depth);
     reader.drain(false, ++count / total);
   }
-  if (!reader.hasInfo())
-    throw std::invalid_argument(fmt::format("{} is not a sensor_msgs/CameraInfo topic", info));
   reader.drain(true, 1.0);
   return reader.report();
 }

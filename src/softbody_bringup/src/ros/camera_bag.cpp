@@ -14,17 +14,7 @@ constexpr char kFrame[] = "camera_color_optical_frame";
 }  // namespace
 
 CameraBag::CameraBag(std::filesystem::path output, sensor_msgs::CameraInfo info)
-    : output_(std::move(output)), temporary_(output_.string() + ".part"), info_(std::move(info)) {
-  bag_.open(temporary_.string(), rosbag::bagmode::Write);
-  bag_.setCompression(rosbag::compression::LZ4);
-}
-
-CameraBag::~CameraBag() {
-  if (!bag_.isOpen()) return;
-  bag_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
+    : info_(std::move(info)), bag_(std::move(output)) {}
 
 void CameraBag::writeOpticalFrame(Nanoseconds stamp) {
   geometry_msgs::TransformStamped transform;
@@ -37,12 +27,7 @@ void CameraBag::writeOpticalFrame(Nanoseconds stamp) {
   transform.transform.rotation.w = 0.5;
   tf2_msgs::TFMessage message;
   message.transforms.push_back(transform);
-  const auto header = boost::make_shared<ros::M_string>();
-  (*header)["type"] = ros::message_traits::datatype(message);
-  (*header)["md5sum"] = ros::message_traits::md5sum(message);
-  (*header)["message_definition"] = ros::message_traits::definition(message);
-  (*header)["latching"] = "1";
-  bag_.write("/tf_static", toTime(stamp), message, header);
+  bag_.writeLatched("/tf_static", toTime(stamp), message);
 }
 
 void CameraBag::writeColor(Nanoseconds stamp, const cv::Mat3b& bgr) {
@@ -64,11 +49,6 @@ void CameraBag::writeImage(const std::string& topics, Nanoseconds stamp, const c
   info_.header = header;
   bag_.write(topics + "camera_info", header.stamp, info_);
   bag_.write(topics + "image_raw", header.stamp, *cv_bridge::CvImage(header, encoding, image).toImageMsg());
-}
-
-void CameraBag::finish() {
-  bag_.close();
-  std::filesystem::rename(temporary_, output_);
 }
 
 }  // namespace softbody

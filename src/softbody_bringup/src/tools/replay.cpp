@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <opencv2/core/utility.hpp>
+#include <set>
 
 #include "softbody_bringup/bag_frames.h"
 #include "softbody_bringup/pipeline.h"
@@ -22,10 +24,23 @@ struct Options {
 
 /// Parameters of every node, from one file with a section a node, as launch files take it.
 struct GraphConfig {
+  softbody::Nanoseconds sync_tolerance = softbody::BagFramesConfig().sync_tolerance;
   softbody::CameraIngestConfig ingest;
   softbody::TrackerConfig tracker;
   softbody::SimulatorConfig simulator;
 };
+
+YAML::Node loadYaml(const std::string& path) {
+  YAML::Node file;
+  try {
+    file = YAML::LoadFile(path);
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", path, error.what()));
+  }
+  if (!file.IsMap())
+    throw std::invalid_argument(path + ": must be a map with a section of parameters for each node");
+  return file;
+}
 
 /// Reads one section; says which of its keys nobody knows.
 template <typename Reader>
@@ -38,27 +53,64 @@ auto readSection(const YAML::Node& file, const std::string& name, Reader reader)
   return config;
 }
 
+/// The nodes' names and the replay's use of their parameters. What concerns only a live graph is known and
+/// unused.
 GraphConfig readGraphConfig(const std::string& path) {
-  const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : YAML::LoadFile(path);
-  return {readSection(file, "camera_ingest", softbody::readCameraIngestConfig),
-          readSection(file, "feature_tracker", softbody::readTrackerConfig),
-          readSection(file, "simulator", softbody::readSimulatorConfig)};
+  const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : loadYaml(path);
+  for (const auto& section : file) {
+    const auto name = section.first.as<std::string>();
+    const std::set<std::string> nodes{"camera_ingest", "feature_tracker", "simulator", "surface"};
+    if (nodes.count(name) == 0) fmt::print(stderr, "replay: {}: no node is called {}; ignored\n", path, name);
+  }
+  GraphConfig config;
+  config.ingest = readSection(file, "camera_ingest", [&config](softbody::Parameters& parameters) {
+    config.sync_tolerance = static_cast<softbody::Nanoseconds>(
+        1e9 *
+        parameters.number("sync_tolerance_s", 1e-9 * static_cast<double>(config.sync_tolerance), 0.0, 1.0));
+    if (parameters.choice("sync", "approximate", {"approximate", "exact"}) == "exact")
+      config.sync_tolerance = 0;
+    for (const char* live_only : {"queue_size", "voxel_size_m", "silence_timeout_s"})
+      parameters.number(live_only, 0.0, 0.0, 1e9);
+    return softbody::readCameraIngestConfig(parameters);
+  });
+  config.tracker = readSection(file, "feature_tracker", [](softbody::Parameters& parameters) {
+    for (const char* live_only : {"body_frame", "output_frame"}) parameters.text(live_only, "");
+    return softbody::readTrackerConfig(parameters);
+  });
+  config.simulator = readSection(file, "simulator", [](softbody::Parameters& parameters) {
+    for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
+    return softbody::readSimulatorConfig(parameters);
+  });
+  return config;
 }
 
 /// What the summary counts.
 struct Tally {
   int states = 0;
   std::map<softbody::TrackingState, int> by_state;
+  std::map<softbody::TrackingState, std::string> reasons;  ///< the last one of each state
   double milliseconds = 0.0;
 };
 
+/// On a terminal only: in a log it would be a hundred lines.
 void showProgress(double share) {
   static int shown = -1;
   const int percent = static_cast<int>(100.0 * share);
-  if (percent == shown) return;
+  if (percent == shown || isatty(STDERR_FILENO) == 0) return;
   shown = percent;
   fmt::print(stderr, "\rreplay: {:3d} %", percent);
-  if (percent >= 100) fmt::print(stderr, "\n");
+}
+
+rosbag::Bag openBag(const std::string& path) try {
+  return rosbag::Bag(path, rosbag::bagmode::Read);
+} catch (const rosbag::BagException& error) {
+  throw std::invalid_argument(
+      fmt::format("{} is not a readable bag: {} (try: rosbag check, rosbag reindex)", path, error.what()));
+}
+
+const char* name(softbody::TrackingState state) {
+  static constexpr const char* kNames[] = {"initializing", "tracking", "degraded", "lost", "recovering"};
+  return kNames[static_cast<int>(state)];
 }
 
 void printSummary(const softbody::BagFramesReport& report, const Tally& tally, const std::string& output) {
@@ -72,6 +124,9 @@ void printSummary(const softbody::BagFramesReport& report, const Tally& tally, c
   fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
              count(TrackingState::kTracking), count(TrackingState::kDegraded), count(TrackingState::kLost),
              count(TrackingState::kRecovering), count(TrackingState::kInitializing));
+  for (const auto& [state, reason] : tally.reasons) {
+    if (!reason.empty()) fmt::print("{}: {}\n", name(state), reason);
+  }
   if (report.unusable > 0) fmt::print("last unusable frame: {}\n", report.last_error);
   fmt::print(stderr, "replay: {:.1f} ms a frame; wrote {}\n", tally.milliseconds / std::max(1, report.frames),
              output);
@@ -83,7 +138,7 @@ void replay(const Options& options) {
       softbody::buildObjectModel(softbody::loadObjectDescription(options.object));
   for (const std::string& warning : model.warnings)
     fmt::print(stderr, "replay: {}: {}\n", options.object, warning);
-  rosbag::Bag input(options.input, rosbag::bagmode::Read);
+  const rosbag::Bag input = openBag(options.input);
   softbody::Pipeline pipeline(model, config.tracker, config.simulator);
   softbody::CameraIngest ingest(config.ingest);
   softbody::ResultBag output(options.output, options.topic_namespace, options.body_frame, options.timing);
@@ -97,6 +152,7 @@ void replay(const Options& options) {
     tally.milliseconds += elapsed.count();
     tally.states += result.surface ? 1 : 0;
     ++tally.by_state[result.tracking.status.state];
+    tally.reasons[result.tracking.status.state] = result.tracking.status.reason;
     const bool due =
         header.stamp < topologies_written || header.stamp - topologies_written >= ros::Duration(1.0);
     if (topologies_written.isZero() || due) {
@@ -108,12 +164,18 @@ void replay(const Options& options) {
   };
   softbody::BagFramesConfig frames;
   frames.camera = options.camera;
+  frames.sync_tolerance = config.sync_tolerance;
   const softbody::BagFramesReport report = softbody::readBagFrames(input, frames, &ingest, use);
   if (tally.by_state.empty()) {
     throw std::runtime_error(fmt::format("{} holds no usable frame{}{}", options.input,
                                          report.last_error.empty() ? "" : ": ", report.last_error));
   }
+  if (tally.states == 0) {
+    throw std::runtime_error(
+        fmt::format("no frame of {} gave a surface: {}", options.input, tally.reasons.begin()->second));
+  }
   output.finish();
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\n");
   printSummary(report, tally, options.output);
 }
 
@@ -137,6 +199,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (std::filesystem::exists(options.output) && std::filesystem::equivalent(options.input, options.output)) {
+    fmt::print(stderr, "replay: --output is the input {}; name another file\n", options.input);
+    return 2;
   }
   // One thread: the order of floating-point sums must not depend on scheduling.
   cv::setNumThreads(1);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <random>
 #include <vector>
@@ -61,6 +62,39 @@ TEST(FramePairer, KeepsEveryColorImageInOrderWhateverDepthDoes) {
     EXPECT_LE(std::llabs(*pairs[i].depth - pairs[i].stamp), kTolerance);
   }
   EXPECT_GT(with_depth, 180);
+}
+
+TEST(FramePairer, OneDroppedDepthImageLeavesTheOtherPairsAlone) {
+  for (Nanoseconds offset : {-3'000'000, 0, 2'000'000}) {
+    constexpr Nanoseconds kShort = 11'111'111;  // shorter than the tolerance
+    Pairer pairer(kTolerance);
+    std::vector<Pairer::Pair> pairs;
+    for (int i = 0; i < 200; ++i) {
+      pairer.addColor(i * kShort, imageAt(i));
+      if (i != 10) pairer.addDepth(i * kShort + offset, imageAt(i));
+      for (const Pairer::Pair& pair : drain(&pairer, false)) pairs.push_back(pair);
+    }
+    for (const Pairer::Pair& pair : drain(&pairer, true)) pairs.push_back(pair);
+    ASSERT_EQ(pairs.size(), 200u);
+    int wrong = 0;
+    for (const Pairer::Pair& pair : pairs) wrong += pair.depth && *pair.depth != *pair.color ? 1 : 0;
+    EXPECT_LE(wrong, 1) << "offset " << offset;
+  }
+}
+
+TEST(FramePairer, HoldsFewImagesWhenTheClocksDisagree) {
+  Pairer pairer(kTolerance);
+  std::vector<std::weak_ptr<Nanoseconds>> images;
+  for (int i = 0; i < 500; ++i) {
+    const Image color = imageAt(i), depth = imageAt(i);
+    images.insert(images.end(), {color, depth});
+    pairer.addColor(i * kFrame, color);
+    pairer.addDepth(i * kFrame - 1'000'000'000, depth);
+    drain(&pairer, false);
+  }
+  const auto alive =
+      std::count_if(images.begin(), images.end(), [](const auto& image) { return !image.expired(); });
+  EXPECT_LE(alive, 80);
 }
 
 TEST(FramePairer, DoesNotHoldColorBackWhenDepthIsSilent) {

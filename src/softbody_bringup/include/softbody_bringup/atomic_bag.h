@@ -1,0 +1,44 @@
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <filesystem>
+#include <string>
+
+namespace softbody {
+
+/// A bag (lz4) that appears under its name only when finish() is called; without that nothing is left behind
+/// and an earlier file stays as it was.
+class AtomicBag {
+ public:
+  /// @throw std::invalid_argument if the output is a folder; rosbag::BagException if it cannot be written.
+  explicit AtomicBag(std::filesystem::path output);
+  ~AtomicBag();
+  AtomicBag(const AtomicBag&) = delete;
+  AtomicBag& operator=(const AtomicBag&) = delete;
+
+  template <typename Message>
+  void write(const std::string& topic, const ros::Time& time, const Message& message) {
+    bag_.write(topic, time, message);
+  }
+
+  /// As a latched topic, which players send again to late subscribers.
+  template <typename Message>
+  void writeLatched(const std::string& topic, const ros::Time& time, const Message& message) {
+    const auto header = boost::make_shared<ros::M_string>();
+    (*header)["topic"] = topic;
+    (*header)["type"] = ros::message_traits::DataType<Message>::value();
+    (*header)["md5sum"] = ros::message_traits::MD5Sum<Message>::value();
+    (*header)["message_definition"] = ros::message_traits::Definition<Message>::value();
+    (*header)["latching"] = "1";
+    bag_.write(topic, time, message, header);
+  }
+
+  void finish();
+
+ private:
+  std::filesystem::path output_, temporary_;
+  rosbag::Bag bag_;
+};
+
+}  // namespace softbody
