@@ -4,9 +4,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "evaluation_comparisons.h"
 #include "softbody_bringup/evaluation/plots.h"
 #include "softbody_common/rasterizer.h"
-#include "evaluation_comparisons.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -1,9 +1,9 @@
 #include <map>
 #include <utility>
 
+#include "evaluation_comparisons.h"
 #include "softbody_bringup/evaluation/plots.h"
 #include "softbody_bringup/evaluation/vertex_match.h"
-#include "evaluation_comparisons.h"
 
 namespace softbody::evaluation {
 namespace {
