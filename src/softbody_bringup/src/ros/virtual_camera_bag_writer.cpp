@@ -34,10 +34,11 @@ tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) 
 
 std::string absolute(const char* topic) { return std::string("/") + topic; }
 
-void writeLatched(const VirtualCamera& camera, const ros::Time& stamp, rosbag::Bag* bag) {
+void writeLatched(const VirtualCamera& camera, std::uint32_t revision, const ros::Time& stamp,
+                  rosbag::Bag* bag) {
   bag->write("/tf_static", stamp, tfMessage(opticalFrameTransform(stamp)),
              latchedConnection<tf2_msgs::TFMessage>());
-  bag->write(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(), stamp),
+  bag->write(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(revision), stamp),
              latchedConnection<softbody_msgs::MeshTopology>());
 }
 
@@ -48,6 +49,7 @@ void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, rosbag:
   bag->write(absolute(topics::kCameraColor), stamp, messages.color);
   bag->write(absolute(topics::kCameraDepth), stamp, messages.depth);
   bag->write(absolute(kTruthStateTopic), stamp, messages.truth);
+  if (messages.tool) bag->write(absolute(kTruthToolPoseTopic), stamp, messages.tool);
 }
 
 void writeAll(VirtualCamera* camera, const BagOptions& options, const std::string& path,
@@ -55,13 +57,17 @@ void writeAll(VirtualCamera* camera, const BagOptions& options, const std::strin
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   bag.setCompression(options.small ? rosbag::compression::BZ2 : rosbag::compression::LZ4);
   const int frames_a_second = std::max(1, static_cast<int>(std::lround(options.rate_hz)));
+  std::uint32_t last_revision = 0;
   for (int frame = 0; frame < options.frames; ++frame) {
     const double t = frame / options.rate_hz;
     const ros::Time stamp = kStart + ros::Duration(t);
-    if (frame % frames_a_second == 0) writeLatched(*camera, stamp, &bag);
-    writeFrame(
-        toMessages(camera->capture(frame, t), camera->pinhole(), stamp, static_cast<std::uint32_t>(frame)),
-        stamp, &bag);
+    const CaptureMessages messages =
+        toMessages(camera->capture(frame, t), camera->pinhole(), stamp, static_cast<std::uint32_t>(frame));
+    const std::uint32_t revision = messages.truth->revision;
+    if (frame % frames_a_second == 0 || revision != last_revision)
+      writeLatched(*camera, revision, stamp, &bag);
+    last_revision = revision;
+    writeFrame(messages, stamp, &bag);
     progress(frame + 1);
   }
   bag.close();

@@ -40,6 +40,11 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
   messages.truth->header = header;
   messages.truth->observed = stamp;
   messages.body = transformMessage(header, kBodyFrame, capture.T_camera_body);
+  if (capture.T_camera_tool) {
+    messages.tool = boost::make_shared<geometry_msgs::PoseStamped>();
+    messages.tool->header = header;
+    messages.tool->pose = toMessage(*capture.T_camera_tool);
+  }
   return messages;
 }
 

@@ -51,15 +51,18 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle priva
   depth_info_ = node.advertise<sensor_msgs::CameraInfo>(topics::kCameraDepthInfo, kQueue);
   truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(kTruthTopologyTopic, 1, true);
   truth_state_ = node.advertise<softbody_msgs::MeshState>(kTruthStateTopic, kQueue);
+  if (camera_->scene().state(0.0).T_camera_tool) {
+    truth_tool_ = node.advertise<geometry_msgs::PoseStamped>(kTruthToolPoseTopic, kQueue);
+  }
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
   if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
-  publishLatched(ros::Time::now());
+  publishLatched(0, ros::Time::now());
   timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), &VirtualCameraNode::publishFrame, this);
 }
 
-void VirtualCameraNode::publishLatched(const ros::Time& stamp) {
+void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& stamp) {
   if (publish_camera_tf_) tf_static_.publish(tfMessage(opticalFrameTransform(stamp)));
-  truth_topology_.publish(topologyMessage(camera_->topology(), stamp));
+  truth_topology_.publish(topologyMessage(camera_->topology(revision), stamp));
 }
 
 bool VirtualCameraNode::watched() const {
@@ -75,10 +78,15 @@ void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
     timer_.stop();
     return;
   }
-  if (frame_ % std::max(1, static_cast<int>(std::lround(setup_.rate_hz))) == 0) publishLatched(stamp);
   const CaptureMessages messages =
       toMessages(camera_->capture(frame_, t), camera_->pinhole(), stamp, static_cast<std::uint32_t>(frame_));
+  const bool edited = messages.truth->revision != revision_;
+  revision_ = messages.truth->revision;
+  if (edited || frame_ % std::max(1, static_cast<int>(std::lround(setup_.rate_hz))) == 0) {
+    publishLatched(revision_, stamp);
+  }
   tf_.publish(tfMessage(messages.body));
+  if (messages.tool) truth_tool_.publish(messages.tool);
   color_info_.publish(messages.info);
   depth_info_.publish(messages.info);
   color_.publish(messages.color);

@@ -91,6 +91,35 @@ TEST(BagWriter, WritesWideImagesAtSixtyHertz) {
   EXPECT_EQ(camera.pinhole().cx, 424.0);
 }
 
+TEST(BagWriter, TheTruthsTopologyHasTheStampOfTheFirstStateOfItsRevision) {
+  CameraSetup setup;
+  setup.scene = "cut";
+  setup.config_folder = CONFIG_DIR;
+  setup.width = 80;
+  setup.height = 60;
+  VirtualCamera camera = makeCamera(setup);
+  const std::string path = testing::TempDir() + "cut.bag";
+  writeBag(&camera, {path, 30, 10.0}, [](int) {});
+  rosbag::Bag bag(path);
+  std::map<std::uint32_t, std::size_t> vertices;
+  std::map<std::uint32_t, ros::Time> topology_stamps, state_stamps;  // the earliest
+  for (const rosbag::MessageInstance& m : rosbag::View(bag)) {
+    if (const auto topology = m.instantiate<softbody_msgs::MeshTopology>()) {
+      vertices[topology->revision] = topology->rest_vertices.size();
+      topology_stamps.emplace(topology->revision, m.getTime());
+    }
+  }
+  for (const rosbag::MessageInstance& m : rosbag::View(bag)) {
+    if (const auto state = m.instantiate<softbody_msgs::MeshState>()) {
+      EXPECT_EQ(state->vertices.size(), vertices[state->revision]);
+      state_stamps.emplace(state->revision, m.getTime());
+    }
+  }
+  EXPECT_EQ(vertices.size(), 2u);
+  EXPECT_EQ(topology_stamps, state_stamps);
+  EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("/ground_truth/tool/pose")).size(), 30u);
+}
+
 TEST(BagWriter, TheTruthIsTheMeshFileVertexByVertex) {
   rosbag::Bag bag(write("truth.bag", 1));
   rosbag::View view(bag, rosbag::TopicQuery("/ground_truth/surface/topology"));

@@ -11,7 +11,7 @@ namespace softbody::virtual_camera {
 struct CameraSetup {
   std::string scene = "bend";
   std::string mesh;           ///< OBJ in metres; empty: the scene's own object
-  std::string config_folder;  ///< of the shipped objects
+  std::string config_folder;  ///< of the shipped objects and of knife.yaml
   std::uint64_t seed = 1;
   int width = 640, height = 480;  ///< [px]
   double rate_hz = 30.0;

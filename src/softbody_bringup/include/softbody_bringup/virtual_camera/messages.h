@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -16,6 +17,7 @@ constexpr char kBodyFrame[] = "ground_truth_softbody";
 
 constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
+constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
 
 /// One frame as the contract's messages, all with one stamp.
 struct CaptureMessages {
@@ -23,6 +25,7 @@ struct CaptureMessages {
   sensor_msgs::CameraInfoPtr info;       ///< of both
   softbody_msgs::MeshStatePtr truth;     ///< optical frame
   geometry_msgs::TransformStamped body;  ///< optical frame -> ground_truth_softbody
+  geometry_msgs::PoseStampedPtr tool;    ///< of the tool in the optical frame; empty without one
 };
 
 CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,

@@ -20,16 +20,18 @@ class VirtualCameraNode {
 
  private:
   bool watched() const;
-  void publishLatched(const ros::Time& stamp);
+  void publishLatched(std::uint32_t revision, const ros::Time& stamp);
   void publishFrame(const ros::TimerEvent& event);
 
   CameraSetup setup_;
   bool loop_ = true, publish_camera_tf_ = true;
   double hold_s_ = 2.0;
   std::optional<VirtualCamera> camera_;
-  ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, tf_, tf_static_;
+  ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, truth_tool_, tf_,
+      tf_static_;
   ros::Timer timer_;
   int frame_ = 0;
+  std::uint32_t revision_ = 0;
 };
 
 /// ros::init, one VirtualCameraNode, ros::spin. @return the exit code.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Actor {
 struct SceneState {
   Eigen::Isometry3d T_camera_body = Eigen::Isometry3d::Identity();  ///< the body's frame in the optical frame
   std::vector<Points> vertices;  ///< one entry an actor, in the colour optical frame [m]
+  std::uint32_t revision = 0;    ///< of the body's topology
+  std::optional<Eigen::Isometry3d> T_camera_tool = std::nullopt;
 };
 
 /// What the virtual camera looks at. The first actor is the soft body, whose vertices are the truth.
@@ -28,6 +31,7 @@ struct Scene {
   std::string name;
   double duration_s = 0.0;  ///< one run; the motion goes on after it
   std::vector<Actor> actors;
+  std::vector<MeshTopology> edits;                       ///< the body's topology of revision 1 and on
   Eigen::Vector3d to_light = -Eigen::Vector3d::UnitZ();  ///< unit, in the colour optical frame
   std::function<SceneState(double t)> state;             ///< t in seconds from 0
 };
@@ -38,8 +42,9 @@ std::vector<std::string> sceneNames();
 /// The shipped object that a scene is made for: "doll" if its name says so, otherwise "sponge".
 std::string objectOf(const std::string& scene);
 
-/// @param body the soft body at rest. @param seed of the textures.
-/// @throw std::invalid_argument with the known names if there is no such scene.
-Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed);
+/// @param body the soft body at rest. @param seed of the textures. @param tool_file YAML, read by scenes with
+/// a tool. @throw std::invalid_argument with the known names if there is no such scene.
+Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed,
+                const std::string& tool_file = "");
 
 }  // namespace softbody::virtual_camera

@@ -26,6 +26,7 @@ struct Capture {
   cv::Mat1w depth_mm;  ///< registered to colour; 0: none
   MeshState truth;     ///< colour optical frame; confidence 1 visible, 0 hidden
   Eigen::Isometry3d T_camera_body;
+  std::optional<Eigen::Isometry3d> T_camera_tool;
 };
 
 /// A seeded RGB-D camera before a scene: the same seed, scene and frame give the same bytes.
@@ -38,20 +39,20 @@ class VirtualCamera {
 
   const Pinhole& pinhole() const { return camera_; }
   const Scene& scene() const { return scene_; }
-  /// The soft body at rest, vertex by vertex the input mesh.
-  const MeshTopology& topology() const { return topology_; }
+  /// The soft body at rest; revision 0 is vertex by vertex the input mesh.
+  const MeshTopology& topology(std::uint32_t revision) const { return topologies_.at(revision); }
 
  private:
   void blur(double t, cv::Mat3b* color);
 
   Scene scene_;
   Pinhole camera_;
-  Renderer renderer_;
+  std::vector<MeshTopology> topologies_;  ///< by revision
+  std::vector<Renderer> renderers_;       ///< likewise
   MotionBlurOptions blur_;
   ExposureDrift exposure_drift_;
   ColorNoise color_noise_;
   DepthNoise depth_noise_;
-  MeshTopology topology_;
   RenderedImage image_;
 };
 

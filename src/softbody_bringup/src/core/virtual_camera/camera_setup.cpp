@@ -25,8 +25,8 @@ std::map<std::string, bool*> switches(NoiseOptions* noise) {
 VirtualCamera makeCamera(const CameraSetup& setup) {
   const std::string mesh =
       setup.mesh.empty() ? setup.config_folder + "/" + objectOf(setup.scene) + ".obj" : setup.mesh;
-  return VirtualCamera(makeScene(setup.scene, readObj(mesh), setup.seed), d435(setup.width, setup.height),
-                       setup.noise, setup.seed);
+  return VirtualCamera(makeScene(setup.scene, readObj(mesh), setup.seed, setup.config_folder + "/knife.yaml"),
+                       d435(setup.width, setup.height), setup.noise, setup.seed);
 }
 
 std::vector<std::string> noiseParts() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "softbody_bringup/virtual_camera/tool.h"
 #include "stage.h"
 
 /// The scenes' plays. They know of the body only what its rest mesh says: x is its length, z points up.
@@ -14,5 +15,9 @@ Play shakePlay(const Stage& stage);    ///< rigid; up to 1 m/s and 180 deg/s
 Play leavePlay(const Stage& stage);    ///< out of view to the left and back
 Play pressPlay(const Stage& stage);    ///< by a finger from above
 Play occludePlay(const Stage& stage);  ///< a hand hides 40 % for 2 s while the body bends
+
+/// A blade passes through the sponge, then the two pieces move apart. The truth's topology changes once, when
+/// the blade is through; the pieces touch until then.
+Scene cutScene(const Stage& stage, const Tool& tool);
 
 }  // namespace softbody::virtual_camera

@@ -9,7 +9,7 @@
 namespace softbody::virtual_camera {
 namespace {
 
-const std::string kDoll = "doll_";
+const std::string kDoll = "doll_", kCut = "cut";
 
 using PlayMaker = Play (*)(const Stage& stage);
 
@@ -29,12 +29,15 @@ std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
   for (const auto& [name, maker] : makers()) names.push_back(name);
   for (const auto& [name, maker] : makers()) names.push_back(kDoll + name);
+  names.push_back(kCut);
   return names;
 }
 
 std::string objectOf(const std::string& scene) { return isDoll(scene) ? "doll" : "sponge"; }
 
-Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed) {
+Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed,
+                const std::string& tool_file) {
+  if (name == kCut) return cutScene(makeStage(body, seed), readTool(tool_file));
   const auto found = makers().find(isDoll(name) ? name.substr(kDoll.size()) : name);
   if (found == makers().end()) {
     throw std::invalid_argument(

@@ -57,7 +57,7 @@ Scene perform(const Stage& stage, const Play& play) {
   const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
   const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);
   scene.state = [=, rest = stage.actors.at(0).rest.vertices](double time) {
-    const double t = std::fmod(time, play.duration_s);
+    const double t = play.repeats ? std::fmod(time, play.duration_s) : time;
     Points body = rest;
     if (play.deformation) {
       for (Eigen::Index i = 0; i < rest.rows(); ++i) body.row(i) = play.deformation(rest.row(i), t);

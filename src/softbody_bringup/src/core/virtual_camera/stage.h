@@ -22,10 +22,11 @@ struct Prop {
   std::function<Eigen::Isometry3d(double t)> T_camera_prop;
 };
 
-/// What happens on the stage. It ends as it begins, at rest, so that it can start over again.
+/// What happens on the stage. If it ends as it begins, at rest, it starts over again.
 struct Play {
   std::string name;
   double duration_s = 5.0;
+  bool repeats = true;
   std::function<Eigen::Vector3d(const Eigen::Vector3d& rest, double t)> deformation;  ///< empty: rigid
   std::function<Eigen::Isometry3d(double t)> T_camera_body;                           ///< empty: it stays
   std::vector<Prop> props;

@@ -26,7 +26,8 @@ double largestMotion(const Pinhole& camera, const SceneState& from, const SceneS
   constexpr double kNear = 0.05;  // [m]
   double largest = 0.0;
   for (std::size_t actor = 0; actor < from.vertices.size(); ++actor) {
-    for (Eigen::Index i = 0; i < from.vertices[actor].rows(); ++i) {
+    const Eigen::Index common = std::min(from.vertices[actor].rows(), to.vertices[actor].rows());
+    for (Eigen::Index i = 0; i < common; ++i) {
       const Eigen::Vector3d a = from.vertices[actor].row(i), b = to.vertices[actor].row(i);
       if (a.z() > kNear && b.z() > kNear) {
         largest = std::max(largest, (camera.project(a) - camera.project(b)).norm());
@@ -56,16 +57,22 @@ VirtualCamera::VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOpti
                              std::uint64_t seed)
     : scene_(std::move(scene)),
       camera_(camera),
-      renderer_(scene_, camera),
+      topologies_({topologyOf(scene_.actors.at(0).rest)}),
       blur_(noise.blur),
       exposure_drift_(noise.exposure, hash(seed, 103)),
       color_noise_(noise.color, hash(seed, 101)),
-      depth_noise_(noise.depth, hash(seed, 102)),
-      topology_(topologyOf(scene_.actors.at(0).rest)) {}
+      depth_noise_(noise.depth, hash(seed, 102)) {
+  topologies_.insert(topologies_.end(), scene_.edits.begin(), scene_.edits.end());
+  for (const MeshTopology& topology : topologies_) {
+    Scene edited = scene_;
+    edited.actors.at(0).rest = {topology.rest_vertices, topology.triangles};
+    renderers_.emplace_back(edited, camera);
+  }
+}
 
 Capture VirtualCamera::capture(int frame, double t) {
   const SceneState state = scene_.state(t);
-  renderer_.render(state.vertices, &image_);
+  renderers_.at(state.revision).render(state.vertices, &image_);
   Capture capture;
   capture.color = image_.color.clone();
   blur(t, &capture.color);
@@ -73,9 +80,11 @@ Capture VirtualCamera::capture(int frame, double t) {
   color_noise_.apply(frame, &capture.color);
   depth_noise_.apply(frame, camera_.fx, &image_.depth);
   capture.depth_mm = toMillimetres(image_.depth);
+  capture.truth.revision = state.revision;
   capture.truth.vertices = state.vertices.at(0);
   capture.truth.confidence = image_.visibility;
   capture.T_camera_body = state.T_camera_body;
+  capture.T_camera_tool = state.T_camera_tool;
   return capture;
 }
 
@@ -88,7 +97,8 @@ void VirtualCamera::blur(double t, cv::Mat3b* color) {
   cv::Mat3f sum = cv::Mat3f::zeros(color->size());
   for (int i = 0; i < images; ++i) {
     const double offset = blur_.exposure_s * ((i + 0.5) / images - 0.5);
-    renderer_.renderColor(scene_.state(std::max(0.0, t + offset)).vertices, color);
+    const SceneState state = scene_.state(std::max(0.0, t + offset));
+    renderers_.at(state.revision).renderColor(state.vertices, color);
     cv::accumulate(*color, sum);
   }
   sum.convertTo(*color, CV_8U, 1.0 / images);
