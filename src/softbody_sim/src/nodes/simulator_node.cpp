@@ -42,8 +42,9 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
   diagnostics_.setHardwareID("none");
   diagnostics_.add("simulation",
                    [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
-  diagnostics_timer_ =
-      node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+  // Wall time, and not at update()'s own pace: both would wait for a bag that starts again.
+  diagnostics_timer_ = node.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {

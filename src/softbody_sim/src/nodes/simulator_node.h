@@ -38,7 +38,7 @@ class SimulatorNode {
   ros::Timer topology_timer_;
   ros::Subscriber targets_subscriber_;
   diagnostic_updater::Updater diagnostics_;
-  ros::Timer diagnostics_timer_;
+  ros::WallTimer diagnostics_timer_;
 };
 
 }  // namespace softbody
