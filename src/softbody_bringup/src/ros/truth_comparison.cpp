@@ -1,4 +1,5 @@
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "evaluation_comparisons.h"
@@ -101,6 +102,10 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
   }
   report->frames = {truth.states.size(), errors.size()};
   report->vertex_error = summarize(errors);
+  if (!errors.empty() && report->vertex_error->all.count == 0) {
+    throw std::runtime_error(
+        "no vertex of the result has a counterpart in the truth (vertex_parents): another mesh?");
+  }
   report->jitter = jitterWhereStill(result, truth);
   if (pieces.frames > 0) {
     pieces.frames_right /= static_cast<double>(pieces.frames);

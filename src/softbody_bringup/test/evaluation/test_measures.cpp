@@ -50,9 +50,10 @@ TEST(Statistics, OfOneToAHundred) {
   EXPECT_DOUBLE_EQ(shareWithin(values, 25.0), 0.25);
 }
 
-TEST(Statistics, OfNothingIsZero) {
+TEST(Statistics, OfNothingIsNoNumber) {
   EXPECT_EQ(summarize(std::vector<float>()).count, 0u);
-  EXPECT_EQ(shareWithin({}, 1.0), 0.0);
+  EXPECT_TRUE(std::isnan(summarize(std::vector<float>()).mean));
+  EXPECT_TRUE(std::isnan(shareWithin({}, 1.0)));
   EXPECT_EQ(slope({1.0}, {2.0}), 0.0);
 }
 
@@ -129,8 +130,21 @@ TEST(DepthResidual, OccludersAndMissingDepthAreCountedAndLeftOut) {
   EXPECT_NEAR(report.residual.median, 0.012, 1e-6);
   EXPECT_EQ(report.within_10mm, 0.0);
   EXPECT_NEAR(report.within_15mm, 40.0 / 60.0, 1e-12);
+  EXPECT_NEAR(report.within_15mm_of_measured, 40.0 / 70.0, 1e-12);
+  EXPECT_EQ(report.answered, 1u);
   EXPECT_NEAR(report.occluded_share, 1.0 / 9.0, 1e-12);
   EXPECT_NEAR(report.without_depth_share, 2.0 / 9.0, 1e-12);
+}
+
+TEST(DepthResidual, NothingMeasuredIsNoFigureAndOcclusionNoHit) {
+  const FrameResidual hidden = depthResidual(cv::Mat1f(4, 4, 0.6f), cv::Mat1f(4, 4, 0.5f), 0.03);
+  const FrameResidual absent = depthResidual(cv::Mat1f(4, 4, 0.0f), cv::Mat1f(4, 4, 0.5f), 0.03);
+  const ResidualReport report = summarize(std::vector<FrameResidual>{hidden, absent}, 0, 2);
+  EXPECT_TRUE(std::isnan(report.residual.median));
+  EXPECT_TRUE(std::isnan(report.within_15mm));
+  EXPECT_EQ(report.within_15mm_of_measured, 0.0);
+  EXPECT_EQ(report.frames, 2u);
+  EXPECT_EQ(report.answered, 1u);
 }
 
 TEST(DepthResidual, WindowsHoldTheirOwnFrames) {

@@ -28,8 +28,10 @@ FrameResidual depthResidual(const cv::Mat1f& model, const cv::Mat1f& measured, d
 /// Over a run of frames.
 struct ResidualReport {
   std::size_t first_frame = 0, frames = 0;
-  Summary residual;                                        ///< [m]
-  double within_10mm = 0.0, within_15mm = 0.0;             ///< shares of the residuals
+  std::size_t answered = 0;                     ///< frames in which the surface covers any pixel
+  Summary residual;                             ///< [m]
+  double within_10mm = 0.0, within_15mm = 0.0;  ///< shares of the residuals
+  double within_15mm_of_measured = 0.0;         ///< the same with occluded pixels counted as misses
   double occluded_share = 0.0, without_depth_share = 0.0;  ///< shares of the model's pixels
 };
 

@@ -1,20 +1,24 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace softbody::evaluation {
 
-/// Of a sample of non-negative numbers; all zero if it is empty.
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Of a sample of non-negative numbers; all but the count NaN if it is empty: nothing measured is not zero
+/// error.
 struct Summary {
   std::size_t count = 0;
-  double mean = 0.0, rms = 0.0, median = 0.0, p95 = 0.0, max = 0.0;
+  double mean = kNothing, rms = kNothing, median = kNothing, p95 = kNothing, max = kNothing;
 };
 
 /// Percentiles are the smallest value that at least that share of the sample does not exceed.
 Summary summarize(std::vector<float> values);
 
-/// Share of the values that are at most `limit`, 0..1; 0 if there are none.
+/// Share of the values that are at most `limit`, 0..1; NaN if there are none.
 double shareWithin(const std::vector<float>& values, double limit);
 
 /// Slope of a least-squares line through (x, y); 0 for fewer than two different x.

@@ -38,6 +38,8 @@ json toJson(const ResidualReport& report) {
           {"residual", inMillimetres(report.residual)},
           {"within_10mm", report.within_10mm},
           {"within_15mm", report.within_15mm},
+          {"within_15mm_of_measured", report.within_15mm_of_measured},
+          {"answered", report.answered},
           {"occluded_share", report.occluded_share},
           {"without_depth_share", report.without_depth_share}};
 }
@@ -96,10 +98,11 @@ std::string row(const char* name, const Summary& s) {
 }
 
 std::string row(const ResidualReport& r) {
-  return fmt::format("  {:>5}-{:<5} {:>10} {:>9.2f} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n",
-                     r.first_frame, r.first_frame + r.frames - (r.frames > 0), r.residual.count,
-                     mm(r.residual.median), mm(r.residual.p95), 100.0 * r.within_10mm, 100.0 * r.within_15mm,
-                     100.0 * r.occluded_share, 100.0 * r.without_depth_share);
+  return fmt::format(
+      "  {:>5}-{:<5} {:>8} {:>10} {:>9.2f} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n",
+      r.first_frame, r.first_frame + r.frames - (r.frames > 0), r.answered, r.residual.count,
+      mm(r.residual.median), mm(r.residual.p95), 100.0 * r.within_10mm, 100.0 * r.within_15mm,
+      100.0 * r.within_15mm_of_measured, 100.0 * r.occluded_share, 100.0 * r.without_depth_share);
 }
 
 std::string vertexErrorTable(const VertexErrorReport& report) {
@@ -113,8 +116,9 @@ std::string vertexErrorTable(const VertexErrorReport& report) {
 
 std::string residualTable(const Report& report) {
   std::string text =
-      fmt::format("depth residual\n  {:<11} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "frames", "pixels",
-                  "median mm", "p95 mm", "<=10mm %", "<=15mm %", "occluded%", "no depth%");
+      fmt::format("depth residual\n  {:<11} {:>8} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                  "frames", "answered", "pixels", "median mm", "p95 mm", "<=10mm %", "<=15mm %", "strict %",
+                  "occluded%", "no depth%");
   for (const ResidualReport& window : report.residual_windows) text += row(window);
   return text + row(*report.residual);
 }

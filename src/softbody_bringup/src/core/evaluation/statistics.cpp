@@ -33,7 +33,7 @@ Summary summarize(std::vector<float> values) {
 }
 
 double shareWithin(const std::vector<float>& values, double limit) {
-  if (values.empty()) return 0.0;
+  if (values.empty()) return kNothing;
   const auto within =
       std::count_if(values.begin(), values.end(), [limit](float value) { return value <= limit; });
   return static_cast<double>(within) / static_cast<double>(values.size());
