@@ -59,13 +59,11 @@ double uncoveredShare(const Scene& scene, double t) {
 }
 
 TEST(Scenes, ShippedObjectsAreClosedAndOfTheStatedSize) {
-  const std::vector<std::tuple<std::string, int, double>> objects = {{"sponge", 522, 0.04},
-                                                                     {"doll", 2930, 0.2}};
-  for (const auto& [name, count, height] : objects) {
+  for (const auto& [name, count] : {std::pair("sponge", 522), std::pair("doll", 18650)}) {
     const TriangleMesh mesh = readObj(std::string(CONFIG_DIR) + "/" + name + ".obj");
     EXPECT_EQ(mesh.vertices.rows(), count);
     EXPECT_EQ(mesh.vertices.rows() - mesh.triangles.rows() / 2, 2);
-    EXPECT_NEAR(mesh.vertices.col(2).maxCoeff() - mesh.vertices.col(2).minCoeff(), height, 1e-6);
+    EXPECT_NEAR(mesh.vertices.col(0).maxCoeff() - mesh.vertices.col(0).minCoeff(), 0.2, 1e-6);
     EXPECT_GT(enclosedVolume(mesh.vertices, mesh.triangles), 0.0);
   }
 }
@@ -83,7 +81,7 @@ TEST(Scenes, BeginWithTheRestShapeForHalfASecondAtOnePose) {
 }
 
 TEST(Scenes, MoveWithoutJumpsAlsoFromOneRunToTheNext) {
-  constexpr double kStep = 2e-3, kFastest = 1.6;  // [s], [m/s]
+  constexpr double kStep = 5e-3, kFastest = 1.6;  // [s], [m/s]
   for (const std::string& name : sceneNames()) {
     const Scene scene = ownScene(name);
     std::vector<Points> last = scene.state(0.0).vertices;
