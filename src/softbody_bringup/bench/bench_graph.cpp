@@ -35,7 +35,7 @@ struct Recording {
 
 Recording record() {
   virtual_camera::CameraSetup setup;
-  setup.mesh = CONFIG_DIR "/sponge.obj";
+  setup.body = CONFIG_DIR "/sponge.obj";
   virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
   CameraIngest ingest(CameraIngestConfig{});
   Recording recording{camera.pinhole(), {}, {}};

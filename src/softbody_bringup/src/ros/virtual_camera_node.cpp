@@ -23,7 +23,8 @@ tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) 
 CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
   CameraSetup setup = defaults;
   setup.scene = parameters->choice("scene", setup.scene, sceneNames());
-  setup.mesh = parameters->text("mesh", setup.mesh);
+  setup.body = parameters->text("body", setup.body);
+  setup.unit = parameters->choice("unit", setup.unit, {"m", "cm", "mm", "inch"});
   setup.seed =
       static_cast<std::uint64_t>(parameters->integer("seed", static_cast<int>(setup.seed), 0, 1 << 30));
   setup.width = parameters->integer("width", setup.width, 16, 4096);
@@ -43,7 +44,9 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle priva
   publish_camera_tf_ = parameters.flag("publish_camera_tf", true);
   hold_s_ = parameters.number("hold", hold_s_, 0.0, 3600.0);
   warnUnknown(parameters);
-  camera_.emplace(makeCamera(setup_));
+  std::vector<std::string> warnings;
+  camera_.emplace(makeCamera(setup_, &warnings));
+  for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
 
   color_ = node.advertise<sensor_msgs::Image>(topics::kCameraColor, kQueue);
   color_info_ = node.advertise<sensor_msgs::CameraInfo>(topics::kCameraColorInfo, kQueue);

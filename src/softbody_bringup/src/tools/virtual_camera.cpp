@@ -29,8 +29,13 @@ void declare(CLI::App* app, Arguments* arguments) {
   app->add_option("--scene", setup.scene, "what to look at")
       ->check(CLI::IsMember(sceneNames()))
       ->capture_default_str();
-  app->add_option("--mesh", setup.mesh, "soft body at rest, OBJ in metres; default: the scene's own")
+  app->add_option("--body", setup.body,
+                  "soft body at rest, OBJ (with the pictures of its materials), PLY, STL or OFF; default: "
+                  "the scene's own")
       ->check(CLI::ExistingFile);
+  app->add_option("--unit", setup.unit, "of the body's file")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
+      ->capture_default_str();
   app->add_option("--seed", setup.seed, "of textures and noise")->capture_default_str();
   app->add_option("--noise", arguments->noise, "sensor noise: on or off")
       ->transform(CLI::CheckedTransformer(on_off));
@@ -45,7 +50,9 @@ void declare(CLI::App* app, Arguments* arguments) {
 }
 
 void write(const Arguments& arguments) {
-  VirtualCamera camera = makeCamera(arguments.setup);
+  std::vector<std::string> warnings;
+  VirtualCamera camera = makeCamera(arguments.setup, &warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "virtual_camera: warning: {}\n", warning);
   const double duration_s = arguments.duration_s > 0.0 ? arguments.duration_s : camera.scene().duration_s;
   const int frames = std::max(1, static_cast<int>(std::lround(duration_s * arguments.setup.rate_hz)));
   writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz, arguments.small}, [&](int done) {

@@ -27,7 +27,7 @@ constexpr int kFrames = 20;
 const std::string& recording() {
   static const std::string path = [] {
     virtual_camera::CameraSetup setup;
-    setup.mesh = std::string(CONFIG_DIR) + "/sponge.obj";
+    setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
     setup.width = 160;
     setup.height = 120;
     setup.noise = virtual_camera::noNoise();

@@ -7,6 +7,12 @@
 
 namespace softbody::virtual_camera {
 
+/// A shipped object, "sponge" or "doll".
+inline Body shippedBody(const std::string& name) {
+  std::vector<std::string> warnings;
+  return readBody(std::string(CONFIG_DIR) + "/" + name + ".obj", 1.0, &warnings);
+}
+
 inline Texture uniformTexture(float level) {
   return [level](const Eigen::Vector3d&) { return Eigen::Vector3f(level, level, level); };
 }

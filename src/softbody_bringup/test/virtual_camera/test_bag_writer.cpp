@@ -19,7 +19,7 @@ namespace {
 
 std::string write(const std::string& name, std::uint64_t seed, const NoiseOptions& noise = {}) {
   CameraSetup setup;
-  setup.mesh = std::string(CONFIG_DIR) + "/sponge.obj";
+  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
   setup.seed = seed;
   setup.width = 80;
   setup.height = 60;
@@ -141,7 +141,7 @@ TEST(BagWriter, TheTruthIsTheMeshFileVertexByVertex) {
 TEST(BagWriter, LeavesAnEarlierFileAloneOnFailure) {
   const std::string path = write("kept.bag", 1), before = bytes(path);
   CameraSetup setup;
-  setup.mesh = std::string(CONFIG_DIR) + "/sponge.obj";
+  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
   setup.width = 80;
   setup.height = 60;
   VirtualCamera camera = makeCamera(setup);

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "scene_fixtures.h"
-#include "softbody_bringup/virtual_camera/obj_file.h"
 #include "softbody_bringup/virtual_camera/plane_cut.h"
 #include "softbody_bringup/virtual_camera/tool.h"
 #include "softbody_bringup/virtual_camera/virtual_camera.h"
@@ -37,7 +36,7 @@ bool isClosed(const Triangles& triangles) {
 }
 
 TEST(PlaneCut, GivesTwoClosedPiecesWithTheExactVolumes) {
-  const TriangleMesh sponge = readObj(kConfig + "/sponge.obj");
+  const TriangleMesh sponge = shippedBody("sponge").rest;
   for (const double place : {-0.0833, 0.0049, 0.015}) {
     const MeshTopology cut = cutByPlane(sponge, place).topology;
     const double near = enclosedVolume(cut.rest_vertices, pieceOf(cut, 0)),
@@ -49,7 +48,7 @@ TEST(PlaneCut, GivesTwoClosedPiecesWithTheExactVolumes) {
 }
 
 TEST(PlaneCut, KeepsTheVerticesAndMarksWhatIsNew) {
-  const TriangleMesh sponge = readObj(kConfig + "/sponge.obj");
+  const TriangleMesh sponge = shippedBody("sponge").rest;
   const PlaneCut result = cutByPlane(sponge, 0.015);
   const MeshTopology& cut = result.topology;
   EXPECT_EQ(cut.revision, 1u);
@@ -75,12 +74,12 @@ TEST(PlaneCut, KeepsTheVerticesAndMarksWhatIsNew) {
 }
 
 TEST(PlaneCut, RefusesAPlaneThroughVerticesOrBesideTheBody) {
-  const TriangleMesh sponge = readObj(kConfig + "/sponge.obj");
+  const TriangleMesh sponge = shippedBody("sponge").rest;
   EXPECT_THROW(cutByPlane(sponge, 0.01), std::invalid_argument);
   EXPECT_THROW(cutByPlane(sponge, 0.2), std::invalid_argument);
 }
 
-Scene cutScene() { return makeScene("cut", readObj(kConfig + "/sponge.obj"), 1, kConfig + "/knife.yaml"); }
+Scene cutScene() { return makeScene("cut", shippedBody("sponge"), 1, kConfig + "/knife.yaml"); }
 
 TEST(CutScene, PiecesTouchWhenTheTopologyChangesThenMoveApartRigidly) {
   const Scene scene = cutScene();

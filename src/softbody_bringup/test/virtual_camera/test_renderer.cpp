@@ -7,7 +7,6 @@
 
 #include "scene_fixtures.h"
 #include "softbody_bringup/virtual_camera/noise.h"
-#include "softbody_bringup/virtual_camera/obj_file.h"
 #include "softbody_bringup/virtual_camera/virtual_camera.h"
 
 namespace softbody::virtual_camera {
@@ -15,9 +14,7 @@ namespace {
 
 const Pinhole kCamera = d435(640, 480);
 
-Actor sponge(float level = 1.0f) {
-  return {readObj(std::string(CONFIG_DIR) + "/sponge.obj"), uniformTexture(level), 5e-3};
-}
+Actor sponge(float level = 1.0f) { return {shippedBody("sponge").rest, uniformTexture(level), 5e-3}; }
 
 Eigen::Isometry3d pose(double x, double y, double z, double degrees, const Eigen::Vector3d& axis) {
   return Eigen::Translation3d(x, y, z) *
@@ -124,7 +121,7 @@ TEST(Renderer, WhatIsBehindSomethingOrOutsideTheImageIsHidden) {
 }
 
 TEST(Renderer, DoesNotDependOnTheNumberOfThreads) {
-  const Scene scene = makeScene("bend", sponge().rest, 3);
+  const Scene scene = makeScene("bend", shippedBody("sponge"), 3);
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
   const RenderedImage one = render(scene);

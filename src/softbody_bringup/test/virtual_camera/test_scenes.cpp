@@ -8,19 +8,17 @@
 
 #include "scene_fixtures.h"
 #include "softbody_bringup/virtual_camera/camera_setup.h"
-#include "softbody_bringup/virtual_camera/obj_file.h"
 #include "softbody_bringup/virtual_camera/renderer.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody::virtual_camera {
 namespace {
 
-TriangleMesh spongeMesh() { return readObj(std::string(CONFIG_DIR) + "/sponge.obj"); }
+Body spongeBody() { return shippedBody("sponge"); }
 
 /// A scene with the object that it is made for.
 Scene ownScene(const std::string& name) {
-  return makeScene(name, readObj(std::string(CONFIG_DIR) + "/" + objectOf(name) + ".obj"), 1,
-                   std::string(CONFIG_DIR) + "/knife.yaml");
+  return makeScene(name, shippedBody(objectOf(name)), 1, std::string(CONFIG_DIR) + "/knife.yaml");
 }
 
 const Pinhole kCamera = d435(640, 480);
@@ -60,7 +58,7 @@ double uncoveredShare(const Scene& scene, double t) {
 
 TEST(Scenes, ShippedObjectsAreClosedAndOfTheStatedSize) {
   for (const auto& [name, count] : {std::pair("sponge", 522), std::pair("doll", 18650)}) {
-    const TriangleMesh mesh = readObj(std::string(CONFIG_DIR) + "/" + name + ".obj");
+    const TriangleMesh mesh = shippedBody(name).rest;
     EXPECT_EQ(mesh.vertices.rows(), count);
     EXPECT_EQ(mesh.vertices.rows() - mesh.triangles.rows() / 2, 2);
     EXPECT_NEAR(mesh.vertices.col(0).maxCoeff() - mesh.vertices.col(0).minCoeff(), 0.2, 1e-6);
@@ -69,7 +67,7 @@ TEST(Scenes, ShippedObjectsAreClosedAndOfTheStatedSize) {
 }
 
 TEST(Scenes, BeginWithTheRestShapeForHalfASecondAtOnePose) {
-  const Eigen::Isometry3d pose = makeScene("still", spongeMesh(), 1).state(0.0).T_camera_body;
+  const Eigen::Isometry3d pose = makeScene("still", spongeBody(), 1).state(0.0).T_camera_body;
   for (const std::string& name : sceneNames()) {
     const Scene scene = ownScene(name);
     for (const double t : {0.0, 0.25, 0.5}) {
@@ -146,7 +144,7 @@ TEST(Scenes, VertexIsVisibleExactlyIfTheDepthImageShowsNothingBeforeIt) {
 }
 
 TEST(Scenes, HandCoversFortyPercentForTwoSeconds) {
-  const Scene scene = makeScene("occlude", spongeMesh(), 1);
+  const Scene scene = makeScene("occlude", spongeBody(), 1);
   EXPECT_EQ(uncoveredShare(scene, 0.4), 1.0);
   EXPECT_EQ(uncoveredShare(scene, 4.9), 1.0);
   for (const double t : {1.25, 1.75, 2.25, 2.75, 3.25}) {
@@ -155,7 +153,7 @@ TEST(Scenes, HandCoversFortyPercentForTwoSeconds) {
 }
 
 TEST(Scenes, FingerTouchesTheBottomOfItsDent) {
-  const Scene scene = makeScene("press", spongeMesh(), 1);
+  const Scene scene = makeScene("press", spongeBody(), 1);
   const SceneState start = scene.state(0.0), state = scene.state(2.5);
   const Points start_body = transformed(start.T_camera_body.inverse(), start.vertices[0]);
   const Points body = transformed(state.T_camera_body.inverse(), state.vertices[0]);
@@ -167,7 +165,7 @@ TEST(Scenes, FingerTouchesTheBottomOfItsDent) {
 }
 
 TEST(Scenes, ShakeReachesItsSpeedsAndStaysInView) {
-  const Scene scene = makeScene("shake", spongeMesh(), 1);
+  const Scene scene = makeScene("shake", spongeBody(), 1);
   double speed = 0.0, turn_rate = 0.0;
   constexpr double kStep = 1e-3;
   for (double t = 0.0; t < scene.duration_s; t += kStep) {
@@ -187,7 +185,7 @@ TEST(Scenes, ShakeReachesItsSpeedsAndStaysInView) {
 }
 
 TEST(Scenes, LeaveHidesEveryVertexForASecond) {
-  const Scene scene = makeScene("leave", spongeMesh(), 1);
+  const Scene scene = makeScene("leave", spongeBody(), 1);
   for (const double t : {2.0, 2.5, 3.0}) {
     for (const float visible : render(scene, t).visibility) EXPECT_EQ(visible, 0.0f);
   }
@@ -208,7 +206,7 @@ TEST(Scenes, TheExamplesInitialPosesAreRoughlyWhereTheBodiesBegin) {
 
 TEST(Scenes, UnknownNamesAreAnsweredWithTheKnownOnes) {
   try {
-    makeScene("stretch", spongeMesh(), 1);
+    makeScene("stretch", spongeBody(), 1);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("bend"), std::string::npos);
@@ -219,21 +217,6 @@ TEST(Scenes, UnknownNamesAreAnsweredWithTheKnownOnes) {
   EXPECT_FALSE(noise.exposure.enabled || noise.blur.enabled || noise.color.enabled ||
                noise.depth.disparity_noise || noise.depth.quantization || noise.depth.edge_dropouts ||
                noise.depth.holes);
-}
-
-TEST(ReadObj, SaysWhichLineIsWrong) {
-  const std::string path = testing::TempDir() + "wrong.obj";
-  for (const char* line : {"v 0 0 x", "f 1 2 9", "f 1 2", "f a b c"}) {
-    std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2 3/3\n" << line << "\n";
-    try {
-      readObj(path);
-      FAIL() << line;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("line 5"), std::string::npos) << error.what();
-    }
-  }
-  std::remove(path.c_str());
-  EXPECT_THROW(readObj(path), std::invalid_argument);
 }
 
 }  // namespace

@@ -4,16 +4,18 @@
 #include <vector>
 
 #include "softbody_bringup/virtual_camera/texture.h"
+#include "softbody_bringup/virtual_camera/uv_texture.h"
 #include "softbody_common/types.h"
 
 namespace softbody::virtual_camera {
 
-/// Solid textures sampled on the triangles, for fast look-up: every triangle owns a square block of texels
+/// Textures sampled on the triangles, for fast look-up: every triangle owns a square block of texels
 /// over its weights (w1, w2) of the second and third corner, wide enough for bilinear interpolation.
 class BakedTexture {
  public:
-  /// Appends a mesh's triangles. @param texel_m largest spacing of the texels [m].
-  void add(const TriangleMesh& rest, const Texture& texture, double texel_m);
+  /// Appends a mesh's triangles. @param texture of those that the skin does not cover. @param texel_m largest
+  /// spacing of the texels [m].
+  void add(const TriangleMesh& rest, const Texture& texture, const UvTexture& skin, double texel_m);
 
   /// Spacing of a triangle's texels [m].
   float texel(int triangle) const { return blocks_[static_cast<std::size_t>(triangle)].texel_m; }

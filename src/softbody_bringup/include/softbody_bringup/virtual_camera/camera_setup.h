@@ -10,7 +10,8 @@ namespace softbody::virtual_camera {
 /// What a user chooses, on the command line or as parameters.
 struct CameraSetup {
   std::string scene = "bend";
-  std::string mesh;           ///< OBJ in metres; empty: the scene's own object
+  std::string body;           ///< OBJ, PLY, STL or OFF; empty: the scene's own object
+  std::string unit = "m";     ///< of the body's file: m, cm, mm or inch
   std::string config_folder;  ///< of the shipped objects and of knife.yaml
   std::uint64_t seed = 1;
   int width = 640, height = 480;  ///< [px]
@@ -18,8 +19,9 @@ struct CameraSetup {
   NoiseOptions noise;
 };
 
-/// @throw std::invalid_argument if the scene is unknown or the mesh cannot be read.
-VirtualCamera makeCamera(const CameraSetup& setup);
+/// @param warnings gets what was ignored in the body's file, if given.
+/// @throw std::invalid_argument if the scene is unknown, or the body cannot be read or does not fit it.
+VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* warnings = nullptr);
 
 /// Names of the parts of the noise: exposure, blur, color, disparity, quantization, edges, holes.
 std::vector<std::string> noiseParts();

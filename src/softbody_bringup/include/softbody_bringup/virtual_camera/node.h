@@ -10,7 +10,7 @@
 
 namespace softbody::virtual_camera {
 
-/// The virtual camera live. Parameters: scene, mesh, seed, noise, width, height, rate [Hz], loop,
+/// The virtual camera live. Parameters: scene, body, unit, seed, noise, width, height, rate [Hz], loop,
 /// publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...) and optical
 /// frame -> ground_truth_softbody.
 class VirtualCameraNode {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "softbody_bringup/virtual_camera/body.h"
 #include "softbody_bringup/virtual_camera/texture.h"
 #include "softbody_common/types.h"
 
@@ -16,6 +17,7 @@ struct Actor {
   Texture texture;                ///< of the rest coordinates
   double texel_m = 0.4e-3;        ///< spacing at which the texture is sampled
   double crease_angle_rad = 0.7;  ///< edges that are sharper than this at rest are shaded as edges
+  UvTexture skin = {};            ///< goes before the texture where it covers a triangle
 };
 
 /// Where everything is at one instant.
@@ -42,9 +44,10 @@ std::vector<std::string> sceneNames();
 /// The shipped object that a scene is made for: "doll" if its name says so, otherwise "sponge".
 std::string objectOf(const std::string& scene);
 
-/// @param body the soft body at rest. @param seed of the textures. @param tool_file YAML, read by scenes with
-/// a tool. @throw std::invalid_argument with the known names if there is no such scene.
-Scene makeScene(const std::string& name, const TriangleMesh& body, std::uint64_t seed,
+/// @param body any one from 50 mm to 2 m long: its size and its longest axis fit the scene to it. @param seed
+/// of the textures. @param tool_file YAML, read by scenes with a tool. @throw std::invalid_argument with the
+/// known names if there is no such scene, or if the body does not fit.
+Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed,
                 const std::string& tool_file = "");
 
 }  // namespace softbody::virtual_camera

@@ -5,7 +5,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "softbody_bringup/virtual_camera/obj_file.h"
+#include "softbody_bringup/virtual_camera/body.h"
+#include "softbody_sim/object_model.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -22,10 +23,13 @@ std::map<std::string, bool*> switches(NoiseOptions* noise) {
 
 }  // namespace
 
-VirtualCamera makeCamera(const CameraSetup& setup) {
-  const std::string mesh =
-      setup.mesh.empty() ? setup.config_folder + "/" + objectOf(setup.scene) + ".obj" : setup.mesh;
-  return VirtualCamera(makeScene(setup.scene, readObj(mesh), setup.seed, setup.config_folder + "/knife.yaml"),
+VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* warnings) {
+  const std::string shipped = setup.config_folder + "/" + objectOf(setup.scene) + ".obj";
+  const std::string& file = setup.body.empty() ? shipped : setup.body;
+  Warnings ignored;
+  const Body body =
+      readBody(file, setup.body.empty() ? 1.0 : metresPer(setup.unit), warnings ? warnings : &ignored);
+  return VirtualCamera(makeScene(setup.scene, body, setup.seed, setup.config_folder + "/knife.yaml"),
                        d435(setup.width, setup.height), setup.noise, setup.seed);
 }
 

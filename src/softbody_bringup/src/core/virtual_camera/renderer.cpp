@@ -105,7 +105,7 @@ Renderer::Renderer(const Scene& scene, const Pinhole& camera)
       for (int& f : neighbors) f += first_triangle;
       smooth_neighbors_.push_back(std::move(neighbors));
     }
-    texture_.add(actor.rest, actor.texture, actor.texel_m);
+    texture_.add(actor.rest, actor.texture, actor.skin, actor.texel_m);
   }
 }
 

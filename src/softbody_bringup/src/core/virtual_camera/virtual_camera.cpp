@@ -10,7 +10,7 @@
 namespace softbody::virtual_camera {
 namespace {
 
-MeshTopology topologyOf(const TriangleMesh& rest) {
+MeshTopology topologyOf(const TriangleMesh& rest, const UvTexture& skin) {
   MeshTopology topology;
   topology.rest_vertices = rest.vertices;
   topology.triangles = rest.triangles;
@@ -18,6 +18,7 @@ MeshTopology topologyOf(const TriangleMesh& rest) {
   std::iota(topology.vertex_parents.begin(), topology.vertex_parents.end(), 0);
   topology.bodies = triangleBodies(rest.triangles, static_cast<int>(rest.vertices.rows()));
   topology.cut.assign(static_cast<std::size_t>(rest.triangles.rows()), false);
+  topology.texture_coordinates = skin.coordinates;
   return topology;
 }
 
@@ -57,7 +58,7 @@ VirtualCamera::VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOpti
                              std::uint64_t seed)
     : scene_(std::move(scene)),
       camera_(camera),
-      topologies_({topologyOf(scene_.actors.at(0).rest)}),
+      topologies_({topologyOf(scene_.actors.at(0).rest, scene_.actors.at(0).skin)}),
       blur_(noise.blur),
       exposure_drift_(noise.exposure, hash(seed, 103)),
       color_noise_(noise.color, hash(seed, 101)),
