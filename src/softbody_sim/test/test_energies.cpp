@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "core/corotated_elasticity.h"
-#include "core/incremental_potential.h"
+#include "core/step_potential.h"
 #include "core/target_energy.h"
 #include "test_meshes.h"
 
@@ -125,11 +125,12 @@ TEST_F(Energies, TargetGradientMatchesDifferences) {
   }
 }
 
-TEST_F(Energies, IncrementalPotentialGradientMatchesDifferences) {
-  TargetEnergy targets;
-  targets.set(someTargets(topology_, true, &random_), topology_.tets, 300.0);
-  const IncrementalPotential potential{
-      elasticity_, targets, Eigen::VectorXd::LinSpaced(deformed_.rows(), 1.0, 9.0), topology_.rest_vertices};
+TEST_F(Energies, StepPotentialGradientMatchesDifferences) {
+  StepPotential potential{Eigen::VectorXd::LinSpaced(deformed_.rows(), 1.0, 9.0),
+                          topology_.rest_vertices,
+                          randomPoints(deformed_.rows(), 3.0, &random_),
+                          {}};
+  potential.targets.set(someTargets(topology_, true, &random_), topology_.tets, 300.0);
   const Energy energy = [&](const Points& x, Points* gradient) { return potential.evaluate(x, gradient); };
   expectGradientMatchesDifferences(energy, deformed_, 1e-8, &random_);
 }

@@ -2,8 +2,9 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/incremental_potential.h"
+#include "core/corotated_elasticity.h"
 #include "core/quasi_newton.h"
+#include "core/step_potential.h"
 #include "test_meshes.h"
 
 namespace softbody {
@@ -16,9 +17,9 @@ struct Problem {
   TetTopology topology = testing::boxTopology({4, 3, 2}, {0.08, 0.06, 0.04});
   Eigen::Index count = topology.rest_vertices.rows();
   CorotatedElasticity elasticity{topology.rest_vertices, topology.tets, lameParameters(2.0e4, 0.3)};
-  TargetEnergy targets;
-  IncrementalPotential potential{elasticity, targets, Eigen::VectorXd::Constant(count, 0.5),
-                                 topology.rest_vertices};
+  StepPotential potential{
+      Eigen::VectorXd::Constant(count, 0.5), topology.rest_vertices, Points::Zero(count, 3), {}};
+  TargetEnergy& targets = potential.targets;
   TetMatrix matrix{topology.tets, count};
   QuasiNewton minimizer{count};
 
@@ -29,12 +30,16 @@ struct Problem {
     targets.addMetric(&matrix);
     PositiveDefiniteSolver metric(matrix.lower());
     metric.factorize(matrix.lower());
-    return minimizer.minimize([this](const Points& y, Points* g) { return potential.evaluate(y, g); }, metric,
+    return minimizer.minimize([this](const Points& y, Points* g) { return evaluate(y, g); }, metric,
                               {iterations, tolerance_m}, x);
   }
   double energyAt(const Points& x) const {
     Points unused(count, 3);
-    return potential.evaluate(x, &unused);
+    return evaluate(x, &unused);
+  }
+  double evaluate(const Points& x, Points* gradient) const {
+    const double energy = potential.evaluate(x, gradient);
+    return energy + elasticity.addTo(x, gradient);
   }
 };
 

@@ -7,14 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/corotated_elasticity.h"
-#include "core/incremental_potential.h"
 #include "core/observation_confidence.h"
-#include "core/positive_definite_solver.h"
-#include "core/quasi_newton.h"
+#include "core/projective_dynamics.h"
+#include "core/step_potential.h"
+#include "core/step_solver.h"
 #include "core/surface_follower.h"
-#include "core/target_energy.h"
-#include "core/tet_matrix.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 
@@ -42,10 +39,11 @@ Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) 
   return masses;
 }
 
-TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& elasticity) {
-  TetMatrix metric(topology.tets, topology.rest_vertices.rows());
-  elasticity.addMetric(&metric);
-  return metric;
+std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Material& material,
+                                       const SimulatorConfig& config, double edge_length) {
+  const Lame lame = lameParameters(material.youngs_modulus_pa, material.poisson_ratio);
+  return std::make_unique<ProjectiveDynamics>(
+      topology, lame, QuasiNewton::Options{config.iterations, config.tolerance * edge_length});
 }
 
 void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_count) {
@@ -89,14 +87,9 @@ struct Simulator::Implementation {
   const SimulatorConfig config;
   const double edge_length;  ///< mean [m]
 
-  Eigen::VectorXd masses;
-  CorotatedElasticity elasticity;
-  TargetEnergy target_energy;
-  IncrementalPotential potential;
-  TetMatrix metric;
-  const Eigen::VectorXd elastic_metric;  ///< the metric's values that never change
-  PositiveDefiniteSolver solver;
-  QuasiNewton minimizer;
+  const Eigen::VectorXd masses;  ///< lumped [kg]
+  const std::unique_ptr<StepSolver> solver;
+  StepPotential potential;
   ObservationConfidence confidence;
 
   Body body;
@@ -109,13 +102,7 @@ Simulator::Implementation::Implementation(const TetTopology& topology_in, const 
       config(config_in),
       edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
       masses(lumpedMasses(topology, material.density_kg_m3)),
-      elasticity(topology.rest_vertices, topology.tets,
-                 lameParameters(material.youngs_modulus_pa, material.poisson_ratio)),
-      potential{elasticity, target_energy, masses, topology.rest_vertices},
-      metric(elasticMetric(topology, elasticity)),
-      elastic_metric(metric.values()),
-      solver(metric.lower()),
-      minimizer(topology.rest_vertices.rows()),
+      solver(makeSolver(topology, material, config, edge_length)),
       confidence(topology.rest_vertices, topology.tets) {
   body.state.revision = topology.revision;
 }
@@ -158,23 +145,19 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
 void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s, Body* next) {
   const double h = elapsed_s > 0.0 ? std::min(elapsed_s, config.max_time_step_s) : kNominalTimeStep;
   potential.prediction = next->state.vertices;
+  potential.loads = Points::Zero(masses.size(), 3);
   if (elapsed_s > 0.0) {
     next->velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
-    next->velocity.rowwise() += h * config.gravity.transpose();
     potential.prediction += h * next->velocity;
+    potential.loads = masses * config.gravity.transpose();
   }
   potential.inertia = masses / (h * h);
-  target_energy.set(targets.targets, topology.tets,
-                    config.target_stiffness * material.youngs_modulus_pa * edge_length);
+  potential.targets.set(targets.targets, topology.tets,
+                        config.target_stiffness * material.youngs_modulus_pa * edge_length);
 
-  metric.values() = elastic_metric;
-  metric.addToDiagonal(potential.inertia);
-  target_energy.addMetric(&metric);
-  solver.factorize(metric.lower());
-
-  const auto energy = [this](const Points& x, Points* gradient) { return potential.evaluate(x, gradient); };
-  Points x = potential.prediction;
-  next->report = minimizer.minimize(energy, solver, {config.iterations, config.tolerance * edge_length}, &x);
+  // Where the loads alone take the vertices.
+  Points x = potential.prediction + potential.inertia.cwiseInverse().asDiagonal() * potential.loads;
+  next->report = solver->minimize(potential, &x);
   // Over a gap that is simulated as a shorter step the body still took the whole gap for its way.
   if (elapsed_s > 0.0) next->velocity = (x - next->state.vertices) / elapsed_s;
   next->state.vertices.swap(x);
