@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "softbody_common/types.h"
+#include "softbody_sim/tiled_weights.h"
 
 namespace softbody {
 
@@ -24,8 +25,6 @@ class VisualSurface {
   MeshState apply(const MeshState& volume) const;
 
  private:
-  using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   void bindInside(const TetTopology& volume);
   void bindOutside(const TetTopology& volume);
   void applyInside(const MeshState& volume, MeshState* state) const;
@@ -37,7 +36,7 @@ class VisualSurface {
   Tets tets_;
   std::vector<int> surface_vertices_;  ///< of the volume, in ascending order
   std::vector<int> inside_;            ///< visual vertices
-  Weights inside_weights_;             ///< #inside by #surface vertices, rows sum to 1
+  TiledWeights inside_weights_;        ///< #inside by #surface vertices, rows sum to 1
   std::vector<int> outside_;           ///< visual vertices
   std::vector<MaterialPoint> outside_places_;
 };

@@ -37,25 +37,26 @@ VisualSurface::VisualSurface(MeshTopology visual, const TetTopology& volume)
       volume_revision_(volume.revision),
       volume_vertex_count_(volume.rest_vertices.rows()),
       tets_(volume.tets),
-      surface_vertices_(verticesOf(volume.surface)) {
+      surface_vertices_(verticesOf(volume.surface)),
+      inside_weights_(static_cast<Eigen::Index>(surface_vertices_.size())) {
   bindInside(volume);
   bindOutside(volume);
 }
 
 void VisualSurface::bindInside(const TetTopology& volume) {
-  MeanValueCage cage = compactCage(volume, surface_vertices_);
+  constexpr Eigen::Index kAtOnce = 1024;  // bounds the memory of weights in double precision
+  const MeanValueCage cage = compactCage(volume, surface_vertices_);
   const Eigen::Index count = visual_.rest_vertices.rows();
-  Eigen::VectorXd row(static_cast<Eigen::Index>(surface_vertices_.size()));
-  inside_weights_.resize(count, row.size());
-  for (Eigen::Index v = 0; v < count; ++v) {
-    if (cage.coordinates(visual_.rest_vertices.row(v), row) == 0) {
-      outside_.push_back(static_cast<int>(v));
-      continue;
+  WeightRows weights;
+  for (Eigen::Index first = 0; first < count; first += kAtOnce) {
+    const Points points = visual_.rest_vertices.middleRows(first, std::min(kAtOnce, count - first));
+    const std::vector<int> turns = cage.coordinates(points, &weights);
+    for (Eigen::Index p = 0; p < points.rows(); ++p) {
+      const bool is_inside = turns[static_cast<std::size_t>(p)] != 0;
+      (is_inside ? inside_ : outside_).push_back(static_cast<int>(first + p));
+      if (is_inside) inside_weights_.append(weights.row(p));
     }
-    inside_weights_.row(static_cast<Eigen::Index>(inside_.size())) = row.cast<float>();
-    inside_.push_back(static_cast<int>(v));
   }
-  inside_weights_.conservativeResize(static_cast<Eigen::Index>(inside_.size()), Eigen::NoChange);
 }
 
 void VisualSurface::bindOutside(const TetTopology& volume) {
@@ -95,13 +96,14 @@ MeshState VisualSurface::apply(const MeshState& volume) const {
 void VisualSurface::applyInside(const MeshState& volume, MeshState* state) const {
   // Relative to the centre: single precision then costs nothing that shows, wherever the body is.
   const Eigen::RowVector3d center = volume.vertices.colwise().mean();
-  Eigen::MatrixX4f values(static_cast<Eigen::Index>(surface_vertices_.size()), 4);
+  TiledWeights::Values values(inside_weights_.columns(), 4);
   for (std::size_t k = 0; k < surface_vertices_.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     values.block<1, 3>(row, 0) = (volume.vertices.row(surface_vertices_[k]) - center).cast<float>();
     values(row, 3) = volume.confidence[surface_vertices_[k]];
   }
-  const Eigen::MatrixX4f interpolated = inside_weights_ * values;
+  TiledWeights::Products interpolated;
+  inside_weights_.multiply(values, &interpolated);
   for (std::size_t k = 0; k < inside_.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     state->vertices.row(inside_[k]) = interpolated.block<1, 3>(row, 0).cast<double>() + center;
