@@ -33,6 +33,44 @@ boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& inst
                                           ros::message_traits::datatype<Message>()));
 }
 
+std::map<std::uint32_t, MeshTopology> readTopologies(const rosbag::Bag& bag, const std::string& topic) {
+  std::map<std::uint32_t, MeshTopology> topologies;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instantiate<softbody_msgs::MeshTopology>(instance, bag);
+    if (topologies.count(message->revision) != 0) continue;  // latched ones are sent again and again
+    try {
+      topologies[message->revision] = fromMessage(*message);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("{}: {} of revision {}: {}", bag.getFileName(), topic,
+                                              message->revision, error.what()));
+    }
+  }
+  return topologies;
+}
+
+void requireOneFrame(const rosbag::Bag& bag, const std::string& topic, const std::string& frame_id,
+                     const SurfaceRecord& record) {
+  if (record.states.empty() || record.frame_id == frame_id) return;
+  throw std::invalid_argument(fmt::format("{}: states on {} are in frame '{}' and in '{}'", bag.getFileName(),
+                                          topic, record.frame_id, frame_id));
+}
+
+/// @throw std::invalid_argument if it has no topology, or values that are not finite.
+MeshState usableState(const softbody_msgs::MeshState& message,
+                      const std::map<std::uint32_t, MeshTopology>& topologies) {
+  const auto topology = topologies.find(message.revision);
+  if (topology == topologies.end())
+    throw std::invalid_argument(
+        fmt::format("it is of revision {}, of which no topology came", message.revision));
+  const auto vertices = static_cast<std::size_t>(topology->second.rest_vertices.rows());
+  if (message.vertices.size() != vertices) {
+    throw std::invalid_argument(fmt::format("it has {} vertices of revision {}, whose topology has {}",
+                                            message.vertices.size(), message.revision, vertices));
+  }
+  return fromMessage(message);
+}
+
 struct CameraTopics {
   explicit CameraTopics(const std::string& camera)
       : color(camera + "/color/image_raw"),
@@ -110,27 +148,25 @@ SurfaceRecord readSurface(const std::string& path, const std::string& topology_t
   requireTopic(bag, topology_topic);
   requireTopic(bag, state_topic);
   SurfaceRecord record;
-  rosbag::View topologies(bag, rosbag::TopicQuery(topology_topic));
-  for (const rosbag::MessageInstance& instance : topologies) {
-    const auto message = instantiate<softbody_msgs::MeshTopology>(instance, bag);
-    if (record.topologies.count(message->revision) == 0)
-      record.topologies[message->revision] = fromMessage(*message);
-  }
+  record.topologies = readTopologies(bag, topology_topic);
+  std::size_t left_out = 0;
+  std::string reason;
   rosbag::View states(bag, rosbag::TopicQuery(state_topic));
   for (const rosbag::MessageInstance& instance : states) {
     const auto message = instantiate<softbody_msgs::MeshState>(instance, bag);
-    const auto topology = record.topologies.find(message->revision);
-    const bool fits =
-        topology != record.topologies.end() &&
-        message->vertices.size() == static_cast<std::size_t>(topology->second.rest_vertices.rows());
-    if (!fits) {
-      throw std::invalid_argument(
-          fmt::format("{}: a state on {} has {} vertices of revision {}, which {} does not describe", path,
-                      state_topic, message->vertices.size(), message->revision, topology_topic));
-    }
+    requireOneFrame(bag, state_topic, message->header.frame_id, record);
     record.frame_id = message->header.frame_id;
-    record.states[toNanoseconds(message->header.stamp)] = fromMessage(*message);
+    try {
+      record.states[toNanoseconds(message->header.stamp)] = usableState(*message, record.topologies);
+    } catch (const std::invalid_argument& error) {
+      if (left_out++ == 0)
+        reason = fmt::format("at {:.3f} s {}", message->header.stamp.toSec(), error.what());
+    }
   }
+  const std::string note = fmt::format("{}: {} of {} states on {} are not usable: {}", path, left_out,
+                                       states.size(), state_topic, reason);
+  if (record.states.empty()) throw std::invalid_argument(note);
+  if (left_out > 0) record.notes.push_back(note);
   return record;
 }
 

@@ -9,15 +9,19 @@
 
 namespace softbody::evaluation {
 
-PoseRecord readPoses(const std::string& path, const std::string& topic) {
+ToolRecord readPoses(const std::string& path, const std::string& topic) {
   const rosbag::Bag bag(path, rosbag::bagmode::Read);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
-  PoseRecord record;
+  ToolRecord record;
+  const auto add = [&record](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
+    record.frame_id = header.frame_id;
+    record.poses[toNanoseconds(header.stamp)] = fromMessage(pose);
+  };
   for (const rosbag::MessageInstance& instance : view) {
     if (const auto pose = instance.instantiate<geometry_msgs::PoseStamped>()) {
-      record[toNanoseconds(pose->header.stamp)] = fromMessage(pose->pose);
+      add(pose->header, pose->pose);
     } else if (const auto uncertain = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>()) {
-      record[toNanoseconds(uncertain->header.stamp)] = fromMessage(uncertain->pose.pose);
+      add(uncertain->header, uncertain->pose.pose);
     } else {
       throw std::invalid_argument(path + ": " + topic + " is of type " + instance.getDataType() +
                                   " instead of geometry_msgs/PoseWithCovarianceStamped");

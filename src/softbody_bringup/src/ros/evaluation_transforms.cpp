@@ -26,36 +26,66 @@ void addTransforms(const std::string& path, tf2::BufferCore* buffer) {
   }
 }
 
+/// Items by stamp with their transforms into another frame.
+class Transforms {
+ public:
+  explicit Transforms(const std::vector<std::string>& bags) {
+    for (const std::string& path : bags) addTransforms(path, &buffer_);
+  }
+
+  /// Replaces every item by `move(transform, item)`, and drops those without a transform.
+  template <typename Item, typename Move>
+  std::size_t apply(const std::string& target, const std::string& source, std::map<Nanoseconds, Item>* items,
+                    Move move) {
+    const std::size_t before = items->size();
+    for (auto item = items->begin(); item != items->end();) {
+      try {
+        move(tf2::transformToEigen(buffer_.lookupTransform(target, source, toTime(item->first))),
+             &item->second);
+        ++item;
+      } catch (const tf2::TransformException& error) {
+        reason_ = error.what();
+        item = items->erase(item);
+      }
+    }
+    return before - items->size();
+  }
+
+  const std::string& reason() const { return reason_; }
+
+ private:
+  tf2::BufferCore buffer_{ros::Duration(kWholeBag_s)};
+  std::string reason_;
+};
+
 }  // namespace
 
-std::size_t expressIn(const std::string& frame_id, const std::vector<std::string>& paths,
-                      SurfaceRecord* surface) {
-  if (surface->frame_id == frame_id) return 0;
-  tf2::BufferCore buffer{ros::Duration(kWholeBag_s)};
-  for (const std::string& path : paths) addTransforms(path, &buffer);
-  std::map<Nanoseconds, MeshState> transformed;
-  std::string reason;
-  for (auto& [stamp, state] : surface->states) {
-    try {
-      const Eigen::Isometry3d pose =
-          tf2::transformToEigen(buffer.lookupTransform(frame_id, surface->frame_id, toTime(stamp)));
-      MeshState moved = state;
-      moved.vertices =
-          (state.vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose();
-      transformed[stamp] = std::move(moved);
-    } catch (const tf2::TransformException& error) {
-      reason = error.what();
-    }
-  }
-  if (transformed.empty()) {
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface) {
+  if (surface->frame_id == frame_id) return;
+  Transforms transforms(paths);
+  const std::size_t left_out = transforms.apply(
+      frame_id, surface->frame_id, &surface->states, [](const Eigen::Isometry3d& pose, MeshState* state) {
+        state->vertices =
+            ((state->vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose()).eval();
+      });
+  if (surface->states.empty()) {
     throw std::invalid_argument(
         fmt::format("the result's surface is in frame '{}' and /tf does not lead to '{}': {}",
-                    surface->frame_id, frame_id, reason));
+                    surface->frame_id, frame_id, transforms.reason()));
   }
-  const std::size_t left_out = surface->states.size() - transformed.size();
-  surface->states = std::move(transformed);
+  if (left_out > 0) {
+    surface->notes.push_back(fmt::format(
+        "{} states have no transform to '{}' at their stamp and were left out", left_out, frame_id));
+  }
   surface->frame_id = frame_id;
-  return left_out;
+}
+
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool) {
+  if (tool->poses.empty() || tool->frame_id == frame_id) return;
+  Transforms(paths).apply(
+      frame_id, tool->frame_id, &tool->poses,
+      [](const Eigen::Isometry3d& pose, Eigen::Isometry3d* item) { *item = pose * *item; });
+  tool->frame_id = frame_id;
 }
 
 }  // namespace softbody::evaluation

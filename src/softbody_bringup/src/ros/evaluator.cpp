@@ -29,39 +29,39 @@ std::string recordingOf(const EvaluatorOptions& options) {
 }
 
 SurfaceRecord readTruth(const EvaluatorOptions& options) {
-  return readSurface(options.truth, std::string("/") + virtual_camera::kTruthTopologyTopic,
-                     std::string("/") + virtual_camera::kTruthStateTopic);
+  SurfaceRecord truth = readSurface(options.truth, std::string("/") + virtual_camera::kTruthTopologyTopic,
+                                    std::string("/") + virtual_camera::kTruthStateTopic);
+  if (!truth.notes.empty()) throw std::invalid_argument(truth.notes.front());
+  return truth;
+}
+
+/// The bags that may hold transforms. The result's own come last and win.
+std::vector<std::string> transformBags(const EvaluatorOptions& options, const std::string& recording) {
+  std::vector<std::string> bags{recording.empty() ? options.truth : recording, options.result};
+  if (bags.front() == bags.back()) bags.pop_back();
+  return bags;
 }
 
 /// Brings the result into the frame of what it is compared with.
 void alignFrames(const EvaluatorOptions& options, const std::string& recording, const SurfaceRecord* truth,
-                 SurfaceRecord* result, Report* report) {
+                 SurfaceRecord* result) {
   if (truth == nullptr && recording.empty()) return;
   const std::string frame_id = truth != nullptr ? truth->frame_id : recordingFrame(recording, options.camera);
-  const std::string& other = recording.empty() ? options.truth : recording;
-  // The result's own transforms come last and win.
-  std::vector<std::string> bags{other, options.result};
-  if (other == options.result) bags.pop_back();
-  const std::size_t left_out = expressIn(frame_id, bags, result);
-  if (left_out > 0) {
-    report->notes.push_back(fmt::format(
-        "{} states have no transform to '{}' at their stamp and were left out", left_out, frame_id));
-  }
+  expressIn(frame_id, transformBags(options, recording), result);
 }
 
-VolumeReport volumeOf(const SurfaceRecord& result) {
-  const std::uint32_t revision = result.states.begin()->second.revision;
+VolumeReport volumeOf(const SurfaceRecord& surface) {
   std::vector<const MeshState*> states;
-  for (const auto& [stamp, state] : result.states) {
-    if (state.revision == revision) states.push_back(&state);
-  }
-  return volumeDrift(result.topologies.at(revision), states);
+  for (const auto& [stamp, state] : surface.states) states.push_back(&state);
+  return volumeDrift(surface.topologies, states);
 }
 
-void addTool(const EvaluatorOptions& options, Report* report) {
-  const PoseRecord truth = readPoses(options.truth, kTrueToolPose);
-  if (!truth.empty())
-    report->tool = poseError(readPoses(options.result, options.result_namespace + kToolPose), truth);
+void addTool(const EvaluatorOptions& options, const std::string& recording, Report* report) {
+  const ToolRecord truth = readPoses(options.truth, kTrueToolPose);
+  if (truth.poses.empty()) return;
+  ToolRecord result = readPoses(options.result, options.result_namespace + kToolPose);
+  expressIn(truth.frame_id, transformBags(options, recording), &result);
+  report->tool = poseError(result.poses, truth.poses);
 }
 
 Measured measure(const EvaluatorOptions& options) {
@@ -74,16 +74,17 @@ Measured measure(const EvaluatorOptions& options) {
   std::optional<SurfaceRecord> truth;
   if (!options.truth.empty()) truth = readTruth(options);
   const SurfaceRecord* truth_or_null = truth ? &*truth : nullptr;
-  alignFrames(options, recording, truth_or_null, &result, &report);
+  alignFrames(options, recording, truth_or_null, &result);
+  report.notes = result.notes;
 
-  report.frames = {result.states.size(), result.states.size()};
+  report.frames = {result.states.size(), result.states.size(), {}};
   report.volume = volumeOf(result);
   report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
   if (!recording.empty())
     compareWithRecording(options, recording, result, truth_or_null, &report, &measured.pictures);
   if (truth) {
     compareWithTruth(options, result, *truth, &report, &measured.pictures);
-    addTool(options, &report);
+    addTool(options, recording, &report);
   }
   if (report.frames.answered == 0) {
     throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame of {}", options.result,

@@ -45,11 +45,6 @@ cv::Mat3b overlay(const RecordedFrame& frame, const MeshState& state, const Tria
   return picture;
 }
 
-std::vector<float> inMillimetres(std::vector<float> metres) {
-  for (float& value : metres) value *= 1e3f;
-  return metres;
-}
-
 void plotResiduals(const std::vector<FrameResidual>& frames, Pictures* pictures) {
   std::vector<double> times, medians;
   std::vector<float> all;
@@ -60,8 +55,7 @@ void plotResiduals(const std::vector<FrameResidual>& frames, Pictures* pictures)
     all.insert(all.end(), frame.residuals.begin(), frame.residuals.end());
   }
   (*pictures)["depth_residual.png"] = linePlot("median depth residual [mm]", "time [s]", times, medians);
-  (*pictures)["depth_residual_histogram.png"] =
-      histogram("depth residual", "[mm]", inMillimetres(std::move(all)));
+  (*pictures)["depth_residual_histogram.png"] = histogram("depth residual", "[mm]", all, 1e3);
 }
 
 void addResiduals(const EvaluatorOptions& options, const std::vector<FrameResidual>& residuals,
@@ -86,6 +80,7 @@ class Comparer {
     const int number = static_cast<int>(residuals_.size());
     residuals_.emplace_back();
     residuals_.back().stamp = frame.stamp;
+    stamps_.insert(frame.stamp);
     const auto answer = result_.states.find(frame.stamp);
     if (answer == result_.states.end()) return;
     ++answered_;
@@ -102,7 +97,7 @@ class Comparer {
   }
 
   void finish(Report* report, Pictures* pictures) const {
-    report->frames = {residuals_.size(), answered_};
+    report->frames = {residuals_.size(), answered_, stamps_.size()};
     addResiduals(options_, residuals_, report);
     if (!silhouettes_.empty()) {
       report->silhouette = summarizeSilhouettes(silhouettes_, truth_ != nullptr);
@@ -142,7 +137,7 @@ class Comparer {
   const EvaluatorOptions& options_;
   const SurfaceRecord& result_;
   const SurfaceRecord* truth_;
-  std::set<Nanoseconds> shown_;
+  std::set<Nanoseconds> shown_, stamps_;  // of overlays; of all images
   RasterImage raster_, truth_raster_;
   std::size_t answered_ = 0;
   std::vector<FrameResidual>

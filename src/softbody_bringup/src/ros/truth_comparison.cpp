@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -15,9 +16,19 @@ constexpr std::size_t kLeastStillFrames = 10;
 /// What is fixed while neither topology changes.
 struct TopologyPair {
   std::vector<int> matches;
-  std::vector<bool> near_cut;
+  VertexGroups groups;
   PieceMatch pieces;
 };
+
+/// Which vertices the camera sees in the first frame of this revision.
+std::vector<bool> seenAtFirst(const SurfaceRecord& truth, std::uint32_t revision) {
+  const auto first = std::find_if(truth.states.begin(), truth.states.end(), [revision](const auto& state) {
+    return state.second.revision == revision;
+  });
+  std::vector<bool> seen;
+  for (const float confidence : first->second.confidence) seen.push_back(confidence > 0.5f);
+  return seen;
+}
 
 class TopologyPairs {
  public:
@@ -35,7 +46,8 @@ class TopologyPairs {
   TopologyPair make(const MeshTopology& result, const MeshTopology& truth) const {
     TopologyPair pair;
     pair.matches = matchVertices(result, truth, options_.cut_vertex_m);
-    pair.near_cut = nearCut(truth, options_.near_cut_m);
+    pair.groups = {nearCut(truth, options_.near_cut_m), seenAtFirst(truth_, truth.revision),
+                   vertexPieces(truth)};
     pair.pieces = matchPieces(result, truth, pair.matches);
     return pair;
   }
@@ -44,15 +56,6 @@ class TopologyPairs {
   const SurfaceRecord &result_, &truth_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, TopologyPair> pairs_;
 };
-
-/// Sums over the frames after the truth's first cut.
-void addPieces(const PieceMatch& pieces, PiecesReport* report) {
-  ++report->frames;
-  report->frames_right += pieces.result_pieces == pieces.true_pieces;
-  report->vertices_right += pieces.vertices_right;
-  report->result_pieces = pieces.result_pieces;
-  report->true_pieces = pieces.true_pieces;
-}
 
 std::optional<JitterReport> jitterWhereStill(const SurfaceRecord& result, const SurfaceRecord& truth) {
   std::vector<const MeshState*> truths, answers;
@@ -66,9 +69,69 @@ std::optional<JitterReport> jitterWhereStill(const SurfaceRecord& result, const 
   return jitter(answers, still);
 }
 
-std::vector<float> inMillimetres(std::vector<float> metres) {
-  for (float& value : metres) value *= 1e3f;
-  return metres;
+/// Sums over the frames after the first cut of either.
+class PiecesTally {
+ public:
+  void add(const PieceMatch& pieces) {
+    ++report_.frames;
+    report_.frames_right += pieces.result_pieces == pieces.true_pieces;
+    report_.vertices_right += pieces.vertices_right;
+    report_.result_pieces = pieces.result_pieces;
+    report_.true_pieces = pieces.true_pieces;
+  }
+
+  std::optional<PiecesReport> report() const {
+    if (report_.frames == 0) return std::nullopt;
+    PiecesReport means = report_;
+    means.frames_right /= static_cast<double>(means.frames);
+    means.vertices_right /= static_cast<double>(means.frames);
+    return means;
+  }
+
+ private:
+  PiecesReport report_;
+};
+
+/// What the truth alone says of every one of its frames.
+std::vector<FrameSight> sightsOf(const SurfaceRecord& truth) {
+  std::map<std::uint32_t, std::vector<bool>> seen_of;
+  std::vector<FrameSight> sights;
+  for (const auto& [stamp, state] : truth.states) {
+    const auto [entry, fresh] = seen_of.try_emplace(state.revision);
+    if (fresh) entry->second = seenAtFirst(truth, state.revision);
+    const std::vector<bool>& seen = entry->second;
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) covered += seen[i] && state.confidence[i] <= 0.5f;
+    const auto all = std::max<std::ptrdiff_t>(1, std::count(seen.begin(), seen.end(), true));
+    sights.emplace_back();
+    sights.back().time_s = 1e-9 * static_cast<double>(stamp - truth.states.begin()->first);
+    sights.back().covered_share = static_cast<double>(covered) / static_cast<double>(all);
+  }
+  return sights;
+}
+
+/// Volumes frame by frame, where both surfaces are closed.
+std::optional<Change> volumeError(const SurfaceRecord& result, const SurfaceRecord& truth) {
+  std::vector<const MeshState*> answers, truths;
+  for (const auto& [stamp, state] : truth.states) {
+    const auto answer = result.states.find(stamp);
+    if (answer == result.states.end()) continue;
+    answers.push_back(&answer->second);
+    truths.push_back(&state);
+  }
+  const std::vector<double> mine = volumeDrift(result.topologies, answers).volumes,
+                            its = volumeDrift(truth.topologies, truths).volumes;
+  if (mine.empty() || its.empty()) return std::nullopt;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < mine.size(); ++i) errors.push_back(mine[i] / its[i] - 1.0);
+  return changeOf(errors);
+}
+
+/// As they are at the end, if the truth is cut at all.
+std::optional<CutSurfaceReport> cutSurface(const SurfaceRecord& result, const SurfaceRecord& truth) {
+  const MeshTopology& expected = truth.topologies.at(truth.states.rbegin()->second.revision);
+  if (std::find(expected.cut.begin(), expected.cut.end(), true) == expected.cut.end()) return std::nullopt;
+  return compareCutSurfaces(result.topologies.at(result.states.rbegin()->second.revision), expected);
 }
 
 void plotVertexErrors(const VertexErrorReport& report, const std::vector<FrameVertexError>& frames,
@@ -81,8 +144,7 @@ void plotVertexErrors(const VertexErrorReport& report, const std::vector<FrameVe
     all.insert(all.end(), frame.visible.begin(), frame.visible.end());
     all.insert(all.end(), frame.hidden.begin(), frame.hidden.end());
   }
-  (*pictures)["vertex_error_histogram.png"] =
-      histogram("vertex error", "[mm]", inMillimetres(std::move(all)));
+  (*pictures)["vertex_error_histogram.png"] = histogram("vertex error", "[mm]", all, 1e3);
 }
 
 }  // namespace
@@ -91,27 +153,33 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
                       const SurfaceRecord& truth, Report* report, Pictures* pictures) {
   TopologyPairs pairs(options, result, truth);
   std::vector<FrameVertexError> errors;
-  PiecesReport pieces;
+  std::vector<FrameSight> sights = sightsOf(truth);
+  PiecesTally pieces;
+  auto sight = sights.begin();
   for (const auto& [stamp, expected] : truth.states) {
+    FrameSight& shown = *sight++;
     const auto answer = result.states.find(stamp);
     if (answer == result.states.end()) continue;
     const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
-    errors.push_back(vertexError(answer->second, expected, pair.matches, pair.near_cut));
+    errors.push_back(vertexError(answer->second, expected, pair.matches, pair.groups));
     errors.back().stamp = stamp;
-    if (expected.revision > 0) addPieces(pair.pieces, &pieces);
+    shown.mean_error = errors.back().mean();
+    shown.covered_errors = errors.back().covered;
+    if (answer->second.revision > 0 || expected.revision > 0) pieces.add(pair.pieces);
   }
-  report->frames = {truth.states.size(), errors.size()};
+  report->frames.expected = truth.states.size();
+  report->frames.answered = errors.size();
+  if (errors.empty()) return;
   report->vertex_error = summarize(errors);
-  if (!errors.empty() && report->vertex_error->all.count == 0) {
+  if (report->vertex_error->all.count == 0) {
     throw std::runtime_error(
         "no vertex of the result has a counterpart in the truth (vertex_parents): another mesh?");
   }
+  report->absences = absences(sights);
   report->jitter = jitterWhereStill(result, truth);
-  if (pieces.frames > 0) {
-    pieces.frames_right /= static_cast<double>(pieces.frames);
-    pieces.vertices_right /= static_cast<double>(pieces.frames);
-    report->pieces = pieces;
-  }
+  report->pieces = pieces.report();
+  report->cut_surface = cutSurface(result, truth);
+  report->volume.error = volumeError(result, truth);
   plotVertexErrors(*report->vertex_error, errors, pictures);
 }
 

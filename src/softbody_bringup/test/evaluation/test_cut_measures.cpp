@@ -98,12 +98,49 @@ TEST(VertexError, NearACutHasItsOwnRowAndUnmatchedVerticesAreCounted) {
   result.vertices(0, 2) += 0.003;
   result.vertices(1, 2) += 0.001;
   const FrameVertexError frame =
-      vertexError(result, truth, {0, 1, 2, 3, 4, -1}, {true, false, false, false, false, true});
+      vertexError(result, truth, {0, 1, 2, 3, 4, -1}, {{true, false, false, false, false, true}, {}, {}});
   const VertexErrorReport report = summarize(std::vector<FrameVertexError>{frame});
   EXPECT_EQ(report.near_cut.count, 1u);
   EXPECT_NEAR(report.near_cut.mean, 0.003, 1e-9);
   EXPECT_EQ(report.all.count, 5u);
   EXPECT_NEAR(report.unmatched_share, 1.0 / 6.0, 1e-12);
+}
+
+TEST(VertexError, EveryTruePieceHasItsOwnRowWhereThereAreSeveral) {
+  const MeshTopology topology = strip(true);
+  MeshState truth, result;
+  truth.vertices = topology.rest_vertices;
+  truth.confidence.assign(8, 1.0f);
+  result = truth;
+  const std::vector<int> pieces = vertexPieces(topology);
+  for (Eigen::Index i = 0; i < 8; ++i)
+    result.vertices(i, 2) += pieces[static_cast<std::size_t>(i)] == 0 ? 0.001 : 0.004;
+  const std::vector<int> matches = matchVertices(topology, topology, 0.002);
+  const VertexErrorReport report =
+      summarize(std::vector<FrameVertexError>{vertexError(result, truth, matches, {{}, {}, pieces})});
+  ASSERT_EQ(report.pieces.size(), 2u);
+  EXPECT_NEAR(report.pieces[0].max, 0.001, 1e-9);
+  EXPECT_NEAR(report.pieces[1].mean, 0.004, 1e-9);
+  EXPECT_EQ(report.pieces[1].count, 4u);
+  const MeshTopology whole = strip(false);
+  truth.vertices = result.vertices = whole.rest_vertices;
+  truth.confidence.assign(6, 1.0f);
+  const FrameVertexError frame =
+      vertexError(result, truth, matchVertices(whole, whole, 0.002), {{}, {}, vertexPieces(whole)});
+  EXPECT_TRUE(summarize(std::vector<FrameVertexError>{frame}).pieces.empty());
+}
+
+TEST(VertexError, CoveredAreTheHiddenOnesThatWereSeenAtFirst) {
+  MeshState truth, result;
+  truth.vertices = strip(false).rest_vertices;
+  truth.confidence = {1.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f};
+  result = truth;
+  result.vertices(1, 2) += 0.005;
+  result.vertices(2, 2) += 0.002;
+  const std::vector<bool> seen{true, true, false, true, true, false};
+  const FrameVertexError frame = vertexError(result, truth, {0, 1, 2, 3, 4, 5}, {{}, seen, {}});
+  ASSERT_EQ(frame.covered.size(), 1u);
+  EXPECT_NEAR(frame.covered[0], 0.005f, 1e-9);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "softbody_bringup/virtual_camera/bag_writer.h"
@@ -84,7 +85,9 @@ TEST(Evaluator, ThePerfectResultHasNoErrorButTheMillimetreGrid) {
   EXPECT_LT(report.residual->residual.max, 0.51e-3);
   EXPECT_EQ(report.residual->occluded_share, 0.0);
   EXPECT_TRUE(report.volume.closed);
-  EXPECT_LT(std::abs(report.volume.largest_change), 0.002);
+  EXPECT_LT(std::abs(report.volume.change.largest), 0.002);
+  EXPECT_EQ(report.volume.error->largest, 0.0);
+  EXPECT_EQ(report.frames.recorded, static_cast<std::size_t>(kFrames));
 }
 
 TEST(Evaluator, AKnownDisplacementIsTheErrorAndTheFolderHoldsTheReport) {
@@ -115,6 +118,30 @@ TEST(Evaluator, MissingFramesAreCountedNotSkipped) {
   options.truth.clear();
   options.recording = recording();
   EXPECT_EQ(evaluate(options).frames.answered, static_cast<std::size_t>(kFrames - kFrames / 4));
+}
+
+TEST(Evaluator, StatesThatAreNoAnswersAreCountedAndSaid) {
+  EvaluatorOptions options;
+  options.truth = recording();
+  options.result = resultFromTruth("broken.bag", [](softbody_msgs::MeshState* s, int frame) {
+    if (frame == 3) s->vertices.at(7).y = std::numeric_limits<float>::quiet_NaN();
+    if (frame == 5) s->revision = 9;
+    if (frame == 6) s->vertices.pop_back();
+    if (frame == 7) s->confidence.clear();
+    return true;
+  });
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames - 4));
+  EXPECT_EQ(report.vertex_error->all.max, 0.0);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_NE(report.notes[0].find("4 of 20 states"), std::string::npos) << report.notes[0];
+  EXPECT_NE(report.notes[0].find("vertices[7] is not finite"), std::string::npos) << report.notes[0];
+
+  options.result = resultFromTruth("mixed.bag", [](softbody_msgs::MeshState* s, int frame) {
+    if (frame > 10) s->header.frame_id = "world";
+    return true;
+  });
+  EXPECT_NE(failure(options).find("'camera_color_optical_frame' and in 'world'"), std::string::npos);
 }
 
 TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {

@@ -169,11 +169,11 @@ TEST(Volume, DriftOfAScaledCube) {
   topology.rest_vertices = mesh.vertices;
   topology.triangles = mesh.triangles;
   const MeshState same = stateOf(mesh.vertices), larger = stateOf(1.1 * mesh.vertices);
-  const VolumeReport report = volumeDrift(topology, {&same, &larger});
+  const VolumeReport report = volumeDrift({{0, topology}}, {&same, &larger});
   ASSERT_TRUE(report.closed);
   EXPECT_NEAR(report.rest_m3, 1e-3, 1e-12);
-  EXPECT_NEAR(report.largest_change, 0.331, 1e-9);
-  EXPECT_NEAR(report.mean_change, 0.331 / 2.0, 1e-9);
+  EXPECT_NEAR(report.change.largest, 0.331, 1e-9);
+  EXPECT_NEAR(report.change.mean, 0.331 / 2.0, 1e-9);
 }
 
 TEST(Volume, OpenSurfacesHaveNone) {

@@ -44,6 +44,7 @@ TEST(Drift, IsTheLastWindowAgainstTheFirst) {
   const VertexErrorReport report = summarize(frames);
   EXPECT_EQ(report.drift_window_s, 5.0);
   EXPECT_NEAR(report.drift_m, 0.002, 1e-8);
+  EXPECT_NEAR(report.drift_ratio, 3.0, 1e-5);
 }
 
 TEST(Jitter, IsMeasuredOnlyWhereTheTruthIsStill) {
@@ -65,6 +66,20 @@ TEST(Jitter, IsMeasuredOnlyWhereTheTruthIsStill) {
   EXPECT_EQ(report.frames, 40u);
   EXPECT_NEAR(report.per_vertex.rms, 0.0005, 1e-7);
   EXPECT_NEAR(report.per_vertex.max, 0.0005, 1e-7);
+}
+
+TEST(Jitter, ANewTopologyOfTheResultIsNoJitter) {
+  std::vector<MeshState> result;
+  for (int k = 0; k < 30; ++k) {
+    result.push_back(at(k % 2 == 0 ? 0.001 : -0.001));
+    if (k < 15) continue;
+    result.back() = at(0.3);
+    result.back().revision = 1;
+  }
+  const JitterReport report = jitter(pointers(result), {{0, 30}});
+  EXPECT_EQ(report.frames, 30u);
+  EXPECT_EQ(report.per_vertex.count, 8u);
+  EXPECT_NEAR(report.per_vertex.max, 0.001, 1e-5);
 }
 
 TEST(Jitter, AStillResultHasNone) {
@@ -120,7 +135,7 @@ TEST(PoseError, AKnownMotionIsTheError) {
 
 Report reportWith(double error_m) {
   Report report;
-  report.frames = {10, 9};
+  report.frames = {10, 9, {}};
   report.vertex_error =
       summarize(std::vector<FrameVertexError>{vertexError(at(error_m), at(0.0), {0, 1, 2, 3})});
   return report;

@@ -44,4 +44,8 @@ inline Eigen::Vector3d positionOf(const MaterialPoint& place, const Points& vert
 /// Mean length of the tets' edges [m].
 double meanEdgeLength(const Points& vertices, const Tets& tets);
 
+/// The point of the triangle (a, b, c) that is nearest to p.
+Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
 }  // namespace softbody

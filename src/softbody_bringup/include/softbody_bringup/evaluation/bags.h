@@ -17,21 +17,27 @@ struct SurfaceRecord {
   std::string frame_id;                              ///< of the states
   std::map<std::uint32_t, MeshTopology> topologies;  ///< by revision
   std::map<Nanoseconds, MeshState> states;           ///< by stamp
+  std::vector<std::string> notes;                    ///< what was left out, in sentences
 };
 
-/// @throw std::invalid_argument with path and topic if a topic is missing or a state has no topology.
+/// States that are not finite, or of a topology that the bag does not hold, are left out: frames without an
+/// answer.
+/// @throw std::invalid_argument with path and topic if a topic is missing or malformed, no state is usable,
+/// or the states are in more than one frame.
 SurfaceRecord readSurface(const std::string& path, const std::string& topology_topic,
                           const std::string& state_topic);
 
 /// Moves the surface's states into another frame by the /tf and /tf_static of these bags, at each state's
-/// stamp. States without a transform are left out. @return how many were.
+/// stamp. States without a transform are left out, with a note.
 /// @throw std::invalid_argument if no state has a transform.
-std::size_t expressIn(const std::string& frame_id, const std::vector<std::string>& paths,
-                      SurfaceRecord* surface);
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface);
+
+/// The same for a tool's poses; those without a transform are left out.
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool);
 
 /// PoseStamped or PoseWithCovarianceStamped; empty if the topic is not there.
 /// @throw std::invalid_argument if it is of another type.
-PoseRecord readPoses(const std::string& path, const std::string& topic);
+ToolRecord readPoses(const std::string& path, const std::string& topic);
 
 /// StageTiming; empty if the topic is not there.
 StageTimes readStageTimes(const std::string& path, const std::string& topic);

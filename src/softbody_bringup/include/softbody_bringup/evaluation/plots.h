@@ -14,7 +14,9 @@ cv::Mat3b linePlot(const std::string& title, const std::string& x_label, const s
                    const std::vector<double>& y);
 
 /// A histogram from zero to the 99.5th percentile; what is beyond falls into the last bin.
-cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values);
+/// @param scale from the values' unit to the label's.
+cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values,
+                    double scale);
 
 /// Draws the edges of the triangles that face the camera.
 void drawWireframe(const Pinhole& camera, const Points& vertices, const Triangles& triangles,

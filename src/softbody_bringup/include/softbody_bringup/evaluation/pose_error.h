@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <string>
 
 #include "softbody_bringup/evaluation/statistics.h"
 #include "softbody_common/types.h"
@@ -9,6 +10,12 @@
 namespace softbody::evaluation {
 
 using PoseRecord = std::map<Nanoseconds, Eigen::Isometry3d>;  ///< by stamp
+
+/// A tool's poses out of a bag.
+struct ToolRecord {
+  std::string frame_id;  ///< of the poses
+  PoseRecord poses;
+};
 
 /// A tool's pose against the truth.
 struct PoseErrorReport {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "softbody_bringup/evaluation/absences.h"
+#include "softbody_bringup/evaluation/cut_surface.h"
 #include "softbody_bringup/evaluation/depth_residual.h"
 #include "softbody_bringup/evaluation/pose_error.h"
 #include "softbody_bringup/evaluation/silhouette.h"
@@ -20,11 +22,13 @@ namespace softbody::evaluation {
 struct FrameCount {
   std::size_t expected = 0;  ///< frames of the truth or the recording
   std::size_t answered = 0;  ///< of these: with a surface of the same stamp
+  std::optional<std::size_t>
+      recorded;  ///< images in the recording, if there is one: some may have been dropped
 };
 
-/// The result's pieces against the true ones, in frames of a truth that is cut.
+/// The result's pieces against the true ones, from the first cut of either on.
 struct PiecesReport {
-  std::size_t frames = 0;       ///< answered ones after the truth's first cut
+  std::size_t frames = 0;       ///< answered ones since then
   double frames_right = 0.0;    ///< share of them with as many pieces as the truth, 0..1
   double vertices_right = 0.0;  ///< mean share of the vertices that are in the right piece, 0..1
   std::size_t result_pieces = 0, true_pieces = 0;  ///< in the last of them
@@ -35,6 +39,8 @@ struct Report {
   std::vector<std::string> notes;  ///< what was left out, in sentences
   std::optional<VertexErrorReport> vertex_error;
   std::optional<PiecesReport> pieces;
+  std::optional<CutSurfaceReport> cut_surface;   ///< if the truth is cut
+  std::vector<Absence> absences;                 ///< occlusions and times out of view, if the truth has any
   std::optional<JitterReport> jitter;            ///< where the truth is still, if it ever is
   std::optional<PoseErrorReport> tool;           ///< if the truth has a tool
   std::optional<SilhouetteReport> silhouette;    ///< if there is a recording
@@ -59,7 +65,8 @@ struct Figure {
 /// The numbers that results are compared by, in the order of the report.
 std::vector<Figure> figures(const Report& report);
 
-/// Two results side by side: figure by figure, with the difference; those that only one has are left blank.
+/// Rows of two results side by side: figure by figure, with the difference; those that only one has are left
+/// blank.
 struct ComparedFigure {
   std::string name, unit;
   std::optional<double> first, second;

@@ -12,8 +12,8 @@ namespace softbody::evaluation {
 std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
 
 /// The same across cuts: a vertex that a cut copied stands for the copy on the same side (the one whose
-/// triangles lie nearer at rest), one that a cut made for the nearest such vertex of the truth, if it is
-/// within `largest_m` at rest. Both topologies' rest vertices are in the same frame.
+/// triangles lie nearer at rest and face the same way), one that a cut made for the nearest such vertex of
+/// the truth, if it is within `largest_m` at rest. Both topologies' rest vertices are in the same frame.
 std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& truth, double largest_m);
 
 /// Which true piece each piece of the result stands for: the one that shares most vertices with it, largest
@@ -27,6 +27,9 @@ struct PieceMatch {
 /// @param matches of matchVertices.
 PieceMatch matchPieces(const MeshTopology& result, const MeshTopology& truth,
                        const std::vector<int>& matches);
+
+/// Piece of every vertex; -1 where no triangle is.
+std::vector<int> vertexPieces(const MeshTopology& topology);
 
 /// Which vertices are at rest within `near_m` of a corner of a triangle that fills a cut.
 std::vector<bool> nearCut(const MeshTopology& topology, double near_m);

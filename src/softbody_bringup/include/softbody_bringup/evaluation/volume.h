@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "softbody_common/types.h"
@@ -11,15 +13,26 @@ namespace softbody::evaluation {
 /// count as one).
 bool isClosed(const Points& vertices, const Triangles& triangles);
 
-struct VolumeReport {
-  bool closed = false;  ///< otherwise nothing below is known
-  double rest_m3 = 0.0;
-  double mean_change = 0.0;     ///< relative to the rest volume
-  double largest_change = 0.0;  ///< the frame's with the largest magnitude, signed
-  std::vector<double> changes;  ///< per frame
+/// A mean and the value of largest magnitude, signed.
+struct Change {
+  double mean = 0.0, largest = 0.0;
 };
 
-/// @param states of the topology's vertices, in time order.
-VolumeReport volumeDrift(const MeshTopology& topology, const std::vector<const MeshState*>& states);
+struct VolumeReport {
+  bool closed = false;   ///< at every revision; otherwise nothing below is known
+  double rest_m3 = 0.0;  ///< as loaded: of the lowest revision
+  Change change;         ///< of the frames, relative to rest_m3
+  double cut_change =
+      0.0;  ///< of all pieces together at rest, relative to rest_m3; the largest of the revisions
+  std::optional<Change> error;  ///< relative to the truth's volume of the same frame
+  std::vector<double> volumes;  ///< per frame [m3]
+};
+
+/// @param topologies by revision. @param states in time order, each of one of these revisions.
+VolumeReport volumeDrift(const std::map<std::uint32_t, MeshTopology>& topologies,
+                         const std::vector<const MeshState*>& states);
+
+/// Of values around zero; not empty.
+Change changeOf(const std::vector<double>& values);
 
 }  // namespace softbody::evaluation

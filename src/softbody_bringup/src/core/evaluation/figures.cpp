@@ -9,6 +9,8 @@
 namespace softbody::evaluation {
 namespace {
 
+constexpr double kDegrees = 180.0 / M_PI;
+
 void addLengths(const std::string& name, const Summary& s, std::vector<Figure>* figures) {
   if (s.count == 0) return;
   figures->push_back({name + ", mean", "mm", 1e3 * s.mean});
@@ -22,11 +24,53 @@ void addVertexError(const VertexErrorReport& report, std::vector<Figure>* figure
   addLengths("visible vertices", report.visible, figures);
   addLengths("hidden vertices", report.hidden, figures);
   addLengths("vertices near a cut", report.near_cut, figures);
-  figures->push_back({"drift, last against first seconds", "mm", 1e3 * report.drift_m});
+  for (std::size_t i = 0; i < report.pieces.size(); ++i)
+    addLengths(fmt::format("piece {}", i), report.pieces[i], figures);
+  figures->push_back({"drift, last minus first seconds", "mm", 1e3 * report.drift_m});
+  figures->push_back({"drift, last by first seconds", "times", report.drift_ratio});
+}
+
+void addCut(const Report& report, std::vector<Figure>* figures) {
+  if (report.pieces) {
+    figures->push_back({"frames with the true number of pieces", "%", 100.0 * report.pieces->frames_right});
+    figures->push_back({"vertices in the right piece", "%", 100.0 * report.pieces->vertices_right});
+  }
+  if (report.cut_surface) {
+    addLengths("cut surface from the true one", report.cut_surface->distance, figures);
+    addLengths("true cut surface from the result's", report.cut_surface->missed, figures);
+    figures->push_back({"cut surface, tilt", "deg", kDegrees * report.cut_surface->tilt_rad});
+    figures->push_back({"cut surface, local angle, mean", "deg", kDegrees * report.cut_surface->angle.mean});
+  }
+}
+
+void addAbsences(const std::vector<Absence>& absences, std::vector<Figure>* figures) {
+  for (const Absence& absence : absences) {
+    const std::string name = fmt::format("hidden at {:.1f} s", absence.begin_s);
+    if (absence.covered.count > 0)
+      figures->push_back({name + ", hidden part meanwhile, mean", "mm", 1e3 * absence.covered.mean});
+    figures->push_back({name + ", back to normal after", "s", absence.recovery_s.value_or(kNothing)});
+  }
+}
+
+void addTool(const PoseErrorReport& tool, std::vector<Figure>* figures) {
+  const auto expected = static_cast<double>(tool.expected);
+  figures->push_back({"tool poses answered", "%", 100.0 * static_cast<double>(tool.answered) / expected});
+  addLengths("tool position", tool.position, figures);
+  figures->push_back({"tool rotation, mean", "deg", kDegrees * tool.rotation.mean});
+  figures->push_back({"tool rotation, p95", "deg", kDegrees * tool.rotation.p95});
+}
+
+void addVolume(const VolumeReport& volume, std::vector<Figure>* figures) {
+  figures->push_back({"volume change, mean", "%", 100.0 * volume.change.mean});
+  figures->push_back({"volume change, at most", "%", 100.0 * volume.change.largest});
+  figures->push_back({"volume change by cuts, at rest", "%", 100.0 * volume.cut_change});
+  if (!volume.error) return;
+  figures->push_back({"volume error, mean", "%", 100.0 * volume.error->mean});
+  figures->push_back({"volume error, at most", "%", 100.0 * volume.error->largest});
 }
 
 std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4f}", *value) : std::string("-");
+  return value && !std::isnan(*value) ? fmt::format("{:.4f}", *value) : std::string("-");
 }
 
 }  // namespace
@@ -36,15 +80,10 @@ std::vector<Figure> figures(const Report& report) {
   const double expected = static_cast<double>(std::max<std::size_t>(1, report.frames.expected));
   all.push_back({"frames answered", "%", 100.0 * static_cast<double>(report.frames.answered) / expected});
   if (report.vertex_error) addVertexError(*report.vertex_error, &all);
-  if (report.pieces) {
-    all.push_back({"frames with the true number of pieces", "%", 100.0 * report.pieces->frames_right});
-    all.push_back({"vertices in the right piece", "%", 100.0 * report.pieces->vertices_right});
-  }
+  addCut(report, &all);
+  addAbsences(report.absences, &all);
   if (report.jitter) all.push_back({"jitter while still, RMS", "mm", 1e3 * report.jitter->per_vertex.rms});
-  if (report.tool) {
-    addLengths("tool position", report.tool->position, &all);
-    all.push_back({"tool rotation, mean", "deg", report.tool->rotation.mean * 180.0 / M_PI});
-  }
+  if (report.tool) addTool(*report.tool, &all);
   if (report.silhouette) {
     const std::string name =
         report.silhouette->against_truth ? "silhouette IoU" : "silhouette IoU against depth";
@@ -55,10 +94,7 @@ std::vector<Figure> figures(const Report& report) {
     all.push_back({"depth residual, median", "mm", 1e3 * report.residual->residual.median});
     all.push_back({"depth residual, p95", "mm", 1e3 * report.residual->residual.p95});
   }
-  if (report.volume.closed) {
-    all.push_back({"volume change, mean", "%", 100.0 * report.volume.mean_change});
-    all.push_back({"volume change, at most", "%", 100.0 * report.volume.largest_change});
-  }
+  if (report.volume.closed) addVolume(report.volume, &all);
   for (const auto& [name, s] : report.stages) {
     const std::string stage = name.node + ": " + name.stage + (name.initialization ? " (init.)" : "");
     all.push_back({stage + ", mean", "ms", s.mean});

@@ -2,6 +2,7 @@
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
 #include "softbody_bringup/evaluation/report_folder.h"
@@ -38,7 +39,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("<td>{:.4f}</td>", *value) : std::string("<td></td>");
+  return value && !std::isnan(*value) ? fmt::format("<td>{:.4f}</td>", *value) : std::string("<td>-</td>");
 }
 
 std::string table(const std::vector<ComparedFigure>& rows) {

@@ -68,14 +68,15 @@ cv::Mat3b linePlot(const std::string& title, const std::string& x_label, const s
   return image;
 }
 
-cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values) {
+cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values,
+                    double scale) {
   constexpr int kBins = 60;
   std::vector<float> sorted = values;
   std::sort(sorted.begin(), sorted.end());
-  const double end = axisEnd(sorted.empty() ? 0.0 : sorted[(sorted.size() - 1) * 995 / 1000]);
+  const double end = axisEnd(sorted.empty() ? 0.0 : scale * sorted[(sorted.size() - 1) * 995 / 1000]);
   std::vector<double> shares(kBins, 0.0);
   for (const float value : values) {
-    const int bin = std::clamp(static_cast<int>(kBins * value / end), 0, kBins - 1);
+    const int bin = std::clamp(static_cast<int>(kBins * scale * value / end), 0, kBins - 1);
     shares[static_cast<std::size_t>(bin)] += 100.0 / static_cast<double>(values.size());
   }
   const Axes axes{end, 1.1 * axisEnd(*std::max_element(shares.begin(), shares.end()))};

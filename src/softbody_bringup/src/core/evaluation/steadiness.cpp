@@ -23,6 +23,18 @@ Eigen::VectorXd deviations(const std::vector<const MeshState*>& states) {
   return (squares / static_cast<double>(states.size())).cwiseSqrt();
 }
 
+/// The range's answers; the result's topologies apart.
+std::vector<std::vector<const MeshState*>> answeredRuns(const std::vector<const MeshState*>& states,
+                                                        const FrameRange& range) {
+  std::vector<std::vector<const MeshState*>> runs;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    if (states[i] == nullptr) continue;
+    if (runs.empty() || !sameTopology(*runs.back().front(), *states[i])) runs.emplace_back();
+    runs.back().push_back(states[i]);
+  }
+  return runs;
+}
+
 }  // namespace
 
 std::vector<FrameRange> stillRanges(const std::vector<const MeshState*>& states, double largest_m,
@@ -42,15 +54,11 @@ JitterReport jitter(const std::vector<const MeshState*>& states, const std::vect
   JitterReport report;
   std::vector<float> values;
   for (const FrameRange& range : still) {
-    std::vector<const MeshState*> answered;
-    for (std::size_t i = range.first; i < range.last; ++i) {
-      if (states[i] == nullptr) continue;
-      if (answered.empty() || sameTopology(*answered.front(), *states[i])) answered.push_back(states[i]);
+    for (const auto& answered : answeredRuns(states, range)) {
+      if (answered.size() < 2) continue;
+      report.frames += answered.size();
+      for (const double value : deviations(answered)) values.push_back(static_cast<float>(value));
     }
-    if (answered.size() < 2) continue;
-    report.frames += answered.size();
-    const Eigen::VectorXd rms = deviations(answered);
-    for (const double value : rms) values.push_back(static_cast<float>(value));
   }
   report.per_vertex = summarize(std::move(values));
   return report;

@@ -15,7 +15,7 @@ void append(const std::vector<float>& values, std::vector<float>* all) {
 
 constexpr double kDriftWindow_s = 5.0;
 
-/// Mean of the values at times within [first, last]; 0 if there are none.
+/// Mean of the values at times within [first, last].
 double meanWithin(const std::vector<double>& times, const std::vector<double>& values, double first,
                   double last) {
   double sum = 0.0;
@@ -25,7 +25,7 @@ double meanWithin(const std::vector<double>& times, const std::vector<double>& v
     sum += values[i];
     ++count;
   }
-  return count == 0 ? 0.0 : sum / count;
+  return sum / count;
 }
 
 void addDrift(VertexErrorReport* report) {
@@ -33,8 +33,40 @@ void addDrift(VertexErrorReport* report) {
   const double end = report->times.back();
   report->drift_m_per_s = slope(report->times, report->frame_means);
   report->drift_window_s = std::min(kDriftWindow_s, 0.5 * end);
-  report->drift_m = meanWithin(report->times, report->frame_means, end - report->drift_window_s, end) -
-                    meanWithin(report->times, report->frame_means, 0.0, report->drift_window_s);
+  const double first = meanWithin(report->times, report->frame_means, 0.0, report->drift_window_s),
+               last = meanWithin(report->times, report->frame_means, end - report->drift_window_s, end);
+  report->drift_m = last - first;
+  if (first > 0.0) report->drift_ratio = last / first;
+}
+
+void addToPiece(float distance, std::size_t piece, std::vector<std::vector<float>>* pieces) {
+  if (pieces->size() <= piece) pieces->resize(piece + 1);
+  (*pieces)[piece].push_back(distance);
+}
+
+/// By true piece, over the frames in which there are several.
+std::vector<Summary> summarizePieces(const std::vector<FrameVertexError>& frames) {
+  std::vector<std::vector<float>> all;
+  for (const FrameVertexError& frame : frames) {
+    if (frame.pieces.size() < 2) continue;
+    all.resize(std::max(all.size(), frame.pieces.size()));
+    for (std::size_t i = 0; i < frame.pieces.size(); ++i) append(frame.pieces[i], &all[i]);
+  }
+  std::vector<Summary> summaries;
+  for (std::vector<float>& piece : all) summaries.push_back(summarize(std::move(piece)));
+  return summaries;
+}
+
+void requireVertices(const MeshState& result, const MeshState& truth, const std::vector<int>& matches) {
+  if (static_cast<std::size_t>(result.vertices.rows()) != matches.size()) {
+    throw std::invalid_argument(fmt::format("the result's state has {} vertices but its topology {}",
+                                            result.vertices.rows(), matches.size()));
+  }
+  const auto largest = std::max_element(matches.begin(), matches.end());
+  if (largest != matches.end() && *largest >= truth.vertices.rows()) {
+    throw std::invalid_argument(fmt::format("the truth's state has {} vertices; vertex {} is asked for",
+                                            truth.vertices.rows(), *largest));
+  }
 }
 
 double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -47,28 +79,24 @@ double FrameVertexError::mean() const {
 }
 
 FrameVertexError vertexError(const MeshState& result, const MeshState& truth, const std::vector<int>& matches,
-                             const std::vector<bool>& near_cut) {
-  if (static_cast<std::size_t>(result.vertices.rows()) != matches.size()) {
-    throw std::invalid_argument(fmt::format("the result's state has {} vertices but its topology {}",
-                                            result.vertices.rows(), matches.size()));
-  }
+                             const VertexGroups& groups) {
+  requireVertices(result, truth, matches);
   FrameVertexError error;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    const int match = matches[i];
-    if (match < 0) {
+    if (matches[i] < 0) {
       ++error.unmatched;
       continue;
     }
-    if (match >= truth.vertices.rows()) {
-      throw std::invalid_argument(fmt::format("the truth's state has {} vertices; vertex {} is asked for",
-                                              truth.vertices.rows(), match));
-    }
-    const double distance =
-        (result.vertices.row(static_cast<Eigen::Index>(i)) - truth.vertices.row(match)).norm();
-    const bool visible = truth.confidence.at(static_cast<std::size_t>(match)) > 0.5f;
-    (visible ? error.visible : error.hidden).push_back(static_cast<float>(distance));
-    if (!near_cut.empty() && near_cut.at(static_cast<std::size_t>(match)))
-      error.near_cut.push_back(static_cast<float>(distance));
+    const auto match = static_cast<std::size_t>(matches[i]);
+    const auto distance = static_cast<float>(
+        (result.vertices.row(static_cast<Eigen::Index>(i)) - truth.vertices.row(matches[i])).norm());
+    const bool visible = truth.confidence.at(match) > 0.5f;
+    (visible ? error.visible : error.hidden).push_back(distance);
+    if (!groups.near_cut.empty() && groups.near_cut[match]) error.near_cut.push_back(distance);
+    if (!groups.seen_at_first.empty() && groups.seen_at_first[match] && !visible)
+      error.covered.push_back(distance);
+    if (!groups.pieces.empty() && groups.pieces[match] >= 0)
+      addToPiece(distance, static_cast<std::size_t>(groups.pieces[match]), &error.pieces);
   }
   return error;
 }
@@ -86,6 +114,7 @@ VertexErrorReport summarize(const std::vector<FrameVertexError>& frames) {
     report.frame_means.push_back(frame.mean());
   }
   addDrift(&report);
+  report.pieces = summarizePieces(frames);
   report.near_cut = summarize(std::move(near_cut));
   report.visible = summarize(visible);
   report.hidden = summarize(hidden);

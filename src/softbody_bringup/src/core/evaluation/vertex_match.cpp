@@ -8,26 +8,34 @@
 #include <unordered_map>
 #include <utility>
 
+#include "softbody_common/tet_geometry.h"
+
 namespace softbody::evaluation {
 namespace {
 
-/// Mean centre of the triangles around every vertex: tells copies of one vertex apart.
-Points fanCentres(const MeshTopology& topology) {
-  Points centres = Points::Zero(topology.rest_vertices.rows(), 3);
+/// What tells copies of one vertex apart: where the triangles around it lie, and where they face. Inside of a
+/// cut's surface only the latter differs.
+struct Fans {
+  Points centres, normals;
+};
+
+Fans fansOf(const MeshTopology& topology) {
+  Fans fans{Points::Zero(topology.rest_vertices.rows(), 3),
+            vertexNormals(topology.rest_vertices, topology.triangles)};
   Eigen::VectorXd count = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
   for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
     Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
     for (int k = 0; k < 3; ++k) centre += topology.rest_vertices.row(topology.triangles(f, k)) / 3.0;
     for (int k = 0; k < 3; ++k) {
-      centres.row(topology.triangles(f, k)) += centre;
+      fans.centres.row(topology.triangles(f, k)) += centre;
       count[topology.triangles(f, k)] += 1.0;
     }
   }
-  for (Eigen::Index v = 0; v < centres.rows(); ++v) {
-    centres.row(v) =
-        count[v] > 0.0 ? (centres.row(v) / count[v]).eval() : topology.rest_vertices.row(v).eval();
+  for (Eigen::Index v = 0; v < fans.centres.rows(); ++v) {
+    fans.centres.row(v) =
+        count[v] > 0.0 ? (fans.centres.row(v) / count[v]).eval() : topology.rest_vertices.row(v).eval();
   }
-  return centres;
+  return fans;
 }
 
 std::unordered_map<int, std::vector<int>> verticesByParent(const std::vector<int>& parents) {
@@ -36,32 +44,22 @@ std::unordered_map<int, std::vector<int>> verticesByParent(const std::vector<int
   return vertices;
 }
 
-/// Piece of every vertex; -1 where no triangle is.
-std::vector<int> vertexPieces(const MeshTopology& topology) {
-  std::vector<int> pieces(static_cast<std::size_t>(topology.rest_vertices.rows()), -1);
-  for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      pieces[static_cast<std::size_t>(topology.triangles(f, k))] =
-          static_cast<int>(topology.bodies[static_cast<std::size_t>(f)]);
-    }
-  }
-  return pieces;
-}
-
 std::size_t pieceCount(const MeshTopology& topology) {
   return topology.bodies.empty() ? 0 : 1 + *std::max_element(topology.bodies.begin(), topology.bodies.end());
 }
 
-/// Copies lie at one place at rest; where they come from files of different welding, the place decides
-/// first, then the side.
-int nearestCopy(const Eigen::RowVector3d& place, const Eigen::RowVector3d& fan,
-                const std::vector<int>& candidates, const Points& places, const Points& fans,
-                double largest_m) {
+/// The candidate of the same place and side. Copies lie at one place at rest; where they come from files of
+/// different welding, the place decides first, then the side.
+int nearestCopy(const MeshTopology& mine, const Fans& my_fans, Eigen::Index vertex, const MeshTopology& its,
+                const Fans& its_fans, const std::vector<int>& candidates, double largest_m) {
+  constexpr double kFacing_m = 0.01;  // cost of facing at right angles; copies face opposite ways
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const int candidate : candidates) {
-    const double distance = (places.row(candidate) - place).norm();
-    const double cost = distance + (fans.row(candidate) - fan).norm();
+    const double distance = (its.rest_vertices.row(candidate) - mine.rest_vertices.row(vertex)).norm();
+    const double facing = 1.0 - its_fans.normals.row(candidate).dot(my_fans.normals.row(vertex));
+    const double cost = distance + (its_fans.centres.row(candidate) - my_fans.centres.row(vertex)).norm() +
+                        kFacing_m * facing;
     if (distance > largest_m || cost >= least) continue;
     least = cost;
     best = candidate;
@@ -87,17 +85,16 @@ std::vector<int> matchVertices(const std::vector<int>& result_parents,
 }
 
 std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& truth, double largest_m) {
-  const Points result_fans = fanCentres(result), truth_fans = fanCentres(truth);
+  const Fans result_fans = fansOf(result), truth_fans = fansOf(truth);
   const auto truth_vertices = verticesByParent(truth.vertex_parents);
   std::vector<int> matches(result.vertex_parents.size(), -1);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const auto candidates = truth_vertices.find(result.vertex_parents[i]);
     if (candidates == truth_vertices.end()) continue;
     const bool of_the_file = result.vertex_parents[i] >= 0;
-    const auto row = static_cast<Eigen::Index>(i);
-    matches[i] = nearestCopy(result.rest_vertices.row(row), result_fans.row(row), candidates->second,
-                             truth.rest_vertices, truth_fans,
-                             of_the_file ? std::numeric_limits<double>::infinity() : largest_m);
+    matches[i] =
+        nearestCopy(result, result_fans, static_cast<Eigen::Index>(i), truth, truth_fans, candidates->second,
+                    of_the_file ? std::numeric_limits<double>::infinity() : largest_m);
   }
   return matches;
 }
@@ -130,6 +127,17 @@ PieceMatch matchPieces(const MeshTopology& result, const MeshTopology& truth,
   }
   match.vertices_right = all == 0 ? 0.0 : static_cast<double>(right) / all;
   return match;
+}
+
+std::vector<int> vertexPieces(const MeshTopology& topology) {
+  std::vector<int> pieces(static_cast<std::size_t>(topology.rest_vertices.rows()), -1);
+  for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      pieces[static_cast<std::size_t>(topology.triangles(f, k))] =
+          static_cast<int>(topology.bodies[static_cast<std::size_t>(f)]);
+    }
+  }
+  return pieces;
 }
 
 std::vector<bool> nearCut(const MeshTopology& topology, double near_m) {

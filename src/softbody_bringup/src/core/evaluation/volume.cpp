@@ -1,8 +1,11 @@
 #include "softbody_bringup/evaluation/volume.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "softbody_common/tet_geometry.h"
@@ -33,23 +36,39 @@ bool isClosed(const Points& vertices, const Triangles& triangles) {
       if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
     }
   }
-  for (const auto& [edge, uses] : balance) {
-    if (uses != 0) return false;
-  }
-  return !balance.empty();
+  return !balance.empty() &&
+         std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
-VolumeReport volumeDrift(const MeshTopology& topology, const std::vector<const MeshState*>& states) {
+Change changeOf(const std::vector<double>& values) {
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  return {sum / static_cast<double>(values.size()), *std::max_element(values.begin(), values.end(), smaller)};
+}
+
+VolumeReport volumeDrift(const std::map<std::uint32_t, MeshTopology>& topologies,
+                         const std::vector<const MeshState*>& states) {
   VolumeReport report;
-  report.closed = isClosed(topology.rest_vertices, topology.triangles);
+  if (topologies.empty() || states.empty()) return report;
+  const MeshTopology& loaded = topologies.begin()->second;
+  std::set<std::uint32_t> revisions{topologies.begin()->first};
+  for (const MeshState* state : states) revisions.insert(state->revision);
+  report.closed = std::all_of(revisions.begin(), revisions.end(), [&](std::uint32_t revision) {
+    return isClosed(topologies.at(revision).rest_vertices, topologies.at(revision).triangles);
+  });
   if (!report.closed) return report;
-  report.rest_m3 = enclosedVolume(topology.rest_vertices, topology.triangles);
-  for (const MeshState* state : states) {
-    const double change = enclosedVolume(state->vertices, topology.triangles) / report.rest_m3 - 1.0;
-    report.changes.push_back(change);
-    report.mean_change += change / static_cast<double>(states.size());
-    if (std::abs(change) > std::abs(report.largest_change)) report.largest_change = change;
+  report.rest_m3 = enclosedVolume(loaded.rest_vertices, loaded.triangles);
+  std::vector<double> of_revisions, of_frames;
+  for (const std::uint32_t revision : revisions) {
+    const MeshTopology& topology = topologies.at(revision);
+    of_revisions.push_back(enclosedVolume(topology.rest_vertices, topology.triangles) / report.rest_m3 - 1.0);
   }
+  for (const MeshState* state : states) {
+    report.volumes.push_back(enclosedVolume(state->vertices, topologies.at(state->revision).triangles));
+    of_frames.push_back(report.volumes.back() / report.rest_m3 - 1.0);
+  }
+  report.cut_change = changeOf(of_revisions).largest;
+  report.change = changeOf(of_frames);
   return report;
 }
 
