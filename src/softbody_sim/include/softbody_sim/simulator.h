@@ -8,9 +8,17 @@
 
 namespace softbody {
 
+/// Who minimises a step: projective dynamics for speed, or finite elements by Newton's method for accuracy.
+enum class SolverKind { kProjectiveDynamics, kFem };
+
+/// Elastic energies: corotated, or stable neo-Hookean (Smith, de Goes, Kim 2018), which only FEM has.
+enum class Elasticity { kCorotated, kNeoHookean };
+
 struct SimulatorConfig {
+  SolverKind solver = SolverKind::kProjectiveDynamics;
+  Elasticity elasticity = Elasticity::kCorotated;
   bool simulate = true;     ///< false: surface vertices go where their targets are (Kang et al. 2022, Fig. 6)
-  int iterations = 20;      ///< local/global iterations a step at most
+  int iterations = 20;      ///< local/global, or Newton, iterations a step at most
   double tolerance = 1e-4;  ///< stop when no vertex moves further in an iteration [mean edge lengths]
   double target_stiffness = 10.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
   double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
@@ -18,7 +26,10 @@ struct SimulatorConfig {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 
-/// @throw std::invalid_argument as Parameters does.
+/// @throw std::invalid_argument if the solver does not have the elasticity.
+void requireConsistent(const SimulatorConfig& config);
+
+/// @throw std::invalid_argument as Parameters and requireConsistent do.
 SimulatorConfig readSimulatorConfig(Parameters& parameters);
 
 /// How the last step ended.
@@ -29,10 +40,11 @@ struct StepReport {
 };
 
 /// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective
-/// dynamics (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz, Kavan
-/// 2017).
+/// dynamics (Bouaziz et al. 2014) accelerated by L-BFGS (Liu, Bouaziz, Kavan 2017), or by finite elements
+/// with Newton's method.
 class Simulator {
  public:
+  /// @throw std::invalid_argument if topology, material or config make no body.
   Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config);
   ~Simulator();
 
@@ -48,6 +60,10 @@ class Simulator {
   /// number is not finite, a barycentric coordinate is beyond 100, or the body has not been placed;
   /// std::runtime_error if the targets' weights leave a system that cannot be solved.
   void step(const TargetSet& targets, Nanoseconds stamp);
+
+  /// Puts a placed body's vertices somewhere, at rest, whatever shape that is. @param vertices #V by 3 [m].
+  /// @throw std::invalid_argument if the body has not been placed, or not that many finite vertices are given.
+  void setVertices(const Points& vertices);
 
   /// Back to "not placed".
   void reset();

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/fem_solver.h"
 #include "core/observation_confidence.h"
 #include "core/projective_dynamics.h"
 #include "core/step_potential.h"
@@ -41,9 +42,15 @@ Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) 
 
 std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Material& material,
                                        const SimulatorConfig& config, double edge_length) {
+  requireConsistent(config);
   const Lame lame = lameParameters(material.youngs_modulus_pa, material.poisson_ratio);
-  return std::make_unique<ProjectiveDynamics>(
-      topology, lame, QuasiNewton::Options{config.iterations, config.tolerance * edge_length});
+  const double tolerance_m = config.tolerance * edge_length;
+  if (config.solver == SolverKind::kFem) {
+    return std::make_unique<FemSolver>(topology, config.elasticity, lame,
+                                       FemSolver::Options{config.iterations, tolerance_m});
+  }
+  return std::make_unique<ProjectiveDynamics>(topology, lame,
+                                              QuasiNewton::Options{config.iterations, tolerance_m});
 }
 
 void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_count) {
@@ -178,6 +185,17 @@ void Simulator::step(const TargetSet& targets, Nanoseconds stamp) {
   Body next = s.body;
   s.advance(targets, stamp, &next);
   s.body = std::move(next);
+}
+
+void Simulator::setVertices(const Points& vertices) {
+  Body& body = implementation_->body;
+  if (!body.placed) throw std::invalid_argument("the body has no place yet");
+  if (vertices.rows() != body.state.vertices.rows() || !vertices.allFinite()) {
+    throw std::invalid_argument(fmt::format("{} vertices, or not finite ones, for a body of {}",
+                                            vertices.rows(), body.state.vertices.rows()));
+  }
+  body.state.vertices = vertices;
+  body.velocity.setZero();
 }
 
 void Simulator::reset() {

@@ -1,9 +1,20 @@
+#include <stdexcept>
+
 #include "softbody_sim/simulator.h"
 
 namespace softbody {
 
+void requireConsistent(const SimulatorConfig& config) {
+  if (config.solver == SolverKind::kProjectiveDynamics && config.elasticity != Elasticity::kCorotated) {
+    throw std::invalid_argument("elasticity is 'neo_hookean' with solver 'pd'; it needs solver 'fem'");
+  }
+}
+
 SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   SimulatorConfig config;
+  if (parameters.choice("solver", "pd", {"pd", "fem"}) == "fem") config.solver = SolverKind::kFem;
+  if (parameters.choice("elasticity", "corotated", {"corotated", "neo_hookean"}) == "neo_hookean")
+    config.elasticity = Elasticity::kNeoHookean;
   config.simulate = parameters.flag("simulate", config.simulate);
   config.iterations = parameters.integer("iterations", config.iterations, 1, 1000);
   config.tolerance = parameters.number("tolerance", config.tolerance, 0.0, 1.0);
@@ -11,6 +22,7 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.max_time_step_s = parameters.number("max_time_step_s", config.max_time_step_s, 1e-3, 10.0);
   const std::vector<double> gravity = parameters.numbers("gravity_m_s2", {0.0, 0.0, 0.0});
   config.gravity = {gravity[0], gravity[1], gravity[2]};
+  requireConsistent(config);
   return config;
 }
 

@@ -31,4 +31,20 @@ void TargetEnergy::addMetric(TetMatrix* matrix) const {
   }
 }
 
+void TargetEnergy::addHessian(const Points&, BlockTetMatrix* matrix) const {
+  for (const Spring& spring : springs_) {
+    const Eigen::Matrix3d curvature = spring.normal.isZero(0.0)
+                                          ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                          : Eigen::Matrix3d(spring.normal * spring.normal.transpose());
+    BlockTetMatrix::TetBlock block;
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 4; ++b) {
+        block.block<3, 3>(3 * a, 3 * b) =
+            spring.stiffness * spring.barycentric[a] * spring.barycentric[b] * curvature;
+      }
+    }
+    matrix->addToTet(spring.tet, block);
+  }
+}
+
 }  // namespace softbody

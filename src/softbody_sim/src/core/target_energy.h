@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/block_tet_matrix.h"
 #include "core/tet_matrix.h"
 #include "softbody_common/types.h"
 
@@ -21,6 +22,9 @@ class TargetEnergy {
   /// Adds sum k S^T S: the exact curvature of point targets and an upper bound for those with a normal (n n^T
   /// <= I).
   void addMetric(TetMatrix* matrix) const;
+
+  /// Adds the exact Hessian.
+  void addHessian(const Points& x, BlockTetMatrix* matrix) const;
 
  private:
   struct Spring {
