@@ -50,4 +50,11 @@ CutPatch inGeneralPosition(CutPatch patch) {
   return patch;
 }
 
+// Rounded in memory: GCC 12 drops the rounding of a pair of numbers that
+// stays in a register (-O2, double to float to double).
+Points inSinglePrecision(const Points& points) {
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> single = points.cast<float>();
+  return single.cast<double>();
+}
+
 }  // namespace softbody

@@ -20,4 +20,7 @@ CutPatch ruledPatch(const Points& before, const Points& now);
 /// only, and every question has one answer. The models of a body are cut by the same moved patch.
 CutPatch inGeneralPosition(CutPatch patch);
 
+/// Coordinates as Point32 holds them.
+Points inSinglePrecision(const Points& points);
+
 }  // namespace softbody

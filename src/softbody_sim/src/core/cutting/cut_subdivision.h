@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/cutting/edge_bisection.h"
+#include "core/cutting/edge_crossings.h"
+
+namespace softbody {
+
+/// The least height of a tet over its longest edge (a regular tet: 0.82): what is below is a sliver.
+double tetQuality(const Points& vertices, const Eigen::RowVector4i& tet);
+
+/// Limits within which the tets follow the patch.
+struct SubdivisionSettings {
+  double snap_fraction = 0.1;   ///< a crossing that is closer to an edge's end, in edge lengths, moves there
+  double least_quality = 0.02;  ///< so does one that would make a worse tet (tetQuality)
+};
+
+/// A tet mesh subdivided so that no edge crosses the patch between two vertices off the cut.
+struct CutSubdivision {
+  Points vertices;  ///< new ones after the old, in coordinates that single precision holds
+  BisectedTets parts;
+  std::vector<EdgeCrossing> splits;  ///< per new vertex, the split edge
+};
+
+/// Splits crossed edges at the crossing, or takes an end for a vertex of the cut.
+/// @param on_cut per vertex; those taken and the new ones are added.
+CutSubdivision subdivide(const Points& vertices, const Tets& tets, const std::vector<EdgeCrossing>& crossings,
+                         const SubdivisionSettings& settings, std::vector<bool>* on_cut);
+
+}  // namespace softbody
