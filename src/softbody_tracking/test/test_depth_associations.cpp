@@ -13,21 +13,21 @@ class DepthAssociationsTest : public ::testing::Test {
   DepthAssociationsTest()
       : truth_(transformed(box_.volume.rest_vertices, boxPose())),
         frame_(renderFrame(box_, truth_, 1)),
-        surface_(box_.volume, box_.surface),
-        all_colors_(frame_.color.size(), 255) {
+        surface_(box_.volume, box_.surface) {
     surface_.update(frame_.camera, truth_);
   }
 
-  DepthAssociations associate(const DepthConfig& config = DepthConfig()) {
-    return associateDepth(frame_, surface_, all_colors_,
-                          meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets), config);
+  DepthAssociations associate(const DepthConfig& config = DepthConfig(),
+                              const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity()) {
+    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), motion,
+                          colors_, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets), config);
   }
 
   BoxBody box_ = makeBox();
   Points truth_;
   RgbdFrame frame_;
   PredictedSurface surface_;
-  cv::Mat1b all_colors_;
+  ColorModel colors_;
 };
 
 TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
@@ -75,10 +75,39 @@ TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
 }
 
 TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
-  all_colors_.setTo(0);
+  const cv::Mat3b other(frame_.color.size(), cv::Vec3b(250, 20, 20));
+  colors_.learn(other, cv::Mat1b(other.size(), 255));
   const DepthAssociations found = associate();
   EXPECT_EQ(found.occluded_blocks, found.visible_blocks);
   EXPECT_TRUE(found.associations.empty());
+}
+
+/// A rigid motion of the samples and rendering the moved surface anew say the same.
+TEST_F(DepthAssociationsTest, MoveWithTheirSamples) {
+  const Eigen::Isometry3d error =
+      Eigen::Translation3d(0.003, -0.002, 0.004) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());
+  surface_.update(frame_.camera, transformed(truth_, error));
+  for (const Association& a : associate({}, error.inverse()).associations) {
+    EXPECT_LT(std::abs(a.residual()), 4e-4);
+    EXPECT_LT((positionOf(a.place, truth_, box_.volume.tets) - a.predicted).norm(), 1e-6);
+  }
+}
+
+/// A stick whose far end is 80 mm in front of the body and whose tip touches it.
+TEST_F(DepthAssociationsTest, AnOccluderIsOneDownToItsTip) {
+  const cv::Rect stick = cv::Rect(surface_.image().region.x + surface_.image().region.width / 2, 0, 30, 480);
+  int on_stick = 0;
+  for (int v = 0; v < 480; ++v) {
+    for (int u = stick.x; u < stick.br().x; ++u) {
+      const float in_front = 0.08f * static_cast<float>(300 - v) / 150.0f;
+      if (surface_.image().triangle(v, u) >= 0 && in_front > 0.0f) frame_.depth(v, u) -= in_front;
+    }
+  }
+  for (const Association& a : associate().associations) {
+    const Eigen::Vector2d pixel = frame_.camera.project(a.measured);
+    on_stick += stick.contains(cv::Point(cvRound(pixel.x()), cvRound(pixel.y()))) && a.residual() > 0.005;
+  }
+  EXPECT_EQ(on_stick, 0);
 }
 
 TEST_F(DepthAssociationsTest, NoDepthGivesNothing) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "core/feature_map.h"
 #include "softbody_common/rigid_fit.h"
@@ -14,7 +15,7 @@ class FeatureMapTest : public ::testing::Test {
  protected:
   FeatureMapTest() : surface_(box_.volume, box_.surface), orb_(1000), map_(FeatureConfig()) {
     look(transformed(box_.volume.rest_vertices, boxPose()));
-    map_.admit(frame_, keypoints_, {}, surface_);
+    map_.admit(frame_, image_, keypoints_, {}, surface_);
   }
 
   /// Renders the box at the vertices and predicts it there, moved by an error.
@@ -22,11 +23,19 @@ class FeatureMapTest : public ::testing::Test {
     frame_ = renderFrame(box_, truth, 1);
     surface_.update(frame_.camera,
                     transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))));
+    image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
     keypoints_ = orb_.extract(frame_.color, cv::Mat1b(frame_.color.size(), 255), surface_.image().region);
+  }
+
+  std::vector<FeatureMatch> align() {
+    std::vector<FeatureMatch> matches = map_.align(frame_, image_, surface_);
+    map_.judge(frame_.camera, &matches);
+    return matches;
   }
 
   BoxBody box_ = makeBox();
   PredictedSurface surface_;
+  GrayPyramid image_;
   OrbExtractor orb_;
   FeatureMap map_;
   RgbdFrame frame_;
@@ -41,18 +50,36 @@ TEST_F(FeatureMapTest, BindsFeaturesWhereTheirPixelsSeeTheBody) {
   }
 }
 
-TEST_F(FeatureMapTest, FindsThemAgainWhenTheBodyMoves) {
-  look(transformed(box_.volume.rest_vertices, Eigen::Translation3d(0.004, -0.002, 0.003) * boxPose() *
-                                                  Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ())),
-       {0.003, 0.002, 0.0});
-  const std::vector<FeatureMatch> matches = map_.match(frame_, keypoints_, surface_);
-  int inliers = 0;
-  for (const FeatureMatch& match : matches) inliers += match.inlier ? 1 : 0;
-  EXPECT_GT(inliers, 100);
-  EXPECT_GT(inliers, 0.8 * static_cast<double>(matches.size()));
-  std::vector<int> used(keypoints_.size(), 0);
+TEST_F(FeatureMapTest, FindsThemAgainWithSubPixelPrecision) {
+  const Points truth =
+      transformed(box_.volume.rest_vertices, Eigen::Translation3d(0.004, -0.002, 0.003) * boxPose() *
+                                                 Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ()));
+  look(truth, {0.003, 0.002, 0.0});
+  const std::vector<FeatureMatch> matches = align();
+  ASSERT_GT(matches.size(), 100u);
+  EXPECT_GT(matches.size(), 0.5 * map_.expected());
+  std::vector<double> errors;
+  for (const FeatureMatch& match : matches) {
+    const Eigen::Vector2d pixel =
+        frame_.camera.project(positionOf(match.association.place, truth, box_.volume.tets));
+    errors.push_back((pixel - Eigen::Vector2d(match.pixel.x, match.pixel.y)).norm());
+  }
+  std::sort(errors.begin(), errors.end());
+  // The checkered test texture is not anti-aliased: it moves by whole pixels itself.
+  EXPECT_LT(errors[errors.size() / 2], 0.3);
+  EXPECT_LT(errors[errors.size() * 9 / 10], 1.0);
+}
+
+TEST_F(FeatureMapTest, DescriptorsFindWhatMovedTooFarForThePatches) {
+  const Points truth = transformed(box_.volume.rest_vertices, boxPose());
+  look(truth, {0.013, 0.0, 0.0});
+  std::vector<FeatureMatch> matches = align();
+  const std::size_t aligned = matches.size();
+  map_.search(frame_, image_, keypoints_, surface_, &matches);
+  EXPECT_GT(matches.size(), aligned + 50);
+  std::set<int> found;
   for (const FeatureMatch& match : matches)
-    EXPECT_EQ(used[match.keypoint]++, 0) << "a keypoint serves two features";
+    EXPECT_TRUE(found.insert(match.feature).second) << "a feature is matched twice";
 }
 
 TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
@@ -67,7 +94,7 @@ TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
     frame_.depth(spot) = true_depth(spot) + 0.02f;
   }
   int wrong_inliers = 0, right_outliers = 0, wrong = 0;
-  for (const FeatureMatch& match : map_.match(frame_, keypoints_, surface_)) {
+  for (const FeatureMatch& match : align()) {
     const bool is_wrong = (match.association.measured - match.association.predicted).norm() > 0.015;
     wrong += is_wrong ? 1 : 0;
     wrong_inliers += is_wrong && match.inlier ? 1 : 0;
@@ -80,10 +107,12 @@ TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
 
 TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
   const std::size_t bound = map_.features().size();
-  map_.admit(frame_, keypoints_, map_.match(frame_, keypoints_, surface_), surface_);
+  map_.admit(frame_, image_, keypoints_, align(), surface_);
   EXPECT_LT(map_.features().size(), bound + bound / 5) << "the surface was covered with features already";
-  for (int i = 0; i < 40; ++i) map_.match(frame_, {}, surface_);
-  map_.admit(frame_, {}, {}, surface_);
+  frame_.color.setTo(cv::Vec3b(90, 90, 90));
+  image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
+  for (int i = 0; i < 400; ++i) EXPECT_TRUE(align().empty());
+  map_.admit(frame_, image_, {}, {}, surface_);
   EXPECT_TRUE(map_.features().empty());
 }
 
@@ -91,7 +120,7 @@ TEST_F(FeatureMapTest, HoldsNoMoreThanAsked) {
   FeatureConfig config;
   config.max_features = 50;
   FeatureMap small(config);
-  small.admit(frame_, keypoints_, {}, surface_);
+  small.admit(frame_, image_, keypoints_, {}, surface_);
   EXPECT_EQ(small.features().size(), 50u);
 }
 

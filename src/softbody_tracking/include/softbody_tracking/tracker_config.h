@@ -17,7 +17,7 @@ struct FeatureConfig {
   int max_hamming_distance = 64;  ///< of 256 bits
   double max_disagreement_m =
       0.006;            ///< residual against the neighbours' median residual; more is an outlier
-  double weight = 0.1;  ///< of a feature target
+  double weight = 0.5;  ///< of a feature target
 };
 
 /// Depth pixels as targets on the visible surface.

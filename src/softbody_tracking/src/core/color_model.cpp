@@ -36,6 +36,17 @@ cv::Mat1f smoothed(const cv::Mat1f& counts) {
   return result;
 }
 
+/// The middle of every 8 by 8 by 8 colours.
+cv::Mat3b paletteInLab() {
+  cv::Mat3b palette(1, 32 * 32 * 32), lab;
+  for (int i = 0; i < palette.cols; ++i) {
+    const auto middle = [](int bin) { return static_cast<uchar>(8 * bin + 4); };
+    palette(0, i) = {middle(i >> 10), middle(i >> 5 & 31), middle(i & 31)};
+  }
+  cv::cvtColor(palette, lab, cv::COLOR_BGR2Lab);
+  return lab;
+}
+
 cv::Mat3b toLab(const cv::Mat3b& color) {
   cv::Mat blurred;
   cv::Mat3b lab;
@@ -58,18 +69,18 @@ void ColorModel::learn(const cv::Mat3b& color, const cv::Mat1b& mask) {
   const cv::Mat1f density = smoothed(counts);
   // The density that a typical pixel of the body meets: sum of squares over sum.
   const double typical = cv::sum(density.mul(counts))[0] / cv::sum(counts)[0];
-  histogram_ = density / typical;
+  of_body_.create(1, 32 * 32 * 32);
+  const cv::Mat3b palette = paletteInLab();
+  for (int i = 0; i < palette.cols; ++i) {
+    of_body_(0, i) = density(binOf(palette(0, i))) >= kSmallestDensity * typical ? 255 : 0;
+  }
 }
 
 cv::Mat1b ColorModel::mask(const cv::Mat3b& color, const cv::Rect& region) const {
   if (!learned()) return cv::Mat1b(color.size(), 255);
   cv::Mat1b result(color.size(), 0);
-  if (region.empty()) return result;
-  const cv::Mat3b lab = toLab(color(region));
-  for (int v = 0; v < lab.rows; ++v) {
-    for (int u = 0; u < lab.cols; ++u) {
-      if (histogram_(binOf(lab(v, u))) >= kSmallestDensity) result(v + region.y, u + region.x) = 255;
-    }
+  for (int v = region.y; v < region.br().y; ++v) {
+    for (int u = region.x; u < region.br().x; ++u) result(v, u) = belongs(color(v, u)) ? 255 : 0;
   }
   return result;
 }

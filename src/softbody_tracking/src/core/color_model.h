@@ -12,15 +12,19 @@ class ColorModel {
   /// @param mask pixels of the body (non-zero). Few pixels (< 200) leave the model unlearned: everything
   /// passes.
   void learn(const cv::Mat3b& color, const cv::Mat1b& mask);
-  bool learned() const { return !histogram_.empty(); }
+  bool learned() const { return !of_body_.empty(); }
 
+  /// Whether a pixel's colour (blue, green, red) is one of the body's; everything is before learn().
+  bool belongs(const cv::Vec3b& color) const {
+    return !learned() || of_body_(0, (color[0] >> 3 << 10) | (color[1] >> 3 << 5) | color[2] >> 3) != 0;
+  }
   /// 255 where a pixel's colour is one of the body's, 0 elsewhere, inside the region; size of the image.
   cv::Mat1b mask(const cv::Mat3b& color, const cv::Rect& region) const;
 
-  void reset() { histogram_.release(); }
+  void reset() { of_body_.release(); }
 
  private:
-  cv::Mat1f histogram_;  ///< density relative to the mean over the body's own pixels, one row a bin
+  cv::Mat1b of_body_;  ///< one entry for every 8 by 8 by 8 colours
 };
 
 }  // namespace softbody

@@ -2,84 +2,144 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace softbody {
 namespace {
 
-constexpr double kMostGrazing = 0.2;  // cosine between normal and ray below which depth says little
+constexpr double kMostGrazing = 0.2;           // cosine between normal and ray below which depth says little
+constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction that an occluder's end may be
+constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
 
-/// The depth differences of one block of pixels.
-struct BlockDepth {
-  int measured = 0, agreeing = 0, nearer = 0, farther = 0, foreign = 0;
-  double difference = 0.0;  ///< mean of the agreeing pixels: measured minus predicted [m]
+enum class BlockKind { kUnmeasured, kAgrees, kOccluded, kAbsent };
+
+/// What a block of pixels shows.
+struct Block {
+  BlockKind kind = BlockKind::kUnmeasured;
+  cv::Point center;          ///< where the sample is now [px]
+  double predicted = 0.0;    ///< depth of the sample's plane there [m]
+  double difference = 0.0;   ///< mean of the agreeing pixels: measured minus predicted [m]
+  Eigen::Vector3d position;  ///< the sample's, moved [m]
+  Eigen::Vector3d normal;
 };
 
-BlockDepth measureBlock(const RgbdFrame& frame, const RasterImage& image, const cv::Mat1b& body_colors,
-                        const cv::Rect& block, double max_distance) {
-  BlockDepth result;
-  double sum = 0.0;
-  for (int v = block.y; v < block.y + block.height; ++v) {
-    for (int u = block.x; u < block.x + block.width; ++u) {
-      const float z = frame.depth(v, u);
-      if (image.triangle(v, u) < 0 || z <= 0.0f) continue;
-      ++result.measured;
-      const double difference = z - image.depth(v, u);
-      if (difference < -max_distance) {
-        ++result.nearer;
-      } else if (difference > max_distance) {
-        ++result.farther;
-      } else if (body_colors(v, u) == 0) {
-        ++result.foreign;
+/// Counts a block's pixels. The surface's shape around the sample is the rendered one.
+void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& rendered_center, int size,
+             const ColorModel& colors, double max_distance, Block* block) {
+  const cv::Rect frame_size(cv::Point(), frame.depth.size());
+  const auto nearer_by = static_cast<float>(block->predicted) - image.depth(rendered_center);
+  const auto gate = static_cast<float>(max_distance);
+  int measured = 0, agreeing = 0, nearer = 0, farther = 0;
+  float sum = 0.0f;
+  for (int j = -(size / 2); j < size - size / 2; ++j) {
+    for (int i = -(size / 2); i < size - size / 2; ++i) {
+      const cv::Point rendered = rendered_center + cv::Point(i, j), pixel = block->center + cv::Point(i, j);
+      if (!frame_size.contains(rendered) || !frame_size.contains(pixel)) continue;
+      const float z = frame.depth(pixel);
+      if (image.triangle(rendered) < 0 || z <= 0.0f) continue;
+      ++measured;
+      const float difference = z - image.depth(rendered) - nearer_by;
+      if (difference < -gate) {
+        ++nearer;
+      } else if (difference > gate) {
+        ++farther;
+      } else if (!colors.belongs(frame.color(pixel))) {
+        ++nearer;
       } else {
-        ++result.agreeing;
+        ++agreeing;
         sum += difference;
       }
     }
   }
-  if (result.agreeing > 0) result.difference = sum / result.agreeing;
-  return result;
+  if (measured == 0) return;
+  if (agreeing > 0) block->difference = sum / static_cast<float>(agreeing);
+  block->kind = BlockKind::kUnmeasured;
+  if (2 * nearer > measured) {
+    block->kind = BlockKind::kOccluded;
+    block->difference = frame.depth(block->center) - block->predicted;
+  } else if (2 * farther > measured) {
+    block->kind = BlockKind::kAbsent;
+  } else if (2 * agreeing > measured) {
+    block->kind = BlockKind::kAgrees;
+  }
 }
 
-/// Block size that yields about the wanted number of blocks on the covered pixels.
-int blockSize(const RasterImage& image, int wanted) {
-  const int covered = image.region.empty() ? 0 : cv::countNonZero(image.depth(image.region));
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(covered) / wanted))));
+/// The sample where the rigid motion takes it, and the frame's depth there.
+Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSample& sample, int size,
+              const Eigen::Isometry3d& motion, const ColorModel& colors, double max_distance) {
+  Block block;
+  block.position = motion * sample.position;
+  block.normal = motion.linear() * sample.normal;
+  if (!(block.position.z() > 0.0)) return block;
+  const Eigen::Vector2d pixel = frame.camera.project(block.position);
+  if (!frame.camera.contains(pixel.x(), pixel.y())) return block;
+  block.center = {cvRound(pixel.x()), cvRound(pixel.y())};
+  const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
+  if (-slope < 0.05) return block;
+  block.predicted = block.normal.dot(block.position) / slope;
+  measure(frame, image, sample.center, size, colors, max_distance, &block);
+  return block;
+}
+
+/// The rest of a hand of which one end is recognised as an occluder.
+void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
+  std::vector<cv::Point> open;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.cols; ++column) {
+      const int b = grid(row, column);
+      if (b >= 0 && (*blocks)[b].kind == BlockKind::kOccluded) open.emplace_back(column, row);
+    }
+  }
+  const cv::Rect inside(cv::Point(), grid.size());
+  while (!open.empty()) {
+    const cv::Point place = open.back();
+    open.pop_back();
+    const Block& occluder = (*blocks)[grid(place)];
+    for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+      const cv::Point next = place + step;
+      if (!inside.contains(next) || grid(next) < 0) continue;
+      Block& block = (*blocks)[grid(next)];
+      const double depth_step = block.predicted + block.difference - occluder.predicted - occluder.difference;
+      const bool goes_on = block.kind == BlockKind::kAgrees && block.difference < -kOccluderStep &&
+                           std::abs(depth_step) < kOccluderContinuity;
+      if (!goes_on) continue;
+      block.kind = BlockKind::kOccluded;
+      open.push_back(next);
+    }
+  }
 }
 
 }  // namespace
 
-DepthAssociations associateDepth(const RgbdFrame& frame, const PredictedSurface& surface,
-                                 const cv::Mat1b& body_colors, double volume_edge_m,
-                                 const DepthConfig& config) {
-  const RasterImage& image = surface.image();
-  const int size = blockSize(image, config.max_targets);
-  DepthAssociations result;
-  for (int v = image.region.y; v < image.region.br().y; v += size) {
-    for (int u = image.region.x; u < image.region.br().x; u += size) {
-      const cv::Rect block = cv::Rect(u, v, size, size) & image.region;
-      const cv::Point center(block.x + block.width / 2, block.y + block.height / 2);
-      if (image.triangle(center) < 0) continue;
-      const BlockDepth depth = measureBlock(frame, image, body_colors, block, config.max_distance_m);
-      if (depth.measured == 0) continue;
-      ++result.visible_blocks;
-      if (2 * (depth.nearer + depth.foreign) > depth.measured) ++result.occluded_blocks;
-      if (2 * depth.farther > depth.measured) ++result.absent_blocks;
-      if (2 * depth.agreeing <= depth.measured) continue;
+DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
+                                 const SurfaceSamples& surface, const Eigen::Isometry3d& motion,
+                                 const ColorModel& colors, double volume_edge_m, const DepthConfig& config) {
+  std::vector<Block> blocks;
+  blocks.reserve(surface.samples.size());
+  for (const SurfaceSample& sample : surface.samples) {
+    blocks.push_back(observe(frame, image, sample, surface.block_px, motion, colors, config.max_distance_m));
+  }
+  growOccluders(surface.grid, &blocks);
 
-      const Eigen::Vector3d predicted = frame.camera.unproject(center.x, center.y, image.depth(center));
-      const Eigen::Vector3d normal = surface.normal(center);
-      if (-normal.dot(predicted.normalized()) < kMostGrazing) continue;
-      Association association;
-      association.kind = TargetKind::kDepth;
-      association.place = surface.materialPoint(center);
-      association.predicted = predicted;
-      association.measured =
-          frame.camera.unproject(center.x, center.y, image.depth(center) + depth.difference);
-      association.normal = normal;
-      const double block_width_m = size * predicted.z() / frame.camera.fx;
-      association.weight = config.weight * std::pow(block_width_m / volume_edge_m, 2);
-      result.associations.push_back(association);
-    }
+  DepthAssociations result;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = blocks[i];
+    if (block.kind == BlockKind::kUnmeasured) continue;
+    ++result.visible_blocks;
+    result.occluded_blocks += block.kind == BlockKind::kOccluded ? 1 : 0;
+    result.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
+    if (block.kind != BlockKind::kAgrees) continue;
+    if (-block.normal.dot(block.position.normalized()) < kMostGrazing) continue;
+    Association association;
+    association.kind = TargetKind::kDepth;
+    association.place = surface.samples[i].place;
+    association.predicted = block.position;
+    association.measured =
+        frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);
+    association.normal = block.normal;
+    const double block_width_m = surface.block_px * block.position.z() / frame.camera.fx;
+    association.weight = config.weight * std::pow(block_width_m / volume_edge_m, 2);
+    result.associations.push_back(association);
   }
   return result;
 }

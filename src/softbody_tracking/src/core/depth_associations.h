@@ -3,9 +3,10 @@
 #include <vector>
 
 #include "association.h"
-#include "predicted_surface.h"
+#include "color_model.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tracker_config.h"
+#include "surface_samples.h"
 
 namespace softbody {
 
@@ -18,11 +19,12 @@ struct DepthAssociations {
 };
 
 /// Associates visible surface with the depth measured along the same rays (projective association, point to
-/// plane). A block of pixels gives one association, with the mean of its depth differences.
-/// @param body_colors 255 where the colour may be the body's; size of the frame.
+/// plane). A block of pixels gives one association, with the mean of its depth differences. What goes on from
+/// an occluder without a step in depth, nearer than the body should be, belongs to the occluder.
+/// @param image the surface as rendered when it was sampled. @param motion rigid, of the surface since then.
 /// @param volume_edge_m mean edge of the tets: depth weights are per square of it.
-DepthAssociations associateDepth(const RgbdFrame& frame, const PredictedSurface& surface,
-                                 const cv::Mat1b& body_colors, double volume_edge_m,
-                                 const DepthConfig& config);
+DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
+                                 const SurfaceSamples& surface, const Eigen::Isometry3d& motion,
+                                 const ColorModel& colors, double volume_edge_m, const DepthConfig& config);
 
 }  // namespace softbody

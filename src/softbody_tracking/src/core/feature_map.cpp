@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace softbody {
 namespace {
@@ -14,9 +15,10 @@ constexpr float kSamePlacePx = 3.0f;        // two keypoints nearer than this ar
 constexpr float kFreeRadiusPx = 8.0f;       // around a known feature no other is admitted
 constexpr int kNeighborhoodPx = 40;
 constexpr std::size_t kFewestNeighbors = 4;
-constexpr double kBindTolerance = 0.01;  // [m], surface and depth must agree where a feature is bound
-constexpr double kMostGrazing = 0.35;    // cosine of normal and ray where a feature is bound
-constexpr int kFewestDepths = 20;        // of the 25 pixels around a feature: fewer is a depth edge
+constexpr double kBindTolerance = 0.01;        // [m], surface and depth must agree where a feature is bound
+constexpr double kMostGrazing = 0.35;          // cosine of normal and ray where a feature is bound
+constexpr int kFewestDepths = 20;              // of the 25 pixels around a feature: fewer is a depth edge
+constexpr float kSmallestCorrelation = 0.75f;  // of a patch that is found again
 constexpr int kTrialFrames = 20;
 constexpr double kWorstHitRate = 0.2;
 
@@ -97,32 +99,38 @@ double median(std::vector<double>* values) {
   return *middle;
 }
 
+Eigen::Vector3d motionOf(const FeatureMatch& match) {
+  return match.association.measured - match.association.predicted;
+}
+
 /// Local rigidity: neighbouring features move alike relative to the prediction.
-void markOutliers(const Pinhole& camera, const std::vector<Keypoint>& keypoints, double max_disagreement,
-                  std::vector<FeatureMatch>* matches) {
+void markOutliers(const Pinhole& camera, double max_disagreement, std::vector<FeatureMatch>* matches) {
+  std::map<std::pair<int, int>, std::vector<int>> cells;
+  const auto cellOf = [](const cv::Point2f& pixel) {
+    return std::pair<int, int>(static_cast<int>(pixel.x) / kNeighborhoodPx,
+                               static_cast<int>(pixel.y) / kNeighborhoodPx);
+  };
   PixelGrid grid(camera, kNeighborhoodPx);
   for (std::size_t m = 0; m < matches->size(); ++m) {
-    grid.insert(keypoints[(*matches)[m].keypoint].pixel, static_cast<int>(m));
+    const cv::Point2f pixel = (*matches)[m].pixel;
+    grid.insert(pixel, static_cast<int>(m));
+    cells[cellOf(pixel)].push_back(static_cast<int>(m));
   }
-  const auto motion = [matches](int m) {
-    return Eigen::Vector3d((*matches)[m].association.measured - (*matches)[m].association.predicted);
-  };
-  for (std::size_t m = 0; m < matches->size(); ++m) {
-    const cv::Point2f pixel = keypoints[(*matches)[m].keypoint].pixel;
+  // A cell's matches have the same neighbours.
+  for (const auto& [cell, members] : cells) {
     std::array<std::vector<double>, 3> motions;
+    const cv::Point2f pixel = (*matches)[members.front()].pixel;
     grid.around(pixel.x, pixel.y, [&](int other) {
-      for (int k = 0; k < 3; ++k) motions[k].push_back(motion(other)[k]);
+      for (int k = 0; k < 3; ++k) motions[k].push_back(motionOf((*matches)[other])[k]);
     });
-    if (motions[0].size() < kFewestNeighbors) {
-      (*matches)[m].inlier = motion(static_cast<int>(m)).norm() < max_disagreement;
-      continue;
+    Eigen::Vector3d typical = Eigen::Vector3d::Zero();
+    if (motions[0].size() >= kFewestNeighbors)
+      typical = {median(&motions[0]), median(&motions[1]), median(&motions[2])};
+    for (int m : members) {
+      FeatureMatch& match = (*matches)[m];
+      const Eigen::Vector3d motion = motionOf(match);
+      match.inlier = motion.norm() < kLargestMotion && (motion - typical).norm() < max_disagreement;
     }
-    if (motion(static_cast<int>(m)).norm() > kLargestMotion) {
-      (*matches)[m].inlier = false;
-      continue;
-    }
-    const Eigen::Vector3d typical(median(&motions[0]), median(&motions[1]), median(&motions[2]));
-    (*matches)[m].inlier = (motion(static_cast<int>(m)) - typical).norm() < max_disagreement;
   }
 }
 
@@ -146,46 +154,87 @@ double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
   return count >= kFewestDepths ? sum / count : 0.0;
 }
 
-std::vector<FeatureMatch> FeatureMap::match(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
-                                            const PredictedSurface& surface) {
-  PixelGrid grid(frame.camera, config_.search_radius_px);
-  for (std::size_t k = 0; k < keypoints.size(); ++k) grid.insert(keypoints[k].pixel, static_cast<int>(k));
+std::vector<FeatureMap::Prediction> FeatureMap::predict(const PredictedSurface& surface) const {
+  std::vector<Prediction> predictions;
+  for (std::size_t f = 0; f < features_.size(); ++f) {
+    Prediction p;
+    p.feature = static_cast<int>(f);
+    p.position = surface.position(features_[f].place);
+    if (!predictedVisible(surface, p.position, &p.pixel)) continue;
+    p.warp = surface.imageWarp(features_[f].place, features_[f].gradient);
+    predictions.push_back(p);
+  }
+  return predictions;
+}
 
+/// Where the patch is, if it is anywhere around.
+std::optional<cv::Point2f> FeatureMap::locate(const GrayPyramid& image, const Prediction& prediction,
+                                              const cv::Point2f& start, int coarsest_level) const {
+  const FeaturePatch::Alignment found =
+      features_[prediction.feature].patch.align(image, prediction.warp, start, coarsest_level);
+  const cv::Point2f moved = found.pixel - prediction.pixel;
+  const auto radius = static_cast<float>(config_.search_radius_px);
+  if (found.correlation < kSmallestCorrelation || moved.dot(moved) > radius * radius) return std::nullopt;
+  return found.pixel;
+}
+
+/// Tries full resolution first: that is enough where the prediction is good.
+bool FeatureMap::addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
+                          const cv::Point2f& start, std::vector<FeatureMatch>* matches) const {
+  std::optional<cv::Point2f> pixel = locate(image, prediction, start, 0);
+  if (!pixel) pixel = locate(image, prediction, start, GrayPyramid::kLevels - 1);
+  if (!pixel) return false;
+  const double z = featureDepth(frame.depth, *pixel);
+  if (z <= 0.0) return false;
+  FeatureMatch match;
+  match.feature = prediction.feature;
+  match.pixel = *pixel;
+  match.association.kind = TargetKind::kFeature;
+  match.association.place = features_[prediction.feature].place;
+  match.association.predicted = prediction.position;
+  match.association.measured = frame.camera.unproject(pixel->x, pixel->y, z);
+  match.association.weight = config_.weight;
+  matches->push_back(match);
+  return true;
+}
+
+std::vector<FeatureMatch> FeatureMap::align(const RgbdFrame& frame, const GrayPyramid& image,
+                                            const PredictedSurface& surface) {
+  std::vector<FeatureMatch> matches;
+  missed_.clear();
+  const std::vector<Prediction> predictions = predict(surface);
+  for (const Prediction& prediction : predictions) {
+    ++features_[prediction.feature].predicted;
+    if (!addMatch(frame, image, prediction, prediction.pixel, &matches)) missed_.push_back(prediction);
+  }
+  expected_ = static_cast<int>(predictions.size());
+  return matches;
+}
+
+void FeatureMap::search(const RgbdFrame& frame, const GrayPyramid& image,
+                        const std::vector<Keypoint>& keypoints, const PredictedSurface& surface,
+                        std::vector<FeatureMatch>* matches) {
+  PixelGrid grid(surface.camera(), config_.search_radius_px);
+  for (std::size_t k = 0; k < keypoints.size(); ++k) grid.insert(keypoints[k].pixel, static_cast<int>(k));
   std::vector<int> owner(keypoints.size(), -1),
       owner_distance(keypoints.size(), std::numeric_limits<int>::max());
-  std::vector<Eigen::Vector3d> predicted(features_.size());
-  expected_ = 0;
-  for (std::size_t f = 0; f < features_.size(); ++f) {
-    predicted[f] = surface.position(features_[f].place);
-    cv::Point2f pixel;
-    if (!predictedVisible(surface, predicted[f], &pixel)) continue;
-    ++features_[f].predicted;
-    ++expected_;
+  for (std::size_t m = 0; m < missed_.size(); ++m) {
     int distance = 0;
-    const int k = bestKeypoint(features_[f].descriptor, pixel, keypoints, grid, config_, &distance);
+    const int k = bestKeypoint(features_[missed_[m].feature].descriptor, missed_[m].pixel, keypoints, grid,
+                               config_, &distance);
     if (k >= 0 && distance < owner_distance[k]) {
-      owner[k] = static_cast<int>(f);
+      owner[k] = static_cast<int>(m);
       owner_distance[k] = distance;
     }
   }
-
-  std::vector<FeatureMatch> matches;
   for (std::size_t k = 0; k < keypoints.size(); ++k) {
-    const double z = owner[k] >= 0 ? featureDepth(frame.depth, keypoints[k].pixel) : 0.0;
-    if (z <= 0.0) continue;
-    FeatureMatch match;
-    match.feature = owner[k];
-    match.keypoint = static_cast<int>(k);
-    match.association.kind = TargetKind::kFeature;
-    match.association.place = features_[owner[k]].place;
-    match.association.predicted = predicted[owner[k]];
-    match.association.measured = frame.camera.unproject(keypoints[k].pixel.x, keypoints[k].pixel.y, z);
-    match.association.weight = config_.weight;
-    matches.push_back(match);
+    if (owner[k] >= 0) addMatch(frame, image, missed_[owner[k]], keypoints[k].pixel, matches);
   }
-  markOutliers(frame.camera, keypoints, config_.max_disagreement_m, &matches);
-  for (const FeatureMatch& match : matches) features_[match.feature].matched += match.inlier ? 1 : 0;
-  return matches;
+}
+
+void FeatureMap::judge(const Pinhole& camera, std::vector<FeatureMatch>* matches) {
+  markOutliers(camera, config_.max_disagreement_m, matches);
+  for (const FeatureMatch& match : *matches) features_[match.feature].matched += match.inlier ? 1 : 0;
 }
 
 void FeatureMap::retire() {
@@ -195,8 +244,9 @@ void FeatureMap::retire() {
   features_.erase(std::remove_if(features_.begin(), features_.end(), hopeless), features_.end());
 }
 
-void FeatureMap::admit(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
-                       const std::vector<FeatureMatch>& matches, const PredictedSurface& surface) {
+void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
+                       const std::vector<Keypoint>& keypoints, const std::vector<FeatureMatch>& matches,
+                       const PredictedSurface& surface) {
   std::vector<cv::Point2f> taken;
   PixelGrid grid(frame.camera, static_cast<int>(kFreeRadiusPx));
   const auto take = [&](const cv::Point2f& pixel) {
@@ -211,7 +261,7 @@ void FeatureMap::admit(const RgbdFrame& frame, const std::vector<Keypoint>& keyp
     });
     return free;
   };
-  for (const FeatureMatch& match : matches) take(keypoints[match.keypoint].pixel);
+  for (const FeatureMatch& match : matches) take(match.pixel);
   for (const MapFeature& feature : features_) {
     cv::Point2f pixel;
     if (predictedVisible(surface, surface.position(feature.place), &pixel)) take(pixel);
@@ -228,8 +278,10 @@ void FeatureMap::admit(const RgbdFrame& frame, const std::vector<Keypoint>& keyp
     const Eigen::Vector3d ray = frame.camera.unproject(pixel.x, pixel.y, 1.0).normalized();
     if (-surface.normal(pixel).dot(ray) < kMostGrazing) continue;
     MapFeature feature;
+    if (!feature.patch.learn(image, keypoint.pixel)) continue;
     feature.id = next_id_++;
     feature.place = surface.materialPoint(keypoint.pixel);
+    feature.gradient = surface.placeGradient(feature.place, keypoint.pixel);
     feature.descriptor = keypoint.descriptor;
     feature.reference = frame.camera.unproject(keypoint.pixel.x, keypoint.pixel.y, z);
     features_.push_back(feature);
@@ -240,6 +292,7 @@ void FeatureMap::admit(const RgbdFrame& frame, const std::vector<Keypoint>& keyp
 
 void FeatureMap::reset() {
   features_.clear();
+  missed_.clear();
   next_id_ = 0;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "association.h"
+#include "feature_patch.h"
+#include "gray_pyramid.h"
 #include "orb_extractor.h"
 #include "predicted_surface.h"
 #include "softbody_tracking/rgbd_frame.h"
@@ -15,6 +18,8 @@ struct MapFeature {
   int id = 0;
   MaterialPoint place;
   Descriptor descriptor{};
+  FeaturePatch patch;
+  PlaceGradient gradient = PlaceGradient::Zero();       ///< of the place in the image that the patch is from
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< measured position when bound, camera frame [m]
   int predicted = 0;                                    ///< frames in which it should have been seen
   int matched = 0;                                      ///< frames in which it was
@@ -22,39 +27,62 @@ struct MapFeature {
 
 /// A map feature found in a frame.
 struct FeatureMatch {
-  int feature = 0;          ///< index into FeatureMap::features()
-  int keypoint = 0;         ///< index into the frame's keypoints
+  int feature = 0;  ///< index into FeatureMap::features()
+  cv::Point2f pixel;
   Association association;  ///< to the measured 3-D position, all three directions
   bool inlier = true;
 };
 
-/// ORB features bound to the body where they lie, matched in a window around their predicted positions.
+/// ORB features bound to the body where they lie and found again around their predicted positions: by
+/// aligning their patches with sub-pixel precision, and those that moved too far for it by their descriptors.
 class FeatureMap {
  public:
   explicit FeatureMap(const FeatureConfig& config) : config_(config) {}
 
   const std::vector<MapFeature>& features() const { return features_; }
 
-  /// Matches with outliers marked: a match that disagrees with the median motion of its neighbourhood is one,
-  /// and so is one further from its prediction than a body moves in a frame.
-  std::vector<FeatureMatch> match(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
+  /// Aligns the patches of the features that should be visible.
+  std::vector<FeatureMatch> align(const RgbdFrame& frame, const GrayPyramid& image,
                                   const PredictedSurface& surface);
 
-  /// How many features the last match() expected to see.
+  /// Adds matches, by descriptor and then aligned, of the visible features that the last align() did not
+  /// find.
+  void search(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
+              const PredictedSurface& surface, std::vector<FeatureMatch>* matches);
+
+  /// Marks outliers and remembers merits: a match that disagrees with the median motion of its neighbourhood
+  /// is an outlier, and so is one further from its prediction than a body moves in a frame.
+  void judge(const Pinhole& camera, std::vector<FeatureMatch>* matches);
+
+  /// How many features the last align() expected to see.
   int expected() const { return expected_; }
 
   /// Binds keypoints on visible surface where no feature is, and drops features that are hardly ever found
   /// again.
-  void admit(const RgbdFrame& frame, const std::vector<Keypoint>& keypoints,
+  void admit(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
              const std::vector<FeatureMatch>& matches, const PredictedSurface& surface);
 
   void reset();
 
  private:
+  /// A feature that should be seen, and where.
+  struct Prediction {
+    int feature = 0;
+    cv::Point2f pixel;
+    Eigen::Vector3d position;
+    Eigen::Matrix2f warp;
+  };
+
+  std::vector<Prediction> predict(const PredictedSurface& surface) const;
+  std::optional<cv::Point2f> locate(const GrayPyramid& image, const Prediction& prediction,
+                                    const cv::Point2f& start, int coarsest_level) const;
+  bool addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
+                const cv::Point2f& start, std::vector<FeatureMatch>* matches) const;
   void retire();
 
   FeatureConfig config_;
   std::vector<MapFeature> features_;
+  std::vector<Prediction> missed_;  ///< by the last align()
   int next_id_ = 0;
   int expected_ = 0;
 };

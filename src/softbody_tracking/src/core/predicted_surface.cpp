@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 
@@ -10,7 +11,17 @@ namespace softbody {
 PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology& surface)
     : volume_(volume),
       surface_(surface),
-      binding_(bindPoints(surface.rest_vertices, volume.rest_vertices, volume.tets)) {}
+      binding_(bindPoints(surface.rest_vertices, volume.rest_vertices, volume.tets)) {
+  rest_inverse_.reserve(static_cast<std::size_t>(volume.tets.rows()));
+  for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) {
+      edges.col(k) =
+          volume.rest_vertices.row(volume.tets(t, k + 1)) - volume.rest_vertices.row(volume.tets(t, 0));
+    }
+    rest_inverse_.emplace_back(edges.inverse());
+  }
+}
 
 void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertices) {
   camera_ = camera;
@@ -19,32 +30,66 @@ void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertic
   rasterize(camera, vertices_, surface_.triangles, &image_);
 }
 
-Eigen::Vector3d PredictedSurface::interpolated(int triangle, const Eigen::Vector3d& barycentric,
-                                               const Points& values) const {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) sum += barycentric[k] * values.row(surface_.triangles(triangle, k)).transpose();
-  return sum;
+void PredictedSurface::move(const Eigen::Isometry3d& motion) {
+  volume_vertices_ = transformed(volume_vertices_, motion);
+  vertices_ = transformed(vertices_, motion);
+}
+
+/// Where the ray through a pixel meets a triangle's plane, in the rest shape.
+Eigen::Vector3d PredictedSurface::restPoint(int triangle, const cv::Point2f& pixel) const {
+  const Eigen::Vector3d ray = camera_.unproject(pixel.x, pixel.y, 1.0);
+  const auto corner = [&](int k) -> Eigen::Vector3d {
+    return vertices_.row(surface_.triangles(triangle, k % 3));
+  };
+  // The ray as a multiple of the corners (Cramer's rule): barycentric coordinates up to scale.
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero();
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double weight = ray.dot(corner(k + 1).cross(corner(k + 2)));
+    rest += weight * surface_.rest_vertices.row(surface_.triangles(triangle, k)).transpose();
+    sum += weight;
+  }
+  return rest / sum;
+}
+
+Eigen::Vector4d PredictedSurface::barycentric(int tet, const Eigen::Vector3d& rest) const {
+  const Eigen::Vector3d weights =
+      rest_inverse_[tet] * (rest - volume_.rest_vertices.row(volume_.tets(tet, 0)).transpose());
+  return {1.0 - weights.sum(), weights.x(), weights.y(), weights.z()};
 }
 
 MaterialPoint PredictedSurface::materialPoint(const cv::Point2f& pixel) const {
   const int triangle = image_.triangle(cvRound(pixel.y), cvRound(pixel.x));
-  // The ray's multiples of the corners: solving sum_k b_k corner_k = z ray gives barycentric coordinates up
-  // to scale.
-  Eigen::Matrix3d corners;
-  for (int k = 0; k < 3; ++k) corners.col(k) = vertices_.row(surface_.triangles(triangle, k)).transpose();
-  const Eigen::Vector3d weights = corners.fullPivLu().solve(camera_.unproject(pixel.x, pixel.y, 1.0));
-  const Eigen::Vector3d rest = interpolated(triangle, weights / weights.sum(), surface_.rest_vertices);
+  const Eigen::Vector3d rest = restPoint(triangle, pixel);
   // One of the tets that hold the triangle's corners holds the point too, or nearly so: far cheaper than a
   // search.
   MaterialPoint best;
   for (int k = 0; k < 3; ++k) {
     const int tet = binding_[surface_.triangles(triangle, k)].tet;
     if (tet == best.tet) continue;
-    const Eigen::Vector4d barycentric =
-        barycentricCoordinates(rest, volume_.rest_vertices, volume_.tets.row(tet));
-    if (best.tet < 0 || barycentric.minCoeff() > best.barycentric.minCoeff()) best = {tet, barycentric};
+    const Eigen::Vector4d weights = barycentric(tet, rest);
+    if (best.tet < 0 || weights.minCoeff() > best.barycentric.minCoeff()) best = {tet, weights};
   }
   return best;
+}
+
+PlaceGradient PredictedSurface::placeGradient(const MaterialPoint& place, const cv::Point2f& pixel) const {
+  const int triangle = image_.triangle(cvRound(pixel.y), cvRound(pixel.x));
+  PlaceGradient gradient;
+  gradient.col(0) = barycentric(place.tet, restPoint(triangle, pixel + cv::Point2f(1, 0)));
+  gradient.col(1) = barycentric(place.tet, restPoint(triangle, pixel + cv::Point2f(0, 1)));
+  return gradient.colwise() - place.barycentric;
+}
+
+Eigen::Matrix2f PredictedSurface::imageWarp(const MaterialPoint& place, const PlaceGradient& gradient) const {
+  Eigen::Matrix<double, 3, 4> corners;
+  for (int k = 0; k < 4; ++k) corners.col(k) = volume_vertices_.row(volume_.tets(place.tet, k));
+  const Eigen::Vector3d p = corners * place.barycentric;
+  const Eigen::Matrix<double, 3, 2> offsets = corners * gradient;
+  Eigen::Matrix<double, 2, 3> projection;
+  projection << camera_.fx / p.z(), 0.0, -camera_.fx * p.x() / (p.z() * p.z()),  //
+      0.0, camera_.fy / p.z(), -camera_.fy * p.y() / (p.z() * p.z());
+  return (projection * offsets).cast<float>();
 }
 
 Eigen::Vector3d PredictedSurface::normal(const cv::Point& pixel) const {

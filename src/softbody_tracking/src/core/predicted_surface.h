@@ -8,6 +8,9 @@
 
 namespace softbody {
 
+/// Change of a MaterialPoint's barycentric coordinates per pixel, 4 by 2.
+using PlaceGradient = Eigen::Matrix<double, 4, 2>;
+
 /// The visual surface where the volume's state puts it, and what the camera sees of it.
 class PredictedSurface {
  public:
@@ -15,6 +18,9 @@ class PredictedSurface {
 
   /// Moves the surface with the volume's vertices (camera frame) and renders it.
   void update(const Pinhole& camera, const Points& volume_vertices);
+
+  /// Moves the surface; the image stays as it was.
+  void move(const Eigen::Isometry3d& motion);
 
   const Pinhole& camera() const { return camera_; }
   const Points& volumeVertices() const { return volume_vertices_; }
@@ -26,17 +32,24 @@ class PredictedSurface {
   /// The place in the rest body that a ray through (u, v) meets, on the plane of the triangle at the nearest
   /// pixel, which must be covered.
   MaterialPoint materialPoint(const cv::Point2f& pixel) const;
+  /// How a place's barycentric coordinates change per pixel to the right (first column) and downwards, on the
+  /// plane of the triangle at the nearest pixel.
+  PlaceGradient placeGradient(const MaterialPoint& place, const cv::Point2f& pixel) const;
+  /// Pixels here per pixel of the image in which the gradient was taken.
+  Eigen::Matrix2f imageWarp(const MaterialPoint& place, const PlaceGradient& gradient) const;
   /// Outward unit normal of the triangle at a visible pixel, camera frame. Not smoothed: near a sharp edge a
   /// mean of both sides' normals would pull the surface off either.
   Eigen::Vector3d normal(const cv::Point& pixel) const;
   Eigen::Vector3d position(const MaterialPoint& place) const;
 
  private:
-  Eigen::Vector3d interpolated(int triangle, const Eigen::Vector3d& barycentric, const Points& values) const;
+  Eigen::Vector3d restPoint(int triangle, const cv::Point2f& pixel) const;
+  Eigen::Vector4d barycentric(int tet, const Eigen::Vector3d& rest) const;
 
   TetTopology volume_;
   MeshTopology surface_;
   std::vector<MaterialPoint> binding_;
+  std::vector<Eigen::Matrix3d> rest_inverse_;  ///< #T: takes offsets from a tet's first vertex to weights
   Pinhole camera_;
   Points volume_vertices_, vertices_;
   RasterImage image_;

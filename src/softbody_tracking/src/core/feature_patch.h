@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "gray_pyramid.h"
+
+namespace softbody {
+
+/// What a feature's surroundings looked like when it was bound, for sub-pixel alignment (inverse
+/// compositional Lucas-Kanade, Baker and Matthews 2004; gain and offset of the brightness are free).
+class FeaturePatch {
+ public:
+  struct Alignment {
+    cv::Point2f pixel;         ///< in the frame
+    float correlation = 0.0f;  ///< normalised, at full resolution; -1..1
+  };
+
+  /// @return false if the pixel is too near to the region's border, or its surroundings do not fix a
+  /// position.
+  bool learn(const GrayPyramid& image, const cv::Point2f& pixel);
+
+  /// Looks for the patch from a start, from the given level of the pyramid down to full resolution.
+  /// @param warp how the surface shows now: pixels of this frame per pixel of the one where it was learned.
+  /// @return correlation -1 where it leaves the image.
+  Alignment align(const GrayPyramid& image, const Eigen::Matrix2f& warp, const cv::Point2f& start,
+                  int coarsest_level) const;
+
+ private:
+  static constexpr int kSide = 11;
+  static constexpr int kSize = kSide * kSide;
+  using Samples = Eigen::Array<float, kSize, 1>;
+
+  struct Level {
+    Samples values;  ///< mean 0, norm 1
+    Samples dx, dy;  ///< derivative of the values per pixel of the level
+    Eigen::Matrix2f inverse_hessian;
+  };
+
+  static bool sample(const cv::Mat1b& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
+                     Samples* values);
+  static bool normalize(Samples* values);
+  static bool learnLevel(const cv::Mat1b& image, const cv::Point2f& center, Level* level);
+  static float alignLevel(const Level& level, const cv::Mat1b& image, const Eigen::Matrix2f& warp,
+                          cv::Point2f* center);
+
+  std::vector<Level> levels_;  ///< full resolution first; coarser ones as far as they fix a position
+};
+
+}  // namespace softbody

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+
+namespace softbody {
+
+/// Grey images of a region at full, half and quarter resolution. Pixel (u, v) of the frame lies at
+/// ((u, v) - origin) / 2^level.
+class GrayPyramid {
+ public:
+  static constexpr int kLevels = 3;
+
+  /// @param region of the frame; widened a little so that it halves evenly.
+  void build(const cv::Mat3b& color, const cv::Rect& region);
+
+  const cv::Mat1b& level(int l) const { return levels_[l]; }
+  cv::Point2f toLevel(const cv::Point2f& pixel, int l) const {
+    return (pixel - origin_) * (1.0f / static_cast<float>(1 << l));
+  }
+  cv::Point2f toFrame(const cv::Point2f& place, int l) const {
+    return place * static_cast<float>(1 << l) + origin_;
+  }
+
+ private:
+  cv::Point2f origin_;
+  std::array<cv::Mat1b, kLevels> levels_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,39 @@
+#include "surface_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace softbody {
+namespace {
+
+/// Block size that yields about the wanted number of blocks on the covered pixels.
+int blockSize(const RasterImage& image, int wanted) {
+  const int covered = image.region.empty() ? 0 : cv::countNonZero(image.depth(image.region));
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(covered) / wanted))));
+}
+
+}  // namespace
+
+SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted) {
+  const RasterImage& image = surface.image();
+  const cv::Rect& region = image.region;
+  SurfaceSamples result;
+  result.block_px = blockSize(image, wanted);
+  const int size = result.block_px;
+  result.grid.create((region.height + size - 1) / size, (region.width + size - 1) / size);
+  result.grid.setTo(-1);
+  for (int row = 0; row < result.grid.rows; ++row) {
+    for (int column = 0; column < result.grid.cols; ++column) {
+      const cv::Point center(std::min(region.x + column * size + size / 2, region.br().x - 1),
+                             std::min(region.y + row * size + size / 2, region.br().y - 1));
+      if (image.triangle(center) < 0) continue;
+      result.grid(row, column) = static_cast<int>(result.samples.size());
+      result.samples.push_back({center, surface.materialPoint(center),
+                                surface.camera().unproject(center.x, center.y, image.depth(center)),
+                                surface.normal(center)});
+    }
+  }
+  return result;
+}
+
+}  // namespace softbody
