@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/corotated_elasticity.h"
+#include "core/positive_definite_solver.h"
 #include "core/quasi_newton.h"
 #include "core/step_potential.h"
 #include "test_meshes.h"
@@ -21,8 +22,11 @@ struct Problem {
       Eigen::VectorXd::Constant(count, 0.5), topology.rest_vertices, Points::Zero(count, 3), {}};
   TargetEnergy& targets = potential.targets;
   TetMatrix matrix{topology.tets, count};
-  QuasiNewton minimizer{count};
+  QuasiNewton<Points> minimizer{count};
 
+  static QuasiNewton<Points>::Metric solving(PositiveDefiniteSolver& solver) {
+    return [&solver](const Points& B, Points* X) { solver.solve(B, X); };
+  }
   StepReport minimize(int iterations, double tolerance_m, Points* x) {
     matrix.values().setZero();
     matrix.addToDiagonal(potential.inertia);
@@ -30,7 +34,7 @@ struct Problem {
     targets.addMetric(&matrix);
     PositiveDefiniteSolver metric(matrix.lower());
     metric.factorize(matrix.lower());
-    return minimizer.minimize([this](const Points& y, Points* g) { return evaluate(y, g); }, metric,
+    return minimizer.minimize([this](const Points& y, Points* g) { return evaluate(y, g); }, solving(metric),
                               {iterations, tolerance_m}, x);
   }
   double energyAt(const Points& x) const {
@@ -78,7 +82,7 @@ TEST(QuasiNewton, SolvesAQuadraticInOneIteration) {
         *gradient = 2.0 * (y - goal);
         return (y - goal).squaredNorm();
       },
-      metric, {1, 1e-9}, &x);
+      Problem::solving(metric), {1, 1e-9}, &x);
   EXPECT_EQ(report.iterations, 1);
   EXPECT_LT((x - goal).norm(), 1e-12);
 }
@@ -133,7 +137,7 @@ TEST(QuasiNewton, FallsInEveryIterationAcrossNegativeCurvature) {
     // Far down the waves drown in rounding.
     for (int iterations = 1; previous > -1e8 && iterations <= 50; ++iterations) {
       Points x = x0;
-      problem.minimizer.minimize(washboard, metric, {iterations, 0.0}, &x);
+      problem.minimizer.minimize(washboard, Problem::solving(metric), {iterations, 0.0}, &x);
       const double energy = washboard(x, &unused);
       ASSERT_LT(energy, previous) << "start " << start << ", iteration " << iterations;
       previous = energy;

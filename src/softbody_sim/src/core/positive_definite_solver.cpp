@@ -37,6 +37,8 @@ struct PositiveDefiniteSolver::Implementation {
     common.print = 0;
     common.supernodal = CHOLMOD_SIMPLICIAL;
     common.final_ll = 1;  // LDL' would accept an indefinite matrix
+    common.final_pack = 1;
+    common.final_monotonic = 1;
   }
   ~Implementation() {
     for (cholmod_dense** workspace : {&B, &X, &Y, &E}) cholmod_free_dense(workspace, &common);
@@ -63,6 +65,16 @@ void PositiveDefiniteSolver::factorize(const Eigen::SparseMatrix<double>& lower)
   cholmod_sparse A = view(lower);
   cholmod_factorize(&A, s.factor, &s.common);
   if (s.common.status != CHOLMOD_OK) throw std::runtime_error("the system matrix is not positive definite");
+}
+
+CholeskyView PositiveDefiniteSolver::factor() const {
+  const cholmod_factor& L = *implementation_->factor;
+  return {static_cast<int>(L.n),
+          static_cast<const int*>(L.Perm),
+          static_cast<const int*>(L.p),
+          static_cast<const int*>(L.nz),
+          static_cast<const int*>(L.i),
+          static_cast<const double*>(L.x)};
 }
 
 void PositiveDefiniteSolver::solve(const Points& B, Points* X) {

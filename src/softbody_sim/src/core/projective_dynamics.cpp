@@ -1,6 +1,18 @@
 #include "core/projective_dynamics.h"
 
+#include "core/elastic_blocks.h"
+#include "core/metric_solver.h"
+#include "core/step_rows.h"
+#include "core/tet_matrix.h"
+
 namespace softbody {
+
+class ProjectiveDynamics::Precision {
+ public:
+  virtual ~Precision() = default;
+  virtual StepReport minimize(const StepPotential& potential, Points* x) = 0;
+};
+
 namespace {
 
 TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& elasticity) {
@@ -9,27 +21,94 @@ TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& 
   return metric;
 }
 
+/// The matrix of the global step, M / h^2 + elasticity + targets, which changes with h and with where targets
+/// are and how much they weigh, not with their positions.
+class StepMetric {
+ public:
+  StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity)
+      : metric_(elasticMetric(topology, elasticity)), elastic_(metric_.values()) {}
+
+  const Eigen::SparseMatrix<double>& lower() const { return metric_.lower(); }
+
+  /// @return whether it changed.
+  bool set(const StepPotential& potential) {
+    if (inertia_.size() > 0 && inertia_ == potential.inertia && potential.targets.sameMetric(targets_))
+      return false;
+    inertia_ = potential.inertia;
+    targets_ = potential.targets;
+    metric_.values() = elastic_;
+    metric_.addToDiagonal(inertia_);
+    targets_.addMetric(&metric_);
+    return true;
+  }
+
+  /// The next set() changes it.
+  void forget() { inertia_.resize(0); }
+
+ private:
+  TetMatrix metric_;
+  const Eigen::VectorXd elastic_;  ///< the values that never change
+  Eigen::VectorXd inertia_;
+  TargetEnergy targets_;
+};
+
+template <typename T>
+class InPrecision : public ProjectiveDynamics::Precision {
+ public:
+  InPrecision(const TetTopology& topology, const Lame& lame, const CorotatedElasticity& elasticity,
+              const ProjectiveDynamicsOptions& options)
+      : options_(options.minimizer),
+        elasticity_(topology.rest_vertices, topology.tets, lame, options.simd),
+        step_(topology.rest_vertices.rows(), options.simd),
+        metric_(topology, elasticity),
+        solver_(metric_.lower(), options.simd),
+        minimizer_(paddedRows(topology.rest_vertices.rows())),
+        x_(Rows<T>::Zero(paddedRows(topology.rest_vertices.rows()), 4)) {}
+
+  StepReport minimize(const StepPotential& potential, Points* x) override {
+    if (metric_.set(potential)) factorize();
+    step_.set(potential, potential.prediction.colwise().mean());
+    step_.toRows(*x, &x_);
+    const auto energy = [this](const Rows<T>& trial, Rows<T>* gradient) {
+      const double outer = step_.evaluate(trial, gradient);
+      return outer + elasticity_.addTo(trial, gradient);
+    };
+    const auto solve = [this](const Rows<T>& B, Rows<T>* X) { solver_.solve(B, X); };
+    const StepReport report = minimizer_.minimize(energy, solve, options_, &x_);
+    step_.fromRows(x_, x);
+    return report;
+  }
+
+ private:
+  void factorize() try { solver_.factorize(metric_.lower()); } catch (...) {
+    metric_.forget();
+    throw;
+  }
+
+  const MinimizerOptions options_;
+  ElasticBlocks<T> elasticity_;
+  StepRows<T> step_;
+  StepMetric metric_;
+  MetricSolver<T> solver_;
+  QuasiNewton<Rows<T>> minimizer_;
+  Rows<T> x_;
+};
+
 }  // namespace
 
 ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const Lame& lame,
-                                       const QuasiNewton::Options& options)
-    : elasticity_(topology.rest_vertices, topology.tets, lame),
-      options_(options),
-      metric_(elasticMetric(topology, elasticity_)),
-      elastic_metric_(metric_.values()),
-      solver_(metric_.lower()),
-      minimizer_(topology.rest_vertices.rows()) {}
+                                       const ProjectiveDynamicsOptions& options)
+    : elasticity_(topology.rest_vertices, topology.tets, lame) {
+  if (options.single_precision)
+    implementation_ = std::make_unique<InPrecision<float>>(topology, lame, elasticity_, options);
+  else
+    implementation_ = std::make_unique<InPrecision<double>>(topology, lame, elasticity_, options);
+}
+
+ProjectiveDynamics::~ProjectiveDynamics() = default;
 
 StepReport ProjectiveDynamics::minimize(const StepPotential& potential, Points* x) {
-  metric_.values() = elastic_metric_;
-  metric_.addToDiagonal(potential.inertia);
-  potential.targets.addMetric(&metric_);
-  solver_.factorize(metric_.lower());
-  const auto energy = [&](const Points& trial, Points* gradient) {
-    const double outer = potential.evaluate(trial, gradient);
-    return outer + elasticity_.addTo(trial, gradient);
-  };
-  return minimizer_.minimize(energy, solver_, options_, x);
+  return implementation_->minimize(potential, x);
 }
 
 double ProjectiveDynamics::addElasticity(const Points& x, Points* gradient) const {

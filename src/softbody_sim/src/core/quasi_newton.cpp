@@ -1,34 +1,44 @@
 #include "core/quasi_newton.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
+
+#include "core/rows.h"
 
 namespace softbody {
 namespace {
 
-double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
+template <typename Positions>
+double dot(const Positions& a, const Positions& b) {
+  return static_cast<double>(a.cwiseProduct(b).sum());
+}
 
-double longestRow(const Points& points) { return std::sqrt(points.rowwise().squaredNorm().maxCoeff()); }
+template <typename Positions>
+double longestRow(const Positions& points) {
+  return std::sqrt(static_cast<double>(points.rowwise().squaredNorm().maxCoeff()));
+}
 
 }  // namespace
 
-QuasiNewton::QuasiNewton(Eigen::Index vertex_count)
-    : pairs_(kHistory),
-      gradient_(vertex_count, 3),
-      direction_(vertex_count, 3),
-      residual_(vertex_count, 3),
-      trial_(vertex_count, 3),
-      trial_gradient_(vertex_count, 3),
-      trial_gradient_change_(vertex_count, 3) {
+template <typename Positions>
+QuasiNewton<Positions>::QuasiNewton(Eigen::Index rows) : pairs_(kHistory) {
+  for (Positions* p :
+       {&gradient_, &direction_, &residual_, &trial_, &trial_gradient_, &trial_gradient_change_}) {
+    p->setZero(rows, Positions::ColsAtCompileTime);
+  }
   for (Pair& pair : pairs_) {
-    pair.move.resize(vertex_count, 3);
-    pair.gradient_change.resize(vertex_count, 3);
+    pair.move.setZero(rows, Positions::ColsAtCompileTime);
+    pair.gradient_change.setZero(rows, Positions::ColsAtCompileTime);
   }
 }
 
-StepReport QuasiNewton::minimize(const Energy& energy, PositiveDefiniteSolver& metric, const Options& options,
-                                 Points* x) {
+template <typename Positions>
+StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& metric,
+                                            const MinimizerOptions& options, Positions* x) {
   StepReport report;
+  history_ = std::min(options.history, kHistory);
   pair_count_ = 0;
   energy_ = energy(*x, &gradient_);
   while (report.iterations < options.max_iterations && !report.converged) {
@@ -44,39 +54,45 @@ StepReport QuasiNewton::minimize(const Energy& energy, PositiveDefiniteSolver& m
     report.last_move_m = step * longestRow(direction_);
     report.converged = step == 1.0 && report.last_move_m < options.tolerance_m;
   }
+  report.residual_n = longestRow(gradient_);
   return report;
 }
 
 /// The two-loop recursion (Nocedal and Wright 2006, algorithm 7.4).
-void QuasiNewton::findDirection(PositiveDefiniteSolver& metric) {
+template <typename Positions>
+void QuasiNewton<Positions>::findDirection(const Metric& metric) {
   std::array<double, kHistory> alpha{};
   residual_ = gradient_;
   for (int age = 0; age < pair_count_; ++age) {
     const Pair& pair = recent(age);
     alpha[age] = pair.inverse_product * dot(pair.move, residual_);
-    residual_ -= alpha[age] * pair.gradient_change;
+    residual_ -= static_cast<Scalar>(alpha[age]) * pair.gradient_change;
   }
-  metric.solve(residual_, &direction_);
+  metric(residual_, &direction_);
   for (int age = pair_count_ - 1; age >= 0; --age) {
     const Pair& pair = recent(age);
-    direction_ += (alpha[age] - pair.inverse_product * dot(pair.gradient_change, direction_)) * pair.move;
+    direction_ +=
+        static_cast<Scalar>(alpha[age] - pair.inverse_product * dot(pair.gradient_change, direction_)) *
+        pair.move;
   }
   direction_ = -direction_;
 }
 
-/// Halves the step until the energy falls enough (Armijo); false, x as it was, if it never does.
-bool QuasiNewton::searchLine(const Energy& energy, Points* x, double* step) {
-  constexpr double kArmijo = 1e-4;
+/// Halves the step until the energy falls enough; false, x as it was, if it never does.
+template <typename Positions>
+bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, double* step) {
   constexpr int kMaxHalvings = 12;
   const double slope = dot(gradient_, direction_);
   if (!(slope < 0.0)) return false;
   for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
-    trial_ = *x + *step * direction_;
+    trial_ = *x + static_cast<Scalar>(*step) * direction_;
     const double trial_energy = energy(trial_, &trial_gradient_);
-    if (trial_energy <= energy_ + kArmijo * *step * slope) {
+    if (fallsEnough(trial_energy, slope, *step)) {
       energy_ = trial_energy;
-      residual_ = trial_ - *x;
-      remember();
+      if (history_ > 0) {
+        residual_ = trial_ - *x;
+        remember();
+      }
       x->swap(trial_);
       gradient_.swap(trial_gradient_);
       return true;
@@ -85,8 +101,21 @@ bool QuasiNewton::searchLine(const Energy& energy, Points* x, double* step) {
   return false;
 }
 
+/// Armijo's condition. In single precision the difference of two energies drowns in rounding long before the
+/// minimum does; there the slope at the end of the step tells (the approximate Wolfe condition of Hager and
+/// Zhang 2005).
+template <typename Positions>
+bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, double step) const {
+  constexpr double kArmijo = 1e-4;
+  if (trial_energy <= energy_ + kArmijo * step * slope) return true;
+  constexpr double kRounding = 1e-6;
+  return std::is_same_v<Scalar, float> && trial_energy <= energy_ + kRounding * std::abs(energy_) &&
+         dot(trial_gradient_, direction_) <= (2.0 * kArmijo - 1.0) * slope;
+}
+
 /// Keeps the accepted move (in residual_) where the curvature along it is positive, as the update needs.
-void QuasiNewton::remember() {
+template <typename Positions>
+void QuasiNewton<Positions>::remember() {
   trial_gradient_change_ = trial_gradient_ - gradient_;
   const double product = dot(residual_, trial_gradient_change_);
   if (!(product > 1e-12 * residual_.norm() * trial_gradient_change_.norm())) return;
@@ -95,7 +124,11 @@ void QuasiNewton::remember() {
   pair.move.swap(residual_);
   pair.gradient_change.swap(trial_gradient_change_);
   pair.inverse_product = 1.0 / product;
-  if (pair_count_ < kHistory) ++pair_count_;
+  if (pair_count_ < history_) ++pair_count_;
 }
+
+template class QuasiNewton<Points>;
+template class QuasiNewton<Rows<float>>;
+template class QuasiNewton<Rows<double>>;
 
 }  // namespace softbody

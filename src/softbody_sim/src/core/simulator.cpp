@@ -49,8 +49,13 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
     return std::make_unique<FemSolver>(topology, config.elasticity, lame,
                                        FemSolver::Options{config.iterations, tolerance_m});
   }
-  return std::make_unique<ProjectiveDynamics>(topology, lame,
-                                              QuasiNewton::Options{config.iterations, tolerance_m});
+  ProjectiveDynamicsOptions options;
+  options.minimizer.max_iterations = config.iterations;
+  options.minimizer.tolerance_m = tolerance_m;
+  options.minimizer.history = config.lbfgs_history;
+  options.single_precision = config.single_precision;
+  options.simd = simdFromName(config.simd);
+  return std::make_unique<ProjectiveDynamics>(topology, lame, options);
 }
 
 void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_count) {
@@ -142,7 +147,7 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
     simulate(targets, std::max(0.0, 1e-9 * static_cast<double>(stamp - next->stamp)), next);
   } else {
     followTargets(targets.targets, topology, &next->state.vertices);
-    next->report = {0, true, 0.0};
+    next->report = {0, true};
   }
   next->stamp = std::max(next->stamp, stamp);
   next->state.confidence = confidence.of(targets.targets);

@@ -18,6 +18,9 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.simulate = parameters.flag("simulate", config.simulate);
   config.iterations = parameters.integer("iterations", config.iterations, 1, 1000);
   config.tolerance = parameters.number("tolerance", config.tolerance, 0.0, 1.0);
+  config.lbfgs_history = parameters.integer("lbfgs_history", config.lbfgs_history, 0, 5);
+  config.single_precision = parameters.flag("single_precision", config.single_precision);
+  config.simd = parameters.choice("simd", config.simd, {"auto", "sse4", "avx2", "avx512"});
   config.target_stiffness = parameters.number("target_stiffness", config.target_stiffness, 1e-6, 1e6);
   config.max_time_step_s = parameters.number("max_time_step_s", config.max_time_step_s, 1e-3, 10.0);
   const std::vector<double> gravity = parameters.numbers("gravity_m_s2", {0.0, 0.0, 0.0});

@@ -1,5 +1,7 @@
 #include "core/target_energy.h"
 
+#include <algorithm>
+
 namespace softbody {
 
 void TargetEnergy::set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness) {
@@ -45,6 +47,13 @@ void TargetEnergy::addHessian(const Points&, BlockTetMatrix* matrix) const {
     }
     matrix->addToTet(spring.tet, block);
   }
+}
+
+bool TargetEnergy::sameMetric(const TargetEnergy& other) const {
+  const auto same = [](const Spring& a, const Spring& b) {
+    return a.tet == b.tet && a.stiffness == b.stiffness && a.barycentric == b.barycentric;
+  };
+  return std::equal(springs_.begin(), springs_.end(), other.springs_.begin(), other.springs_.end(), same);
 }
 
 }  // namespace softbody

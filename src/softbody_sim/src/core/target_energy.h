@@ -13,6 +13,15 @@ namespace softbody {
 /// where a normal is given. S interpolates barycentrically.
 class TargetEnergy {
  public:
+  struct Spring {
+    int tet;
+    Eigen::Vector4i vertices;
+    Eigen::Vector4d barycentric;
+    Eigen::Vector3d position;
+    Eigen::Vector3d normal;  ///< unit, or zero
+    double stiffness;        ///< [N/m]
+  };
+
   /// @param unit_stiffness of a target of weight 1 [N/m]. Indices and numbers must have been checked.
   void set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness);
 
@@ -26,15 +35,12 @@ class TargetEnergy {
   /// Adds the exact Hessian.
   void addHessian(const Points& x, BlockTetMatrix* matrix) const;
 
+  /// Whether both add the same to a metric: the same places and stiffnesses, whatever the positions.
+  bool sameMetric(const TargetEnergy& other) const;
+
+  const std::vector<Spring>& springs() const { return springs_; }
+
  private:
-  struct Spring {
-    int tet;
-    Eigen::Vector4i vertices;
-    Eigen::Vector4d barycentric;
-    Eigen::Vector3d position;
-    Eigen::Vector3d normal;  ///< unit, or zero
-    double stiffness;        ///< [N/m]
-  };
   std::vector<Spring> springs_;
 };
 

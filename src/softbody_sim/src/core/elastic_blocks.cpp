@@ -1,0 +1,41 @@
+#include "core/elastic_blocks.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <stdexcept>
+
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+
+template <typename T>
+ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd)
+    : blocks_(static_cast<std::size_t>(tets.rows() + TetBlock<T>::kLanes - 1) / TetBlock<T>::kLanes),
+      mu_(static_cast<T>(lame.mu)),
+      lambda_(static_cast<T>(lame.lambda)),
+      kernel_(elasticityKernel<T>(simd)) {
+  const Eigen::VectorXd volumes = tetVolumes(rest_vertices, tets);
+  const auto lanes = static_cast<Eigen::Index>(blocks_.size()) * TetBlock<T>::kLanes;
+  for (Eigen::Index i = 0; i < lanes; ++i) {
+    // The last block is filled up with its last tet, which has no volume there.
+    const Eigen::Index t = std::min(i, tets.rows() - 1);
+    if (!(volumes[t] > 0.0))
+      throw std::invalid_argument(fmt::format("tet {} has volume {} m^3", t, volumes[t]));
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k)
+      edges.col(k) = rest_vertices.row(tets(t, k + 1)) - rest_vertices.row(tets(t, 0));
+    const Eigen::Matrix3d inverse = edges.inverse();
+    TetBlock<T>& block = blocks_[static_cast<std::size_t>(i / TetBlock<T>::kLanes)];
+    const Eigen::Index lane = i % TetBlock<T>::kLanes;
+    for (int k = 0; k < 9; ++k) block.inverse_edges[k][lane] = static_cast<T>(inverse(k));
+    for (int k = 0; k < 4; ++k) block.vertices[k][lane] = tets(t, k);
+    block.volume[lane] = i == t ? static_cast<T>(volumes[t]) : T{0};
+  }
+}
+
+template class ElasticBlocks<float>;
+template class ElasticBlocks<double>;
+
+}  // namespace softbody

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "core/corotated_elasticity.h"
+#include "core/elasticity_kernel.h"
+#include "core/rows.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// CorotatedElasticity in blocks of tets for the vector kernels, in the precision T.
+template <typename T>
+class ElasticBlocks {
+ public:
+  /// @throw std::invalid_argument if a rest tet has no positive volume.
+  ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd);
+
+  /// Energy [J]; adds its gradient [N].
+  double addTo(const Rows<T>& x, Rows<T>* gradient) const {
+    return kernel_(blocks_.data(), blocks_.size(), mu_, lambda_, x.data(), gradient->data());
+  }
+
+ private:
+  std::vector<TetBlock<T>> blocks_;
+  T mu_, lambda_;
+  ElasticityKernel<T> kernel_;
+};
+
+}  // namespace softbody

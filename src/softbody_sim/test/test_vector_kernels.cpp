@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/elastic_blocks.h"
+#include "core/metric_solver.h"
+#include "core/positive_definite_solver.h"
+#include "core/step_rows.h"
+#include "core/tet_matrix.h"
+#include "test_meshes.h"
+
+namespace softbody {
+namespace {
+
+using testing::boxTopology;
+using testing::randomPoints;
+
+const Lame kLame{8000.0, 5000.0};
+
+/// Every width that this processor has.
+std::vector<Simd> widths() {
+  std::vector<Simd> found;
+  for (Simd simd : {Simd::kSse4, Simd::kAvx2, Simd::kAvx512}) {
+    try {
+      found.push_back(supportedSimd(simd));
+    } catch (const std::invalid_argument&) {
+    }
+  }
+  return found;
+}
+
+template <typename T>
+class VectorKernels : public ::testing::Test {
+ protected:
+  static constexpr double kRounding = sizeof(T) == 4 ? 1e-5 : 1e-13;
+  TetTopology topology_ = boxTopology({5, 3, 2}, {0.1, 0.06, 0.05});
+  Eigen::Index count_ = topology_.rest_vertices.rows();
+  std::mt19937 random_{11};
+
+  Rows<T> toRows(const Points& points) const {
+    Rows<T> rows = Rows<T>::Zero(paddedRows(points.rows()), 4);
+    rows.topLeftCorner(points.rows(), 3) = points.cast<T>();
+    return rows;
+  }
+  /// As the rows hold them, rounding included.
+  Points toPoints(const Rows<T>& rows) const { return rows.topLeftCorner(count_, 3).template cast<double>(); }
+
+  void expectElasticityMatches(const Points& x, const std::string& what) {
+    const CorotatedElasticity reference(topology_.rest_vertices, topology_.tets, kLame);
+    const Rows<T> rows = toRows(x);
+    Points expected = Points::Zero(count_, 3);
+    const double energy = reference.addTo(toPoints(rows), &expected);
+    // Forces of a strain of 1 set the scale of rounding.
+    const double scale = kLame.mu * 0.02 * 0.02 + expected.cwiseAbs().maxCoeff();
+    for (Simd simd : widths()) {
+      const ElasticBlocks<T> blocks(topology_.rest_vertices, topology_.tets, kLame, simd);
+      Rows<T> gradient = Rows<T>::Zero(rows.rows(), 4);
+      const double found = blocks.addTo(rows, &gradient);
+      EXPECT_NEAR(found, energy, kRounding * (energy + kLame.mu * 1e-6)) << what << ", " << nameOf(simd);
+      EXPECT_LT((toPoints(gradient) - expected).cwiseAbs().maxCoeff(), kRounding * scale)
+          << what << ", " << nameOf(simd);
+      EXPECT_EQ(gradient.col(3).cwiseAbs().maxCoeff(), T{0});
+      EXPECT_EQ(gradient.bottomRows(gradient.rows() - count_).cwiseAbs().maxCoeff(), T{0});
+    }
+  }
+};
+
+using Precisions = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(VectorKernels, Precisions);
+
+TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeOnEveryWidth) {
+  const Points& rest = this->topology_.rest_vertices;
+  for (double disorder : {0.0, 1e-4, 2e-3, 8e-3}) {
+    const Points x = rest + randomPoints(this->count_, disorder, &this->random_);
+    this->expectElasticityMatches(x, fmt::format("disorder {}", disorder));
+    this->expectElasticityMatches(transformed(x, testing::somePose()), fmt::format("turned, {}", disorder));
+  }
+  this->expectElasticityMatches(rest * Eigen::Vector3d(1.7, 0.5, 0.8).asDiagonal(), "stretched");
+}
+
+/// Where the rotation is not unique the energy still is; it is all that can be compared.
+TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodesEnergy) {
+  const CorotatedElasticity reference(this->topology_.rest_vertices, this->topology_.tets, kLame);
+  const Points& rest = this->topology_.rest_vertices;
+  for (const Eigen::Vector3d& scale :
+       {Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 0),
+        Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, -0.3)}) {
+    const auto rows = this->toRows(rest * scale.asDiagonal());
+    Points unused = Points::Zero(this->count_, 3);
+    const double energy = reference.addTo(this->toPoints(rows), &unused);
+    for (Simd simd : widths()) {
+      const ElasticBlocks<TypeParam> blocks(rest, this->topology_.tets, kLame, simd);
+      Rows<TypeParam> gradient = Rows<TypeParam>::Zero(rows.rows(), 4);
+      EXPECT_NEAR(blocks.addTo(rows, &gradient), energy, 10.0 * this->kRounding * energy)
+          << scale.transpose() << ", " << nameOf(simd);
+      EXPECT_TRUE(gradient.allFinite());
+    }
+  }
+}
+
+TYPED_TEST(VectorKernels, StepPotentialIsThatOfTheScalarCodeOnEveryWidth) {
+  StepPotential potential;
+  potential.inertia = Eigen::VectorXd::LinSpaced(this->count_, 1.0, 9.0);
+  potential.prediction = this->topology_.rest_vertices + randomPoints(this->count_, 0.01, &this->random_);
+  potential.loads = randomPoints(this->count_, 0.1, &this->random_);
+  std::vector<Target> targets =
+      testing::vertexTargets(this->topology_, randomPoints(this->count_, 0.1, &this->random_));
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    targets[i].place.barycentric = Eigen::Vector4d(0.7, 0.4, -0.3, 0.2);
+    if (i % 2 == 0) targets[i].normal = randomPoints(1, 1.0, &this->random_).transpose().normalized();
+  }
+  potential.targets.set(targets, this->topology_.tets, 300.0);
+  const Eigen::RowVector3d origin(0.1, -0.2, 0.5);
+  const Points x = this->topology_.rest_vertices + randomPoints(this->count_, 0.01, &this->random_);
+  Points expected(this->count_, 3);
+  const double energy = potential.evaluate(x, &expected);
+  for (Simd simd : widths()) {
+    StepRows<TypeParam> step(this->count_, simd);
+    step.set(potential, origin);
+    Rows<TypeParam> rows = this->toRows(Points::Zero(this->count_, 3)), gradient = rows;
+    step.toRows(x, &rows);
+    EXPECT_NEAR(step.evaluate(rows, &gradient), energy, this->kRounding * energy) << nameOf(simd);
+    EXPECT_LT((this->toPoints(gradient) - expected).norm(), this->kRounding * expected.norm())
+        << nameOf(simd);
+    Points back(this->count_, 3);
+    step.fromRows(rows, &back);
+    EXPECT_LT((back - x).cwiseAbs().maxCoeff(), this->kRounding);
+  }
+}
+
+TYPED_TEST(VectorKernels, GlobalStepInvertsItsMatrixBeforeAndAfterItIsMadeDense) {
+  TetMatrix matrix(this->topology_.tets, this->count_);
+  CorotatedElasticity(this->topology_.rest_vertices, this->topology_.tets, kLame).addMetric(&matrix);
+  matrix.addToDiagonal(Eigen::VectorXd::Constant(this->count_, 50.0));
+  for (Simd simd : widths()) {
+    MetricSolver<TypeParam> solver(matrix.lower(), simd);
+    for (int factorization = 0; factorization < 2; ++factorization) {
+      solver.factorize(matrix.lower());
+      for (Eigen::Index solve = 0; solve < this->count_; ++solve) {
+        const Rows<TypeParam> B = this->toRows(randomPoints(this->count_, 1.0, &this->random_));
+        Rows<TypeParam> X = B;
+        solver.solve(B, &X);
+        const Points product = matrix.lower().template selfadjointView<Eigen::Lower>() * this->toPoints(X);
+        EXPECT_LT((product - this->toPoints(B)).norm(), 10.0 * this->kRounding * this->toPoints(B).norm())
+            << nameOf(simd) << ", solve " << solve;
+      }
+    }
+  }
+}
+
+TEST(SimdWidth, HasNamesThatAreReadBack) {
+  for (Simd simd : {Simd::kAuto, Simd::kSse4, Simd::kAvx2, Simd::kAvx512})
+    EXPECT_EQ(simdFromName(nameOf(simd)), simd);
+  EXPECT_THROW(simdFromName("avx"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace softbody
