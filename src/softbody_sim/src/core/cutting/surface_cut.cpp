@@ -1,0 +1,203 @@
+#include "core/cutting/surface_cut.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/cutting/curve_snapping.h"
+#include "core/cutting/cut_curve.h"
+#include "core/cutting/cut_refused.h"
+#include "core/cutting/grazing.h"
+#include "core/cutting/split_surface.h"
+#include "core/cutting/surface_stitching.h"
+#include "core/cutting/wall_fill.h"
+
+namespace softbody {
+namespace {
+
+// Relative to the diagonal of the body's bounding box.
+constexpr double kSnapDistance = 1.0 / 20000.0;
+constexpr double kLowestTriangle = 1.0 / 400000.0;
+constexpr double kFlatness = 1.0 / 100000.0;
+constexpr double kGrazingDistance = 3.0 * kSnapDistance;
+constexpr double kOfLowTriangle = 0.01;
+constexpr int kAttempts = 6;
+
+double diagonalOf(const Points& points) {
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+void roundNewVertices(SplitSurface* surface) {
+  for (std::size_t v = static_cast<std::size_t>(surface->own_vertices); v < surface->vertices.size(); ++v) {
+    surface->vertices[v] = surface->vertices[v].cast<float>().cast<double>();
+  }
+}
+
+std::vector<std::uint32_t> numberBodies(const TriangleList& triangles, const std::vector<int>& mates) {
+  constexpr auto kUnknown = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> bodies(triangles.size(), kUnknown);
+  std::uint32_t count = 0;
+  std::vector<int> open;
+  for (std::size_t first = 0; first < triangles.size(); ++first) {
+    if (bodies[first] != kUnknown || triangles[first][0] < 0) continue;
+    bodies[first] = count;
+    open.push_back(static_cast<int>(first));
+    while (!open.empty()) {
+      const int t = open.back();
+      open.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const int neighbour = mates[3 * t + k] / 3;
+        if (bodies[neighbour] != kUnknown) continue;
+        bodies[neighbour] = count;
+        open.push_back(neighbour);
+      }
+    }
+    ++count;
+  }
+  return bodies;
+}
+
+/// What is published: without the vertices and triangles that are no longer used.
+MeshTopology compacted(const MeshTopology& before, const SplitSurface& surface,
+                       const StitchedSurface& stitched) {
+  const auto triangle_count = static_cast<Eigen::Index>(std::count_if(
+      stitched.triangles.begin(), stitched.triangles.end(), [](const auto& t) { return t[0] >= 0; }));
+  const std::vector<std::uint32_t> bodies = numberBodies(stitched.triangles, stitched.mates);
+  std::vector<int> numbers(stitched.vertices.size(), -1);
+  for (const auto& triangle : stitched.triangles) {
+    for (const int v : triangle) {
+      if (v >= 0) numbers[v] = 0;
+    }
+  }
+  MeshTopology mesh;
+  mesh.revision = before.revision + 1;
+  Eigen::Index vertex_count = 0;
+  mesh.rest_vertices.resize(static_cast<Eigen::Index>(stitched.vertices.size()), 3);
+  for (std::size_t v = 0; v < stitched.vertices.size(); ++v) {
+    if (numbers[v] < 0) continue;
+    const int source = stitched.copied_from[v];
+    const bool own = source >= 0 && source < surface.own_vertices;
+    mesh.rest_vertices.row(vertex_count) =
+        own ? stitched.vertices[v] : stitched.vertices[v].cast<float>().cast<double>().eval();
+    mesh.vertex_parents.push_back(own ? before.vertex_parents[source] : -1);
+    numbers[v] = static_cast<int>(vertex_count++);
+  }
+  mesh.rest_vertices.conservativeResize(vertex_count, Eigen::NoChange);
+  mesh.triangles.resize(triangle_count, 3);
+  mesh.texture_coordinates.setZero(surface.texture.empty() ? 0 : 3 * triangle_count, 3);
+  Eigen::Index row = 0;
+  for (std::size_t t = 0; t < stitched.triangles.size(); ++t) {
+    if (stitched.triangles[t][0] < 0) continue;
+    const bool of_surface = t < surface.triangles.size();
+    for (int k = 0; k < 3; ++k) {
+      mesh.triangles(row, k) = numbers[stitched.triangles[t][k]];
+      if (of_surface && !surface.texture.empty()) {
+        mesh.texture_coordinates.row(3 * row + k).head<2>() =
+            surface.texture[3 * t + static_cast<std::size_t>(k)];
+      }
+    }
+    mesh.bodies.push_back(bodies[t]);
+    mesh.cut.push_back(of_surface ? before.cut[surface.sources[t]] : true);
+    ++row;
+  }
+  return mesh;
+}
+
+/// Triangles that the cut has made, after rounding, are not too low; parts of a low triangle of the mesh may
+/// be as low.
+void checkHeights(const MeshTopology& mesh, const SplitSurface& surface, const StitchedSurface& stitched,
+                  double lowest) {
+  const auto check = [&](std::size_t t, double limit) {
+    const auto& [a, b, c] = stitched.triangles[t];
+    const auto rounded = [&](int v) -> Eigen::Vector3d {
+      return stitched.vertices[v].cast<float>().cast<double>();
+    };
+    const double height = smallestHeight(rounded(a), rounded(b), rounded(c));
+    if (height < limit) throw CutRefused(fmt::format("it would leave a triangle {:.2g} m high", height));
+  };
+  for (const int t : surface.changed) {
+    if (!surface.used(t)) continue;
+    const auto source = mesh.triangles.row(surface.sources[t]);
+    const double source_height =
+        smallestHeight(mesh.rest_vertices.row(source[0]), mesh.rest_vertices.row(source[1]),
+                       mesh.rest_vertices.row(source[2]));
+    check(static_cast<std::size_t>(t), std::min(lowest, kOfLowTriangle * source_height));
+  }
+  for (std::size_t t = surface.triangles.size(); t < stitched.triangles.size(); ++t) check(t, lowest);
+}
+
+/// The patch comes to lie along the surface: it has to be moved outward.
+struct CutGrazes : CutRefused {
+  explicit CutGrazes(const Eigen::Vector3d& normal)
+      : CutRefused("the patch runs along the surface"), outward(normal) {}
+  Eigen::Vector3d outward;
+};
+
+class SurfaceCutter {
+ public:
+  explicit SurfaceCutter(const MeshTopology& mesh)
+      : mesh_(mesh),
+        triangles_(listOf(mesh.triangles)),
+        mates_(halfEdgeMates(triangles_, static_cast<int>(mesh.rest_vertices.rows()))),
+        diagonal_(diagonalOf(mesh.rest_vertices)) {}
+
+  SurfaceCut cut(const CutPatch& patch) const;
+
+ private:
+  SurfaceCut attempt(const CutPatch& patch) const;
+
+  const MeshTopology& mesh_;
+  TriangleList triangles_;
+  std::vector<int> mates_;
+  double diagonal_;
+};
+
+SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
+  const double snap_distance = kSnapDistance * diagonal_;
+  const PatchFacets facets = facetsOf(patch, kFlatness * diagonal_);
+  const CutCurve curve = intersect(mesh_.rest_vertices, triangles_, mates_, facets);
+  SplitSurface surface = splitAlong(curve, mesh_, triangles_, mates_);
+  snapCurve(snap_distance, &surface);
+  splitLonePieces(&surface);
+  roundNewVertices(&surface);
+  if (std::all_of(surface.curve.begin(), surface.curve.end(), [](int facet) { return facet < 0; })) {
+    return {CutOutcome::kMissed, "the patch does not pass through the surface", mesh_};
+  }
+  WallFill fill = fillWalls(surface, curve, facets, snap_distance);
+  raiseLowTriangles(0.5 * snap_distance, facets, &fill);
+  const Grazing grazing = findGrazing(surface, fill, facets, kGrazingDistance * diagonal_);
+  if (grazing.triangles == fill.triangles.size()) {
+    return {CutOutcome::kMissed, "the patch only grazes the surface", mesh_};
+  }
+  if (grazing.triangles > 0) throw CutGrazes(grazing.outward);
+  const StitchedSurface stitched = stitch(surface, fill);
+  checkHeights(mesh_, surface, stitched, kLowestTriangle * diagonal_);
+  return {CutOutcome::kCut, "", compacted(mesh_, surface, stitched)};
+}
+
+/// What fails because vertices, edges or faces of mesh and patch come to lie on each other is tried again
+/// with the patch moved by hardly more than the snapping would.
+SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
+  std::string reason;
+  CutPatch moved = inGeneralPosition(patch);
+  for (int k = 1; k <= kAttempts; ++k) {
+    Eigen::Vector3d shift = (k % 2 == 0 ? k : -k) * Eigen::Vector3d(0.61, -0.43, 0.67);
+    try {
+      return attempt(moved);
+    } catch (const CutGrazes& grazing) {
+      if (k == 1) reason = grazing.what(), shift = grazing.outward;
+    } catch (const CutRefused& refusal) {
+      if (k == 1) reason = refusal.what();
+    }
+    moved.vertices = patch.vertices.rowwise() + 2.0 * kSnapDistance * diagonal_ * shift.transpose();
+  }
+  return {CutOutcome::kRefused, reason, mesh_};
+}
+
+}  // namespace
+
+SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch) {
+  return SurfaceCutter(mesh).cut(patch);
+}
+
+}  // namespace softbody

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "core/cutting/cut_patch.h"
+
+namespace softbody {
+
+enum class CutOutcome {
+  kCut,      ///< the mesh is cut
+  kMissed,   ///< the patch only grazes the surface, or does not meet it
+  kRefused,  ///< the cut cannot be made
+};
+
+/// A visual mesh after a cut. Revision and rest shape are the mesh's before, unless it is cut.
+struct SurfaceCut {
+  CutOutcome outcome = CutOutcome::kMissed;
+  std::string reason;  ///< of what was not cut
+  MeshTopology mesh;
+};
+
+/// Cuts a closed triangle mesh along a patch: triangles are divided along the curve of intersection, the mesh
+/// is opened there and closed by the part of the patch inside of it, once for each side. Where the patch ends
+/// inside, the two walls meet. A patch that passes a vertex or an edge within a 20,000th of the body's
+/// diagonal passes through it. New coordinates are rounded to single precision, as they are published; no
+/// triangle that the cut makes is then lower than a 400,000th of the diagonal.
+/// @param mesh @throw std::invalid_argument if it is not closed, or the patch is no oriented surface.
+SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch);
+
+}  // namespace softbody

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/cutting/curve_snapping.h"
+#include "core/cutting/surface_cut.h"
+#include "cutting/random_cuts.h"
+#include "cutting/surface_meshes.h"
+
+namespace softbody {
+namespace {
+
+using namespace softbody::testing;
+
+const std::string kShipped = SOFTBODY_SOURCE_DIR "/../softbody_bringup/config/";
+const std::string kShared = SOFTBODY_SOURCE_DIR "/../../../shared/data/";
+
+double diagonalOf(const MeshTopology& mesh) {
+  return (mesh.rest_vertices.colwise().maxCoeff() - mesh.rest_vertices.colwise().minCoeff()).norm();
+}
+
+CutPatch rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  CutPatch patch;
+  patch.vertices.resize(4, 3);
+  patch.vertices << corner.transpose(), (corner + x).transpose(), (corner + x + y).transpose(),
+      (corner + y).transpose();
+  patch.triangles.resize(2, 3);
+  patch.triangles << 0, 1, 2, 0, 2, 3;
+  return patch;
+}
+
+double cutArea(const MeshTopology& mesh) {
+  double area = 0.0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    if (!mesh.cut[static_cast<std::size_t>(t)]) continue;
+    const Eigen::Vector3d a = mesh.rest_vertices.row(mesh.triangles(t, 0));
+    const Eigen::Vector3d b = mesh.rest_vertices.row(mesh.triangles(t, 1));
+    const Eigen::Vector3d c = mesh.rest_vertices.row(mesh.triangles(t, 2));
+    area += 0.5 * (b - a).cross(c - a).norm();
+  }
+  return area;
+}
+
+/// The lowest triangle of those that a cut has made, after rounding to single precision.
+double lowestNewTriangle(const MeshTopology& mesh) {
+  double lowest = 1.0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    std::array<Eigen::Vector3d, 3> corners;
+    bool is_new = mesh.cut[static_cast<std::size_t>(t)];
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.triangles(t, k);
+      corners[static_cast<std::size_t>(k)] = mesh.rest_vertices.row(v).cast<float>().cast<double>();
+      is_new = is_new || mesh.vertex_parents[static_cast<std::size_t>(v)] < 0;
+    }
+    if (is_new) lowest = std::min(lowest, smallestHeight(corners[0], corners[1], corners[2]));
+  }
+  return lowest;
+}
+
+/// Cuts a mesh at random, each time up to three times one after the other.
+void cutAtRandom(const MeshTopology& mesh, int count, unsigned seed) {
+  const double volume = volumeOf(mesh);
+  RandomCuts cuts(mesh.rest_vertices, mesh.triangles, seed);
+  int refused = 0, made = 0;
+  for (int k = 0; k < count; ++k) {
+    MeshTopology before = mesh;
+    for (int repeat = 0; repeat <= k % 3; ++repeat) {
+      const int kind =
+          repeat == 0 ? k % static_cast<int>(CutKind::kCount) : static_cast<int>(cuts.uniform(0, 3));
+      const SurfaceCut cut = cutSurface(before, cuts.next(static_cast<CutKind>(kind)));
+      SCOPED_TRACE(fmt::format("cut {}.{} of kind {}", k, repeat, kind));
+      ++made;
+      if (cut.outcome != CutOutcome::kCut) {
+        EXPECT_FALSE(cut.reason.empty());
+        EXPECT_EQ(cut.mesh.revision, before.revision);
+        EXPECT_EQ(cut.mesh.rest_vertices, before.rest_vertices);
+        if (cut.outcome == CutOutcome::kRefused) ++refused;
+        continue;
+      }
+      ASSERT_EQ(faultOf(cut.mesh, volume), "");
+      EXPECT_GE(lowestNewTriangle(cut.mesh), diagonalOf(mesh) / 400000.0);
+      before = cut.mesh;
+    }
+  }
+  ::testing::Test::RecordProperty("refused", refused);
+  EXPECT_LE(refused, made / 10);
+}
+
+TEST(SurfaceCut, SpongeInTwo) {
+  const MeshTopology sponge = loadMesh(kShipped + "sponge.obj");
+  const Eigen::Vector3d low = sponge.rest_vertices.colwise().minCoeff();
+  const Eigen::Vector3d size = sponge.rest_vertices.colwise().maxCoeff().transpose() - low;
+  const CutPatch patch =
+      rectangle(low + Eigen::Vector3d(0.37 * size.x(), -0.1, -0.1), {0, 0.5, 0}, {0, 0, 0.5});
+  const SurfaceCut cut = cutSurface(sponge, patch);
+  ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
+  EXPECT_EQ(faultOf(cut.mesh, size.prod()), "");
+  const auto volumes = bodyVolumes(cut.mesh);
+  ASSERT_EQ(volumes.size(), 2u);
+  EXPECT_NEAR(std::min(volumes.at(0), volumes.at(1)), 0.37 * size.prod(), 1e-6 * size.prod());
+  EXPECT_NEAR(cutArea(cut.mesh), 2.0 * size.y() * size.z(), 1e-6);
+}
+
+TEST(SurfaceCut, PartialCutStaysOnePiece) {
+  const MeshTopology sponge = loadMesh(kShipped + "sponge.obj");
+  const Eigen::Vector3d low = sponge.rest_vertices.colwise().minCoeff();
+  const Eigen::Vector3d size = sponge.rest_vertices.colwise().maxCoeff().transpose() - low;
+  const Eigen::Vector3d corner = low + Eigen::Vector3d(0.37 * size.x(), -0.1, -0.1);
+  const CutPatch patch = rectangle(corner, {0, 0.5, 0}, {0, 0, 0.1 + 0.6 * size.z()});
+  const SurfaceCut cut = cutSurface(sponge, patch);
+  ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
+  EXPECT_EQ(faultOf(cut.mesh, size.prod()), "");
+  EXPECT_EQ(bodyVolumes(cut.mesh).size(), 1u);
+  EXPECT_NEAR(cutArea(cut.mesh), 2.0 * size.y() * 0.6 * size.z(), 1e-6);
+}
+
+TEST(SurfaceCut, TorusWithAnnulus) {
+  const MeshTopology mesh = torus();
+  const SurfaceCut cut = cutSurface(mesh, rectangle({-0.2, -0.2, 0.004}, {0.4, 0, 0}, {0, 0.4, 0}));
+  ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
+  EXPECT_EQ(faultOf(cut.mesh, volumeOf(mesh)), "");
+  EXPECT_EQ(bodyVolumes(cut.mesh).size(), 2u);
+}
+
+TEST(SurfaceCut, TorusOpenedAndParted) {
+  const MeshTopology mesh = torus();
+  const SurfaceCut opened = cutSurface(mesh, rectangle({0, 0.001, -0.1}, {0.2, 0, 0}, {0, 0, 0.2}));
+  EXPECT_EQ(bodyVolumes(opened.mesh).size(), 1u);
+  const SurfaceCut parted = cutSurface(mesh, rectangle({-0.2, 0.001, -0.1}, {0.4, 0, 0}, {0, 0, 0.2}));
+  EXPECT_EQ(bodyVolumes(parted.mesh).size(), 2u);
+}
+
+TEST(SurfaceCut, RandomCutsOfSponge) { cutAtRandom(loadMesh(kShipped + "sponge.obj"), 240, 1); }
+
+TEST(SurfaceCut, RandomCutsOfTorus) { cutAtRandom(torus(), 240, 2); }
+
+TEST(SurfaceCut, RandomCutsOfSpot) {
+  const std::string path = kShared + "meshes/spot.obj";
+  if (!std::ifstream(path)) GTEST_SKIP() << "skipped: no ../shared/data";
+  cutAtRandom(loadMesh(path), 60, 3);
+}
+
+}  // namespace
+}  // namespace softbody
