@@ -42,6 +42,13 @@ void writeLatched(const VirtualCamera& camera, std::uint32_t revision, const ros
              latchedConnection<softbody_msgs::MeshTopology>());
 }
 
+void writeCuts(const VirtualCamera& camera, std::uint32_t last_revision, std::uint32_t revision,
+               const ros::Time& stamp, rosbag::Bag* bag) {
+  for (std::uint32_t made = last_revision; made < revision; ++made) {
+    bag->write(absolute(kTruthCutTopic), stamp, cutMessage(camera.scene().edits.at(made), stamp));
+  }
+}
+
 void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, rosbag::Bag* bag) {
   bag->write("/tf", stamp, tfMessage(messages.body));
   bag->write(absolute(topics::kCameraColorInfo), stamp, messages.info);
@@ -66,6 +73,7 @@ void writeAll(VirtualCamera* camera, const BagOptions& options, const std::strin
     const std::uint32_t revision = messages.truth->revision;
     if (frame % frames_a_second == 0 || revision != last_revision)
       writeLatched(*camera, revision, stamp, &bag);
+    writeCuts(*camera, last_revision, revision, stamp, &bag);
     last_revision = revision;
     writeFrame(messages, stamp, &bag);
     progress(frame + 1);

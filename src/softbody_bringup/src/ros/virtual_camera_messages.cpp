@@ -55,6 +55,21 @@ softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const 
   return message;
 }
 
+softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp) {
+  MeshTopology patch;
+  patch.rest_vertices = edit.patch.vertices;
+  patch.triangles = edit.patch.triangles;
+  const softbody_msgs::MeshTopology arrays = toMessage(patch);
+  softbody_msgs::Cut message;
+  message.header.stamp = stamp;
+  message.header.frame_id = kBodyFrame;
+  message.revision = message.stroke = edit.topology.revision;
+  message.kind = softbody_msgs::Cut::CUT;
+  message.patch_vertices = arrays.rest_vertices;
+  message.patch_triangles = arrays.triangles;
+  return message;
+}
+
 geometry_msgs::TransformStamped opticalFrameTransform(const ros::Time& stamp) {
   std_msgs::Header header;
   header.stamp = stamp;

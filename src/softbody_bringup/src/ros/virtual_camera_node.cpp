@@ -56,6 +56,7 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle priva
   truth_state_ = node.advertise<softbody_msgs::MeshState>(kTruthStateTopic, kQueue);
   if (camera_->scene().state(0.0).T_camera_tool) {
     truth_tool_ = node.advertise<geometry_msgs::PoseStamped>(kTruthToolPoseTopic, kQueue);
+    truth_cut_ = node.advertise<softbody_msgs::Cut>(kTruthCutTopic, kQueue);
   }
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
   if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
@@ -84,7 +85,9 @@ void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
   const CaptureMessages messages =
       toMessages(camera_->capture(frame_, t), camera_->pinhole(), stamp, static_cast<std::uint32_t>(frame_));
   const bool edited = messages.truth->revision != revision_;
-  revision_ = messages.truth->revision;
+  for (; revision_ < messages.truth->revision; ++revision_) {
+    truth_cut_.publish(cutMessage(camera_->scene().edits.at(revision_), stamp));
+  }
   if (edited || frame_ % std::max(1, static_cast<int>(std::lround(setup_.rate_hz))) == 0) {
     publishLatched(revision_, stamp);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
+#include <softbody_msgs/Cut.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 
@@ -103,7 +104,13 @@ TEST(BagWriter, TheTruthsTopologyHasTheStampOfTheFirstStateOfItsRevision) {
   rosbag::Bag bag(path);
   std::map<std::uint32_t, std::size_t> vertices;
   std::map<std::uint32_t, ros::Time> topology_stamps, state_stamps;  // the earliest
+  std::map<std::uint32_t, ros::Time> cut_stamps;
   for (const rosbag::MessageInstance& m : rosbag::View(bag)) {
+    if (const auto cut = m.instantiate<softbody_msgs::Cut>()) {
+      EXPECT_EQ(cut->kind, softbody_msgs::Cut::CUT);
+      EXPECT_EQ(cut->patch_vertices.size(), 4u);
+      EXPECT_TRUE(cut_stamps.emplace(cut->revision, m.getTime()).second);
+    }
     if (const auto topology = m.instantiate<softbody_msgs::MeshTopology>()) {
       vertices[topology->revision] = topology->rest_vertices.size();
       topology_stamps.emplace(topology->revision, m.getTime());
@@ -117,6 +124,7 @@ TEST(BagWriter, TheTruthsTopologyHasTheStampOfTheFirstStateOfItsRevision) {
   }
   EXPECT_EQ(vertices.size(), 2u);
   EXPECT_EQ(topology_stamps, state_stamps);
+  EXPECT_EQ(cut_stamps, (std::map<std::uint32_t, ros::Time>{{1, state_stamps[1]}}));
   EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("/ground_truth/tool/pose")).size(), 30u);
 }
 

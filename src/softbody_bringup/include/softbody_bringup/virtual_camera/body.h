@@ -13,6 +13,9 @@ struct Body {
   UvTexture skin;  ///< where it covers nothing, the body is solid through and through
 };
 
+/// The body's topology of revision 0.
+MeshTopology topologyOf(const Body& body);
+
 /// Reads OBJ, PLY, STL or OFF; of an OBJ also the pictures that its materials name (mtllib, usemtl, map_Kd).
 /// @param unit_m metres per file unit. @param warnings gets what was ignored in the file.
 /// @throw std::invalid_argument with file, line and what is wrong or missing.

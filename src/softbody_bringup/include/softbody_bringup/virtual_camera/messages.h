@@ -4,6 +4,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <softbody_msgs/Cut.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 
@@ -18,6 +19,7 @@ constexpr char kBodyFrame[] = "ground_truth_softbody";
 constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
+constexpr char kTruthCutTopic[] = "ground_truth/cut";
 
 /// One frame as the contract's messages, all with one stamp.
 struct CaptureMessages {
@@ -33,6 +35,9 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
 
 /// The truth's topology in the body's frame.
 softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp);
+
+/// The cut that leads to a revision, in the body's frame; each is a stroke of its own.
+softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp);
 
 /// camera_link (x forward, z up) -> camera_color_optical_frame (z forward, y down).
 geometry_msgs::TransformStamped opticalFrameTransform(const ros::Time& stamp);

@@ -28,12 +28,20 @@ struct SceneState {
   std::optional<Eigen::Isometry3d> T_camera_tool = std::nullopt;
 };
 
+/// A cut of the body and its topology from then on.
+struct Edit {
+  MeshTopology topology;
+  std::vector<int>
+      triangle_parents;  ///< #F: the triangle of revision 0 that it is a part of, -1: fills a cut
+  TriangleMesh patch;    ///< what the blade's edge passed through, in rest space [m]
+};
+
 /// What the virtual camera looks at. The first actor is the soft body, whose vertices are the truth.
 struct Scene {
   std::string name;
   double duration_s = 0.0;  ///< one run; the motion goes on after it
   std::vector<Actor> actors;
-  std::vector<MeshTopology> edits;                       ///< the body's topology of revision 1 and on
+  std::vector<Edit> edits;                               ///< revision 1 and on, one stroke of a blade each
   Eigen::Vector3d to_light = -Eigen::Vector3d::UnitZ();  ///< unit, in the colour optical frame
   std::function<SceneState(double t)> state;             ///< t in seconds from 0
 };

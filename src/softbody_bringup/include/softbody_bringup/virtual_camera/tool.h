@@ -23,6 +23,9 @@ struct Tool {
 /// @throw std::invalid_argument with the file and what is wrong.
 Tool readTool(const std::string& path);
 
+/// All lengths times a factor.
+Tool scaled(const Tool& tool, double factor);
+
 /// White plates with the markers, and a steel blade on a handle; coordinates are the tool frame's.
 std::vector<Actor> toolActors(const Tool& tool);
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "obj_materials.h"
+#include "softbody_common/tet_geometry.h"
 #include "softbody_sim/mesh_files.h"
 
 namespace softbody::virtual_camera {
@@ -30,6 +32,19 @@ bool isObj(const std::string& path) {
 }
 
 }  // namespace
+
+MeshTopology topologyOf(const Body& body) {
+  const auto vertices = static_cast<std::size_t>(body.rest.vertices.rows());
+  MeshTopology topology;
+  topology.rest_vertices = body.rest.vertices;
+  topology.triangles = body.rest.triangles;
+  topology.vertex_parents.resize(vertices);
+  std::iota(topology.vertex_parents.begin(), topology.vertex_parents.end(), 0);
+  topology.bodies = triangleBodies(body.rest.triangles, static_cast<int>(vertices));
+  topology.cut.assign(static_cast<std::size_t>(body.rest.triangles.rows()), false);
+  topology.texture_coordinates = body.skin.coordinates;
+  return topology;
+}
 
 Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings) {
   SurfaceFile file = readSurfaceFile(path, warnings);

@@ -44,7 +44,7 @@ Points toPlayed(const BodyFrame& frame, const Points& own) {
   return (own.rowwise() - frame.center.transpose()) * frame.turn.transpose() / frame.scale;
 }
 
-Scene toOwn(const BodyFrame& frame, const Scene& played, const Body& body) {
+Scene toOwn(const BodyFrame& frame, const Scene& played, const TriangleMesh& body) {
   Scene scene = played;
   for (Actor& actor : scene.actors) {
     actor.rest.vertices *= frame.scale;
@@ -53,12 +53,14 @@ Scene toOwn(const BodyFrame& frame, const Scene& played, const Body& body) {
       return texture(p / frame.scale);
     };
   }
-  scene.actors.at(0).rest = body.rest;
-  scene.actors.at(0).skin = body.skin;
+  scene.actors.at(0).rest = body;
   scene.actors.at(0).texture = [=, texture = played.actors.at(0).texture](const Eigen::Vector3d& p) {
     return texture(frame.turn * (p - frame.center) / frame.scale);
   };
-  for (MeshTopology& edit : scene.edits) edit.rest_vertices = ownRows(frame, edit.rest_vertices);
+  for (Edit& edit : scene.edits) {
+    edit.topology.rest_vertices = ownRows(frame, edit.topology.rest_vertices);
+    edit.patch.vertices = ownRows(frame, edit.patch.vertices);
+  }
   scene.state = [=, state = played.state](double t) {
     SceneState now = state(t);
     now.T_camera_body = ownPose(frame, now.T_camera_body);

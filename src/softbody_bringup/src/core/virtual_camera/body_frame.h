@@ -21,6 +21,6 @@ BodyFrame frameOf(const Points& rest);
 Points toPlayed(const BodyFrame& frame, const Points& own);
 
 /// A scene that was played in the frame, with the body's own coordinates and the true sizes.
-Scene toOwn(const BodyFrame& frame, const Scene& played, const Body& body);
+Scene toOwn(const BodyFrame& frame, const Scene& played, const TriangleMesh& body);
 
 }  // namespace softbody::virtual_camera

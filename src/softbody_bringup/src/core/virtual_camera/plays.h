@@ -16,8 +16,12 @@ Play leavePlay(const Stage& stage);    ///< out of view to the left and back
 Play pressPlay(const Stage& stage);    ///< by a finger from above
 Play occludePlay(const Stage& stage);  ///< a hand hides 40 % for 2 s while the body bends
 
-/// A blade passes through the sponge, then the two pieces move apart. The truth's topology changes once, when
-/// the blade is through; the pieces touch until then.
+/// A blade passes through the body. The topology changes when it is at its lowest; then it is withdrawn, and
+/// the two pieces, which have touched so far, move apart.
 Scene cutScene(const Stage& stage, const Tool& tool);
+/// Likewise, but the blade goes in part of the way, and the slit opens.
+Scene cutPartialScene(const Stage& stage, const Tool& tool);
+/// Two cuts that cross, one after the other, and four pieces.
+Scene cutCrossScene(const Stage& stage, const Tool& tool);
 
 }  // namespace softbody::virtual_camera

@@ -10,11 +10,12 @@
 namespace softbody::virtual_camera {
 namespace {
 
-const std::string kDoll = "doll_", kCut = "cut";
+const std::string kDoll = "doll_";
 
 using PlayMaker = Play (*)(const Stage& stage);
+using CutMaker = Scene (*)(const Stage& stage, const Tool& tool);
 
-const std::map<std::string, PlayMaker>& makers() {
+const std::map<std::string, PlayMaker>& plays() {
   static const std::map<std::string, PlayMaker> makers = {
       {"still", stillPlay}, {"bend", bendPlay},   {"twist", twistPlay},
       {"push", pushPlay},   {"pull", pullPlay},   {"shake", shakePlay},
@@ -22,37 +23,42 @@ const std::map<std::string, PlayMaker>& makers() {
   return makers;
 }
 
-bool isDoll(const std::string& scene) { return scene.compare(0, kDoll.size(), kDoll) == 0; }
-
-/// A scene of the body in its played frame.
-Scene play(const std::string& name, const Stage& stage, const std::string& tool_file) {
-  if (name == kCut) return cutScene(stage, readTool(tool_file));
-  const auto found = makers().find(isDoll(name) ? name.substr(kDoll.size()) : name);
-  if (found == makers().end()) {
-    throw std::invalid_argument(
-        fmt::format("there is no scene '{}'; known: {}", name, fmt::join(sceneNames(), ", ")));
-  }
-  Play play = found->second(stage);
-  play.name = name;
-  return perform(stage, play);
+const std::map<std::string, CutMaker>& cuts() {
+  static const std::map<std::string, CutMaker> makers = {
+      {"cut", cutScene}, {"cut-cross", cutCrossScene}, {"cut-partial", cutPartialScene}};
+  return makers;
 }
+
+bool isDoll(const std::string& scene) { return scene.compare(0, kDoll.size(), kDoll) == 0; }
 
 }  // namespace
 
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
-  for (const auto& [name, maker] : makers()) names.push_back(name);
-  for (const auto& [name, maker] : makers()) names.push_back(kDoll + name);
-  names.push_back(kCut);
+  for (const std::string& prefix : {std::string(), kDoll}) {
+    for (const auto& [name, maker] : plays()) names.push_back(prefix + name);
+    for (const auto& [name, maker] : cuts()) names.push_back(prefix + name);
+  }
   return names;
 }
 
 std::string objectOf(const std::string& scene) { return isDoll(scene) ? "doll" : "sponge"; }
 
 Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, const std::string& tool_file) {
+  const std::string plain = isDoll(name) ? name.substr(kDoll.size()) : name;
+  const auto play = plays().find(plain);
+  const auto cut = cuts().find(plain);
+  if (play == plays().end() && cut == cuts().end()) {
+    throw std::invalid_argument(
+        fmt::format("there is no scene '{}'; known: {}", name, fmt::join(sceneNames(), ", ")));
+  }
   const BodyFrame frame = frameOf(body.rest.vertices);
-  const Stage stage = makeStage({toPlayed(frame, body.rest.vertices), body.rest.triangles}, seed);
-  return toOwn(frame, play(name, stage, tool_file), body);
+  const Stage stage =
+      makeStage({{toPlayed(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed);
+  Scene scene = play != plays().end() ? perform(stage, play->second(stage))
+                                      : cut->second(stage, scaled(readTool(tool_file), 1.0 / frame.scale));
+  scene.name = name;
+  return toOwn(frame, scene, body.rest);
 }
 
 }  // namespace softbody::virtual_camera

@@ -30,9 +30,9 @@ double heightOf(const TriangleMesh& body) {
 
 }  // namespace
 
-Stage makeStage(const TriangleMesh& body, std::uint64_t seed) {
+Stage makeStage(const Body& body, std::uint64_t seed) {
   constexpr double kDistance = 0.5, kElevation = 42.0 * kDegree, kYaw = 25.0 * kDegree;
-  const Eigen::Vector3d center(0.0, 0.0, heightOf(body));
+  const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest));
   const Eigen::Vector3d eye =
       center + kDistance * Eigen::Vector3d(0.0, -std::cos(kElevation), std::sin(kElevation));
   Stage stage;
@@ -41,9 +41,10 @@ Stage makeStage(const TriangleMesh& body, std::uint64_t seed) {
       stage.T_camera_world * Eigen::Translation3d(center) * Eigen::AngleAxisd(kYaw, Eigen::Vector3d::UnitZ());
   const TriangleMesh table = rectangle({-0.8, -0.3, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.8, 0.0});
   const TriangleMesh wall = rectangle({-0.8, 0.5, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.0, 0.8});
-  stage.actors = {{body, cellTexture(hash(seed, 1))},
+  stage.actors = {{body.rest, cellTexture(hash(seed, 1))},
                   {table, woodTexture(hash(seed, 2)), 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
+  stage.actors[0].skin = body.skin;
   return stage;
 }
 

@@ -14,7 +14,7 @@ struct Stage {
   Eigen::Isometry3d T_camera_world, T_camera_body;  ///< the body's frame where it begins
   std::vector<Actor> actors;                        ///< body, table, wall
 };
-Stage makeStage(const TriangleMesh& body, std::uint64_t seed);
+Stage makeStage(const Body& body, std::uint64_t seed);
 
 /// Something rigid that moves before the camera.
 struct Prop {

@@ -91,6 +91,16 @@ Tool readTool(const std::string& path) {
   }
 }
 
+Tool scaled(const Tool& tool, double factor) {
+  Tool result = tool;
+  result.blade *= factor;
+  for (ToolMarker& marker : result.markers) {
+    marker.size_m *= factor;
+    marker.T_tool_marker.translation() *= factor;
+  }
+  return result;
+}
+
 std::vector<Actor> toolActors(const Tool& tool) {
   const Texture steel = [](const Eigen::Vector3d&) { return Eigen::Vector3f(0.72f, 0.74f, 0.77f); };
   const Eigen::Vector3d middle = tool.blade.colwise().mean().transpose();

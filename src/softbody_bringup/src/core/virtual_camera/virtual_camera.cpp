@@ -1,25 +1,23 @@
 #include "softbody_bringup/virtual_camera/virtual_camera.h"
 
 #include <algorithm>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "softbody_bringup/virtual_camera/random.h"
-#include "softbody_common/tet_geometry.h"
 
 namespace softbody::virtual_camera {
 namespace {
 
-MeshTopology topologyOf(const TriangleMesh& rest, const UvTexture& skin) {
-  MeshTopology topology;
-  topology.rest_vertices = rest.vertices;
-  topology.triangles = rest.triangles;
-  topology.vertex_parents.resize(static_cast<std::size_t>(rest.vertices.rows()));
-  std::iota(topology.vertex_parents.begin(), topology.vertex_parents.end(), 0);
-  topology.bodies = triangleBodies(rest.triangles, static_cast<int>(rest.vertices.rows()));
-  topology.cut.assign(static_cast<std::size_t>(rest.triangles.rows()), false);
-  topology.texture_coordinates = skin.coordinates;
-  return topology;
+/// The body after an edit: new faces show no picture.
+Body editedBody(const Body& body, const Edit& edit) {
+  Body edited{{edit.topology.rest_vertices, edit.topology.triangles}, body.skin};
+  edited.skin.coordinates = edit.topology.texture_coordinates;
+  if (body.skin.picture.empty()) return edited;
+  edited.skin.picture.clear();
+  for (const int parent : edit.triangle_parents) {
+    edited.skin.picture.push_back(parent < 0 ? -1 : body.skin.picture[static_cast<std::size_t>(parent)]);
+  }
+  return edited;
 }
 
 /// Farthest way of a vertex on the image [px]; what is not before the camera at both times does not count.
@@ -58,15 +56,19 @@ VirtualCamera::VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOpti
                              std::uint64_t seed)
     : scene_(std::move(scene)),
       camera_(camera),
-      topologies_({topologyOf(scene_.actors.at(0).rest, scene_.actors.at(0).skin)}),
       blur_(noise.blur),
       exposure_drift_(noise.exposure, hash(seed, 103)),
       color_noise_(noise.color, hash(seed, 101)),
       depth_noise_(noise.depth, hash(seed, 102)) {
-  topologies_.insert(topologies_.end(), scene_.edits.begin(), scene_.edits.end());
-  for (const MeshTopology& topology : topologies_) {
+  const Body body{scene_.actors.at(0).rest, scene_.actors.at(0).skin};
+  topologies_.push_back(topologyOf(body));
+  renderers_.emplace_back(scene_, camera);
+  for (const Edit& edit : scene_.edits) {
     Scene edited = scene_;
-    edited.actors.at(0).rest = {topology.rest_vertices, topology.triangles};
+    const Body after = editedBody(body, edit);
+    edited.actors.at(0).rest = after.rest;
+    edited.actors.at(0).skin = after.skin;
+    topologies_.push_back(edit.topology);
     renderers_.emplace_back(edited, camera);
   }
 }
