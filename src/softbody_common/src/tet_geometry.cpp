@@ -23,13 +23,43 @@ std::vector<std::uint32_t> connectedPieces(const Elements& elements, int vertex_
   for (Eigen::Index e = 0; e < elements.rows(); ++e) {
     for (Eigen::Index k = 1; k < elements.cols(); ++k) parent[find(elements(e, k))] = find(elements(e, 0));
   }
-  std::map<int, std::uint32_t> numbers;
+  constexpr auto kUnnumbered = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> numbers(parent.size(), kUnnumbered);
+  std::uint32_t count = 0;
   std::vector<std::uint32_t> pieces(static_cast<std::size_t>(elements.rows()));
   for (Eigen::Index e = 0; e < elements.rows(); ++e) {
-    const auto next = static_cast<std::uint32_t>(numbers.size());
-    pieces[e] = numbers.emplace(find(elements(e, 0)), next).first->second;
+    std::uint32_t& number = numbers[find(elements(e, 0))];
+    if (number == kUnnumbered) number = count++;
+    pieces[e] = number;
   }
   return pieces;
+}
+
+constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // outward
+
+/// A face with its vertices in ascending order; `place` is 4 * tet + row of kFaces.
+struct TetFace {
+  int low, mid, high;
+  std::size_t place;
+};
+
+/// All faces of all tets, those with the same lowest vertex side by side (counting sort).
+std::vector<TetFace> facesByLowestVertex(const Tets& tets) {
+  std::vector<TetFace> faces;
+  faces.reserve(4 * static_cast<std::size_t>(tets.rows()));
+  std::vector<std::size_t> start(tets.size() > 0 ? static_cast<std::size_t>(tets.maxCoeff()) + 2 : 1, 0);
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    for (const auto& face : kFaces) {
+      const int a = tets(t, face[0]), b = tets(t, face[1]), c = tets(t, face[2]);
+      const int low = std::min({a, b, c}), high = std::max({a, b, c});
+      faces.push_back({low, a + b + c - low - high, high, faces.size()});
+      ++start[static_cast<std::size_t>(low) + 1];
+    }
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<TetFace> sorted(faces.size());
+  for (const TetFace& face : faces) sorted[start[static_cast<std::size_t>(face.low)]++] = face;
+  return sorted;
 }
 
 }  // namespace
@@ -55,25 +85,22 @@ double enclosedVolume(const Points& vertices, const Triangles& triangles) {
 }
 
 Triangles boundaryTriangles(const Tets& tets) {
-  static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  std::map<std::array<int, 3>, int> uses;
-  const auto key = [&tets](Eigen::Index t, const int* face) {
-    std::array<int, 3> corners{tets(t, face[0]), tets(t, face[1]), tets(t, face[2])};
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    for (const auto& face : kFaces) ++uses[key(t, face)];
-  }
-  std::vector<Eigen::Vector3i> boundary;
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    for (const auto& face : kFaces) {
-      if (uses[key(t, face)] == 1)
-        boundary.emplace_back(tets(t, face[0]), tets(t, face[1]), tets(t, face[2]));
+  const std::vector<TetFace> faces = facesByLowestVertex(tets);
+  std::vector<bool> inner(4 * static_cast<std::size_t>(tets.rows()), false);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t g = f + 1; g < faces.size() && faces[g].low == faces[f].low; ++g) {
+      if (faces[g].mid == faces[f].mid && faces[g].high == faces[f].high)
+        inner[faces[f].place] = inner[faces[g].place] = true;
     }
   }
-  Triangles triangles(static_cast<Eigen::Index>(boundary.size()), 3);
-  for (std::size_t f = 0; f < boundary.size(); ++f) triangles.row(static_cast<Eigen::Index>(f)) = boundary[f];
+  Triangles triangles(std::count(inner.begin(), inner.end(), false), 3);
+  Eigen::Index row = 0;
+  for (std::size_t place = 0; place < inner.size(); ++place) {
+    if (inner[place]) continue;
+    const auto t = static_cast<Eigen::Index>(place / 4);
+    const int* face = kFaces[place % 4];
+    triangles.row(row++) << tets(t, face[0]), tets(t, face[1]), tets(t, face[2]);
+  }
   return triangles;
 }
 

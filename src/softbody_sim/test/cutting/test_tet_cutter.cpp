@@ -48,7 +48,7 @@ void expectDescended(const TetEdit& edit, const TetTopology& before) {
     for (const int part : edit.successors[t]) {
       sum += volumes[part];
       if (edit.successors[t].size() == 1) continue;
-      EXPECT_GE(tetQuality(after.rest_vertices, after.tets.row(part)), kSettings.least_quality);
+      EXPECT_GE(tetQuality(after.rest_vertices, after.tets.row(part)), kSettings.worst_quality);
     }
     EXPECT_NEAR(sum / old_volumes[static_cast<Eigen::Index>(t)], 1.0, 1e-3);
   }

@@ -90,20 +90,20 @@ std::vector<Face> facesAlong(const PatchIntersector& patch, const Points& vertic
   return faces;
 }
 
-ManifoldCrack openManifoldCrack(const Tets& tets, int vertex_count, const Triangles& surface,
-                                std::vector<Face> cut_faces) {
-  const std::vector<int> before = nonManifoldVertices(surface);
+ManifoldCrack openManifoldCrack(const Tets& tets, int vertex_count, std::vector<Face> cut_faces,
+                                const std::vector<int>& known) {
   const std::vector<Face> all = cut_faces;
   ManifoldCrack crack;
   for (;;) {
     crack.opened = openCrack(tets, vertex_count, cut_faces);
     crack.surface = boundaryTriangles(crack.opened.tets);
     const std::vector<int> made =
-        newlyNonManifold(crack.surface, before, vertex_count, crack.opened.copied_from);
+        newlyNonManifold(crack.surface, known, vertex_count, crack.opened.copied_from);
     const auto kept = std::remove_if(cut_faces.begin(), cut_faces.end(),
                                      [&made](const Face& face) { return touchesAny(face, made); });
     if (kept == cut_faces.end()) break;
     cut_faces.erase(kept, cut_faces.end());
+    crack.pinches.insert(crack.pinches.end(), made.begin(), made.end());
   }
   crack.closed_faces = stillShared(all, tets, crack.opened.tets);
   return crack;

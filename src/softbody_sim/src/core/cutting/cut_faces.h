@@ -18,11 +18,13 @@ struct ManifoldCrack {
   OpenedTets opened;
   Triangles surface;               ///< of the opened tets
   std::vector<Face> closed_faces;  ///< still inside the body, by their vertices after opening; ascending
+  std::vector<int>
+      pinches;  ///< vertices whose faces stayed closed since the surface would touch itself there
 };
 
-/// Opens a crack. Where a vertex on the cut would not be a manifold one, the faces at it stay closed.
-/// @param cut_faces ascending; @param surface of the tets as they are.
-ManifoldCrack openManifoldCrack(const Tets& tets, int vertex_count, const Triangles& surface,
-                                std::vector<Face> cut_faces);
+/// Opens a crack. Where the surface would touch itself at a vertex, the faces at it stay closed.
+/// @param cut_faces ascending; @param known vertices at which the uncut surface is non-manifold; ascending.
+ManifoldCrack openManifoldCrack(const Tets& tets, int vertex_count, std::vector<Face> cut_faces,
+                                const std::vector<int>& known);
 
 }  // namespace softbody

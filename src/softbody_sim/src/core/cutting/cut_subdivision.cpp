@@ -10,9 +10,7 @@ namespace {
 
 using Flags = std::vector<bool>;
 
-void flagNearEnd(const EdgeCrossing& crossing, Flags* on_cut) {
-  (*on_cut)[static_cast<std::size_t>(crossing.nearEnd())] = true;
-}
+std::size_t nearEndOf(const EdgeCrossing& crossing) { return static_cast<std::size_t>(crossing.nearEnd()); }
 
 CutSubdivision splitWhatIsNotTaken(const Points& vertices, const Tets& tets,
                                    const std::vector<EdgeCrossing>& crossings, const Flags& on_cut) {
@@ -35,28 +33,29 @@ CutSubdivision splitWhatIsNotTaken(const Points& vertices, const Tets& tets,
   return result;
 }
 
-/// Takes the nearest end among the crossings that gave a part its new vertices.
-void takeWorstSplit(const CutSubdivision& subdivision, Eigen::Index part, int old_count, Flags* on_cut) {
-  const EdgeCrossing* worst = nullptr;
+/// The shortest cut-off among the crossings that gave a part its new vertices.
+const EdgeCrossing& tightestSplit(const CutSubdivision& subdivision, Eigen::Index part, int old_count) {
+  const EdgeCrossing* tightest = nullptr;
   for (const int vertex : subdivision.parts.tets.row(part)) {
     if (vertex < old_count) continue;
     const EdgeCrossing& split = subdivision.splits[static_cast<std::size_t>(vertex - old_count)];
-    if (worst == nullptr || split.fraction() < worst->fraction()) worst = &split;
+    if (tightest == nullptr || split.fraction() < tightest->fraction()) tightest = &split;
   }
-  flagNearEnd(*worst, on_cut);
+  return *tightest;
 }
 
 /// Takes an end for every part that came out a sliver. @return whether there was one.
-bool takeSplitsOfSlivers(const CutSubdivision& subdivision, const Tets& tets, double least_quality,
-                         Flags* on_cut) {
-  const int old_count =
-      static_cast<int>(subdivision.vertices.rows() - static_cast<Eigen::Index>(subdivision.splits.size()));
+bool takeSplitsOfSlivers(const CutSubdivision& subdivision, int old_count,
+                         const SubdivisionSettings& settings, const Flags& spared, Flags* on_cut) {
   bool any = false;
   for (Eigen::Index part = 0; part < subdivision.parts.tets.rows(); ++part) {
     const Eigen::RowVector4i tet = subdivision.parts.tets.row(part);
-    if (part < tets.rows() && tet == tets.row(part)) continue;
-    if (tet.maxCoeff() < old_count || tetQuality(subdivision.vertices, tet) >= least_quality) continue;
-    takeWorstSplit(subdivision, part, old_count, on_cut);
+    if (tet.maxCoeff() < old_count) continue;
+    const double quality = tetQuality(subdivision.vertices, tet);
+    if (quality >= settings.least_quality) continue;
+    const std::size_t end = nearEndOf(tightestSplit(subdivision, part, old_count));
+    if (spared[end] && quality >= settings.worst_quality) continue;
+    (*on_cut)[end] = true;
     any = true;
   }
   return any;
@@ -78,15 +77,19 @@ double tetQuality(const Points& vertices, const Eigen::RowVector4i& tet) {
 }
 
 CutSubdivision subdivide(const Points& vertices, const Tets& tets, const std::vector<EdgeCrossing>& crossings,
-                         const SubdivisionSettings& settings, std::vector<bool>* on_cut) {
+                         const SubdivisionSettings& settings, std::vector<bool> on_cut,
+                         const std::vector<bool>& spared) {
   for (const EdgeCrossing& crossing : crossings) {
-    if (crossing.fraction() < settings.snap_fraction) flagNearEnd(crossing, on_cut);
+    const std::size_t end = nearEndOf(crossing);
+    if (crossing.fraction() < settings.snap_fraction && !spared[end]) on_cut[end] = true;
   }
-  CutSubdivision result = splitWhatIsNotTaken(vertices, tets, crossings, *on_cut);
-  while (takeSplitsOfSlivers(result, tets, settings.least_quality, on_cut)) {
-    result = splitWhatIsNotTaken(vertices, tets, crossings, *on_cut);
+  const auto old_count = static_cast<int>(vertices.rows());
+  CutSubdivision result = splitWhatIsNotTaken(vertices, tets, crossings, on_cut);
+  while (takeSplitsOfSlivers(result, old_count, settings, spared, &on_cut)) {
+    result = splitWhatIsNotTaken(vertices, tets, crossings, on_cut);
   }
-  on_cut->resize(static_cast<std::size_t>(result.vertices.rows()), true);
+  on_cut.resize(static_cast<std::size_t>(result.vertices.rows()), true);
+  result.on_cut = std::move(on_cut);
   return result;
 }
 

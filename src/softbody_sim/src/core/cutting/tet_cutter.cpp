@@ -7,6 +7,7 @@
 
 #include "core/cutting/cut_faces.h"
 #include "core/cutting/edge_crossings.h"
+#include "core/cutting/manifold.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -29,18 +30,6 @@ CutPatch joined(const CutPatch& first, const CutPatch& second) {
   return both;
 }
 
-/// One tet at each vertex, the lowest.
-std::vector<MaterialPoint> placesOfVertices(const TetTopology& topology) {
-  std::vector<MaterialPoint> places(static_cast<std::size_t>(topology.rest_vertices.rows()));
-  for (int t = 0; t < static_cast<int>(topology.tets.rows()); ++t) {
-    for (int k = 0; k < 4; ++k) {
-      MaterialPoint& place = places[static_cast<std::size_t>(topology.tets(t, k))];
-      if (place.tet < 0) place = {t, Eigen::Vector4d::Unit(k)};
-    }
-  }
-  return places;
-}
-
 MaterialPoint placeOf(const EdgeCrossing& split, const Tets& tets) {
   MaterialPoint place{split.tet, Eigen::Vector4d::Zero()};
   for (int k = 0; k < 4; ++k) {
@@ -48,6 +37,53 @@ MaterialPoint placeOf(const EdgeCrossing& split, const Tets& tets) {
     if (tets(split.tet, k) == split.b) place.barycentric[k] = split.t;
   }
   return place;
+}
+
+struct Question {
+  const Points& vertices;
+  const TetTopology& topology;
+  const std::vector<EdgeCrossing>& crossings;
+  const SubdivisionSettings& settings;
+};
+
+struct Attempt {
+  CutSubdivision subdivision;
+  ManifoldCrack crack;
+};
+
+Attempt attemptCut(const Question& question, const CutStroke& stroke, const PatchIntersector& patch,
+                   const std::vector<int>& known, const std::vector<bool>& spared) {
+  Attempt attempt;
+  const Tets& tets = question.topology.tets;
+  attempt.subdivision =
+      subdivide(question.vertices, tets, question.crossings, question.settings, stroke.on_cut, spared);
+  const CutSubdivision& s = attempt.subdivision;
+  const std::vector<Face> along = facesAlong(patch, s.vertices, s.parts.tets, s.on_cut);
+  std::vector<Face> faces;
+  std::set_union(along.begin(), along.end(), stroke.closed_faces.begin(), stroke.closed_faces.end(),
+                 std::back_inserter(faces));
+  attempt.crack = openManifoldCrack(s.parts.tets, static_cast<int>(s.vertices.rows()), faces, known);
+  return attempt;
+}
+
+/// Cuts; where a vertex that was taken for one of the cut pinches the surface, again without taking it.
+Attempt cutWithoutPinches(const Question& question, const CutStroke& stroke) {
+  constexpr int kAttempts = 4;
+  const PatchIntersector patch(stroke.patch);
+  const std::vector<int> known = nonManifoldVertices(question.topology.surface);
+  std::vector<bool> spared(stroke.on_cut.size(), false);
+  Attempt attempt = attemptCut(question, stroke, patch, known, spared);
+  for (int k = 1; k < kAttempts; ++k) {
+    bool any = false;
+    for (const int vertex : attempt.crack.pinches) {
+      const auto v = static_cast<std::size_t>(vertex);
+      if (v >= spared.size() || spared[v] || stroke.on_cut[v]) continue;
+      spared[v] = any = true;
+    }
+    if (!any) break;
+    attempt = attemptCut(question, stroke, patch, known, spared);
+  }
+  return attempt;
 }
 
 /// The topology before, its subdivision and its opening: what the edit is made of.
@@ -132,6 +168,17 @@ std::vector<std::vector<int>> successorsOf(const CutSteps& steps) {
 
 }  // namespace
 
+std::vector<MaterialPoint> placesOfVertices(const TetTopology& topology) {
+  std::vector<MaterialPoint> places(static_cast<std::size_t>(topology.rest_vertices.rows()));
+  for (int t = 0; t < static_cast<int>(topology.tets.rows()); ++t) {
+    for (int k = 0; k < 4; ++k) {
+      MaterialPoint& place = places[static_cast<std::size_t>(topology.tets(t, k))];
+      if (place.tet < 0) place = {t, Eigen::Vector4d::Unit(k)};
+    }
+  }
+  return places;
+}
+
 MaterialPoint TetEdit::placeAfter(const MaterialPoint& place, const TetTopology& before) const {
   const Eigen::Vector3d position = positionOf(place, before.rest_vertices, before.tets);
   MaterialPoint best;
@@ -150,29 +197,20 @@ std::optional<TetEdit> cutTets(const TetTopology& topology, const std::vector<bo
   const PatchIntersector step(inGeneralPosition(patch));
   stroke->patch = joined(stroke->patch, step.mesh());
   stroke->on_cut.resize(static_cast<std::size_t>(topology.rest_vertices.rows()), false);
-
   const Points vertices = inSinglePrecision(topology.rest_vertices);
   const std::vector<EdgeCrossing> crossings = edgeCrossings(vertices, topology.tets, stroke->on_cut, step);
-  const CutSubdivision subdivision = subdivide(vertices, topology.tets, crossings, settings, &stroke->on_cut);
-  const Tets& parts = subdivision.parts.tets;
+  const Attempt best = cutWithoutPinches({vertices, topology, crossings, settings}, *stroke);
 
-  const std::vector<Face> along =
-      facesAlong(PatchIntersector(stroke->patch), subdivision.vertices, parts, stroke->on_cut);
-  std::vector<Face> faces;
-  std::set_union(along.begin(), along.end(), stroke->closed_faces.begin(), stroke->closed_faces.end(),
-                 std::back_inserter(faces));
-  const ManifoldCrack crack = openManifoldCrack(parts, static_cast<int>(subdivision.vertices.rows()),
-                                                boundaryTriangles(parts), faces);
-  stroke->closed_faces = crack.closed_faces;
-  for (const int source : crack.opened.copied_from) {
+  stroke->on_cut = best.subdivision.on_cut;
+  stroke->closed_faces = best.crack.closed_faces;
+  for (const int source : best.crack.opened.copied_from) {
     stroke->on_cut.push_back(stroke->on_cut[static_cast<std::size_t>(source)]);
   }
-
-  if (subdivision.splits.empty() && crack.opened.copied_from.empty()) {
+  if (best.subdivision.splits.empty() && best.crack.opened.copied_from.empty()) {
     *reason = crossings.empty() ? "the cut misses the body" : "the cut only grazes the body";
     return std::nullopt;
   }
-  const CutSteps steps{topology, cut, subdivision, crack};
+  const CutSteps steps{topology, cut, best.subdivision, best.crack};
   return TetEdit{topologyAfter(steps), cutTriangles(steps), vertexOrigins(steps), successorsOf(steps)};
 }
 

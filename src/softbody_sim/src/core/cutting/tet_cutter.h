@@ -22,6 +22,9 @@ struct TetEdit {
   MaterialPoint placeAfter(const MaterialPoint& place, const TetTopology& before) const;
 };
 
+/// Per vertex of a topology its place at a corner of its lowest tet.
+std::vector<MaterialPoint> placesOfVertices(const TetTopology& topology);
+
 /// What a stroke of the blade has cut so far; empty when it begins.
 struct CutStroke {
   CutPatch patch;            ///< all of it
@@ -40,7 +43,7 @@ struct CutStroke {
 /// non-manifold stay closed until the stroke has come further.
 ///
 /// @param cut per triangle of the topology's surface, as in TetEdit.
-/// @param stroke advances if and only if there is an edit.
+/// @param stroke advances with or without an edit.
 /// @param reason why there is no edit.
 /// @throw std::invalid_argument if the patch is not finite or names a vertex that it does not have.
 std::optional<TetEdit> cutTets(const TetTopology& topology, const std::vector<bool>& cut,

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/cutting/tet_cutter.h"
+
+namespace softbody {
+
+/// The tets of a body through strokes of the blade, undo and redo. A stroke is one undo step, whatever the
+/// number of its cuts. An undone topology is the one from before, bit for bit, but for its revision: that
+/// only rises.
+class CutHistory {
+ public:
+  explicit CutHistory(TetTopology uncut, const SubdivisionSettings& settings = {});
+
+  const TetTopology& topology() const { return versions_[at_].topology; }
+  /// Per triangle of the topology's surface: was inside the uncut body.
+  const std::vector<bool>& cut() const { return versions_[at_].cut; }
+
+  /// Cuts along a patch. Another stroke number than in the last call begins a new stroke, and so does the
+  /// same one after undo, redo or reset. Nothing but the stroke's progress changes if there is no edit, whose
+  /// `reason` is then given. What was undone can no longer be redone after an edit.
+  /// @throw std::invalid_argument as cutTets.
+  std::optional<TetEdit> cut(const CutPatch& patch, std::uint32_t stroke, std::string* reason);
+
+  /// What cut would do, without doing it.
+  std::optional<TetEdit> preview(const CutPatch& patch, std::uint32_t stroke, std::string* reason) const;
+
+  std::optional<TetEdit> undo();   ///< nothing if there is no stroke before
+  std::optional<TetEdit> redo();   ///< nothing if no stroke is undone
+  std::optional<TetEdit> reset();  ///< to the uncut body; can be redone stroke by stroke
+
+ private:
+  CutStroke strokeFor(std::uint32_t number) const;
+  std::optional<TetEdit> moveTo(std::size_t version);
+
+  SubdivisionSettings settings_;
+  std::vector<TetEdit>
+      versions_;  ///< the uncut body, then after each stroke as an edit of the version before
+  std::size_t at_ = 0;
+  CutStroke stroke_;
+  std::optional<std::uint32_t> stroke_number_;  ///< of stroke_
+  bool stroke_has_version_ = false;
+};
+
+}  // namespace softbody
