@@ -9,7 +9,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test demo bench evaluate tidy format clean help dependencies
+.PHONY: build test cuts demo bench evaluate tidy format clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
@@ -18,6 +18,11 @@ test: dependencies  ## build, then run unit tests, rostests, launch file checks,
 	scripts/build
 	scripts/build tests
 	scripts/run_tests
+
+cuts: dependencies  ## 10,000 random cuts of sponge, torus, toy and spot (slow); make test makes a few of them
+	scripts/build
+	scripts/build tests
+	scripts/cuts
 
 demo: build  ## follow a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
 	scripts/demo
