@@ -34,13 +34,17 @@ CurveByPlace sortByPlace(const CutCurve& curve) {
   return places;
 }
 
-/// One triangle with the curve's pieces in it.
+/// One triangle with the curve's pieces in it. Everything is in an order that depends on positions alone: the
+/// two walls of an earlier cut, mirror images of each other, are divided alike and stay mirror images.
 struct DividedTriangle {
+  std::array<int, 3> corners;                   ///< of the triangle, 0..2, in the order of their positions
+  bool reversed = false;                        ///< that order runs clockwise
   std::vector<int> vertices;                    ///< of the surface: the border's in order, then inner ones
   std::vector<Eigen::Vector3d> weights;         ///< barycentric coordinates
   std::vector<Eigen::Vector2d> points;          ///< in the triangle's plane
   std::vector<std::array<int, 2>> constraints;  ///< the border first
   std::size_t border_size = 0;
+  std::map<std::array<int, 2>, int> facets;  ///< of the directed pieces of the curve
 };
 
 class Splitter {
@@ -53,11 +57,18 @@ class Splitter {
   }
 
  private:
+  void orderCorners(int triangle, DividedTriangle* divided) const;
   void addBorder(int triangle, DividedTriangle* divided) const;
   void addSegments(const std::vector<int>& segments, DividedTriangle* divided) const;
   void project(int triangle, DividedTriangle* divided) const;
+  TriangleList partsOf(const DividedTriangle& divided) const;
   void divide(int triangle, const std::vector<int>& segments);
   void append(int triangle, const DividedTriangle& divided, const TriangleList& parts);
+
+  bool precedes(int vertex, int other) const {
+    const Eigen::Vector3d &a = surface_.vertices[vertex], &b = surface_.vertices[other];
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  }
 
   const CutCurve& curve_;
   const std::vector<int>& mates_;
@@ -65,20 +76,29 @@ class Splitter {
   SplitSurface& surface_;
 };
 
+void Splitter::orderCorners(int triangle, DividedTriangle* divided) const {
+  const auto& vertices = surface_.triangles[triangle];
+  std::array<int, 3>& corners = divided->corners = {0, 1, 2};
+  std::sort(corners.begin(), corners.end(), [&](int a, int b) { return precedes(vertices[a], vertices[b]); });
+  divided->reversed = (corners[0] + 1) % 3 != corners[1];
+}
+
 void Splitter::addBorder(int triangle, DividedTriangle* divided) const {
   for (int k = 0; k < 3; ++k) {
-    const int h = 3 * triangle + k, edge = std::min(h, mates_[h]);
-    const Eigen::Vector3d start = Eigen::Vector3d::Unit(k), end = Eigen::Vector3d::Unit((k + 1) % 3);
-    divided->vertices.push_back(surface_.triangles[triangle][k]);
-    divided->weights.push_back(start);
+    const int first = divided->corners[k], second = divided->corners[(k + 1) % 3];
+    const int h = 3 * triangle + (divided->reversed ? second : first), edge = std::min(h, mates_[h]);
+    const bool forward = (edge == h) != divided->reversed;
+    divided->vertices.push_back(surface_.triangles[triangle][first]);
+    divided->weights.push_back(Eigen::Vector3d::Unit(first));
     const auto found = places_.nodes.find(edge);
     if (found == places_.nodes.end()) continue;
     std::vector<int> nodes = found->second;
-    if (edge != h) std::reverse(nodes.begin(), nodes.end());
+    if (!forward) std::reverse(nodes.begin(), nodes.end());
     for (const int node : nodes) {
-      const double along = edge == h ? curve_.nodes[node].along : 1.0 - curve_.nodes[node].along;
+      const double along = forward ? curve_.nodes[node].along : 1.0 - curve_.nodes[node].along;
       divided->vertices.push_back(surface_.node_vertices[node]);
-      divided->weights.push_back((1.0 - along) * start + along * end);
+      divided->weights.push_back((1.0 - along) * Eigen::Vector3d::Unit(first) +
+                                 along * Eigen::Vector3d::Unit(second));
     }
   }
   divided->border_size = divided->vertices.size();
@@ -87,45 +107,54 @@ void Splitter::addBorder(int triangle, DividedTriangle* divided) const {
 }
 
 void Splitter::addSegments(const std::vector<int>& segments, DividedTriangle* divided) const {
-  const auto indexOf = [this, divided](int node) {
-    const int vertex = surface_.node_vertices[node];
-    const auto found = std::find(divided->vertices.begin(), divided->vertices.end(), vertex);
-    if (found == divided->vertices.end()) {
-      divided->vertices.push_back(vertex);
-      return static_cast<int>(divided->vertices.size()) - 1;
+  std::vector<int> inner;  // where edges of the patch pierce the triangle
+  for (const int s : segments) {
+    for (const int node : {curve_.segments[s].from, curve_.segments[s].to}) {
+      if (curve_.nodes[node].mesh_edge < 0) inner.push_back(surface_.node_vertices[node]);
     }
-    return static_cast<int>(found - divided->vertices.begin());
+  }
+  std::sort(inner.begin(), inner.end(), [this](int a, int b) { return precedes(a, b); });
+  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
+  divided->vertices.insert(divided->vertices.end(), inner.begin(), inner.end());
+  const auto indexOf = [this, divided](int node) {
+    const auto& all = divided->vertices;
+    return static_cast<int>(std::find(all.begin(), all.end(), surface_.node_vertices[node]) - all.begin());
   };
   for (const int s : segments) {
-    divided->constraints.push_back({indexOf(curve_.segments[s].from), indexOf(curve_.segments[s].to)});
+    const int from = indexOf(curve_.segments[s].from), to = indexOf(curve_.segments[s].to);
+    divided->facets[{from, to}] = curve_.segments[s].facet;
+    divided->constraints.push_back({std::min(from, to), std::max(from, to)});
   }
+  std::sort(divided->constraints.begin() + static_cast<std::ptrdiff_t>(divided->border_size),
+            divided->constraints.end());
 }
 
 void Splitter::project(int triangle, DividedTriangle* divided) const {
-  const auto& [a, b, c] = surface_.triangles[triangle];
-  const Eigen::Vector3d origin = surface_.vertices[a];
-  const Eigen::Vector3d ab = surface_.vertices[b] - origin, ac = surface_.vertices[c] - origin;
+  const auto& vertices = surface_.triangles[triangle];
+  const auto& [a, b, c] = divided->corners;
+  const Eigen::Vector3d origin = surface_.vertices[vertices[a]];
+  const Eigen::Vector3d ab = surface_.vertices[vertices[b]] - origin,
+                        ac = surface_.vertices[vertices[c]] - origin;
   const Eigen::Vector3d normal = ab.cross(ac);
   const PlaneFrame frame{origin, ab.normalized(), normal.cross(ab).normalized()};
   for (std::size_t k = 0; k < divided->vertices.size(); ++k) {
-    const Eigen::Vector3d place = surface_.vertices[divided->vertices[k]] - origin;
-    divided->points.push_back(frame.project(origin + place));
+    const Eigen::Vector3d& position = surface_.vertices[divided->vertices[k]];
+    divided->points.push_back(frame.project(position));
     if (k < divided->border_size) continue;
+    const Eigen::Vector3d place = position - origin;
     const double wb = place.cross(ac).dot(normal) / normal.squaredNorm();
     const double wc = ab.cross(place).dot(normal) / normal.squaredNorm();
-    divided->weights.emplace_back(1.0 - wb - wc, wb, wc);
+    Eigen::Vector3d weights;
+    weights[a] = 1.0 - wb - wc, weights[b] = wb, weights[c] = wc;
+    divided->weights.push_back(weights);
   }
 }
 
-void Splitter::divide(int triangle, const std::vector<int>& segments) {
-  DividedTriangle divided;
-  addBorder(triangle, &divided);
-  addSegments(segments, &divided);
-  project(triangle, &divided);
+/// The triangles of the regions at the border and at the curve; the rest of the convex hull are gaps of
+/// rounding.
+TriangleList Splitter::partsOf(const DividedTriangle& divided) const {
   const auto plane = triangulatePlane(divided.points, divided.constraints);
   if (!plane) throw CutRefused("the cut crosses itself on the surface");
-
-  // The regions at the border and at the curve; what is left of the convex hull are gaps of rounding.
   std::set<std::array<int, 2>> inward;
   for (std::size_t k = 0; k < divided.constraints.size(); ++k) {
     const auto& [start, end] = divided.constraints[k];
@@ -140,21 +169,20 @@ void Splitter::divide(int triangle, const std::vector<int>& segments) {
   }
   TriangleList parts;
   for (std::size_t t = 0; t < plane->triangles.size(); ++t) {
-    if (regions.count(plane->regions[t]) > 0) parts.push_back(plane->triangles[t]);
+    if (regions.count(plane->regions[t]) == 0) continue;
+    parts.push_back(plane->triangles[t]);
+    if (divided.reversed) std::swap(parts.back()[1], parts.back()[2]);
   }
-  std::map<std::array<int, 2>, int> facets;
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    facets[divided.constraints[divided.border_size + k]] = curve_.segments[segments[k]].facet;
-  }
-  const std::size_t first_new = surface_.triangles.size();
-  append(triangle, divided, parts);
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::size_t place = p == 0 ? static_cast<std::size_t>(triangle) : first_new + p - 1;
-    for (int k = 0; k < 3; ++k) {
-      const auto found = facets.find({parts[p][k], parts[p][(k + 1) % 3]});
-      if (found != facets.end()) surface_.curve[3 * place + k] = found->second;
-    }
-  }
+  return parts;
+}
+
+void Splitter::divide(int triangle, const std::vector<int>& segments) {
+  DividedTriangle divided;
+  orderCorners(triangle, &divided);
+  addBorder(triangle, &divided);
+  addSegments(segments, &divided);
+  project(triangle, &divided);
+  append(triangle, divided, partsOf(divided));
 }
 
 /// The first part takes the triangle's place, the others follow at the end.
@@ -173,6 +201,9 @@ void Splitter::append(int triangle, const DividedTriangle& divided, const Triang
     surface_.changed.push_back(static_cast<int>(place));
     for (int k = 0; k < 3; ++k) {
       surface_.triangles[place][k] = divided.vertices[parts[p][k]];
+      const auto facet = divided.facets.find({parts[p][k], parts[p][(k + 1) % 3]});
+      surface_.curve[3 * place + static_cast<std::size_t>(k)] =
+          facet == divided.facets.end() ? -1 : facet->second;
       if (has_texture) surface_.texture[3 * place + k] = texture * divided.weights[parts[p][k]];
     }
   }

@@ -27,9 +27,17 @@ double diagonalOf(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
+/// As published in Point32. Volatile, because g++ 12 drops the conversion of neighbouring coordinates at -O3.
+Eigen::Vector3d rounded(const Eigen::Vector3d& point) {
+  return point.unaryExpr([](double coordinate) {
+    const volatile auto single = static_cast<float>(coordinate);
+    return static_cast<double>(single);
+  });
+}
+
 void roundNewVertices(SplitSurface* surface) {
   for (std::size_t v = static_cast<std::size_t>(surface->own_vertices); v < surface->vertices.size(); ++v) {
-    surface->vertices[v] = surface->vertices[v].cast<float>().cast<double>();
+    surface->vertices[v] = rounded(surface->vertices[v]);
   }
 }
 
@@ -77,8 +85,7 @@ MeshTopology compacted(const MeshTopology& before, const SplitSurface& surface,
     if (numbers[v] < 0) continue;
     const int source = stitched.copied_from[v];
     const bool own = source >= 0 && source < surface.own_vertices;
-    mesh.rest_vertices.row(vertex_count) =
-        own ? stitched.vertices[v] : stitched.vertices[v].cast<float>().cast<double>().eval();
+    mesh.rest_vertices.row(vertex_count) = own ? stitched.vertices[v] : rounded(stitched.vertices[v]);
     mesh.vertex_parents.push_back(own ? before.vertex_parents[source] : -1);
     numbers[v] = static_cast<int>(vertex_count++);
   }
@@ -107,12 +114,10 @@ MeshTopology compacted(const MeshTopology& before, const SplitSurface& surface,
 /// be as low.
 void checkHeights(const MeshTopology& mesh, const SplitSurface& surface, const StitchedSurface& stitched,
                   double lowest) {
+  const std::vector<Eigen::Vector3d>& vertices = stitched.vertices;
   const auto check = [&](std::size_t t, double limit) {
     const auto& [a, b, c] = stitched.triangles[t];
-    const auto rounded = [&](int v) -> Eigen::Vector3d {
-      return stitched.vertices[v].cast<float>().cast<double>();
-    };
-    const double height = smallestHeight(rounded(a), rounded(b), rounded(c));
+    const double height = smallestHeight(rounded(vertices[a]), rounded(vertices[b]), rounded(vertices[c]));
     if (height < limit) throw CutRefused(fmt::format("it would leave a triangle {:.2g} m high", height));
   };
   for (const int t : surface.changed) {
