@@ -30,8 +30,8 @@ demo: build  ## follow a virtual sponge: in rviz with a display, otherwise with 
 bench: build  ## run the benchmarks; writes bench/summary.json
 	scripts/bench
 
-evaluate: build  ## accuracy over all scenes of the virtual camera; writes docs/evaluation.md
-	scripts/evaluate
+evaluate: build  ## accuracy over all scenes; writes docs/evaluation.md. SCENES="bend cut": only these, nothing written
+	scripts/evaluate $(SCENES)
 
 tidy: build  ## clang-tidy over all sources (slow)
 	scripts/install_dependencies scripts/apt-packages-tidy.txt

@@ -3,9 +3,11 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <softbody_msgs/StageTiming.h>
+#include <softbody_msgs/TrackingStatus.h>
 
 #include "softbody_bringup/evaluation/bags.h"
 #include "softbody_common/conversions.h"
+#include "softbody_common/tracking_state.h"
 
 namespace softbody::evaluation {
 
@@ -42,6 +44,19 @@ StageTimes readStageTimes(const std::string& path, const std::string& topic) {
     }
   }
   return times;
+}
+
+std::map<std::string, std::size_t> readTrackingStates(const std::string& path, const std::string& topic) {
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  std::map<std::string, std::size_t> frames;
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto status = instance.instantiate<softbody_msgs::TrackingStatus>();
+    if (!status || status->state > softbody_msgs::TrackingStatus::RECOVERING)
+      throw std::invalid_argument(path + ": " + topic + " holds what is no softbody_msgs/TrackingStatus");
+    ++frames[nameOf(static_cast<TrackingState>(status->state))];
+  }
+  return frames;
 }
 
 }  // namespace softbody::evaluation

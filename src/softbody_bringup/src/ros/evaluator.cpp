@@ -79,6 +79,7 @@ Measured measure(const EvaluatorOptions& options) {
 
   report.frames = {result.states.size(), result.states.size(), {}};
   report.volume = volumeOf(result);
+  report.states = readTrackingStates(options.result, options.result_namespace + "/" + topics::kStatus);
   report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
   if (!recording.empty())
     compareWithRecording(options, recording, result, truth_or_null, &report, &measured.pictures);

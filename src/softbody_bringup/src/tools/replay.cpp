@@ -13,6 +13,7 @@
 #include "softbody_bringup/bag_frames.h"
 #include "softbody_bringup/pipeline.h"
 #include "softbody_bringup/result_bag.h"
+#include "softbody_common/tracking_state.h"
 
 namespace {
 
@@ -108,11 +109,6 @@ rosbag::Bag openBag(const std::string& path) try {
       fmt::format("{} is not a readable bag: {} (try: rosbag check, rosbag reindex)", path, error.what()));
 }
 
-const char* name(softbody::TrackingState state) {
-  static constexpr const char* kNames[] = {"initializing", "tracking", "degraded", "lost", "recovering"};
-  return kNames[static_cast<int>(state)];
-}
-
 void printSummary(const softbody::BagFramesReport& report, const Tally& tally, const std::string& output) {
   using softbody::TrackingState;
   const auto count = [&tally](TrackingState state) {
@@ -125,7 +121,7 @@ void printSummary(const softbody::BagFramesReport& report, const Tally& tally, c
              count(TrackingState::kTracking), count(TrackingState::kDegraded), count(TrackingState::kLost),
              count(TrackingState::kRecovering), count(TrackingState::kInitializing));
   for (const auto& [state, reason] : tally.reasons) {
-    if (!reason.empty()) fmt::print("{}: {}\n", name(state), reason);
+    if (!reason.empty()) fmt::print("{}: {}\n", nameOf(state), reason);
   }
   if (report.unusable > 0) fmt::print("last unusable frame: {}\n", report.last_error);
   fmt::print(stderr, "replay: {:.1f} ms a frame; wrote {}\n", tally.milliseconds / std::max(1, report.frames),

@@ -7,6 +7,7 @@
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 #include <softbody_msgs/StageTiming.h>
+#include <softbody_msgs/TrackingStatus.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Core>
@@ -158,6 +159,11 @@ TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
       timing.stages[0].milliseconds = static_cast<float>(k);
       bag.write("/softbody/timing", ros::Time(1.6e9 + k), timing);
     }
+    softbody_msgs::TrackingStatus status;
+    for (int k = 0; k < 4; ++k) {
+      status.state = k < 3 ? softbody_msgs::TrackingStatus::TRACKING : softbody_msgs::TrackingStatus::LOST;
+      bag.write("/softbody/status", ros::Time(1.6e9 + k), status);
+    }
   }
   options.truth = recording();
   options.report_folder = testing::TempDir() + "evaluator_page";
@@ -165,6 +171,8 @@ TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
   EXPECT_TRUE(report.silhouette->against_truth);
   EXPECT_GT(report.silhouette->worst, 0.9);
   EXPECT_EQ(report.stages.size(), 1u);
+  EXPECT_EQ(report.states.at("tracking"), 3u);
+  EXPECT_EQ(report.states.at("lost"), 1u);
   EXPECT_EQ(report.stages.begin()->second.mean, 10.5);
   EXPECT_EQ(report.stages.begin()->second.p95, 19.0);
   EXPECT_TRUE(std::filesystem::exists(options.report_folder + "/report.html"));

@@ -13,6 +13,7 @@
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/ros_parameters.h"
 #include "softbody_common/topics.h"
+#include "softbody_common/tracking_state.h"
 #include "softbody_tracking/feature_messages.h"
 
 namespace softbody {
@@ -196,7 +197,6 @@ void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
 }
 
 void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  static constexpr const char* kNames[] = {"initializing", "tracking", "degraded", "lost", "recovering"};
   const double silence_s = (ros::Time::now() - last_stamp_).toSec();
   if (last_stamp_.isZero() || silence_s > kSilence_s) {
     status.summary(
@@ -209,7 +209,7 @@ void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& s
   status.summary(
       good ? diagnostic_msgs::DiagnosticStatus::OK
            : (lost ? diagnostic_msgs::DiagnosticStatus::ERROR : diagnostic_msgs::DiagnosticStatus::WARN),
-      std::string(kNames[static_cast<int>(last_status_.state)]) +
+      std::string(nameOf(last_status_.state)) +
           (last_status_.reason.empty() ? "" : ": " + last_status_.reason));
   status.add("features tracked", last_status_.features_tracked);
   status.add("features bound", last_status_.features_total);

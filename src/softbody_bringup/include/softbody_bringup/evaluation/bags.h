@@ -42,6 +42,10 @@ ToolRecord readPoses(const std::string& path, const std::string& topic);
 /// StageTiming; empty if the topic is not there.
 StageTimes readStageTimes(const std::string& path, const std::string& topic);
 
+/// TrackingStatus: frames by the name of their state; empty if the topic is not there.
+/// @throw std::invalid_argument if it is of another type, or holds an unknown state.
+std::map<std::string, std::size_t> readTrackingStates(const std::string& path, const std::string& topic);
+
 /// A colour image and its depth, without distortion.
 struct RecordedFrame {
   Nanoseconds stamp = 0;  ///< of the colour image

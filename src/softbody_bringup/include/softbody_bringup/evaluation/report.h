@@ -36,7 +36,8 @@ struct PiecesReport {
 
 struct Report {
   FrameCount frames;
-  std::vector<std::string> notes;  ///< what was left out, in sentences
+  std::map<std::string, std::size_t> states;  ///< frames by the tracker's state, if the result says
+  std::vector<std::string> notes;             ///< what was left out, in sentences
   std::optional<VertexErrorReport> vertex_error;
   std::optional<PiecesReport> pieces;
   std::optional<CutSurfaceReport> cut_surface;   ///< if the truth is cut

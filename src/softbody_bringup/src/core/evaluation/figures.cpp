@@ -19,6 +19,13 @@ void addLengths(const std::string& name, const Summary& s, std::vector<Figure>* 
   figures->push_back({name + ", max", "mm", 1e3 * s.max});
 }
 
+void addStates(const std::map<std::string, std::size_t>& states, std::vector<Figure>* figures) {
+  double all = 0.0;
+  for (const auto& [state, frames] : states) all += static_cast<double>(frames);
+  for (const auto& [state, frames] : states)
+    figures->push_back({"frames " + state, "%", 100.0 * static_cast<double>(frames) / all});
+}
+
 void addVertexError(const VertexErrorReport& report, std::vector<Figure>* figures) {
   addLengths("vertex error", report.all, figures);
   addLengths("visible vertices", report.visible, figures);
@@ -79,6 +86,7 @@ std::vector<Figure> figures(const Report& report) {
   std::vector<Figure> all;
   const double expected = static_cast<double>(std::max<std::size_t>(1, report.frames.expected));
   all.push_back({"frames answered", "%", 100.0 * static_cast<double>(report.frames.answered) / expected});
+  if (!report.states.empty()) addStates(report.states, &all);
   if (report.vertex_error) addVertexError(*report.vertex_error, &all);
   addCut(report, &all);
   addAbsences(report.absences, &all);

@@ -137,6 +137,7 @@ json toJson(const Report& report) {
                    {"volume", toJson(report.volume)}};
   if (report.vertex_error) document["vertex_error"] = toJson(*report.vertex_error);
   if (!report.notes.empty()) document["notes"] = report.notes;
+  if (!report.states.empty()) document["states"] = report.states;
   if (report.frames.recorded) document["frames"]["recorded"] = *report.frames.recorded;
   if (report.pieces) document["pieces"] = toJson(*report.pieces);
   if (report.cut_surface) document["cut_surface"] = toJson(*report.cut_surface);

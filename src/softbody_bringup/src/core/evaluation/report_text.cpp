@@ -127,8 +127,9 @@ std::string volumeLine(const VolumeReport& volume) {
 }  // namespace
 
 std::string toText(const Report& report) {
-  std::string text =
-      fmt::format("frames answered: {} of {}\n", report.frames.answered, report.frames.expected);
+  std::string text = fmt::format("frames answered: {} of {}", report.frames.answered, report.frames.expected);
+  for (const auto& [state, frames] : report.states) text += fmt::format(", {} {}", state, frames);
+  text += "\n";
   if (report.vertex_error) text += vertexErrorTable(*report.vertex_error);
   if (report.residual) text += residualTable(report);
   text += optionalLines(report);
