@@ -116,7 +116,8 @@ def cuts(reports):
                      number(error["near_cut"]["mean_mm"]), number(cut["distance"]["mean_mm"]),
                      number(worst([cut["distance"]["max_mm"], cut["missed"]["max_mm"]])), number(cut["tilt_deg"]),
                      percent(get(report, "volume", "cut_change"), 3),
-                     f"{tool['answered']} of {tool['expected']}" if tool else "-", number(get(tool, "position", "mean_mm")), number(get(tool, "rotation_deg", "mean"))])
+                     f"{tool['answered']} of {tool['expected']}" if tool else "-",
+                     number(get(tool, "position", "mean_mm")), number(get(tool, "rotation_deg", "mean"))])
     return section("Cuts", "Errors of the pieces and near the cut, and of the cut's surface in the rest body [mm].",
                    ["scene", "pieces at the end", "frames with the right number [%]", "vertices in the right piece [%]",
                     "mean error by piece", "near the cut", "cut surface, mean", "at most", "tilt [deg]",
@@ -164,7 +165,8 @@ def toys(reports):
     for window in [*report["depth_residual"]["windows"], report["depth_residual"]["all"]]:
         first, count = window["first_frame"], window["frames"]
         rows.append([f"{first} to {first + count - 1}", str(window["answered"]),
-                     number(window["residual"]["median_mm"]), number(window["residual"]["p95_mm"]), percent(window["within_10mm"]),
+                     number(window["residual"]["median_mm"]), number(window["residual"]["p95_mm"]),
+                     percent(window["within_10mm"]),
                      percent(window["within_15mm_of_measured"])])
     return section("A recorded plush toy", "Depth against the tracked surface; there is no other truth.",
                    ["frames", "answered", "median [mm]", "p95 [mm]", "within 10 mm [%]",
@@ -249,8 +251,8 @@ def origin(root):
 
 def document(root, reports):
     lines = ["# Evaluation", "", f"Written by {origin(root)}.", "",
-             "The virtual camera's recordings (default seed and noise, 640 x 480 at 30 Hz) tracked by `replay` and compared",
-             "with the exact truth; `-`: not measured. [What each figure means](figures.md).", "",
+             "The virtual camera's recordings (default seed and noise, 640 x 480 at 30 Hz) tracked by `replay` and",
+             "compared with the exact truth; `-`: not measured. [What each figure means](figures.md).", "",
              "## Goals", "", *goal_table(reports)]
     for part in (accuracy, noise, long_runs, absences, cuts, faults, toys, stage_times):
         lines += part(reports)

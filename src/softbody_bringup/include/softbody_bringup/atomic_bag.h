@@ -7,19 +7,22 @@
 
 namespace softbody {
 
-/// A bag (lz4) that appears under its name only when finish() is called; without that nothing is left behind
+/// A bag that appears under its name only when finish() is called; without that nothing is left behind
 /// and an earlier file stays as it was.
 class AtomicBag {
  public:
   /// @throw std::invalid_argument if the output is a folder; rosbag::BagException if it cannot be written.
-  explicit AtomicBag(std::filesystem::path output);
+  explicit AtomicBag(std::filesystem::path output,
+                     rosbag::CompressionType compression = rosbag::compression::LZ4);
   ~AtomicBag();
   AtomicBag(const AtomicBag&) = delete;
   AtomicBag& operator=(const AtomicBag&) = delete;
 
+  /// @param connection as of a message that is copied; null: none.
   template <typename Message>
-  void write(const std::string& topic, const ros::Time& time, const Message& message) {
-    bag_.write(topic, time, message);
+  void write(const std::string& topic, const ros::Time& time, const Message& message,
+             const boost::shared_ptr<ros::M_string>& connection = {}) {
+    bag_.write(topic, time, message, connection);
   }
 
   /// As a latched topic, which players send again to late subscribers.

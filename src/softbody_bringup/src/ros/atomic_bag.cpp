@@ -6,13 +6,13 @@
 
 namespace softbody {
 
-AtomicBag::AtomicBag(std::filesystem::path output)
+AtomicBag::AtomicBag(std::filesystem::path output, rosbag::CompressionType compression)
     : output_(std::move(output)), temporary_(output_.string() + ".part") {
   if (std::filesystem::is_directory(output_)) {
     throw std::invalid_argument(output_.string() + " is a folder, not a bag to write");
   }
   bag_.open(temporary_.string(), rosbag::bagmode::Write);
-  bag_.setCompression(rosbag::compression::LZ4);
+  bag_.setCompression(compression);
 }
 
 AtomicBag::~AtomicBag() {

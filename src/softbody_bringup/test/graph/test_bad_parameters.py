@@ -34,6 +34,9 @@ class BadParameters(unittest.TestCase):
         self.check("softbody_sim", "simulator", {"object": OBJECT, "iterations": -3},
                    ["/simulator/iterations", "-3"])
 
+    def test_injector(self):
+        self.check("softbody_bringup", "injector", {"drop": 1.5}, ["/injector/drop", "1.5"])
+
     def test_simulator_without_an_object(self):
         self.check("softbody_sim", "simulator", {}, ["/simulator/object"])
 

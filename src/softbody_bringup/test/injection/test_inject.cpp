@@ -162,25 +162,38 @@ TEST(Inject, DelayedFramesArriveLateWithTheirOwnStamps) {
   EXPECT_EQ(late, kFrames / 5);
 }
 
-TEST(Inject, ReorderedFramesChangePlacesAndNothingIsLost) {
-  const std::vector<Nanoseconds> received{10, 20, 30, 40, 50, 60};
+TEST(Inject, ReorderedFramesArriveJustAfterTheNextOneAndNothingIsLost) {
+  std::vector<Nanoseconds> received(400);
+  for (std::size_t i = 0; i < received.size(); ++i) received[i] = static_cast<Nanoseconds>(33'000'000 * i);
   DeliveryFaults faults;
-  faults.reorder_share = 0.34;  // two of six
-  for (faults.seed = 1; faults.seed < 30; ++faults.seed) {
-    const std::vector<bool> swapped = choose(6, 0.34, faults.seed, 3);
-    const std::vector<Delivery> deliveries = planDeliveries(received, faults);
-    ASSERT_EQ(deliveries.size(), 6u);
-    std::vector<Nanoseconds> times;
-    for (const Delivery& delivery : deliveries) times.push_back(delivery.received);
-    for (std::size_t i = 0; i + 1 < 6; ++i) {
-      const bool alone = swapped[i] && (i == 0 || !swapped[i - 1]) && !swapped[i + 1];
-      if (alone) {
-        EXPECT_EQ(times[i], received[i + 1]);
-        EXPECT_EQ(times[i + 1], received[i]);
+  for (const double share : {0.0, 0.1, 0.2, 0.5}) {
+    faults.reorder_share = share;
+    for (faults.seed = 1; faults.seed < 20; ++faults.seed) {
+      const std::vector<Delivery> deliveries = planDeliveries(received, faults);
+      ASSERT_EQ(deliveries.size(), received.size());
+      std::size_t overtaken = 0;
+      for (std::size_t i = 0; i < deliveries.size(); ++i) {
+        EXPECT_GE(deliveries[i].received, received[i]) << "before it was taken";
+        if (deliveries[i].received == received[i]) continue;
+        ++overtaken;
+        EXPECT_GT(deliveries[i].received, deliveries[i + 1].received);
+        EXPECT_LT(deliveries[i].received, received[i + 1] + 1'000'000);
       }
+      EXPECT_EQ(overtaken, std::lround(share * 400));
     }
-    std::sort(times.begin(), times.end());
-    EXPECT_EQ(times, received);
+  }
+}
+
+TEST(Fate, OfAnyTwentyInARowTheShareIsChosenWhateverTheLength) {
+  DeliveryFaults faults;
+  faults.drop_share = 0.15;
+  for (faults.seed = 1; faults.seed < 20; ++faults.seed) {
+    int dropped = 0;
+    for (std::size_t i = 0; i < 1000; ++i) {
+      dropped += fateOf(i, faults).copies == 0;
+      if (i % 20 != 19) continue;
+      EXPECT_EQ(dropped, std::lround(0.15 * static_cast<double>(i + 1)));
+    }
   }
 }
 
