@@ -182,6 +182,52 @@ TEST(BodyTracker, SaysThatItsFeaturesAreCovered) {
   EXPECT_FALSE(result.status.reason.empty());
 }
 
+TEST(BodyTracker, FindsABodyThatNobodyPointedOut) {
+  BoxBody box = makeBox();
+  BodyTracker tracker{TrackerConfig()};
+  tracker.setTopologies(box.volume, box.surface);
+  StageTimer timer;
+  const Points truth = posedBox(box, 0.03, 0.4);
+  const TrackingResult result = tracker.track(renderFrame(box, truth, 1000), nullptr, &timer);
+  ASSERT_TRUE(result.has_targets) << result.status.reason;
+  EXPECT_EQ(result.status.state, TrackingState::kTracking);
+  // A box looks the same in four poses; its surface is at the same place in all of them.
+  const Points found = transformed(box.volume.rest_vertices, result.targets.body_pose);
+  for (Eigen::Index v = 0; v < found.rows(); ++v)
+    EXPECT_LT((truth.rowwise() - found.row(v)).rowwise().norm().minCoeff(), 0.003);
+  EXPECT_NE(result.status.reason.find("look alike"), std::string::npos) << result.status.reason;
+}
+
+TEST(BodyTracker, FindsABodyThatComesBackElsewhereAndTurned) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(posedBox(tracked.box()), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  const Points elsewhere = posedBox(tracked.box(), 0.08, 0.5);
+  ASSERT_TRUE(tracked.tracksWithin(15, elsewhere));
+  const TrackingResult result = tracked.show(elsewhere);
+  // Its features tell apart the four poses that look alike in depth.
+  EXPECT_LT((transformed(tracked.box().volume.rest_vertices, result.targets.body_pose) - elsewhere)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.003);
+}
+
+TEST(BodyTracker, FollowsAJumpOfMoreThanTheSearchWindow) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  tracked.show(posedBox(tracked.box()));
+  const Points truth = posedBox(tracked.box(), 0.025);
+  const TrackingResult result = tracked.show(truth);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.003);
+}
+
 TEST(BodyTracker, IgnoresStatesThatDoNotAnswerItsTargets) {
   BoxBody box = makeBox();
   box.volume.has_initial_pose = true;

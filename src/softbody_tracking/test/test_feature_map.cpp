@@ -30,6 +30,7 @@ class FeatureMapTest : public ::testing::Test {
   std::vector<FeatureMatch> align() {
     std::vector<FeatureMatch> matches = map_.align(frame_, image_, surface_);
     map_.judge(frame_.camera, &matches);
+    map_.credit(matches);
     return matches;
   }
 

@@ -63,18 +63,18 @@ cv::Point toPixel(const cv::Point2f& p) { return {cvRound(p.x), cvRound(p.y)}; }
 
 /// The keypoint in the window that matches best, -1 where none does clearly.
 int bestKeypoint(const Descriptor& descriptor, const cv::Point2f& predicted,
-                 const std::vector<Keypoint>& keypoints, const PixelGrid& grid, const FeatureConfig& config,
+                 const std::vector<Keypoint>& keypoints, const PixelGrid& grid, int max_hamming_distance,
                  int* distance) {
-  const float radius2 =
-      static_cast<float>(config.search_radius_px) * static_cast<float>(config.search_radius_px);
+  constexpr float kRadius2 = kWideSearchPx * kWideSearchPx;
   std::vector<std::pair<int, int>> candidates;  // distance, keypoint
   grid.around(predicted.x, predicted.y, [&](int k) {
     const cv::Point2f d = keypoints[k].pixel - predicted;
-    if (d.dot(d) <= radius2) candidates.emplace_back(hammingDistance(descriptor, keypoints[k].descriptor), k);
+    if (d.dot(d) <= kRadius2)
+      candidates.emplace_back(hammingDistance(descriptor, keypoints[k].descriptor), k);
   });
   if (candidates.empty()) return -1;
   const auto best = *std::min_element(candidates.begin(), candidates.end());
-  if (best.first > config.max_hamming_distance) return -1;
+  if (best.first > max_hamming_distance) return -1;
   for (const auto& [other_distance, k] : candidates) {
     const cv::Point2f d = keypoints[k].pixel - keypoints[best.second].pixel;
     const bool rival = d.dot(d) > kSamePlacePx * kSamePlacePx;
@@ -169,20 +169,21 @@ std::vector<FeatureMap::Prediction> FeatureMap::predict(const PredictedSurface& 
 
 /// Where the patch is, if it is anywhere around.
 std::optional<cv::Point2f> FeatureMap::locate(const GrayPyramid& image, const Prediction& prediction,
-                                              const cv::Point2f& start, int coarsest_level) const {
+                                              const cv::Point2f& start, int coarsest_level,
+                                              int radius_px) const {
   const FeaturePatch::Alignment found =
       features_[prediction.feature].patch.align(image, prediction.warp, start, coarsest_level);
   const cv::Point2f moved = found.pixel - prediction.pixel;
-  const auto radius = static_cast<float>(config_.search_radius_px);
+  const auto radius = static_cast<float>(radius_px);
   if (found.correlation < kSmallestCorrelation || moved.dot(moved) > radius * radius) return std::nullopt;
   return found.pixel;
 }
 
 /// Tries full resolution first: that is enough where the prediction is good.
 bool FeatureMap::addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
-                          const cv::Point2f& start, std::vector<FeatureMatch>* matches) const {
-  std::optional<cv::Point2f> pixel = locate(image, prediction, start, 0);
-  if (!pixel) pixel = locate(image, prediction, start, GrayPyramid::kLevels - 1);
+                          const cv::Point2f& start, int radius_px, std::vector<FeatureMatch>* matches) const {
+  std::optional<cv::Point2f> pixel = locate(image, prediction, start, 0, radius_px);
+  if (!pixel) pixel = locate(image, prediction, start, GrayPyramid::kLevels - 1, radius_px);
   if (!pixel) return false;
   const double z = featureDepth(frame.depth, *pixel);
   if (z <= 0.0) return false;
@@ -205,7 +206,8 @@ std::vector<FeatureMatch> FeatureMap::align(const RgbdFrame& frame, const GrayPy
   const std::vector<Prediction> predictions = predict(surface);
   for (const Prediction& prediction : predictions) {
     ++features_[prediction.feature].predicted;
-    if (!addMatch(frame, image, prediction, prediction.pixel, &matches)) missed_.push_back(prediction);
+    if (!addMatch(frame, image, prediction, prediction.pixel, config_.search_radius_px, &matches))
+      missed_.push_back(prediction);
   }
   expected_ = static_cast<int>(predictions.size());
   return matches;
@@ -214,27 +216,30 @@ std::vector<FeatureMatch> FeatureMap::align(const RgbdFrame& frame, const GrayPy
 void FeatureMap::search(const RgbdFrame& frame, const GrayPyramid& image,
                         const std::vector<Keypoint>& keypoints, const PredictedSurface& surface,
                         std::vector<FeatureMatch>* matches) {
-  PixelGrid grid(surface.camera(), config_.search_radius_px);
+  PixelGrid grid(surface.camera(), kWideSearchPx);
   for (std::size_t k = 0; k < keypoints.size(); ++k) grid.insert(keypoints[k].pixel, static_cast<int>(k));
   std::vector<int> owner(keypoints.size(), -1),
       owner_distance(keypoints.size(), std::numeric_limits<int>::max());
   for (std::size_t m = 0; m < missed_.size(); ++m) {
     int distance = 0;
     const int k = bestKeypoint(features_[missed_[m].feature].descriptor, missed_[m].pixel, keypoints, grid,
-                               config_, &distance);
+                               config_.max_hamming_distance, &distance);
     if (k >= 0 && distance < owner_distance[k]) {
       owner[k] = static_cast<int>(m);
       owner_distance[k] = distance;
     }
   }
   for (std::size_t k = 0; k < keypoints.size(); ++k) {
-    if (owner[k] >= 0) addMatch(frame, image, missed_[owner[k]], keypoints[k].pixel, matches);
+    if (owner[k] >= 0) addMatch(frame, image, missed_[owner[k]], keypoints[k].pixel, kWideSearchPx, matches);
   }
 }
 
-void FeatureMap::judge(const Pinhole& camera, std::vector<FeatureMatch>* matches) {
+void FeatureMap::judge(const Pinhole& camera, std::vector<FeatureMatch>* matches) const {
   markOutliers(camera, config_.max_disagreement_m, matches);
-  for (const FeatureMatch& match : *matches) features_[match.feature].matched += match.inlier ? 1 : 0;
+}
+
+void FeatureMap::credit(const std::vector<FeatureMatch>& matches) {
+  for (const FeatureMatch& match : matches) features_[match.feature].matched += match.inlier ? 1 : 0;
 }
 
 void FeatureMap::retire() {

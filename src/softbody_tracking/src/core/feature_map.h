@@ -13,6 +13,9 @@
 
 namespace softbody {
 
+/// How far from the prediction a descriptor is looked for where patches are not found [px].
+constexpr int kWideSearchPx = 64;
+
 /// A feature bound to the body, with its descriptor as first seen.
 struct MapFeature {
   int id = 0;
@@ -50,9 +53,12 @@ class FeatureMap {
   void search(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
               const PredictedSurface& surface, std::vector<FeatureMatch>* matches);
 
-  /// Marks outliers and remembers merits: a match that disagrees with the median motion of its neighbourhood
-  /// is an outlier, and so is one further from its prediction than a body moves in a frame.
-  void judge(const Pinhole& camera, std::vector<FeatureMatch>* matches);
+  /// Marks outliers: matches that disagree with the median motion of their neighbourhood, or are further from
+  /// their prediction than a body moves in a frame.
+  void judge(const Pinhole& camera, std::vector<FeatureMatch>* matches) const;
+
+  /// Remembers which features were found again.
+  void credit(const std::vector<FeatureMatch>& matches);
 
   /// How many features the last align() expected to see.
   int expected() const { return expected_; }
@@ -75,9 +81,9 @@ class FeatureMap {
 
   std::vector<Prediction> predict(const PredictedSurface& surface) const;
   std::optional<cv::Point2f> locate(const GrayPyramid& image, const Prediction& prediction,
-                                    const cv::Point2f& start, int coarsest_level) const;
+                                    const cv::Point2f& start, int coarsest_level, int radius_px) const;
   bool addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
-                const cv::Point2f& start, std::vector<FeatureMatch>* matches) const;
+                const cv::Point2f& start, int radius_px, std::vector<FeatureMatch>* matches) const;
   void retire();
 
   FeatureConfig config_;

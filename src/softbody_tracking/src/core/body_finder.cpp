@@ -1,0 +1,139 @@
+#include "body_finder.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "object_candidates.h"
+#include "pose_search.h"
+#include "softbody_common/rigid_fit.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kCoarseColumns = 80, kFineColumns = 160, kFinestColumns = 320;
+constexpr int kCoarseIcp = 10;
+constexpr std::size_t kMostCandidates = 4, kRefined = 8, kKept = 4;
+constexpr double kOtherTurn = 0.35;  // [rad]
+constexpr double kOtherPlace = 0.2;  // diameters
+
+/// Every orientation is within some 35 degrees of one of these: views from the directions of a Fibonacci
+/// sphere, with turns about the viewing axis.
+std::vector<Eigen::Matrix3d> orientations() {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), z = Eigen::Vector3d::UnitZ();
+  std::vector<Eigen::Matrix3d> result;
+  constexpr int kViews = 24, kTurns = 6;
+  const double golden_angle = M_PI * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < kViews; ++i) {
+    const double height = 1.0 - 2.0 * (i + 0.5) / kViews;
+    const Eigen::Matrix3d view =
+        (Eigen::AngleAxisd(golden_angle * i, z) * Eigen::AngleAxisd(std::acos(height), x)).toRotationMatrix();
+    for (int k = 0; k < kTurns; ++k) {
+      result.push_back(Eigen::AngleAxisd(2.0 * M_PI * k / kTurns, z) * view.transpose());
+    }
+  }
+  return result;
+}
+
+bool byCost(const RegistrationResult& a, const RegistrationResult& b) { return a.cost < b.cost; }
+
+}  // namespace
+
+TriangleMesh clustered(const TriangleMesh& mesh, double cell_m) {
+  std::map<std::tuple<int, int, int>, int> cells;
+  std::vector<Eigen::Vector3d> sums;
+  std::vector<int> counts, cluster(static_cast<std::size_t>(mesh.vertices.rows()));
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    const Eigen::Vector3d p = mesh.vertices.row(v);
+    const Eigen::Vector3i cell = (p / cell_m).array().floor().cast<int>();
+    const auto [place, is_new] =
+        cells.try_emplace({cell.x(), cell.y(), cell.z()}, static_cast<int>(sums.size()));
+    if (is_new) sums.emplace_back(Eigen::Vector3d::Zero()), counts.push_back(0);
+    cluster[v] = place->second;
+    sums[place->second] += p;
+    ++counts[place->second];
+  }
+  TriangleMesh result;
+  result.vertices.resize(static_cast<Eigen::Index>(sums.size()), 3);
+  for (std::size_t c = 0; c < sums.size(); ++c)
+    result.vertices.row(static_cast<Eigen::Index>(c)) = sums[c] / counts[c];
+  std::vector<Eigen::Vector3i> triangles;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    const Eigen::Vector3i t(cluster[mesh.triangles(f, 0)], cluster[mesh.triangles(f, 1)],
+                            cluster[mesh.triangles(f, 2)]);
+    if (t.x() != t.y() && t.y() != t.z() && t.z() != t.x()) triangles.push_back(t);
+  }
+  result.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t f = 0; f < triangles.size(); ++f)
+    result.triangles.row(static_cast<Eigen::Index>(f)) = triangles[f];
+  return result;
+}
+
+BodyFinder::BodyFinder(const TriangleMesh& rest_surface, const RegistrationConfig& config)
+    : config_(config), mesh_(rest_surface) {
+  const Eigen::Vector3d size = mesh_.vertices.colwise().maxCoeff() - mesh_.vertices.colwise().minCoeff();
+  diameter_ = size.norm();
+  coarse_ = clustered(mesh_, diameter_ / 25.0);
+}
+
+/// The body in every orientation, its middle a little behind the middle of what is seen.
+std::vector<Eigen::Isometry3d> BodyFinder::startsAt(const Eigen::Vector3d& center) const {
+  const Eigen::Vector3d middle =
+      0.5 * (mesh_.vertices.colwise().maxCoeff() + mesh_.vertices.colwise().minCoeff());
+  const Eigen::Vector3d behind = center + 0.1 * diameter_ * center.normalized();
+  std::vector<Eigen::Isometry3d> starts;
+  for (const Eigen::Matrix3d& R : orientations()) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = R;
+    pose.translation() = behind - R * middle;
+    starts.push_back(pose);
+  }
+  return starts;
+}
+
+std::vector<RegistrationResult> BodyFinder::find(const RgbdFrame& frame, const ColorModel& colors,
+                                                 const std::vector<Eigen::Isometry3d>& guesses) const {
+  const RgbdFrame coarse = subsampled(frame, kCoarseColumns), fine = subsampled(frame, kFineColumns);
+  std::vector<Eigen::Isometry3d> starts = guesses;
+  std::vector<ObjectCandidate> candidates = findObjectCandidates(fine, colors, diameter_);
+  candidates.resize(std::min(candidates.size(), kMostCandidates));
+  for (const ObjectCandidate& candidate : candidates) {
+    const std::vector<Eigen::Isometry3d> here = startsAt(candidate.center);
+    starts.insert(starts.end(), here.begin(), here.end());
+  }
+  PoseSearch search(coarse, coarse_, config_.distance_scale_m);
+  std::vector<RegistrationResult> found;
+  for (const Eigen::Isometry3d& start : starts) {
+    const Eigen::Isometry3d pose = search.icp(start, kCoarseIcp);
+    found.push_back({pose, search.cost(pose)});
+  }
+  std::stable_sort(found.begin(), found.end(), byCost);
+
+  const auto differs = [&](const RegistrationResult& a, const RegistrationResult& b) {
+    const Eigen::Isometry3d between = a.pose.inverse() * b.pose;
+    const Eigen::Vector3d center = mesh_.vertices.colwise().mean().transpose();
+    return Eigen::AngleAxisd(between.linear()).angle() > kOtherTurn ||
+           (a.pose * center - b.pose * center).norm() > kOtherPlace * diameter_;
+  };
+  const auto distinct = [&](const std::vector<RegistrationResult>& poses, std::size_t most) {
+    std::vector<RegistrationResult> kept;
+    for (const RegistrationResult& pose : poses) {
+      const bool is_new = std::all_of(kept.begin(), kept.end(),
+                                      [&](const RegistrationResult& other) { return differs(pose, other); });
+      if (is_new && kept.size() < most) kept.push_back(pose);
+    }
+    return kept;
+  };
+  found = distinct(found, kRefined);
+  PoseSearch finer(fine, coarse_, config_.distance_scale_m);
+  for (RegistrationResult& pose : found) pose = finer.refine(pose.pose, 0.1, 0.02);
+  std::stable_sort(found.begin(), found.end(), byCost);
+  found = distinct(found, kKept);
+  const RgbdFrame finest = subsampled(frame, kFinestColumns);
+  PoseSearch last(finest, mesh_, config_.distance_scale_m);
+  for (RegistrationResult& pose : found) pose = last.refine(pose.pose, 0.02, 0.003);
+  std::stable_sort(found.begin(), found.end(), byCost);
+  return found;
+}
+
+}  // namespace softbody

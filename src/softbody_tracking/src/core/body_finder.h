@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "color_model.h"
+#include "registration.h"
+
+namespace softbody {
+
+/// A coarser mesh of the same outline for rendering small: vertices clustered in cells of the given side.
+TriangleMesh clustered(const TriangleMesh& mesh, double cell_m);
+
+/// Finds a body anywhere in a frame, in any orientation: turned starts on every piece of the depth image of
+/// about its size, short projective ICP each, the best refined on poseCost.
+class BodyFinder {
+ public:
+  BodyFinder(const TriangleMesh& rest_surface, const RegistrationConfig& config);
+
+  /// Poses from best to worst cost that differ by more than 20 degrees or a fifth of the body's size; those
+  /// that explain the frame nearly as well as the first belong to a symmetric body. Empty if nothing is
+  /// there.
+  /// @param colors learned: only pixels of the body's colours count. @param guesses further starts.
+  std::vector<RegistrationResult> find(const RgbdFrame& frame, const ColorModel& colors,
+                                       const std::vector<Eigen::Isometry3d>& guesses) const;
+
+ private:
+  std::vector<Eigen::Isometry3d> startsAt(const Eigen::Vector3d& center) const;
+
+  RegistrationConfig config_;
+  TriangleMesh mesh_, coarse_;
+  double diameter_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <vector>
+
+#include "color_model.h"
+#include "depth_associations.h"
+#include "feature_map.h"
+#include "gray_pyramid.h"
+#include "orb_extractor.h"
+#include "predicted_surface.h"
+#include "surface_samples.h"
+
+namespace softbody {
+
+/// Below so many features and depth points nothing is fixed.
+constexpr int kFewestAssociations = 12;
+
+/// What a frame's images give against a prediction.
+struct Observation {
+  std::vector<Keypoint> keypoints;  ///< empty in most frames: only where new or lost features are looked for
+  std::vector<FeatureMatch> matches;
+  DepthAssociations depth;
+};
+
+/// The matches that are no outliers. A feature's image position says where it is across its ray; how far
+/// along it, the depth around says better: two associations each, with normals across the ray.
+std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
+
+/// Follows one body from a predicted to the observed place: features and depth, associated and brought
+/// together by a rigid motion. Keeps what it learns of the body's features and colours.
+class FrameObserver {
+ public:
+  FrameObserver(const TrackerConfig& config, const TetTopology& volume, const MeshTopology& surface);
+
+  /// @param vertices of the volume as predicted, camera frame. Afterwards surface() is the prediction moved
+  /// rigidly to what was observed.
+  Observation observe(const RgbdFrame& frame, const Points& vertices);
+
+  /// Binds new features where the observation has keypoints on surface without any.
+  void admit(const RgbdFrame& frame, const Observation& seen);
+
+  /// Share of the known features that show at a pose of the undeformed body; -1 where too few should.
+  double featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose);
+
+  const PredictedSurface& surface() const { return surface_; }
+  const FeatureMap& map() const { return map_; }
+  const ColorModel& colors() const { return colors_; }
+
+  /// Forgets features and colours.
+  void reset();
+
+ private:
+  void look(const RgbdFrame& frame, const Points& vertices);
+  void learnColors(const RgbdFrame& frame);
+  cv::Rect searchRegion(const cv::Size& size) const;
+  std::vector<FeatureMatch> alignFeatures(const RgbdFrame& frame);
+  bool few(const std::vector<FeatureMatch>& matches) const;
+  void followFeatures(const RgbdFrame& frame, Observation* seen);
+  std::vector<Keypoint> extract(const RgbdFrame& frame);
+  Eigen::Isometry3d rigidMotion(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches) const;
+  double largestMotion(const Eigen::Isometry3d& motion) const;
+
+  TrackerConfig config_;
+  double volume_edge_m_;
+  PredictedSurface surface_;
+  SurfaceSamples samples_;  ///< of the prediction
+  OrbExtractor orb_;
+  GrayPyramid pyramid_;
+  FeatureMap map_;
+  ColorModel colors_;
+  int frames_to_admission_ = 0;
+};
+
+}  // namespace softbody

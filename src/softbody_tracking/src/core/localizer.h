@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "body_finder.h"
+
+namespace softbody {
+
+/// A pose in which the body explains a frame.
+struct Localization {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  int alike = 1;  ///< poses that explain it as well, this one included: above 1 for a symmetric body
+};
+
+/// Where the body is in a frame that no prediction helps with.
+class Localizer {
+ public:
+  /// How well the body's features are found at a pose: their share of those expected; negative where too few
+  /// are expected to tell.
+  using FeatureShare = std::function<double(const Eigen::Isometry3d&)>;
+
+  Localizer(const TriangleMesh& rest_surface, const RegistrationConfig& config);
+
+  /// Near a rough pose that somebody gave.
+  std::optional<Localization> near(const RgbdFrame& frame, const Eigen::Isometry3d& rough_pose) const;
+
+  /// Anywhere. Among poses alike in depth the one with most features; if they are expected and hardly found
+  /// anywhere, it is not the body.
+  std::optional<Localization> anywhere(const RgbdFrame& frame, const ColorModel& colors,
+                                       const std::vector<Eigen::Isometry3d>& guesses,
+                                       const FeatureShare& feature_share) const;
+
+ private:
+  double foreignShare(const RgbdFrame& frame, const ColorModel& colors, const Eigen::Isometry3d& pose) const;
+
+  RegistrationConfig config_;
+  TriangleMesh rest_surface_;
+  BodyFinder finder_;
+};
+
+}  // namespace softbody

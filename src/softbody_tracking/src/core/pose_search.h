@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "association.h"
+#include "registration.h"
+#include "softbody_common/rasterizer.h"
+#include "softbody_tracking/rgbd_frame.h"
+
+namespace softbody {
+
+/// Depth of every k-th pixel, with the camera that belongs to it; k so that about so many columns remain.
+RgbdFrame subsampled(const RgbdFrame& frame, int columns);
+
+/// Searches poses of one mesh in one frame. Frame and mesh must outlive it.
+class PoseSearch {
+ public:
+  PoseSearch(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m);
+
+  /// See poseCost().
+  double cost(const Eigen::Isometry3d& pose);
+
+  /// Turns by the vector [rad] about the body's centre, then shifts [m].
+  Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,
+                          const Eigen::Vector3d& shift) const;
+
+  /// Projective point-to-plane ICP with a gate that narrows from 4 to 1 distance scales.
+  Eigen::Isometry3d icp(Eigen::Isometry3d pose, int iterations);
+
+  /// Pattern search along turns and shifts, steps halved until they are below the depth's own precision.
+  RegistrationResult refine(const Eigen::Isometry3d& start, double turn_step_rad, double shift_step_m);
+
+ private:
+  std::vector<Association> associations(const Eigen::Isometry3d& pose, double gate);
+
+  const RgbdFrame& frame_;
+  const TriangleMesh& mesh_;
+  double scale_;
+  Eigen::Vector3d center_;
+  RasterImage image_;
+};
+
+}  // namespace softbody

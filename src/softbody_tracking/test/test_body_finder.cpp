@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/body_finder.h"
+#include "core/object_candidates.h"
+#include "softbody_common/rigid_fit.h"
+#include "synthetic_scene.h"
+
+namespace softbody {
+namespace {
+
+const BoxBody kBox = makeBox();
+const TriangleMesh kMesh{kBox.surface.rest_vertices, kBox.surface.triangles};
+constexpr double kDiameter = 0.2272;
+
+TEST(ObjectCandidates, AreWhatStandsBeforeTheWall) {
+  const Points vertices = transformed(kMesh.vertices, boxPose());
+  const auto candidates = findObjectCandidates(renderFrame(kBox, vertices, 1), ColorModel(), kDiameter);
+  ASSERT_EQ(candidates.size(), 1u);
+  EXPECT_LT((candidates.front().center - boxPose().translation()).norm(), 0.04);
+}
+
+TEST(ObjectCandidates, AreNoneOnABareWallOrWithoutDepth) {
+  RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1);
+  frame.depth.setTo(1.2f);
+  EXPECT_TRUE(findObjectCandidates(frame, ColorModel(), kDiameter).empty());
+  frame.depth.setTo(0.0f);
+  EXPECT_TRUE(findObjectCandidates(frame, ColorModel(), kDiameter).empty());
+}
+
+TEST(ClusteredMesh, KeepsTheShapeWithinACell) {
+  const TriangleMesh coarse = clustered(kMesh, 0.03);
+  EXPECT_LT(coarse.vertices.rows(), kMesh.vertices.rows());
+  EXPECT_GT(coarse.triangles.rows(), 20);
+  for (Eigen::Index v = 0; v < coarse.vertices.rows(); ++v)
+    EXPECT_LT((kMesh.vertices.rowwise() - coarse.vertices.row(v)).rowwise().norm().minCoeff(), 0.03);
+}
+
+TEST(BodyFinder, FindsTheBodyInAnyOrientation) {
+  const BodyFinder finder(kMesh, RegistrationConfig());
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 5; ++trial) {
+    const Eigen::Quaterniond q(normal(random), normal(random), normal(random), normal(random));
+    const Eigen::Isometry3d pose =
+        Eigen::Translation3d(0.05 * normal(random), 0.04 * normal(random), 0.55) * q.normalized();
+    const Points truth = transformed(kMesh.vertices, pose);
+    const auto found = finder.find(renderFrame(kBox, truth, 1), ColorModel(), {});
+    ASSERT_FALSE(found.empty());
+    EXPECT_LT(found.front().cost, 0.05);
+    const Points vertices = transformed(kMesh.vertices, found.front().pose);
+    EXPECT_LT((vertices.colwise().mean() - truth.colwise().mean()).norm(), 0.02) << "trial " << trial;
+  }
+}
+
+}  // namespace
+}  // namespace softbody
