@@ -1,11 +1,8 @@
-#include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <boost/make_shared.hpp>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 
+#include "softbody_bringup/atomic_bag.h"
 #include "softbody_bringup/virtual_camera/bag_writer.h"
 #include "softbody_bringup/virtual_camera/messages.h"
 #include "softbody_common/topics.h"
@@ -14,17 +11,6 @@ namespace softbody::virtual_camera {
 namespace {
 
 const ros::Time kStart(1600000000, 0);
-
-/// What a latched publisher's connection says in a recorded bag.
-template <typename Message>
-boost::shared_ptr<ros::M_string> latchedConnection() {
-  auto header = boost::make_shared<ros::M_string>();
-  (*header)["type"] = ros::message_traits::datatype<Message>();
-  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
-  (*header)["message_definition"] = ros::message_traits::definition<Message>();
-  (*header)["latching"] = "1";
-  return header;
-}
 
 tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) {
   tf2_msgs::TFMessage message;
@@ -35,21 +21,19 @@ tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) 
 std::string absolute(const char* topic) { return std::string("/") + topic; }
 
 void writeLatched(const VirtualCamera& camera, std::uint32_t revision, const ros::Time& stamp,
-                  rosbag::Bag* bag) {
-  bag->write("/tf_static", stamp, tfMessage(opticalFrameTransform(stamp)),
-             latchedConnection<tf2_msgs::TFMessage>());
-  bag->write(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(revision), stamp),
-             latchedConnection<softbody_msgs::MeshTopology>());
+                  AtomicBag* bag) {
+  bag->writeLatched("/tf_static", stamp, tfMessage(opticalFrameTransform(stamp)));
+  bag->writeLatched(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(revision), stamp));
 }
 
 void writeCuts(const VirtualCamera& camera, std::uint32_t last_revision, std::uint32_t revision,
-               const ros::Time& stamp, rosbag::Bag* bag) {
+               const ros::Time& stamp, AtomicBag* bag) {
   for (std::uint32_t made = last_revision; made < revision; ++made) {
     bag->write(absolute(kTruthCutTopic), stamp, cutMessage(camera.scene().edits.at(made), stamp));
   }
 }
 
-void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, rosbag::Bag* bag) {
+void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, AtomicBag* bag) {
   bag->write("/tf", stamp, tfMessage(messages.body));
   bag->write(absolute(topics::kCameraColorInfo), stamp, messages.info);
   bag->write(absolute(topics::kCameraDepthInfo), stamp, messages.info);
@@ -59,10 +43,10 @@ void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, rosbag:
   if (messages.tool) bag->write(absolute(kTruthToolPoseTopic), stamp, messages.tool);
 }
 
-void writeAll(VirtualCamera* camera, const BagOptions& options, const std::string& path,
-              const std::function<void(int)>& progress) {
-  rosbag::Bag bag(path, rosbag::bagmode::Write);
-  bag.setCompression(options.small ? rosbag::compression::BZ2 : rosbag::compression::LZ4);
+}  // namespace
+
+void writeBag(VirtualCamera* camera, const BagOptions& options, const std::function<void(int)>& progress) {
+  AtomicBag bag(options.path, options.small ? rosbag::compression::BZ2 : rosbag::compression::LZ4);
   const int frames_a_second = std::max(1, static_cast<int>(std::lround(options.rate_hz)));
   std::uint32_t last_revision = 0;
   for (int frame = 0; frame < options.frames; ++frame) {
@@ -78,20 +62,7 @@ void writeAll(VirtualCamera* camera, const BagOptions& options, const std::strin
     writeFrame(messages, stamp, &bag);
     progress(frame + 1);
   }
-  bag.close();
-}
-
-}  // namespace
-
-void writeBag(VirtualCamera* camera, const BagOptions& options, const std::function<void(int)>& progress) {
-  const std::string unfinished = options.path + ".unfinished";
-  try {
-    writeAll(camera, options, unfinished, progress);
-    std::filesystem::rename(unfinished, options.path);
-  } catch (...) {
-    std::remove(unfinished.c_str());
-    throw;
-  }
+  bag.finish();
 }
 
 }  // namespace softbody::virtual_camera

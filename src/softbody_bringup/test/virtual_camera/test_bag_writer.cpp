@@ -158,7 +158,7 @@ TEST(BagWriter, LeavesAnEarlierFileAloneOnFailure) {
   };
   EXPECT_THROW(writeBag(&camera, {path, 10, 30.0}, interrupt), std::runtime_error);
   EXPECT_TRUE(bytes(path) == before);
-  EXPECT_FALSE(std::filesystem::exists(path + ".unfinished"));
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
 }  // namespace
