@@ -9,7 +9,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test cuts demo bench evaluate tidy format clean help dependencies
+.PHONY: build test cuts demo bench evaluate corpus tidy format clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
@@ -29,6 +29,9 @@ demo: build  ## follow a virtual sponge: in rviz with a display, otherwise with 
 
 bench: build  ## run the benchmarks; writes bench/summary.json
 	scripts/bench
+
+corpus: build  ## prepare a model of every mesh of ../shared/data, and feed the readers 60,000 damaged files
+	scripts/corpus
 
 evaluate: build  ## accuracy over all scenes; writes docs/evaluation.md. SCENES="bend cut": only these, nothing written
 	scripts/evaluate $(SCENES)

@@ -76,13 +76,42 @@ const std::vector<int>& TetLocator::tetsIn(const Eigen::Vector3i& cell) const {
   return grid_[(cell.x() * cells_.y() + cell.y()) * cells_.z() + cell.z()];
 }
 
-void TetLocator::consider(const Eigen::Vector3d& point, int tet, Candidate* best) const {
+Eigen::Vector4d TetLocator::barycentricIn(int tet, const Eigen::Vector3d& point) const {
   const Eigen::Vector3d tail = inverse_edges_[tet] * (point - vertices_.row(tets_(tet, 0)).transpose());
-  const Eigen::Vector4d barycentric(1.0 - tail.sum(), tail[0], tail[1], tail[2]);
+  return {1.0 - tail.sum(), tail[0], tail[1], tail[2]};
+}
+
+bool TetLocator::contains(const Eigen::Vector3d& point) const {
+  if (!point.allFinite()) throw std::invalid_argument("TetLocator: the point is not finite");
+  const std::vector<int>& tets = tetsIn(cellOf(point));
+  return std::any_of(tets.begin(), tets.end(),
+                     [&](int tet) { return barycentricIn(tet, point).minCoeff() >= 0.0; });
+}
+
+void TetLocator::consider(const Eigen::Vector3d& point, int tet, Candidate* best) const {
+  const Eigen::Vector4d barycentric = barycentricIn(tet, point);
   const double distance =
       barycentric.minCoeff() >= 0.0 ? 0.0 : squaredDistanceToTet(point, vertices_, tets_, tet);
   if (distance < best->squared_distance || (distance == best->squared_distance && tet < best->tet)) {
     *best = {tet, distance, barycentric};
+  }
+}
+
+/// The cells whose greatest distance from the center along an axis is `ring`.
+void TetLocator::considerRing(const Eigen::Vector3d& point, const Eigen::Vector3i& center, int ring,
+                              Candidate* best) const {
+  const Eigen::Vector3i first = (center.array() - ring).max(0);
+  const Eigen::Vector3i last = (center.array() + ring).min(cells_.array() - 1);
+  for (int x = first.x(); x <= last.x(); ++x) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      const bool on_side = std::abs(x - center.x()) == ring || std::abs(y - center.y()) == ring;
+      // Within the sides only the two ends of the column belong to the ring.
+      const int step = on_side || ring == 0 ? 1 : 2 * ring;
+      for (int z = on_side ? first.z() : center.z() - ring; z <= last.z(); z += step) {
+        if (z < first.z()) continue;
+        for (int tet : tetsIn({x, y, z})) consider(point, tet, best);
+      }
+    }
   }
 }
 
@@ -100,16 +129,7 @@ MaterialPoint TetLocator::locate(const Eigen::Vector3d& point) const {
     if (best.tet >= 0 &&
         ring_distance * ring_distance + (point - clamped).squaredNorm() > best.squared_distance)
       break;
-    for (int x = center.x() - ring; x <= center.x() + ring; ++x) {
-      for (int y = center.y() - ring; y <= center.y() + ring; ++y) {
-        for (int z = center.z() - ring; z <= center.z() + ring; ++z) {
-          const Eigen::Vector3i cell(x, y, z);
-          if ((cell - center).cwiseAbs().maxCoeff() != ring) continue;
-          if ((cell.array() < 0).any() || (cell.array() >= cells_.array()).any()) continue;
-          for (int tet : tetsIn(cell)) consider(point, tet, &best);
-        }
-      }
-    }
+    considerRing(point, center, ring, &best);
   }
   return {best.tet, best.barycentric};
 }

@@ -62,6 +62,17 @@ TEST_P(Locator, EveryPointIsReproduced) {
   }
 }
 
+TEST_P(Locator, ContainsWhatItLocatesWithinATet) {
+  int inside = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const Eigen::Vector3d point = randomPoint(-0.1, 0.2, &random_);
+    const bool located = locator_.locate(point).barycentric.minCoeff() >= 0.0;
+    inside += located ? 1 : 0;
+    EXPECT_EQ(locator_.contains(point), located);
+  }
+  EXPECT_GT(inside, 0);
+}
+
 TEST_P(Locator, OutsidePointsGoToTheNearestTet) {
   // A few tets far apart: the nearest one is often several cells away.
   TetMesh sparse = mesh_;

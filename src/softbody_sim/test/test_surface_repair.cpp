@@ -3,6 +3,7 @@
 #include <numeric>
 #include <random>
 
+#include "core/hole_caps.h"
 #include "core/surface_repair.h"
 #include "model_files.h"
 #include "softbody_common/tet_geometry.h"
@@ -98,6 +99,20 @@ TEST(RepairSurface, DropsFlatAndRepeatedTriangles) {
   Warnings warnings;
   EXPECT_EQ(repairSurface({mesh, {}}, "torus", &warnings).mesh.triangles.rows(), sound);
   EXPECT_EQ(warnings.size(), 2U);
+}
+
+TEST(HoleCaps, CloseTheMeshAndGiveItItsVolumeBack) {
+  const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
+  TriangleMesh open = torus;
+  open.triangles = Triangles(torus.triangles.bottomRows(torus.triangles.rows() - 10));
+  ASSERT_GT(examineEdges(open.triangles).open, 0);
+  const TriangleMesh covered = withHolesCovered(open);
+  EXPECT_TRUE(examineEdges(covered.triangles).closed());
+  EXPECT_EQ(examineEdges(covered.triangles).inconsistent, 0);
+  EXPECT_NEAR(enclosedVolume(covered.vertices, covered.triangles),
+              enclosedVolume(torus.vertices, torus.triangles),
+              0.01 * enclosedVolume(torus.vertices, torus.triangles));
+  EXPECT_EQ(withHolesCovered(torus).triangles, torus.triangles);
 }
 
 TEST(RepairSurface, RefusesAMeshWithoutArea) {

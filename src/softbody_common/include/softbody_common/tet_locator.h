@@ -17,6 +17,9 @@ class TetLocator {
   /// @throw std::invalid_argument if the point is not finite.
   MaterialPoint locate(const Eigen::Vector3d& point) const;
 
+  /// Whether the point is in a tet; quick for points outside too.
+  bool contains(const Eigen::Vector3d& point) const;
+
  private:
   struct Candidate {
     int tet;
@@ -25,6 +28,9 @@ class TetLocator {
   };
   Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const;
   const std::vector<int>& tetsIn(const Eigen::Vector3i& cell) const;
+  Eigen::Vector4d barycentricIn(int tet, const Eigen::Vector3d& point) const;
+  void considerRing(const Eigen::Vector3d& point, const Eigen::Vector3i& center, int ring,
+                    Candidate* best) const;
   void consider(const Eigen::Vector3d& point, int tet, Candidate* best) const;
 
   Points vertices_;

@@ -28,8 +28,8 @@ struct ObjectDescription {
 
 /// How a volume is made where none is given.
 struct VolumeSettings {
-  int cage_vertices = 180;  ///< about as many vertices has the low-resolution surface
-  bool use_cache = true;    ///< $XDG_CACHE_HOME/softbody or ~/.cache/softbody, by content
+  int cage_vertices = 0;  ///< about as many vertices has the low-resolution surface; 0: as suits its shape
+  bool use_cache = true;  ///< $XDG_CACHE_HOME/softbody or ~/.cache/softbody, by content
 };
 
 /// Everything the graph needs of one object.

@@ -21,8 +21,4 @@ std::vector<OutsidePoint> pointsOutside(const Points& points, const TetMesh& mes
 /// Largest distance, 0 for none [m].
 double largestDistance(const std::vector<OutsidePoint>& outside);
 
-/// Pushes boundary vertices outward until the tets enclose all points, as far as no tet collapses.
-/// @return whether all points are enclosed.
-bool growToEnclose(const Points& points, TetMesh* mesh);
-
 }  // namespace softbody

@@ -10,6 +10,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "model_quality.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -19,21 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 5> kFiles{"visual.obj", "cage.obj", "tets.vtu", "report.txt",
                                             "object.yaml"};
-
-/// The boundary's vertices alone, and its triangles.
-TriangleMesh cageOf(const TetTopology& volume) {
-  std::map<int, int> index;
-  TriangleMesh cage;
-  for (const int vertex : volume.surface.reshaped()) index.emplace(vertex, 0);
-  cage.vertices.resize(static_cast<Eigen::Index>(index.size()), 3);
-  int next = 0;
-  for (auto& [vertex, number] : index) {
-    cage.vertices.row(next) = volume.rest_vertices.row(vertex);
-    number = next++;
-  }
-  cage.triangles = volume.surface.unaryExpr([&index](int vertex) { return index.at(vertex); });
-  return cage;
-}
 
 void writeText(const fs::path& path, const std::string& text) {
   std::ofstream stream(path);

@@ -19,7 +19,7 @@ namespace softbody {
 namespace {
 
 /// Changes whenever the same inputs give another mesh, so that older ones in the cache are left alone.
-constexpr const char* kMakerVersion = "softbody volume 1";
+constexpr const char* kMakerVersion = "softbody volume 2";
 
 TriangleMesh loadCage(const ObjectDescription& description, Warnings* warnings) {
   const WeldedSurface cage = loadSurface(description.cage_mesh, description.unit_m, warnings);
@@ -37,10 +37,10 @@ TriangleMesh loadCage(const ObjectDescription& description, Warnings* warnings) 
   return cage.mesh;
 }
 
-TetMesh fillCage(const ObjectDescription& description, const MeshTopology& visual, Warnings* warnings) {
+TetMesh fillCage(const ObjectDescription& description, Warnings* warnings) {
   const TriangleMesh cage = loadCage(description, warnings);
   try {
-    return volumeInside(cage, visual.rest_vertices);
+    return volumeInside(cage);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(fmt::format("{}: {}", description.cage_mesh, error.what()));
   }
@@ -88,7 +88,7 @@ TetMesh loadOrMakeVolume(const ObjectDescription& description, const MeshTopolog
   if (!description.cage_mesh.empty()) loadCage(description, warnings);
   const auto make = [&] {
     Warnings said_above;
-    if (!description.cage_mesh.empty()) return fillCage(description, visual, &said_above);
+    if (!description.cage_mesh.empty()) return fillCage(description, &said_above);
     return wrapVisual(description, visual, settings.cage_vertices);
   };
   if (!settings.use_cache) return make();

@@ -4,10 +4,11 @@
 
 namespace softbody {
 
-/// Tets of near uniform size inside a closed surface, whose boundary follows it (CGAL Mesh_3, Delaunay
-/// refinement). The same input gives the same mesh. Slivers are removed as far as possible.
-/// @param edge_length_m about the length of the boundary's edges.
-/// @throw std::runtime_error if nothing comes out.
-TetMesh meshInside(const TriangleMesh& surface, double edge_length_m);
+/// Tets inside a closed surface, whose boundary is that surface (constrained Delaunay refinement, TetGen).
+/// The same input gives the same mesh.
+/// @param edge_length_m of a regular tet half as large as the largest allowed.
+/// @param keep_surface the boundary has the surface's very triangles; otherwise they may be split.
+/// @throw std::runtime_error if the surface intersects itself or nothing comes out.
+TetMesh meshInside(const TriangleMesh& surface, double edge_length_m, bool keep_surface);
 
 }  // namespace softbody

@@ -1,13 +1,19 @@
 #include "volume_maker.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
+#include <string>
 
 #include "alpha_wrap.h"
+#include "cage_fitting.h"
 #include "enclosure.h"
+#include "hole_caps.h"
+#include "progressive_hull.h"
+#include "self_intersection.h"
 #include "softbody_common/tet_geometry.h"
 #include "surface_repair.h"
 #include "tet_mesher.h"
@@ -15,43 +21,67 @@
 namespace softbody {
 namespace {
 
-constexpr double kAlpha = 0.5;  ///< gaps narrower than this are closed [edge lengths]
-constexpr double kCountTolerance = 0.15;
-constexpr int kSizings = 6;
 constexpr int kFewestVertices = 100;  ///< a given box of eight corners could not bend
+constexpr int kFewestByShape = 180, kMostByShape = 400;
+constexpr int kFittingRounds = 3;
+constexpr double kEdgePerThickness = 0.8;  ///< the paper's sponge: 20 mm at a thickness of 25 mm
+
+struct Wrapping {
+  double alpha;   ///< gaps narrower than this are closed [edge lengths]
+  double offset;  ///< from the mesh to its wrap [edge lengths]
+};
+/// A tight cage first; a finer wrap, or one further out, where that cannot be filled.
+constexpr Wrapping kWrappings[] = {{0.5, 0.03}, {0.33, 0.03}, {0.33, 0.1}, {0.5, 0.3}};
 
 /// Edge length at which near regular triangles, two per vertex, cover the area.
 double edgeLengthFor(double area, int vertices) {
   return std::sqrt(area / (std::sqrt(3.0) / 2.0 * vertices));
 }
 
-int boundaryVertexCount(const TetMesh& mesh) {
-  const Triangles boundary = boundaryTriangles(mesh.tets);
-  const auto corners = boundary.reshaped();
-  return static_cast<int>(std::set<int>(corners.begin(), corners.end()).size());
+/// As many vertices as make edges a little shorter than the body's mean thickness 2 V / A.
+int verticesByShape(const TriangleMesh& visual) {
+  const double area = areaOf(visual);
+  const double coarse = edgeLengthFor(area, kFewestByShape);
+  const TriangleMesh wrap = alphaWrap(visual, coarse, 0.03 * coarse);
+  const double edge = kEdgePerThickness * 2.0 * enclosedVolume(wrap.vertices, wrap.triangles) / areaOf(wrap);
+  const double vertices = areaOf(wrap) / (std::sqrt(3.0) / 2.0 * edge * edge);
+  return static_cast<int>(std::clamp<double>(vertices, kFewestByShape, kMostByShape));
 }
 
-bool hasManifoldBoundary(const TetMesh& mesh) { return examineEdges(boundaryTriangles(mesh.tets)).closed(); }
+Points stacked(const Points& a, const Points& b) {
+  Points both(a.rows() + b.rows(), 3);
+  both << a, b;
+  return both;
+}
 
-/// Tets around the mesh with about the wanted number of boundary vertices: refinement only bounds sizes from
-/// above, so the size is found by trying.
-TetMesh sizedVolume(const TriangleMesh& visual, int cage_vertices, double offset) {
-  double edge_length = edgeLengthFor(areaOf(visual), cage_vertices);
-  TetMesh best;
-  double best_error = 0.0;
-  for (int sizing = 0; sizing < kSizings; ++sizing) {
-    const TriangleMesh wrap = alphaWrap(visual, kAlpha * edge_length, offset * edge_length);
-    TetMesh mesh = meshInside(wrap, edge_length);
-    const double ratio = static_cast<double>(boundaryVertexCount(mesh)) / cage_vertices;
-    const double error = std::abs(std::log(ratio));
-    if (best.tets.rows() == 0 || error < best_error) {
-      best = std::move(mesh);
-      best_error = error;
-    }
-    if (best_error < kCountTolerance) break;
-    edge_length *= std::sqrt(ratio);
+/// A cage drawn in around the wrap's vertices, which are many but fewer than the visual ones; these join
+/// where they would be left outside, in the end all of them.
+TriangleMesh fitAround(const TriangleMesh& hull, const TriangleMesh& wrap, const Points& visual) {
+  Points enclosed = wrap.vertices;
+  for (int round = 0; round < kFittingRounds; ++round) {
+    const TriangleMesh cage = fitCage(hull, enclosed);
+    const std::vector<Eigen::Index> beyond = pointsBeyond(visual, cage);
+    if (beyond.empty()) return cage;
+    enclosed = stacked(enclosed, visual(beyond, Eigen::all));
   }
-  return best;
+  return fitCage(hull, stacked(wrap.vertices, visual));
+}
+
+TetMesh wrapAndFill(const TriangleMesh& visual, int cage_vertices, const Wrapping& wrapping) {
+  const double edge_length = edgeLengthFor(areaOf(visual), cage_vertices);
+  const TriangleMesh wrap = alphaWrap(visual, wrapping.alpha * edge_length, wrapping.offset * edge_length);
+  const TriangleMesh hull = progressiveHull(wrap, cage_vertices);
+  if (intersectsItself(hull)) throw std::runtime_error("the cage intersects itself");
+  const TriangleMesh cage = fitAround(hull, wrap, visual.vertices);
+  TetMesh mesh = meshInside(cage, edge_length, true);
+  const Triangles boundary = boundaryTriangles(mesh.tets);
+  if (boundary.rows() != cage.triangles.rows()) throw std::runtime_error("the tets do not fill the cage");
+  const auto outside = pointsOutside(visual.vertices, mesh, boundary);
+  if (!outside.empty()) {
+    throw std::runtime_error(fmt::format("{} of {} vertices would be outside of the cage", outside.size(),
+                                         visual.vertices.rows()));
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -68,26 +98,24 @@ double areaOf(const TriangleMesh& mesh) {
 }
 
 TetMesh volumeAround(const TriangleMesh& visual, int cage_vertices) {
-  TetMesh mesh;
-  // A tight cage first; a wider one where that is too thin for its edges, or cannot be pushed around all
-  // vertices.
-  for (const double offset : {0.15, 0.3, 0.5}) {
-    mesh = sizedVolume(visual, cage_vertices, offset);
-    if (hasManifoldBoundary(mesh) && growToEnclose(visual.vertices, &mesh)) break;
+  const TriangleMesh body = withHolesCovered(visual);
+  if (cage_vertices == 0) cage_vertices = verticesByShape(body);
+  std::string reason;
+  for (const Wrapping& wrapping : kWrappings) {
+    try {
+      return wrapAndFill(body, cage_vertices, wrapping);
+    } catch (const std::runtime_error& error) {
+      reason = error.what();
+    }
   }
-  return mesh;
+  throw std::runtime_error(reason);
 }
 
-TetMesh volumeInside(const TriangleMesh& cage, const Points& enclosed) {
+TetMesh volumeInside(const TriangleMesh& cage) {
+  if (intersectsItself(cage)) throw std::runtime_error("the cage intersects itself");
+  const bool is_fine = cage.vertices.rows() >= kFewestVertices;
   const int vertices = std::max(kFewestVertices, static_cast<int>(cage.vertices.rows()));
-  const double edge_length = edgeLengthFor(areaOf(cage), vertices);
-  TetMesh mesh;
-  // As coarse as the cage first; finer where that is too coarse for its thin parts.
-  for (const double share : {1.0, 0.7, 0.5}) {
-    mesh = meshInside(cage, share * edge_length);
-    if (hasManifoldBoundary(mesh) && growToEnclose(enclosed, &mesh)) break;
-  }
-  return mesh;
+  return meshInside(cage, edgeLengthFor(areaOf(cage), vertices), is_fine);
 }
 
 }  // namespace softbody

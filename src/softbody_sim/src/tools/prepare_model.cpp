@@ -18,9 +18,9 @@ int main(int argc, char** argv) {
   app.add_option("--unit", unit, "unit of the mesh")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
       ->capture_default_str();
-  app.add_option("--cage-vertices", settings.cage_vertices, "about as many vertices has the cage")
-      ->check(CLI::Range(20, 20000))
-      ->capture_default_str();
+  app.add_option("--cage-vertices", settings.cage_vertices,
+                 "about as many vertices has the cage; without it, as many as suit its shape")
+      ->check(CLI::Range(20, 20000));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/model_quality.h"
+
+namespace softbody::test {
+
+/// A surface of ../shared/data: a file, or the boundary of a tet mesh.
+struct CorpusMesh {
+  std::string name;
+  std::string path;
+  bool is_tet_mesh = false;
+};
+
+/// All of them under a folder, in order of their names: surfaces in files of their own, boundaries of tet
+/// meshes.
+std::vector<CorpusMesh> modelCorpus(const std::string& folder);
+
+struct PreparedModel {
+  ModelQuality quality;
+  double seconds = 0.0;
+  std::vector<std::string> faults;  ///< what a prepared model must not have; empty: it is as it should be
+};
+
+/// Prepares a model with default settings and looks for faults. Files go to `scratch`.
+/// @param cage_vertices 0: by default.
+PreparedModel prepareAndCheck(const CorpusMesh& mesh, const std::string& scratch, int cage_vertices = 0);
+
+}  // namespace softbody::test
