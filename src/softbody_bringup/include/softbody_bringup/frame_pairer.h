@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -9,8 +10,9 @@
 
 namespace softbody {
 
-/// Pairs every colour image of a recording with the depth image nearest in time, in the order in which they
-/// arrive. Pointer types stand for the images.
+/// Pairs every colour image of a recording with the depth image nearest in time, in the order of their
+/// stamps: an image that was recorded up to kMostLate others late takes its place. A jump back by a second or
+/// more is a recording that starts again, and keeps its place. Pointer types stand for the images.
 template <typename ColorPtr, typename DepthPtr>
 class FramePairer {
  public:
@@ -22,15 +24,15 @@ class FramePairer {
 
   explicit FramePairer(Nanoseconds tolerance) : tolerance_(tolerance) {}
 
-  void addColor(Nanoseconds stamp, ColorPtr color) { colors_.emplace_back(stamp, std::move(color)); }
+  void addColor(Nanoseconds stamp, ColorPtr color) { insert(stamp, std::move(color), &colors_); }
   void addDepth(Nanoseconds stamp, DepthPtr depth) {
-    depths_.emplace_back(stamp, std::move(depth));
+    insert(stamp, std::move(depth), &depths_);
     if (depths_.size() > kMostWaiting) depths_.pop_front();
   }
 
   /// The next colour image once its depth is certain; with `finish` even if more might have come.
   std::optional<Pair> next(bool finish) {
-    if (colors_.empty()) return std::nullopt;
+    if (colors_.empty() || (colors_.size() <= kMostLate && !finish)) return std::nullopt;
     const auto [stamp, color] = colors_.front();
     const std::size_t nearest = nearestTo(depths_, stamp);
     const bool exact = nearest < depths_.size() && depths_[nearest].first == stamp;
@@ -52,7 +54,20 @@ class FramePairer {
   }
 
  private:
-  static constexpr std::size_t kMostWaiting = 30;
+  static constexpr std::size_t kMostWaiting = 30, kMostLate = 10;
+  static constexpr Nanoseconds kStartsAgain = 1'000'000'000;
+
+  /// Before those with later stamps, unless they are so much later that the recording started again.
+  template <typename Queue, typename Pointer>
+  static void insert(Nanoseconds stamp, Pointer image, Queue* queue) {
+    auto place = queue->end();
+    while (place != queue->begin()) {
+      const Nanoseconds later_by = std::prev(place)->first - stamp;
+      if (later_by <= 0 || later_by >= kStartsAgain) break;
+      --place;
+    }
+    queue->emplace(place, stamp, std::move(image));
+  }
 
   /// Index of the element nearest in time, the first of equals; the size where there is none.
   template <typename Queue>

@@ -23,17 +23,46 @@ std::vector<Pairer::Pair> drain(Pairer* pairer, bool finish) {
   return pairs;
 }
 
-TEST(FramePairer, PairsEqualStampsAtOnceWhicheverComesFirst) {
+TEST(FramePairer, PairsEqualStampsWhicheverComesFirst) {
   Pairer pairer(kTolerance);
-  for (int i = 0; i < 10; ++i) {
+  std::vector<Pairer::Pair> pairs;
+  for (int i = 0; i < 30; ++i) {
     const Nanoseconds stamp = i * kFrame;
     if (i % 2 == 0) pairer.addColor(stamp, imageAt(stamp));
     pairer.addDepth(stamp, imageAt(stamp));
     if (i % 2 == 1) pairer.addColor(stamp, imageAt(stamp));
-    const auto pairs = drain(&pairer, false);
-    ASSERT_EQ(pairs.size(), 1u);
-    EXPECT_EQ(*pairs[0].color, stamp);
-    EXPECT_EQ(*pairs[0].depth, stamp);
+    for (const Pairer::Pair& pair : drain(&pairer, false)) pairs.push_back(pair);
+  }
+  EXPECT_GT(pairs.size(), 15u) << "only a few images wait for late ones";
+  for (const Pairer::Pair& pair : drain(&pairer, true)) pairs.push_back(pair);
+  ASSERT_EQ(pairs.size(), 30u);
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(*pairs[i].color, i * kFrame);
+    EXPECT_EQ(*pairs[i].depth, i * kFrame);
+  }
+}
+
+TEST(FramePairer, PutsLateImagesInTheirPlaceAndARestartWhereItIs) {
+  std::mt19937 random(4);
+  std::uniform_int_distribution<int> lateness(0, 8);
+  std::vector<std::pair<int, int>> arrivals;  // when, frame
+  for (int i = 0; i < 200; ++i) arrivals.emplace_back(i + lateness(random), i);
+  std::stable_sort(arrivals.begin(), arrivals.end());
+  Pairer pairer(kTolerance);
+  std::vector<Pairer::Pair> pairs;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const auto& [when, frame] : arrivals) {
+      pairer.addColor(frame * kFrame, imageAt(frame));
+      pairer.addDepth(frame * kFrame, imageAt(frame));
+      for (const Pairer::Pair& pair : drain(&pairer, false)) pairs.push_back(pair);
+    }
+  }
+  for (const Pairer::Pair& pair : drain(&pairer, true)) pairs.push_back(pair);
+  ASSERT_EQ(pairs.size(), 400u);
+  for (int i = 0; i < 400; ++i) {
+    EXPECT_EQ(*pairs[i].color, i % 200);
+    ASSERT_TRUE(pairs[i].depth) << i;
+    EXPECT_EQ(*pairs[i].depth, i % 200);
   }
 }
 

@@ -18,6 +18,7 @@ namespace softbody {
 namespace {
 
 constexpr double kWatchPeriod_s = 0.5;
+constexpr double kStartsAgain_s = 1.0;  // a smaller jump back is a late image
 
 }  // namespace
 
@@ -77,7 +78,12 @@ void CameraIngestNode::resetPairer() {
                                : makeApproximatePairer(config_.queue_size, config_.sync_tolerance_s, on_pair);
 }
 
-void CameraIngestNode::noteArrival(Stream stream, const ros::Time& stamp, ros::Time* last) {
+bool CameraIngestNode::accept(Stream stream, const ros::Time& stamp, ros::Time* last) {
+  if (stamp < *last && *last - stamp < ros::Duration(kStartsAgain_s)) {
+    ROS_WARN_STREAM_THROTTLE(
+        5.0, "an image comes " << (*last - stamp) << " s after a later one of its stream and is dropped");
+    return false;
+  }
   if (stamp < *last) {
     ROS_INFO_STREAM("time jumped back by " << (*last - stamp)
                                            << " s: the images that wait for a partner are dropped");
@@ -87,16 +93,15 @@ void CameraIngestNode::noteArrival(Stream stream, const ros::Time& stamp, ros::T
   }
   *last = stamp;
   monitor_->arrived(stream, toNanoseconds(stamp));
+  return true;
 }
 
 void CameraIngestNode::onColor(const sensor_msgs::ImageConstPtr& image) {
-  noteArrival(Stream::kColor, image->header.stamp, &last_color_);
-  pairer_->addColor(image);
+  if (accept(Stream::kColor, image->header.stamp, &last_color_)) pairer_->addColor(image);
 }
 
 void CameraIngestNode::onDepth(const sensor_msgs::ImageConstPtr& image) {
-  noteArrival(Stream::kDepth, image->header.stamp, &last_depth_);
-  pairer_->addDepth(image);
+  if (accept(Stream::kDepth, image->header.stamp, &last_depth_)) pairer_->addDepth(image);
 }
 
 void CameraIngestNode::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {

@@ -40,7 +40,8 @@ class CameraIngestNode {
   void onDepth(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onPair(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth);
-  void noteArrival(Stream stream, const ros::Time& stamp, ros::Time* last);
+  /// False for an image that comes after a later one; one a second or more back starts the stream again.
+  bool accept(Stream stream, const ros::Time& stamp, ros::Time* last);
 
   bool anySubscriber() const;
   void publish(const RgbdFrame& frame, const std_msgs::Header& header);
