@@ -175,6 +175,7 @@ TEST_F(ObjectModelTest, PreparedFolderGivesTheSameModel) {
   const ObjectModel prepared = buildObjectModel(loadObjectDescription(folder_.file("out/object.yaml")));
   expectSound(prepared);
   EXPECT_TRUE(prepared.warnings.empty()) << prepared.warnings.front();
+  EXPECT_GT(std::filesystem::file_size(folder_.file("out/report/models.png")), 1000U);
   ObjectDescription scaled = description;
   scaled.unit_m = 0.001;
   EXPECT_EQ(prepared.volume.rest_vertices, buildObjectModel(scaled).volume.rest_vertices);

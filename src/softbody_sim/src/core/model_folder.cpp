@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <opencv2/imgcodecs.hpp>
 #include <ostream>
 #include <stdexcept>
 
+#include "model_picture.h"
 #include "model_quality.h"
 #include "softbody_common/tet_geometry.h"
 
@@ -18,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 5> kFiles{"visual.obj", "cage.obj", "tets.vtu", "report.txt",
-                                            "object.yaml"};
+constexpr std::array<const char*, 6> kFiles{"visual.obj",        "cage.obj",         "tets.vtu",
+                                            "report/models.png", "report/report.md", "object.yaml"};
 
 void writeText(const fs::path& path, const std::string& text) {
   std::ofstream stream(path);
@@ -39,22 +41,41 @@ std::string objectYaml(const std::string& mesh, const Material& material) {
       material.density_kg_m3, material.damping);
 }
 
-std::string report(const std::string& mesh, const ObjectModel& model, const TriangleMesh& cage) {
+std::string report(const std::string& mesh, const ObjectModel& model, const ModelQuality& q) {
   const Points& rest = model.visual.rest_vertices;
   const Eigen::RowVector3d extent = 1e3 * (rest.colwise().maxCoeff() - rest.colwise().minCoeff());
-  const Eigen::VectorXd volumes = tetVolumes(model.volume.rest_vertices, model.volume.tets);
-  std::string text = fmt::format(
-      "input: {}\nextent: {:.1f} x {:.1f} x {:.1f} mm\nvisual mesh: {} vertices, {} triangles, texture "
-      "coordinates: {}\n"
-      "cage: {} vertices, {} triangles\ntets: {} vertices, {} tets, mean edge {:.1f} mm, volume {:.4g} cm^3, "
-      "smallest tet "
-      "{:.3g} cm^3\nwarnings: {}\n",
-      mesh, extent[0], extent[1], extent[2], rest.rows(), model.visual.triangles.rows(),
-      model.visual.texture_coordinates.rows() > 0 ? "yes" : "no", cage.vertices.rows(), cage.triangles.rows(),
-      model.volume.rest_vertices.rows(), model.volume.tets.rows(),
-      1e3 * meanEdgeLength(model.volume.rest_vertices, model.volume.tets), 1e6 * volumes.sum(),
-      1e6 * volumes.minCoeff(), model.warnings.empty() ? "none" : "");
-  for (const std::string& warning : model.warnings) text += "  " + warning + "\n";
+  std::string text =
+      fmt::format("# {}\n\n{:.1f} x {:.1f} x {:.1f} mm, texture coordinates: {}\n\n", mesh, extent[0],
+                  extent[1], extent[2], model.visual.texture_coordinates.rows() > 0 ? "yes" : "no");
+  text += "![visual mesh, cage and tets](models.png)\n\n";
+  text += "| | this object | sponge of Kang et al. 2022 | doll of Kang et al. 2022 |\n|---|---|---|---|\n";
+  text += fmt::format("| visual vertices | {} | 522 | 18650 |\n| visual triangles | {} | 1040 | 7190 |\n",
+                      q.visual_vertices, q.visual_triangles);
+  text += fmt::format("| cage vertices | {} | 132 | 128 |\n| cage triangles | {} | 260 | 252 |\n",
+                      q.cage_vertices, q.cage_triangles);
+  text +=
+      fmt::format("| tet vertices | {} | 132 | 154 |\n| tets | {} | 300 | 494 |\n\n", q.tet_vertices, q.tets);
+  text += fmt::format(
+      "- visual vertices outside of the cage: {}\n- margin to the cage: {:.3g} to {:.3g} mm, mean {:.3g} "
+      "mm\n",
+      q.outside, 1e3 * q.least_margin, 1e3 * q.largest_margin, 1e3 * q.mean_margin);
+  text += fmt::format("- volume of the cage: {:.4g} cm^3{}\n", 1e6 * q.cage_volume,
+                      q.visual_volume > 0.0
+                          ? fmt::format(", {:.2f} of the visual mesh's", q.cage_volume / q.visual_volume)
+                          : "");
+  text +=
+      fmt::format("- mean edge: {:.1f} mm; longest over shortest edges of the cage (95 % over 5 %): {:.2f}\n",
+                  1e3 * meanEdgeLength(model.volume.rest_vertices, model.volume.tets), q.edge_spread);
+  text += fmt::format(
+      "- dihedral angles: {:.1f} to {:.1f} degrees; 1 tet in 100 has one below {:.1f}\n- smallest tet: "
+      "{:.3g} cm^3\n",
+      q.smallest_dihedral, q.largest_dihedral, q.dihedral_percentile, 1e6 * q.smallest_tet);
+  text += fmt::format(
+      "- mean value coordinates: sum to 1 within {:.1e}, reproduce the visual vertices within {:.1e} of the "
+      "size\n",
+      q.partition_error, q.reproduction_error / q.size);
+  text += model.warnings.empty() ? "- warnings: none\n" : "- warnings:\n";
+  for (const std::string& warning : model.warnings) text += "  - " + warning + "\n";
   return text;
 }
 
@@ -63,7 +84,7 @@ class StagingFolder {
  public:
   explicit StagingFolder(const fs::path& target)
       : path_(fmt::format("{}.{}.tmp", target.string(), getpid())) {
-    fs::create_directories(path_);
+    fs::create_directories(path_ / "report");
   }
   ~StagingFolder() {
     std::error_code ignored;
@@ -76,7 +97,7 @@ class StagingFolder {
 
   /// object.yaml comes last: whoever finds it finds what it names.
   void moveInto(const fs::path& target) const {
-    fs::create_directories(target);
+    fs::create_directories(target / "report");
     for (const char* file : kFiles) fs::rename(path_ / file, target / file);
   }
 
@@ -101,10 +122,15 @@ void prepareModel(const std::string& mesh, const std::string& unit, const std::s
            model.visual.texture_coordinates);
   writeObj((staging.path() / "cage.obj").string(), cage);
   writeVtu((staging.path() / "tets.vtu").string(), {model.volume.rest_vertices, model.volume.tets});
-  writeText(staging.path() / "report.txt", report(mesh, model, cage));
+  progress << "drawing and measuring it\n" << std::flush;
+  const std::string told = report(mesh, model, measureModel(model));
+  writeText(staging.path() / "report/report.md", told);
+  if (!cv::imwrite((staging.path() / "report/models.png").string(), drawModel(model))) {
+    throw std::runtime_error("the picture of the models cannot be written");
+  }
   writeText(staging.path() / "object.yaml", objectYaml(mesh, model.material));
   staging.moveInto(target);
-  progress << report(mesh, model, cage) << "written to " << target.string() << '\n';
+  progress << told << "written to " << target.string() << '\n';
 }
 
 }  // namespace softbody

@@ -11,7 +11,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 560;
+constexpr int kWidth = 560, kHeight = 480;
 constexpr int kOversampling = 2;       ///< drawn larger, then averaged
 constexpr double kDistance = 4.0;      ///< of the camera from the middle [size]
 constexpr double kEdgeWidth_px = 1.6;  ///< half of a drawn edge, oversampled
@@ -28,15 +28,21 @@ Eigen::Isometry3d cameraPose(const Points& points) {
   return pose;
 }
 
-Pinhole makeCamera() {
+/// Such that the points, seen from there, just fit into the picture.
+Pinhole makeCamera(const Points& seen) {
   Pinhole camera;
   camera.width = kOversampling * kWidth;
   camera.height = kOversampling * kHeight;
-  // The bounding sphere fits into the height.
-  camera.fx = camera.fy = 0.97 * camera.height * std::sqrt(kDistance * kDistance - 0.25);
+  const double right = seen.col(0).cwiseQuotient(seen.col(2)).cwiseAbs().maxCoeff();
+  const double down = seen.col(1).cwiseQuotient(seen.col(2)).cwiseAbs().maxCoeff();
+  camera.fx = camera.fy = 0.47 * std::min(camera.width / right, camera.height / down);
   camera.cx = 0.5 * (camera.width - 1);
   camera.cy = 0.5 * (camera.height - 1);
   return camera;
+}
+
+Points transformed(const Points& points, const Eigen::Isometry3d& pose) {
+  return (points * pose.linear().transpose()).rowwise() + pose.translation().transpose();
 }
 
 /// Pixels from the visible point to the nearest edge of its triangle.
@@ -52,7 +58,7 @@ double distanceToEdge(const Eigen::Vector2d (&corners)[3], const Eigen::Vector2d
 
 cv::Mat3b drawSurface(const Points& vertices, const Triangles& triangles, const Eigen::Isometry3d& pose,
                       const Pinhole& camera, const cv::Vec3d& color, bool edges) {
-  const Points seen = (vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose();
+  const Points seen = transformed(vertices, pose);
   RasterImage raster;
   rasterize(camera, seen, triangles, &raster);
   cv::Mat3b image(camera.height, camera.width, cv::Vec3b(255, 255, 255));
@@ -100,7 +106,7 @@ Triangles farHalf(const TetTopology& volume, const Eigen::Isometry3d& pose) {
 cv::Mat3b drawModel(const ObjectModel& model) {
   const Points& rest = model.volume.rest_vertices;
   const Eigen::Isometry3d pose = cameraPose(rest);
-  const Pinhole camera = makeCamera();
+  const Pinhole camera = makeCamera(transformed(rest, pose));
   const cv::Mat3b parts[] = {
       drawSurface(model.visual.rest_vertices, model.visual.triangles, pose, camera, {120, 190, 235}, false),
       drawSurface(rest, model.volume.surface, pose, camera, {225, 190, 140}, true),
