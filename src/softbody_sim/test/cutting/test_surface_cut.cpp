@@ -59,9 +59,9 @@ double lowestNewTriangle(const MeshTopology& mesh) {
   return lowest;
 }
 
-/// SOFTBODY_RANDOM_CUTS in the environment makes many of a few cuts (make cuts).
+/// Few in make test, as many as SOFTBODY_CUTS_PER_BODY says in make cuts.
 int numberOfCuts(int few) {
-  const char* many = std::getenv("SOFTBODY_RANDOM_CUTS");
+  const char* many = std::getenv("SOFTBODY_CUTS_PER_BODY");
   return many ? std::atoi(many) : few;
 }
 
