@@ -31,6 +31,22 @@ std::array<int, 3> sidesOf(const Corners& plane, const Corners& points) {
 
 bool onOneSide(const std::array<int, 3>& sides) { return sides[0] == sides[1] && sides[1] == sides[2]; }
 
+/// Spares most pairs the exact predicates.
+bool clearlyOnOneSide(const Corners& plane, const Corners& points) {
+  constexpr double kRounding = 1e-12;
+  const Eigen::Vector3d first = plane[1] - plane[0], second = plane[2] - plane[0],
+                        normal = first.cross(second);
+  const double scale = first.norm() * second.norm();
+  int above = 0, below = 0;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d place = point - plane[0];
+    const double height = normal.dot(place), margin = kRounding * scale * (place.norm() + point.norm());
+    above += height > margin;
+    below += height < -margin;
+  }
+  return above == 3 || below == 3;
+}
+
 /// Whether a line that crosses the triangle's plane does so inside of the triangle.
 bool passesThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Corners& triangle) {
   const int first = side(a, b, triangle[0], triangle[1]);
@@ -84,9 +100,12 @@ class Intersection {
 
 CutCurve Intersection::run() {
   const PatchIntersector patch(facets_.patch);
+  Eigen::AlignedBox3d whole;
+  for (const auto& vertex : facets_.patch.vertices.rowwise()) whole.extend(vertex.transpose());
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
     Eigen::AlignedBox3d box;
     for (const int vertex : triangles_[t]) box.extend(vertices_.row(vertex).transpose());
+    if (!box.intersects(whole)) continue;
     for (const int p : patch.trianglesNear(box)) intersectPair(t, p);
   }
   joinOverFlatEdges();
@@ -95,6 +114,7 @@ CutCurve Intersection::run() {
 
 void Intersection::intersectPair(int t, int p) {
   const Corners mesh = meshCorners(t), patch = patchCorners(p);
+  if (clearlyOnOneSide(patch, mesh)) return;
   const std::array<int, 3> mesh_sides = sidesOf(patch, mesh);
   if (onOneSide(mesh_sides)) return;
   const std::array<int, 3> patch_sides = sidesOf(mesh, patch);

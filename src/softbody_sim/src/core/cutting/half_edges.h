@@ -21,4 +21,8 @@ TriangleList listOf(const Triangles& triangles);
 /// @throw std::invalid_argument if the triangles are not closed, oriented and two at every edge.
 std::vector<int> halfEdgeMates(const TriangleList& triangles, int vertex_count);
 
+/// Makes mates of those among the half-edges that run between the same vertices; there are two of each.
+void pairHalfEdges(const TriangleList& triangles, const std::vector<int>& half_edges,
+                   std::vector<int>* mates);
+
 }  // namespace softbody

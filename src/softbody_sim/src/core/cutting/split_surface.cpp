@@ -209,6 +209,23 @@ void Splitter::append(int triangle, const DividedTriangle& divided, const Triang
   }
 }
 
+/// The changed triangles meet each other and what bordered on the triangles in whose places they are.
+void pairChangedTriangles(const std::vector<int>& mates, SplitSurface* surface) {
+  std::vector<bool> changed(surface->triangles.size(), false);
+  for (const int t : surface->changed) changed[static_cast<std::size_t>(t)] = true;
+  std::vector<int> loose;
+  for (const int t : surface->changed) {
+    for (int h = 3 * t; h < 3 * t + 3; ++h) {
+      loose.push_back(h);
+      if (h < static_cast<int>(mates.size()) && !changed[static_cast<std::size_t>(mates[h]) / 3])
+        loose.push_back(mates[h]);
+    }
+  }
+  surface->mates = mates;
+  surface->mates.resize(3 * surface->triangles.size(), -1);
+  pairHalfEdges(surface->triangles, loose, &surface->mates);
+}
+
 }  // namespace
 
 SplitSurface splitAlong(const CutCurve& curve, const MeshTopology& mesh, TriangleList triangles,
@@ -228,7 +245,7 @@ SplitSurface splitAlong(const CutCurve& curve, const MeshTopology& mesh, Triangl
   }
   surface.curve.assign(3 * surface.triangles.size(), -1);
   Splitter(curve, mates, &surface).run();
-  surface.mates = halfEdgeMates(surface.triangles, static_cast<int>(surface.vertices.size()));
+  pairChangedTriangles(mates, &surface);
   return surface;
 }
 
