@@ -131,6 +131,23 @@ void checkHeights(const MeshTopology& mesh, const SplitSurface& surface, const S
   for (std::size_t t = surface.triangles.size(); t < stitched.triangles.size(); ++t) check(t, lowest);
 }
 
+/// Pieces are thicker than the snapping distance: their volume is more than that times half of their surface.
+void checkPieces(const MeshTopology& mesh, double snap_distance) {
+  std::vector<double> excess(
+      mesh.bodies.empty() ? 0 : *std::max_element(mesh.bodies.begin(), mesh.bodies.end()) + 1);
+  const Eigen::Vector3d origin = mesh.rest_vertices.row(0);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return mesh.rest_vertices.row(mesh.triangles(t, k)).transpose() - origin;
+    };
+    const Eigen::Vector3d a = corner(0), area = 0.5 * (corner(1) - a).cross(corner(2) - a);
+    excess[mesh.bodies[static_cast<std::size_t>(t)]] += area.dot(a) / 3.0 - 0.5 * area.norm() * snap_distance;
+  }
+  if (std::any_of(excess.begin(), excess.end(), [](double volume) { return volume <= 0.0; })) {
+    throw CutRefused("it would leave a piece without thickness");
+  }
+}
+
 /// The patch comes to lie along the surface: it has to be moved outward.
 struct CutGrazes : CutRefused {
   explicit CutGrazes(const Eigen::Vector3d& normal)
@@ -177,7 +194,9 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   if (grazing.triangles > 0) throw CutGrazes(grazing.outward);
   const StitchedSurface stitched = stitch(surface, fill);
   checkHeights(mesh_, surface, stitched, kLowestTriangle * diagonal_);
-  return {CutOutcome::kCut, "", compacted(mesh_, surface, stitched)};
+  SurfaceCut result{CutOutcome::kCut, "", compacted(mesh_, surface, stitched)};
+  checkPieces(result.mesh, snap_distance);
+  return result;
 }
 
 /// What fails because vertices, edges or faces of mesh and patch come to lie on each other is tried again
