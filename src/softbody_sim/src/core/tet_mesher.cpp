@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <optional>
 #include <stdexcept>
 
+#include "child_process.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -41,14 +44,6 @@ void setSurface(const TriangleMesh& surface, tetgenio* input) {
   }
 }
 
-/// TetGen's own number for what went wrong.
-std::string reasonOf(int code) {
-  constexpr int kSelfIntersection = 3, kSmallFeature = 4;
-  if (code == kSelfIntersection) return "the surface intersects itself";
-  if (code == kSmallFeature) return "two parts of the surface nearly touch";
-  return fmt::format("TetGen gave up with {}", code);
-}
-
 TetMesh toTetMesh(const tetgenio& output) {
   TetMesh mesh{Points(output.numberofpoints, 3), Tets(output.numberoftetrahedra, 4)};
   std::copy_n(output.pointlist, mesh.vertices.size(), mesh.vertices.data());
@@ -60,21 +55,46 @@ TetMesh toTetMesh(const tetgenio& output) {
   return mesh;
 }
 
+std::string toBytes(const TetMesh& mesh) {
+  const Eigen::Index counts[2] = {mesh.vertices.rows(), mesh.tets.rows()};
+  std::string bytes(reinterpret_cast<const char*>(counts), sizeof(counts));
+  bytes.append(reinterpret_cast<const char*>(mesh.vertices.data()), sizeof(double) * mesh.vertices.size());
+  bytes.append(reinterpret_cast<const char*>(mesh.tets.data()), sizeof(int) * mesh.tets.size());
+  return bytes;
+}
+
+TetMesh fromBytes(const std::string& bytes) {
+  Eigen::Index counts[2];
+  std::memcpy(counts, bytes.data(), sizeof(counts));
+  TetMesh mesh{Points(counts[0], 3), Tets(counts[1], 4)};
+  const char* vertices = bytes.data() + sizeof(counts);
+  std::memcpy(mesh.vertices.data(), vertices, sizeof(double) * mesh.vertices.size());
+  std::memcpy(mesh.tets.data(), vertices + sizeof(double) * mesh.vertices.size(),
+              sizeof(int) * mesh.tets.size());
+  return mesh;
+}
+
+/// What TetGen makes of the surface. @throw int as TetGen does.
+TetMesh fill(const TriangleMesh& surface, double largest_volume, bool keep_surface) {
+  tetgenio input, output;
+  setSurface(surface, &input);
+  std::string switches = fmt::format("p{}q{}/{}a{:.25f}Q", keep_surface ? "Y" : "", kRadiusEdgeRatio,
+                                     kSmallestAngle, largest_volume);
+  tetrahedralize(switches.data(), &input, &output);
+  return toTetMesh(output);
+}
+
 }  // namespace
 
 TetMesh meshInside(const TriangleMesh& surface, double edge_length_m, bool keep_surface) {
-  tetgenio input, output;
-  setSurface(surface, &input);
   const double volume = kLargestVolume * std::pow(edge_length_m, 3) / (6.0 * std::sqrt(2.0));
-  std::string switches =
-      fmt::format("p{}q{}/{}a{:.17f}Q", keep_surface ? "Y" : "", kRadiusEdgeRatio, kSmallestAngle, volume);
-  try {
-    tetrahedralize(switches.data(), &input, &output);
-  } catch (const int code) {
-    throw std::runtime_error(reasonOf(code));
-  }
-  if (output.numberoftetrahedra == 0) throw std::runtime_error("no tet fits into the surface");
-  return toTetMesh(output);
+  // TetGen 1.5 crashes on its way out when it gives up.
+  const std::optional<std::string> bytes =
+      outputOfChild([&] { return toBytes(fill(surface, volume, keep_surface)); });
+  if (!bytes) throw std::runtime_error("TetGen cannot fill the surface; does it touch or cross itself?");
+  const TetMesh mesh = fromBytes(*bytes);
+  if (mesh.tets.rows() == 0) throw std::runtime_error("no tet fits into the surface");
+  return mesh;
 }
 
 }  // namespace softbody
