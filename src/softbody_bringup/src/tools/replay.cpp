@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
   std::string input, object, output, parameters;
-  std::string camera = "/camera", topic_namespace = "/softbody", body_frame = "softbody";
+  std::string camera = "/camera", topic_namespace = "/softbody", body_frame = "softbody", simd;
   bool timing = false;
 };
 
@@ -129,7 +129,8 @@ void printSummary(const softbody::BagFramesReport& report, const Tally& tally, c
 }
 
 void replay(const Options& options) {
-  const GraphConfig config = readGraphConfig(options.parameters);
+  GraphConfig config = readGraphConfig(options.parameters);
+  if (!options.simd.empty()) config.simulator.simd = options.simd;
   const softbody::ObjectModel model =
       softbody::buildObjectModel(softbody::loadObjectDescription(options.object));
   for (const std::string& warning : model.warnings)
@@ -189,6 +190,8 @@ int main(int argc, char** argv) {
   app.add_option("--camera", options.camera, "namespace of the camera topics")->capture_default_str();
   app.add_option("--namespace", options.topic_namespace, "namespace of the output topics")
       ->capture_default_str();
+  app.add_option("--simd", options.simd, "vector instructions of the simulator, whatever the parameters say")
+      ->check(CLI::IsMember({"auto", "sse4", "avx2", "avx512"}));
   app.add_flag("--timing", options.timing,
                "write wall-clock stage times too (then the output differs from run to run)");
   try {

@@ -17,9 +17,10 @@ ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, c
       lambda_(static_cast<T>(lame.lambda)),
       kernel_(elasticityKernel<T>(simd)) {
   const Eigen::VectorXd volumes = tetVolumes(rest_vertices, tets);
-  const auto lanes = static_cast<Eigen::Index>(blocks_.size()) * TetBlock<T>::kLanes;
-  for (Eigen::Index i = 0; i < lanes; ++i) {
-    // The last block is filled up with its last tet, which has no volume there.
+  const auto count = static_cast<Eigen::Index>(blocks_.size());
+  for (Eigen::Index i = 0; i < count * TetBlock<T>::kLanes; ++i) {
+    // Neighbouring tets go into different blocks: a vertex that occurs twice in a block makes its sums wait
+    // for each other. The lanes left over hold the last tet, without volume.
     const Eigen::Index t = std::min(i, tets.rows() - 1);
     if (!(volumes[t] > 0.0))
       throw std::invalid_argument(fmt::format("tet {} has volume {} m^3", t, volumes[t]));
@@ -27,8 +28,8 @@ ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, c
     for (int k = 0; k < 3; ++k)
       edges.col(k) = rest_vertices.row(tets(t, k + 1)) - rest_vertices.row(tets(t, 0));
     const Eigen::Matrix3d inverse = edges.inverse();
-    TetBlock<T>& block = blocks_[static_cast<std::size_t>(i / TetBlock<T>::kLanes)];
-    const Eigen::Index lane = i % TetBlock<T>::kLanes;
+    TetBlock<T>& block = blocks_[static_cast<std::size_t>(i % count)];
+    const Eigen::Index lane = i / count;
     for (int k = 0; k < 9; ++k) block.inverse_edges[k][lane] = static_cast<T>(inverse(k));
     for (int k = 0; k < 4; ++k) block.vertices[k][lane] = tets(t, k);
     block.volume[lane] = i == t ? static_cast<T>(volumes[t]) : T{0};

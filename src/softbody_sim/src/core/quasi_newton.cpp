@@ -37,6 +37,7 @@ QuasiNewton<Positions>::QuasiNewton(Eigen::Index rows) : pairs_(kHistory) {
 template <typename Positions>
 StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& metric,
                                             const MinimizerOptions& options, Positions* x) {
+  if (options.history == 0) return iterate(energy, metric, options, x);
   StepReport report;
   history_ = std::min(options.history, kHistory);
   pair_count_ = 0;
@@ -53,6 +54,24 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
     }
     report.last_move_m = step * longestRow(direction_);
     report.converged = step == 1.0 && report.last_move_m < options.tolerance_m;
+  }
+  report.residual_n = longestRow(gradient_);
+  return report;
+}
+
+/// Local and global steps of projective dynamics. They need no line search: the metric bounds the curvature
+/// of every term, so that no iteration can raise the energy (Bouaziz et al. 2014, section 3).
+template <typename Positions>
+StepReport QuasiNewton<Positions>::iterate(const Energy& energy, const Metric& metric,
+                                           const MinimizerOptions& options, Positions* x) {
+  StepReport report;
+  while (report.iterations < options.max_iterations && !report.converged) {
+    ++report.iterations;
+    energy(*x, &gradient_);
+    metric(gradient_, &direction_);
+    *x -= direction_;
+    report.last_move_m = longestRow(direction_);
+    report.converged = report.last_move_m < options.tolerance_m;
   }
   report.residual_n = longestRow(gradient_);
   return report;
@@ -89,10 +108,8 @@ bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, doub
     const double trial_energy = energy(trial_, &trial_gradient_);
     if (fallsEnough(trial_energy, slope, *step)) {
       energy_ = trial_energy;
-      if (history_ > 0) {
-        residual_ = trial_ - *x;
-        remember();
-      }
+      residual_ = trial_ - *x;
+      remember();
       x->swap(trial_);
       gradient_.swap(trial_gradient_);
       return true;

@@ -11,7 +11,7 @@ namespace softbody {
 struct MinimizerOptions {
   int max_iterations = 20;
   double tolerance_m = 1e-6;  ///< converged when no vertex moves further in a full iteration
-  int history = 5;            ///< moves that L-BFGS remembers; 0: plain projective dynamics
+  int history = 5;  ///< moves that L-BFGS remembers; 0: plain projective dynamics, without line search
 };
 
 /// Minimises energies of vertex positions, a row a vertex, by L-BFGS whose initial Hessian is a constant
@@ -42,6 +42,8 @@ class QuasiNewton {
     double inverse_product = 0.0;  ///< 1 / <move, gradient_change>
   };
 
+  StepReport iterate(const Energy& energy, const Metric& metric, const MinimizerOptions& options,
+                     Positions* x);
   void findDirection(const Metric& metric);
   bool searchLine(const Energy& energy, Positions* x, double* step);
   bool fallsEnough(double trial_energy, double slope, double step) const;

@@ -40,6 +40,11 @@ Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) 
   return masses;
 }
 
+double densityOf(const TetTopology& topology, const Material& material, const SimulatorConfig& config) {
+  if (!config.normalized_mass) return material.density_kg_m3;
+  return 1.0 / tetVolumes(topology.rest_vertices, topology.tets).sum();
+}
+
 std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Material& material,
                                        const SimulatorConfig& config, double edge_length) {
   requireConsistent(config);
@@ -113,7 +118,7 @@ Simulator::Implementation::Implementation(const TetTopology& topology_in, const 
       material(material_in),
       config(config_in),
       edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
-      masses(lumpedMasses(topology, material.density_kg_m3)),
+      masses(lumpedMasses(topology, densityOf(topology, material, config))),
       solver(makeSolver(topology, material, config, edge_length)),
       confidence(topology.rest_vertices, topology.tets) {
   body.state.revision = topology.revision;

@@ -18,6 +18,7 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.simulate = parameters.flag("simulate", config.simulate);
   config.iterations = parameters.integer("iterations", config.iterations, 1, 1000);
   config.tolerance = parameters.number("tolerance", config.tolerance, 0.0, 1.0);
+  config.normalized_mass = parameters.flag("normalized_mass", config.normalized_mass);
   config.lbfgs_history = parameters.integer("lbfgs_history", config.lbfgs_history, 0, 5);
   config.single_precision = parameters.flag("single_precision", config.single_precision);
   config.simd = parameters.choice("simd", config.simd, {"auto", "sse4", "avx2", "avx512"});

@@ -106,6 +106,7 @@ void SimulatorNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("messages refused", refused_);
   status.add("iterations of the last step", last.iterations);
   status.add("last step converged", last.converged);
+  status.add("residual of the last step [N]", fmt::format("{:.3g}", last.residual_n));
   status.add("last move [mm]", fmt::format("{:.4f}", 1e3 * last.last_move_m));
   steps_ = steps_not_converged_ = refused_ = 0;
 }

@@ -1,0 +1,241 @@
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "bent_bodies.h"
+#include "core/elastic_blocks.h"
+#include "core/metric_solver.h"
+#include "core/projective_dynamics.h"
+#include "core/tet_matrix.h"
+#include "plain_projective_dynamics.h"
+
+/// Projective dynamics against a plain implementation, one thread, bent bodies: `frame` (ten iterations of
+/// each, with and without the volume term), `converged` (as many as bring every vertex within 1e-6 mean edge
+/// lengths of the minimum), and of the fast one in single precision `local` and `global` (one step of them)
+/// and `factor` (a new matrix).
+namespace {
+
+using namespace softbody;
+using namespace softbody::bench;
+using benchmark::State;
+
+constexpr int kFrameIterations = 10;
+
+const BentBody& bodyOf(const std::string& name, bool with_volume) {
+  static std::map<std::pair<std::string, bool>, BentBody> made;
+  const auto key = std::make_pair(name, with_volume);
+  if (made.count(key) == 0) made.emplace(key, bentBody(name, with_volume ? 0.3 : 0.0));
+  return made.at(key);
+}
+
+ProjectiveDynamicsOptions options(bool single, Simd simd, int iterations, int history) {
+  ProjectiveDynamicsOptions chosen;
+  chosen.minimizer = {iterations, 0.0, history};
+  chosen.single_precision = single;
+  chosen.simd = simd;
+  return chosen;
+}
+
+/// The vector widths of this processor, the widest first.
+std::vector<Simd> widths() {
+  std::vector<Simd> found;
+  for (Simd simd : {Simd::kAvx512, Simd::kAvx2, Simd::kSse4}) {
+    if (static_cast<int>(simd) <= static_cast<int>(supportedSimd(Simd::kAuto))) found.push_back(simd);
+  }
+  return found;
+}
+
+double usedMemory() {
+  const auto info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+using Run = std::function<void()>;
+
+/// Least wall time of each run [s], one after the other in every round, so that all see the same machine.
+std::vector<double> leastTimes(const std::vector<Run>& runs) {
+  constexpr double kLongest_s = 4.0;
+  constexpr int kFewest = 3, kMost = 200;
+  std::vector<double> least(runs.size(), 1e9);
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [](auto from) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  };
+  for (int round = 0; round < kFewest || (round < kMost && seconds(start) < kLongest_s); ++round) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      runs[i]();
+      least[i] = std::min(least[i], seconds(begin));
+    }
+  }
+  return least;
+}
+
+Run plainFrame(const BentBody& body, int iterations) {
+  const auto solver = std::make_shared<PlainProjectiveDynamics>(body.topology, body.lame, body.potential);
+  return [solver, &body, iterations] {
+    Points x = body.start;
+    for (int k = 0; k < iterations; ++k) solver->iterate(body.potential, &x);
+    benchmark::DoNotOptimize(x.data());
+  };
+}
+
+Run fastFrame(const BentBody& body, const ProjectiveDynamicsOptions& chosen) {
+  const auto solver = std::make_shared<ProjectiveDynamics>(body.topology, body.lame, chosen);
+  const Run frame = [solver, &body] {
+    Points x = body.start;
+    solver->minimize(body.potential, &x);
+    benchmark::DoNotOptimize(x.data());
+  };
+  // As after a few frames: the factor is made, and inverted where that pays.
+  for (int k = 0; k < (body.start.rows() > 500 ? 1 : 30); ++k) frame();
+  return frame;
+}
+
+/// Fewest iterations after which `run(iterations)` is within 1e-6 mean edge lengths of the minimum.
+int iterationsToMinimum(const BentBody& body, const std::function<Points(int)>& run) {
+  Points minimum = body.start;
+  ProjectiveDynamics(body.topology, body.lame, options(false, Simd::kAuto, 2000, 5))
+      .minimize(body.potential, &minimum);
+  for (int iterations = 1; iterations < 1000; ++iterations) {
+    const double distance = (run(iterations) - minimum).rowwise().norm().maxCoeff();
+    if (distance < 1e-6 * body.edge_length) return iterations;
+  }
+  return 1000;
+}
+
+/// One column a solver: microseconds, and how many times faster than the plain one.
+void report(State& state, const std::vector<std::string>& names, const std::vector<double>& times) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    state.counters[names[i] + " us"] = 1e6 * times[i];
+    if (i > 0) state.counters[names[i] + " ratio"] = times[0] / times[i];
+  }
+}
+
+void frames(State& state, const std::string& name, bool with_volume) {
+  const BentBody& body = bodyOf(name, with_volume);
+  std::vector<std::string> names{"plain"};
+  std::vector<Run> runs{plainFrame(body, kFrameIterations)};
+  const double before = usedMemory();
+  double bytes = 0.0;
+  for (bool single : {true, false}) {
+    for (Simd simd : widths()) {
+      names.push_back(fmt::format("{} {}", single ? "float" : "double", nameOf(simd)));
+      runs.push_back(fastFrame(body, options(single, simd, kFrameIterations, 0)));
+      if (bytes == 0.0) bytes = usedMemory() - before;
+    }
+  }
+  const auto tets = static_cast<double>(body.topology.tets.rows());
+  for (auto _ : state) {
+    const std::vector<double> times = leastTimes(runs);
+    report(state, names, times);
+    state.counters["tets"] = tets;
+    if (!with_volume) continue;
+    state.counters["summary/pd_frame_ratio/" + name] = times[0] / times[1];
+    state.counters["summary/pd_bytes_per_tet/" + name] = bytes / tets;
+    state.counters["summary/pd_frame_ns_per_tet/" + name] = 1e9 * times[1] / tets;
+  }
+}
+
+void converged(State& state) {
+  const BentBody& body = bodyOf("sponge", true);
+  const int plain_iterations = iterationsToMinimum(body, [&](int count) {
+    Points x = body.start;
+    PlainProjectiveDynamics solver(body.topology, body.lame, body.potential);
+    for (int k = 0; k < count; ++k) solver.iterate(body.potential, &x);
+    return x;
+  });
+  state.counters["plain iterations"] = plain_iterations;
+  std::vector<std::string> names{"plain"};
+  std::vector<Run> runs{plainFrame(body, plain_iterations)};
+  for (int history : {5, 0}) {
+    const int iterations = iterationsToMinimum(body, [&](int count) {
+      Points x = body.start;
+      const auto chosen = options(false, Simd::kAuto, count, history);
+      ProjectiveDynamics(body.topology, body.lame, chosen).minimize(body.potential, &x);
+      return x;
+    });
+    const std::string kind = history > 0 ? "double lbfgs " : "double ";
+    state.counters[kind + "iterations"] = iterations;
+    for (Simd simd : widths()) {
+      names.push_back(kind + nameOf(simd));
+      runs.push_back(fastFrame(body, options(false, simd, iterations, history)));
+    }
+  }
+  for (auto _ : state) {
+    const std::vector<double> times = leastTimes(runs);
+    report(state, names, times);
+    state.counters["summary/pd_converged_ratio/sponge"] = times[0] / times[1];
+  }
+}
+
+void localStep(State& state, const BentBody& body, Simd simd) {
+  const ElasticBlocks<float> blocks(body.topology.rest_vertices, body.topology.tets, body.lame, simd);
+  Rows<float> x = Rows<float>::Zero(paddedRows(body.start.rows()), 4), gradient = x;
+  x.topLeftCorner(body.start.rows(), 3) = body.start.cast<float>();
+  for (auto _ : state) benchmark::DoNotOptimize(blocks.addTo(x, &gradient));
+}
+
+TetMatrix metricOf(const BentBody& body) {
+  TetMatrix metric(body.topology.tets, body.start.rows());
+  CorotatedElasticity(body.topology.rest_vertices, body.topology.tets, body.lame).addMetric(&metric);
+  metric.addToDiagonal(body.potential.inertia);
+  body.potential.targets.addMetric(&metric);
+  return metric;
+}
+
+void globalStep(State& state, const BentBody& body, Simd simd) {
+  const TetMatrix metric = metricOf(body);
+  MetricSolver<float> solver(metric.lower(), simd);
+  solver.factorize(metric.lower());
+  const Rows<float> b = Rows<float>::Ones(paddedRows(body.start.rows()), 4);
+  Rows<float> x = b;
+  for (int k = 0; k < 300; ++k) solver.solve(b, &x);
+  for (auto _ : state) solver.solve(b, &x);
+}
+
+void factorAnew(State& state, const BentBody& body) {
+  const TetMatrix metric = metricOf(body);
+  MetricSolver<float> solver(metric.lower(), Simd::kAuto);
+  for (auto _ : state) solver.factorize(metric.lower());
+}
+
+template <typename Measure>
+auto* add(const std::string& name, Measure measure) {
+  return benchmark::RegisterBenchmark(name.c_str(), measure)->Unit(benchmark::kMicrosecond);
+}
+
+void addBody(const std::string& name) {
+  for (bool with_volume : {true, false}) {
+    add(fmt::format("frame/{}/{}", name, with_volume ? "volume" : "no_volume"), [name,
+                                                                                 with_volume](State& s) {
+      frames(s, name, with_volume);
+    })->Iterations(1);
+  }
+  const auto body = [name]() -> const BentBody& { return bodyOf(name, true); };
+  add("local/" + name, [body](State& s) { localStep(s, body(), Simd::kAuto); });
+  add("global/" + name, [body](State& s) { globalStep(s, body(), Simd::kAuto); });
+  add("factor/" + name, [body](State& s) { factorAnew(s, body()); });
+}
+
+void vectorWidth(State& state) {
+  const std::map<Simd, int> bits{{Simd::kSse4, 128}, {Simd::kAvx2, 256}, {Simd::kAvx512, 512}};
+  for (auto _ : state) state.counters["summary/vector_width_bits"] = bits.at(supportedSimd(Simd::kAuto));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  add("vector_width", vectorWidth)->Iterations(1);
+  for (const char* body : {"sponge", "doll", "1k", "10k", "100k"}) addBody(body);
+  add("converged/sponge", converged)->Iterations(1);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

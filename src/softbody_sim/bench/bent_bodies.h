@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/corotated_elasticity.h"
+#include "core/step_potential.h"
+#include "softbody_common/types.h"
+
+namespace softbody::bench {
+
+/// A body in a bent and disordered state, under a hundred targets that bend it further.
+struct BentBody {
+  std::string name;
+  TetTopology topology;
+  Lame lame;
+  double edge_length = 0.0;  ///< mean [m]
+  StepPotential potential;
+  Points start;
+};
+
+/// @param name sponge, doll (of the shipped doll, with a cage of about 150 vertices), 1k, 10k or 100k (boxes
+/// of about as many tets). @param poisson_ratio 0: no volume term.
+BentBody bentBody(const std::string& name, double poisson_ratio);
+
+}  // namespace softbody::bench
