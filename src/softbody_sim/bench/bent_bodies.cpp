@@ -16,9 +16,9 @@ constexpr double kDensity = 30.0;         ///< [kg/m^3]
 constexpr double kFrameRate = 30.0;       ///< [Hz]
 
 TetTopology doll() {
-  ObjectDescription description = loadObjectDescription(SOFTBODY_CONFIG_DIR "/doll.yaml");
-  description.cage_vertices = 150;
-  return buildObjectModel(description).volume;
+  VolumeSettings settings;
+  settings.cage_vertices = 150;
+  return buildObjectModel(loadObjectDescription(SOFTBODY_CONFIG_DIR "/doll.yaml"), settings).volume;
 }
 
 TetTopology topologyOf(const std::string& name) {

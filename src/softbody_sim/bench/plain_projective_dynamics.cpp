@@ -42,12 +42,13 @@ PlainProjectiveDynamics::PlainProjectiveDynamics(const TetTopology& topology, co
 }
 
 void PlainProjectiveDynamics::localStep(const Points& x) {
+  Eigen::JacobiSVD<Eigen::Matrix3d> svd(3, 3, Eigen::ComputeFullU | Eigen::ComputeFullV);
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
     Eigen::Matrix<double, 3, 4> corners;
     for (int k = 0; k < 4; ++k) corners.col(k) = x.row(tets_(t, k));
     const auto index = static_cast<std::size_t>(t);
     const Eigen::Matrix3d F = corners * shape_gradients_[index].transpose();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    svd.compute(F);
     Eigen::Matrix3d U = svd.matrixU();
     Eigen::Vector3d sigma = svd.singularValues();
     if (U.determinant() * svd.matrixV().determinant() < 0.0) {
