@@ -21,10 +21,11 @@ struct SimulatorConfig {
   bool simulate = true;     ///< false: surface vertices go where their targets are (Kang et al. 2022, Fig. 6)
   int iterations = 20;      ///< local/global, or Newton, iterations a step at most
   double tolerance = 1e-4;  ///< stop when no vertex moves further in an iteration [mean edge lengths]
-  int lbfgs_history = 5;           ///< moves that L-BFGS remembers, at most 5; 0: plain projective dynamics
-  bool single_precision = false;   ///< positions to about 0.1 um, at twice the speed
-  std::string simd = "auto";       ///< vector instructions: auto (the widest there are), sse4, avx2 or avx512
-  bool normalized_mass = false;    ///< the body weighs 1 kg, whatever its density (Kang et al. 2022, section 5.1)
+  int lbfgs_history = 5;    ///< moves that L-BFGS remembers, at most 5; 0: plain projective dynamics
+  bool single_precision = false;  ///< positions to about 0.1 um, at twice the speed
+  std::string simd = "auto";      ///< vector instructions: auto (the widest there are), sse4, avx2 or avx512
+  bool normalized_mass =
+      false;  ///< the body weighs 1 kg, whatever its density (Kang et al. 2022, section 5.1)
   double target_stiffness = 10.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
   double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
   /// [m/s^2], in the frame of the targets; zero: the rest shape already hangs or lies as it does.
@@ -42,7 +43,8 @@ struct StepReport {
   int iterations = 0;
   bool converged = false;    ///< on the tolerance; otherwise `iterations` is the cap
   double last_move_m = 0.0;  ///< largest move of a vertex in the last iteration [m]
-  double residual_n = 0.0;   ///< largest force on a vertex that was left unbalanced when the last iteration began or ended [N]
+  double residual_n =
+      0.0;  ///< largest force on a vertex that was left unbalanced when the last iteration began or ended [N]
 };
 
 /// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective
@@ -68,7 +70,8 @@ class Simulator {
   void step(const TargetSet& targets, Nanoseconds stamp);
 
   /// Puts a placed body's vertices somewhere, at rest, whatever shape that is. @param vertices #V by 3 [m].
-  /// @throw std::invalid_argument if the body has not been placed, or not that many finite vertices are given.
+  /// @throw std::invalid_argument if the body has not been placed, or not that many finite vertices are
+  /// given.
   void setVertices(const Points& vertices);
 
   /// Back to "not placed".

@@ -69,12 +69,8 @@ void PositiveDefiniteSolver::factorize(const Eigen::SparseMatrix<double>& lower)
 
 CholeskyView PositiveDefiniteSolver::factor() const {
   const cholmod_factor& L = *implementation_->factor;
-  return {static_cast<int>(L.n),
-          static_cast<const int*>(L.Perm),
-          static_cast<const int*>(L.p),
-          static_cast<const int*>(L.nz),
-          static_cast<const int*>(L.i),
-          static_cast<const double*>(L.x)};
+  return {static_cast<int>(L.n),         static_cast<const int*>(L.Perm), static_cast<const int*>(L.p),
+          static_cast<const int*>(L.nz), static_cast<const int*>(L.i),    static_cast<const double*>(L.x)};
 }
 
 void PositiveDefiniteSolver::solve(const Points& B, Points* X) {

@@ -7,7 +7,8 @@
 
 namespace softbody {
 
-/// Borrowed view of a factor: A(order, order) = L L^T, each column of L with its diagonal first and rows ascending.
+/// Borrowed view of a factor: A(order, order) = L L^T, each column of L with its diagonal first and rows
+/// ascending.
 struct CholeskyView {
   int count;
   const int* order;       ///< #V
