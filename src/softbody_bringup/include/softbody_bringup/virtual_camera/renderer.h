@@ -3,10 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "softbody_bringup/virtual_camera/baked_texture.h"
-#include "softbody_bringup/virtual_camera/scene.h"
-#include "softbody_bringup/virtual_camera/visibility_buffer.h"
-#include "softbody_common/pinhole.h"
+#include "softbody_bringup/virtual_camera/layer.h"
 
 namespace softbody::virtual_camera {
 
@@ -16,31 +13,28 @@ struct RenderedImage {
   std::vector<float> visibility;  ///< per vertex of the first actor: 1 seen, 0 hidden
 };
 
-/// Renders a scene on the CPU: solid textures baked once, diffuse light, z-buffer.
+/// Renders a scene on the CPU: solid textures baked once, diffuse light, z-buffer. Actors that stand still
+/// are drawn once; only where the others are, a frame is drawn anew.
 class Renderer {
  public:
   Renderer(const Scene& scene, const Pinhole& camera);
 
-  /// @param vertices one entry an actor, in the camera's frame [m].
+  /// @param vertices one entry an actor, in the camera's frame [m]; those of still actors are not looked at.
   void render(const std::vector<Points>& vertices, RenderedImage* image);
+  /// One half of it each.
   void renderColor(const std::vector<Points>& vertices, cv::Mat3b* color);
+  void renderDepth(const std::vector<Points>& vertices, RenderedImage* image);
 
  private:
-  void gather(const std::vector<Points>& vertices);
-  cv::Vec3f colorAt(int triangle, double u, double v) const;
-  cv::Vec3f pixelColor(int u, int v) const;
-  void shade(cv::Mat3b* color) const;
+  void place(const std::vector<Points>& vertices);
+  void drawDepth(RenderedImage* image);
 
-  Pinhole camera_;
   Eigen::Vector3d to_light_;
   int body_vertices_ = 0;
-  Triangles triangles_;                             ///< of all actors
-  std::vector<std::vector<int>> smooth_neighbors_;  ///< per corner (3 f + k): triangles that share its normal
-  BakedTexture texture_;
-  Points vertices_;  ///< of all actors
-  std::vector<ProjectedTriangle> projected_;
-  std::vector<float> brightness_;  ///< per corner, 0..1
-  VisibilityBuffer color_samples_, depth_samples_;
+  std::vector<char> still_;  ///< per actor
+  Layer moving_;
+  Canvas backdrop_;  ///< the still actors
+  cv::Mat1f inverse_z_;
 };
 
 }  // namespace softbody::virtual_camera

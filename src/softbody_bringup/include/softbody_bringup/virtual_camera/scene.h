@@ -18,6 +18,7 @@ struct Actor {
   double texel_m = 0.4e-3;        ///< spacing at which the texture is sampled
   double crease_angle_rad = 0.7;  ///< edges that are sharper than this at rest are shaded as edges
   UvTexture skin = {};            ///< goes before the texture where it covers a triangle
+  bool still = false;             ///< never moves in the camera's frame: rendered once
 };
 
 /// Where everything is at one instant.

@@ -43,7 +43,8 @@ class VirtualCamera {
   const MeshTopology& topology(std::uint32_t revision) const { return topologies_.at(revision); }
 
  private:
-  void blur(double t, cv::Mat3b* color);
+  int imagesAt(double t) const;  ///< that motion blur takes
+  cv::Mat3b blurredColor(double t, int images);
 
   Scene scene_;
   Pinhole camera_;

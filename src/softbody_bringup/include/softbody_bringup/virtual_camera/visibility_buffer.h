@@ -14,32 +14,50 @@ struct Affine {
   double operator()(double u, double v) const { return a * u + b * v + c; }
 };
 
-/// A triangle on the image plane. All its functions are affine in the pixel coordinates.
-struct ProjectedTriangle {
-  Affine weight[3];       ///< screen-space barycentric coordinates
-  Affine inverse_z;       ///< 1 / z [1/m]
-  Affine weight_by_z[2];  ///< weight / z of the second and the third corner
-  double min_u = 0.0, max_u = 0.0, min_v = 0.0, max_v = 0.0;
-  bool drawable = false;  ///< in front of the camera and not edge-on
-  bool front = false;     ///< its counter-clockwise side faces the camera
+/// The line of an edge on the image and the side of it where its triangle lies.
+struct EdgeLine {
+  double u = 0.0, v = 0.0;  ///< a place on it [px]
+  double slope = 0.0;       ///< of u over v
+  bool inside_is_right = false;
+  double at(double row) const { return u + slope * (row - v); }
 };
 
-/// @param vertices in the camera's frame [m]. Triangles nearer than 1 cm are not drawable.
-std::vector<ProjectedTriangle> projectTriangles(const Pinhole& camera, const Points& vertices,
-                                                const Triangles& triangles);
+/// A triangle on the image plane. All its functions are affine in the pixel coordinates.
+struct ProjectedTriangle {
+  int index = 0;       ///< in the mesh
+  bool front = false;  ///< its counter-clockwise side faces the camera
+  EdgeLine edge[3];
+  Affine inverse_z;       ///< 1 / z [1/m]
+  Affine weight_by_z[2];  ///< barycentric coordinate / z of the second and the third corner
+  double min_u = 0.0, max_u = 0.0, min_v = 0.0, max_v = 0.0;
+};
+
+/// What of a mesh may be seen on the image.
+struct Projection {
+  std::vector<Eigen::Vector3d> vertices;     ///< u, v [px], 1 / z [1/m]
+  std::vector<ProjectedTriangle> triangles;  ///< in front of the camera, on the image, not edge-on
+  std::vector<std::vector<int>> bands;       ///< for every band of rows those that touch it, in their order
+  cv::Rect box;                              ///< all pixels that the triangles touch
+};
+
+/// @param vertices in the camera's frame [m]. Triangles with a corner nearer than 1 cm are left out. @param
+/// one_sided per triangle: also left out where its back faces the camera.
+void project(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
+             const std::vector<char>& one_sided, Projection* projection);
 
 /// The nearest triangle at every sample; samples lie on a regular grid, `samples` by `samples` in a pixel.
+/// Only those within the projection's box are up to date.
 struct VisibilityBuffer {
   int samples = 1;
   cv::Mat1f inverse_z;  ///< [1/m]; 0: nothing
-  cv::Mat1i triangle;   ///< -1: nothing
+  cv::Mat1i triangle;   ///< of the projection, -1: what is behind it
 
   /// Pixel coordinate of a sample's row or column; for one sample a pixel it is the pixel's centre.
   double pixelOf(int sample) const { return (sample + 0.5) / samples - 0.5; }
 };
 
-/// Rasterises in parallel bands of rows; the result does not depend on the number of threads.
-void rasterize(const Pinhole& camera, const std::vector<ProjectedTriangle>& triangles, int samples,
-               VisibilityBuffer* buffer);
+/// Rasterises in parallel bands of rows; the result does not depend on the number of threads. @param behind
+/// inverse z of the samples before anything is drawn, the size of the result.
+void rasterize(const Projection& projection, int samples, const cv::Mat1f& behind, VisibilityBuffer* buffer);
 
 }  // namespace softbody::virtual_camera

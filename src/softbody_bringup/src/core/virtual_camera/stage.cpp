@@ -45,6 +45,7 @@ Stage makeStage(const Body& body, std::uint64_t seed) {
                   {table, woodTexture(hash(seed, 2)), 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
   stage.actors[0].skin = body.skin;
+  stage.actors[1].still = stage.actors[2].still = true;
   return stage;
 }
 

@@ -75,10 +75,16 @@ VirtualCamera::VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOpti
 
 Capture VirtualCamera::capture(int frame, double t) {
   const SceneState state = scene_.state(t);
-  renderers_.at(state.revision).render(state.vertices, &image_);
   Capture capture;
-  capture.color = image_.color.clone();
-  blur(t, &capture.color);
+  Renderer& renderer = renderers_.at(state.revision);
+  const int images = imagesAt(t);
+  if (images == 1) {
+    renderer.render(state.vertices, &image_);
+    capture.color = image_.color.clone();
+  } else {
+    renderer.renderDepth(state.vertices, &image_);
+    capture.color = blurredColor(t, images);
+  }
   exposure_drift_.apply(t, &capture.color);
   color_noise_.apply(frame, &capture.color);
   depth_noise_.apply(frame, camera_.fx, &image_.depth);
@@ -91,20 +97,24 @@ Capture VirtualCamera::capture(int frame, double t) {
   return capture;
 }
 
-void VirtualCamera::blur(double t, cv::Mat3b* color) {
-  if (!blur_.enabled) return;
+int VirtualCamera::imagesAt(double t) const {
+  if (!blur_.enabled) return 1;
   const auto opened = scene_.state(std::max(0.0, t - 0.5 * blur_.exposure_s));
   const auto closed = scene_.state(t + 0.5 * blur_.exposure_s);
-  const int images = blurImages(blur_, largestMotion(camera_, opened, closed));
-  if (images == 1) return;
-  cv::Mat3f sum = cv::Mat3f::zeros(color->size());
+  return blurImages(blur_, largestMotion(camera_, opened, closed));
+}
+
+cv::Mat3b VirtualCamera::blurredColor(double t, int images) {
+  cv::Mat3f sum(camera_.height, camera_.width, cv::Vec3f(0.0f, 0.0f, 0.0f));
   for (int i = 0; i < images; ++i) {
     const double offset = blur_.exposure_s * ((i + 0.5) / images - 0.5);
     const SceneState state = scene_.state(std::max(0.0, t + offset));
-    renderers_.at(state.revision).renderColor(state.vertices, color);
-    cv::accumulate(*color, sum);
+    renderers_.at(state.revision).renderColor(state.vertices, &image_.color);
+    cv::accumulate(image_.color, sum);
   }
-  sum.convertTo(*color, CV_8U, 1.0 / images);
+  cv::Mat3b color;
+  sum.convertTo(color, CV_8U, 1.0 / images);
+  return color;
 }
 
 }  // namespace softbody::virtual_camera

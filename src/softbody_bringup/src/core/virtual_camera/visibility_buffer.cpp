@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace softbody::virtual_camera {
 namespace {
@@ -11,46 +12,79 @@ constexpr double kNearPlane = 0.01;      // [m]
 constexpr double kEdgeTolerance = 1e-9;  // [px]; no sample may fall between two triangles of one edge
 constexpr int kBandRows = 16;            // of pixels
 
-ProjectedTriangle project(const Eigen::Vector3d (&corner)[3]) {
+EdgeLine edgeLine(const Eigen::Vector3d& p, const Eigen::Vector3d& q, bool front) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (q.y() == p.y()) return {-kInfinity, 0.0, 0.0, true};  // bounds no row
+  return {p.x(), p.y(), (q.x() - p.x()) / (q.y() - p.y()), (q.y() > p.y()) == front};
+}
+
+/// @param area twice that of the triangle, negative if it faces the camera (v grows downwards).
+ProjectedTriangle triangleOf(int index, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                             const Eigen::Vector3d& r, double area) {
   ProjectedTriangle t;
-  const Eigen::Matrix3d inverse_z = Eigen::Vector3d(corner[0].z(), corner[1].z(), corner[2].z()).asDiagonal();
-  Eigen::Matrix3d places;
-  for (int k = 0; k < 3; ++k) places.col(k) << corner[k].x(), corner[k].y(), 1.0;
-  const double area = places.determinant();
-  if (std::abs(area) < 1e-12 || !std::isfinite(area)) return t;
-  // Rows of the inverse take (u, v, 1) to the barycentric coordinates.
-  const Eigen::Matrix3d weights = places.inverse();
-  const Eigen::Matrix3d by_z = inverse_z * weights;
-  const auto affine = [](const Eigen::RowVector3d& row) { return Affine{row[0], row[1], row[2]}; };
-  for (int k = 0; k < 3; ++k) t.weight[k] = affine(weights.row(k));
-  t.inverse_z = affine(by_z.colwise().sum());
-  t.weight_by_z[0] = affine(by_z.row(1));
-  t.weight_by_z[1] = affine(by_z.row(2));
-  std::tie(t.min_u, t.max_u) = std::minmax({corner[0].x(), corner[1].x(), corner[2].x()});
-  std::tie(t.min_v, t.max_v) = std::minmax({corner[0].y(), corner[1].y(), corner[2].y()});
-  t.drawable = true;
-  t.front = area < 0.0;  // v grows downwards
+  t.index = index;
+  t.front = area < 0.0;
+  t.edge[0] = edgeLine(p, q, t.front);
+  t.edge[1] = edgeLine(q, r, t.front);
+  t.edge[2] = edgeLine(r, p, t.front);
+  const auto through = [&](double a, double b) { return Affine{a, b, -a * p.x() - b * p.y()}; };
+  const Affine w1 = through((r.y() - p.y()) / area, (p.x() - r.x()) / area);
+  const Affine w2 = through((p.y() - q.y()) / area, (q.x() - p.x()) / area);
+  const double d1 = q.z() - p.z(), d2 = r.z() - p.z();
+  t.inverse_z = {w1.a * d1 + w2.a * d2, w1.b * d1 + w2.b * d2, p.z() + w1.c * d1 + w2.c * d2};
+  t.weight_by_z[0] = {w1.a * q.z(), w1.b * q.z(), w1.c * q.z()};
+  t.weight_by_z[1] = {w2.a * r.z(), w2.b * r.z(), w2.c * r.z()};
+  std::tie(t.min_u, t.max_u) = std::minmax({p.x(), q.x(), r.x()});
+  std::tie(t.min_v, t.max_v) = std::minmax({p.y(), q.y(), r.y()});
   return t;
 }
 
-/// First and last sample of the row whose weights are all above zero.
-std::pair<int, int> span(const ProjectedTriangle& t, double v, const VisibilityBuffer& buffer) {
-  double low = t.min_u, high = t.max_u;
-  for (const Affine& w : t.weight) {
-    const double rest = w.b * v + w.c;
-    if (w.a > 0.0) {
-      low = std::max(low, -rest / w.a);
-    } else if (w.a < 0.0) {
-      high = std::min(high, -rest / w.a);
-    } else if (rest < 0.0) {
-      return {0, -1};
+bool onImage(const ProjectedTriangle& t, const Pinhole& camera) {
+  return t.max_u >= -0.5 && t.min_u <= camera.width - 0.5 && t.max_v >= -0.5 &&
+         t.min_v <= camera.height - 0.5;
+}
+
+/// Pixels between two pixel coordinates, and one more on the right, within 0..size.
+cv::Range pixelsOf(double low, double high, int size) {
+  return {static_cast<int>(std::clamp<double>(std::floor(low), 0.0, size)),
+          static_cast<int>(std::clamp<double>(std::floor(high) + 2.0, 0.0, size))};
+}
+
+void sortIntoBands(const Pinhole& camera, Projection* projection) {
+  projection->bands.resize(static_cast<std::size_t>((camera.height + kBandRows - 1) / kBandRows));
+  for (std::vector<int>& band : projection->bands) band.clear();
+  projection->box = {};
+  for (std::size_t i = 0; i < projection->triangles.size(); ++i) {
+    const ProjectedTriangle& t = projection->triangles[i];
+    const cv::Range columns = pixelsOf(t.min_u, t.max_u, camera.width);
+    const cv::Range rows = pixelsOf(t.min_v, t.max_v, camera.height);
+    if (columns.empty() || rows.empty()) continue;
+    projection->box |= cv::Rect(columns.start, rows.start, columns.size(), rows.size());
+    for (int band = rows.start / kBandRows; band <= (rows.end - 1) / kBandRows; ++band) {
+      projection->bands[static_cast<std::size_t>(band)].push_back(static_cast<int>(i));
     }
   }
+}
+
+/// First and last sample of the row within all edges.
+std::pair<int, int> span(const ProjectedTriangle& t, double v, const VisibilityBuffer& buffer) {
+  double low = t.min_u, high = t.max_u;
+  for (const EdgeLine& edge : t.edge) {
+    const double u = edge.at(v);
+    if (edge.inside_is_right) {
+      low = std::max(low, u);
+    } else {
+      high = std::min(high, u);
+    }
+  }
+  if (!(high >= low - kEdgeTolerance)) return {0, -1};
   const auto sampleOf = [&](double u) { return (u + 0.5) * buffer.samples - 0.5; };
   const double last_column = buffer.triangle.cols - 1.0;
-  if (high < low - kEdgeTolerance) return {0, -1};
-  return {static_cast<int>(std::ceil(std::clamp(sampleOf(low - kEdgeTolerance), 0.0, last_column + 1.0))),
-          static_cast<int>(std::floor(std::clamp(sampleOf(high + kEdgeTolerance), -1.0, last_column)))};
+  // The cast rounds towards zero: shifted to positive numbers it is a floor, at a fraction of the price.
+  const double first = std::clamp(sampleOf(low - kEdgeTolerance), 0.0, last_column + 1.0);
+  const double last = std::clamp(sampleOf(high + kEdgeTolerance), -1.0, last_column);
+  const int below = static_cast<int>(first);
+  return {below < first ? below + 1 : below, static_cast<int>(last + 1.0) - 1};
 }
 
 void drawRow(const ProjectedTriangle& t, int index, int row, VisibilityBuffer* buffer) {
@@ -69,50 +103,58 @@ void drawRow(const ProjectedTriangle& t, int index, int row, VisibilityBuffer* b
   }
 }
 
-void drawBand(const std::vector<ProjectedTriangle>& triangles, int first_row, int last_row,
+void drawBand(const Projection& projection, const std::vector<int>& touching, int first_row, int last_row,
               VisibilityBuffer* buffer) {
-  const double top = buffer->pixelOf(first_row), bottom = buffer->pixelOf(last_row);
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    const ProjectedTriangle& t = triangles[f];
-    if (!t.drawable || t.max_v < top || t.min_v > bottom) continue;
-    const auto rowOf = [&](double v) { return (v + 0.5) * buffer->samples - 0.5; };
-    const int begin = std::max(first_row, static_cast<int>(std::max(0.0, std::floor(rowOf(t.min_v)))));
-    const int end = std::min<double>(last_row, std::ceil(rowOf(t.max_v)));
-    for (int row = begin; row <= end; ++row) drawRow(t, static_cast<int>(f), row, buffer);
+  const auto rowOf = [&](double v) { return (v + 0.5) * buffer->samples - 0.5; };
+  for (const int i : touching) {
+    const ProjectedTriangle& t = projection.triangles[static_cast<std::size_t>(i)];
+    const int begin = static_cast<int>(std::max<double>(first_row, rowOf(t.min_v)));
+    const int end = static_cast<int>(std::min<double>(last_row, rowOf(t.max_v) + 1.0));
+    for (int row = begin; row <= end; ++row) drawRow(t, i, row, buffer);
   }
 }
 
 }  // namespace
 
-std::vector<ProjectedTriangle> projectTriangles(const Pinhole& camera, const Points& vertices,
-                                                const Triangles& triangles) {
-  std::vector<ProjectedTriangle> projected(static_cast<std::size_t>(triangles.rows()));
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    Eigen::Vector3d corner[3];
-    bool in_front = true;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d p = vertices.row(triangles(f, k));
-      in_front = in_front && p.z() >= kNearPlane;
-      corner[k] << camera.project(p), 1.0 / p.z();
-    }
-    if (in_front) projected[static_cast<std::size_t>(f)] = project(corner);
+void project(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
+             const std::vector<char>& one_sided, Projection* projection) {
+  projection->vertices.resize(static_cast<std::size_t>(vertices.rows()));
+  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
+    const Eigen::Vector3d p = vertices.row(i);
+    projection->vertices[static_cast<std::size_t>(i)] << camera.project(p), 1.0 / p.z();
   }
-  return projected;
+  projection->triangles.clear();
+  const auto tooNear = [](const Eigen::Vector3d& p) { return !(p.z() > 0.0 && p.z() <= 1.0 / kNearPlane); };
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    const auto corner = [&](int k) -> const Eigen::Vector3d& {
+      return projection->vertices[static_cast<std::size_t>(triangles(f, k))];
+    };
+    const Eigen::Vector3d &p = corner(0), &q = corner(1), &r = corner(2);
+    const double area = (q.x() - p.x()) * (r.y() - p.y()) - (r.x() - p.x()) * (q.y() - p.y());
+    if (one_sided[static_cast<std::size_t>(f)] && area >= 0.0) continue;
+    if (std::abs(area) < 1e-12 || !std::isfinite(area) || tooNear(p) || tooNear(q) || tooNear(r)) continue;
+    const ProjectedTriangle t = triangleOf(static_cast<int>(f), p, q, r, area);
+    if (onImage(t, camera)) projection->triangles.push_back(t);
+  }
+  sortIntoBands(camera, projection);
 }
 
-void rasterize(const Pinhole& camera, const std::vector<ProjectedTriangle>& triangles, int samples,
-               VisibilityBuffer* buffer) {
+void rasterize(const Projection& projection, int samples, const cv::Mat1f& behind, VisibilityBuffer* buffer) {
   buffer->samples = samples;
-  buffer->inverse_z.create(camera.height * samples, camera.width * samples);
-  buffer->triangle.create(camera.height * samples, camera.width * samples);
-  const int bands = (camera.height + kBandRows - 1) / kBandRows;
-  cv::parallel_for_(cv::Range(0, bands), [&](const cv::Range& range) {
+  buffer->inverse_z.create(behind.size());
+  buffer->triangle.create(behind.size());
+  const cv::Rect& box = projection.box;
+  const cv::Range columns(box.x * samples, (box.x + box.width) * samples);
+  cv::parallel_for_(cv::Range(0, static_cast<int>(projection.bands.size())), [&](const cv::Range& range) {
     for (int band = range.start; band < range.end; ++band) {
-      const int first = band * kBandRows * samples;
-      const int last = std::min((band + 1) * kBandRows, camera.height) * samples - 1;
-      buffer->inverse_z.rowRange(first, last + 1).setTo(0.0f);
-      buffer->triangle.rowRange(first, last + 1).setTo(-1);
-      drawBand(triangles, first, last, buffer);
+      const int first = std::max(band * kBandRows, box.y) * samples;
+      const int end = std::min((band + 1) * kBandRows, box.y + box.height) * samples;
+      if (first >= end) continue;
+      const cv::Range rows(first, end);
+      cv::Mat1f inverse_z = buffer->inverse_z(rows, columns);
+      behind(rows, columns).copyTo(inverse_z);
+      buffer->triangle(rows, columns).setTo(-1);
+      drawBand(projection, projection.bands[static_cast<std::size_t>(band)], first, end - 1, buffer);
     }
   });
 }
