@@ -6,6 +6,7 @@
 #include "softbody_common/parameters.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/object_model.h"
+#include "softbody_sim/surroundings.h"
 
 namespace softbody {
 
@@ -30,6 +31,8 @@ struct SimulatorConfig {
   double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
   /// [m/s^2], in the frame of the targets; zero: the rest shape already hangs or lies as it does.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  double contact_stiffness = 20.0;  ///< pressure at a depth of a mean edge length, in units of E
+  double contact_spacing = 0.5;     ///< between points of the surface that feel contact [mean edge lengths]
 };
 
 /// @throw std::invalid_argument if the solver does not have the elasticity.
@@ -67,7 +70,17 @@ class Simulator {
   /// @throw std::invalid_argument if the revision is not the topology's, a target names a tet beyond it, a
   /// number is not finite, a barycentric coordinate is beyond 100, or the body has not been placed;
   /// std::runtime_error if the targets' weights leave a system that cannot be solved.
-  void step(const TargetSet& targets, Nanoseconds stamp);
+  void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
+
+  /// As step, without a new observation: targets seen earlier still hold (their `reset` does
+  /// not), `observed` stays, and confidence
+  /// halves with every half second since.
+  void stepUnobserved(const TargetSet& earlier, Nanoseconds stamp, const Surroundings& surroundings = {});
+
+  /// Static equilibrium under targets, gravity and surroundings, which have to hold the body: a step that
+  /// takes forever. Stamp and velocity: as before, and none.
+  /// @throw as step does.
+  void settle(const TargetSet& targets, const Surroundings& surroundings = {});
 
   /// Puts a placed body's vertices somewhere, at rest, whatever shape that is. @param vertices #V by 3 [m].
   /// @throw std::invalid_argument if the body has not been placed, or not that many finite vertices are
@@ -79,6 +92,10 @@ class Simulator {
 
   const MeshState& state() const;
   const StepReport& report() const;
+  const Reactions& reactions() const;
+
+  /// Elastic energy of the present state [J].
+  double elasticEnergy() const;
 
  private:
   struct Implementation;

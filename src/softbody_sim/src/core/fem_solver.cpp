@@ -37,10 +37,10 @@ StepReport FemSolver::minimize(const StepPotential& potential, Points* x) {
     step = 1.0;
     report.last_move_m = direction_.rowwise().norm().maxCoeff();
     // Where no step along a descent direction gains anything it is a minimum within rounding.
-    report.converged =
-        !searchLine(potential, x, &step) || (step == 1.0 && report.last_move_m < options_.tolerance_m);
+    report.converged = !searchLine(potential, x, &step) || report.last_move_m < options_.tolerance_m;
     report.last_move_m *= step;
   }
+  report.residual_n = gradient_.rowwise().norm().maxCoeff();
   return report;
 }
 

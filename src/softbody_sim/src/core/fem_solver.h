@@ -16,7 +16,7 @@ class FemSolver : public StepSolver {
  public:
   struct Options {
     int max_iterations = 20;
-    double tolerance_m = 1e-6;  ///< converged when no vertex moves further in a full Newton step
+    double tolerance_m = 1e-6;  ///< converged when a full Newton step moves no vertex further
   };
 
   /// @throw std::invalid_argument if a rest tet has no positive volume.

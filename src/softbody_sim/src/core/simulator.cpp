@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/constrained_step.h"
 #include "core/fem_solver.h"
 #include "core/observation_confidence.h"
 #include "core/projective_dynamics.h"
@@ -63,7 +64,7 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
   return std::make_unique<ProjectiveDynamics>(topology, lame, options);
 }
 
-void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_count) {
+void requireUsableTarget(const Target& target, std::size_t index, Eigen::Index tet_count) {
   if (target.place.tet < 0 || target.place.tet >= tet_count) {
     throw std::invalid_argument(
         fmt::format("targets[{}] names tet {} of {}", index, target.place.tet, tet_count));
@@ -79,6 +80,19 @@ void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_cou
   }
 }
 
+/// Held vertices are stiffer than the body by so much, which leaves rounding enough digits.
+constexpr double kPinStiffness = 1e5;
+
+ConstrainedStep makeStep(const TetTopology& topology, const Material& material, const SimulatorConfig& config,
+                         double edge_length, StepSolver* solver) {
+  const double E = material.youngs_modulus_pa;
+  return {topology,
+          ContactModel(topology, config.contact_spacing * edge_length,
+                       config.contact_stiffness * E / edge_length, 0.1 * edge_length),
+          {config.target_stiffness * E * edge_length, kPinStiffness * E * edge_length, 1e-3 * edge_length},
+          solver};
+}
+
 /// All that a step changes.
 struct Body {
   bool placed = false;
@@ -86,6 +100,8 @@ struct Body {
   Points velocity;  ///< [m/s]
   MeshState state;
   StepReport report;
+  Reactions reactions;
+  std::vector<Eigen::Isometry3d> obstacle_poses;
 };
 
 }  // namespace
@@ -94,10 +110,13 @@ struct Simulator::Implementation {
   Implementation(const TetTopology& topology_in, const Material& material_in,
                  const SimulatorConfig& config_in);
 
-  void requireUsable(const TargetSet& targets) const;
+  void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const;
-  void advance(const TargetSet& targets, Nanoseconds stamp, Body* next);
-  void simulate(const TargetSet& targets, double elapsed_s, Body* next);
+  void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings, Body* next);
+  void simulate(const TargetSet& targets, double elapsed_s, const Surroundings& surroundings, Body* next);
+  void settle(const TargetSet& targets, const Surroundings& surroundings, Body* next);
+  void solve(const StepPotential& free, const TargetSet& targets, const Surroundings& surroundings, Points x,
+             Body* next);
 
   const TetTopology topology;
   const Material material;
@@ -106,7 +125,7 @@ struct Simulator::Implementation {
 
   const Eigen::VectorXd masses;  ///< lumped [kg]
   const std::unique_ptr<StepSolver> solver;
-  StepPotential potential;
+  const ConstrainedStep constrained_step;
   ObservationConfidence confidence;
 
   Body body;
@@ -120,11 +139,13 @@ Simulator::Implementation::Implementation(const TetTopology& topology_in, const 
       edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
       masses(lumpedMasses(topology, densityOf(topology, material, config))),
       solver(makeSolver(topology, material, config, edge_length)),
+      constrained_step(makeStep(topology, material, config, edge_length, solver.get())),
       confidence(topology.rest_vertices, topology.tets) {
   body.state.revision = topology.revision;
 }
 
-void Simulator::Implementation::requireUsable(const TargetSet& targets) const {
+void Simulator::Implementation::requireUsable(const TargetSet& targets,
+                                              const Surroundings& surroundings) const {
   if (targets.revision != topology.revision) {
     throw std::invalid_argument(fmt::format("targets are for revision {} of the volume, which is at {}",
                                             targets.revision, topology.revision));
@@ -135,8 +156,9 @@ void Simulator::Implementation::requireUsable(const TargetSet& targets) const {
   if (targets.reset && !targets.body_pose.matrix().allFinite())
     throw std::invalid_argument("body_pose is not finite");
   for (std::size_t i = 0; i < targets.targets.size(); ++i) {
-    softbody::requireUsable(targets.targets[i], i, topology.tets.rows());
+    requireUsableTarget(targets.targets[i], i, topology.tets.rows());
   }
+  softbody::requireUsable(surroundings, topology.rest_vertices.rows());
 }
 
 void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const {
@@ -146,37 +168,54 @@ void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds
   next->placed = true;
 }
 
-void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds stamp, Body* next) {
-  if (targets.reset) place(targets.body_pose, stamp, next);
+void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds stamp,
+                                        const Surroundings& surroundings, Body* next) {
   if (config.simulate) {
-    simulate(targets, std::max(0.0, 1e-9 * static_cast<double>(stamp - next->stamp)), next);
+    const double elapsed_s = std::max(0.0, 1e-9 * static_cast<double>(stamp - next->stamp));
+    simulate(targets, elapsed_s, surroundings, next);
   } else {
     followTargets(targets.targets, topology, &next->state.vertices);
     next->report = {0, true};
   }
   next->stamp = std::max(next->stamp, stamp);
-  next->state.confidence = confidence.of(targets.targets);
-  if (!targets.targets.empty()) next->state.observed = stamp;
 }
 
-void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s, Body* next) {
+void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s,
+                                         const Surroundings& surroundings, Body* next) {
   const double h = elapsed_s > 0.0 ? std::min(elapsed_s, config.max_time_step_s) : kNominalTimeStep;
-  potential.prediction = next->state.vertices;
-  potential.loads = Points::Zero(masses.size(), 3);
+  const Points before = next->state.vertices;
+  StepPotential free{masses / (h * h), before, Points::Zero(masses.size(), 3), {}};
   if (elapsed_s > 0.0) {
     next->velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
-    potential.prediction += h * next->velocity;
-    potential.loads = masses * config.gravity.transpose();
+    free.prediction += h * next->velocity;
+    free.loads = masses * config.gravity.transpose();
   }
-  potential.inertia = masses / (h * h);
-  potential.targets.set(targets.targets, topology.tets,
-                        config.target_stiffness * material.youngs_modulus_pa * edge_length);
-
-  // Where the loads alone take the vertices.
-  Points x = potential.prediction + potential.inertia.cwiseInverse().asDiagonal() * potential.loads;
-  next->report = solver->minimize(potential, &x);
+  // From where the loads alone take the vertices.
+  const Points start = free.prediction + free.inertia.cwiseInverse().asDiagonal() * free.loads;
+  solve(free, targets, surroundings, start, next);
   // Over a gap that is simulated as a shorter step the body still took the whole gap for its way.
-  if (elapsed_s > 0.0) next->velocity = (x - next->state.vertices) / elapsed_s;
+  if (elapsed_s > 0.0) next->velocity = (next->state.vertices - before) / elapsed_s;
+}
+
+void Simulator::Implementation::settle(const TargetSet& targets, const Surroundings& surroundings,
+                                       Body* next) {
+  if (targets.reset) place(targets.body_pose, next->stamp, next);
+  const StepPotential free{
+      Eigen::VectorXd::Zero(masses.size()), next->state.vertices, masses * config.gravity.transpose(), {}};
+  solve(free, targets, surroundings, next->state.vertices, next);
+  next->velocity.setZero();
+}
+
+void Simulator::Implementation::solve(const StepPotential& free, const TargetSet& targets,
+                                      const Surroundings& surroundings, Points x, Body* next) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const Obstacle& obstacle : surroundings.obstacles) poses.push_back(obstacle.pose);
+  if (next->obstacle_poses.size() != poses.size()) next->obstacle_poses = poses;
+  ConstrainedStep::Result result = constrained_step.solve(free, targets.targets, surroundings,
+                                                          next->state.vertices, next->obstacle_poses, &x);
+  next->report = result.report;
+  next->reactions = std::move(result.reactions);
+  next->obstacle_poses = std::move(poses);
   next->state.vertices.swap(x);
 }
 
@@ -189,11 +228,37 @@ const TetTopology& Simulator::topology() const { return implementation_->topolog
 
 bool Simulator::placed() const { return implementation_->body.placed; }
 
-void Simulator::step(const TargetSet& targets, Nanoseconds stamp) {
+void Simulator::step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings) {
   Implementation& s = *implementation_;
-  s.requireUsable(targets);
+  s.requireUsable(targets, surroundings);
   Body next = s.body;
-  s.advance(targets, stamp, &next);
+  if (targets.reset) s.place(targets.body_pose, stamp, &next);
+  s.advance(targets, stamp, surroundings, &next);
+  next.state.confidence = s.confidence.of(targets.targets);
+  if (!targets.targets.empty()) next.state.observed = stamp;
+  s.body = std::move(next);
+}
+
+void Simulator::stepUnobserved(const TargetSet& earlier, Nanoseconds stamp,
+                               const Surroundings& surroundings) {
+  constexpr double kHalfLife = 0.5;  // [s]
+  Implementation& s = *implementation_;
+  s.requireUsable(earlier, surroundings);
+  if (!s.body.placed) throw std::invalid_argument("the body has no place yet");
+  Body next = s.body;
+  s.advance(earlier, stamp, surroundings, &next);
+  const double elapsed_s = 1e-9 * static_cast<double>(next.stamp - s.body.stamp);
+  const auto fade = static_cast<float>(std::pow(0.5, elapsed_s / kHalfLife));
+  for (float& confidence : next.state.confidence) confidence *= fade;
+  s.body = std::move(next);
+}
+
+void Simulator::settle(const TargetSet& targets, const Surroundings& surroundings) {
+  Implementation& s = *implementation_;
+  s.requireUsable(targets, surroundings);
+  Body next = s.body;
+  s.settle(targets, surroundings, &next);
+  next.state.confidence = s.confidence.of(targets.targets);
   s.body = std::move(next);
 }
 
@@ -217,5 +282,13 @@ void Simulator::reset() {
 const MeshState& Simulator::state() const { return implementation_->body.state; }
 
 const StepReport& Simulator::report() const { return implementation_->body.report; }
+
+const Reactions& Simulator::reactions() const { return implementation_->body.reactions; }
+
+double Simulator::elasticEnergy() const {
+  const Points& x = implementation_->body.state.vertices;
+  Points unused = Points::Zero(x.rows(), 3);
+  return implementation_->solver->addElasticity(x, &unused);
+}
 
 }  // namespace softbody

@@ -20,6 +20,7 @@ TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d&
   }
   row.stiffness = static_cast<T>(spring.stiffness);
   row.has_normal = !spring.normal.isZero(0.0);
+  row.one_sided = spring.one_sided;
   return row;
 }
 

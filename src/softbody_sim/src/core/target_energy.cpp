@@ -13,12 +13,25 @@ void TargetEnergy::set(const std::vector<Target>& targets, const Tets& tets, dou
   }
 }
 
+void TargetEnergy::addOneSided(const MaterialPoint& place, const Tets& tets, const Eigen::Vector3d& position,
+                               const Eigen::Vector3d& normal, double stiffness) {
+  springs_.push_back(
+      {place.tet, tets.row(place.tet), place.barycentric, position, normal.normalized(), stiffness, true});
+}
+
+/// The way from the spring's position to its point that costs energy.
+Eigen::Vector3d TargetEnergy::offsetOf(const Spring& spring, const Points& x) {
+  Eigen::Vector3d offset = -spring.position;
+  for (int k = 0; k < 4; ++k) offset += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
+  if (spring.normal.isZero(0.0)) return offset;
+  const double distance = spring.normal.dot(offset);
+  return (spring.one_sided ? std::min(distance, 0.0) : distance) * spring.normal;
+}
+
 double TargetEnergy::addTo(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (const Spring& spring : springs_) {
-    Eigen::Vector3d offset = -spring.position;
-    for (int k = 0; k < 4; ++k) offset += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
-    if (!spring.normal.isZero(0.0)) offset = spring.normal.dot(offset) * spring.normal;
+    const Eigen::Vector3d offset = offsetOf(spring, x);
     energy += 0.5 * spring.stiffness * offset.squaredNorm();
     for (int k = 0; k < 4; ++k) {
       gradient->row(spring.vertices[k]) += spring.stiffness * spring.barycentric[k] * offset.transpose();
@@ -33,8 +46,9 @@ void TargetEnergy::addMetric(TetMatrix* matrix) const {
   }
 }
 
-void TargetEnergy::addHessian(const Points&, BlockTetMatrix* matrix) const {
+void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
   for (const Spring& spring : springs_) {
+    if (spring.one_sided && offsetOf(spring, x).isZero(0.0)) continue;
     const Eigen::Matrix3d curvature = spring.normal.isZero(0.0)
                                           ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
                                           : Eigen::Matrix3d(spring.normal * spring.normal.transpose());

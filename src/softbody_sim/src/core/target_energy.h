@@ -10,7 +10,8 @@
 namespace softbody {
 
 /// Springs between material points and where they were measured: k/2 |S x - p|^2, or k/2 (n . (S x - p))^2
-/// where a normal is given. S interpolates barycentrically.
+/// where a normal is given. One-sided ones, which contacts are, push along the normal and never pull. S
+/// interpolates barycentrically.
 class TargetEnergy {
  public:
   struct Spring {
@@ -20,10 +21,15 @@ class TargetEnergy {
     Eigen::Vector3d position;
     Eigen::Vector3d normal;  ///< unit, or zero
     double stiffness;        ///< [N/m]
+    bool one_sided = false;
   };
 
   /// @param unit_stiffness of a target of weight 1 [N/m]. Indices and numbers must have been checked.
   void set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness);
+
+  /// Adds a one-sided spring: its point may be anywhere on the normal's side of the plane through `position`.
+  void addOneSided(const MaterialPoint& place, const Tets& tets, const Eigen::Vector3d& position,
+                   const Eigen::Vector3d& normal, double stiffness);
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
@@ -41,6 +47,8 @@ class TargetEnergy {
   const std::vector<Spring>& springs() const { return springs_; }
 
  private:
+  static Eigen::Vector3d offsetOf(const Spring& spring, const Points& x);
+
   std::vector<Spring> springs_;
 };
 

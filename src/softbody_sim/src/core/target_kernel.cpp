@@ -1,5 +1,7 @@
 #include "core/target_kernel.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/target_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -25,7 +27,7 @@ double addTargets(const TargetRow<T>* targets, std::size_t count, const T* x, T*
     Row<T> force;
     if (target.has_normal) {
       const Row<T> normal = Row<T>::load(target.normal);
-      const T distance = offset.dot(normal);
+      const T distance = target.one_sided ? std::min(offset.dot(normal), T(0)) : offset.dot(normal);
       force = normal.times(target.stiffness * distance);
       energy += static_cast<double>(T(0.5) * target.stiffness * distance * distance);
     } else {

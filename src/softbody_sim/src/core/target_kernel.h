@@ -15,6 +15,7 @@ struct TargetRow {
   T normal[4];  ///< unit, or zero
   T stiffness;
   bool has_normal;
+  bool one_sided;  ///< pushes along the normal only
 };
 
 /// Energy [J] of targets; adds its gradient [N].

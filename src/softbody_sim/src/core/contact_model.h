@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "core/contact.h"
+#include "core/target_energy.h"
+
+namespace softbody {
+
+/// Contact without friction as one-sided springs: a point that is in by d feels the pressure k d.
+class ContactModel {
+ public:
+  /// @param pressure_stiffness k [Pa/m]; @param reach_m contacts that are farther apart are left out.
+  ContactModel(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m);
+
+  /// The contacts of a step from `before`, as its vertices are now. @param before_poses as in findContacts.
+  std::vector<Contact> find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
+                            const std::vector<Eigen::Isometry3d>& before_poses) const;
+
+  void addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const;
+
+  /// Largest change between two lists in how deep a point is in its obstacle [m]: how far one is from
+  /// describing contact as the other does.
+  double difference(const std::vector<Contact>& a, const std::vector<Contact>& b, const Points& x) const;
+
+  /// What the body does to each obstacle.
+  std::vector<Wrench> wrenches(const std::vector<Contact>& contacts, const Points& x,
+                               const std::vector<Obstacle>& obstacles) const;
+
+ private:
+  double depthOf(const Contact& contact, const Points& x) const;
+
+  Tets tets_;
+  std::vector<ContactPoint> points_;
+  double pressure_stiffness_, reach_m_;
+};
+
+}  // namespace softbody
