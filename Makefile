@@ -9,7 +9,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test cuts demo bench evaluate corpus tidy format clean help dependencies
+.PHONY: build test cuts demo bench evaluate corpus validation tidy format clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
@@ -36,6 +36,9 @@ corpus: build  ## prepare a model of every mesh of ../shared/data, and feed the 
 evaluate: build  ## accuracy over all scenes; writes docs/evaluation.md. SCENES="bend cut": only these, nothing written
 	scripts/evaluate $(SCENES)
 
+validation: build  ## the simulator against known solutions; writes docs/validation.md
+	scripts/validate
+
 tidy: build  ## clang-tidy over all sources (slow)
 	scripts/install_dependencies scripts/apt-packages-tidy.txt
 	scripts/tidy
@@ -45,7 +48,7 @@ format: dependencies  ## clang-format all sources in place
 
 clean:  ## remove everything that was built or written
 	rm -rf catkin_ws/build catkin_ws/devel catkin_ws/install catkin_ws/logs catkin_ws/.catkin_tools
-	rm -rf bench demo_output evaluation
+	rm -rf bench demo_output evaluation validation
 
 help:  ## this list
 	@sed -n 's/^\([a-z]*\):.*##  *\(.*\)/\1\t\2/p' Makefile | expand -t 12

@@ -81,6 +81,18 @@ std::vector<double> Parameters::numbers(const std::string& key, const std::vecto
   return values;
 }
 
+std::vector<Parameters> Parameters::maps(const std::string& key) {
+  std::vector<Parameters> maps;
+  const auto values = get(key, YAML::Node(YAML::NodeType::Sequence), "a list of maps");
+  if (!values.IsSequence()) {
+    throw std::invalid_argument(
+        fmt::format("parameter {}{} is '{}'; it must be a list of maps", prefix_, key, YAML::Dump(values)));
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+    maps.emplace_back(values[i], fmt::format("{}{}/{}/", prefix_, key, i));
+  return maps;
+}
+
 std::vector<std::string> Parameters::unknown() const {
   std::vector<std::string> keys;
   if (!values_.IsMap()) return keys;

@@ -89,6 +89,23 @@ class SurfaceAlone(unittest.TestCase):
         stamps = [message.header.stamp for message in self.recorder.messages["softbody/surface/state"]]
         self.assertNotIn(rospy.Time(20), stamps)
 
+    def test_publishes_an_edit_with_its_first_state(self):
+        edited = copy.deepcopy(self.topology)
+        edited.revision, edited.header.stamp = 1, rospy.Time(40)
+        before = len(self.recorder.messages["softbody/surface/topology"])
+        self.topology_publisher.publish(edited)
+        rospy.sleep(1.5)  # topologies are sent every second
+        self.assertEqual(self.surface_for(self.corners, 41).revision, 0)
+        topologies = self.recorder.messages["softbody/surface/topology"][before:]
+        self.assertEqual({topology.revision for topology in topologies}, {0})
+        self.assertEqual(self.surface_for(self.corners, 42, revision=1).revision, 1)
+        topology = self.recorder.wait(
+            lambda seen: next((t for t in seen["softbody/surface/topology"] if t.revision == 1), None),
+            "the surface's topology of revision 1")
+        self.assertEqual(topology.header.stamp, rospy.Time(40))
+        self.topology_publisher.publish(self.topology)
+        self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 0, "revision 0 again")
+
     def test_refuses_an_open_volume_and_keeps_the_last_one(self):
         open_topology = copy.deepcopy(self.topology)
         open_topology.surface_triangles.pop()

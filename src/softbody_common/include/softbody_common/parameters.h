@@ -26,6 +26,9 @@ class Parameters {
   /// As many finite numbers as the fallback has.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback);
 
+  /// A list of maps; without one, none.
+  std::vector<Parameters> maps(const std::string& key);
+
   /// Full keys that were given but that no reader has asked for: worth a warning.
   std::vector<std::string> unknown() const;
 

@@ -23,6 +23,8 @@ constexpr char kVolumeState[] = "volume/state";
 constexpr char kSurfaceTopology[] = "surface/topology";
 constexpr char kSurfaceState[] = "surface/state";
 constexpr char kSurfaceMarker[] = "surface/marker";
+constexpr char kPin[] = "pin";
+constexpr char kReaction[] = "reaction/";  // followed by a name
 constexpr char kTiming[] = "timing";
 
 }  // namespace softbody::topics

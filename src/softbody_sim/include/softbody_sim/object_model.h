@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "softbody_common/types.h"
 #include "softbody_sim/mesh_files.h"
@@ -15,6 +16,13 @@ struct Material {
   double damping = 0.1;  ///< fraction of the velocity lost per 1/30 s, 0..1
 };
 
+/// Vertices that are held, by a box around their rest positions.
+struct PinRegion {
+  std::string name;   ///< of its reaction's topic
+  std::string frame;  ///< that they follow; empty: they stay where they are
+  Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< [m]
+};
+
 /// What a user's object YAML says (ARCHITECTURE: "Files that a user writes"), paths made absolute.
 struct ObjectDescription {
   std::string visual_mesh;
@@ -23,6 +31,7 @@ struct ObjectDescription {
   double unit_m = 1.0;    ///< metres per file unit
   Material material;
   std::optional<Eigen::Isometry3d> initial_pose;  ///< rest frame in the colour optical frame, rough
+  std::vector<PinRegion> pins;                    ///< held from the start
   Warnings warnings;                              ///< unknown keys
 };
 

@@ -142,6 +142,27 @@ Eigen::Isometry3d readPose(MapReader& object) {
   return Eigen::Translation3d(p[0], p[1], p[2]) * rotation.normalized();
 }
 
+/// `object/pins`: a list of maps with name, min, max and, if they move, frame. The box is in file units.
+std::vector<PinRegion> readPins(MapReader& object, const std::string& path, double unit_m,
+                                Warnings* warnings) {
+  std::vector<PinRegion> pins;
+  const YAML::Node list = object.get("pins");
+  if (!list.IsDefined()) return pins;
+  if (!list.IsSequence()) object.fail(list, "object/pins must be a list of maps");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    MapReader reader(list[i], path, fmt::format("object/pins/{}/", i));
+    PinRegion pin{reader.text("name"), reader.text("frame"), {}, {}};
+    if (pin.name.empty()) pin.name = fmt::format("pin{}", i);
+    pin.min = unit_m * Eigen::Vector3d(reader.numbers("min", 3).data());
+    pin.max = unit_m * Eigen::Vector3d(reader.numbers("max", 3).data());
+    if (!(pin.min.array() <= pin.max.array()).all())
+      reader.fail(list[i], fmt::format("object/pins/{}: min must not exceed max", i));
+    reader.warnOfUnknown(warnings);
+    pins.push_back(pin);
+  }
+  return pins;
+}
+
 }  // namespace
 
 double metresPer(const std::string& unit) {
@@ -170,6 +191,7 @@ ObjectDescription loadObjectDescription(const std::string& yaml_path) {
     material.warnOfUnknown(&description.warnings);
   }
   if (object.has("initial_pose")) description.initial_pose = readPose(object);
+  description.pins = readPins(object, yaml_path, description.unit_m, &description.warnings);
   object.warnOfUnknown(&description.warnings);
   file.warnOfUnknown(&description.warnings);
   return description;

@@ -23,6 +23,8 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.single_precision = parameters.flag("single_precision", config.single_precision);
   config.simd = parameters.choice("simd", config.simd, {"auto", "sse4", "avx2", "avx512"});
   config.target_stiffness = parameters.number("target_stiffness", config.target_stiffness, 1e-6, 1e6);
+  config.contact_stiffness = parameters.number("contact_stiffness", config.contact_stiffness, 1e-3, 1e4);
+  config.contact_spacing = parameters.number("contact_spacing", config.contact_spacing, 0.1, 100.0);
   config.max_time_step_s = parameters.number("max_time_step_s", config.max_time_step_s, 1e-3, 10.0);
   const std::vector<double> gravity = parameters.numbers("gravity_m_s2", {0.0, 0.0, 0.0});
   config.gravity = {gravity[0], gravity[1], gravity[2]};

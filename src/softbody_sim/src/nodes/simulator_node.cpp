@@ -19,9 +19,16 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
   const std::string object = parameters.requiredText("object");
   const std::string body_frame = parameters.text("body_frame", "softbody");
   const SimulatorConfig config = readSimulatorConfig(parameters);
+  const double free_run_rate_hz = parameters.number("free_run_rate_hz", 30.0, 0.0, 1000.0);
+  stall_timeout_s_ = parameters.number("stall_timeout_s", stall_timeout_s_, 0.0, 60.0);
+  std::vector<std::string> unknown;
+  surroundings_.emplace(node, readObstacles(parameters, &unknown));
+  for (const std::string& key : unknown) ROS_WARN_STREAM("unknown parameter " << key << " is ignored");
   warnUnknown(parameters);
 
-  const ObjectModel model = buildObjectModel(loadObjectDescription(object));
+  const ObjectDescription description = loadObjectDescription(object);
+  const ObjectModel model = buildObjectModel(description);
+  for (const PinRegion& pin : description.pins) surroundings_->hold(pin, model.volume.rest_vertices);
   for (const std::string& warning : model.warnings) ROS_WARN_STREAM(object << ": " << warning);
   {
     const auto scope = timer_.stage("Soft-body Simulation", true);
@@ -38,6 +45,11 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); });
   targets_subscriber_ = node.subscribe(topics::kTargets, 1, &SimulatorNode::onTargets, this,
                                        ros::TransportHints().tcpNoDelay());
+  pin_subscriber_ = node.subscribe(topics::kPin, 10, &SimulatorNode::onPin, this);
+  if (free_run_rate_hz > 0.0) {
+    free_run_timer_ = node.createTimer(ros::Duration(1.0 / free_run_rate_hz),
+                                       [this](const ros::TimerEvent&) { freeRun(); });
+  }
 
   diagnostics_.setHardwareID("none");
   diagnostics_.add("simulation",
@@ -63,25 +75,73 @@ void SimulatorNode::restartIfTimeJumpedBack(const ros::Time& stamp) {
   if (stamp < last_stamp_) {
     ROS_INFO("time jumped back by %.3f s: the simulation starts anew", (last_stamp_ - stamp).toSec());
     simulator_->reset();
-    last_stamp_ = {};
-    publishTopology();
+    last_stamp_ = last_arrival_ = {};
+    holdTopologyFrom({});
   }
 }
 
+void SimulatorNode::holdTopologyFrom(const ros::Time& stamp) {
+  // A copy: nodelets may still read the one that was sent.
+  topology_message_ = boost::make_shared<softbody_msgs::TetTopology>(*topology_message_);
+  topology_message_->header.stamp = stamp;
+  publishTopology();
+}
+
 void SimulatorNode::step(const softbody_msgs::Targets& message) {
-  const TargetSet targets = fromMessage(message);
+  TargetSet targets = fromMessage(message);
   restartIfTimeJumpedBack(message.header.stamp);
   const auto scope = timer_.stage("Soft-body Simulation");
-  simulator_->step(targets, toNanoseconds(message.header.stamp));
+  if (targets.reset) surroundings_->forgetPlaces();
+  // A body that is being placed is pinned from the next step on, where it then is.
+  const Points& vertices = targets.reset ? Points() : simulator_->state().vertices;
+  simulator_->step(targets, toNanoseconds(message.header.stamp),
+                   surroundings_->at(message.header.frame_id, message.header.stamp, vertices));
+  if (topology_message_->header.stamp.isZero()) holdTopologyFrom(message.header.stamp);
   last_stamp_ = message.header.stamp;
+  last_header_ = message.header;
+  last_arrival_ = ros::Time::now();
+  last_targets_ = std::move(targets);
   ++steps_;
   if (!simulator_->report().converged) ++steps_not_converged_;
+}
+
+/// What deforms the body, a hand say, is not known to have gone because no image comes: the last targets
+/// hold.
+void SimulatorNode::freeRun() {
+  const ros::Duration silence = ros::Time::now() - last_arrival_;
+  if (last_arrival_.isZero() || silence < ros::Duration(stall_timeout_s_)) return;
+  std_msgs::Header header = last_header_;
+  header.stamp += silence;  // as late after the present as the last image was
+  try {
+    const auto scope = timer_.stage("Soft-body Simulation");
+    simulator_->stepUnobserved(
+        last_targets_, toNanoseconds(header.stamp),
+        surroundings_->at(header.frame_id, header.stamp, simulator_->state().vertices));
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "the simulation does not go on without images: " << error.what());
+    return;
+  }
+  publishState(header);
+}
+
+void SimulatorNode::onPin(const softbody_msgs::PinRegionConstPtr& message) {
+  surroundings_->release(message->name);
+  if (message->release) return;
+  const PinRegion region{message->name, message->header.frame_id,
+                         Eigen::Vector3d(message->min.x, message->min.y, message->min.z),
+                         Eigen::Vector3d(message->max.x, message->max.y, message->max.z)};
+  try {
+    surroundings_->hold(region, simulator_->topology().rest_vertices);
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM("nothing is held: " << error.what());
+  }
 }
 
 void SimulatorNode::publishState(const std_msgs::Header& header) {
   const auto state = boost::make_shared<softbody_msgs::MeshState>(toMessage(simulator_->state()));
   state->header = header;
   state_publisher_.publish(state);
+  surroundings_->publish(simulator_->reactions(), header.stamp);
   const auto timing =
       boost::make_shared<softbody_msgs::StageTiming>(timingMessage("simulator", timer_.take()));
   timing->header = header;

@@ -45,37 +45,51 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
 
 void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) {
   // Sent again every second; only another body, or another revision, needs new weights.
-  if (volume_topology_ && sameMesh(*volume_topology_, *message)) return;
+  for (std::optional<Binding>* known : {&binding_, &next_binding_}) {
+    if (!*known || !sameMesh(*(*known)->volume, *message)) continue;
+    (*known)->topology->header.stamp = message->header.stamp;
+    return;
+  }
   try {
-    bind(*message);
+    Binding binding = bind(message);
+    // An edit is published with its first state; until then the surface before it holds.
+    if (binding_ && message->revision > binding_->volume->revision)
+      next_binding_ = std::move(binding);
+    else
+      replaceBinding(std::move(binding));
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(
         1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
     return;
   }
-  volume_topology_ = message;
-  publishTopology();
   if (waiting_state_ && waiting_state_->revision == message->revision) onState(waiting_state_);
 }
 
-void SurfaceNode::bind(const softbody_msgs::TetTopology& message) {
-  const TetTopology volume = fromMessage(message);
-  {
-    const auto scope = timer_.stage("Resolution Enhancement", true);
-    // Not emplace: it ends the old surface even where the new one cannot be made.
-    surface_ = VisualSurface(visual_, volume);
-  }
-  if (surface_->outsideCount() > 0) {
+SurfaceNode::Binding SurfaceNode::bind(const softbody_msgs::TetTopologyConstPtr& message) {
+  const auto scope = timer_.stage("Resolution Enhancement", true);
+  MeshTopology visual = visual_;
+  visual.revision = message->revision;
+  VisualSurface surface(visual, fromMessage(*message));
+  if (surface.outsideCount() > 0) {
     ROS_WARN("%d of %d visual vertices lie outside the volume; they follow the nearest tet",
-             surface_->outsideCount(), static_cast<int>(visual_.rest_vertices.rows()));
+             surface.outsideCount(), static_cast<int>(visual_.rest_vertices.rows()));
   }
-  topology_message_ = boost::make_shared<softbody_msgs::MeshTopology>(toMessage(surface_->topology()));
-  topology_message_->header.frame_id = body_frame_;
-  topology_message_->header.stamp = message.header.stamp;
+  const auto topology = boost::make_shared<softbody_msgs::MeshTopology>(toMessage(surface.topology()));
+  topology->header.frame_id = body_frame_;
+  topology->header.stamp = message->header.stamp;
+  return {message, std::move(surface), topology};
+}
+
+void SurfaceNode::replaceBinding(Binding binding) {
+  binding_ = std::move(binding);
+  next_binding_.reset();
+  publishTopology();
 }
 
 void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) {
-  if (!volume_topology_ || volume_topology_->revision != message->revision) {
+  if (next_binding_ && next_binding_->volume->revision == message->revision)
+    replaceBinding(std::move(*next_binding_));
+  if (!binding_ || binding_->volume->revision != message->revision) {
     waiting_state_ = message;
     ROS_WARN_THROTTLE(5.0, "waiting for the volume's topology of revision %u", message->revision);
     return;
@@ -94,14 +108,14 @@ void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {
   {
     const MeshState state = fromMessage(volume);
     const auto scope = timer_.stage("Resolution Enhancement");
-    surface = surface_->apply(state);
+    surface = binding_->surface.apply(state);
   }
   const auto message = boost::make_shared<softbody_msgs::MeshState>(toMessage(surface));
   message->header = volume.header;
   state_publisher_.publish(message);
   if (marker_publisher_.getNumSubscribers() > 0) {
-    const auto marker =
-        boost::make_shared<visualization_msgs::Marker>(makeSurfaceMarker(surface_->topology(), surface));
+    const auto marker = boost::make_shared<visualization_msgs::Marker>(
+        makeSurfaceMarker(binding_->surface.topology(), surface));
     marker->header = volume.header;
     marker_publisher_.publish(marker);
   }
@@ -119,7 +133,8 @@ void SurfaceNode::publishTiming(const std_msgs::Header& header) {
 }
 
 void SurfaceNode::publishTopology() {
-  if (topology_message_) topology_publisher_.publish(topology_message_);
+  if (binding_)
+    topology_publisher_.publish(boost::make_shared<softbody_msgs::MeshTopology>(*binding_->topology));
 }
 
 }  // namespace softbody

@@ -21,8 +21,16 @@ class SurfaceNode {
   SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node);
 
  private:
+  /// The visual mesh bound to one topology of the volume.
+  struct Binding {
+    softbody_msgs::TetTopologyConstPtr volume;
+    VisualSurface surface;
+    softbody_msgs::MeshTopologyPtr topology;
+  };
+
+  Binding bind(const softbody_msgs::TetTopologyConstPtr& message);
   void onTopology(const softbody_msgs::TetTopologyConstPtr& message);
-  void bind(const softbody_msgs::TetTopology& message);
+  void replaceBinding(Binding binding);
   void onState(const softbody_msgs::MeshStateConstPtr& message);
   void publishState(const softbody_msgs::MeshState& volume);
   void publishTiming(const std_msgs::Header& header);
@@ -31,10 +39,9 @@ class SurfaceNode {
   std::string body_frame_;
   MeshTopology visual_;
   StageTimer timer_;
-  softbody_msgs::TetTopologyConstPtr volume_topology_;  ///< that the surface is bound to
-  softbody_msgs::MeshStateConstPtr waiting_state_;      ///< its topology has not come yet
-  std::optional<VisualSurface> surface_;
-  softbody_msgs::MeshTopologyPtr topology_message_;
+  std::optional<Binding> binding_;                  ///< that is published
+  std::optional<Binding> next_binding_;             ///< of an edit that no state has come of yet
+  softbody_msgs::MeshStateConstPtr waiting_state_;  ///< its topology has not come yet
 
   ros::Publisher topology_publisher_, state_publisher_, marker_publisher_, timing_publisher_;
   ros::Timer topology_timer_;

@@ -67,8 +67,9 @@ FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle p
   diagnostics_.setHardwareID("none");
   diagnostics_.add("tracking",
                    [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
-  diagnostics_timer_ =
-      handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+  // Wall time, and not at update()'s own pace: both would wait for a bag that starts again.
+  diagnostics_timer_ = handle_.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
 void FeatureTrackerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) try {

@@ -64,7 +64,7 @@ class FeatureTrackerNode {
   message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>
       synchronizer_;
   diagnostic_updater::Updater diagnostics_;
-  ros::Timer diagnostics_timer_;
+  ros::WallTimer diagnostics_timer_;
 };
 
 }  // namespace softbody

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "softbody_sim/object_model.h"
+#include "softbody_sim/obstacle_description.h"
+#include "softbody_sim/surroundings.h"
+
+namespace softbody {
+
+/// Where pins and obstacles are at an instant, from tf, and their reactions on topics. What tf does not know
+/// at that instant is taken where it was last; what it has never known is left out, with a warning.
+class SurroundingsTracker {
+ public:
+  SurroundingsTracker(const ros::NodeHandle& node, std::vector<ObstacleDescription> obstacles);
+
+  /// Holds the vertices of a region from the next at() on. @throw std::invalid_argument if it has none.
+  void hold(const PinRegion& region, const Points& rest_vertices);
+  void release(const std::string& name);
+  /// Regions are held anew, where the vertices are then.
+  void forgetPlaces();
+
+  /// @param vertices as they are now, in `frame`.
+  Surroundings at(const std::string& frame, const ros::Time& stamp, const Points& vertices);
+
+  /// The reactions of a step under the last at(), each in the frame that its pin or obstacle follows (`frame`
+  /// where it follows none), about that frame's origin: what a sensor there would feel.
+  void publish(const Reactions& reactions, const ros::Time& stamp);
+
+ private:
+  struct Held {
+    PinRegion region;
+    std::vector<int> vertices;
+    std::optional<Points> places;  ///< in the region's frame; none until the first at()
+    Eigen::Isometry3d frame_pose;  ///< in the targets' frame
+    bool acts = false;
+  };
+  struct Placed {
+    ObstacleDescription description;
+    std::optional<Eigen::Isometry3d> frame_pose;
+  };
+
+  std::optional<Eigen::Isometry3d> poseOf(const std::string& frame, const std::string& target_frame,
+                                          const ros::Time& stamp) const;
+  void publishWrench(const std::string& name, const std::string& frame, const Eigen::Isometry3d& frame_pose,
+                     const Wrench& about_origin, const ros::Time& stamp);
+
+  ros::NodeHandle node_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  std::vector<Placed> obstacles_;
+  std::map<std::string, Held> held_;
+  Surroundings last_;
+  std::string frame_;
+  std::map<std::string, ros::Publisher> publishers_;
+};
+
+}  // namespace softbody
