@@ -197,6 +197,17 @@ TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
   }
 }
 
+TEST_F(ObjectModelTest, AFolderWhereAFileShouldGoLeavesTheOthersAsTheyWere) {
+  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  std::filesystem::create_directories(folder_.file("out/tets.vtu"));
+  folder_.write("out/visual.obj", "mine");
+  std::ostringstream progress;
+  const std::string said =
+      complaint([&] { prepareModel(description.visual_mesh, "m", folder_.file("out"), {}, progress); });
+  EXPECT_NE(said.find("out/tets.vtu: is a folder where a file should go"), std::string::npos) << said;
+  EXPECT_EQ(std::filesystem::file_size(folder_.file("out/visual.obj")), 4U);
+}
+
 TEST_F(ObjectModelTest, DescriptionIsReadWithPathsRelativeToItsFile) {
   describe(test::torus(0.1, 0.03, 12, 6));
   const ObjectDescription description = loadObjectDescription(

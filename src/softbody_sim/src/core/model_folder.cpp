@@ -36,7 +36,7 @@ std::string objectYaml(const std::string& mesh, const Material& material) {
       "object:\n  visual_mesh: visual.obj\n  cage_mesh: cage.obj\n  tet_mesh: tets.vtu\n"
       "  material: {{youngs_modulus_pa: {}, poisson_ratio: {}, density_kg_m3: {}, damping: {}}}\n"
       "  # initial_pose: [x, y, z, qx, qy, qz, qw]   # in the colour optical frame, roughly; without it "
-      "nothing is tracked\n",
+      "the object is looked for\n",
       fs::path(mesh).filename().string(), material.youngs_modulus_pa, material.poisson_ratio,
       material.density_kg_m3, material.damping);
 }
@@ -97,6 +97,11 @@ class StagingFolder {
 
   /// object.yaml comes last: whoever finds it finds what it names.
   void moveInto(const fs::path& target) const {
+    for (const char* file : kFiles) {
+      if (fs::is_directory(target / file)) {
+        throw std::runtime_error((target / file).string() + ": is a folder where a file should go");
+      }
+    }
     fs::create_directories(target / "report");
     for (const char* file : kFiles) fs::rename(path_ / file, target / file);
   }
