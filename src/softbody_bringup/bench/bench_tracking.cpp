@@ -1,0 +1,185 @@
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "softbody_bringup/pipeline.h"
+#include "softbody_bringup/virtual_camera/camera_setup.h"
+#include "softbody_tracking/camera_ingest.h"
+
+/// The tracking stage beside what the paper's system does of it: ORB features of OpenCV, matched by brute
+/// force. Same frames, taken in turns, one thread. Argument: 0 sponge, 1 doll.
+namespace {
+
+using namespace softbody;
+
+constexpr int kFrames = 60;
+constexpr double kStart_s = 1.0, kRate_hz = 30.0;
+constexpr int kFeatures = 1000;  // N_p of Kang et al. 2022
+constexpr int kMargin = 32;      // [px] of the region around the body
+
+/// What the tracker gets, frame by frame, in a run of the whole pipeline.
+struct Recording {
+  TetTopology volume;
+  MeshTopology surface;
+  std::vector<RgbdFrame> frames;
+  std::vector<std::optional<MeshState>> before;  ///< state of the volume that the frame is tracked from
+  std::vector<cv::Rect> regions;                 ///< that hold the body
+};
+
+cv::Rect regionOf(const Points& vertices, const Pinhole& camera) {
+  cv::Point2d first(camera.width, camera.height), last(0.0, 0.0);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    const Eigen::Vector2d pixel = camera.project(vertices.row(v).transpose());
+    first = {std::min(first.x, pixel.x()), std::min(first.y, pixel.y())};
+    last = {std::max(last.x, pixel.x()), std::max(last.y, pixel.y())};
+  }
+  const cv::Point margin(kMargin, kMargin);
+  return cv::Rect(cv::Point(first) - margin, cv::Point(last) + margin) &
+         cv::Rect(0, 0, camera.width, camera.height);
+}
+
+Recording record(const std::string& scene, const std::string& object) {
+  const std::string config = CONFIG_DIR;
+  virtual_camera::CameraSetup setup;
+  setup.scene = scene;
+  setup.config_folder = config;
+  virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
+  CameraIngest ingest(CameraIngestConfig{});
+  Pipeline pipeline(buildObjectModel(loadObjectDescription(config + "/" + object)), TrackerConfig{},
+                    SimulatorConfig{});
+  Recording recording{pipeline.volumeTopology(), pipeline.surfaceTopology(), {}, {}, {}};
+  std::optional<MeshState> volume;
+  for (int i = 0; i < kFrames; ++i) {
+    const double t = kStart_s + i / kRate_hz;
+    const virtual_camera::Capture capture = camera.capture(i, t);
+    cv::Mat3b color;
+    cv::cvtColor(capture.color, color, cv::COLOR_RGB2BGR);
+    recording.frames.push_back(ingest.process(color, capture.depth_mm, Distortion{}, camera.pinhole(),
+                                              static_cast<Nanoseconds>(1e9 * t)));
+    recording.before.push_back(volume);
+    recording.regions.push_back(regionOf(capture.truth.vertices, camera.pinhole()));
+    volume = pipeline.process(recording.frames.back()).volume;
+  }
+  return recording;
+}
+
+const Recording& recordingOf(const benchmark::State& state) {
+  static const Recording sponge = record("bend", "sponge.yaml"), doll = record("doll_bend", "doll.yaml");
+  return state.range(0) == 0 ? sponge : doll;
+}
+
+/// ORB features of OpenCV in a region, matched both ways with those of the first frame.
+class PlainMatching {
+ public:
+  PlainMatching(const RgbdFrame& first, const cv::Rect& body) { extract(first, body, &model_); }
+
+  std::size_t match(const RgbdFrame& frame, const cv::Rect& region) {
+    cv::Mat descriptors;
+    extract(frame, region, &descriptors);
+    std::vector<cv::DMatch> matches;
+    if (!descriptors.empty() && !model_.empty()) matcher_.match(descriptors, model_, matches);
+    return matches.size();
+  }
+
+ private:
+  void extract(const RgbdFrame& frame, const cv::Rect& region, cv::Mat* descriptors) {
+    cv::Mat gray;
+    std::vector<cv::KeyPoint> keypoints;
+    cv::cvtColor(frame.color(region), gray, cv::COLOR_BGR2GRAY);
+    orb_->detectAndCompute(gray, cv::noArray(), keypoints, *descriptors);
+  }
+
+  cv::Ptr<cv::ORB> orb_ = cv::ORB::create(kFeatures);
+  cv::BFMatcher matcher_{cv::NORM_HAMMING, true};
+  cv::Mat model_;
+};
+
+double threadTime_ms() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// Of one core: everything runs on this thread.
+template <typename Work>
+double millisecondsOf(const Work& work) {
+  const double start = threadTime_ms();
+  work();
+  return threadTime_ms() - start;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+struct Times {
+  std::vector<double> first, track, whole, region;  ///< [ms]; the first frame apart
+};
+
+/// One pass over the recording. @return features that the tracker knows at its end.
+std::uint32_t pass(const Recording& recording, Times* times) {
+  BodyTracker tracker(TrackerConfig{});
+  tracker.setTopologies(recording.volume, recording.surface);
+  PlainMatching matching(recording.frames[0], recording.regions[0]);
+  std::uint32_t features = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    const RgbdFrame& frame = recording.frames[i];
+    const MeshState* before = recording.before[i] ? &*recording.before[i] : nullptr;
+    StageTimer timer;
+    const double track =
+        millisecondsOf([&] { features = tracker.track(frame, before, &timer).status.features_total; });
+    if (i == 0) {
+      times->first.push_back(track);
+      continue;
+    }
+    times->track.push_back(track);
+    const cv::Rect whole(cv::Point(), frame.color.size());
+    times->whole.push_back(millisecondsOf([&] { benchmark::DoNotOptimize(matching.match(frame, whole)); }));
+    times->region.push_back(
+        millisecondsOf([&] { benchmark::DoNotOptimize(matching.match(frame, recording.regions[i])); }));
+  }
+  return features;
+}
+
+void trackFrames(benchmark::State& state) {
+  const Recording& recording = recordingOf(state);
+  Times times;
+  std::uint32_t features = 0;
+  for (auto _ : state) {
+    features = pass(recording, &times);
+    state.SetIterationTime(1e-3 * median(times.track));
+  }
+  const bool doll = state.range(0) != 0;
+  const std::string body = doll ? "doll" : "sponge";
+  const double track = median(times.track);
+  state.counters["features"] = features;
+  state.counters["ORB and brute force, whole image [ms]"] = median(times.whole);
+  state.counters["ORB and brute force, region [ms]"] = median(times.region);
+  state.counters["summary/tracking/" + body + "/first_frame_ms"] = median(times.first);
+  state.counters["summary/tracking/" + body + "/frame_ms"] = track;
+  state.counters["summary/tracking/" + body + "/ratio_to_region"] = median(times.region) / track;
+  state.counters[doll ? "summary/tracking/doll/ratio" : "summary/tracking_ratio"] =
+      median(times.whole) / track;
+}
+BENCHMARK(trackFrames)
+    ->ArgName("doll")
+    ->Arg(0)
+    ->Arg(1)
+    ->UseManualTime()
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
