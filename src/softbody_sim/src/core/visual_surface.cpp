@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
-#include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 #include "softbody_sim/mean_value_coordinates.h"
 
@@ -34,13 +34,16 @@ MeanValueCage compactCage(const TetTopology& volume, const std::vector<int>& sur
 
 VisualSurface::VisualSurface(MeshTopology visual, const TetTopology& volume)
     : visual_(std::move(visual)),
-      volume_revision_(volume.revision),
-      volume_vertex_count_(volume.rest_vertices.rows()),
-      tets_(volume.tets),
+      binding_(volume, bindPoints(visual_.rest_vertices, volume.rest_vertices, volume.tets)),
       surface_vertices_(verticesOf(volume.surface)),
       inside_weights_(static_cast<Eigen::Index>(surface_vertices_.size())) {
   bindInside(volume);
-  bindOutside(volume);
+}
+
+VisualSurface::VisualSurface(MeshTopology visual, TetBinding binding)
+    : visual_(std::move(visual)), binding_(std::move(binding)) {
+  by_tet_.resize(static_cast<std::size_t>(visual_.rest_vertices.rows()));
+  std::iota(by_tet_.begin(), by_tet_.end(), 0);
 }
 
 void VisualSurface::bindInside(const TetTopology& volume) {
@@ -53,35 +56,33 @@ void VisualSurface::bindInside(const TetTopology& volume) {
     const std::vector<int> turns = cage.coordinates(points, &weights);
     for (Eigen::Index p = 0; p < points.rows(); ++p) {
       const bool is_inside = turns[static_cast<std::size_t>(p)] != 0;
-      (is_inside ? inside_ : outside_).push_back(static_cast<int>(first + p));
+      (is_inside ? inside_ : by_tet_).push_back(static_cast<int>(first + p));
       if (is_inside) inside_weights_.append(weights.row(p));
     }
   }
 }
 
-void VisualSurface::bindOutside(const TetTopology& volume) {
-  Points points(static_cast<Eigen::Index>(outside_.size()), 3);
-  for (std::size_t k = 0; k < outside_.size(); ++k) {
-    points.row(static_cast<Eigen::Index>(k)) = visual_.rest_vertices.row(outside_[k]);
-  }
-  outside_places_ = bindPoints(points, volume.rest_vertices, volume.tets);
+void VisualSurface::setRevision(std::uint32_t revision) {
+  visual_.revision = revision;
+  binding_.setRevision(revision);
 }
 
 int VisualSurface::outsideCount() const {
   constexpr double kRounding = 1e-5;  // of a tet's height; single-precision coordinates are off by less
-  return static_cast<int>(
-      std::count_if(outside_places_.begin(), outside_places_.end(),
-                    [](const MaterialPoint& place) { return place.barycentric.minCoeff() < -kRounding; }));
+  return static_cast<int>(std::count_if(by_tet_.begin(), by_tet_.end(), [this](int v) {
+    return binding_.places()[static_cast<std::size_t>(v)].barycentric.minCoeff() < -kRounding;
+  }));
 }
 
 MeshState VisualSurface::apply(const MeshState& volume) const {
-  const auto vertex_count = static_cast<std::size_t>(volume_vertex_count_);
-  if (volume.revision != volume_revision_ || volume.vertices.rows() != volume_vertex_count_ ||
+  const TetTopology& bound = binding_.volume();
+  const auto vertex_count = static_cast<std::size_t>(bound.rest_vertices.rows());
+  if (volume.revision != bound.revision || volume.vertices.rows() != bound.rest_vertices.rows() ||
       volume.confidence.size() != vertex_count) {
     throw std::invalid_argument(fmt::format(
         "state of revision {} with {} vertices and {} confidences; the volume is at revision {} with {} "
         "vertices",
-        volume.revision, volume.vertices.rows(), volume.confidence.size(), volume_revision_, vertex_count));
+        volume.revision, volume.vertices.rows(), volume.confidence.size(), bound.revision, vertex_count));
   }
   MeshState state;
   state.revision = visual_.revision;
@@ -89,11 +90,12 @@ MeshState VisualSurface::apply(const MeshState& volume) const {
   state.vertices.resize(visual_.rest_vertices.rows(), 3);
   state.confidence.resize(static_cast<std::size_t>(visual_.rest_vertices.rows()));
   applyInside(volume, &state);
-  applyOutside(volume, &state);
+  binding_.apply(volume, by_tet_, &state);
   return state;
 }
 
 void VisualSurface::applyInside(const MeshState& volume, MeshState* state) const {
+  if (inside_.empty()) return;
   // Relative to the centre: single precision then costs nothing that shows, wherever the body is.
   const Eigen::RowVector3d center = volume.vertices.colwise().mean();
   TiledWeights::Values values(inside_weights_.columns(), 4);
@@ -108,18 +110,6 @@ void VisualSurface::applyInside(const MeshState& volume, MeshState* state) const
     const auto row = static_cast<Eigen::Index>(k);
     state->vertices.row(inside_[k]) = interpolated.block<1, 3>(row, 0).cast<double>() + center;
     state->confidence[inside_[k]] = std::clamp(interpolated(row, 3), 0.0f, 1.0f);
-  }
-}
-
-void VisualSurface::applyOutside(const MeshState& volume, MeshState* state) const {
-  for (std::size_t k = 0; k < outside_.size(); ++k) {
-    const MaterialPoint& place = outside_places_[k];
-    float confidence = 0.0f;
-    for (int c = 0; c < 4; ++c) {
-      confidence += static_cast<float>(place.barycentric[c]) * volume.confidence[tets_(place.tet, c)];
-    }
-    state->vertices.row(outside_[k]) = positionOf(place, volume.vertices, tets_);
-    state->confidence[outside_[k]] = std::clamp(confidence, 0.0f, 1.0f);
   }
 }
 

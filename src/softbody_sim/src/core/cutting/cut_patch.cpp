@@ -45,6 +45,15 @@ CutPatch ruledPatch(const Points& before, const Points& now) {
   return patch;
 }
 
+CutPatch joined(const CutPatch& first, const CutPatch& second) {
+  CutPatch both;
+  both.vertices.resize(first.vertices.rows() + second.vertices.rows(), 3);
+  both.vertices << first.vertices, second.vertices;
+  both.triangles.resize(first.triangles.rows() + second.triangles.rows(), 3);
+  both.triangles << first.triangles, second.triangles.array() + static_cast<int>(first.vertices.rows());
+  return both;
+}
+
 CutPatch inGeneralPosition(CutPatch patch) {
   patch.vertices.rowwise() += Eigen::RowVector3d(1.2173e-8, -0.7919e-8, 1.3711e-8);
   return patch;

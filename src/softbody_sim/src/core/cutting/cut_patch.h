@@ -15,6 +15,9 @@ using CutPatch = TriangleMesh;
 /// @throw std::invalid_argument if the numbers of points differ or are below 2.
 CutPatch ruledPatch(const Points& before, const Points& now);
 
+/// Both patches, the second behind the first.
+CutPatch joined(const CutPatch& first, const CutPatch& second);
+
 /// The patch moved by 20 nm in a fixed oblique direction, less than Point32 resolves on a body of 0.3 m. A
 /// patch laid through vertices, edges or faces on purpose then crosses edges and faces in their interior
 /// only, and every question has one answer. The models of a body are cut by the same moved patch.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/cutting/curve_snapping.h"
 #include "core/cutting/cut_curve.h"
@@ -65,9 +66,18 @@ std::vector<std::uint32_t> numberBodies(const TriangleList& triangles, const std
   return bodies;
 }
 
+SurfaceCut uncut(const MeshTopology& mesh, CutOutcome outcome, const std::string& reason) {
+  SurfaceCut result{outcome, reason, mesh, {}, {}};
+  result.vertex_sources.resize(static_cast<std::size_t>(mesh.rest_vertices.rows()));
+  result.triangle_sources.resize(static_cast<std::size_t>(mesh.triangles.rows()));
+  std::iota(result.vertex_sources.begin(), result.vertex_sources.end(), 0);
+  std::iota(result.triangle_sources.begin(), result.triangle_sources.end(), 0);
+  return result;
+}
+
 /// What is published: without the vertices and triangles that are no longer used.
-MeshTopology compacted(const MeshTopology& before, const SplitSurface& surface,
-                       const StitchedSurface& stitched) {
+SurfaceCut compacted(const MeshTopology& before, const SplitSurface& surface,
+                     const StitchedSurface& stitched) {
   const auto triangle_count = static_cast<Eigen::Index>(std::count_if(
       stitched.triangles.begin(), stitched.triangles.end(), [](const auto& t) { return t[0] >= 0; }));
   const std::vector<std::uint32_t> bodies = numberBodies(stitched.triangles, stitched.mates);
@@ -77,7 +87,8 @@ MeshTopology compacted(const MeshTopology& before, const SplitSurface& surface,
       if (v >= 0) numbers[v] = 0;
     }
   }
-  MeshTopology mesh;
+  SurfaceCut cut{CutOutcome::kCut, "", {}, {}, {}};
+  MeshTopology& mesh = cut.mesh;
   mesh.revision = before.revision + 1;
   Eigen::Index vertex_count = 0;
   mesh.rest_vertices.resize(static_cast<Eigen::Index>(stitched.vertices.size()), 3);
@@ -87,6 +98,7 @@ MeshTopology compacted(const MeshTopology& before, const SplitSurface& surface,
     const bool own = source >= 0 && source < surface.own_vertices;
     mesh.rest_vertices.row(vertex_count) = own ? stitched.vertices[v] : rounded(stitched.vertices[v]);
     mesh.vertex_parents.push_back(own ? before.vertex_parents[source] : -1);
+    cut.vertex_sources.push_back(own ? source : -1);
     numbers[v] = static_cast<int>(vertex_count++);
   }
   mesh.rest_vertices.conservativeResize(vertex_count, Eigen::NoChange);
@@ -105,9 +117,10 @@ MeshTopology compacted(const MeshTopology& before, const SplitSurface& surface,
     }
     mesh.bodies.push_back(bodies[t]);
     mesh.cut.push_back(of_surface ? before.cut[surface.sources[t]] : true);
+    cut.triangle_sources.push_back(of_surface ? surface.sources[t] : -1);
     ++row;
   }
-  return mesh;
+  return cut;
 }
 
 /// Triangles that the cut has made, after rounding, are not too low; parts of a low triangle of the mesh may
@@ -183,18 +196,18 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   splitLonePieces(&surface);
   roundNewVertices(&surface);
   if (std::all_of(surface.curve.begin(), surface.curve.end(), [](int facet) { return facet < 0; })) {
-    return {CutOutcome::kMissed, "the patch does not pass through the surface", mesh_};
+    return uncut(mesh_, CutOutcome::kMissed, "the patch does not pass through the surface");
   }
   WallFill fill = fillWalls(surface, curve, facets, snap_distance);
   raiseLowTriangles(0.5 * snap_distance, facets, &fill);
   const Grazing grazing = findGrazing(surface, fill, facets, kGrazingDistance * diagonal_);
   if (grazing.triangles == fill.triangles.size()) {
-    return {CutOutcome::kMissed, "the patch only grazes the surface", mesh_};
+    return uncut(mesh_, CutOutcome::kMissed, "the patch only grazes the surface");
   }
   if (grazing.triangles > 0) throw CutGrazes(grazing.outward);
   const StitchedSurface stitched = stitch(surface, fill);
   checkHeights(mesh_, surface, stitched, kLowestTriangle * diagonal_);
-  SurfaceCut result{CutOutcome::kCut, "", compacted(mesh_, surface, stitched)};
+  SurfaceCut result = compacted(mesh_, surface, stitched);
   checkPieces(result.mesh, snap_distance);
   return result;
 }
@@ -215,7 +228,7 @@ SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
     }
     moved.vertices = patch.vertices.rowwise() + 2.0 * kSnapDistance * diagonal_ * shift.transpose();
   }
-  return {CutOutcome::kRefused, reason, mesh_};
+  return uncut(mesh_, CutOutcome::kRefused, reason);
 }
 
 }  // namespace

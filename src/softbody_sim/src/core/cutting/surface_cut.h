@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/cutting/cut_patch.h"
 
@@ -17,6 +18,8 @@ struct SurfaceCut {
   CutOutcome outcome = CutOutcome::kMissed;
   std::string reason;  ///< of what was not cut
   MeshTopology mesh;
+  std::vector<int> vertex_sources;    ///< per vertex the one before that it is or was copied from; -1: new
+  std::vector<int> triangle_sources;  ///< per triangle the one before that it is a part of; -1: of a new wall
 };
 
 /// Cuts a closed triangle mesh along a patch: triangles are divided along the curve of intersection, the mesh

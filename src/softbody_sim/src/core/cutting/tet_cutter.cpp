@@ -18,16 +18,6 @@ void requireUsable(const CutPatch& patch) {
     throw std::invalid_argument("the cut's patch names a vertex that it does not have");
 }
 
-/// Both patches, the second behind the first.
-CutPatch joined(const CutPatch& first, const CutPatch& second) {
-  CutPatch both;
-  both.vertices.resize(first.vertices.rows() + second.vertices.rows(), 3);
-  both.vertices << first.vertices, second.vertices;
-  both.triangles.resize(first.triangles.rows() + second.triangles.rows(), 3);
-  both.triangles << first.triangles, second.triangles.array() + static_cast<int>(first.vertices.rows());
-  return both;
-}
-
 /// What is cut and where: the same in every attempt.
 struct Crossed {
   const Points& vertices;

@@ -1,0 +1,54 @@
+#include "core/cutting/surface_history.h"
+
+#include <utility>
+
+namespace softbody {
+
+SurfaceHistory::SurfaceHistory(VisualSurface uncut) { versions_.push_back(std::move(uncut)); }
+
+CutPatch SurfaceHistory::strokeWith(const CutPatch& patch, std::uint32_t stroke) const {
+  return stroke_number_ == stroke ? joined(stroke_, patch) : patch;
+}
+
+SurfaceCut SurfaceHistory::preview(const CutPatch& patch, std::uint32_t stroke) const {
+  const VisualSurface& start = versions_[hasVersion(stroke) ? at_ - 1 : at_];
+  return cutSurface(start.topology(), strokeWith(patch, stroke));
+}
+
+void SurfaceHistory::advance(const CutPatch& patch, std::uint32_t stroke) {
+  stroke_ = strokeWith(patch, stroke);
+  stroke_has_version_ = hasVersion(stroke);
+  stroke_number_ = stroke;
+}
+
+void SurfaceHistory::cut(const CutPatch& patch, std::uint32_t stroke, SurfaceCut cut, const TetEdit& edit,
+                         const MeshState& volume) {
+  advance(patch, stroke);
+  if (!stroke_has_version_) sources_ = ownSources(surface().topology());
+  MeshSources sources{cut.vertex_sources, cut.triangle_sources};
+  VisualSurface swapped = swapSurface(surface(), sources_, std::move(cut), edit, volume);
+  versions_.erase(versions_.begin() + static_cast<std::ptrdiff_t>(stroke_has_version_ ? at_ : at_ + 1),
+                  versions_.end());
+  versions_.push_back(std::move(swapped));
+  at_ = versions_.size() - 1;
+  sources_ = std::move(sources);
+  stroke_has_version_ = true;
+}
+
+bool SurfaceHistory::undo(std::uint32_t revision) { return at_ > 0 && moveTo(at_ - 1, revision); }
+
+bool SurfaceHistory::redo(std::uint32_t revision) {
+  return at_ + 1 < versions_.size() && moveTo(at_ + 1, revision);
+}
+
+bool SurfaceHistory::reset(std::uint32_t revision) { return at_ > 0 && moveTo(0, revision); }
+
+bool SurfaceHistory::moveTo(std::size_t version, std::uint32_t revision) {
+  at_ = version;
+  versions_[at_].setRevision(revision);
+  stroke_number_.reset();
+  stroke_has_version_ = false;
+  return true;
+}
+
+}  // namespace softbody
