@@ -57,7 +57,9 @@ TEST(ObstacleDescription, NamesWhatIsWrong) {
   names("obstacles: [{name: a b}]", "'a b'");
   names("obstacles: [{name: a, shape: cone}]", "/simulator/obstacles/0/shape is 'cone'");
   names("obstacles: [{name: a, radius_m: -1}]", "/simulator/obstacles/0/radius_m is -1");
-  names("obstacles: [{name: a, shape: box, size_m: [1, 1, 1], rounding_m: 0.6}]", "0.6");
+  names("obstacles: [{name: a, shape: box, size_m: [1, 1, 1], rounding_m: 0.6}]", "rounding_m is 0.6");
+  names("obstacles: [{name: a, shape: box, size_m: [1, -1, 1]}]", "size_m is [1, -1, 1]");
+  names("obstacles: [{name: a}, {name: a}]", "two obstacles are named 'a'");
   names("obstacles: [{name: a, pose: [0, 0, 0, 0, 0, 0, 0]}]", "quaternion");
 }
 

@@ -177,6 +177,38 @@ TEST_P(UnderBothSolvers, UnobservedStepsKeepTheTargetsAndLoseConfidence) {
     EXPECT_NEAR(simulator.state().confidence[v], 0.5f * seen.confidence[v], 1e-3f);
 }
 
+TEST_P(UnderBothSolvers, TheDefaultsSufficeToHangAndToLie) {
+  SimulatorConfig config;
+  config.solver = GetParam();
+  config.gravity = config_.gravity;
+  material_.damping = 0.1;
+  Surroundings lying, hanging;
+  lying.obstacles = {Obstacle::plane()};
+  lying.obstacles[0].pose = Eigen::Translation3d(0.0, 0.0, -0.05);
+  hanging.pins = pinsWhere([](const Eigen::Vector3d& p) { return p.x() < 0.03; });
+  for (const Surroundings& surroundings : {lying, hanging}) {
+    Simulator simulator(topology_, material_, config);
+    place(&simulator);
+    for (int frame = 1; frame <= 150; ++frame) simulator.step({}, frame * kFrame, surroundings);
+    const Wrench sum = sumAboutOrigin(simulator, surroundings);
+    EXPECT_LT((sum.force - Eigen::Vector3d(0.0, 0.0, -kWeight)).norm(), 1e-3 * kWeight);
+  }
+}
+
+TEST_P(UnderBothSolvers, ABodyThatIsPlacedAnewMeetsObstaclesWhereTheyAre) {
+  config_.gravity.setZero();
+  Simulator simulator(topology_, material_, config_);
+  Surroundings surroundings;
+  surroundings.obstacles = {Obstacle::sphere(0.02)};
+  TargetSet reset;
+  reset.reset = true;
+  for (const double side : {-1.0, 1.0}) {
+    surroundings.obstacles[0].pose = Eigen::Translation3d(0.1, 0.05, 0.5 * side);
+    simulator.step(reset, kFrame, surroundings);
+    EXPECT_LT((simulator.state().vertices - topology_.rest_vertices).norm(), 1e-9) << side;
+  }
+}
+
 TEST_P(UnderBothSolvers, RefuseSurroundingsThatMakeNoSense) {
   Simulator simulator(topology_, material_, config_);
   place(&simulator);

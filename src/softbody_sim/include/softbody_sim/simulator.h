@@ -72,9 +72,8 @@ class Simulator {
   /// std::runtime_error if the targets' weights leave a system that cannot be solved.
   void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
 
-  /// As step, without a new observation: targets seen earlier still hold (their `reset` does
-  /// not), `observed` stays, and confidence
-  /// halves with every half second since.
+  /// As step, without a new observation: targets seen earlier still hold (their `reset` does not), `observed`
+  /// stays, and confidence halves with every half second.
   void stepUnobserved(const TargetSet& earlier, Nanoseconds stamp, const Surroundings& surroundings = {});
 
   /// Static equilibrium under targets, gravity and surroundings, which have to hold the body: a step that

@@ -40,34 +40,73 @@ ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel conta
                                  StepSolver* solver)
     : tets_(topology.tets), contact_(std::move(contact)), options_(options), solver_(solver) {}
 
+/// What stays the same while contacts are found again.
+struct ConstrainedStep::Problem {
+  const std::vector<Target>& targets;
+  const Surroundings& surroundings;
+  const Points& before;
+  const std::vector<Eigen::Isometry3d>& before_poses;
+  StepPotential potential;  ///< with the springs of the latest contacts
+};
+
 ConstrainedStep::Result ConstrainedStep::solve(StepPotential free, const std::vector<Target>& targets,
                                                const Surroundings& surroundings, const Points& before,
                                                const std::vector<Eigen::Isometry3d>& before_poses,
                                                Points* x) const {
-  constexpr int kMaxRounds = 5;
   if (surroundings.loads.size() > 0) free.loads += surroundings.loads;
-  StepPotential potential = free;
-  hold(surroundings.pins, options_.pin_stiffness, &potential);
-  for (const Pin& pin : surroundings.pins) x->row(pin.vertex) = pin.position;
-
+  Problem problem{targets, surroundings, before, before_poses, free};
+  hold(surroundings.pins, options_.pin_stiffness, &problem.potential);
+  chooseStart(&problem, x);
   Result result;
-  std::vector<Contact> contacts = contact_.find(before, *x, surroundings.obstacles, before_poses);
-  for (int round = 0; round < kMaxRounds; ++round) {
-    potential.targets.set(targets, tets_, options_.target_stiffness);
-    contact_.addSprings(contacts, &potential.targets);
-    const int iterations = result.report.iterations;
-    result.report = solver_->minimize(potential, x);
-    result.report.iterations += iterations;
-    if (surroundings.obstacles.empty()) break;
-    std::vector<Contact> now = contact_.find(before, *x, surroundings.obstacles, before_poses);
-    if (contact_.difference(contacts, now, *x) < options_.contact_tolerance_m) break;
-    result.report.converged = false;
-    if (round + 1 < kMaxRounds) contacts = std::move(now);
-  }
+  const std::vector<Contact> contacts = iterate(&problem, x, &result.report);
   result.reactions.obstacles = contact_.wrenches(contacts, *x, surroundings.obstacles);
-  free.targets = std::move(potential.targets);
+  free.targets = std::move(problem.potential.targets);
   result.reactions.pins = pinWrenches(free, surroundings.pins, *x);
   return result;
+}
+
+/// A body that hangs or lies is nearer to its end where it was than where the loads alone take it.
+void ConstrainedStep::chooseStart(Problem* problem, Points* x) const {
+  const Surroundings& surroundings = problem->surroundings;
+  if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
+  Points still = problem->before;
+  for (const Pin& pin : surroundings.pins) still.row(pin.vertex) = x->row(pin.vertex) = pin.position;
+  if (energyAt(still, problem) < energyAt(*x, problem)) x->swap(still);
+}
+
+double ConstrainedStep::energyAt(const Points& x, Problem* problem) const {
+  setSprings(contactsAt(x, *problem), problem);
+  Points unused(x.rows(), 3);
+  return problem->potential.evaluate(x, &unused) + solver_->addElasticity(x, &unused);
+}
+
+/// @return the contacts under which the result was found.
+std::vector<Contact> ConstrainedStep::iterate(Problem* problem, Points* x, StepReport* report) const {
+  constexpr int kMaxRounds = 5;
+  std::vector<Contact> contacts = contactsAt(*x, *problem);
+  for (int round = 1;; ++round) {
+    setSprings(contacts, problem);
+    const int iterations = report->iterations;
+    *report = solver_->minimize(problem->potential, x);
+    report->iterations += iterations;
+    if (problem->surroundings.obstacles.empty()) return contacts;
+    std::vector<Contact> now = contactsAt(*x, *problem);
+    if (contact_.difference(contacts, now, *x) < options_.contact_tolerance_m) return contacts;
+    if (round == kMaxRounds) {
+      report->converged = false;
+      return contacts;
+    }
+    contacts = std::move(now);
+  }
+}
+
+std::vector<Contact> ConstrainedStep::contactsAt(const Points& x, const Problem& problem) const {
+  return contact_.find(problem.before, x, problem.surroundings.obstacles, problem.before_poses);
+}
+
+void ConstrainedStep::setSprings(const std::vector<Contact>& contacts, Problem* problem) const {
+  problem->potential.targets.set(problem->targets, tets_, options_.target_stiffness);
+  contact_.addSprings(contacts, &problem->potential.targets);
 }
 
 /// A held vertex would follow the rest of its forces; the pin takes them up.

@@ -35,6 +35,13 @@ class ConstrainedStep {
                const Points& before, const std::vector<Eigen::Isometry3d>& before_poses, Points* x) const;
 
  private:
+  struct Problem;
+
+  void chooseStart(Problem* problem, Points* x) const;
+  double energyAt(const Points& x, Problem* problem) const;
+  std::vector<Contact> iterate(Problem* problem, Points* x, StepReport* report) const;
+  std::vector<Contact> contactsAt(const Points& x, const Problem& problem) const;
+  void setSprings(const std::vector<Contact>& contacts, Problem* problem) const;
   std::vector<Wrench> pinWrenches(const StepPotential& free, const std::vector<Pin>& pins,
                                   const Points& x) const;
 

@@ -8,10 +8,9 @@
 
 namespace softbody {
 
-/// Backward Euler by Newton's method on the projected Hessian, the exact one near the end,
-/// with a backtracking line search (Kang et al.
-/// 2022, eq. 5-9, solved to the end instead of linearised once): accuracy before speed. The linear systems go
-/// to CHOLMOD, which analyses their pattern once.
+/// Backward Euler by Newton's method on the projected Hessian, the exact one near the end, with a
+/// backtracking line search (Kang et al. 2022, eq. 5-9, solved to the end instead of linearised once):
+/// accuracy before speed. The linear systems go to CHOLMOD, which analyses their pattern once.
 class FemSolver : public StepSolver {
  public:
   struct Options {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <stdexcept>
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double kLargestSize = 10.0;  // [m]
 
-Obstacle readShape(Parameters& parameters) {
+Obstacle readShape(Parameters& parameters, const std::string& name) {
   const std::string shape = parameters.choice("shape", "sphere", {"plane", "sphere", "capsule", "box"});
   const auto size = [&](const char* key, double min) {
     return parameters.number(key, 0.01, min, kLargestSize);
@@ -23,8 +24,13 @@ Obstacle readShape(Parameters& parameters) {
     return Obstacle::capsule(radius, parameters.number("length_m", 0.1, 0.0, kLargestSize));
   }
   const std::vector<double> sizes = parameters.numbers("size_m", {0.1, 0.1, 0.1});
+  const auto [smallest, largest] = std::minmax_element(sizes.begin(), sizes.end());
+  if (!(*smallest > 0.0 && *largest <= kLargestSize)) {
+    throw std::invalid_argument(fmt::format("obstacle '{}': its size_m is [{}]; allowed: above 0, up to {}",
+                                            name, fmt::join(sizes, ", "), kLargestSize));
+  }
   return Obstacle::box(Eigen::Vector3d(sizes.data()),
-                       parameters.number("rounding_m", 0.0, 0.0, kLargestSize));
+                       parameters.number("rounding_m", 0.0, 0.0, 0.5 * *smallest));
 }
 
 Eigen::Isometry3d readPose(Parameters& parameters, const std::string& name) {
@@ -54,8 +60,12 @@ std::vector<ObstacleDescription> readObstacles(Parameters& parameters, std::vect
     ObstacleDescription obstacle;
     obstacle.name = map.requiredText("name");
     requireTopicName(obstacle.name);
+    const bool taken = std::any_of(obstacles.begin(), obstacles.end(), [&](const ObstacleDescription& other) {
+      return other.name == obstacle.name;
+    });
+    if (taken) throw std::invalid_argument(fmt::format("two obstacles are named '{}'", obstacle.name));
     obstacle.frame = map.text("frame", "");
-    obstacle.shape = readShape(map);
+    obstacle.shape = readShape(map, obstacle.name);
     obstacle.shape.pose = readPose(map, obstacle.name);
     for (const std::string& key : map.unknown()) unknown->push_back(key);
     obstacles.push_back(obstacle);

@@ -101,7 +101,7 @@ struct Body {
   MeshState state;
   StepReport report;
   Reactions reactions;
-  std::vector<Eigen::Isometry3d> obstacle_poses;
+  std::vector<Eigen::Isometry3d> obstacle_poses;  ///< at the end of the last step; none: as they are now
 };
 
 }  // namespace
@@ -166,6 +166,7 @@ void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds
   next->velocity = Points::Zero(next->state.vertices.rows(), 3);
   next->stamp = stamp;
   next->placed = true;
+  next->obstacle_poses.clear();  // no way leads from where they were before
 }
 
 void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds stamp,
@@ -271,6 +272,7 @@ void Simulator::setVertices(const Points& vertices) {
   }
   body.state.vertices = vertices;
   body.velocity.setZero();
+  body.obstacle_poses.clear();
 }
 
 void Simulator::reset() {

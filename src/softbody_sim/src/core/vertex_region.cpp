@@ -23,7 +23,8 @@ struct Condition {
 };
 
 Condition parseCondition(const std::string& text) {
-  static const std::regex kForm(R"(\s*([xyz])\s*(<=|>=|<|>)\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*)");
+  static const std::regex kForm(
+      R"(\s*([xyz])\s*(<=|>=|<|>)\s*([-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?)\s*)");
   std::smatch match;
   if (!std::regex_match(text, match, kForm)) {
     throw std::invalid_argument(fmt::format(
@@ -32,14 +33,21 @@ Condition parseCondition(const std::string& text) {
   return {match[1].str()[0] - 'x', match[2].str(), std::stod(match[3].str())};
 }
 
+std::vector<Condition> parseRegion(const std::string& region) {
+  std::vector<Condition> conditions;
+  if (region == "all") return conditions;
+  if (region.empty()) return {parseCondition(region)};
+  std::stringstream parts(region);
+  for (std::string part; std::getline(parts, part, '&');) conditions.push_back(parseCondition(part));
+  return conditions;
+}
+
 }  // namespace
 
+void requireRegion(const std::string& region) { parseRegion(region); }
+
 std::vector<int> verticesWhere(const std::string& region, const Points& vertices) {
-  std::vector<Condition> conditions;
-  std::stringstream parts(region);
-  for (std::string part; region != "all" && std::getline(parts, part, '&');)
-    conditions.push_back(parseCondition(part));
-  if (region.empty()) parseCondition(region);
+  const std::vector<Condition> conditions = parseRegion(region);
   std::vector<int> chosen;
   for (int v = 0; v < vertices.rows(); ++v) {
     bool met = true;

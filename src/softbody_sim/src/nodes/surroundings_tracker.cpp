@@ -35,6 +35,10 @@ SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node,
 
 void SurroundingsTracker::hold(const PinRegion& region, const Points& rest_vertices) {
   requireTopicName(region.name);
+  for (const Placed& obstacle : obstacles_) {
+    if (obstacle.description.name == region.name)
+      throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
+  }
   Held held{region, {}, {}, Eigen::Isometry3d::Identity()};
   for (int v = 0; v < rest_vertices.rows(); ++v) {
     const Eigen::Array3d p = rest_vertices.row(v).transpose().array();

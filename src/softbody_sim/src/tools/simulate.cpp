@@ -78,17 +78,6 @@ void addSolverOptions(CLI::App& app, Options& o) {
       ->capture_default_str();
 }
 
-TetTopology loadTopology(const Options& o) {
-  Warnings warnings;
-  TetMesh mesh = readTetFile(o.mesh, &warnings);
-  for (const std::string& warning : warnings) std::cerr << "simulate: " << warning << '\n';
-  TetTopology topology;
-  topology.rest_vertices = metresPer(o.unit) * mesh.vertices;
-  topology.tets = mesh.tets;
-  topology.surface = boundaryTriangles(mesh.tets);
-  return topology;
-}
-
 SimulatorConfig configOf(const Options& o) {
   SimulatorConfig config;
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;
@@ -98,6 +87,39 @@ SimulatorConfig configOf(const Options& o) {
   config.max_time_step_s = o.time_step_s;
   config.gravity = Eigen::Vector3d(o.gravity.data());
   return config;
+}
+
+double toNumber(const std::string& text) {
+  double value = 0.0;
+  if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value))
+    throw CLI::ValidationError("--load", "'" + text + "' is no number");
+  return value;
+}
+
+/// @throw CLI::ValidationError for what the options' own checks cannot see.
+void requireUsable(const Options& o) {
+  try {
+    requireConsistent(configOf(o));
+    for (const std::string& region : o.pins) requireRegion(region);
+    if (!o.probe.empty()) requireRegion(o.probe);
+    for (const std::vector<std::string>& load : o.region_loads) {
+      requireRegion(load[0]);
+      for (std::size_t k = 1; k < load.size(); ++k) toNumber(load[k]);
+    }
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError("simulate", error.what());
+  }
+}
+
+TetTopology loadTopology(const Options& o) {
+  Warnings warnings;
+  TetMesh mesh = readTetFile(o.mesh, &warnings);
+  for (const std::string& warning : warnings) std::cerr << "simulate: " << warning << '\n';
+  TetTopology topology;
+  topology.rest_vertices = metresPer(o.unit) * mesh.vertices;
+  topology.tets = mesh.tets;
+  topology.surface = boundaryTriangles(mesh.tets);
+  return topology;
 }
 
 void addLoadsOfFile(const std::string& path, Points* loads) {
@@ -123,7 +145,7 @@ Surroundings surroundingsOf(const Options& o, const Points& rest) {
   surroundings.loads = Points::Zero(rest.rows(), 3);
   for (const std::vector<std::string>& load : o.region_loads) {
     const std::vector<int> vertices = verticesWhere(load[0], rest);
-    const Eigen::RowVector3d force(std::stod(load[1]), std::stod(load[2]), std::stod(load[3]));
+    const Eigen::RowVector3d force(toNumber(load[1]), toNumber(load[2]), toNumber(load[3]));
     for (int v : vertices) surroundings.loads.row(v) += force / static_cast<double>(vertices.size());
   }
   if (!o.loads.empty()) addLoadsOfFile(o.loads, &surroundings.loads);
@@ -158,9 +180,8 @@ std::vector<int> probeOf(const Options& o, const Points& rest, const std::vector
 }
 
 constexpr char kHeader[] =
-    "step,time_s,probe_x_m,probe_y_m,probe_z_m,elastic_energy_j,residual_n,volume_m3,pins_x_n,pins_y_n,pins_"
-    "z_n,"
-    "iterations,converged\n";
+    "step,time_s,probe_x_m,probe_y_m,probe_z_m,elastic_energy_j,residual_n,volume_m3,"
+    "pins_x_n,pins_y_n,pins_z_n,iterations,converged\n";
 
 std::string row(int step, double time_s, const Simulator& simulator, const std::vector<int>& probe) {
   const TetTopology& topology = simulator.topology();
@@ -220,9 +241,8 @@ int run(const Options& o) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Simulates one tet mesh under gravity, loads, pins and a ground, in time or to rest, and prints a CSV "
-      "row a step: mean displacement of the probe, elastic energy, largest unbalanced force, volume, force "
-      "on "
-      "the pins, iterations."};
+      "row a step: mean displacement of the probe, elastic energy, largest unbalanced force, volume, "
+      "force on the pins, iterations."};
   Options options;
   app.add_option("MESH", options.mesh, "VTU, MSH, TetGen .node/.ele or VEG")->required();
   app.add_option("--unit", options.unit, "unit of the mesh")
@@ -238,6 +258,7 @@ int main(int argc, char** argv) {
   addSolverOptions(app, options);
   try {
     app.parse(argc, argv);
+    requireUsable(options);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
