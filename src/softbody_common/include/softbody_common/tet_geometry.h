@@ -23,6 +23,17 @@ std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count);
 /// Connected piece of every triangle, numbered from 0 in order of appearance.
 std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex_count);
 
+/// Connected piece of every vertex, from those of the elements (tets or triangles) that hold it.
+template <typename Elements>
+std::vector<std::uint32_t> vertexBodies(const Elements& elements, const std::vector<std::uint32_t>& bodies,
+                                        Eigen::Index vertex_count) {
+  std::vector<std::uint32_t> result(static_cast<std::size_t>(vertex_count), 0);
+  for (Eigen::Index e = 0; e < elements.rows(); ++e) {
+    for (Eigen::Index k = 0; k < elements.cols(); ++k) result[elements(e, k)] = bodies[e];
+  }
+  return result;
+}
+
 /// Unit normals, area-weighted mean of the adjacent triangles, #V by 3; zero where no triangle touches the
 /// vertex.
 Points vertexNormals(const Points& vertices, const Triangles& triangles);
