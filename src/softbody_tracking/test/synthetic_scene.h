@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "softbody_common/rasterizer.h"
 #include "softbody_common/tet_geometry.h"
@@ -52,6 +53,33 @@ inline BoxBody makeBox(int nx = 10, int ny = 5, int nz = 2) {
   body.volume.surface = boundaryTriangles(body.volume.tets);
   body.surface.rest_vertices = body.volume.rest_vertices;
   body.surface.triangles = body.volume.surface;
+  return body;
+}
+
+/// The box in two pieces, parted at x = 0. Vertices of the plane have copies behind the others, for the
+/// right.
+inline BoxBody cutBox(const BoxBody& whole) {
+  BoxBody body = whole;
+  Points& vertices = body.volume.rest_vertices;
+  std::map<int, int> copies;
+  for (Eigen::Index t = 0; t < whole.volume.tets.rows(); ++t) {
+    const Eigen::RowVector4i tet = whole.volume.tets.row(t);
+    if (vertices(tet, 0).mean() < 0.0) continue;
+    for (int k = 0; k < 4; ++k) {
+      if (std::abs(vertices(tet[k], 0)) > 1e-9) continue;
+      const int next = static_cast<int>(whole.volume.rest_vertices.rows() + copies.size());
+      body.volume.tets(t, k) = copies.emplace(tet[k], next).first->second;
+    }
+  }
+  vertices.conservativeResize(vertices.rows() + static_cast<Eigen::Index>(copies.size()), 3);
+  for (const auto& [from, to] : copies) vertices.row(to) = vertices.row(from);
+  body.volume.surface = boundaryTriangles(body.volume.tets);
+  body.surface.rest_vertices = vertices;
+  body.surface.triangles = body.volume.surface;
+  body.surface.cut.clear();
+  for (const auto& triangle : body.surface.triangles.rowwise())
+    body.surface.cut.push_back(vertices(triangle, 0).cwiseAbs().maxCoeff() < 1e-9);
+  body.volume.revision = body.surface.revision = whole.volume.revision + 1;
   return body;
 }
 

@@ -35,10 +35,17 @@ class TrackedBox {
     StageTimer timer;
     const TrackingResult result = tracker_.track(frame_, has_state_ ? &state_ : nullptr, &timer);
     if (result.has_targets) {
-      state_ = {0, stamp_, vertices, {}};
+      state_ = {box_.volume.revision, stamp_, vertices, {}};
       has_state_ = true;
     }
     return result;
+  }
+
+  /// A cut at rest, in the state last shown.
+  void cut(const Points& vertices) {
+    box_ = cutBox(box_);
+    tracker_.setTopologies(box_.volume, box_.surface);
+    state_ = {box_.volume.revision, stamp_, vertices, {}};
   }
 
   /// Whether it tracks again within so many frames.
@@ -49,19 +56,31 @@ class TrackedBox {
     return false;
   }
 
+  /// Share of the targets that are further than a tolerance from where their material points truly are.
+  double shareOff(const TrackingResult& result, const Points& vertices, double tolerance) const {
+    double off = 0.0;
+    for (const Target& target : result.targets.targets)
+      off += std::abs(target.normal.dot(target.position - placeOf(target, vertices))) > tolerance ? 1.0 : 0.0;
+    return off / static_cast<double>(result.targets.targets.size());
+  }
+
   /// Largest distance of the targets from where their material points truly are, along their normals if they
   /// have one.
   double worstTarget(const TrackingResult& result, const Points& vertices, TargetKind kind) const {
     double worst = 0.0;
     for (const Target& target : result.targets.targets) {
       if (target.kind != kind) continue;
-      const Eigen::Vector3d d = target.position - positionOf(target.place, vertices, box_.volume.tets);
+      const Eigen::Vector3d d = target.position - placeOf(target, vertices);
       worst = std::max(worst, target.normal.isZero() ? d.norm() : std::abs(target.normal.dot(d)));
     }
     return worst;
   }
 
  private:
+  Eigen::Vector3d placeOf(const Target& target, const Points& vertices) const {
+    return positionOf(target.place, vertices, box_.volume.tets);
+  }
+
   BoxBody box_ = makeBox();
   BodyTracker tracker_;
   RgbdFrame frame_;
@@ -112,6 +131,30 @@ TEST(BodyTracker, TargetsLieWhereTheBodyIs) {
     EXPECT_GT(result.status.inlier_ratio, 0.8);
     EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.002);
     EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kFeature), 0.009);
+  }
+}
+
+TEST(BodyTracker, FollowsThePiecesOfABodyThatIsCut) {
+  TrackedBox tracked;
+  TrackingResult result;
+  for (int i = 0; i < 5; ++i) result = tracked.show(posedBox(tracked.box()));
+  const auto features_before = result.status.features_tracked;
+  tracked.cut(posedBox(cutBox(tracked.box())));
+  const Eigen::Index whole = makeBox().volume.rest_vertices.rows();
+  for (int i = 1; i <= 10; ++i) {
+    const TetTopology& volume = tracked.box().volume;
+    Points truth = posedBox(tracked.box());
+    for (Eigen::Index v = 0; v < truth.rows(); ++v) {
+      const bool right = v >= whole || volume.rest_vertices(v, 0) > 1e-9;
+      truth.row(v) += (right ? 1.0 : -1.0) * i * 0.002 * Eigen::RowVector3d(1.0, 0.2, -0.5);
+    }
+    result = tracked.show(truth);
+    EXPECT_FALSE(result.targets.reset);
+    EXPECT_EQ(result.targets.revision, 1u);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    EXPECT_GT(result.status.features_tracked, 0.4 * features_before) << "the bound ones are still known";
+    // A block on the rim of the gap may show the other piece.
+    EXPECT_LT(tracked.shareOff(result, truth, 0.002), 0.01);
   }
 }
 

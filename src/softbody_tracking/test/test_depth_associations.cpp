@@ -19,7 +19,7 @@ class DepthAssociationsTest : public ::testing::Test {
 
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity()) {
-    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), motion,
+    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
                           colors_, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets), config);
   }
 

@@ -33,10 +33,12 @@ TEST(InverseDistanceWeights, GuardsWhereThePapersFormulaDividesZeroByZero) {
 /// Features strewn over the box's top face, all found again after a rigid motion.
 struct MovedFeatures {
   BoxBody box = makeBox();
+  PredictedSurface surface{box.volume, box.surface};
   std::vector<MapFeature> features;
   std::vector<FeatureMatch> matches;
 
   explicit MovedFeatures(const Eigen::Isometry3d& motion) {
+    surface.update({640, 480, 615.0, 615.0, 320.0, 240.0}, box.volume.rest_vertices);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> x(-0.1, 0.1), y(-0.05, 0.05);
     for (int i = 0; i < 1000; ++i) {
@@ -57,7 +59,7 @@ double worstError(const MovedFeatures& moved, bool local_rotation, const Eigen::
   config.local_rotation = local_rotation;
   KnnTargets knn(config);
   knn.bind(moved.features, moved.box.volume, moved.box.volume.rest_vertices);
-  const auto associations = knn.associations(moved.features, moved.matches, moved.box.volume.rest_vertices);
+  const auto associations = knn.associations(moved.features, moved.matches, moved.surface);
   EXPECT_GT(associations.size(), 60u) << "the top face has 66 vertices";
   double worst = 0.0;
   for (const Association& a : associations)
@@ -82,14 +84,13 @@ TEST(KnnTargets, VerticesWithoutFeaturesGetNoTarget) {
   MovedFeatures moved(Eigen::Isometry3d::Identity());
   KnnTargets knn{KnnConfig()};
   knn.bind(moved.features, moved.box.volume, moved.box.volume.rest_vertices);
-  for (const Association& a :
-       knn.associations(moved.features, moved.matches, moved.box.volume.rest_vertices)) {
+  for (const Association& a : knn.associations(moved.features, moved.matches, moved.surface)) {
     EXPECT_GT(a.predicted.z(), 0.0) << "the bottom face has no feature within 10 mm";
   }
   moved.matches.clear();
-  EXPECT_TRUE(knn.associations(moved.features, moved.matches, moved.box.volume.rest_vertices).empty());
+  EXPECT_TRUE(knn.associations(moved.features, moved.matches, moved.surface).empty());
   knn.bind({}, moved.box.volume, moved.box.volume.rest_vertices);
-  EXPECT_TRUE(knn.associations({}, {}, moved.box.volume.rest_vertices).empty());
+  EXPECT_TRUE(knn.associations({}, {}, moved.surface).empty());
 }
 
 }  // namespace

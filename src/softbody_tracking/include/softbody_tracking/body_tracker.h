@@ -35,7 +35,8 @@ class BodyTracker {
   explicit BodyTracker(const TrackerConfig& config);
   ~BodyTracker();
 
-  /// The body's models; tracking starts anew when they change.
+  /// The body's models. With a greater revision than before they are the same body, cut: it is tracked on,
+  /// and the next state must be of that revision. Otherwise tracking starts anew.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   bool ready() const;
 

@@ -11,6 +11,7 @@ namespace softbody {
 struct Association {
   TargetKind kind = TargetKind::kDepth;
   MaterialPoint place;
+  std::uint32_t body = 0;  ///< connected piece of the body
   Eigen::Vector3d predicted = Eigen::Vector3d::Zero();
   Eigen::Vector3d measured = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal =

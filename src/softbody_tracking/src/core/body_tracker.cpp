@@ -65,11 +65,18 @@ BodyTracker::~BodyTracker() = default;
 
 void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   Implementation& self = *implementation_;
-  self.observer = std::make_unique<FrameObserver>(self.config, volume, surface);
-  self.prediction = std::make_unique<RigidPrediction>(volume.rest_vertices);
+  const bool edited =
+      self.observer != nullptr && volume.revision > self.observer->surface().volume().revision;
+  if (edited) {
+    self.knn.rebind(self.observer->surface().volume(), volume);
+    self.observer->setTopologies(volume, surface);
+  } else {
+    self.observer = std::make_unique<FrameObserver>(self.config, volume, surface);
+  }
+  self.prediction = std::make_unique<RigidPrediction>(volume);
   self.localizer = std::make_unique<Localizer>(TriangleMesh{surface.rest_vertices, surface.triangles},
                                                self.config.registration);
-  self.reset();
+  if (!edited) self.reset();
 }
 
 bool BodyTracker::ready() const { return implementation_->observer != nullptr; }
@@ -121,9 +128,8 @@ bool BodyTracker::Implementation::answers(const MeshState* volume, Nanoseconds s
 
 std::vector<Association> BodyTracker::Implementation::all(const Observation& seen) const {
   std::vector<Association> associations =
-      config.knn_targets
-          ? knn.associations(observer->map().features(), seen.matches, observer->surface().volumeVertices())
-          : inliers(seen.matches);
+      config.knn_targets ? knn.associations(observer->map().features(), seen.matches, observer->surface())
+                         : inliers(seen.matches);
   if (config.use_depth && !config.knn_targets) {
     associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
   }
@@ -227,7 +233,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   const bool placed = !first && self.answers(volume, frame.stamp);
   if (placed) self.prediction->observe(volume->vertices, volume->observed);
   const Points predicted = placed
-                               ? transformed(volume->vertices, self.prediction->motionUntil(frame.stamp))
+                               ? self.prediction->at(frame.stamp)
                                : transformed(self.observer->surface().volume().rest_vertices, self.body_pose);
   const Observation seen = self.observer->observe(frame, predicted);
   self.body_pose =

@@ -112,12 +112,13 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
 }  // namespace
 
 DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
-                                 const SurfaceSamples& surface, const Eigen::Isometry3d& motion,
+                                 const SurfaceSamples& surface, const RigidMotions& motions,
                                  const ColorModel& colors, double volume_edge_m, const DepthConfig& config) {
   std::vector<Block> blocks;
   blocks.reserve(surface.samples.size());
   for (const SurfaceSample& sample : surface.samples) {
-    blocks.push_back(observe(frame, image, sample, surface.block_px, motion, colors, config.max_distance_m));
+    blocks.push_back(
+        observe(frame, image, sample, surface.block_px, motions[sample.body], colors, config.max_distance_m));
   }
   growOccluders(surface.grid, &blocks);
 
@@ -133,6 +134,7 @@ DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& imag
     Association association;
     association.kind = TargetKind::kDepth;
     association.place = surface.samples[i].place;
+    association.body = surface.samples[i].body;
     association.predicted = block.position;
     association.measured =
         frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);

@@ -21,10 +21,10 @@ struct DepthAssociations {
 /// Associates visible surface with the depth measured along the same rays (projective association, point to
 /// plane). A block of pixels gives one association, with the mean of its depth differences. What goes on from
 /// an occluder without a step in depth, nearer than the body should be, belongs to the occluder.
-/// @param image the surface as rendered when it was sampled. @param motion rigid, of the surface since then.
+/// @param image the surface as rendered when it was sampled. @param motions of the body's pieces since then.
 /// @param volume_edge_m mean edge of the tets: depth weights are per square of it.
 DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
-                                 const SurfaceSamples& surface, const Eigen::Isometry3d& motion,
+                                 const SurfaceSamples& surface, const RigidMotions& motions,
                                  const ColorModel& colors, double volume_edge_m, const DepthConfig& config);
 
 }  // namespace softbody

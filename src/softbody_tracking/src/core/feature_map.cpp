@@ -1,9 +1,12 @@
 #include "feature_map.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "softbody_common/surface_binding.h"
 
 namespace softbody {
 namespace {
@@ -99,6 +102,13 @@ double median(std::vector<double>* values) {
   return *middle;
 }
 
+/// Takes barycentric coordinates in a tet to the rest shape.
+Eigen::Matrix4d homogeneousCorners(const TetTopology& volume, int tet) {
+  Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
+  for (int k = 0; k < 4; ++k) corners.col(k).head<3>() = volume.rest_vertices.row(volume.tets(tet, k));
+  return corners;
+}
+
 Eigen::Vector3d motionOf(const FeatureMatch& match) {
   return match.association.measured - match.association.predicted;
 }
@@ -160,6 +170,7 @@ std::vector<FeatureMap::Prediction> FeatureMap::predict(const PredictedSurface& 
     Prediction p;
     p.feature = static_cast<int>(f);
     p.position = surface.position(features_[f].place);
+    p.body = surface.bodyOf(features_[f].place);
     if (!predictedVisible(surface, p.position, &p.pixel)) continue;
     p.warp = surface.imageWarp(features_[f].place, features_[f].gradient);
     predictions.push_back(p);
@@ -192,6 +203,7 @@ bool FeatureMap::addMatch(const RgbdFrame& frame, const GrayPyramid& image, cons
   match.pixel = *pixel;
   match.association.kind = TargetKind::kFeature;
   match.association.place = features_[prediction.feature].place;
+  match.association.body = prediction.body;
   match.association.predicted = prediction.position;
   match.association.measured = frame.camera.unproject(pixel->x, pixel->y, z);
   match.association.weight = config_.weight;
@@ -293,6 +305,17 @@ void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
     if (!first) take(keypoint.pixel);
   }
   retire();
+}
+
+void FeatureMap::rebind(const TetTopology& before, const TetTopology& after) {
+  std::vector<MaterialPoint> places;
+  for (const MapFeature& feature : features_) places.push_back(feature.place);
+  const std::vector<MaterialPoint> moved = transferPlaces(places, before, after);
+  for (std::size_t f = 0; f < features_.size(); ++f) {
+    features_[f].gradient = homogeneousCorners(after, moved[f].tet).inverse() *
+                            homogeneousCorners(before, places[f].tet) * features_[f].gradient;
+    features_[f].place = moved[f];
+  }
 }
 
 void FeatureMap::reset() {

@@ -68,6 +68,9 @@ class FeatureMap {
   void admit(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
              const std::vector<FeatureMatch>& matches, const PredictedSurface& surface);
 
+  /// Takes the features to an edited body. Those on the wall of a cut stay on their side.
+  void rebind(const TetTopology& before, const TetTopology& after);
+
   void reset();
 
  private:
@@ -75,6 +78,7 @@ class FeatureMap {
   struct Prediction {
     int feature = 0;
     cv::Point2f pixel;
+    std::uint32_t body = 0;
     Eigen::Vector3d position;
     Eigen::Matrix2f warp;
   };

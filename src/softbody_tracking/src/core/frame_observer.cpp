@@ -47,6 +47,12 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
       orb_(config.features.max_features),
       map_(config.features) {}
 
+void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
+  map_.rebind(surface_.volume(), volume);
+  surface_ = PredictedSurface(volume, surface);
+  volume_edge_m_ = meanEdgeLength(volume.rest_vertices, volume.tets);
+}
+
 void FrameObserver::reset() {
   map_.reset();
   colors_.reset();
@@ -81,30 +87,36 @@ void FrameObserver::look(const RgbdFrame& frame, const Points& vertices) {
   samples_ = sampleSurface(surface_, config_.depth.max_targets);
 }
 
-/// The rigid motion that the depth and the features ask of the prediction.
-Eigen::Isometry3d FrameObserver::rigidMotion(const RgbdFrame& frame,
-                                             const std::vector<FeatureMatch>& matches) const {
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+/// The rigid motions that the depth and the features ask of the prediction. A piece that hardly shows stays.
+RigidMotions FrameObserver::rigidMotions(const RgbdFrame& frame,
+                                         const std::vector<FeatureMatch>& matches) const {
+  RigidMotions motions(surface_.bodyCount(), Eigen::Isometry3d::Identity());
   for (int i = 0; i < kRigidIterations; ++i) {
     const DepthAssociations depth =
-        associateDepth(frame, surface_.image(), samples_, motion, colors_, volume_edge_m_, config_.depth);
-    std::vector<Association> associations = inliers(matches);
-    for (Association& association : associations) association.predicted = motion * association.predicted;
-    associations.insert(associations.end(), depth.associations.begin(), depth.associations.end());
-    if (static_cast<int>(associations.size()) < kFewestAssociations) break;
-    const Eigen::Isometry3d step = rigidStep(associations);
-    const double moved = largestMotion(step);
-    if (moved > kLargestRigidStep) break;
-    motion = step * motion;
+        associateDepth(frame, surface_.image(), samples_, motions, colors_, volume_edge_m_, config_.depth);
+    std::vector<std::vector<Association>> of_body(motions.size());
+    for (const Association& association : depth.associations)
+      of_body[association.body].push_back(association);
+    for (Association association : inliers(matches)) {
+      association.predicted = motions[association.body] * association.predicted;
+      of_body[association.body].push_back(association);
+    }
+    const RigidMotions before = motions;
+    for (std::size_t body = 0; body < motions.size(); ++body) {
+      if (static_cast<int>(of_body[body].size()) < kFewestAssociations) continue;
+      motions[body] = rigidStep(of_body[body]) * motions[body];
+    }
+    const double moved =
+        (surface_.movedVolume(motions) - surface_.movedVolume(before)).rowwise().norm().maxCoeff();
+    if (moved > kLargestRigidStep) return before;
     if (moved < kRigidConvergence) break;
   }
-  return motion;
+  return motions;
 }
 
-/// How far a rigid motion takes any vertex of the prediction [m].
-double FrameObserver::largestMotion(const Eigen::Isometry3d& motion) const {
-  const Points& vertices = surface_.volumeVertices();
-  return (transformed(vertices, motion) - vertices).rowwise().norm().maxCoeff();
+/// How far the motions take any vertex of the prediction [m].
+double FrameObserver::largestMotion(const RigidMotions& motions) const {
+  return (surface_.movedVolume(motions) - surface_.volumeVertices()).rowwise().norm().maxCoeff();
 }
 
 cv::Rect FrameObserver::searchRegion(const cv::Size& size) const {
@@ -133,9 +145,9 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
     seen->keypoints = extract(frame);
     map_.search(frame, pyramid_, seen->keypoints, surface_, &seen->matches);
     map_.judge(frame.camera, &seen->matches);
-    const Eigen::Isometry3d rough = rigidMotion(frame, seen->matches);
+    const RigidMotions rough = rigidMotions(frame, seen->matches);
     if (largestMotion(rough) > kLookAgain) {
-      look(frame, transformed(surface_.volumeVertices(), rough));
+      look(frame, surface_.movedVolume(rough));
       seen->matches = alignFeatures(frame);
     }
   }
@@ -155,11 +167,13 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   followFeatures(frame, &seen);
   map_.credit(seen.matches);
   if (seen.keypoints.empty() && frames_to_admission_-- <= 0) seen.keypoints = extract(frame);
-  const Eigen::Isometry3d motion = rigidMotion(frame, seen.matches);
+  const RigidMotions motions = rigidMotions(frame, seen.matches);
   seen.depth =
-      associateDepth(frame, surface_.image(), samples_, motion, colors_, volume_edge_m_, config_.depth);
-  surface_.move(motion);
-  for (FeatureMatch& match : seen.matches) match.association.predicted = motion * match.association.predicted;
+      associateDepth(frame, surface_.image(), samples_, motions, colors_, volume_edge_m_, config_.depth);
+  surface_.move(motions);
+  for (FeatureMatch& match : seen.matches) {
+    match.association.predicted = motions[match.association.body] * match.association.predicted;
+  }
   return seen;
 }
 

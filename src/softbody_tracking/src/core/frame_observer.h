@@ -32,6 +32,9 @@ class FrameObserver {
  public:
   FrameObserver(const TrackerConfig& config, const TetTopology& volume, const MeshTopology& surface);
 
+  /// Goes on with the edited body: features and colours stay.
+  void setTopologies(const TetTopology& volume, const MeshTopology& surface);
+
   /// @param vertices of the volume as predicted, camera frame. Afterwards surface() is the prediction moved
   /// rigidly to what was observed.
   Observation observe(const RgbdFrame& frame, const Points& vertices);
@@ -57,8 +60,8 @@ class FrameObserver {
   bool few(const std::vector<FeatureMatch>& matches) const;
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
-  Eigen::Isometry3d rigidMotion(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches) const;
-  double largestMotion(const Eigen::Isometry3d& motion) const;
+  RigidMotions rigidMotions(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches) const;
+  double largestMotion(const RigidMotions& motions) const;
 
   TrackerConfig config_;
   double volume_edge_m_;

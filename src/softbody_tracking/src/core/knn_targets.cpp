@@ -7,6 +7,7 @@
 #include <set>
 
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/surface_binding.h"
 
 namespace softbody {
 namespace {
@@ -56,7 +57,7 @@ void KnnTargets::bind(const std::vector<MapFeature>& features, const TetTopology
   const std::set<int> surface_vertices(volume.surface.data(), volume.surface.data() + volume.surface.size());
   const auto wanted = static_cast<std::size_t>(std::max(config_.max_neighbors, kRotationNeighbors));
   for (int v : surface_vertices) {
-    BoundVertex bound{v, places[v], vertices.row(v), {}, {}};
+    BoundVertex bound{places[v], vertices.row(v), {}, {}};
     std::vector<Eigen::Index> indices(wanted);
     std::vector<double> squared(wanted);
     const std::size_t found =
@@ -75,26 +76,36 @@ void KnnTargets::bind(const std::vector<MapFeature>& features, const TetTopology
   }
 }
 
+void KnnTargets::rebind(const TetTopology& before, const TetTopology& after) {
+  std::vector<MaterialPoint> places;
+  for (const BoundVertex& bound : vertices_) places.push_back(bound.place);
+  const std::vector<MaterialPoint> moved = transferPlaces(places, before, after);
+  for (std::size_t v = 0; v < vertices_.size(); ++v) vertices_[v].place = moved[v];
+}
+
 std::vector<Association> KnnTargets::associations(const std::vector<MapFeature>& features,
                                                   const std::vector<FeatureMatch>& matches,
-                                                  const Points& vertices) const {
+                                                  const PredictedSurface& surface) const {
   struct Motion {
+    std::uint32_t body;
     Eigen::Vector3d reference, current;
   };
   std::map<int, Motion> motions;
   for (const FeatureMatch& match : matches) {
     const MapFeature& feature = features[match.feature];
-    if (match.inlier) motions[feature.id] = {feature.reference, match.association.measured};
+    if (match.inlier)
+      motions[feature.id] = {match.association.body, feature.reference, match.association.measured};
   }
   std::vector<Association> result;
   for (const BoundVertex& bound : vertices_) {
+    const std::uint32_t body = surface.bodyOf(bound.place);
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     if (config_.local_rotation) {
       Points from(static_cast<Eigen::Index>(bound.wider_ids.size()), 3), to(from.rows(), 3);
       Eigen::Index n = 0;
       for (int id : bound.wider_ids) {
         const auto motion = motions.find(id);
-        if (motion == motions.end()) continue;
+        if (motion == motions.end() || motion->second.body != body) continue;
         from.row(n) = motion->second.reference;
         to.row(n++) = motion->second.current;
       }
@@ -104,16 +115,17 @@ std::vector<Association> KnnTargets::associations(const std::vector<MapFeature>&
     double weight_sum = 0.0;
     for (const Neighbor& neighbor : bound.neighbors) {
       const auto motion = motions.find(neighbor.feature_id);
-      if (motion == motions.end()) continue;
-      const auto& [reference, current] = motion->second;
-      sum += neighbor.weight * (current + rotation * (bound.reference - reference));
+      if (motion == motions.end() || motion->second.body != body) continue;
+      const Motion& m = motion->second;
+      sum += neighbor.weight * (m.current + rotation * (bound.reference - m.reference));
       weight_sum += neighbor.weight;
     }
     if (weight_sum <= 0.0) continue;
     Association association;
     association.kind = TargetKind::kVertex;
     association.place = bound.place;
-    association.predicted = vertices.row(bound.vertex);
+    association.body = body;
+    association.predicted = surface.position(bound.place);
     association.measured = sum / weight_sum;
     result.push_back(association);
   }

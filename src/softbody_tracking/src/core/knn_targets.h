@@ -4,6 +4,7 @@
 
 #include "association.h"
 #include "feature_map.h"
+#include "predicted_surface.h"
 #include "softbody_common/types.h"
 #include "softbody_tracking/tracker_config.h"
 
@@ -19,10 +20,14 @@ class KnnTargets {
   /// Weights, once, in the reference frame. @param vertices volume vertices there, camera frame.
   void bind(const std::vector<MapFeature>& features, const TetTopology& volume, const Points& vertices);
 
-  /// Where the vertices' features have gone. Neighbours that were not found leave their weight to the others.
+  /// Where the vertices' features have gone. Neighbours that were not found, or that a cut has parted from
+  /// the vertex, leave their weight to the others.
   std::vector<Association> associations(const std::vector<MapFeature>& features,
                                         const std::vector<FeatureMatch>& matches,
-                                        const Points& vertices) const;
+                                        const PredictedSurface& surface) const;
+
+  /// Takes the vertices to an edited body.
+  void rebind(const TetTopology& before, const TetTopology& after);
 
   void reset() { vertices_.clear(); }
 
@@ -32,7 +37,6 @@ class KnnTargets {
     double weight;
   };
   struct BoundVertex {
-    int vertex;
     MaterialPoint place;
     Eigen::Vector3d reference;
     std::vector<Neighbor> neighbors;  ///< within the radius, for the position

@@ -1,8 +1,9 @@
 #include "predicted_surface.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/surface_binding.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 
@@ -11,7 +12,10 @@ namespace softbody {
 PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology& surface)
     : volume_(volume),
       surface_(surface),
-      binding_(bindPoints(surface.rest_vertices, volume.rest_vertices, volume.tets)) {
+      tet_bodies_(tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
+      vertex_bodies_(vertexBodies(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
+      body_count_(*std::max_element(tet_bodies_.begin(), tet_bodies_.end()) + 1),
+      binding_(bindSurface(surface, volume)) {
   rest_inverse_.reserve(static_cast<std::size_t>(volume.tets.rows()));
   for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
     Eigen::Matrix3d edges;
@@ -30,9 +34,17 @@ void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertic
   rasterize(camera, vertices_, surface_.triangles, &image_);
 }
 
-void PredictedSurface::move(const Eigen::Isometry3d& motion) {
-  volume_vertices_ = transformed(volume_vertices_, motion);
-  vertices_ = transformed(vertices_, motion);
+Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
+  Points moved(volume_vertices_.rows(), 3);
+  for (Eigen::Index v = 0; v < moved.rows(); ++v) {
+    moved.row(v) = motions[vertex_bodies_[v]] * volume_vertices_.row(v).transpose();
+  }
+  return moved;
+}
+
+void PredictedSurface::move(const RigidMotions& motions) {
+  volume_vertices_ = movedVolume(motions);
+  vertices_ = applyBinding(binding_, volume_vertices_, volume_.tets);
 }
 
 /// Where the ray through a pixel meets a triangle's plane, in the rest shape.

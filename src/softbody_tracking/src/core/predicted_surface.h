@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 #include "softbody_common/pinhole.h"
@@ -7,6 +9,9 @@
 #include "softbody_common/types.h"
 
 namespace softbody {
+
+/// A rigid motion for each connected piece of the body; one as long as nothing is cut.
+using RigidMotions = std::vector<Eigen::Isometry3d>;
 
 /// Change of a MaterialPoint's barycentric coordinates per pixel, 4 by 2.
 using PlaceGradient = Eigen::Matrix<double, 4, 2>;
@@ -19,8 +24,14 @@ class PredictedSurface {
   /// Moves the surface with the volume's vertices (camera frame) and renders it.
   void update(const Pinhole& camera, const Points& volume_vertices);
 
-  /// Moves the surface; the image stays as it was.
-  void move(const Eigen::Isometry3d& motion);
+  /// Moves each connected piece of the body; the image stays as it was.
+  void move(const RigidMotions& motions);
+
+  /// The piece that a place belongs to, and how many there are.
+  std::uint32_t bodyOf(const MaterialPoint& place) const { return tet_bodies_[place.tet]; }
+  std::size_t bodyCount() const { return body_count_; }
+  /// Every piece's vertices moved by its motion.
+  Points movedVolume(const RigidMotions& motions) const;
 
   const Pinhole& camera() const { return camera_; }
   const Points& volumeVertices() const { return volume_vertices_; }
@@ -48,6 +59,8 @@ class PredictedSurface {
 
   TetTopology volume_;
   MeshTopology surface_;
+  std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;  ///< connected piece, #T and #V of the volume
+  std::size_t body_count_ = 1;
   std::vector<MaterialPoint> binding_;
   std::vector<Eigen::Matrix3d> rest_inverse_;  ///< #T: takes offsets from a tet's first vertex to weights
   Pinhole camera_;

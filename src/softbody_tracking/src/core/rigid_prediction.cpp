@@ -1,32 +1,58 @@
 #include "rigid_prediction.h"
 
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
 constexpr double kLongestExtrapolation = 3.0;  // intervals between the states
 
+/// What takes points at one pose on by some intervals of the motion that led there.
+Eigen::Isometry3d continued(const Eigen::Isometry3d& before, const Eigen::Isometry3d& last,
+                            const Eigen::Vector3d& rest_center, double intervals) {
+  const Eigen::AngleAxisd turn(last.linear() * before.linear().transpose());
+  const Eigen::Vector3d center = last * rest_center;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = Eigen::AngleAxisd(intervals * turn.angle(), turn.axis()).toRotationMatrix();
+  motion.translation() = center + intervals * (center - before * rest_center) - motion.linear() * center;
+  return motion;
+}
+
 }  // namespace
+
+RigidPrediction::RigidPrediction(const TetTopology& volume) : rest_(volume.rest_vertices) {
+  const int vertex_count = static_cast<int>(rest_.rows());
+  const std::vector<std::uint32_t> bodies =
+      vertexBodies(volume.tets, tetBodies(volume.tets, vertex_count), vertex_count);
+  for (int v = 0; v < vertex_count; ++v) {
+    if (bodies[v] >= pieces_.size()) pieces_.resize(bodies[v] + 1);
+    pieces_[bodies[v]].push_back(v);
+  }
+}
 
 void RigidPrediction::observe(const Points& vertices, Nanoseconds stamp) {
   if (last_ && stamp == last_->stamp) return;
-  before_ = last_;
-  last_ = Placed{fitRigid(rest_, vertices), vertices.colwise().mean().transpose(), stamp};
+  before_ = std::move(last_);
+  last_ = Placed{vertices, {}, stamp};
+  for (const std::vector<int>& piece : pieces_) {
+    last_->poses.push_back(fitRigid(Points(rest_(piece, Eigen::all)), Points(vertices(piece, Eigen::all))));
+  }
   if (before_ && stamp < before_->stamp) before_.reset();
 }
 
-Eigen::Isometry3d RigidPrediction::motionUntil(Nanoseconds stamp) const {
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  if (!last_ || !before_ || stamp <= last_->stamp) return motion;
+Points RigidPrediction::at(Nanoseconds stamp) const {
+  Points vertices = last_->vertices;
+  if (!before_ || stamp <= last_->stamp) return vertices;
   const double intervals =
       static_cast<double>(stamp - last_->stamp) / static_cast<double>(last_->stamp - before_->stamp);
-  if (intervals > kLongestExtrapolation) return motion;
-  const Eigen::AngleAxisd turn(last_->pose.linear() * before_->pose.linear().transpose());
-  motion.linear() = Eigen::AngleAxisd(intervals * turn.angle(), turn.axis()).toRotationMatrix();
-  motion.translation() =
-      last_->center + intervals * (last_->center - before_->center) - motion.linear() * last_->center;
-  return motion;
+  if (intervals > kLongestExtrapolation) return vertices;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const Eigen::Vector3d center = Points(rest_(pieces_[p], Eigen::all)).colwise().mean();
+    const Eigen::Isometry3d motion = continued(before_->poses[p], last_->poses[p], center, intervals);
+    for (int v : pieces_[p]) vertices.row(v) = motion * last_->vertices.row(v).transpose();
+  }
+  return vertices;
 }
 
 }  // namespace softbody

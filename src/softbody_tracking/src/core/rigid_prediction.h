@@ -1,33 +1,38 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "softbody_common/types.h"
 
 namespace softbody {
 
-/// Where a body that goes on as it moved will be: constant velocity and spin of its rigid part.
+/// Where a body that goes on as it moved will be: constant velocity and spin of the rigid part of each of its
+/// connected pieces.
 class RigidPrediction {
  public:
-  explicit RigidPrediction(const Points& rest_vertices) : rest_(rest_vertices) {}
+  explicit RigidPrediction(const TetTopology& volume);
 
   /// A state of the volume at a stamp; one not after the last starts anew.
   void observe(const Points& vertices, Nanoseconds stamp);
 
-  /// The motion since the last observed state until a stamp; identity without two states, or long after them.
-  Eigen::Isometry3d motionUntil(Nanoseconds stamp) const;
+  /// The vertices at a later stamp: as last observed without two states, or long after them.
+  /// There must be a state.
+  Points at(Nanoseconds stamp) const;
 
   void reset() { last_.reset(), before_.reset(); }
 
  private:
   struct Placed {
-    Eigen::Isometry3d pose;
-    Eigen::Vector3d center;
+    Points vertices;
+    std::vector<Eigen::Isometry3d> poses;
     Nanoseconds stamp;
   };
 
   Points rest_;
+  std::vector<std::vector<int>> pieces_;  ///< vertices of each
   std::optional<Placed> last_, before_;
 };
 

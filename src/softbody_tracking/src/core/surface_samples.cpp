@@ -28,7 +28,8 @@ SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted) {
                              std::min(region.y + row * size + size / 2, region.br().y - 1));
       if (image.triangle(center) < 0) continue;
       result.grid(row, column) = static_cast<int>(result.samples.size());
-      result.samples.push_back({center, surface.materialPoint(center),
+      const MaterialPoint place = surface.materialPoint(center);
+      result.samples.push_back({center, place, surface.bodyOf(place),
                                 surface.camera().unproject(center.x, center.y, image.depth(center)),
                                 surface.normal(center)});
     }

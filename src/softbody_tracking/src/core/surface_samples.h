@@ -10,6 +10,7 @@ namespace softbody {
 struct SurfaceSample {
   cv::Point center;  ///< [px]
   MaterialPoint place;
+  std::uint32_t body = 0;    ///< the piece that it belongs to
   Eigen::Vector3d position;  ///< camera frame [m]
   Eigen::Vector3d normal;    ///< unit, outward
 };
