@@ -74,37 +74,48 @@ FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle p
 
 void FeatureTrackerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) try {
   TetTopology topology = fromMessage(*message);
-  // The topology is sent again every second; only a new one starts tracking anew.
-  const bool same = has_volume_topology_ && topology.revision == volume_topology_.revision &&
-                    topology.rest_vertices == volume_topology_.rest_vertices &&
-                    topology.tets == volume_topology_.tets;
+  // The topology is sent again every second; only a new one counts.
+  const bool same = volume_topology_ && topology.revision == volume_topology_->revision &&
+                    topology.rest_vertices == volume_topology_->rest_vertices &&
+                    topology.tets == volume_topology_->tets;
   if (same) return;
-  if (has_surface_topology_) adoptTopologies(topology, surface_topology_);
   volume_topology_ = std::move(topology);
-  has_volume_topology_ = true;
+  adoptTopologies();
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, volume_topology_subscriber_.getTopic() << " is unusable: " << error.what());
 }
 
 void FeatureTrackerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
   MeshTopology topology = fromMessage(*message);
-  const bool same = has_surface_topology_ && topology.revision == surface_topology_.revision &&
-                    topology.rest_vertices == surface_topology_.rest_vertices &&
-                    topology.triangles == surface_topology_.triangles;
+  const bool same = surface_topology_ && topology.revision == surface_topology_->revision &&
+                    topology.rest_vertices == surface_topology_->rest_vertices &&
+                    topology.triangles == surface_topology_->triangles;
   if (same) return;
-  if (has_volume_topology_) adoptTopologies(volume_topology_, topology);
   surface_topology_ = std::move(topology);
-  has_surface_topology_ = true;
+  adoptTopologies();
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, surface_topology_subscriber_.getTopic() << " is unusable: " << error.what());
 }
 
-void FeatureTrackerNode::adoptTopologies(const TetTopology& volume, const MeshTopology& surface) {
-  if (volume.revision == surface.revision) tracker_->setTopologies(volume, surface);
+/// Both topologies of one revision; those of an edit when the body's first state of that revision has come.
+void FeatureTrackerNode::adoptTopologies() {
+  if (!volume_topology_ || !surface_topology_) return;
+  const std::uint32_t revision = volume_topology_->revision;
+  if (surface_topology_->revision != revision) return;
+  const bool edited = tracker_->ready() && revision > adopted_revision_;
+  if (edited && (!newest_state_ || newest_state_->revision != revision)) return;
+  tracker_->setTopologies(*volume_topology_, *surface_topology_);
+  adopted_revision_ = revision;
+  volume_state_ = edited ? newest_state_ : nullptr;
 }
 
 void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr& message) {
-  volume_state_ = message;
+  newest_state_ = message;
+  if (message->revision == adopted_revision_) {
+    volume_state_ = message;
+  } else {
+    adoptTopologies();
+  }
 }
 
 std::optional<Eigen::Isometry3d> FeatureTrackerNode::cameraPose(const std_msgs::Header& header) const try {
@@ -121,9 +132,10 @@ std::optional<MeshState> FeatureTrackerNode::volumeInCamera(const Eigen::Isometr
     try {
   if (!volume_state_) return std::nullopt;
   MeshState state = fromMessage(*volume_state_);
-  if (state.vertices.rows() != volume_topology_.rest_vertices.rows()) {
+  if (volume_topology_ && volume_topology_->revision == state.revision &&
+      volume_topology_->rest_vertices.rows() != state.vertices.rows()) {
     throw std::invalid_argument(std::to_string(state.vertices.rows()) + " vertices, but the topology has " +
-                                std::to_string(volume_topology_.rest_vertices.rows()));
+                                std::to_string(volume_topology_->rest_vertices.rows()));
   }
   state.vertices = softbody::transformed(state.vertices, T_output_camera.inverse());
   return state;

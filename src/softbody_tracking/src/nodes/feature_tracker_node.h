@@ -35,7 +35,7 @@ class FeatureTrackerNode {
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);
 
-  void adoptTopologies(const TetTopology& volume, const MeshTopology& surface);
+  void adoptTopologies();
   /// Camera in the frame in which targets are published; nothing where tf does not know it.
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header) const;
   std::optional<MeshState> volumeInCamera(const Eigen::Isometry3d& T_output_camera) const;
@@ -47,10 +47,10 @@ class FeatureTrackerNode {
   ros::NodeHandle handle_;
   std::string body_frame_, output_frame_;
   std::unique_ptr<BodyTracker> tracker_;
-  TetTopology volume_topology_;
-  MeshTopology surface_topology_;
-  bool has_volume_topology_ = false, has_surface_topology_ = false;
-  softbody_msgs::MeshState::ConstPtr volume_state_;
+  std::optional<TetTopology> volume_topology_;                      ///< the newest
+  std::optional<MeshTopology> surface_topology_;                    ///< the newest
+  std::uint32_t adopted_revision_ = 0;                              ///< that the tracker works with
+  softbody_msgs::MeshState::ConstPtr newest_state_, volume_state_;  ///< of any, and of the adopted revision
   TrackingStatus last_status_;
   ros::Time last_stamp_;
 
