@@ -42,7 +42,8 @@ class Surroundings(unittest.TestCase):
             cls.recorder.wait(lambda _: publisher.get_num_connections() > 0, "a simulator that listens")
 
     def setUp(self):
-        self.places = {"finger": FAR, "gripper": FAR}
+        self.places = {"finger": FAR, "gripper": FAR, "camera": [0.0, 0.0, 0.0]}
+        self.camera_yaw = 0.0
         self.stamp = None
         self.step(reset=True)
 
@@ -54,20 +55,21 @@ class Surroundings(unittest.TestCase):
         for frame, place in self.places.items():
             transform = TransformStamped()
             transform.header.stamp, transform.header.frame_id, transform.child_frame_id = stamp, FRAME, frame
-            transform.transform.rotation.w = 1.0
+            yaw = self.camera_yaw if frame == "camera" else 0.0
+            transform.transform.rotation.z, transform.transform.rotation.w = np.sin(0.5 * yaw), np.cos(0.5 * yaw)
             translation = transform.transform.translation
             translation.x, translation.y, translation.z = place
             transforms.append(transform)
         self.broadcaster.sendTransform(transforms)
 
-    def step(self, reset=False):
+    def step(self, reset=False, frame=FRAME):
         """One frame of 1/30 s. @return its state, and the messages of reactions."""
         now = rospy.Time.now()
         self.stamp = now if self.stamp is None else max(now, self.stamp + rospy.Duration(nsecs=33333333))
         self.broadcast(self.stamp)
         rospy.sleep(0.02)  # tf arrives on a way of its own
         message = Targets(reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)))
-        message.header.stamp, message.header.frame_id = self.stamp, FRAME
+        message.header.stamp, message.header.frame_id = self.stamp, frame
         self.targets.publish(message)
         return self.recorder.wait(
             lambda seen: next((s for s in seen["softbody/volume/state"] if s.header.stamp == self.stamp), None),
@@ -111,6 +113,23 @@ class Surroundings(unittest.TestCase):
         arm = vertices.mean(axis=0) - self.places["gripper"]
         np.testing.assert_allclose(vector(wrench.wrench.torque), np.cross(arm, [0.0, 0.0, -self.weight]),
                                    atol=0.1 * self.weight * np.linalg.norm(arm[:2]) + 1e-3)
+
+    def test_what_stands_in_the_world_stands_still_for_a_moving_camera(self):
+        self.step(reset=True, frame="camera")
+        held = self.grip(FRAME)
+        self.places["finger"] = [0.0, 0.0, self.rest[:, 2].max() + 0.003]  # over the ground, in the body by 12 mm
+        for k in range(1, 31):
+            self.camera_yaw, self.places["camera"] = 0.02 * k, [0.01 * k, -0.005 * k, 0.0]
+            state = self.step(frame="camera")
+        self.assertEqual(state.header.frame_id, "camera")
+        c, s = np.cos(self.camera_yaw), np.sin(self.camera_yaw)
+        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        vertices = array(state.vertices) @ turn.T + self.places["camera"]
+        np.testing.assert_allclose(vertices[held], self.rest[held], atol=1e-4)
+        self.assertGreater(np.linalg.norm(vertices - self.places["finger"], axis=1).min(), 0.013)
+        wrench = self.reaction("finger")
+        self.assertEqual(wrench.header.frame_id, "finger")
+        self.assertGreater(wrench.wrench.force.z, 0.0)
 
     def test_finger_dents_the_body_and_feels_it(self):
         self.grip("")  # held where it is

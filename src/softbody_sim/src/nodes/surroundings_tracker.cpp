@@ -39,7 +39,7 @@ void SurroundingsTracker::hold(const PinRegion& region, const Points& rest_verti
     if (obstacle.description.name == region.name)
       throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
   }
-  Held held{region, {}, {}, Eigen::Isometry3d::Identity()};
+  Held held{region, {}, {}, Eigen::Isometry3d::Identity(), false};
   for (int v = 0; v < rest_vertices.rows(); ++v) {
     const Eigen::Array3d p = rest_vertices.row(v).transpose().array();
     if ((p >= region.min.array()).all() && (p <= region.max.array()).all()) held.vertices.push_back(v);
@@ -72,6 +72,17 @@ std::optional<Eigen::Isometry3d> SurroundingsTracker::poseOf(const std::string& 
   return {};
 }
 
+/// Where the vertices are in the region's frame: both at the instant of the last step.
+void SurroundingsTracker::grip(const Points& vertices, Held* held) const {
+  const auto pose = poseOf(held->region.frame, frame_, stepped_);
+  if (!pose) return;
+  held->places.emplace(static_cast<Eigen::Index>(held->vertices.size()), 3);
+  for (std::size_t k = 0; k < held->vertices.size(); ++k) {
+    held->places->row(static_cast<Eigen::Index>(k)) =
+        pose->inverse() * Eigen::Vector3d(vertices.row(held->vertices[k]));
+  }
+}
+
 Surroundings SurroundingsTracker::at(const std::string& frame, const ros::Time& stamp,
                                      const Points& vertices) {
   frame_ = frame;
@@ -85,17 +96,11 @@ Surroundings SurroundingsTracker::at(const std::string& frame, const ros::Time& 
   }
   for (auto& entry : held_) {
     Held& held = entry.second;
+    if (!held.places && vertices.rows() > 0) grip(vertices, &held);
     const auto pose = poseOf(held.region.frame, frame, stamp);
-    held.acts = vertices.rows() > 0 && (pose || held.places);
+    held.acts = held.places && (pose || held.acts);
     if (!held.acts) continue;
     if (pose) held.frame_pose = *pose;
-    if (!held.places) {
-      held.places.emplace(static_cast<Eigen::Index>(held.vertices.size()), 3);
-      for (std::size_t k = 0; k < held.vertices.size(); ++k) {
-        held.places->row(static_cast<Eigen::Index>(k)) =
-            held.frame_pose.inverse() * Eigen::Vector3d(vertices.row(held.vertices[k]));
-      }
-    }
     for (std::size_t k = 0; k < held.vertices.size(); ++k) {
       const Eigen::Vector3d place = held.places->row(static_cast<Eigen::Index>(k));
       last_.pins.push_back({held.vertices[k], held.frame_pose * place});
@@ -105,6 +110,7 @@ Surroundings SurroundingsTracker::at(const std::string& frame, const ros::Time& 
 }
 
 void SurroundingsTracker::publish(const Reactions& reactions, const ros::Time& stamp) {
+  stepped_ = stamp;
   if (reactions.obstacles.size() != last_.obstacles.size() || reactions.pins.size() != last_.pins.size())
     return;
   std::size_t next_obstacle = 0, next_pin = 0;

@@ -26,7 +26,8 @@ class SurroundingsTracker {
   /// Regions are held anew, where the vertices are then.
   void forgetPlaces();
 
-  /// @param vertices as they are now, in `frame`.
+  /// @param vertices in `frame`, as the step left them whose reactions were last published; none where the
+  /// body has no place.
   Surroundings at(const std::string& frame, const ros::Time& stamp, const Points& vertices);
 
   /// The reactions of a step under the last at(), each in the frame that its pin or obstacle follows (`frame`
@@ -37,9 +38,9 @@ class SurroundingsTracker {
   struct Held {
     PinRegion region;
     std::vector<int> vertices;
-    std::optional<Points> places;  ///< in the region's frame; none until the first at()
+    std::optional<Points> places;  ///< in the region's frame; none until the body and the frame have a place
     Eigen::Isometry3d frame_pose;  ///< in the targets' frame
-    bool acts = false;
+    bool acts = false;             ///< in the last at()
   };
   struct Placed {
     ObstacleDescription description;
@@ -48,6 +49,7 @@ class SurroundingsTracker {
 
   std::optional<Eigen::Isometry3d> poseOf(const std::string& frame, const std::string& target_frame,
                                           const ros::Time& stamp) const;
+  void grip(const Points& vertices, Held* held) const;
   void publishWrench(const std::string& name, const std::string& frame, const Eigen::Isometry3d& frame_pose,
                      const Wrench& about_origin, const ros::Time& stamp);
 
@@ -57,7 +59,8 @@ class SurroundingsTracker {
   std::vector<Placed> obstacles_;
   std::map<std::string, Held> held_;
   Surroundings last_;
-  std::string frame_;
+  std::string frame_;  ///< of the targets
+  ros::Time stepped_;  ///< stamp of the last step
   std::map<std::string, ros::Publisher> publishers_;
 };
 
