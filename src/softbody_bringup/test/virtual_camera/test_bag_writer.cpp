@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <opencv2/core/utility.hpp>
 #include <sstream>
 
 #include "softbody_bringup/virtual_camera/camera_setup.h"
@@ -42,6 +43,25 @@ TEST(BagWriter, SameSeedSameBytesOtherSeedOtherBytes) {
   EXPECT_TRUE(first == bytes(write("second.bag", 4)));
   EXPECT_FALSE(first == bytes(write("third.bag", 5)));
   EXPECT_FALSE(first == bytes(write("clean.bag", 4, noNoise())));
+}
+
+TEST(BagWriter, TheDollsBytesDoNotDependOnTheNumberOfThreads) {
+  const int threads = cv::getNumThreads();
+  const auto recorded = [](const std::string& name, int number) {
+    cv::setNumThreads(number);
+    CameraSetup setup;
+    setup.scene = "doll_shake";
+    setup.config_folder = CONFIG_DIR;
+    setup.width = 160;
+    setup.height = 120;
+    VirtualCamera camera = makeCamera(setup);
+    const std::string path = testing::TempDir() + name;
+    writeBag(&camera, {path, 6, 5.0}, [](int) {});
+    return bytes(path);
+  };
+  const std::string one = recorded("one.bag", 1);
+  EXPECT_TRUE(one == recorded("three.bag", 3));
+  cv::setNumThreads(threads);
 }
 
 TEST(BagWriter, HoldsTheContractsTopicsWithOneStampAFrame) {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <fstream>
-#include <opencv2/aruco.hpp>
 #include <random>
 #include <set>
 
@@ -10,7 +9,6 @@
 #include "softbody_bringup/virtual_camera/plane_cut.h"
 #include "softbody_bringup/virtual_camera/polygon.h"
 #include "softbody_bringup/virtual_camera/tool.h"
-#include "softbody_bringup/virtual_camera/virtual_camera.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody::virtual_camera {
@@ -332,57 +330,6 @@ TEST(CutScenes, RefuseABodyThatTheBladeIsTooShortFor) {
   large.rest.vertices *= 1.2;
   EXPECT_THROW(makeScene("cut", large, 1, kConfig + "/knife.yaml"), std::invalid_argument);
 }
-
-/// Between detected corners, from the top left clockwise, and the marker's own [px].
-double largestCornerError(const std::vector<cv::Point2f>& corners, const ToolMarker& marker,
-                          const Eigen::Isometry3d& T_camera_tool, const Pinhole& camera) {
-  const double half = 0.5 * marker.size_m;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Eigen::Vector3d corner(k == 1 || k == 2 ? half : -half, k < 2 ? half : -half, 0.0);
-    const Eigen::Vector2d pixel = camera.project(T_camera_tool * marker.T_tool_marker * corner);
-    largest = std::max(largest, (Eigen::Vector2d(corners[k].x, corners[k].y) - pixel).norm());
-  }
-  return largest;
-}
-
-/// While the tool is at work.
-std::vector<double> strokeTimes(const std::string& name) {
-  if (name.find("cross") == std::string::npos) return {0.0, 1.0, 1.5, 2.4, 2.6, 3.5};
-  return {0.0, 1.5, 2.6, 3.5, 4.5, 6.0, 6.6, 7.5};
-}
-
-class MarkerInCutScene : public testing::TestWithParam<std::string> {};
-
-TEST_P(MarkerInCutScene, IsFoundWhereTheTruthSaysAllTheWay) {
-  const Tool tool = readTool(kConfig + "/knife.yaml");
-  Scene scene = virtual_camera::scene(GetParam());
-  for (std::size_t i = 0; i + 1 < scene.actors.size(); ++i)
-    scene.actors[i].texel_m = 0.01;  // all but the marker
-  VirtualCamera camera(scene, d435(640, 480), noNoise(), 1);
-  const ToolMarker& marker = tool.markers.at(0);
-  const auto parameters = cv::aruco::DetectorParameters::create();
-  parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
-  parameters->minMarkerDistanceRate = 0.02;
-  for (const double t : strokeTimes(GetParam())) {
-    const Capture capture = camera.capture(0, t);
-    std::vector<std::vector<cv::Point2f>> corners;
-    std::vector<int> ids;
-    cv::aruco::detectMarkers(capture.color, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50),
-                             corners, ids, parameters);
-    ASSERT_FALSE(ids.empty()) << "at " << t;
-    double error = 1e9;  // [px]; the detector may find a marker's outline twice
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      EXPECT_EQ(ids[i], marker.id);
-      error =
-          std::min(error, largestCornerError(corners[i], marker, *capture.T_camera_tool, camera.pinhole()));
-    }
-    EXPECT_LT(error, 0.7) << "at " << t;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(, MarkerInCutScene,
-                         testing::Values("cut", "cut-partial", "cut-cross", "doll_cut", "doll_cut-cross"));
 
 TEST(ReadTool, SaysWhatIsWrong) {
   const std::string path = testing::TempDir() + "tool.yaml";

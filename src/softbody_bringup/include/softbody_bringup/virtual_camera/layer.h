@@ -42,8 +42,9 @@ class Layer {
   std::vector<float> visibility(int count, const cv::Mat1f& inverse_z) const;
 
  private:
-  cv::Vec3f colorAt(const ProjectedTriangle& triangle, double u, double v) const;
-  cv::Vec3f pixelColor(const cv::Vec3b& behind, int u, int v) const;
+  cv::v_float32x4 colorAt(const PixelWeights& triangle, float u, float v) const;
+  void prefetch(int u, int v) const;
+  cv::Vec3b pixelColor(const cv::Vec3b& behind, int u, int v) const;
 
   Pinhole camera_;
   Triangles triangles_;          ///< of all actors

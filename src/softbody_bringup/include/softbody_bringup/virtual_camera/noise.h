@@ -10,6 +10,8 @@ namespace softbody::virtual_camera {
 /// windows.
 class NoiseTile {
  public:
+  static constexpr int kSize = 1024;
+
   /// @param correlation_px standard deviation of the Gaussian filter; 0: white.
   NoiseTile(double correlation_px, std::uint64_t seed);
 
@@ -20,13 +22,12 @@ class NoiseTile {
   static Window window(std::uint64_t random) {
     return {static_cast<int>(random & kMask), static_cast<int>((random >> 32) & kMask)};
   }
-  float at(const Window& window, int u, int v) const {
-    return tile_((v + window.y) & kMask, (u + window.x) & kMask);
-  }
+  /// Row v of a frame; kSize columns are there, and after them it begins again.
+  const float* row(const Window& window, int v) const { return tile_[(v + window.y) & kMask] + window.x; }
 
  private:
-  static constexpr int kSize = 1024, kMask = kSize - 1;
-  cv::Mat1f tile_;
+  static constexpr int kMask = kSize - 1;
+  cv::Mat1f tile_;  ///< twice side by side
 };
 
 /// Sensor noise of the colour camera: the standard deviation grows with the brightness [grey levels of 255].

@@ -43,7 +43,7 @@ class VirtualCamera {
   const MeshTopology& topology(std::uint32_t revision) const { return topologies_.at(revision); }
 
  private:
-  int imagesAt(double t) const;  ///< that motion blur takes
+  int imagesAt(double t, const SceneState& state) const;  ///< that motion blur takes
   cv::Mat3b blurredColor(double t, int images);
 
   Scene scene_;

@@ -22,20 +22,28 @@ struct EdgeLine {
   double at(double row) const { return u + slope * (row - v); }
 };
 
-/// A triangle on the image plane. All its functions are affine in the pixel coordinates.
+/// A triangle on the image plane.
 struct ProjectedTriangle {
-  int index = 0;       ///< in the mesh
-  bool front = false;  ///< its counter-clockwise side faces the camera
   EdgeLine edge[3];
-  Affine inverse_z;       ///< 1 / z [1/m]
-  Affine weight_by_z[2];  ///< barycentric coordinate / z of the second and the third corner
+  Affine inverse_z;  ///< 1 / z [1/m]
   double min_u = 0.0, max_u = 0.0, min_v = 0.0, max_v = 0.0;
+};
+
+/// Where in the body a pixel of a triangle lies. Single precision, around the triangle's first corner.
+struct PixelWeights {
+  int index = 0;             ///< of the triangle in the mesh
+  bool front = false;        ///< its counter-clockwise side faces the camera
+  float u = 0.0f, v = 0.0f;  ///< the first corner [px]
+  float inverse_z[3];        ///< a, b, c of 1 / z = a du + b dv + c [1/m]
+  float weight_by_z[2][2];   ///< a, b of the barycentric coordinate / z of the second and the third corner
+  float brightness[3] = {};  ///< at the corners, 0..1
 };
 
 /// What of a mesh may be seen on the image.
 struct Projection {
   std::vector<Eigen::Vector3d> vertices;     ///< u, v [px], 1 / z [1/m]
   std::vector<ProjectedTriangle> triangles;  ///< in front of the camera, on the image, not edge-on
+  std::vector<PixelWeights> weights;         ///< of the same triangles
   std::vector<std::vector<int>> bands;       ///< for every band of rows those that touch it, in their order
   cv::Rect box;                              ///< all pixels that the triangles touch
 };

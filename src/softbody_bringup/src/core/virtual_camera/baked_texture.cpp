@@ -26,7 +26,7 @@ void BakedTexture::add(const TriangleMesh& rest, const Texture& texture, const U
       const Eigen::RowVector3d e2 = rest.vertices.row(rest.triangles(f, 2)) - origin;
       const bool covered = skin.covers(f);
       const int level = covered ? pictureLevel(skin, rest, f, block.texel_m) : 0;
-      cv::Vec3b* texel = &texels_[block.first];
+      cv::Vec4b* texel = &texels_[block.first];
       // The block is the whole parallelogram: its far half only feeds the interpolation along the diagonal.
       for (int j = 0; j <= block.cells; ++j) {
         for (int i = 0; i <= block.cells; ++i, ++texel) {
@@ -35,8 +35,8 @@ void BakedTexture::add(const TriangleMesh& rest, const Texture& texture, const U
           const Eigen::Vector3f color =
               255.0f * (covered ? pictureColor(skin, f, level, w1, w2)
                                 : texture((origin + w1 * e1 + w2 * e2).transpose()));
-          *texel = cv::Vec3b(cv::saturate_cast<uchar>(color.x()), cv::saturate_cast<uchar>(color.y()),
-                             cv::saturate_cast<uchar>(color.z()));
+          *texel = cv::Vec4b(cv::saturate_cast<uchar>(color.x()), cv::saturate_cast<uchar>(color.y()),
+                             cv::saturate_cast<uchar>(color.z()), 0);
         }
       }
     }

@@ -8,16 +8,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-double sinc(double x) { return std::abs(x) < 1e-6 ? 1.0 : std::sin(x) / x; }
-
 }  // namespace
 
 Eigen::Vector3d bend(const Eigen::Vector3d& rest, double curvature) {
   const double angle = curvature * rest.x();
-  const double along = rest.x() * sinc(angle);
-  const double half = sinc(0.5 * angle);
-  const double sag = 0.5 * rest.x() * angle * half * half;
-  return {along - rest.z() * std::sin(angle), rest.y(), sag + rest.z() * std::cos(angle)};
+  const double sine = std::sin(0.5 * angle), cosine = std::cos(0.5 * angle);
+  const double half = std::abs(angle) < 1e-6 ? 1.0 : 2.0 * sine / angle;  // sinc of half the angle
+  const double along = rest.x() * half * cosine, sag = rest.x() * half * sine;
+  return {along - 2.0 * rest.z() * sine * cosine, rest.y(), sag + rest.z() * (1.0 - 2.0 * sine * sine)};
 }
 
 Eigen::Vector3d twist(const Eigen::Vector3d& rest, double rate) {

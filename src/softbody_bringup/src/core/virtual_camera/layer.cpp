@@ -8,6 +8,7 @@ namespace softbody::virtual_camera {
 namespace {
 
 constexpr int kColorSamples = 2;            // by 2 a pixel
+constexpr int kAhead = 12;                  // pixels whose texels are on their way
 constexpr double kVisibilityMargin = 1e-3;  // [m]
 const cv::Vec3b kBackground(40, 42, 45);
 
@@ -26,6 +27,13 @@ bool isClosed(const TriangleMesh& mesh) {
   std::sort(edges.begin(), edges.end());
   std::sort(twins.begin(), twins.end());
   return edges == twins && volume > 0.0;
+}
+
+cv::Vec3b toColor(const cv::v_float32x4& color) {
+  const cv::v_int32x4 rounded = cv::v_round(color);
+  cv::Vec4b bytes;
+  cv::v_pack_store(bytes.val, cv::v_pack_u(rounded, rounded));
+  return {bytes[0], bytes[1], bytes[2]};
 }
 
 /// Farthest depth of the pixels around (u, v) [m]; infinite where one of them sees nothing.
@@ -63,6 +71,9 @@ void Layer::place(const std::vector<const Points*>& vertices, const Eigen::Vecto
   }
   project(camera_, vertices_, triangles_, one_sided_, &projection_);
   shading_.light(vertices_, triangles_, to_light);
+  for (PixelWeights& t : projection_.weights) {
+    for (int k = 0; k < 3; ++k) t.brightness[k] = shading_.at(t.index, k);
+  }
 }
 
 void Layer::drawColor(const Canvas& behind, cv::Mat3b* color) {
@@ -72,9 +83,8 @@ void Layer::drawColor(const Canvas& behind, cv::Mat3b* color) {
   cv::parallel_for_(cv::Range(box.y, box.y + box.height), [&](const cv::Range& range) {
     for (int v = range.start; v < range.end; ++v) {
       for (int u = box.x; u < box.x + box.width; ++u) {
-        const cv::Vec3f c = pixelColor(behind.color(v, u), u, v);
-        (*color)(v, u) = cv::Vec3b(cv::saturate_cast<uchar>(c[0]), cv::saturate_cast<uchar>(c[1]),
-                                   cv::saturate_cast<uchar>(c[2]));
+        prefetch(u + kAhead, v);
+        (*color)(v, u) = pixelColor(behind.color(v, u), u, v);
       }
     }
   });
@@ -102,7 +112,7 @@ Canvas Layer::draw(const Canvas& behind) {
 
 std::vector<float> Layer::visibility(int count, const cv::Mat1f& inverse_z) const {
   std::vector<char> faces_camera(static_cast<std::size_t>(vertices_.rows()), 0);
-  for (const ProjectedTriangle& t : projection_.triangles) {
+  for (const PixelWeights& t : projection_.weights) {
     for (int k = 0; k < 3; ++k) faces_camera[static_cast<std::size_t>(triangles_(t.index, k))] |= t.front;
   }
   std::vector<float> visibility(static_cast<std::size_t>(count), 0.0f);
@@ -115,16 +125,24 @@ std::vector<float> Layer::visibility(int count, const cv::Mat1f& inverse_z) cons
   return visibility;
 }
 
-cv::Vec3f Layer::colorAt(const ProjectedTriangle& t, double u, double v) const {
-  const double z = 1.0 / t.inverse_z(u, v);
-  const float w1 = static_cast<float>(t.weight_by_z[0](u, v) * z),
-              w2 = static_cast<float>(t.weight_by_z[1](u, v) * z);
-  const float b0 = shading_.at(t.index, 0);
-  return (b0 + w1 * (shading_.at(t.index, 1) - b0) + w2 * (shading_.at(t.index, 2) - b0)) *
-         texture_.at(t.index, w1, w2);
+cv::v_float32x4 Layer::colorAt(const PixelWeights& t, float u, float v) const {
+  const float du = u - t.u, dv = v - t.v;
+  const float z = 1.0f / (t.inverse_z[0] * du + t.inverse_z[1] * dv + t.inverse_z[2]);
+  const float w1 = z * (t.weight_by_z[0][0] * du + t.weight_by_z[0][1] * dv),
+              w2 = z * (t.weight_by_z[1][0] * du + t.weight_by_z[1][1] * dv);
+  const float brightness =
+      t.brightness[0] + w1 * (t.brightness[1] - t.brightness[0]) + w2 * (t.brightness[2] - t.brightness[0]);
+  return cv::v_setall_f32(brightness) * texture_.at(t.index, w1, w2);
 }
 
-cv::Vec3f Layer::pixelColor(const cv::Vec3b& behind, int u, int v) const {
+void Layer::prefetch(int u, int v) const {
+  if (u >= projection_.box.x + projection_.box.width) return;
+  const int* seen = color_samples_.triangle[2 * v] + 2 * u;
+  if (seen[0] < 0 || seen[0] == seen[-1]) return;
+  texture_.prefetch(projection_.weights[static_cast<std::size_t>(seen[0])].index);
+}
+
+cv::Vec3b Layer::pixelColor(const cv::Vec3b& behind, int u, int v) const {
   const VisibilityBuffer& samples = color_samples_;
   const int* above = samples.triangle[2 * v] + 2 * u;
   const int* below = samples.triangle[2 * v + 1] + 2 * u;
@@ -132,17 +150,19 @@ cv::Vec3f Layer::pixelColor(const cv::Vec3b& behind, int u, int v) const {
   if (seen[1] == seen[0] && seen[2] == seen[0] && seen[3] == seen[0]) {
     if (seen[0] < 0) return behind;
     // Texels that are larger than the pixel cannot alias: one sample is enough.
-    const ProjectedTriangle& t = projection_.triangles[static_cast<std::size_t>(seen[0])];
-    if (texture_.texel(t.index) * camera_.fx * samples.inverse_z(2 * v, 2 * u) > 1.0) return colorAt(t, u, v);
+    const PixelWeights& t = projection_.weights[static_cast<std::size_t>(seen[0])];
+    if (texture_.texel(t.index) * camera_.fx * samples.inverse_z(2 * v, 2 * u) > 1.0)
+      return toColor(colorAt(t, static_cast<float>(u), static_cast<float>(v)));
   }
-  cv::Vec3f sum(0.0f, 0.0f, 0.0f);
+  const cv::v_float32x4 nothing(behind[0], behind[1], behind[2], 0.0f);
+  cv::v_float32x4 sum = cv::v_setzero_f32();
   for (int i = 0; i < 4; ++i) {
-    const double sample_u = samples.pixelOf(2 * u + i % 2), sample_v = samples.pixelOf(2 * v + i / 2);
-    sum += seen[i] < 0
-               ? cv::Vec3f(behind)
-               : colorAt(projection_.triangles[static_cast<std::size_t>(seen[i])], sample_u, sample_v);
+    const float sample_u = static_cast<float>(u) + (i % 2 == 0 ? -0.25f : 0.25f),
+                sample_v = static_cast<float>(v) + (i / 2 == 0 ? -0.25f : 0.25f);
+    sum += seen[i] < 0 ? nothing
+                       : colorAt(projection_.weights[static_cast<std::size_t>(seen[i])], sample_u, sample_v);
   }
-  return 0.25f * sum;
+  return toColor(cv::v_setall_f32(0.25f) * sum);
 }
 
 }  // namespace softbody::virtual_camera

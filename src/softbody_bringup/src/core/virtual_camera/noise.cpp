@@ -1,7 +1,6 @@
 #include "softbody_bringup/virtual_camera/noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -36,38 +35,59 @@ cv::Mat1b depthEdges(const cv::Mat1f& depth, double jump) {
   return (farthest - nearest) > jump;
 }
 
+/// The nearest whole number of one below 2^22, for loops that are to be vectorised.
+float rounded(float value) {
+  constexpr float kShift = 12582912.0f;  // 1.5 * 2^23: no bits are left for a fraction
+  return (value + kShift) - kShift;
+}
+
+/// Calls set(u, noise) along a row with the sum of two rows of tiles, of unit variance.
+template <class Set>
+void addPairs(const float* a, const float* b, int cols, const Set& set) {
+  for (int first = 0; first < cols; first += NoiseTile::kSize) {
+    const int count = std::min(NoiseTile::kSize, cols - first);
+    for (int i = 0; i < count; ++i) set(first + i, kInverseSqrt2 * (a[i] + b[i]));
+  }
+}
+
+/// Of standard deviation dark + slope * value.
+void addNoise(float dark, float slope, const float* noise, int count, uchar* values) {
+  for (int i = 0; i < count; ++i) {
+    const float value = values[i];
+    const float noisy = value + (dark + slope * value) * noise[i] + 0.5f;
+    values[i] = static_cast<uchar>(static_cast<int>(std::min(std::max(noisy, 0.0f), 255.0f)));
+  }
+}
+
 }  // namespace
 
-NoiseTile::NoiseTile(double correlation_px, std::uint64_t seed) : tile_(kSize, kSize) {
+NoiseTile::NoiseTile(double correlation_px, std::uint64_t seed) {
   constexpr double kTwoPi = 6.28318530717958647692;
   std::uint64_t counter = 0;
-  for (float& value : tile_) {  // Box and Muller 1958
+  cv::Mat1f tile(kSize, kSize);
+  for (float& value : tile) {  // Box and Muller 1958
     const double radius = std::sqrt(-2.0 * std::log(1.0 - unit(hash(seed, ++counter))));
     value = static_cast<float>(radius * std::cos(kTwoPi * unit(hash(seed, ++counter))));
   }
-  if (correlation_px > 0.0) blurTorus(correlation_px, &tile_);
-  normalize(&tile_);
+  if (correlation_px > 0.0) blurTorus(correlation_px, &tile);
+  normalize(&tile);
+  cv::hconcat(tile, tile, tile_);
 }
 
 void ColorNoise::apply(int frame, cv::Mat3b* color) const {
   if (!options_.enabled) return;
-  std::array<float, 256> deviation;
-  for (int level = 0; level < 256; ++level) {
-    deviation[level] =
-        static_cast<float>(options_.std_dark + (options_.std_bright - options_.std_dark) * level / 255.0);
-  }
+  const float dark = static_cast<float>(options_.std_dark),
+              slope = static_cast<float>((options_.std_bright - options_.std_dark) / 255.0);
   const std::uint64_t random = hash(seed_, static_cast<std::uint64_t>(frame));
+  const int values = 3 * color->cols;
   cv::parallel_for_(cv::Range(0, color->rows), [&](const cv::Range& range) {
     for (int v = range.start; v < range.end; ++v) {
-      // White noise: every row and channel may look at a place of its own.
+      // White noise: every stretch of a row may look at a place of its own.
       const std::uint64_t row = hash(random, static_cast<std::uint64_t>(v));
-      const NoiseTile::Window windows[3] = {NoiseTile::window(row), NoiseTile::window(hash(row, 1)),
-                                            NoiseTile::window(hash(row, 2))};
-      for (int u = 0; u < color->cols; ++u) {
-        cv::Vec3b& pixel = (*color)(v, u);
-        for (int k = 0; k < 3; ++k) {
-          pixel[k] = cv::saturate_cast<uchar>(pixel[k] + deviation[pixel[k]] * tile_.at(windows[k], u, 0));
-        }
+      for (int first = 0; first < values; first += NoiseTile::kSize) {
+        const float* noise = tile_.row(NoiseTile::window(hash(row, static_cast<std::uint64_t>(first))), 0);
+        addNoise(dark, slope, noise, std::min(NoiseTile::kSize, values - first),
+                 color->ptr<uchar>(v) + first);
       }
     }
   });
@@ -96,12 +116,13 @@ void DepthNoise::dropEdges(std::uint64_t random, double fx, cv::Mat1f* depth) co
   for (int v = 0; v < depth->rows; ++v) {
     // Seen from the right imager a pixel lies at u - shift / z; a surface to its right that lands further
     // left hides it.
+    const float* ragged = disparity_tile_.row(window, v);
     double leftmost = depth->cols;
     for (int u = depth->cols - 1; u >= 0; --u) {
       float& z = (*depth)(v, u);
       if (z <= 0.0f) continue;
       const double place = u - shift / z;
-      if (place > leftmost || (edges(v, u) && disparity_tile_.at(window, u, v) > threshold)) z = 0.0f;
+      if (place > leftmost || (edges(v, u) && ragged[u % NoiseTile::kSize] > threshold)) z = 0.0f;
       leftmost = std::min(leftmost, place);
     }
   }
@@ -115,14 +136,15 @@ void DepthNoise::perturb(std::uint64_t random, cv::Mat1f* depth) const {
   const NoiseTile::Window a = NoiseTile::window(random), b = NoiseTile::window(hash(random, 1));
   cv::parallel_for_(cv::Range(0, depth->rows), [&](const cv::Range& range) {
     for (int v = range.start; v < range.end; ++v) {
-      for (int u = 0; u < depth->cols; ++u) {
-        float& z = (*depth)(v, u);
-        if (z <= 0.0f) continue;
-        const float noise = kInverseSqrt2 * (disparity_tile_.at(a, u, v) + disparity_tile_.at(b, u, v));
+      float* row = (*depth)[v];
+      addPairs(disparity_tile_.row(a, v), disparity_tile_.row(b, v), depth->cols, [=](int u, float noise) {
+        float& z = row[u];
         float disparity = focal_baseline / z + deviation * noise;
-        if (steps > 0.0f) disparity = std::nearbyint(disparity * steps) / steps;
-        z = disparity > 0.0f ? focal_baseline / disparity : 0.0f;
-      }
+        const float quantized = rounded(disparity * steps) / steps;
+        disparity = steps > 0.0f ? quantized : disparity;
+        const float noisy = focal_baseline / disparity;
+        z = (z > 0.0f) & (disparity > 0.0f) ? noisy : 0.0f;
+      });
     }
   });
 }
@@ -131,19 +153,20 @@ void DepthNoise::punchHoles(std::uint64_t random, cv::Mat1f* depth) const {
   const NoiseTile::Window a = NoiseTile::window(random), b = NoiseTile::window(hash(random, 1));
   const float threshold = static_cast<float>(options_.hole_sigmas);
   for (int v = 0; v < depth->rows; ++v) {
-    for (int u = 0; u < depth->cols; ++u) {
-      if (kInverseSqrt2 * (hole_tile_.at(a, u, v) + hole_tile_.at(b, u, v)) > threshold)
-        (*depth)(v, u) = 0.0f;
-    }
+    float* z = (*depth)[v];
+    addPairs(hole_tile_.row(a, v), hole_tile_.row(b, v), depth->cols,
+             [=](int u, float noise) { z[u] = noise > threshold ? 0.0f : z[u]; });
   }
 }
 
 cv::Mat1w toMillimetres(const cv::Mat1f& depth) {
   cv::Mat1w millimetres(depth.size());
-  std::transform(depth.begin(), depth.end(), millimetres.begin(), [](float z) {
-    const float mm = std::nearbyint(1000.0f * z);
-    return static_cast<ushort>(mm > 0.0f && mm < 65536.0f ? mm : 0.0f);
-  });
+  for (int v = 0; v < depth.rows; ++v) {
+    std::transform(depth[v], depth[v] + depth.cols, millimetres[v], [](float z) {
+      const float mm = rounded(1000.0f * z);
+      return static_cast<ushort>(static_cast<int>((mm > 0.0f) & (mm < 65536.0f) ? mm : 0.0f));
+    });
+  }
   return millimetres;
 }
 

@@ -54,8 +54,12 @@ void Renderer::place(const std::vector<Points>& vertices) {
 void Renderer::drawDepth(RenderedImage* image) {
   moving_.drawDepth(backdrop_, &inverse_z_);
   image->depth.create(inverse_z_.size());
-  std::transform(inverse_z_.begin(), inverse_z_.end(), image->depth.begin(),
-                 [](float inverse_z) { return inverse_z > 0.0f ? 1.0f / inverse_z : 0.0f; });
+  for (int v = 0; v < inverse_z_.rows; ++v) {
+    std::transform(inverse_z_[v], inverse_z_[v] + inverse_z_.cols, image->depth[v], [](float inverse_z) {
+      const float z = 1.0f / inverse_z;
+      return inverse_z > 0.0f ? z : 0.0f;
+    });
+  }
   image->visibility = moving_.visibility(body_vertices_, inverse_z_);
 }
 

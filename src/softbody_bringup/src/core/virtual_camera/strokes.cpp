@@ -62,7 +62,7 @@ Stroke makeStroke(const PlaneCut& cut, const CutMesh& mesh, const Tool& tool, do
 }
 
 Eigen::Isometry3d toolPose(const std::vector<Stroke>& strokes, const Tool& tool, double t) {
-  constexpr double kWay = 0.35;  // [m]
+  constexpr double kWay = 0.55;  // [m]
   std::size_t i = 0;
   while (i + 1 < strokes.size() && t > strokes[i + 1].begin_s - kTurn_s) ++i;
   const Stroke& stroke = strokes[i];

@@ -39,18 +39,27 @@ Points readBlade(const YAML::Node& node) {
   return blade;
 }
 
-/// Black cells on white, in the plane of the marker.
+/// Black cells on white, in the plane of the marker; its edges are as soft as the texels that sample it.
 Texture markerTexture(const ToolMarker& marker) {
+  constexpr double kQuarterTexel = 0.1e-3;  // [m]
   cv::Mat1b cells;
   cv::aruco::drawMarker(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50), marker.id, kCells, cells);
-  return [=, T_marker_tool = marker.T_tool_marker.inverse()](const Eigen::Vector3d& place) {
-    const Eigen::Vector3d p = T_marker_tool * place / marker.size_m;
+  const auto level = [=](const Eigen::Vector3d& place) {
+    const Eigen::Vector3d p = place / marker.size_m;
     const int column = static_cast<int>(std::floor((p.x() + 0.5) * kCells)),
               row = static_cast<int>(std::floor((0.5 - p.y()) * kCells));
     const bool outside = column < 0 || column >= kCells || row < 0 || row >= kCells;
-    const float level = outside || cells(row, column) > 127 ? 0.92f : 0.06f;
-    return Eigen::Vector3f(level, level, level);
+    return outside || cells(row, column) > 127 ? 0.92f : 0.06f;
   };
+  return
+      [=, T_marker_tool = marker.T_tool_marker.inverse()](const Eigen::Vector3d& place) -> Eigen::Vector3f {
+        float sum = 0.0f;
+        for (const double dx : {-kQuarterTexel, kQuarterTexel}) {
+          for (const double dy : {-kQuarterTexel, kQuarterTexel})
+            sum += level(T_marker_tool * place + Eigen::Vector3d(dx, dy, 0.0));
+        }
+        return Eigen::Vector3f::Constant(0.25f * sum);
+      };
 }
 
 TriangleMesh plate(const ToolMarker& marker) {

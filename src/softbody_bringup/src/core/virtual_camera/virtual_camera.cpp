@@ -77,7 +77,7 @@ Capture VirtualCamera::capture(int frame, double t) {
   const SceneState state = scene_.state(t);
   Capture capture;
   Renderer& renderer = renderers_.at(state.revision);
-  const int images = imagesAt(t);
+  const int images = imagesAt(t, state);
   if (images == 1) {
     renderer.render(state.vertices, &image_);
     capture.color = image_.color.clone();
@@ -97,11 +97,10 @@ Capture VirtualCamera::capture(int frame, double t) {
   return capture;
 }
 
-int VirtualCamera::imagesAt(double t) const {
+int VirtualCamera::imagesAt(double t, const SceneState& state) const {
   if (!blur_.enabled) return 1;
-  const auto opened = scene_.state(std::max(0.0, t - 0.5 * blur_.exposure_s));
   const auto closed = scene_.state(t + 0.5 * blur_.exposure_s);
-  return blurImages(blur_, largestMotion(camera_, opened, closed));
+  return blurImages(blur_, 2.0 * largestMotion(camera_, state, closed));
 }
 
 cv::Mat3b VirtualCamera::blurredColor(double t, int images) {

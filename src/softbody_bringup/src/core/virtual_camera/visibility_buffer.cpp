@@ -18,25 +18,43 @@ EdgeLine edgeLine(const Eigen::Vector3d& p, const Eigen::Vector3d& q, bool front
   return {p.x(), p.y(), (q.x() - p.x()) / (q.y() - p.y()), (q.y() > p.y()) == front};
 }
 
+/// Gradient on the image of the barycentric coordinate of the corner after `a`, opposite to `a` and `b`.
+Eigen::Vector2d weightGradient(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double area) {
+  return Eigen::Vector2d(b.y() - a.y(), a.x() - b.x()) / area;
+}
+
 /// @param area twice that of the triangle, negative if it faces the camera (v grows downwards).
-ProjectedTriangle triangleOf(int index, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-                             const Eigen::Vector3d& r, double area) {
+ProjectedTriangle triangleOf(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
+                             double area) {
   ProjectedTriangle t;
-  t.index = index;
-  t.front = area < 0.0;
-  t.edge[0] = edgeLine(p, q, t.front);
-  t.edge[1] = edgeLine(q, r, t.front);
-  t.edge[2] = edgeLine(r, p, t.front);
-  const auto through = [&](double a, double b) { return Affine{a, b, -a * p.x() - b * p.y()}; };
-  const Affine w1 = through((r.y() - p.y()) / area, (p.x() - r.x()) / area);
-  const Affine w2 = through((p.y() - q.y()) / area, (q.x() - p.x()) / area);
-  const double d1 = q.z() - p.z(), d2 = r.z() - p.z();
-  t.inverse_z = {w1.a * d1 + w2.a * d2, w1.b * d1 + w2.b * d2, p.z() + w1.c * d1 + w2.c * d2};
-  t.weight_by_z[0] = {w1.a * q.z(), w1.b * q.z(), w1.c * q.z()};
-  t.weight_by_z[1] = {w2.a * r.z(), w2.b * r.z(), w2.c * r.z()};
+  const bool front = area < 0.0;
+  t.edge[0] = edgeLine(p, q, front);
+  t.edge[1] = edgeLine(q, r, front);
+  t.edge[2] = edgeLine(r, p, front);
+  const Eigen::Vector2d gradient =
+      (q.z() - p.z()) * weightGradient(p, r, area) + (r.z() - p.z()) * weightGradient(q, p, area);
+  t.inverse_z = {gradient.x(), gradient.y(), p.z() - gradient.dot(p.head<2>())};
   std::tie(t.min_u, t.max_u) = std::minmax({p.x(), q.x(), r.x()});
   std::tie(t.min_v, t.max_v) = std::minmax({p.y(), q.y(), r.y()});
   return t;
+}
+
+PixelWeights weightsOf(int index, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                       const Eigen::Vector3d& r, double area) {
+  PixelWeights w;
+  w.index = index;
+  w.front = area < 0.0;
+  w.u = static_cast<float>(p.x());
+  w.v = static_cast<float>(p.y());
+  const Eigen::Vector2d second = weightGradient(p, r, area), third = weightGradient(q, p, area);
+  const Eigen::Vector2d gradient = (q.z() - p.z()) * second + (r.z() - p.z()) * third;
+  for (int k = 0; k < 2; ++k) {
+    w.inverse_z[k] = static_cast<float>(gradient[k]);
+    w.weight_by_z[0][k] = static_cast<float>(q.z() * second[k]);
+    w.weight_by_z[1][k] = static_cast<float>(r.z() * third[k]);
+  }
+  w.inverse_z[2] = static_cast<float>(p.z());
+  return w;
 }
 
 bool onImage(const ProjectedTriangle& t, const Pinhole& camera) {
@@ -124,6 +142,7 @@ void project(const Pinhole& camera, const Points& vertices, const Triangles& tri
     projection->vertices[static_cast<std::size_t>(i)] << camera.project(p), 1.0 / p.z();
   }
   projection->triangles.clear();
+  projection->weights.clear();
   const auto tooNear = [](const Eigen::Vector3d& p) { return !(p.z() > 0.0 && p.z() <= 1.0 / kNearPlane); };
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     const auto corner = [&](int k) -> const Eigen::Vector3d& {
@@ -133,8 +152,10 @@ void project(const Pinhole& camera, const Points& vertices, const Triangles& tri
     const double area = (q.x() - p.x()) * (r.y() - p.y()) - (r.x() - p.x()) * (q.y() - p.y());
     if (one_sided[static_cast<std::size_t>(f)] && area >= 0.0) continue;
     if (std::abs(area) < 1e-12 || !std::isfinite(area) || tooNear(p) || tooNear(q) || tooNear(r)) continue;
-    const ProjectedTriangle t = triangleOf(static_cast<int>(f), p, q, r, area);
-    if (onImage(t, camera)) projection->triangles.push_back(t);
+    const ProjectedTriangle t = triangleOf(p, q, r, area);
+    if (!onImage(t, camera)) continue;
+    projection->triangles.push_back(t);
+    projection->weights.push_back(weightsOf(static_cast<int>(f), p, q, r, area));
   }
   sortIntoBands(camera, projection);
 }
