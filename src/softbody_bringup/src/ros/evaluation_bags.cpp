@@ -10,6 +10,7 @@
 
 #include "softbody_bringup/evaluation/bags.h"
 #include "softbody_bringup/frame_pairer.h"
+#include "softbody_bringup/input_bag.h"
 #include "softbody_common/conversions.h"
 
 namespace softbody::evaluation {
@@ -144,7 +145,7 @@ sensor_msgs::CameraInfo firstInfo(const rosbag::Bag& bag, const std::string& top
 
 SurfaceRecord readSurface(const std::string& path, const std::string& topology_topic,
                           const std::string& state_topic) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   requireTopic(bag, topology_topic);
   requireTopic(bag, state_topic);
   SurfaceRecord record;
@@ -172,7 +173,7 @@ SurfaceRecord readSurface(const std::string& path, const std::string& topology_t
 
 void readRecording(const std::string& path, const std::string& camera,
                    const std::function<void(const RecordedFrame&)>& use) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   const CameraTopics topics(camera);
   for (const std::string& topic : {topics.color, topics.depth, topics.depth_info}) requireTopic(bag, topic);
   const Undistortion undistortion(firstInfo(bag, topics.depth_info));
@@ -195,7 +196,7 @@ void readRecording(const std::string& path, const std::string& camera,
 }
 
 std::string recordingFrame(const std::string& path, const std::string& camera) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   const CameraTopics topics(camera);
   requireTopic(bag, topics.color);
   rosbag::View view(bag, rosbag::TopicQuery(topics.color));
@@ -203,7 +204,7 @@ std::string recordingFrame(const std::string& path, const std::string& camera) {
 }
 
 bool hasRecording(const std::string& path, const std::string& camera) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   const CameraTopics topics(camera);
   for (const std::string& topic : {topics.color, topics.depth, topics.depth_info}) {
     if (rosbag::View(bag, rosbag::TopicQuery(topic)).size() == 0) return false;

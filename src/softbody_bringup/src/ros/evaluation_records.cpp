@@ -6,13 +6,14 @@
 #include <softbody_msgs/TrackingStatus.h>
 
 #include "softbody_bringup/evaluation/bags.h"
+#include "softbody_bringup/input_bag.h"
 #include "softbody_common/conversions.h"
 #include "softbody_common/tracking_state.h"
 
 namespace softbody::evaluation {
 
 ToolRecord readPoses(const std::string& path, const std::string& topic) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   ToolRecord record;
   const auto add = [&record](const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
@@ -33,7 +34,7 @@ ToolRecord readPoses(const std::string& path, const std::string& topic) {
 }
 
 StageTimes readStageTimes(const std::string& path, const std::string& topic) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   StageTimes times;
   for (const rosbag::MessageInstance& instance : view) {
@@ -47,7 +48,7 @@ StageTimes readStageTimes(const std::string& path, const std::string& topic) {
 }
 
 std::map<std::string, std::size_t> readTrackingStates(const std::string& path, const std::string& topic) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   std::map<std::string, std::size_t> frames;
   for (const rosbag::MessageInstance& instance : view) {

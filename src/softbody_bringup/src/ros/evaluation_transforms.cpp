@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "softbody_bringup/evaluation/bags.h"
+#include "softbody_bringup/input_bag.h"
 #include "softbody_common/conversions.h"
 
 namespace softbody::evaluation {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kWholeBag_s = 1e6;
 
 void addTransforms(const std::string& path, tf2::BufferCore* buffer) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<tf2_msgs::TFMessage>();

@@ -9,6 +9,7 @@
 #include "faulty_images.h"
 #include "softbody_bringup/atomic_bag.h"
 #include "softbody_bringup/injection/injector.h"
+#include "softbody_bringup/input_bag.h"
 #include "softbody_common/conversions.h"
 
 namespace softbody::injection {
@@ -55,11 +56,11 @@ class Stream {
 
 }  // namespace
 
-InjectionReport inject(const InjectorOptions& options, const std::function<void(double)>& progress) {
+InjectionReport inject(const InjectorOptions& options, const std::function<void(double)>& progress) try {
   std::error_code ignored;
   if (std::filesystem::equivalent(options.input, options.output, ignored))
     throw std::invalid_argument(fmt::format("{} is the input; name another output", options.output));
-  const rosbag::Bag input(options.input, rosbag::bagmode::Read);
+  const rosbag::Bag input = openBag(options.input);
   Stream color(options.camera + "/color/image_raw", false, input, options);
   Stream depth(options.camera + "/aligned_depth_to_color/image_raw", true, input, options);
   AtomicBag output(options.output);
@@ -84,6 +85,8 @@ InjectionReport inject(const InjectorOptions& options, const std::function<void(
   report.depth_read = depth.read();
   report.depth_written = depth.written();
   return report;
+} catch (const rosbag::BagException& error) {
+  throw std::runtime_error(fmt::format("{}: {}", options.input, error.what()));
 }
 
 }  // namespace softbody::injection

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <set>
 #include <stdexcept>
@@ -11,7 +12,8 @@
 namespace softbody::evaluation {
 namespace {
 
-constexpr int kOverlays = 12, kOverlayColumns = 4, kOverlayWidth = 640;
+constexpr int kOverlays = 12, kOverlayColumns = 4, kOverlayWidth = 640, kOverlayHeight = 480;
+constexpr double kOverlayMargin = 0.15;  ///< around the body, of its extent
 
 const MeshTopology& topologyOf(const SurfaceRecord& surface, const MeshState& state) {
   return surface.topologies.at(state.revision);
@@ -29,16 +31,38 @@ std::set<Nanoseconds> spread(const std::map<Nanoseconds, MeshState>& states, int
   return chosen;
 }
 
+/// The part of the image in which the body is at any of the stamps; the whole one if it is in view at none.
+cv::Rect viewOf(const Pinhole& camera, const std::map<Nanoseconds, MeshState>& states,
+                const std::set<Nanoseconds>& stamps) {
+  std::vector<cv::Point2f> pixels;
+  for (const Nanoseconds stamp : stamps) {
+    for (const auto& row : states.at(stamp).vertices.rowwise()) {
+      if (row.z() < 0.01) continue;
+      const Eigen::Vector2d pixel = camera.project(row.transpose());
+      pixels.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+    }
+  }
+  const cv::Rect image(0, 0, camera.width, camera.height);
+  if (pixels.empty()) return image;
+  const cv::Rect body = cv::boundingRect(pixels) & image;
+  const cv::Point margin(static_cast<int>(kOverlayMargin * body.width),
+                         static_cast<int>(kOverlayMargin * body.height));
+  const cv::Rect view = cv::Rect(body.tl() - margin, body.br() + margin) & image;
+  return body.empty() ? image : view;
+}
+
 cv::Mat3b overlay(const RecordedFrame& frame, const MeshState& state, const Triangles& triangles,
-                  int number) {
-  const double scale = static_cast<double>(kOverlayWidth) / frame.camera.width;
+                  const cv::Rect& view, int number) {
+  const double scale = std::min(static_cast<double>(kOverlayWidth) / view.width,
+                                static_cast<double>(kOverlayHeight) / view.height);
   cv::Mat3b picture;
-  cv::resize(frame.color, picture, cv::Size(), scale, scale, scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  cv::resize(frame.color(view), picture, cv::Size(), scale, scale,
+             scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
   Pinhole camera = frame.camera;
   camera.fx *= scale;
   camera.fy *= scale;
-  camera.cx = (camera.cx + 0.5) * scale - 0.5;
-  camera.cy = (camera.cy + 0.5) * scale - 0.5;
+  camera.cx = (camera.cx - view.x + 0.5) * scale - 0.5;
+  camera.cy = (camera.cy - view.y + 0.5) * scale - 0.5;
   drawWireframe(camera, state.vertices, triangles, &picture);
   cv::putText(picture, fmt::format("frame {}", number), cv::Point(8, 20), cv::FONT_HERSHEY_SIMPLEX, 0.55,
               cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
@@ -93,7 +117,9 @@ class Comparer {
       residuals_.back().stamp = frame.stamp;
     }
     addSilhouette(frame);
-    if (shown_.count(frame.stamp) != 0) overlays_.push_back(overlay(frame, state, triangles, number));
+    if (shown_.count(frame.stamp) == 0) return;
+    if (view_.empty()) view_ = viewOf(frame.camera, result_.states, shown_);
+    overlays_.push_back(overlay(frame, state, triangles, view_, number));
   }
 
   void finish(Report* report, Pictures* pictures) const {
@@ -143,6 +169,7 @@ class Comparer {
   std::vector<FrameResidual>
       residuals_;  ///< one a frame of the recording, empty where there is no answer or no depth
   std::vector<double> silhouettes_, silhouette_times_;
+  cv::Rect view_;  ///< of the overlays
   std::vector<cv::Mat3b> overlays_;
 };
 

@@ -1,4 +1,5 @@
 #include <cv_bridge/cv_bridge.h>
+#include <fmt/format.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -7,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "softbody_bringup/input_bag.h"
 #include "softbody_bringup/validation/facts_reader.h"
 #include "softbody_common/conversions.h"
 
@@ -104,8 +107,8 @@ void addInfo(const rosbag::MessageInstance& instance, StreamFacts* stream,
 }  // namespace
 
 RecordingFacts readFacts(const std::string& path, const std::string& camera,
-                         const std::function<void(double)>& progress) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+                         const std::function<void(double)>& progress) try {
+  const rosbag::Bag bag = openBag(path);
   RecordingFacts facts;
   facts.path = path;
   rosbag::View everything(bag);
@@ -134,6 +137,9 @@ RecordingFacts readFacts(const std::string& path, const std::string& camera,
   }
   facts.depth_values = sampler.facts();
   return facts;
+} catch (const rosbag::BagException& error) {
+  throw std::runtime_error(
+      fmt::format("{}: is damaged ({}); rosbag reindex saves what can be read", path, error.what()));
 }
 
 }  // namespace softbody::validation

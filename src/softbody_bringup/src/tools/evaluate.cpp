@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "softbody_bringup/evaluation/evaluator.h"
+#include "softbody_common/run_tool.h"
 
 namespace {
 
@@ -48,16 +49,8 @@ int main(int argc, char** argv) {
   app.add_option("--window", options.window, "frames a row of the depth residual's table")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return softbody::runTool(&app, argc, argv, [&] {
     run(options, other);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "evaluate: {}\n", error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

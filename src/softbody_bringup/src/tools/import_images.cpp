@@ -2,11 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
 
 #include "softbody_bringup/camera_bag.h"
 #include "softbody_bringup/image_folder.h"
 #include "softbody_common/conversions.h"
+#include "softbody_common/run_tool.h"
 
 namespace {
 
@@ -49,12 +49,7 @@ int main(int argc, char** argv) {
   app.add_option("--rate", rate_hz, "file number k is stamped start + k / rate [Hz]")
       ->check(CLI::Range(0.001, 1000.0));
   app.add_option("--camera", camera, "camera file instead of DIR/camera.yaml");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return softbody::runTool(&app, argc, argv, [&] {
     const softbody::ImageFolder folder = softbody::readImageFolder(directory, camera, rate_hz);
     for (const std::string& warning : folder.warnings) fmt::print(stderr, "warning: {}\n", warning);
     softbody::CameraBag bag(output, cameraInfo(folder.camera));
@@ -62,8 +57,5 @@ int main(int argc, char** argv) {
     bag.finish();
     fmt::print("{}: {} colour and {} depth images\n", output, folder.color.size(), folder.depth.size());
     return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "import_images: {}\n", error.what());
-    return 1;
-  }
+  });
 }

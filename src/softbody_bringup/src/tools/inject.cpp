@@ -6,6 +6,7 @@
 
 #include "softbody_bringup/injection/fault_options.h"
 #include "softbody_bringup/injection/injector.h"
+#include "softbody_common/run_tool.h"
 
 namespace {
 
@@ -20,14 +21,6 @@ void addFaults(CLI::App* app, InjectorOptions* options) {
         ->check(CLI::Range(option.least, option.most))
         ->capture_default_str();
   }
-}
-
-void showProgress(double share) {
-  static int shown = -1;
-  const int percent = static_cast<int>(100.0 * share);
-  if (percent == shown) return;
-  shown = percent;
-  fmt::print(stderr, "\rinject: {:3d} %{}", percent, percent >= 100 ? "\n" : "");
 }
 
 }  // namespace
@@ -46,22 +39,14 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"color", "depth", "both"}))
       ->capture_default_str();
   addFaults(&app, &options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  options.images.seed = options.deliveries.seed;
-  options.in_color = stream != "depth";
-  options.in_depth = stream != "color";
-  try {
-    const softbody::injection::InjectionReport report = inject(options, showProgress);
+  return softbody::runTool(&app, argc, argv, [&] {
+    options.images.seed = options.deliveries.seed;
+    options.in_color = stream != "depth";
+    options.in_depth = stream != "color";
+    const softbody::injection::InjectionReport report = inject(options, softbody::ProgressLine("inject"));
     fmt::print("{}: {} of {} colour and {} of {} depth images, {} other messages unchanged\n", options.output,
                report.color_written, report.color_read, report.depth_written, report.depth_read,
                report.copied);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "inject: {}: {}\n", options.input, error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <rosbag/exceptions.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -7,18 +6,7 @@
 
 #include "softbody_bringup/validation/checks.h"
 #include "softbody_bringup/validation/facts_reader.h"
-
-namespace {
-
-void showProgress(double share) {
-  static int shown = -1;
-  const int percent = static_cast<int>(100.0 * share);
-  if (percent == shown) return;
-  shown = percent;
-  fmt::print(stderr, "\rvalidate_bag: {:3d} %{}", percent, percent >= 100 ? "\n" : "");
-}
-
-}  // namespace
+#include "softbody_common/run_tool.h"
 
 int main(int argc, char** argv) {
   namespace validation = softbody::validation;
@@ -32,20 +20,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   app.add_flag("--json", json, "findings as JSON instead of sentences");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    const validation::RecordingFacts facts = validation::readFacts(input, camera, showProgress);
+  return softbody::runTool(&app, argc, argv, [&] {
+    const validation::RecordingFacts facts =
+        validation::readFacts(input, camera, softbody::ProgressLine("validate_bag"));
     const validation::Findings findings = validation::check(facts, limits);
     fmt::print("{}", json ? toJson(facts, findings).dump(2) + "\n" : toText(facts, findings));
     return usable(findings) ? 0 : 1;
-  } catch (const rosbag::BagUnindexedException&) {
-    fmt::print(stderr, "validate_bag: {}: the bag was not closed; run rosbag reindex {}\n", input, input);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "validate_bag: {}: {}\n", input, error.what());
-  }
-  return 1;
+  });
 }

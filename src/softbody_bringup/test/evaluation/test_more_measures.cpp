@@ -185,5 +185,13 @@ TEST(ReportFolder, AFolderOfTheUsersIsNotReplaced) {
   EXPECT_TRUE(fs::exists(folder + "/thesis.tex"));
 }
 
+TEST(ReportFolder, AFolderOfTheUsersPicturesIsNotReplaced) {
+  const std::string folder = testing::TempDir() + "report_folder_of_pictures";
+  fs::create_directories(folder);
+  std::ofstream(folder + "/holiday.png") << "sea";
+  EXPECT_THROW(writeReportFolder(folder, {}, "", {}), std::invalid_argument);
+  EXPECT_TRUE(fs::exists(folder + "/holiday.png"));
+}
+
 }  // namespace
 }  // namespace softbody::evaluation

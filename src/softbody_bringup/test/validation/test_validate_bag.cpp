@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -189,6 +190,24 @@ TEST(ValidateBag, Stamps) {
               if (k == 10) f->depth.header.stamp -= ros::Duration(1.0 / 30.0);
             }),
             Severity::kWarning, "stamps", kDepth, "repeats a stamp 1 times");
+}
+
+TEST(ValidateBag, DamagedBagsAreRefusedByName) {
+  const std::string whole = writeBag([](Frame*, int) {});
+  std::ifstream stream(whole, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string scribbled = bytes;
+  for (std::size_t k = 5000; k < bytes.size() / 2; k += 500) scribbled.replace(k, 20, 20, '\7');
+  const std::string path = testing::TempDir() + "damaged.bag";
+  for (const std::string& damaged : {std::string(), bytes.substr(0, bytes.size() / 2), scribbled}) {
+    std::ofstream(path, std::ios::binary) << damaged;
+    try {
+      facts(path);
+      ADD_FAILURE() << "read " << damaged.size() << " bytes";
+    } catch (const std::exception& error) {
+      EXPECT_EQ(std::string(error.what()).find(path), 0u) << error.what();
+    }
+  }
 }
 
 TEST(ValidateBag, AClockThatIsOffIsNamedOnBothStreams) {

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "core/model_folder.h"
+#include "softbody_common/run_tool.h"
 
 int main(int argc, char** argv) {
   CLI::App app{
@@ -21,16 +22,8 @@ int main(int argc, char** argv) {
   app.add_option("--cage-vertices", settings.cage_vertices,
                  "about as many vertices has the cage; without it, as many as suit its shape")
       ->check(CLI::Range(20, 20000));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  return softbody::runTool(&app, argc, argv, [&] {
     softbody::prepareModel(mesh, unit, output, settings, std::cerr);
-  } catch (const std::exception& error) {
-    std::cerr << "prepare_model: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -55,11 +55,14 @@ std::string table(const std::vector<ComparedFigure>& rows) {
 }
 
 std::string image(const std::string& name, const cv::Mat3b& picture) {
-  std::vector<unsigned char> png;
+  // Diagrams are smaller as PNG, photographs as JPEG.
+  std::vector<unsigned char> png, jpeg;
   cv::imencode(".png", picture, png);
+  cv::imencode(".jpg", picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, 90});
+  const bool as_png = png.size() <= jpeg.size();
   return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      escaped(name), base64(png));
+      "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{0}</figcaption></figure>\n",
+      escaped(name), as_png ? "png" : "jpeg", base64(as_png ? png : jpeg));
 }
 
 }  // namespace
@@ -71,7 +74,8 @@ std::string htmlPage(const std::string& title, const std::vector<ComparedFigure>
       "</title>\n<style>body{font-family:sans-serif;margin:2em;max-width:75em}td,th{padding:.15em "
       ".8em;text-align:"
       "left;border-bottom:1px solid "
-      "#ddd}td:nth-child(n+3){text-align:right;font-family:monospace}img{max-width:100%}"
+      "#ddd}td:nth-child(n+3),th:nth-child(n+3){text-align:right}td:nth-child(n+3){font-family:monospace}img{"
+      "max-width:100%}"
       "figure{margin:1em 0}pre{overflow-x:auto}</style></head>\n<body><h1>" +
       escaped(title) + "</h1>\n" + table(rows) + "<pre>" + escaped(words) + "</pre>\n";
   for (const auto& [name, picture] : pictures) {

@@ -13,16 +13,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A report is replaced as a whole; a folder of the user's must not be.
+/// A report is replaced as a whole; a folder of the user's must not be, even if it holds nothing but
+/// pictures.
 void requireReplaceable(const fs::path& folder) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
     throw std::invalid_argument(fmt::format("{} is not a folder", folder.string()));
+  const bool is_report = fs::exists(folder / "report.json");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path file = entry.path();
     const bool ours =
         file.extension() == ".png" || file.filename() == "report.json" || file.filename() == "report.html";
-    if (!ours || !entry.is_regular_file()) {
+    if (!is_report || !ours || !entry.is_regular_file()) {
       throw std::invalid_argument(
           fmt::format("{} holds {}, which is not of a report; name a folder of its own", folder.string(),
                       file.filename().string()));

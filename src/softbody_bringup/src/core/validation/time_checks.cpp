@@ -11,6 +11,7 @@ namespace softbody::validation {
 namespace {
 
 constexpr double kGapInIntervals = 2.5;    // two frames missing, or jitter that looks like it
+constexpr double kRateTolerance = 1e-3;    // stamps are rounded
 constexpr double kClockTolerance_s = 1.0;  // between header stamp and record time
 
 double seconds(Nanoseconds time) { return 1e-9 * static_cast<double>(time); }
@@ -39,10 +40,10 @@ void checkOrder(const StreamFacts& stream, Findings* findings) {
   if (back > 0) {
     findings->push_back(
         {Severity::kWarning, "stamps", stream.topic,
-         fmt::format(
-             "goes back in time {} times, first by {:.3f} s at message {}; each resets the tracker: sort the "
-             "bag by stamp, or play without --loop",
-             back, seconds(stream.stamps[where - 1] - stream.stamps[where]), where)});
+         fmt::format("goes back in time {} times, first by {:.3f} s at message {}: by less than a second, "
+                     "replay puts "
+                     "the image in its place and the live graph drops it; by more, tracking starts anew",
+                     back, seconds(stream.stamps[where - 1] - stream.stamps[where]), where)});
   }
   if (repeated > 0) {
     findings->push_back({Severity::kWarning, "stamps", stream.topic,
@@ -80,7 +81,7 @@ void checkRate(const StreamFacts& stream, const CheckLimits& limits, Findings* f
   const std::vector<Nanoseconds> steps = intervals(stamps);
   if (steps.empty()) return;
   const double interval = seconds(median(steps)), rate = 1.0 / interval;
-  if (rate < limits.slowest_rate_hz) {
+  if (rate < (1.0 - kRateTolerance) * limits.slowest_rate_hz) {
     findings->push_back(
         {Severity::kWarning, "rates", stream.topic,
          fmt::format("comes at {:.1f} Hz; below {:.0f} Hz fast motion is lost: record at 30 Hz", rate,
