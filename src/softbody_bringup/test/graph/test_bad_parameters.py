@@ -9,6 +9,7 @@ import rospy
 import rostest
 
 OBJECT = rospkg.RosPack().get_path("softbody_bringup") + "/config/sponge.yaml"
+TOOL = rospkg.RosPack().get_path("softbody_bringup") + "/config/knife.yaml"
 
 
 class BadParameters(unittest.TestCase):
@@ -33,6 +34,13 @@ class BadParameters(unittest.TestCase):
     def test_simulator(self):
         self.check("softbody_sim", "simulator", {"object": OBJECT, "iterations": -3},
                    ["/simulator/iterations", "-3"])
+
+    def test_tool_tracker(self):
+        self.check("softbody_tracking", "tool_tracker", {"tool": TOOL, "bridge_time_s": -1},
+                   ["/tool_tracker/bridge_time_s", "-1"])
+
+    def test_tool_tracker_with_an_object_for_a_tool(self):
+        self.check("softbody_tracking", "tool_tracker", {"tool": OBJECT}, ["sponge.yaml:", "tool", "missing"])
 
     def test_injector(self):
         self.check("softbody_bringup", "injector", {"drop": 1.5}, ["/injector/drop", "1.5"])

@@ -25,6 +25,8 @@ constexpr char kSurfaceState[] = "surface/state";
 constexpr char kSurfaceMarker[] = "surface/marker";
 constexpr char kPin[] = "pin";
 constexpr char kReaction[] = "reaction/";  // followed by a name
+constexpr char kToolPose[] = "tool/pose";
+constexpr char kToolBlade[] = "tool/blade";
 constexpr char kTiming[] = "timing";
 
 }  // namespace softbody::topics

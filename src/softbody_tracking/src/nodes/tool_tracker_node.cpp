@@ -1,0 +1,110 @@
+#include "nodes/tool_tracker_node.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <geometry_msgs/PolygonStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <sensor_msgs/image_encodings.h>
+#include <softbody_msgs/StageTiming.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <boost/make_shared.hpp>
+#include <cmath>
+
+#include "softbody_common/conversions.h"
+#include "softbody_common/ros_parameters.h"
+#include "softbody_common/topics.h"
+#include "softbody_tracking/tool_messages.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kSyncQueue = 4;
+constexpr double kSilence_s = 2.0;
+
+}  // namespace
+
+ToolTrackerNode::ToolTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
+    : handle_(handle), synchronizer_(kSyncQueue), diagnostics_(handle, private_handle) {
+  Parameters parameters = readParameters(private_handle);
+  tool_frame_ = parameters.text("tool_frame", "tool");
+  const ToolDescription tool = loadToolDescription(parameters.requiredText("tool"));
+  for (const std::string& warning : tool.warnings) ROS_WARN_STREAM(warning);
+  tracker_ = std::make_unique<ToolTracker>(tool, readToolTrackerConfig(parameters));
+  warnUnknown(parameters);
+
+  pose_ = handle_.advertise<geometry_msgs::PoseWithCovarianceStamped>(topics::kToolPose, 1);
+  if (tool.blade.rows() > 0) blade_ = handle_.advertise<geometry_msgs::PolygonStamped>(topics::kToolBlade, 1);
+  timing_ = handle_.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
+
+  color_subscriber_.subscribe(handle_, topics::kRgbRect, 1);
+  depth_subscriber_.subscribe(handle_, topics::kDepthRect, 1);
+  info_subscriber_.subscribe(handle_, topics::kRgbInfo, 1);
+  synchronizer_.connectInput(color_subscriber_, depth_subscriber_, info_subscriber_);
+  synchronizer_.registerCallback(&ToolTrackerNode::onFrame, this);
+
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("tool", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
+  diagnostics_timer_ =
+      handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+}
+
+void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
+                              const sensor_msgs::ImageConstPtr& depth,
+                              const sensor_msgs::CameraInfoConstPtr& info) try {
+  const auto color_image = cv_bridge::toCvShare(color, sensor_msgs::image_encodings::BGR8);
+  const auto depth_image = cv_bridge::toCvShare(depth, sensor_msgs::image_encodings::TYPE_32FC1);
+  const RgbdFrame frame{toNanoseconds(color->header.stamp), pinholeFromMessage(*info), color_image->image,
+                        depth_image->image};
+  StageTimer timer;
+  last_ = tracker_->track(frame, &timer);
+  last_stamp_ = color->header.stamp;
+  if (last_) publish(color->header, *last_);
+  softbody_msgs::StageTiming timing = timingMessage("tool_tracker", timer.take());
+  timing.header = color->header;
+  timing_.publish(timing);
+} catch (const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(
+      5.0, "the tool cannot be looked for in frame " << color->header.stamp << ": " << error.what());
+}
+
+void ToolTrackerNode::publish(const std_msgs::Header& header, const ToolObservation& observation) {
+  const auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
+  pose->header = header;
+  pose->pose = toMessage(observation);
+  pose_.publish(pose);
+  if (blade_) {
+    const auto blade = boost::make_shared<geometry_msgs::PolygonStamped>();
+    blade->header = header;
+    blade->polygon = bladePolygon(tracker_->tool().blade, observation.T_camera_tool);
+    blade_.publish(blade);
+  }
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(observation.T_camera_tool);
+  transform.header = header;
+  transform.child_frame_id = tool_frame_;
+  tf_broadcaster_.sendTransform(transform);
+}
+
+void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (last_stamp_.isZero() || (ros::Time::now() - last_stamp_).toSec() > kSilence_s) {
+    status.summary(DiagnosticStatus::WARN, "no frame from camera_ingest for over 2 s");
+    return;
+  }
+  if (!last_) {
+    status.summary(DiagnosticStatus::WARN, "not seen: " + tracker_->reason());
+    return;
+  }
+  if (last_->bridged) {
+    status.summary(DiagnosticStatus::WARN, "bridged by its motion: " + tracker_->reason());
+  } else {
+    status.summary(DiagnosticStatus::OK, "seen");
+  }
+  status.add("markers", last_->markers);
+  status.add("reprojection rms [px]", last_->reprojection_px);
+  status.add("depth offset [m]", last_->depth_offset_m);
+  status.add("position standard deviation [m]", std::sqrt(last_->covariance.topLeftCorner<3, 3>().trace()));
+  status.add("rotation standard deviation [rad]",
+             std::sqrt(last_->covariance.bottomRightCorner<3, 3>().trace()));
+}
+
+}  // namespace softbody

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <message_filters/subscriber.h>
+#include <message_filters/time_synchronizer.h>
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "softbody_tracking/tool_tracker.h"
+
+namespace softbody {
+
+/// Rectified images in; the tool's pose with covariance, its blade and its tf out.
+class ToolTrackerNode {
+ public:
+  /// @throw std::invalid_argument for a bad parameter or tool YAML.
+  ToolTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+
+ private:
+  void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
+               const sensor_msgs::CameraInfoConstPtr& info);
+  void publish(const std_msgs::Header& header, const ToolObservation& observation);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  ros::NodeHandle handle_;
+  std::string tool_frame_;
+  std::unique_ptr<ToolTracker> tracker_;
+  std::optional<ToolObservation> last_;  ///< of the last frame
+  ros::Time last_stamp_;
+
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  ros::Publisher pose_, blade_, timing_;
+  message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
+  message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
+  message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>
+      synchronizer_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Timer diagnostics_timer_;
+};
+
+}  // namespace softbody
