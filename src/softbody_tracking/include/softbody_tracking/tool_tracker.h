@@ -13,7 +13,7 @@
 namespace softbody {
 
 struct ToolTrackerConfig {
-  double corner_std_px = 0.25;           ///< of a detected corner, each coordinate
+  double corner_std_px = 0.15;           ///< of a detected corner, each coordinate
   bool use_depth = true;                 ///< depth under the markers
   double depth_std_1_m = 0.005;          ///< standard deviation of a depth at 1 m; grows with z^2
   double depth_independent_samples = 8;  ///< as many as a marker's depths are worth: what they share stays

@@ -9,6 +9,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "core/marker_edges.h"
+
 namespace softbody {
 namespace {
 
@@ -57,15 +59,14 @@ cv::Ptr<cv::aruco::Dictionary> findDictionary(const std::string& name) {
                                           fmt::join(dictionaryNames(), ", ")));
 }
 
-/// The window stays within the black border, whose inner edge would pull the corner to it.
-void refineCorners(const cv::Mat1b& gray, int cells_a_side, std::vector<cv::Point2f>* corners) {
+/// Twice, since the contour that detection starts from may be off by a pixel. The reach stays within the
+/// black border, whose inner edges are others. @return false where the image does not show all four edges.
+bool refineCorners(const cv::Mat1b& gray, int cells_a_side, std::vector<cv::Point2f>* corners) {
   double side = 1e9;
-  for (int k = 0; k < 4; ++k)
-    side = std::min(side, cv::norm((*corners)[static_cast<std::size_t>(k)] -
-                                   (*corners)[static_cast<std::size_t>((k + 1) % 4)]));
-  const int half = std::clamp(static_cast<int>(0.8 * side / cells_a_side), 2, 8);
-  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, 0.005);
-  cv::cornerSubPix(gray, *corners, cv::Size(half, half), cv::Size(-1, -1), until);
+  for (std::size_t k = 0; k < 4; ++k)
+    side = std::min(side, cv::norm((*corners)[k] - (*corners)[(k + 1) % 4]));
+  const double reach_px = std::clamp(0.7 * side / cells_a_side, 1.5, 5.0);
+  return refineQuadrilateral(gray, reach_px, corners) && refineQuadrilateral(gray, reach_px, corners);
 }
 
 }  // namespace
@@ -113,7 +114,7 @@ std::vector<MarkerDetection> MarkerDetector::detect(const cv::Mat1b& gray, const
   std::vector<MarkerDetection> detections;
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (cv::Point2f& corner : found[i]) corner += cv::Point2f(part.tl());
-    refineCorners(gray, implementation_->dictionary->markerSize + 2, &found[i]);
+    if (!refineCorners(gray, implementation_->dictionary->markerSize + 2, &found[i])) continue;
     MarkerDetection detection;
     detection.id = ids[i];
     for (int k = 0; k < 4; ++k) {

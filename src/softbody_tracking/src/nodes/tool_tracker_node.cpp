@@ -24,7 +24,9 @@ constexpr double kSilence_s = 2.0;
 }  // namespace
 
 ToolTrackerNode::ToolTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
-    : handle_(handle), synchronizer_(kSyncQueue), diagnostics_(handle, private_handle) {
+    : handle_(handle),
+      synchronizer_(kSyncQueue),
+      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   Parameters parameters = readParameters(private_handle);
   tool_frame_ = parameters.text("tool_frame", "tool");
   const ToolDescription tool = loadToolDescription(parameters.requiredText("tool"));

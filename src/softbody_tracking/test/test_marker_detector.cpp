@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+
+#include "softbody_tracking/marker_detector.h"
+#include "tool_scene.h"
+
+namespace softbody {
+namespace {
+
+/// Real photographs with corners from OpenCV's own tests.
+const std::filesystem::path kBoards = std::filesystem::path(SOURCE_DIR) / "../../../shared/data/aruco_boards";
+
+double cornerError(const MarkerDetection& detection, const Eigen::Matrix<double, 2, 4>& expected) {
+  return (detection.corners - expected).colwise().norm().maxCoeff();
+}
+
+TEST(MarkerDetector, EveryDictionaryIsReadWithItsIdsAndCorners) {
+  for (const std::string& dictionary : dictionaryNames()) {
+    SCOPED_TRACE(dictionary);
+    const int last = markersInDictionary(dictionary) - 1;
+    const MarkerDetector detector(dictionary);
+    for (const int id : {0, last / 3, last}) {
+      const ToolDescription tool{dictionary, {toolMarker(id, 0.06)}, Points(0, 3), {}};
+      std::mt19937 random(static_cast<unsigned>(id));
+      const Eigen::Isometry3d T = slanted(0.5, &random);
+      const RgbdFrame frame = renderTool(tool, T, 0, 1);
+      cv::Mat1b gray;
+      cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
+      const auto detections = detector.detect(gray);
+      ASSERT_EQ(detections.size(), 1u);
+      EXPECT_EQ(detections[0].id, id);
+      Eigen::Matrix<double, 2, 4> expected;
+      const Eigen::Matrix<double, 3, 4> corners = T * markerCorners(tool.markers[0]);
+      for (int k = 0; k < 4; ++k) expected.col(k) = frame.camera.project(corners.col(k));
+      EXPECT_LT(cornerError(detections[0], expected), 0.4);
+    }
+  }
+}
+
+TEST(MarkerDetector, SearchesOnlyTheRegionAndAnswersInTheImage) {
+  const ToolDescription tool{"DICT_4X4_50", {toolMarker(7, 0.06)}, Points(0, 3), {}};
+  const RgbdFrame frame = renderTool(tool, facing({0.0, 0.0, 0.5}), 0, 1);
+  cv::Mat1b gray;
+  cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
+  const MarkerDetector detector(tool.dictionary);
+  const auto all = detector.detect(gray), part = detector.detect(gray, {240, 160, 180, 180});
+  ASSERT_EQ(all.size(), 1u);
+  ASSERT_EQ(part.size(), 1u);
+  EXPECT_LT(cornerError(part[0], all[0].corners), 0.05);
+  EXPECT_TRUE(detector.detect(gray, {0, 0, 120, 120}).empty());
+  EXPECT_TRUE(detector.detect(gray, {2000, 0, 10, 10}).empty());
+}
+
+TEST(MarkerDetector, UnknownDictionariesAreRefusedWithTheKnownNames) {
+  try {
+    MarkerDetector detector("DICT_9X9_50");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("DICT_9X9_50"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("DICT_4X4_50"), std::string::npos);
+  }
+  EXPECT_THROW(markerCells("DICT_4X4_50", 50), std::invalid_argument);
+}
+
+using Corners = Eigen::Matrix<double, 2, 4>;
+
+/// The known corners are the outermost dark pixels of a contour, whose centres lie half a pixel inside of the
+/// two edges that meet there.
+Corners onEdges(const Corners& contour) {
+  Corners corners;
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d here = contour.col(k), before = contour.col((k + 3) % 4),
+                          after = contour.col((k + 1) % 4);
+    corners.col(k) = here + 0.5 * ((here - before).normalized() + (here - after).normalized());
+  }
+  return corners;
+}
+
+std::map<int, Corners> goldCorners(const YAML::Node& markers) {
+  std::map<int, Corners> gold;
+  for (const auto& entry : markers) {
+    Corners corners;
+    for (int k = 0; k < 4; ++k)
+      corners.col(k) << entry.second[k][0].as<double>(), entry.second[k][1].as<double>();
+    gold[entry.first.as<int>()] = onEdges(corners);
+  }
+  return gold;
+}
+
+TEST(MarkerDetector, PhotographedBoardsGiveEveryKnownIdAndNoOther) {
+  if (!std::filesystem::exists(kBoards)) GTEST_SKIP() << "skipped: no ../shared/data";
+  const YAML::Node gold = YAML::LoadFile((kBoards / "gold_corners.json").string());
+  for (const auto& entry : gold) {
+    const auto image = entry.first.as<std::string>();
+    SCOPED_TRACE(image);
+    if (!entry.second.IsMap() || !entry.second["markers"]) continue;
+    auto dictionary = entry.second["dictionary"].as<std::string>();
+    if (dictionary.find('.') != std::string::npos) dictionary = (kBoards / dictionary).string();
+    const auto expected = goldCorners(entry.second["markers"]);
+    const cv::Mat1b gray = cv::imread((kBoards / image).string(), cv::IMREAD_GRAYSCALE);
+    const auto detections = MarkerDetector(dictionary).detect(gray);
+    EXPECT_EQ(detections.size(), expected.size());
+    double worst = 0.0;
+    int far = 0;
+    for (const MarkerDetection& detection : detections) {
+      ASSERT_EQ(expected.count(detection.id), 1u) << "false id " << detection.id;
+      const Corners& corners = expected.at(detection.id);
+      const Eigen::RowVector4d error = (detection.corners - corners).cwiseAbs().colwise().maxCoeff();
+      worst = std::max(worst, error.maxCoeff());
+      far += static_cast<int>((error.array() > 1.0).count());
+    }
+    // The known corners of gboriginal.png are themselves up to 1 px off the contours that they come from.
+    const bool exact = image != "gboriginal.png";
+    EXPECT_LE(far, exact ? 0 : 4 * static_cast<int>(expected.size()) / 20);
+    EXPECT_LE(worst, exact ? 1.0 : 2.0);
+    RecordProperty("far_corners_" + image.substr(0, image.find('.')), far);
+    RecordProperty("worst_corner_px_" + image.substr(0, image.find('.')), std::to_string(worst));
+  }
+}
+
+}  // namespace
+}  // namespace softbody
