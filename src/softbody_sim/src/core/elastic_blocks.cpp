@@ -3,16 +3,34 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <stdexcept>
 
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
+namespace {
+
+/// U^-1 of edges = Q U with a rotation Q and an upper triangle U with positive diagonal.
+Eigen::Matrix3d inverseTriangle(const Eigen::Matrix3d& edges) {
+  Eigen::Matrix3d U = Eigen::HouseholderQR<Eigen::Matrix3d>(edges).matrixQR().triangularView<Eigen::Upper>();
+  for (int row = 0; row < 3; ++row) {
+    if (U(row, row) < 0.0) U.row(row) = -U.row(row);
+  }
+  return U.inverse();
+}
+
+std::size_t blockCount(Eigen::Index tet_count) {
+  constexpr Eigen::Index kAtOnce = kBlocksSideBySide * TetBlock<float>::kLanes;
+  return static_cast<std::size_t>((tet_count + kAtOnce - 1) / kAtOnce * kBlocksSideBySide);
+}
+
+}  // namespace
 
 template <typename T>
 ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd)
-    : blocks_(static_cast<std::size_t>(tets.rows() + TetBlock<T>::kLanes - 1) / TetBlock<T>::kLanes),
+    : blocks_(blockCount(tets.rows())),
       mu_(static_cast<T>(lame.mu)),
       lambda_(static_cast<T>(lame.lambda)),
       kernel_(elasticityKernel<T>(simd)) {
@@ -27,11 +45,14 @@ ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, c
     Eigen::Matrix3d edges;
     for (int k = 0; k < 3; ++k)
       edges.col(k) = rest_vertices.row(tets(t, k + 1)) - rest_vertices.row(tets(t, 0));
-    const Eigen::Matrix3d inverse = edges.inverse();
+    const Eigen::Matrix3d inverse = inverseTriangle(edges);
     TetBlock<T>& block = blocks_[static_cast<std::size_t>(i % count)];
     const Eigen::Index lane = i / count;
-    for (int k = 0; k < 9; ++k) block.inverse_edges[k][lane] = static_cast<T>(inverse(k));
-    for (int k = 0; k < 4; ++k) block.vertices[k][lane] = tets(t, k);
+    for (int column = 0, k = 0; column < 3; ++column) {
+      for (int row = 0; row <= column; ++row, ++k)
+        block.inverse_edges[k][lane] = static_cast<T>(inverse(row, column));
+    }
+    for (int k = 0; k < 4; ++k) block.corners[k][lane] = 4 * tets(t, k);
     block.volume[lane] = i == t ? static_cast<T>(volumes[t]) : T{0};
   }
 }

@@ -1,6 +1,6 @@
 #include "core/elasticity_kernel.h"
 
-#include "core/rotation.h"
+#include "core/corotated_elasticity.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/elasticity_kernel.cpp"
@@ -42,6 +42,18 @@ HWY_INLINE V dot(const Vec3<V>& a, const Vec3<V>& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
+template <class V>
+HWY_INLINE Vec3<V> times(V a, const Vec3<V>& u) {
+  return {hn::Mul(a, u.x), hn::Mul(a, u.y), hn::Mul(a, u.z)};
+}
+
+/// a u + b v
+template <class V>
+HWY_INLINE Vec3<V> combine(const Vec3<V>& u, const Vec3<V>& v, V a, V b) {
+  return {hn::MulAdd(u.x, a, hn::Mul(v.x, b)), hn::MulAdd(u.y, a, hn::Mul(v.y, b)),
+          hn::MulAdd(u.z, a, hn::Mul(v.z, b))};
+}
+
 /// a M.c0 + b M.c1 + c M.c2
 template <class V>
 HWY_INLINE Vec3<V> combine(const Mat3<V>& M, V a, V b, V c) {
@@ -50,123 +62,228 @@ HWY_INLINE Vec3<V> combine(const Mat3<V>& M, V a, V b, V c) {
           hn::MulAdd(M.c0.z, a, hn::MulAdd(M.c1.z, b, hn::Mul(M.c2.z, c)))};
 }
 
-/// a u + b v
+/// By the upper triangle.
 template <class V>
-HWY_INLINE Vec3<V> blend(V a, const Vec3<V>& u, V b, const Vec3<V>& v) {
-  return {hn::MulAdd(a, u.x, hn::Mul(b, v.x)), hn::MulAdd(a, u.y, hn::Mul(b, v.y)),
-          hn::MulAdd(a, u.z, hn::Mul(b, v.z))};
+struct Symmetric3 {
+  V m00, m01, m02, m11, m12, m22;
+};
+
+/// A vector of deformation gradients F with what their nearest rotations R are made of:
+/// zeta R = ((s^2 + |F|^2) I - 2 F^T F) from the right on F, plus 2 s cof(F).
+template <class V>
+struct Deformation {
+  Mat3<V> F, cofactors;
+  Symmetric3<V> squared;  ///< F^T F
+  V squared_norm;         ///< |F|^2
+  V det8;                 ///< 8 det F
+  V cofactor_term;        ///< 4 |cof F|^2
+  V trace;                ///< s = tr(R^T F), from findTraces()
+  V slope, step;          ///< of its last iteration
+};
+
+/// 1 / v to a few thousandths in single precision, where that is many times quicker than a division.
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE V roughReciprocal(D d, V v) {
+  if constexpr (sizeof(T) == 4)
+    return hn::ApproximateReciprocal(v);
+  else
+    return hn::Div(hn::Set(d, T{1}), v);
 }
+
+/// 1 / v within rounding.
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE V reciprocal(D d, V v) {
+  const V rough = roughReciprocal(d, v);
+  if constexpr (sizeof(T) == 4)
+    return hn::Mul(rough, hn::NegMulAdd(v, rough, hn::Set(d, T{2})));
+  else
+    return rough;
+}
+
+/// sqrt(v), as rough as roughReciprocal().
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE V roughSqrt(D, V v) {
+  if constexpr (sizeof(T) == 4)
+    return hn::Mul(v, hn::ApproximateReciprocalSqrt(v));
+  else
+    return hn::Sqrt(v);
+}
+
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE Deformation<V> deformation(D d, const Mat3<V>& F) {
+  const Mat3<V> C{cross(F.c1, F.c2), cross(F.c2, F.c0), cross(F.c0, F.c1)};
+  Deformation<V> result;
+  result.F = F;
+  result.cofactors = C;
+  result.squared = {dot(F.c0, F.c0), dot(F.c0, F.c1), dot(F.c0, F.c2),
+                    dot(F.c1, F.c1), dot(F.c1, F.c2), dot(F.c2, F.c2)};
+  result.squared_norm = hn::Add(hn::Add(result.squared.m00, result.squared.m11), result.squared.m22);
+  result.det8 = hn::Mul(hn::Set(d, T{8}), dot(F.c0, C.c0));
+  result.cofactor_term =
+      hn::Mul(hn::Set(d, T{4}), hn::Add(hn::Add(dot(C.c0, C.c0), dot(C.c1, C.c1)), dot(C.c2, C.c2)));
+  return result;
+}
+
+/// Where an iteration of findTraces() has arrived: a step of a share r of s leaves about 2 r^2 (near rest).
+/// False for NaN, too.
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE hn::Mask<D> arrived(D d, const Deformation<V>& a) {
+  return hn::Lt(hn::Abs(a.step), hn::Mul(hn::Set(d, sizeof(T) == 4 ? T(3e-4) : T(2e-8)), a.trace));
+}
+
+/// The largest root of extractRotation()'s quartic. One iteration waits for itself at every operation:
+/// several vectors side by side fill the gaps.
+template <std::size_t kVectors, class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE void findTraces(D d, Deformation<V>* all) {
+  const V three = hn::Set(d, T{3}), four = hn::Set(d, T{4});
+  for (std::size_t k = 0; k < kVectors; ++k) all[k].trace = roughSqrt(d, hn::Mul(three, all[k].squared_norm));
+  constexpr int kMaxIterations = 8;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      Deformation<V>& a = all[k];
+      const V gap = hn::MulSub(a.trace, a.trace, a.squared_norm);
+      a.slope = hn::MulSub(hn::Mul(four, a.trace), gap, a.det8);
+      const V value = hn::MulSub(gap, gap, hn::MulAdd(a.det8, a.trace, a.cofactor_term));
+      a.step = hn::Mul(value, roughReciprocal(d, a.slope));
+      a.trace = hn::Sub(a.trace, a.step);
+    }
+    auto all_arrived = arrived(d, all[0]);
+    for (std::size_t k = 1; k < kVectors; ++k) all_arrived = hn::And(all_arrived, arrived(d, all[k]));
+    if (hn::AllTrue(d, all_arrived)) break;
+  }
+}
+
+/// F - R
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE Mat3<V> strainOf(D d, const Deformation<V>& deformation) {
+  const Mat3<V>&F = deformation.F, &C = deformation.cofactors;
+  const Symmetric3<V>& S = deformation.squared;
+  const V s = deformation.trace, squared_trace = hn::Mul(s, s);
+  const V zeta = hn::NegMulAdd(hn::Set(d, T(0.25)), deformation.det8,
+                               hn::Mul(hn::Sub(squared_trace, deformation.squared_norm), s));
+  const V scale = reciprocal(d, zeta), twice = hn::Add(scale, scale);
+  const V diagonal = hn::NegMulAdd(scale, hn::Add(squared_trace, deformation.squared_norm), hn::Set(d, T{1}));
+  const V m01 = hn::Mul(twice, S.m01), m02 = hn::Mul(twice, S.m02), m12 = hn::Mul(twice, S.m12);
+  const V cofactor = hn::Mul(twice, s);
+  const auto column = [&](V k0, V k1, V k2, const Vec3<V>& c) {
+    const Vec3<V> v = combine(F, k0, k1, k2);
+    return Vec3<V>{hn::NegMulAdd(cofactor, c.x, v.x), hn::NegMulAdd(cofactor, c.y, v.y),
+                   hn::NegMulAdd(cofactor, c.z, v.z)};
+  };
+  return {column(hn::MulAdd(twice, S.m00, diagonal), m01, m02, C.c0),
+          column(m01, hn::MulAdd(twice, S.m11, diagonal), m12, C.c1),
+          column(m02, m12, hn::MulAdd(twice, S.m22, diagonal), C.c2)};
+}
+
+/// a A + b B
+template <class V>
+HWY_INLINE Mat3<V> blend(V a, const Mat3<V>& A, V b, const Mat3<V>& B) {
+  const auto column = [&](const Vec3<V>& u, const Vec3<V>& v) {
+    return Vec3<V>{hn::MulAdd(a, u.x, hn::Mul(b, v.x)), hn::MulAdd(a, u.y, hn::Mul(b, v.y)),
+                   hn::MulAdd(a, u.z, hn::Mul(b, v.z))};
+  };
+  return {column(A.c0, B.c0), column(A.c1, B.c1), column(A.c2, B.c2)};
+}
+
+/// Energy [J] and stress times volume of a vector of tets.
+template <class V>
+struct Response {
+  V energy;
+  Mat3<V> stress;
+};
 
 /// The lanes whose rotation is nearly not unique, one by one.
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
-HWY_NOINLINE void extractOneByOne(D d, hn::Mask<D> wanted, const Mat3<V>& F, Mat3<V>* R, V* trace) {
+HWY_NOINLINE void respondOneByOne(D d, hn::Mask<D> wanted, T mu, T lambda, V volume, const Mat3<V>& F,
+                                  Response<V>* response) {
+  const Lame lame{static_cast<double>(mu), static_cast<double>(lambda)};
   constexpr std::size_t kMost = 16;
-  HWY_ALIGN T f[9][kMost], r[9][kMost], s[kMost], lanes[kMost];
+  HWY_ALIGN T f[9][kMost], stress[9][kMost], energy[kMost], volumes[kMost];
   const V* columns = &F.c0.x;
-  V* result = &R->c0.x;
+  V* result = &response->stress.c0.x;
   for (int k = 0; k < 9; ++k) {
     hn::Store(columns[k], d, f[k]);
-    hn::Store(result[k], d, r[k]);
+    hn::Store(result[k], d, stress[k]);
   }
-  hn::Store(*trace, d, s);
-  hn::Store(hn::IfThenElse(wanted, hn::Set(d, T{1}), hn::Zero(d)), d, lanes);
+  hn::Store(response->energy, d, energy);
+  hn::Store(hn::IfThenElse(wanted, volume, hn::Set(d, T{-1})), d, volumes);
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    if (lanes[lane] == T{0}) continue;
-    Eigen::Matrix3d one, rotation;
+    if (volumes[lane] < T{0}) continue;
+    Eigen::Matrix3d one, density_gradient;
     for (int k = 0; k < 9; ++k) one(k) = static_cast<double>(f[k][lane]);
-    s[lane] = static_cast<T>(extractRotation(one, &rotation));
-    for (int k = 0; k < 9; ++k) r[k][lane] = static_cast<T>(rotation(k));
+    energy[lane] = volumes[lane] * static_cast<T>(corotatedEnergy(one, lame, &density_gradient));
+    for (int k = 0; k < 9; ++k) stress[k][lane] = volumes[lane] * static_cast<T>(density_gradient(k));
   }
-  for (int k = 0; k < 9; ++k) result[k] = hn::Load(d, r[k]);
-  *trace = hn::Load(d, s);
+  for (int k = 0; k < 9; ++k) result[k] = hn::Load(d, stress[k]);
+  response->energy = hn::Load(d, energy);
 }
 
-/// extractRotation() for a vector of matrices. @return tr(R^T F).
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
-HWY_INLINE V extractRotations(D d, const Mat3<V>& F, Mat3<V>* R) {
-  const Mat3<V> C{cross(F.c1, F.c2), cross(F.c2, F.c0), cross(F.c0, F.c1)};
-  const V det8 = hn::Mul(hn::Set(d, T{8}), dot(F.c0, C.c0));
-  const V f00 = dot(F.c0, F.c0), f11 = dot(F.c1, F.c1), f22 = dot(F.c2, F.c2);
-  const V squared_norm = hn::Add(hn::Add(f00, f11), f22);
-  const V cofactor_term =
-      hn::Mul(hn::Set(d, T{4}), hn::Add(hn::Add(dot(C.c0, C.c0), dot(C.c1, C.c1)), dot(C.c2, C.c2)));
-  const V four = hn::Set(d, T{4});
-  // The error after a step is about a quarter of the square of the step.
-  const V small = hn::Set(d, sizeof(T) == 4 ? T(3e-4) : T(2e-8));
-  V s = hn::Sqrt(hn::Mul(hn::Set(d, T{3}), squared_norm));
-  V slope, step;
-  constexpr int kMaxIterations = 8;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const V gap = hn::MulSub(s, s, squared_norm);
-    slope = hn::MulSub(hn::Mul(four, s), gap, det8);
-    step = hn::Div(hn::MulSub(gap, gap, hn::MulAdd(det8, s, cofactor_term)), slope);
-    s = hn::Sub(s, step);
-    if (hn::AllTrue(d, hn::Lt(hn::Abs(step), hn::Mul(small, s)))) break;
+HWY_INLINE Response<V> respond(D d, T mu, T lambda, V volume, const Deformation<V>& deformation) {
+  const V dilation = hn::Sub(deformation.trace, hn::Set(d, T{3}));
+  const V stiffness = hn::Mul(hn::Set(d, T{2} * mu), volume);
+  const V pressure = hn::Mul(hn::Mul(hn::Set(d, lambda), volume), dilation);
+  const Mat3<V> strain = strainOf(d, deformation);
+  const V squared =
+      hn::Add(hn::Add(dot(strain.c0, strain.c0), dot(strain.c1, strain.c1)), dot(strain.c2, strain.c2));
+  Response<V> response;
+  response.energy = hn::Mul(hn::Set(d, T(0.5)), hn::MulAdd(stiffness, squared, hn::Mul(pressure, dilation)));
+  // stiffness (F - R) + pressure R
+  response.stress = blend(hn::Sub(stiffness, pressure), strain, pressure, deformation.F);
+  // As in extractRotation().
+  const V least_slope = hn::Mul(hn::Set(d, T(1e-2)), hn::Mul(deformation.squared_norm, deformation.trace));
+  const auto unique = hn::And(hn::Gt(deformation.slope, least_slope), arrived(d, deformation));
+  if (HWY_UNLIKELY(!hn::AllTrue(d, unique))) {
+    respondOneByOne(d, hn::Not(unique), mu, lambda, volume, deformation.F, &response);
   }
-  // kappa + |F|^2 = (s^2 + |F|^2) / 2 and zeta = kappa s - det F, both doubled.
-  const V kappa2 = hn::MulSub(s, s, squared_norm);
-  const V zeta2 = hn::NegMulAdd(hn::Set(d, T(0.25)), det8, hn::Mul(kappa2, s));
-  const V scale = hn::Div(hn::Set(d, T{1}), zeta2);
-  const V s2 = hn::Mul(hn::Add(s, s), scale), minus2 = hn::Mul(hn::Set(d, T{-2}), scale);
-  const V diagonal = hn::Mul(hn::MulAdd(s, s, squared_norm), scale);
-  const V f01 = hn::Mul(minus2, dot(F.c0, F.c1)), f02 = hn::Mul(minus2, dot(F.c0, F.c2)),
-          f12 = hn::Mul(minus2, dot(F.c1, F.c2));
-  const auto column = [&](V a, V b, V c, const Vec3<V>& cofactors) {
-    const Vec3<V> v = combine(F, a, b, c);
-    return Vec3<V>{hn::MulAdd(s2, cofactors.x, v.x), hn::MulAdd(s2, cofactors.y, v.y),
-                   hn::MulAdd(s2, cofactors.z, v.z)};
-  };
-  R->c0 = column(hn::MulAdd(minus2, f00, diagonal), f01, f02, C.c0);
-  R->c1 = column(f01, hn::MulAdd(minus2, f11, diagonal), f12, C.c1);
-  R->c2 = column(f02, f12, hn::MulAdd(minus2, f22, diagonal), C.c2);
+  return response;
+}
 
-  // As in extractRotation(); the comparison is false for NaN, too.
-  const auto sure = hn::And(hn::Gt(slope, hn::Mul(hn::Set(d, T(1e-2)), hn::Mul(squared_norm, s))),
-                            hn::Lt(hn::Abs(step), hn::Mul(small, s)));
-  if (HWY_UNLIKELY(!hn::AllTrue(d, sure))) extractOneByOne(d, hn::Not(sure), F, R, &s);
-  return s;
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE Deformation<V> loadDeformation(D d, const TetBlock<T>& block, std::size_t lane, const T* x) {
+  const auto m = [&](int k) { return hn::Load(d, block.inverse_edges[k] + lane); };
+  const Vec3<V> origin = loadRows(d, x, block.corners[0] + lane);
+  const Mat3<V> edges{minus(loadRows(d, x, block.corners[1] + lane), origin),
+                      minus(loadRows(d, x, block.corners[2] + lane), origin),
+                      minus(loadRows(d, x, block.corners[3] + lane), origin)};
+  return deformation(d, Mat3<V>{times(m(0), edges.c0), combine(edges.c0, edges.c1, m(1), m(2)),
+                                combine(edges, m(3), m(4), m(5))});
+}
+
+template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
+HWY_INLINE void addForces(D d, const TetBlock<T>& block, std::size_t lane, const Mat3<V>& stress,
+                          T* gradient) {
+  const auto m = [&](int k) { return hn::Load(d, block.inverse_edges[k] + lane); };
+  const Vec3<V> f1 = combine(stress, m(0), m(1), m(3)), f2 = combine(stress.c1, stress.c2, m(2), m(4)),
+                f3 = times(m(5), stress.c2);
+  addRows(d, f1, gradient, block.corners[1] + lane);
+  addRows(d, f2, gradient, block.corners[2] + lane);
+  addRows(d, f3, gradient, block.corners[3] + lane);
+  addRows(d, negatedSum(f1, f2, f3), gradient, block.corners[0] + lane);
 }
 
 template <typename T>
-double corotated(const TetBlock<T>* blocks, std::size_t count, T mu_in, T lambda_in, const T* x,
-                 T* gradient) {
+double corotated(const TetBlock<T>* blocks, std::size_t count, T mu, T lambda, const T* x, T* gradient) {
   const hn::CappedTag<T, TetBlock<T>::kLanes> d;
   using V = hn::Vec<decltype(d)>;
-  const V mu = hn::Set(d, mu_in), half_lambda = hn::Set(d, T(0.5) * lambda_in), three = hn::Set(d, T{3});
+  constexpr std::size_t kLanes = TetBlock<T>::kLanes, kVectors = kBlocksSideBySide;
+  const std::size_t lanes = hn::Lanes(d);
   double energy = 0.0;
-  for (std::size_t b = 0; b < count; ++b) {
-    const TetBlock<T>& block = blocks[b];
-    V block_energy = hn::Zero(d);
-    for (std::size_t lane = 0; lane < TetBlock<T>::kLanes; lane += hn::Lanes(d)) {
-      const auto m = [&](int k) { return hn::Load(d, block.inverse_edges[k] + lane); };
-      const Vec3<V> origin = loadRows(d, x, block.vertices[0] + lane);
-      const Mat3<V> edges{minus(loadRows(d, x, block.vertices[1] + lane), origin),
-                          minus(loadRows(d, x, block.vertices[2] + lane), origin),
-                          minus(loadRows(d, x, block.vertices[3] + lane), origin)};
-      const Mat3<V> F{combine(edges, m(0), m(1), m(2)), combine(edges, m(3), m(4), m(5)),
-                      combine(edges, m(6), m(7), m(8))};
-      Mat3<V> R;
-      const V dilation = hn::Sub(extractRotations(d, F, &R), three);
-      const Mat3<V> strain{minus(F.c0, R.c0), minus(F.c1, R.c1), minus(F.c2, R.c2)};
-
-      const V volume = hn::Load(d, block.volume + lane);
-      const V stiffness = hn::Mul(mu, volume), pressure = hn::Mul(hn::Mul(half_lambda, volume), dilation);
-      const V squared =
-          hn::Add(hn::Add(dot(strain.c0, strain.c0), dot(strain.c1, strain.c1)), dot(strain.c2, strain.c2));
-      block_energy = hn::Add(block_energy, hn::MulAdd(stiffness, squared, hn::Mul(pressure, dilation)));
-
-      const V mu2 = hn::Add(stiffness, stiffness), lambda_dilation = hn::Add(pressure, pressure);
-      const Mat3<V> stress{blend(mu2, strain.c0, lambda_dilation, R.c0),
-                           blend(mu2, strain.c1, lambda_dilation, R.c1),
-                           blend(mu2, strain.c2, lambda_dilation, R.c2)};
-      const Vec3<V> f1 = combine(stress, m(0), m(3), m(6)), f2 = combine(stress, m(1), m(4), m(7)),
-                    f3 = combine(stress, m(2), m(5), m(8));
-      addRows(d, f1, gradient, block.vertices[1] + lane);
-      addRows(d, f2, gradient, block.vertices[2] + lane);
-      addRows(d, f3, gradient, block.vertices[3] + lane);
-      addRows(d, negatedSum(f1, f2, f3), gradient, block.vertices[0] + lane);
+  for (std::size_t first = 0; first < count * kLanes; first += kVectors * lanes) {
+    Deformation<V> deformations[kVectors];
+    for (std::size_t k = 0, tet = first; k < kVectors; ++k, tet += lanes) {
+      deformations[k] = loadDeformation(d, blocks[tet / kLanes], tet % kLanes, x);
     }
-    energy += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, block_energy)));
+    findTraces<kVectors>(d, deformations);
+    V sum = hn::Zero(d);
+    for (std::size_t k = 0, tet = first; k < kVectors; ++k, tet += lanes) {
+      const TetBlock<T>& block = blocks[tet / kLanes];
+      const V volume = hn::Load(d, block.volume + tet % kLanes);
+      const Response<V> response = respond(d, mu, lambda, volume, deformations[k]);
+      addForces(d, block, tet % kLanes, response.stress, gradient);
+      sum = hn::Add(sum, response.energy);
+    }
+    energy += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sum)));
   }
   return energy;
 }

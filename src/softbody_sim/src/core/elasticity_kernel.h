@@ -10,13 +10,18 @@ namespace softbody {
 template <typename T>
 struct alignas(64) TetBlock {
   static constexpr int kLanes = 16;
-  T inverse_edges[9][kLanes];  ///< of the rest edge matrices, column by column [1/m]
-  T volume[kLanes];            ///< [m^3]; 0: a lane that only fills the block
-  int vertices[4][kLanes];
+  /// Of the rest edge matrices, each turned until it is upper triangular, which an isotropic energy does not
+  /// notice: (0,0), (0,1), (1,1), (0,2), (1,2), (2,2) [1/m].
+  T inverse_edges[6][kLanes];
+  T volume[kLanes];        ///< [m^3]; 0: a lane that only fills the block
+  int corners[4][kLanes];  ///< where the vertices' rows begin
 };
 
-/// Energy [J] of the corotated material over `count` blocks; adds its gradient [N]. @param x, gradient rows
-/// of four numbers (x, y, z, 0).
+/// The kernel takes so many at once.
+constexpr int kBlocksSideBySide = 4;
+
+/// Energy [J] of the corotated material over `count` blocks, a multiple of kBlocksSideBySide; adds its
+/// gradient [N]. @param x, gradient rows of four numbers (x, y, z, 0).
 template <typename T>
 using ElasticityKernel = double (*)(const TetBlock<T>* blocks, std::size_t count, T mu, T lambda, const T* x,
                                     T* gradient);

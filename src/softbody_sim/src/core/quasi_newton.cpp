@@ -17,7 +17,12 @@ double dot(const Positions& a, const Positions& b) {
 
 template <typename Positions>
 double longestRow(const Positions& points) {
-  return std::sqrt(static_cast<double>(points.rowwise().squaredNorm().maxCoeff()));
+  typename Positions::Scalar longest{0};
+  for (Eigen::Index v = 0; v < points.rows(); ++v) {
+    const auto x = points(v, 0), y = points(v, 1), z = points(v, 2);
+    longest = std::max(longest, x * x + y * y + z * z);
+  }
+  return std::sqrt(static_cast<double>(longest));
 }
 
 }  // namespace

@@ -19,6 +19,11 @@ struct Row {
   static constexpr int kParts = 4 / kLanes;
   hn::Vec<D> part[kParts];
 
+  static HWY_INLINE Row zero() {
+    Row r;
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::Zero(D());
+    return r;
+  }
   static HWY_INLINE Row load(const T* row) {
     Row r;
     for (int k = 0; k < kParts; ++k) r.part[k] = hn::LoadU(D(), row + k * kLanes);
@@ -47,11 +52,17 @@ struct Row {
     for (int k = 0; k < kParts; ++k) r.part[k] = hn::NegMulAdd(hn::Set(D(), factor), b.part[k], part[k]);
     return r;
   }
-  HWY_INLINE T dot(const Row& b) const {
-    auto sum = hn::Mul(part[0], b.part[0]);
-    for (int k = 1; k < kParts; ++k) sum = hn::MulAdd(part[k], b.part[k], sum);
-    return hn::GetLane(hn::SumOfLanes(D(), sum));
+  HWY_INLINE Row plusProduct(const Row& a, const Row& b) const {
+    Row r;
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::MulAdd(a.part[k], b.part[k], part[k]);
+    return r;
   }
+  HWY_INLINE T sum() const {
+    auto total = part[0];
+    for (int k = 1; k < kParts; ++k) total = hn::Add(total, part[k]);
+    return hn::GetLane(hn::SumOfLanes(D(), total));
+  }
+  HWY_INLINE T dot(const Row& b) const { return zero().plusProduct(*this, b).sum(); }
 };
 
 }  // namespace softbody::HWY_NAMESPACE

@@ -1,7 +1,5 @@
 #include "core/step_rows.h"
 
-#include <algorithm>
-
 namespace softbody {
 namespace {
 
@@ -9,7 +7,7 @@ template <typename T>
 TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d& origin) {
   TargetRow<T> row{};
   for (int k = 0; k < 4; ++k) {
-    row.vertices[k] = spring.vertices[k];
+    row.corners[k] = 4 * spring.vertices[k];
     row.barycentric[k] = static_cast<T>(spring.barycentric[k]);
   }
   // Barycentric coordinates that do not quite sum to 1 move the origin, too.
@@ -28,15 +26,17 @@ TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d&
 
 template <typename T>
 StepRows<T>::StepRows(Eigen::Index vertex_count, Simd simd)
-    : inertia_(vertex_count),
-      prediction_(Rows<T>::Zero(paddedRows(vertex_count), 4)),
-      loads_(prediction_),
-      add_targets_(targetKernel<T>(simd)) {}
+    : inertia_(Rows<T>::Zero(paddedRows(vertex_count), 4)),
+      prediction_(inertia_),
+      loads_(inertia_),
+      kernel_(stepKernel<T>(simd)) {}
 
 template <typename T>
 void StepRows<T>::set(const StepPotential& potential, const Eigen::RowVector3d& origin) {
   origin_ = origin;
-  inertia_ = potential.inertia.array().template cast<T>();
+  for (Eigen::Index v = 0; v < potential.inertia.size(); ++v) {
+    inertia_.row(v).setConstant(static_cast<T>(potential.inertia[v]));
+  }
   toRows(potential.prediction, &prediction_);
   loads_.topLeftCorner(potential.loads.rows(), 3) = potential.loads.cast<T>();
   targets_.clear();
@@ -47,21 +47,13 @@ void StepRows<T>::set(const StepPotential& potential, const Eigen::RowVector3d& 
 
 template <typename T>
 double StepRows<T>::evaluate(const Rows<T>& x, Rows<T>* gradient) const {
-  using Row = Eigen::Array<T, 1, 4>;
-  constexpr Eigen::Index kChunk = 64;  // rows whose energies are summed in the precision T
-  double energy = 0.0;
-  for (Eigen::Index begin = 0; begin < inertia_.size(); begin += kChunk) {
-    Row sum = Row::Zero();
-    const Eigen::Index end = std::min(begin + kChunk, inertia_.size());
-    for (Eigen::Index v = begin; v < end; ++v) {
-      const Row offset = x.row(v).array() - prediction_.row(v).array();
-      const Row pull = inertia_[v] * offset, load = loads_.row(v).array();
-      sum += (T(0.5) * pull - load) * offset;
-      gradient->row(v).array() = pull - load;
-    }
-    energy += static_cast<double>(sum.sum());
-  }
-  return energy + add_targets_(targets_.data(), targets_.size(), x.data(), gradient->data());
+  const StepView<T> view{static_cast<std::size_t>(inertia_.size()),
+                         inertia_.data(),
+                         prediction_.data(),
+                         loads_.data(),
+                         targets_.data(),
+                         targets_.size()};
+  return kernel_(view, x.data(), gradient->data());
 }
 
 template <typename T>

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/rows.h"
+#include "core/step_kernel.h"
 #include "core/step_potential.h"
-#include "core/target_kernel.h"
 
 namespace softbody {
 
@@ -27,10 +27,10 @@ class StepRows {
 
  private:
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
-  Eigen::Array<T, Eigen::Dynamic, 1> inertia_;
+  Rows<T> inertia_;  ///< the same in all of a row
   Rows<T> prediction_, loads_;
   std::vector<TargetRow<T>> targets_;
-  TargetKernel<T> add_targets_;
+  StepKernel<T> kernel_;
 };
 
 }  // namespace softbody

@@ -1,6 +1,6 @@
 // Vertices as rows of four numbers (x, y, z, 0), loaded and added by whole rows of 128 bits (float) or 256
-// (double) and transposed in registers: many times quicker than gathers. Included once per vector width
-// (Highway).
+// (double) and transposed in registers: many times quicker than gathers. `rows` says where rows begin, four
+// times a vertex. Included once per vector width (Highway).
 #if defined(SOFTBODY_VERTEX_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOFTBODY_VERTEX_ROWS_INL_H_
 #undef SOFTBODY_VERTEX_ROWS_INL_H_
@@ -28,7 +28,7 @@ constexpr std::size_t bytesOf() {
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE hn::Vec<D> loadBlocks(D d, const T* base, const int* rows, int stride, int offset) {
   if constexpr (bytesOf<D>() == 16) {
-    return hn::LoadU(d, base + 4 * rows[0] + offset);
+    return hn::LoadU(d, base + rows[0] + offset);
   } else {
     const hn::Half<D> half;
     constexpr int blocks = static_cast<int>(bytesOf<D>() / 32);
@@ -40,7 +40,7 @@ HWY_INLINE hn::Vec<D> loadBlocks(D d, const T* base, const int* rows, int stride
 template <class D, class V, typename T = hn::TFromD<D>>
 HWY_INLINE void addBlocks(D d, V v, T* base, const int* rows, int stride, int offset) {
   if constexpr (bytesOf<D>() == 16) {
-    T* row = base + 4 * rows[0] + offset;
+    T* row = base + rows[0] + offset;
     hn::StoreU(hn::Add(hn::LoadU(d, row), v), d, row);
   } else {
     const hn::Half<D> half;
@@ -50,7 +50,7 @@ HWY_INLINE void addBlocks(D d, V v, T* base, const int* rows, int stride, int of
   }
 }
 
-/// Component vectors of the vertices rows[0 .. lanes).
+/// Component vectors of the rows[0 .. lanes).
 template <class D>
 HWY_INLINE Vec3<hn::Vec<D>> loadRows(D d, const float* base, const int* rows) {
   const hn::Repartition<double, D> d64;
@@ -72,7 +72,7 @@ HWY_INLINE Vec3<hn::Vec<D>> loadRows(D d, const double* base, const int* rows) {
   return {hn::InterleaveLower(d, xy0, xy1), hn::InterleaveUpper(d, xy0, xy1), hn::InterleaveLower(d, z0, z1)};
 }
 
-/// Adds component vectors to the vertices rows[0 .. lanes), one after the other: a vertex may occur twice.
+/// Adds component vectors to the rows[0 .. lanes), one after the other: a vertex may occur twice.
 template <class D, class V>
 HWY_INLINE void addRows(D d, const Vec3<V>& v, float* base, const int* rows) {
   const hn::Repartition<double, D> d64;
