@@ -80,6 +80,8 @@ GraphConfig readGraphConfig(const std::string& path) {
   });
   config.simulator = readSection(file, "simulator", [](softbody::Parameters& parameters) {
     for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
+    for (const char* live_only : {"free_run_rate_hz", "stall_timeout_s"})
+      parameters.number(live_only, 0.0, 0.0, 1e9);
     return softbody::readSimulatorConfig(parameters);
   });
   return config;
@@ -131,8 +133,10 @@ void printSummary(const softbody::BagFramesReport& report, const Tally& tally, c
 void replay(const Options& options) {
   GraphConfig config = readGraphConfig(options.parameters);
   if (!options.simd.empty()) config.simulator.simd = options.simd;
-  const softbody::ObjectModel model =
-      softbody::buildObjectModel(softbody::loadObjectDescription(options.object));
+  const softbody::ObjectDescription description = softbody::loadObjectDescription(options.object);
+  const softbody::ObjectModel model = softbody::buildObjectModel(description);
+  if (!description.pins.empty())
+    fmt::print(stderr, "replay: {}: its pins hold nothing here, where there is no tf\n", options.object);
   for (const std::string& warning : model.warnings)
     fmt::print(stderr, "replay: {}: {}\n", options.object, warning);
   const rosbag::Bag input = openBag(options.input);

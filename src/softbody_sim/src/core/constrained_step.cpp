@@ -38,7 +38,7 @@ void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count) 
 
 ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
                                  StepSolver* solver)
-    : tets_(topology.tets), contact_(std::move(contact)), options_(options), solver_(solver) {}
+    : topology_(&topology), contact_(std::move(contact)), options_(options), solver_(solver) {}
 
 /// What stays the same while contacts are found again.
 struct ConstrainedStep::Problem {
@@ -52,7 +52,7 @@ struct ConstrainedStep::Problem {
 ConstrainedStep::Result ConstrainedStep::solve(StepPotential free, const std::vector<Target>& targets,
                                                const Surroundings& surroundings, const Points& before,
                                                const std::vector<Eigen::Isometry3d>& before_poses,
-                                               Points* x) const {
+                                               Points* x) {
   if (surroundings.loads.size() > 0) free.loads += surroundings.loads;
   Problem problem{targets, surroundings, before, before_poses, free};
   hold(surroundings.pins, options_.pin_stiffness, &problem.potential);
@@ -66,7 +66,7 @@ ConstrainedStep::Result ConstrainedStep::solve(StepPotential free, const std::ve
 }
 
 /// A body that hangs or lies is nearer to its end where it was than where the loads alone take it.
-void ConstrainedStep::chooseStart(Problem* problem, Points* x) const {
+void ConstrainedStep::chooseStart(Problem* problem, Points* x) {
   const Surroundings& surroundings = problem->surroundings;
   if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
   Points still = problem->before;
@@ -74,14 +74,14 @@ void ConstrainedStep::chooseStart(Problem* problem, Points* x) const {
   if (energyAt(still, problem) < energyAt(*x, problem)) x->swap(still);
 }
 
-double ConstrainedStep::energyAt(const Points& x, Problem* problem) const {
+double ConstrainedStep::energyAt(const Points& x, Problem* problem) {
   setSprings(contactsAt(x, *problem), problem);
   Points unused(x.rows(), 3);
   return problem->potential.evaluate(x, &unused) + solver_->addElasticity(x, &unused);
 }
 
 /// @return the contacts under which the result was found.
-std::vector<Contact> ConstrainedStep::iterate(Problem* problem, Points* x, StepReport* report) const {
+std::vector<Contact> ConstrainedStep::iterate(Problem* problem, Points* x, StepReport* report) {
   constexpr int kMaxRounds = 5;
   std::vector<Contact> contacts = contactsAt(*x, *problem);
   for (int round = 1;; ++round) {
@@ -100,12 +100,12 @@ std::vector<Contact> ConstrainedStep::iterate(Problem* problem, Points* x, StepR
   }
 }
 
-std::vector<Contact> ConstrainedStep::contactsAt(const Points& x, const Problem& problem) const {
+std::vector<Contact> ConstrainedStep::contactsAt(const Points& x, const Problem& problem) {
   return contact_.find(problem.before, x, problem.surroundings.obstacles, problem.before_poses);
 }
 
 void ConstrainedStep::setSprings(const std::vector<Contact>& contacts, Problem* problem) const {
-  problem->potential.targets.set(problem->targets, tets_, options_.target_stiffness);
+  problem->potential.targets.set(problem->targets, topology_->tets, options_.target_stiffness);
   contact_.addSprings(contacts, &problem->potential.targets);
 }
 

@@ -25,27 +25,27 @@ class ConstrainedStep {
     Reactions reactions;
   };
 
-  /// @param solver outlives this.
+  /// @param topology, solver outlive this.
   ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
                   StepSolver* solver);
 
   /// @param free the step without targets and surroundings; @param before vertices at its start;
   /// @param before_poses of the obstacles then; @param x start, then result.
   Result solve(StepPotential free, const std::vector<Target>& targets, const Surroundings& surroundings,
-               const Points& before, const std::vector<Eigen::Isometry3d>& before_poses, Points* x) const;
+               const Points& before, const std::vector<Eigen::Isometry3d>& before_poses, Points* x);
 
  private:
   struct Problem;
 
-  void chooseStart(Problem* problem, Points* x) const;
-  double energyAt(const Points& x, Problem* problem) const;
-  std::vector<Contact> iterate(Problem* problem, Points* x, StepReport* report) const;
-  std::vector<Contact> contactsAt(const Points& x, const Problem& problem) const;
+  void chooseStart(Problem* problem, Points* x);
+  double energyAt(const Points& x, Problem* problem);
+  std::vector<Contact> iterate(Problem* problem, Points* x, StepReport* report);
+  std::vector<Contact> contactsAt(const Points& x, const Problem& problem);
   void setSprings(const std::vector<Contact>& contacts, Problem* problem) const;
   std::vector<Wrench> pinWrenches(const StepPotential& free, const std::vector<Pin>& pins,
                                   const Points& x) const;
 
-  Tets tets_;
+  const TetTopology* topology_;
   ContactModel contact_;
   Options options_;
   StepSolver* solver_;

@@ -11,28 +11,30 @@ namespace softbody {
 
 ContactModel::ContactModel(const TetTopology& topology, double spacing_m, double pressure_stiffness,
                            double reach_m)
-    : tets_(topology.tets),
-      points_(contactPoints(topology, spacing_m)),
+    : topology_(&topology),
+      spacing_m_(spacing_m),
       pressure_stiffness_(pressure_stiffness),
       reach_m_(reach_m) {}
 
 std::vector<Contact> ContactModel::find(const Points& before, const Points& now,
                                         const std::vector<Obstacle>& obstacles,
-                                        const std::vector<Eigen::Isometry3d>& before_poses) const {
-  return findContacts(points_, tets_, before, now, obstacles, before_poses, reach_m_);
+                                        const std::vector<Eigen::Isometry3d>& before_poses) {
+  if (obstacles.empty()) return {};
+  if (points_.empty()) points_ = contactPoints(*topology_, spacing_m_);
+  return findContacts(points_, topology_->tets, before, now, obstacles, before_poses, reach_m_);
 }
 
 void ContactModel::addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const {
   for (const Contact& contact : contacts) {
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
-    springs->addOneSided(point.place, tets_, contact.position, contact.normal,
+    springs->addOneSided(point.place, topology_->tets, contact.position, contact.normal,
                          pressure_stiffness_ * point.area);
   }
 }
 
 double ContactModel::depthOf(const Contact& contact, const Points& x) const {
   const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
-  return std::max(0.0, contact.normal.dot(contact.position - positionOf(point.place, x, tets_)));
+  return std::max(0.0, contact.normal.dot(contact.position - positionOf(point.place, x, topology_->tets)));
 }
 
 double ContactModel::difference(const std::vector<Contact>& a, const std::vector<Contact>& b,
@@ -52,7 +54,8 @@ std::vector<Wrench> ContactModel::wrenches(const std::vector<Contact>& contacts,
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     const Eigen::Vector3d force = -pressure_stiffness_ * point.area * depthOf(contact, x) * contact.normal;
-    const Eigen::Vector3d arm = positionOf(point.place, x, tets_) - obstacles[obstacle].pose.translation();
+    const Eigen::Vector3d arm =
+        positionOf(point.place, x, topology_->tets) - obstacles[obstacle].pose.translation();
     wrenches[obstacle].force += force;
     wrenches[obstacle].torque += arm.cross(force);
   }

@@ -10,12 +10,14 @@ namespace softbody {
 /// Contact without friction as one-sided springs: a point that is in by d feels the pressure k d.
 class ContactModel {
  public:
-  /// @param pressure_stiffness k [Pa/m]; @param reach_m contacts that are farther apart are left out.
+  /// @param topology outlives this; @param pressure_stiffness k [Pa/m]; @param reach_m contacts that are
+  /// farther apart are left out.
   ContactModel(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m);
 
-  /// The contacts of a step from `before`, as its vertices are now. @param before_poses as in findContacts.
+  /// The contacts of a step from `before`, as its vertices are now. The first obstacles make the contact
+  /// points. @param before_poses as in findContacts.
   std::vector<Contact> find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
-                            const std::vector<Eigen::Isometry3d>& before_poses) const;
+                            const std::vector<Eigen::Isometry3d>& before_poses);
 
   void addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const;
 
@@ -30,9 +32,9 @@ class ContactModel {
  private:
   double depthOf(const Contact& contact, const Points& x) const;
 
-  Tets tets_;
+  const TetTopology* topology_;
   std::vector<ContactPoint> points_;
-  double pressure_stiffness_, reach_m_;
+  double spacing_m_, pressure_stiffness_, reach_m_;
 };
 
 }  // namespace softbody

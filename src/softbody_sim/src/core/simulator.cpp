@@ -125,7 +125,7 @@ struct Simulator::Implementation {
 
   const Eigen::VectorXd masses;  ///< lumped [kg]
   const std::unique_ptr<StepSolver> solver;
-  const ConstrainedStep constrained_step;
+  ConstrainedStep constrained_step;
   ObservationConfidence confidence;
 
   Body body;
