@@ -9,6 +9,7 @@
 #include "core/cutting/cut_curve.h"
 #include "core/cutting/cut_refused.h"
 #include "core/cutting/grazing.h"
+#include "core/cutting/sheets.h"
 #include "core/cutting/split_surface.h"
 #include "core/cutting/surface_stitching.h"
 #include "core/cutting/wall_fill.h"
@@ -170,10 +171,11 @@ struct CutGrazes : CutRefused {
 
 class SurfaceCutter {
  public:
-  explicit SurfaceCutter(const MeshTopology& mesh)
+  /// Keeps references to both.
+  SurfaceCutter(const MeshTopology& mesh, const Sheets& sheets)
       : mesh_(mesh),
-        triangles_(listOf(mesh.triangles)),
-        mates_(halfEdgeMates(triangles_, static_cast<int>(mesh.rest_vertices.rows()))),
+        triangles_(sheets.triangles),
+        mates_(sheets.mates),
         diagonal_(diagonalOf(mesh.rest_vertices)) {}
 
   SurfaceCut cut(const CutPatch& patch) const;
@@ -182,8 +184,8 @@ class SurfaceCutter {
   SurfaceCut attempt(const CutPatch& patch) const;
 
   const MeshTopology& mesh_;
-  TriangleList triangles_;
-  std::vector<int> mates_;
+  const TriangleList& triangles_;
+  const std::vector<int>& mates_;
   double diagonal_;
 };
 
@@ -231,10 +233,34 @@ SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
   return uncut(mesh_, CutOutcome::kRefused, reason);
 }
 
+/// The mesh with the vertices that its sheets do not share any more.
+MeshTopology withSheets(MeshTopology mesh, const Sheets& sheets) {
+  const auto own = mesh.rest_vertices.rows(), copies = static_cast<Eigen::Index>(sheets.copied_from.size());
+  mesh.rest_vertices.conservativeResize(own + copies, Eigen::NoChange);
+  for (Eigen::Index v = own; v < own + copies; ++v) {
+    const int source = sheets.copied_from[static_cast<std::size_t>(v - own)];
+    mesh.rest_vertices.row(v) = mesh.rest_vertices.row(source).eval();
+    mesh.vertex_parents.push_back(mesh.vertex_parents[static_cast<std::size_t>(source)]);
+  }
+  for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(t), k) = sheets.triangles[t][k];
+  }
+  return mesh;
+}
+
 }  // namespace
 
 SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch) {
-  return SurfaceCutter(mesh).cut(patch);
+  const Sheets sheets = partSheets(listOf(mesh.triangles), mesh.rest_vertices);
+  if (sheets.copied_from.empty()) return SurfaceCutter(mesh, sheets).cut(patch);
+  const MeshTopology parted = withSheets(mesh, sheets);
+  SurfaceCut cut = SurfaceCutter(parted, sheets).cut(patch);
+  if (cut.outcome != CutOutcome::kCut) return uncut(mesh, cut.outcome, cut.reason);
+  const auto own = static_cast<int>(mesh.rest_vertices.rows());
+  for (int& source : cut.vertex_sources) {
+    if (source >= own) source = sheets.copied_from[static_cast<std::size_t>(source - own)];
+  }
+  return cut;
 }
 
 }  // namespace softbody

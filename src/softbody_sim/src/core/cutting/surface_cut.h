@@ -27,7 +27,8 @@ struct SurfaceCut {
 /// inside, the two walls meet. A patch that passes a vertex or an edge within a 20,000th of the body's
 /// diagonal passes through it. New coordinates are rounded to single precision, as they are published; no
 /// triangle that the cut makes is then lower than a 400,000th of the diagonal.
-/// @param mesh @throw std::invalid_argument if it is not closed, or the patch is no oriented surface.
+/// @param mesh its sheets may touch in edges and vertices: these are parted first.
+/// @throw std::invalid_argument if the mesh is not closed, or the patch is no oriented surface.
 SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch);
 
 }  // namespace softbody
