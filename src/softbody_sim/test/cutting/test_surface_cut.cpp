@@ -7,7 +7,7 @@
 
 #include "core/cutting/curve_snapping.h"
 #include "core/cutting/surface_cut.h"
-#include "cutting/random_cuts.h"
+#include "cutting/random_patches.h"
 #include "cutting/surface_meshes.h"
 
 namespace softbody {
@@ -69,7 +69,7 @@ int numberOfCuts(int few) {
 /// Cuts a mesh at random, each time up to three times one after the other.
 void cutAtRandom(const MeshTopology& mesh, int count, unsigned seed) {
   const double volume = volumeOf(mesh);
-  RandomCuts cuts(mesh.rest_vertices, mesh.triangles, seed);
+  RandomPatches cuts(mesh.rest_vertices, mesh.triangles, seed);
   int refused = 0, made = 0;
   for (int k = 0; k < count; ++k) {
     MeshTopology before = mesh;

@@ -1,101 +1,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <optional>
 
-#include "core/cutting/cut_history.h"
-#include "core/cutting/surface_history.h"
-#include "cutting/cut_bodies.h"
-#include "softbody_common/tet_locator.h"
+#include "cutting/cut_visual_body.h"
 
 namespace softbody {
 namespace {
 
+using testing::CutBody;
+using testing::kRounding;
 using testing::planePatch;
-
-constexpr double kRounding = 2e-8;  ///< [m] of coordinates in single precision
-
-/// The surface of a box as a visual mesh: vertices 10 mm apart, a little inside of the tets.
-MeshTopology visualSponge() {
-  const TetTopology box = testing::boxTopology({20, 10, 3}, {0.2, 0.1, 0.03});
-  std::vector<int> numbers(static_cast<std::size_t>(box.rest_vertices.rows()), -1);
-  MeshTopology mesh;
-  mesh.triangles = box.surface;
-  int count = 0;
-  for (int& v : mesh.triangles.reshaped()) {
-    int& number = numbers[static_cast<std::size_t>(v)];
-    if (number < 0) {
-      number = count++;
-      mesh.rest_vertices.conservativeResize(count, Eigen::NoChange);
-      mesh.rest_vertices.row(number) = box.rest_vertices.row(v);
-      mesh.vertex_parents.push_back(number);
-    }
-    v = number;
-  }
-  const Eigen::RowVector3d center(0.1, 0.05, 0.015);
-  mesh.rest_vertices = (0.96 * (mesh.rest_vertices.rowwise() - center)).rowwise() + center;
-  mesh.rest_vertices = inSinglePrecision(mesh.rest_vertices);
-  mesh.bodies.assign(static_cast<std::size_t>(mesh.triangles.rows()), 0);
-  mesh.cut.assign(static_cast<std::size_t>(mesh.triangles.rows()), false);
-  return mesh;
-}
-
-MeshState stateOf(const TetTopology& volume, const Points& vertices) {
-  MeshState state;
-  state.revision = volume.revision;
-  state.vertices = vertices;
-  state.confidence.assign(static_cast<std::size_t>(vertices.rows()), 1.0f);
-  return state;
-}
-
-/// Bent, twisted and a little uneven, by centimetres.
-Points deformed(const Points& rest) {
-  Points points = rest;
-  for (Eigen::Index v = 0; v < rest.rows(); ++v) {
-    const double x = rest(v, 0), y = rest(v, 1), z = rest(v, 2);
-    points.row(v) << x - 0.5 * z * x, y + 0.004 * std::sin(40.0 * x) - 2.0 * z * x,
-        z + 3.0 * x * x + 2.0 * x * y;
-  }
-  return points;
-}
-
-/// A body whose tets and visual mesh are cut together.
-struct Body {
-  explicit Body(const TetTopology& uncut = testing::sponge(), const MeshTopology& visual = visualSponge())
-      : tets(uncut), surface(VisualSurface(visual, uncut)), vertices(deformed(uncut.rest_vertices)) {}
-
-  MeshState state() const { return stateOf(tets.topology(), vertices); }
-  Points shown() const { return surface.surface().apply(state()).vertices; }
-  Points atRest() const {
-    return surface.surface().apply(stateOf(tets.topology(), tets.topology().rest_vertices)).vertices;
-  }
-
-  /// Cuts the tets where the mesh can be cut. @return whether there was a cut.
-  bool cut(const CutPatch& patch, std::uint32_t stroke) {
-    const SurfaceCut mesh = surface.preview(patch, stroke);
-    if (mesh.outcome != CutOutcome::kCut) return false;
-    const TetTopology before = tets.topology();
-    std::string reason;
-    const auto edit = tets.cut(patch, stroke, &reason);
-    if (!edit) {
-      surface.advance(patch, stroke);
-      return false;
-    }
-    surface.cut(patch, stroke, mesh, *edit, stateOf(before, vertices));
-    vertices = applyBinding(edit->vertex_origins, vertices, before.tets);
-    return true;
-  }
-
-  CutHistory tets;
-  SurfaceHistory surface;
-  Points vertices;  ///< of the tets, deformed
-};
+using testing::stateOf;
+using testing::worstJump;
 
 TEST(SurfaceHistory, CutsWithoutAJump) {
-  Body body;
+  CutBody body;
   const Points before = body.shown();
   ASSERT_TRUE(body.cut(planePatch({0.093, 0.05, 0.015}, {1.0, 0.3, 0.1}, 1.0), 1));
   const Points after = body.shown();
@@ -112,7 +32,7 @@ TEST(SurfaceHistory, CutsWithoutAJump) {
 }
 
 /// By how much an edge of the mesh is stretched at most where the pieces of tets are moved apart [m].
-double stretchWhenApart(const Body& body, double distance) {
+double stretchWhenApart(const CutBody& body, double distance) {
   const TetTopology& tets = body.tets.topology();
   Points apart = tets.rest_vertices;
   for (Eigen::Index t = 0; t < tets.tets.rows(); ++t) {
@@ -138,7 +58,7 @@ TEST(SurfaceHistory, PiecesDoNotMixAtRandomCuts) {
   testing::RandomCuts cuts(sponge, 5);
   int parted = 0, counts_differ = 0;
   for (int k = 0; k < 80; ++k) {
-    Body body;
+    CutBody body;
     if (!body.cut(cuts.planeCut(), 1)) continue;
     const auto& bodies = body.tets.topology().bodies;
     const auto& visual = body.surface.surface().topology().bodies;
@@ -210,7 +130,7 @@ TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
   for (int k = 0; k < 80; ++k) {
     const Eigen::Vector3d center = cuts.point(), normal = cuts.direction();
     const Eigen::Vector3d way = normal.cross(cuts.direction()).normalized();
-    Body body;
+    CutBody body;
     if (!body.cut(halfPlane(center, normal, way), 1)) continue;
     ++slits;
     const MeshTopology& mesh = body.surface.surface().topology();
@@ -231,33 +151,12 @@ TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
   EXPECT_LE(other_side, checked / 1000);
 }
 
-/// Vertices that both meshes have, by the input file and by their places: kept ones and earlier copies.
-double worstJump(const Points& shown_before, const MeshTopology& before, const Points& shown_after,
-                 const MeshTopology& after) {
-  std::multimap<std::array<double, 3>, Eigen::Index> places;
-  for (Eigen::Index v = 0; v < before.rest_vertices.rows(); ++v) {
-    places.insert({{before.rest_vertices(v, 0), before.rest_vertices(v, 1), before.rest_vertices(v, 2)}, v});
-  }
-  double worst = 0.0;
-  for (Eigen::Index v = 0; v < after.rest_vertices.rows(); ++v) {
-    const auto [first, last] =
-        places.equal_range({after.rest_vertices(v, 0), after.rest_vertices(v, 1), after.rest_vertices(v, 2)});
-    if (first == last) continue;
-    double jump = 1.0;
-    for (auto entry = first; entry != last; ++entry) {
-      jump = std::min(jump, (shown_after.row(v) - shown_before.row(entry->second)).norm());
-    }
-    worst = std::max(worst, jump);
-  }
-  return worst;
-}
-
 TEST(SurfaceHistory, StrokesGoOnWithoutAJump) {
   const TetTopology sponge = testing::sponge();
   testing::RandomCuts cuts(sponge, 9);
   int steps = 0;
   for (int k = 0; k < 20; ++k) {
-    Body body;
+    CutBody body;
     for (const CutPatch& patch : cuts.sweep(6)) {
       const MeshTopology mesh = body.surface.surface().topology();
       const Points shown = body.shown();
@@ -274,7 +173,7 @@ TEST(SurfaceHistory, StrokesGoOnWithoutAJump) {
 }
 
 TEST(SurfaceHistory, FollowsAffineDeformationsExactly) {
-  Body body;
+  CutBody body;
   body.vertices = body.tets.topology().rest_vertices;
   ASSERT_TRUE(body.cut(planePatch({0.093, 0.05, 0.015}, {1.0, 0.3, 0.1}, 1.0), 1));
   ASSERT_TRUE(body.cut(planePatch({0.1, 0.05, 0.015}, {0.1, 1.0, 0.1}, 1.0), 2));
@@ -298,7 +197,7 @@ void expectSame(const VisualSurface& surface, const VisualSurface& other, const 
 }
 
 TEST(SurfaceHistory, UndoesFiveCutsBitForBitAndRedoesThem) {
-  Body body;
+  CutBody body;
   std::vector<VisualSurface> surfaces{body.surface.surface()};
   std::vector<Points> states{body.vertices}, shown{body.shown()};
   const TetTopology sponge = testing::sponge();

@@ -20,9 +20,9 @@ enum class CutKind {
   kCount
 };
 
-class RandomCuts {
+class RandomPatches {
  public:
-  RandomCuts(const Points& vertices, const Triangles& triangles, unsigned seed)
+  RandomPatches(const Points& vertices, const Triangles& triangles, unsigned seed)
       : vertices_(vertices), triangles_(triangles), random_(seed) {
     low_ = vertices.colwise().minCoeff();
     high_ = vertices.colwise().maxCoeff();
