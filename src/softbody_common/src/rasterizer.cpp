@@ -23,44 +23,91 @@ double edge(const Corner& a, const Corner& b, double u, double v) {
   return (b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u);
 }
 
-void drawTriangle(const Corner (&c)[3], int index, RasterImage* image) {
+int ceilOf(double x) {
+  const int i = static_cast<int>(x);
+  return i + static_cast<int>(x > i);
+}
+
+int floorOf(double x) {
+  const int i = static_cast<int>(x);
+  return i - static_cast<int>(x < i);
+}
+
+/// Integers from first to last.
+struct Range {
+  int first, last;
+};
+
+/// Pixel centres of a row or column between two coordinates, inside the image. Neither may be NaN.
+Range centersBetween(double min, double max, int size) {
+  if (max < -kRounding || min > size - 1.0 + kRounding) return {0, -1};
+  return {ceilOf(std::max(0.0, min - kRounding)), floorOf(std::min(size - 1.0, max + kRounding))};
+}
+
+/// A linear function along a row of pixels.
+struct Linear {
+  double at_first, slope;
+};
+
+/// The part of the row where the function is not below 0.
+void clip(const Linear& weight, double inverse_slope, double* first, double* last) {
+  const double zero = (-kRounding - weight.at_first) * inverse_slope;
+  if (weight.slope > 0.0) *first = std::max(*first, zero);
+  if (weight.slope < 0.0) *last = std::min(*last, zero);
+  if (weight.slope == 0.0 && weight.at_first < -kRounding) *last = -1.0;
+}
+
+void drawSpan(const Linear& inverse_z, int first, int last, int index, float* depth, int* triangle) {
+  for (int i = first; i <= last; ++i) {
+    const auto z = static_cast<float>(1.0 / (inverse_z.at_first + i * inverse_z.slope));
+    if (depth[i] != 0.0f && z >= depth[i]) continue;
+    depth[i] = z;
+    triangle[i] = index;
+  }
+}
+
+/// Draws row by row: weights are linear along a row, so that it needs no test pixel by pixel.
+void drawPixels(const Corner (&c)[3], double area, const Range& columns, const Range& rows, int index,
+                RasterImage* image) {
+  const double inverse_area = 1.0 / area;
+  const double slope0 = (c[1].v - c[2].v) * inverse_area, slope1 = (c[2].v - c[0].v) * inverse_area;
+  const double slope2 = -slope0 - slope1;
+  const double inverse0 = 1.0 / slope0, inverse1 = 1.0 / slope1, inverse2 = 1.0 / slope2;
+  const double slope_z = slope0 * c[0].inverse_z + slope1 * c[1].inverse_z + slope2 * c[2].inverse_z;
+  const int length = columns.last - columns.first;
+  for (int v = rows.first; v <= rows.last; ++v) {
+    const double w0 = edge(c[1], c[2], columns.first, v) * inverse_area;
+    const double w1 = edge(c[2], c[0], columns.first, v) * inverse_area;
+    const double w2 = 1.0 - w0 - w1;
+    double first = 0.0, last = length;
+    clip({w0, slope0}, inverse0, &first, &last);
+    clip({w1, slope1}, inverse1, &first, &last);
+    clip({w2, slope2}, inverse2, &first, &last);
+    if (!(first <= last)) continue;
+    const double inverse_z = w0 * c[0].inverse_z + w1 * c[1].inverse_z + w2 * c[2].inverse_z;
+    drawSpan({inverse_z, slope_z}, ceilOf(first), floorOf(last), index, image->depth[v] + columns.first,
+             image->triangle[v] + columns.first);
+  }
+}
+
+/// @return pixels that the triangle may cover.
+cv::Rect drawTriangle(const Corner (&c)[3], bool front_only, int index, RasterImage* image) {
   const double area = edge(c[0], c[1], c[2].u, c[2].v);
-  if (area == 0.0 || !std::isfinite(area)) return;
+  if (area == 0.0 || !std::isfinite(area)) return {};
   const auto [min_u, max_u] = std::minmax({c[0].u, c[1].u, c[2].u});
   const auto [min_v, max_v] = std::minmax({c[0].v, c[1].v, c[2].v});
-  const int width = image->depth.cols, height = image->depth.rows;
-  if (max_u < -kRounding || max_v < -kRounding || min_u > width - 1.0 + kRounding ||
-      min_v > height - 1.0 + kRounding)
-    return;
-  const int first_u = static_cast<int>(std::ceil(std::max(0.0, min_u - kRounding)));
-  const int last_u = static_cast<int>(std::floor(std::min(width - 1.0, max_u + kRounding)));
-  const int first_v = static_cast<int>(std::ceil(std::max(0.0, min_v - kRounding)));
-  const int last_v = static_cast<int>(std::floor(std::min(height - 1.0, max_v + kRounding)));
-  for (int v = first_v; v <= last_v; ++v) {
-    for (int u = first_u; u <= last_u; ++u) {
-      const double w0 = edge(c[1], c[2], u, v) / area, w1 = edge(c[2], c[0], u, v) / area;
-      const double w2 = 1.0 - w0 - w1;
-      if (w0 < -kRounding || w1 < -kRounding || w2 < -kRounding) continue;
-      const double inverse_z = w0 * c[0].inverse_z + w1 * c[1].inverse_z + w2 * c[2].inverse_z;
-      const float z = static_cast<float>(1.0 / inverse_z);
-      float& nearest = image->depth(v, u);
-      if (nearest != 0.0f && z >= nearest) continue;
-      nearest = z;
-      image->triangle(v, u) = index;
-      image->barycentric(v, u) = cv::Vec2f(static_cast<float>(w0 * c[0].inverse_z / inverse_z),
-                                           static_cast<float>(w1 * c[1].inverse_z / inverse_z));
-    }
-  }
-  if (first_u <= last_u && first_v <= last_v) {
-    image->region |= cv::Rect(first_u, first_v, last_u - first_u + 1, last_v - first_v + 1);
-  }
+  const Range columns = centersBetween(min_u, max_u, image->depth.cols);
+  const Range rows = centersBetween(min_v, max_v, image->depth.rows);
+  if (columns.first > columns.last || rows.first > rows.last) return {};
+  // Outward triangles that face the camera turn against the image's axes, of which v points down.
+  if (!front_only || area < 0.0) drawPixels(c, area, columns, rows, index, image);
+  return {columns.first, rows.first, columns.last - columns.first + 1, rows.last - rows.first + 1};
 }
 
 void clear(const cv::Size& size, RasterImage* image) {
   if (image->depth.size() != size) {
     image->depth.create(size);
     image->triangle.create(size);
-    image->barycentric.create(size);
     image->region = cv::Rect(cv::Point(), size);
   }
   // Only what the last mesh covered needs wiping.
@@ -71,25 +118,40 @@ void clear(const cv::Size& size, RasterImage* image) {
 
 }  // namespace
 
-void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
-               RasterImage* image) {
-  if (triangles.size() != 0 && (triangles.minCoeff() < 0 || triangles.maxCoeff() >= vertices.rows())) {
-    throw std::invalid_argument("rasterize: a triangle names a vertex beyond the " +
-                                std::to_string(vertices.rows()) + " given");
-  }
+void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& triangles, RasterImage* image,
+               Faces faces) {
   clear(cv::Size(camera.width, camera.height), image);
   std::vector<Corner> corners(static_cast<std::size_t>(vertices.rows()));
   for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
-    const double z = vertices(i, 2);
-    corners[i] = {camera.fx * vertices(i, 0) / z + camera.cx, camera.fy * vertices(i, 1) / z + camera.cy,
-                  1.0 / z};
+    const double inverse_z = 1.0 / vertices(i, 2);
+    corners[i] = {camera.fx * vertices(i, 0) * inverse_z + camera.cx,
+                  camera.fy * vertices(i, 1) * inverse_z + camera.cy, inverse_z};
   }
+  const auto count = static_cast<unsigned>(vertices.rows());
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     const int a = triangles(f, 0), b = triangles(f, 1), c = triangles(f, 2);
+    if (static_cast<unsigned>(a) >= count || static_cast<unsigned>(b) >= count ||
+        static_cast<unsigned>(c) >= count) {
+      throw std::invalid_argument("rasterize: a triangle names a vertex beyond the " + std::to_string(count) +
+                                  " given");
+    }
     const bool in_front =
         vertices(a, 2) >= kNearPlane && vertices(b, 2) >= kNearPlane && vertices(c, 2) >= kNearPlane;
-    if (in_front) drawTriangle({corners[a], corners[b], corners[c]}, static_cast<int>(f), image);
+    if (in_front) {
+      image->region |= drawTriangle({corners[a], corners[b], corners[c]}, faces == Faces::kFront,
+                                    static_cast<int>(f), image);
+    }
   }
+}
+
+Eigen::Vector3d rayWeights(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
+                           int triangle, double u, double v) {
+  const Eigen::Vector3d ray = camera.unproject(u, v, 1.0);
+  const auto corner = [&](int k) -> Eigen::Vector3d { return vertices.row(triangles(triangle, k % 3)); };
+  // The ray as a multiple of the corners (Cramer's rule): the weights up to scale.
+  Eigen::Vector3d weights;
+  for (int k = 0; k < 3; ++k) weights[k] = ray.dot(corner(k + 1).cross(corner(k + 2)));
+  return weights / weights.sum();
 }
 
 }  // namespace softbody

@@ -104,6 +104,19 @@ Triangles boundaryTriangles(const Tets& tets) {
   return triangles;
 }
 
+bool isClosed(const Triangles& triangles) {
+  std::vector<std::pair<int, int>> forward, backward;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+      (a < b ? forward : backward).emplace_back(std::minmax(a, b));
+    }
+  }
+  std::sort(forward.begin(), forward.end());
+  std::sort(backward.begin(), backward.end());
+  return forward == backward;
+}
+
 std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count) {
   return connectedPieces(tets, vertex_count);
 }

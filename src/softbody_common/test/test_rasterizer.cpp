@@ -7,6 +7,7 @@
 
 #include "random_meshes.h"
 #include "softbody_common/rasterizer.h"
+#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
@@ -82,8 +83,8 @@ TEST_P(Rasterizer, WeightsReproduceThePointBehindThePixel) {
       EXPECT_EQ(f >= 0 && !image.region.contains(cv::Point(u, v)), false);
       if (f < 0) continue;
       ++covered;
-      const cv::Vec2f w = image.barycentric(v, u);
-      const Eigen::Vector3d weights(w[0], w[1], 1.0 - w[0] - w[1]);
+      const Eigen::Vector3d weights = rayWeights(kCamera, mesh.vertices, mesh.triangles, f, u, v);
+      EXPECT_GT(weights.minCoeff(), -1e-6);
       Eigen::Vector3d point = Eigen::Vector3d::Zero();
       for (int k = 0; k < 3; ++k) point += weights[k] * mesh.vertices.row(mesh.triangles(f, k)).transpose();
       EXPECT_LT((point - kCamera.unproject(u, v, image.depth(v, u))).norm(), 1e-6);
@@ -127,6 +128,22 @@ TEST_P(Rasterizer, AReusedImageEqualsAFreshOne) {
   EXPECT_EQ(cv::norm(used.depth, fresh.depth, cv::NORM_INF), 0.0);
   EXPECT_EQ(cv::norm(used.triangle, fresh.triangle, cv::NORM_INF), 0.0);
   EXPECT_EQ(used.region, fresh.region);
+}
+
+TEST_P(Rasterizer, AClosedMeshLooksTheSameWithoutTheFacesThatLookAway) {
+  const TetMesh block = shakenBlock(4, 3, 2, 0.1, 0.15, &random_);
+  const Triangles triangles = boundaryTriangles(block.tets);
+  const Eigen::Matrix3d turn = randomMotion(&random_).linear();
+  const Points turned = block.vertices * turn.transpose();
+  const Points vertices = turned.rowwise() + (Eigen::RowVector3d(0, 0, 1) - turned.colwise().mean());
+  ASSERT_TRUE(isClosed(triangles));
+  EXPECT_FALSE(isClosed(triangles.topRows(triangles.rows() - 1)));
+  RasterImage all, front;
+  rasterize(kCamera, vertices, triangles, &all);
+  rasterize(kCamera, vertices, triangles, &front, Faces::kFront);
+  EXPECT_GT(cv::countNonZero(all.depth), 30);
+  EXPECT_LE(cv::norm(all.depth, front.depth, cv::NORM_INF), 0.0);
+  EXPECT_EQ(all.region, front.region);
 }
 
 TEST(RasterizerEdges, NothingUnusableIsDrawn) {

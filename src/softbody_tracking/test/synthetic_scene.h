@@ -108,11 +108,10 @@ inline RgbdFrame renderFrame(const BoxBody& body, const Points& vertices, Nanose
     for (int u = 0; u < 640; ++u) {
       const int f = image.triangle(v, u);
       if (f < 0) continue;
-      const cv::Vec2f b = image.barycentric(v, u);
-      const Eigen::Vector3d rest =
-          b[0] * body.surface.rest_vertices.row(body.surface.triangles(f, 0)) +
-          b[1] * body.surface.rest_vertices.row(body.surface.triangles(f, 1)) +
-          (1.0f - b[0] - b[1]) * body.surface.rest_vertices.row(body.surface.triangles(f, 2));
+      const Eigen::Vector3d b = rayWeights(frame.camera, vertices, body.surface.triangles, f, u, v);
+      const Eigen::Vector3d rest = b[0] * body.surface.rest_vertices.row(body.surface.triangles(f, 0)) +
+                                   b[1] * body.surface.rest_vertices.row(body.surface.triangles(f, 1)) +
+                                   b[2] * body.surface.rest_vertices.row(body.surface.triangles(f, 2));
       const std::uint8_t gray = textureAt(rest, 0);
       frame.color(v, u) = cv::Vec3b(gray / 4, gray / 2 + textureAt(rest, 1) / 4, gray);
       frame.depth(v, u) = image.depth(v, u);

@@ -16,6 +16,9 @@ double enclosedVolume(const Points& vertices, const Triangles& triangles);
 /// Triangles that belong to exactly one tet, outward, for tets of positive volume.
 Triangles boundaryTriangles(const Tets& tets);
 
+/// Whether the triangles leave no gap: along every edge as many run one way as the other.
+bool isClosed(const Triangles& triangles);
+
 /// Connected piece of every tet (tets that share a vertex are connected), numbered from 0 in order of
 /// appearance.
 std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count);

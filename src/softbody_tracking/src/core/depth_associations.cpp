@@ -23,27 +23,38 @@ struct Block {
   Eigen::Vector3d normal;
 };
 
+/// Offsets from first to one before end that keep both places in [0, length).
+struct Offsets {
+  int first, end;
+};
+
+Offsets offsetsInside(int a, int b, int size, int length) {
+  return {std::max({-(size / 2), -a, -b}), std::min({size - size / 2, length - a, length - b})};
+}
+
 /// Counts a block's pixels. The surface's shape around the sample is the rendered one.
 void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& rendered_center, int size,
              const ColorModel& colors, double max_distance, Block* block) {
-  const cv::Rect frame_size(cv::Point(), frame.depth.size());
+  const cv::Point& center = block->center;
+  const Offsets columns = offsetsInside(rendered_center.x, center.x, size, frame.depth.cols);
+  const Offsets rows = offsetsInside(rendered_center.y, center.y, size, frame.depth.rows);
   const auto nearer_by = static_cast<float>(block->predicted) - image.depth(rendered_center);
   const auto gate = static_cast<float>(max_distance);
   int measured = 0, agreeing = 0, nearer = 0, farther = 0;
   float sum = 0.0f;
-  for (int j = -(size / 2); j < size - size / 2; ++j) {
-    for (int i = -(size / 2); i < size - size / 2; ++i) {
-      const cv::Point rendered = rendered_center + cv::Point(i, j), pixel = block->center + cv::Point(i, j);
-      if (!frame_size.contains(rendered) || !frame_size.contains(pixel)) continue;
-      const float z = frame.depth(pixel);
-      if (image.triangle(rendered) < 0 || z <= 0.0f) continue;
+  for (int j = rows.first; j < rows.end; ++j) {
+    const float* rendered = image.depth[rendered_center.y + j] + rendered_center.x;
+    const float* depth = frame.depth[center.y + j] + center.x;
+    const cv::Vec3b* color = frame.color[center.y + j] + center.x;
+    for (int i = columns.first; i < columns.end; ++i) {
+      if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
       ++measured;
-      const float difference = z - image.depth(rendered) - nearer_by;
+      const float difference = depth[i] - rendered[i] - nearer_by;
       if (difference < -gate) {
         ++nearer;
       } else if (difference > gate) {
         ++farther;
-      } else if (!colors.belongs(frame.color(pixel))) {
+      } else if (!colors.belongs(color[i])) {
         ++nearer;
       } else {
         ++agreeing;

@@ -12,69 +12,61 @@ constexpr float kConverged = 0.01f;         // [px of the level]
 constexpr float kSmallestSpread = 4.0f;     // grey values: standard deviation below which there is only noise
 constexpr float kWeakestDirection = 0.02f;  // eigenvalue of the Hessian of a patch of norm 1 [1/px^2]
 
-}  // namespace
+using Values = Eigen::Map<Eigen::Array<float, kPatchSize, 1>>;
+using ConstValues = Eigen::Map<const Eigen::Array<float, kPatchSize, 1>>;
 
-/// Bilinear samples on the warped grid; false where it leaves the image.
-bool FeaturePatch::sample(const cv::Mat1b& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
-                          Samples* values) {
-  constexpr int kHalf = kSide / 2;
-  const float reach_u = kHalf * (std::abs(warp(0, 0)) + std::abs(warp(0, 1)));
-  const float reach_v = kHalf * (std::abs(warp(1, 0)) + std::abs(warp(1, 1)));
-  const bool inside = center.x - reach_u >= 0.0f && center.y - reach_v >= 0.0f &&
-                      center.x + reach_u < static_cast<float>(image.cols - 1) &&
-                      center.y + reach_v < static_cast<float>(image.rows - 1);
-  if (!inside) return false;
-  const auto stride = static_cast<std::ptrdiff_t>(image.step);
-  int i = 0;
-  for (int y = -kHalf; y <= kHalf; ++y) {
-    const auto fy = static_cast<float>(y);
-    for (int x = -kHalf; x <= kHalf; ++x, ++i) {
-      const auto fx = static_cast<float>(x);
-      const float u = center.x + warp(0, 0) * fx + warp(0, 1) * fy;
-      const float v = center.y + warp(1, 0) * fx + warp(1, 1) * fy;
-      const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-      const float a = u - static_cast<float>(u0), b = v - static_cast<float>(v0);
-      const unsigned char* p = image.data + v0 * stride + u0;
-      const float top = static_cast<float>(p[0]) + a * static_cast<float>(p[1] - p[0]);
-      const float bottom = static_cast<float>(p[stride]) + a * static_cast<float>(p[stride + 1] - p[stride]);
-      (*values)[i] = top + b * (bottom - top);
-    }
-  }
-  return true;
-}
+Values of(PatchSamples* samples) { return Values(samples->values.data()); }
+ConstValues of(const PatchSamples& samples) { return ConstValues(samples.values.data()); }
 
-/// To mean 0 and norm 1; false for a patch without contrast.
-bool FeaturePatch::normalize(Samples* values) {
-  *values -= values->mean();
-  const float norm = values->matrix().norm();
-  if (norm < kSmallestSpread * kSide) return false;
-  *values /= norm;
-  return true;
-}
-
-bool FeaturePatch::learnLevel(const cv::Mat1b& image, const cv::Point2f& center, Level* level) {
-  const Eigen::Matrix2f upright = Eigen::Matrix2f::Identity();
-  Samples left, right, above, below;
-  const bool inside = sample(image, center, upright, &level->values) &&
-                      sample(image, center - cv::Point2f(1, 0), upright, &left) &&
-                      sample(image, center + cv::Point2f(1, 0), upright, &right) &&
-                      sample(image, center - cv::Point2f(0, 1), upright, &above) &&
-                      sample(image, center + cv::Point2f(0, 1), upright, &below);
-  if (!inside) return false;
-  const float norm = (level->values - level->values.mean()).matrix().norm();
-  if (!normalize(&level->values)) return false;
-  level->dx = (right - left) / (2.0f * norm);
-  level->dy = (below - above) / (2.0f * norm);
+/// False where the patch does not fix a position.
+bool invertHessian(const PatchTemplate& pattern, Eigen::Matrix2f* inverse) {
+  const ConstValues dx = of(pattern.dx), dy = of(pattern.dy);
   Eigen::Matrix2f hessian;
-  hessian << (level->dx * level->dx).sum(), (level->dx * level->dy).sum(), 0.0f,
-      (level->dy * level->dy).sum();
+  hessian << (dx * dx).sum(), (dx * dy).sum(), 0.0f, (dy * dy).sum();
   hessian(1, 0) = hessian(0, 1);
   const float half_trace = 0.5f * hessian.trace();
   const float smallest =
       half_trace - std::sqrt(std::max(0.0f, half_trace * half_trace - hessian.determinant()));
   if (smallest < kWeakestDirection) return false;
-  level->inverse_hessian = hessian.inverse();
+  *inverse = hessian.inverse();
   return true;
+}
+
+/// Whether the warped grid lies in the image.
+bool fits(const cv::Mat1b& image, const cv::Point2f& center, const Eigen::Matrix2f& warp) {
+  constexpr int kHalf = kPatchSide / 2;
+  const float reach_u = kHalf * (std::abs(warp(0, 0)) + std::abs(warp(0, 1)));
+  const float reach_v = kHalf * (std::abs(warp(1, 0)) + std::abs(warp(1, 1)));
+  return center.x - reach_u >= 0.0f && center.y - reach_v >= 0.0f &&
+         center.x + reach_u < static_cast<float>(image.cols - 1) &&
+         center.y + reach_v < static_cast<float>(image.rows - 1);
+}
+
+}  // namespace
+
+bool FeaturePatch::learnLevel(const cv::Mat1b& image, const cv::Point2f& center, Level* level) {
+  const Eigen::Matrix2f upright = Eigen::Matrix2f::Identity();
+  const cv::Point2f right(1, 0), down(0, 1);
+  for (const cv::Point2f& place : {center - right, center + right, center - down, center + down}) {
+    if (!fits(image, place, upright)) return false;
+  }
+  PatchTemplate& pattern = level->pattern;
+  samplePatch(image, center, upright, &pattern.values);
+  of(&pattern.values) -= of(pattern.values).mean();
+  const float norm = of(pattern.values).matrix().norm();
+  if (norm < kSmallestSpread * kPatchSide) return false;
+  of(&pattern.values) /= norm;
+  const auto derive = [&](const cv::Point2f& step, PatchSamples* derivative) {
+    PatchSamples before;
+    samplePatch(image, center - step, upright, &before);
+    samplePatch(image, center + step, upright, derivative);
+    of(derivative) = (of(*derivative) - of(before)) / (2.0f * norm);
+  };
+  derive(right, &pattern.dx);
+  derive(down, &pattern.dy);
+  level->dx_offset = (of(pattern.dx) * of(pattern.values)).sum();
+  level->dy_offset = (of(pattern.dy) * of(pattern.values)).sum();
+  return invertHessian(pattern, &level->inverse_hessian);
 }
 
 bool FeaturePatch::learn(const GrayPyramid& image, const cv::Point2f& pixel) {
@@ -91,18 +83,23 @@ bool FeaturePatch::learn(const GrayPyramid& image, const cv::Point2f& pixel) {
 /// Moves the centre until the image there looks like the patch. @return the correlation there.
 float FeaturePatch::alignLevel(const Level& level, const cv::Mat1b& image, const Eigen::Matrix2f& warp,
                                cv::Point2f* center) {
-  Samples values;
+  PatchSamples samples;
+  float correlation = -1.0f;
   for (int i = 0; i < kIterations; ++i) {
-    if (!sample(image, *center, warp, &values) || !normalize(&values)) return -1.0f;
-    const Samples difference = values - level.values;
+    if (!fits(image, *center, warp)) return -1.0f;
+    samplePatch(image, *center, warp, &samples);
+    const PatchSums sums = comparePatch(samples, level.pattern);
+    if (sums.spread < kSmallestSpread * kPatchSide) return -1.0f;
+    correlation = sums.product / sums.spread;
     const Eigen::Vector2f shift =
-        level.inverse_hessian * Eigen::Vector2f((level.dx * difference).sum(), (level.dy * difference).sum());
+        level.inverse_hessian * Eigen::Vector2f(sums.along_x / sums.spread - level.dx_offset,
+                                                sums.along_y / sums.spread - level.dy_offset);
     const Eigen::Vector2f moved = warp * shift;
-    if (!(moved.squaredNorm() < kSide * kSide)) return -1.0f;
+    if (!(moved.squaredNorm() < kPatchSide * kPatchSide)) return -1.0f;
     *center -= cv::Point2f(moved.x(), moved.y());
     if (moved.squaredNorm() < kConverged * kConverged) break;
   }
-  return (values * level.values).sum();
+  return correlation;
 }
 
 FeaturePatch::Alignment FeaturePatch::align(const GrayPyramid& image, const Eigen::Matrix2f& warp,

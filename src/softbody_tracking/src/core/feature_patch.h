@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gray_pyramid.h"
+#include "patch_kernel.h"
 
 namespace softbody {
 
@@ -28,19 +29,12 @@ class FeaturePatch {
                   int coarsest_level) const;
 
  private:
-  static constexpr int kSide = 11;
-  static constexpr int kSize = kSide * kSide;
-  using Samples = Eigen::Array<float, kSize, 1>;
-
   struct Level {
-    Samples values;  ///< mean 0, norm 1
-    Samples dx, dy;  ///< derivative of the values per pixel of the level
+    PatchTemplate pattern;
+    float dx_offset, dy_offset;  ///< products of the pattern's values with its derivatives
     Eigen::Matrix2f inverse_hessian;
   };
 
-  static bool sample(const cv::Mat1b& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
-                     Samples* values);
-  static bool normalize(Samples* values);
   static bool learnLevel(const cv::Mat1b& image, const cv::Point2f& center, Level* level);
   static float alignLevel(const Level& level, const cv::Mat1b& image, const Eigen::Matrix2f& warp,
                           cv::Point2f* center);

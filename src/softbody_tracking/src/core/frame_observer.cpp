@@ -91,13 +91,14 @@ void FrameObserver::look(const RgbdFrame& frame, const Points& vertices) {
 RigidMotions FrameObserver::rigidMotions(const RgbdFrame& frame,
                                          const std::vector<FeatureMatch>& matches) const {
   RigidMotions motions(surface_.bodyCount(), Eigen::Isometry3d::Identity());
+  const std::vector<Association> features = inliers(matches);
   for (int i = 0; i < kRigidIterations; ++i) {
     const DepthAssociations depth =
         associateDepth(frame, surface_.image(), samples_, motions, colors_, volume_edge_m_, config_.depth);
     std::vector<std::vector<Association>> of_body(motions.size());
     for (const Association& association : depth.associations)
       of_body[association.body].push_back(association);
-    for (Association association : inliers(matches)) {
+    for (Association association : features) {
       association.predicted = motions[association.body] * association.predicted;
       of_body[association.body].push_back(association);
     }

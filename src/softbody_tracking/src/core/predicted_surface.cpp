@@ -12,6 +12,7 @@ namespace softbody {
 PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology& surface)
     : volume_(volume),
       surface_(surface),
+      faces_(isClosed(surface.triangles) ? Faces::kFront : Faces::kAll),
       tet_bodies_(tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
       vertex_bodies_(vertexBodies(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
       body_count_(*std::max_element(tet_bodies_.begin(), tet_bodies_.end()) + 1),
@@ -31,7 +32,7 @@ void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertic
   camera_ = camera;
   volume_vertices_ = volume_vertices;
   vertices_ = applyBinding(binding_, volume_vertices, volume_.tets);
-  rasterize(camera, vertices_, surface_.triangles, &image_);
+  rasterize(camera, vertices_, surface_.triangles, &image_, faces_);
 }
 
 Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
@@ -49,19 +50,12 @@ void PredictedSurface::move(const RigidMotions& motions) {
 
 /// Where the ray through a pixel meets a triangle's plane, in the rest shape.
 Eigen::Vector3d PredictedSurface::restPoint(int triangle, const cv::Point2f& pixel) const {
-  const Eigen::Vector3d ray = camera_.unproject(pixel.x, pixel.y, 1.0);
-  const auto corner = [&](int k) -> Eigen::Vector3d {
-    return vertices_.row(surface_.triangles(triangle, k % 3));
-  };
-  // The ray as a multiple of the corners (Cramer's rule): barycentric coordinates up to scale.
+  const Eigen::Vector3d weights =
+      rayWeights(camera_, vertices_, surface_.triangles, triangle, pixel.x, pixel.y);
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double weight = ray.dot(corner(k + 1).cross(corner(k + 2)));
-    rest += weight * surface_.rest_vertices.row(surface_.triangles(triangle, k)).transpose();
-    sum += weight;
-  }
-  return rest / sum;
+  for (int k = 0; k < 3; ++k)
+    rest += weights[k] * surface_.rest_vertices.row(surface_.triangles(triangle, k)).transpose();
+  return rest;
 }
 
 Eigen::Vector4d PredictedSurface::barycentric(int tet, const Eigen::Vector3d& rest) const {

@@ -59,6 +59,7 @@ class PredictedSurface {
 
   TetTopology volume_;
   MeshTopology surface_;
+  Faces faces_;
   std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;  ///< connected piece, #T and #V of the volume
   std::size_t body_count_ = 1;
   std::vector<MaterialPoint> binding_;

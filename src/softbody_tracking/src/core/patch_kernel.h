@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core.hpp>
+
+namespace softbody {
+
+constexpr int kPatchSide = 11;  ///< [px]
+constexpr int kPatchSize = kPatchSide * kPatchSide;
+
+/// A value for every pixel of a patch, row by row; zeros up to whole vectors.
+struct alignas(64) PatchSamples {
+  static constexpr int kPadded = 128;
+  std::array<float, kPadded> values;
+};
+
+/// What a patch looked like, with mean 0 and norm 1, and its derivatives per pixel to the right and
+/// downwards.
+struct PatchTemplate {
+  PatchSamples values, dx, dy;
+};
+
+/// Samples beside a template. With c the samples minus their mean:
+struct PatchSums {
+  float spread = 0.0f;   ///< |c|
+  float product = 0.0f;  ///< c . values
+  float along_x = 0.0f;  ///< c . dx
+  float along_y = 0.0f;  ///< c . dy
+};
+
+/// Bilinear samples on a grid of pixels about the centre, warped. Vectors of any width give the same bits.
+/// @param center, warp such that the grid lies inside the image.
+void samplePatch(const cv::Mat1b& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
+                 PatchSamples* samples);
+
+/// Vectors of any width give the same bits.
+PatchSums comparePatch(const PatchSamples& samples, const PatchTemplate& pattern);
+
+}  // namespace softbody
