@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,9 +15,7 @@ constexpr double kNearPlane = 0.01;  // [m]
 // Pixel centres on a shared edge must not fall between its two triangles by rounding.
 constexpr double kRounding = 1e-9;
 
-struct Corner {
-  double u, v, inverse_z;
-};
+using Corner = ProjectedVertex;
 
 /// Twice the signed area of (a, b, p), in pixels.
 double edge(const Corner& a, const Corner& b, double u, double v) {
@@ -90,18 +89,30 @@ void drawPixels(const Corner (&c)[3], double area, const Range& columns, const R
   }
 }
 
-/// @return pixels that the triangle may cover.
-cv::Rect drawTriangle(const Corner (&c)[3], bool front_only, int index, RasterImage* image) {
+/// What the triangles drawn so far may cover.
+struct Extent {
+  int left = std::numeric_limits<int>::max(), top = left, right = -1, bottom = -1;
+
+  void add(const Range& columns, const Range& rows) {
+    left = std::min(left, columns.first), right = std::max(right, columns.last);
+    top = std::min(top, rows.first), bottom = std::max(bottom, rows.last);
+  }
+  cv::Rect region() const {
+    return right < 0 ? cv::Rect() : cv::Rect(left, top, right - left + 1, bottom - top + 1);
+  }
+};
+
+void drawTriangle(const Corner (&c)[3], bool front_only, int index, RasterImage* image, Extent* extent) {
   const double area = edge(c[0], c[1], c[2].u, c[2].v);
-  if (area == 0.0 || !std::isfinite(area)) return {};
-  const auto [min_u, max_u] = std::minmax({c[0].u, c[1].u, c[2].u});
-  const auto [min_v, max_v] = std::minmax({c[0].v, c[1].v, c[2].v});
-  const Range columns = centersBetween(min_u, max_u, image->depth.cols);
-  const Range rows = centersBetween(min_v, max_v, image->depth.rows);
-  if (columns.first > columns.last || rows.first > rows.last) return {};
+  if (!(std::abs(area) <= std::numeric_limits<double>::max()) || area == 0.0) return;
+  const Range columns = centersBetween(std::min(std::min(c[0].u, c[1].u), c[2].u),
+                                       std::max(std::max(c[0].u, c[1].u), c[2].u), image->depth.cols);
+  const Range rows = centersBetween(std::min(std::min(c[0].v, c[1].v), c[2].v),
+                                    std::max(std::max(c[0].v, c[1].v), c[2].v), image->depth.rows);
+  if (columns.first > columns.last || rows.first > rows.last) return;
+  extent->add(columns, rows);
   // Outward triangles that face the camera turn against the image's axes, of which v points down.
   if (!front_only || area < 0.0) drawPixels(c, area, columns, rows, index, image);
-  return {columns.first, rows.first, columns.last - columns.first + 1, rows.last - rows.first + 1};
 }
 
 void clear(const cv::Size& size, RasterImage* image) {
@@ -116,32 +127,37 @@ void clear(const cv::Size& size, RasterImage* image) {
   image->region = cv::Rect();
 }
 
+/// Vertices that are too near have no place in the image (NaN), nor have their triangles.
+void project(const Pinhole& camera, const Points& vertices, std::vector<ProjectedVertex>* projected) {
+  projected->resize(static_cast<std::size_t>(vertices.rows()));
+  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
+    const double z = vertices(i, 2);
+    const double inverse_z = z >= kNearPlane ? 1.0 / z : std::numeric_limits<double>::quiet_NaN();
+    (*projected)[i] = {camera.fx * vertices(i, 0) * inverse_z + camera.cx,
+                       camera.fy * vertices(i, 1) * inverse_z + camera.cy, inverse_z};
+  }
+}
+
 }  // namespace
 
 void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& triangles, RasterImage* image,
                Faces faces) {
   clear(cv::Size(camera.width, camera.height), image);
-  std::vector<Corner> corners(static_cast<std::size_t>(vertices.rows()));
-  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
-    const double inverse_z = 1.0 / vertices(i, 2);
-    corners[i] = {camera.fx * vertices(i, 0) * inverse_z + camera.cx,
-                  camera.fy * vertices(i, 1) * inverse_z + camera.cy, inverse_z};
-  }
-  const auto count = static_cast<unsigned>(vertices.rows());
+  project(camera, vertices, &image->projected);
+  const std::vector<ProjectedVertex>& corners = image->projected;
+  Extent extent;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    const int a = triangles(f, 0), b = triangles(f, 1), c = triangles(f, 2);
-    if (static_cast<unsigned>(a) >= count || static_cast<unsigned>(b) >= count ||
-        static_cast<unsigned>(c) >= count) {
-      throw std::invalid_argument("rasterize: a triangle names a vertex beyond the " + std::to_string(count) +
-                                  " given");
+    const auto a = static_cast<std::size_t>(triangles(f, 0)), b = static_cast<std::size_t>(triangles(f, 1)),
+               c = static_cast<std::size_t>(triangles(f, 2));
+    if (a >= corners.size() || b >= corners.size() || c >= corners.size()) {
+      image->region = extent.region();
+      throw std::invalid_argument("rasterize: a triangle names a vertex beyond the " +
+                                  std::to_string(corners.size()) + " given");
     }
-    const bool in_front =
-        vertices(a, 2) >= kNearPlane && vertices(b, 2) >= kNearPlane && vertices(c, 2) >= kNearPlane;
-    if (in_front) {
-      image->region |= drawTriangle({corners[a], corners[b], corners[c]}, faces == Faces::kFront,
-                                    static_cast<int>(f), image);
-    }
+    drawTriangle({corners[a], corners[b], corners[c]}, faces == Faces::kFront, static_cast<int>(f), image,
+                 &extent);
   }
+  image->region = extent.region();
 }
 
 Eigen::Vector3d rayWeights(const Pinhole& camera, const Points& vertices, const Triangles& triangles,

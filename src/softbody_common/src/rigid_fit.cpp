@@ -32,7 +32,7 @@ Eigen::Isometry3d fitRigid(const Points& source, const Points& target, const Eig
 }
 
 Points transformed(const Points& points, const Eigen::Isometry3d& T) {
-  return (points * T.linear().transpose()).rowwise() + T.translation().transpose();
+  return points.lazyProduct(T.linear().transpose()).rowwise() + T.translation().transpose();
 }
 
 }  // namespace softbody

@@ -1,17 +1,25 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "softbody_common/pinhole.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
 
+/// Place in an image.
+struct ProjectedVertex {
+  double u, v;       ///< [px]
+  double inverse_z;  ///< [1/m]
+};
+
 /// What a pinhole camera sees of a triangle mesh. Images have the camera's size.
 struct RasterImage {
-  cv::Mat1f depth;     ///< z at the pixel centre [m]; 0: nothing
-  cv::Mat1i triangle;  ///< index of the visible triangle; -1: nothing
-  cv::Rect region;     ///< holds every covered pixel; may be a little larger
+  cv::Mat1f depth;                         ///< z at the pixel centre [m]; 0: nothing
+  cv::Mat1i triangle;                      ///< index of the visible triangle; -1: nothing
+  cv::Rect region;                         ///< holds every covered pixel; may be a little larger
+  std::vector<ProjectedVertex> projected;  ///< the mesh's vertices; NaN where too near
 };
 
 /// What is drawn: of a closed mesh the faces that look away are hidden, and half of the work.
