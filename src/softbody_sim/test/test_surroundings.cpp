@@ -143,6 +143,19 @@ TEST_P(UnderBothSolvers, AToolAtOneMetreASecondDoesNotGetThrough) {
   }
 }
 
+TEST_P(UnderBothSolvers, ATableThatJumpsTakesTheBodyAlong) {
+  config_.gravity.setZero();
+  Simulator simulator(topology_, material_, config_);
+  place(&simulator);
+  Surroundings surroundings;
+  surroundings.obstacles = {Obstacle::box({0.4, 0.4, 0.01}, 0.0)};
+  surroundings.obstacles[0].pose = Eigen::Translation3d(0.1, 0.05, -0.5);
+  simulator.step({}, kFrame, surroundings);
+  surroundings.obstacles[0].pose = Eigen::Translation3d(0.1, 0.05, 0.5);  // at 30 m/s
+  simulator.step({}, 2 * kFrame, surroundings);
+  EXPECT_GT(simulator.state().vertices.col(2).minCoeff(), 0.504);
+}
+
 TEST_P(UnderBothSolvers, ToolAndPinsBalanceAtRest) {
   Simulator simulator(topology_, material_, config_);
   place(&simulator);

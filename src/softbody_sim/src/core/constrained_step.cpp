@@ -90,7 +90,7 @@ std::vector<Contact> ConstrainedStep::iterate(Problem* problem, Points* x, StepR
     *report = solver_->minimize(problem->potential, x);
     report->iterations += iterations;
     if (problem->surroundings.obstacles.empty()) return contacts;
-    std::vector<Contact> now = contactsAt(*x, *problem);
+    std::vector<Contact> now = updated(contacts, contactsAt(*x, *problem));
     if (contact_.difference(contacts, now, *x) < options_.contact_tolerance_m) return contacts;
     if (round == kMaxRounds) {
       report->converged = false;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "softbody_common/tet_geometry.h"
@@ -143,6 +144,15 @@ std::vector<Contact> findContacts(const std::vector<ContactPoint>& points, const
     }
   }
   return contacts;
+}
+
+std::vector<Contact> updated(const std::vector<Contact>& earlier, std::vector<Contact> now) {
+  std::set<std::pair<int, int>> found;
+  for (const Contact& contact : now) found.emplace(contact.point, contact.obstacle);
+  for (const Contact& contact : earlier) {
+    if (found.count({contact.point, contact.obstacle}) == 0) now.push_back(contact);
+  }
+  return now;
 }
 
 }  // namespace softbody

@@ -35,4 +35,8 @@ std::vector<Contact> findContacts(const std::vector<ContactPoint>& points, const
                                   const std::vector<Obstacle>& obstacles,
                                   const std::vector<Eigen::Isometry3d>& before_poses, double reach_m);
 
+/// The contacts found now, and those of earlier that were not found again: a point that a contact has pushed
+/// out of the obstacle's way would otherwise fall back into it.
+std::vector<Contact> updated(const std::vector<Contact>& earlier, std::vector<Contact> now);
+
 }  // namespace softbody
