@@ -21,7 +21,7 @@ void requireReplaceable(const fs::path& folder) {
     throw std::invalid_argument(fmt::format("{} is not a folder", folder.string()));
   const bool is_report = fs::exists(folder / "report.json");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const fs::path file = entry.path();
+    const fs::path& file = entry.path();
     const bool ours =
         file.extension() == ".png" || file.filename() == "report.json" || file.filename() == "report.html";
     if (!is_report || !ours || !entry.is_regular_file()) {
