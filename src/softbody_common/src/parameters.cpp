@@ -57,7 +57,7 @@ std::string Parameters::text(const std::string& key, const std::string& fallback
 
 std::string Parameters::choice(const std::string& key, const std::string& fallback,
                                const std::vector<std::string>& allowed) {
-  const std::string value = text(key, fallback);
+  std::string value = text(key, fallback);
   if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
     throw std::invalid_argument(
         fmt::format("parameter {}{} is '{}'; allowed: {}", prefix_, key, value, fmt::join(allowed, ", ")));
@@ -66,13 +66,13 @@ std::string Parameters::choice(const std::string& key, const std::string& fallba
 }
 
 std::string Parameters::requiredText(const std::string& key) {
-  const std::string value = text(key, "");
+  std::string value = text(key, "");
   if (value.empty()) throw std::invalid_argument(fmt::format("parameter {}{} is missing", prefix_, key));
   return value;
 }
 
 std::vector<double> Parameters::numbers(const std::string& key, const std::vector<double>& fallback) {
-  const std::vector<double> values = get(key, fallback, "a list of numbers");
+  std::vector<double> values = get(key, fallback, "a list of numbers");
   const bool finite = std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
   if (values.size() != fallback.size() || !finite) {
     throw std::invalid_argument(fmt::format("parameter {}{} is [{}]; it must be {} finite numbers", prefix_,
