@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "core/body_finder.h"
 #include "core/registration.h"
 #include "softbody_common/rigid_fit.h"
 #include "synthetic_scene.h"
@@ -22,10 +23,24 @@ TEST(Registration, FindsTheBoxFromRoughPoses) {
     const Eigen::Vector3d shift = 0.02 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
     const Eigen::Isometry3d rough =
         Eigen::Translation3d(shift) * truth * Eigen::AngleAxisd(0.25 * uniform(random), axis);
-    const RegistrationResult found = registerBody(frame, mesh, rough, RegistrationConfig());
+    const RegistrationResult found = registerBody(frame, mesh, mesh, rough, RegistrationConfig());
     const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
     EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << "trial " << trial << ", cost " << found.cost;
   }
+}
+
+TEST(Registration, ACoarseMeshServesForTheSearch) {
+  const BoxBody box = makeBox(40, 20, 8);
+  const TriangleMesh mesh{box.surface.rest_vertices, box.surface.triangles};
+  const TriangleMesh coarse = clustered(mesh, 0.012);
+  ASSERT_LT(4 * coarse.triangles.rows(), mesh.triangles.rows());
+  const Eigen::Isometry3d truth = boxPose();
+  const RgbdFrame frame = renderFrame(box, transformed(mesh.vertices, truth), 1);
+  const Eigen::Isometry3d rough = Eigen::Translation3d(0.01, -0.015, 0.01) * truth *
+                                  Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 2, -1).normalized());
+  const RegistrationResult found = registerBody(frame, mesh, coarse, rough, RegistrationConfig());
+  const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
+  EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << found.cost;
 }
 
 TEST(Registration, CostIsLowestAtTheTruth) {
@@ -50,7 +65,8 @@ TEST(Registration, NothingInViewCostsAll) {
   const Eigen::Isometry3d behind(Eigen::Translation3d(0.0, 0.0, -0.5));
   EXPECT_EQ(poseCost(frame, mesh, behind, 0.02), 1.0);
   frame.depth.setTo(1.2f);
-  EXPECT_GT(registerBody(frame, mesh, boxPose(), RegistrationConfig()).cost, 0.5) << "only the wall is there";
+  EXPECT_GT(registerBody(frame, mesh, mesh, boxPose(), RegistrationConfig()).cost, 0.5)
+      << "only the wall is there";
 }
 
 }  // namespace

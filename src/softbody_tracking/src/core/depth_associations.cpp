@@ -134,6 +134,7 @@ DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& imag
   growOccluders(surface.grid, &blocks);
 
   DepthAssociations result;
+  result.associations.reserve(blocks.size());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const Block& block = blocks[i];
     if (block.kind == BlockKind::kUnmeasured) continue;

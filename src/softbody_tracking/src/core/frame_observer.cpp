@@ -33,6 +33,7 @@ void addAcrossRay(const Association& feature, std::vector<Association>* associat
 
 std::vector<Association> inliers(const std::vector<FeatureMatch>& matches) {
   std::vector<Association> result;
+  result.reserve(2 * matches.size());
   for (const FeatureMatch& match : matches) {
     if (match.inlier) addAcrossRay(match.association, &result);
   }
@@ -96,6 +97,7 @@ RigidMotions FrameObserver::rigidMotions(const RgbdFrame& frame,
     const DepthAssociations depth =
         associateDepth(frame, surface_.image(), samples_, motions, colors_, volume_edge_m_, config_.depth);
     std::vector<std::vector<Association>> of_body(motions.size());
+    for (auto& associations : of_body) associations.reserve(depth.associations.size() + features.size());
     for (const Association& association : depth.associations)
       of_body[association.body].push_back(association);
     for (Association association : features) {

@@ -12,15 +12,27 @@ constexpr double kWorstCost = 0.22;  // of a pose that nobody vouches for
 constexpr double kAlikeCost = 0.02;  // poses whose costs differ by less look alike
 constexpr double kLargestForeignShare = 0.5;
 constexpr double kSmallestFeatureShare = 0.15;
+constexpr Eigen::Index kManyVertices = 3000;  // more than a small picture shows
+constexpr double kCoarseCells = 60.0;         // over the body's diameter
+
+/// A mesh quick to render where the given one is finer than a small picture shows.
+TriangleMesh simplified(const TriangleMesh& mesh) {
+  if (mesh.vertices.rows() <= kManyVertices) return mesh;
+  const Eigen::Vector3d size = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+  return clustered(mesh, size.norm() / kCoarseCells);
+}
 
 }  // namespace
 
 Localizer::Localizer(const TriangleMesh& rest_surface, const RegistrationConfig& config)
-    : config_(config), rest_surface_(rest_surface), finder_(rest_surface, config) {}
+    : config_(config),
+      rest_surface_(rest_surface),
+      coarse_(simplified(rest_surface)),
+      finder_(rest_surface, config) {}
 
 std::optional<Localization> Localizer::near(const RgbdFrame& frame,
                                             const Eigen::Isometry3d& rough_pose) const {
-  const RegistrationResult found = registerBody(frame, rest_surface_, rough_pose, config_);
+  const RegistrationResult found = registerBody(frame, rest_surface_, coarse_, rough_pose, config_);
   if (found.cost > config_.max_cost) return std::nullopt;
   return Localization{found.pose, 1};
 }

@@ -37,6 +37,7 @@ class Localizer {
 
   RegistrationConfig config_;
   TriangleMesh rest_surface_;
+  TriangleMesh coarse_;  ///< for rendering small
   BodyFinder finder_;
 };
 

@@ -14,10 +14,10 @@ constexpr std::size_t kBestStarts = 4;
 
 }  // namespace
 
-RegistrationResult registerBody(const RgbdFrame& frame, const TriangleMesh& mesh,
+RegistrationResult registerBody(const RgbdFrame& frame, const TriangleMesh& mesh, const TriangleMesh& coarse,
                                 const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config) {
-  const RgbdFrame coarse = subsampled(frame, 160);
-  PoseSearch search(coarse, mesh, config.distance_scale_m);
+  const RgbdFrame small = subsampled(frame, 160);
+  PoseSearch search(small, coarse, config.distance_scale_m);
   std::vector<RegistrationResult> starts;
   const std::array<double, 3> turns{0.0, 0.2, -0.2};  // [rad]
   for (double x : turns) {

@@ -22,7 +22,8 @@ double poseCost(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::I
 /// Rigid registration of a mesh at rest from a rough pose (a few centimetres, some 15 degrees): projective
 /// point-to-plane ICP (Besl and McKay 1992; Chen and Medioni 1992) from perturbed starts, the best of them by
 /// poseCost, refined by direct search on poseCost, which sees the outline where ICP may slide.
-RegistrationResult registerBody(const RgbdFrame& frame, const TriangleMesh& mesh,
+/// @param coarse stands for the mesh in the search at low resolution; may be the mesh itself.
+RegistrationResult registerBody(const RgbdFrame& frame, const TriangleMesh& mesh, const TriangleMesh& coarse,
                                 const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config);
 
 }  // namespace softbody
