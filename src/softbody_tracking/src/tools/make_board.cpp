@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "softbody_common/run_tool.h"
+#include "softbody_tracking/marker_board.h"
+#include "softbody_tracking/marker_detector.h"
+
+namespace {
+
+void writeText(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path temporary = path.string() + ".part";
+  std::ofstream file(temporary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + " cannot be written");
+  std::filesystem::rename(temporary, path);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<int> ids;
+  double size_mm = 64.0;
+  std::string dictionary = "DICT_4X4_50", paper = "a4", output;
+  CLI::App app("Markers to print, to scale: OUTPUT.pdf, OUTPUT.svg and their tool YAML, OUTPUT.yaml");
+  app.add_option("--id", ids, "markers' ids")->required();
+  app.add_option("--size-mm", size_mm, "side of the black square")
+      ->check(CLI::Range(3.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--dictionary", dictionary, "DICT_..., or a file in OpenCV's format")->capture_default_str();
+  app.add_option("--paper", paper, "sheet")
+      ->check(CLI::IsMember(softbody::paperNames()))
+      ->capture_default_str();
+  app.add_option("--output", output, "path without an extension")->required();
+  return softbody::runTool(&app, argc, argv, [&] {
+    const softbody::MarkerBoard board = softbody::layOutBoard(dictionary, ids, 1e-3 * size_mm, paper);
+    softbody::writeBoardPdf(board, output + ".pdf");
+    softbody::writeBoardSvg(board, output + ".svg");
+    writeText(output + ".yaml", softbody::boardYaml(board));
+    fmt::print("wrote {0}.pdf, {0}.svg, {0}.yaml\n", output);
+    return 0;
+  });
+}
