@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "softbody_bringup/bag_frames.h"
+#include "softbody_bringup/input_bag.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_tracking/tool_check.h"
 
@@ -19,7 +20,7 @@ int main(int argc, char** argv) {
     const softbody::ToolDescription description = softbody::loadToolDescription(tool);
     for (const std::string& warning : description.warnings) fmt::print(stderr, "check_tool: {}\n", warning);
     softbody::ToolCheck check(description);
-    const rosbag::Bag bag(input, rosbag::bagmode::Read);
+    const rosbag::Bag bag = softbody::openBag(input);
     softbody::CameraIngest ingest{softbody::CameraIngestConfig()};
     softbody::ProgressLine progress("check_tool");
     softbody::readBagFrames(bag, config, &ingest, [&](const auto& frame, const auto&, double share) {
