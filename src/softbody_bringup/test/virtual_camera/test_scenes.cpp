@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <set>
 
 #include "scene_fixtures.h"
 #include "softbody_bringup/virtual_camera/camera_setup.h"
@@ -219,6 +220,26 @@ TEST(Scenes, UnknownNamesAreAnsweredWithTheKnownOnes) {
   EXPECT_FALSE(noise.exposure.enabled || noise.blur.enabled || noise.color.enabled ||
                noise.depth.disparity_noise || noise.depth.quantization || noise.depth.edge_dropouts ||
                noise.depth.holes);
+}
+
+TEST(Noise, EveryPartAloneChangesTheImageThatItIsOf) {
+  const std::set<std::string> of_color = {"exposure", "blur", "color"};
+  const Scene scene = makeScene("shake", shippedBody("sponge"), 1);
+  const auto capture = [&](const NoiseOptions& noise) {
+    return VirtualCamera(scene, kCamera, noise, 1).capture(40, 40.0 / 30.0);
+  };
+  const Capture clean = capture(noNoise());
+  for (const std::string& part : noiseParts()) {
+    NoiseOptions alone;
+    for (const std::string& other : noiseParts()) {
+      if (other != part) switchOff(other, &alone);
+    }
+    const Capture noisy = capture(alone);
+    const bool color = of_color.count(part) == 1;
+    EXPECT_EQ(cv::norm(noisy.color, clean.color, cv::NORM_INF) > 0.0, color) << part;
+    EXPECT_EQ(cv::norm(noisy.depth_mm, clean.depth_mm, cv::NORM_INF) > 0.0, !color) << part;
+    EXPECT_EQ(noisy.truth.confidence, clean.truth.confidence) << part;
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -14,18 +15,17 @@ struct Affine {
   double operator()(double u, double v) const { return a * u + b * v + c; }
 };
 
-/// The line of an edge on the image and the side of it where its triangle lies.
+/// The line of an edge on the image.
 struct EdgeLine {
-  double u = 0.0, v = 0.0;  ///< a place on it [px]
-  double slope = 0.0;       ///< of u over v
-  bool inside_is_right = false;
+  double u = 0.0, v = 0.0;                                  ///< a place on it [px]
+  double slope = std::numeric_limits<double>::quiet_NaN();  ///< of u over v
   double at(double row) const { return u + slope * (row - v); }
 };
 
 /// A triangle on the image plane.
 struct ProjectedTriangle {
-  EdgeLine edge[3];
-  Affine inverse_z;  ///< 1 / z [1/m]
+  EdgeLine left[2], right[2];  ///< its edges on either side; twice the same where there is but one
+  Affine inverse_z;            ///< 1 / z [1/m]
   double min_u = 0.0, max_u = 0.0, min_v = 0.0, max_v = 0.0;
 };
 

@@ -12,10 +12,14 @@ constexpr double kNearPlane = 0.01;      // [m]
 constexpr double kEdgeTolerance = 1e-9;  // [px]; no sample may fall between two triangles of one edge
 constexpr int kBandRows = 16;            // of pixels
 
-EdgeLine edgeLine(const Eigen::Vector3d& p, const Eigen::Vector3d& q, bool front) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (q.y() == p.y()) return {-kInfinity, 0.0, 0.0, true};  // bounds no row
-  return {p.x(), p.y(), (q.x() - p.x()) / (q.y() - p.y()), (q.y() > p.y()) == front};
+/// Level edges bound no row.
+void addEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& q, bool front, ProjectedTriangle* t) {
+  if (q.y() == p.y()) return;
+  EdgeLine(&side)[2] = (q.y() > p.y()) == front ? t->left : t->right;
+  const EdgeLine line{p.x(), p.y(), (q.x() - p.x()) / (q.y() - p.y())};
+  const bool first = !std::isfinite(side[0].slope);
+  side[1] = line;
+  if (first) side[0] = line;
 }
 
 /// Gradient on the image of the barycentric coordinate of the corner after `a`, opposite to `a` and `b`.
@@ -28,9 +32,9 @@ ProjectedTriangle triangleOf(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                              double area) {
   ProjectedTriangle t;
   const bool front = area < 0.0;
-  t.edge[0] = edgeLine(p, q, front);
-  t.edge[1] = edgeLine(q, r, front);
-  t.edge[2] = edgeLine(r, p, front);
+  addEdge(p, q, front, &t);
+  addEdge(q, r, front, &t);
+  addEdge(r, p, front, &t);
   const Eigen::Vector2d gradient =
       (q.z() - p.z()) * weightGradient(p, r, area) + (r.z() - p.z()) * weightGradient(q, p, area);
   t.inverse_z = {gradient.x(), gradient.y(), p.z() - gradient.dot(p.head<2>())};
@@ -86,15 +90,8 @@ void sortIntoBands(const Pinhole& camera, Projection* projection) {
 
 /// First and last sample of the row within all edges.
 std::pair<int, int> span(const ProjectedTriangle& t, double v, const VisibilityBuffer& buffer) {
-  double low = t.min_u, high = t.max_u;
-  for (const EdgeLine& edge : t.edge) {
-    const double u = edge.at(v);
-    if (edge.inside_is_right) {
-      low = std::max(low, u);
-    } else {
-      high = std::min(high, u);
-    }
-  }
+  const double low = std::max({t.min_u, t.left[0].at(v), t.left[1].at(v)});
+  const double high = std::min({t.max_u, t.right[0].at(v), t.right[1].at(v)});
   if (!(high >= low - kEdgeTolerance)) return {0, -1};
   const auto sampleOf = [&](double u) { return (u + 0.5) * buffer.samples - 0.5; };
   const double last_column = buffer.triangle.cols - 1.0;
