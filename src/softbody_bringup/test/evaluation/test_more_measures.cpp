@@ -177,6 +177,20 @@ TEST(ReportFolder, ThePageHoldsItsPicturesAndReplacesAnEarlierReportAsAWhole) {
   EXPECT_FALSE(fs::exists(folder + ".old"));
 }
 
+TEST(ReportFolder, TheOtherResultsPictureStandsBesideItsOwn) {
+  const cv::Mat3b picture(4, 4, cv::Vec3b(1, 2, 3));
+  const std::string page =
+      htmlPage("t", {}, "",
+               {{"a.png", picture}, {"b.png", picture}, {"other_a.png", picture}, {"other_c.png", picture}});
+  std::vector<std::string> order;
+  const std::string mark = "<figcaption>";
+  for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
+    const std::size_t begin = at + mark.size();
+    order.push_back(page.substr(begin, page.find('<', begin) - begin));
+  }
+  EXPECT_EQ(order, (std::vector<std::string>{"a.png", "other_a.png", "b.png", "other_c.png"}));
+}
+
 TEST(ReportFolder, AFolderOfTheUsersIsNotReplaced) {
   const std::string folder = testing::TempDir() + "report_folder_of_user";
   fs::create_directories(folder);

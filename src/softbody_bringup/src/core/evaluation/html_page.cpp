@@ -55,14 +55,30 @@ std::string table(const std::vector<ComparedFigure>& rows) {
 }
 
 std::string image(const std::string& name, const cv::Mat3b& picture) {
-  // Diagrams are smaller as PNG, photographs as JPEG.
+  // JPEG only where it saves much, for photographs: it blurs lines.
   std::vector<unsigned char> png, jpeg;
   cv::imencode(".png", picture, png);
   cv::imencode(".jpg", picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, 90});
-  const bool as_png = png.size() <= jpeg.size();
+  const bool as_png = png.size() <= 2 * jpeg.size();
   return fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{0}</figcaption></figure>\n",
       escaped(name), as_png ? "png" : "jpeg", base64(as_png ? png : jpeg));
+}
+
+/// Each picture with the other result's beside it.
+std::string inPairs(const Pictures& pictures) {
+  const std::string other = "other_";
+  std::string html;
+  for (const auto& [name, picture] : pictures) {
+    const bool is_second = name.compare(0, other.size(), other) == 0;
+    if (is_second && pictures.count(name.substr(other.size())) > 0) continue;
+    html += "<div>\n";
+    if (!picture.empty()) html += image(name, picture);
+    const auto second = pictures.find(other + name);
+    if (second != pictures.end() && !second->second.empty()) html += image(second->first, second->second);
+    html += "</div>\n";
+  }
+  return html;
 }
 
 }  // namespace
@@ -76,12 +92,10 @@ std::string htmlPage(const std::string& title, const std::vector<ComparedFigure>
       "left;border-bottom:1px solid "
       "#ddd}td:nth-child(n+3),th:nth-child(n+3){text-align:right}td:nth-child(n+3){font-family:monospace}img{"
       "max-width:100%}"
-      "figure{margin:1em 0}pre{overflow-x:auto}</style></head>\n<body><h1>" +
+      "div{display:flex;gap:1em}figure{margin:1em "
+      "0;min-width:0}pre{overflow-x:auto}</style></head>\n<body><h1>" +
       escaped(title) + "</h1>\n" + table(rows) + "<pre>" + escaped(words) + "</pre>\n";
-  for (const auto& [name, picture] : pictures) {
-    if (!picture.empty()) page += image(name, picture);
-  }
-  return page + "</body></html>\n";
+  return page + inPairs(pictures) + "</body></html>\n";
 }
 
 }  // namespace softbody::evaluation
