@@ -119,6 +119,10 @@ MaterialPoint TetLocator::locate(const Eigen::Vector3d& point) const {
   if (!point.allFinite()) throw std::invalid_argument("TetLocator: the point is not finite");
   Candidate best{-1, std::numeric_limits<double>::infinity(), Eigen::Vector4d::Zero()};
   const Eigen::Vector3i center = cellOf(point);
+  for (const int tet : tetsIn(center)) {  // in ascending order; distances are for points outside
+    const Eigen::Vector4d barycentric = barycentricIn(tet, point);
+    if (barycentric.minCoeff() >= 0.0) return {tet, barycentric};
+  }
   const Eigen::Vector3d clamped =
       point.cwiseMax(origin_).cwiseMin(origin_ + cell_size_ * cells_.cast<double>());
   const int reach = cells_.maxCoeff();

@@ -23,6 +23,17 @@ struct Arrows {
     for (int h = count - 1; h >= 0; --h) half_edges[--first[startOf(triangles, h)]] = h;
   }
 
+  /// How many half-edges run from start to end, and the last of them.
+  int count(const TriangleList& triangles, int start, int end, int* last) const {
+    int found = 0;
+    for (int k = first[start]; k < first[start + 1]; ++k) {
+      if (endOf(triangles, half_edges[k]) != end) continue;
+      ++found;
+      *last = half_edges[k];
+    }
+    return found;
+  }
+
   std::vector<int> between(const TriangleList& triangles, int start, int end) const {
     std::vector<int> found;
     for (int k = first[start]; k < first[start + 1]; ++k) {
@@ -77,19 +88,22 @@ std::vector<int> pairSheets(const TriangleList& triangles, const Points& vertice
   for (int h = 0; h < static_cast<int>(mates.size()); ++h) {
     if (mates[h] >= 0) continue;
     const int start = startOf(triangles, h), end = endOf(triangles, h);
-    const std::vector<int> forward = arrows.between(triangles, start, end),
-                           backward = arrows.between(triangles, end, start);
-    if (forward.size() != backward.size()) {
+    int last = h, mate = -1;
+    const int forward = arrows.count(triangles, start, end, &last),
+              backward = arrows.count(triangles, end, start, &mate);
+    if (forward != backward) {
       throw std::invalid_argument(fmt::format(
           "the mesh is not a closed oriented surface: the edge from vertex {} to {} has {} triangles to one "
           "side and {} to the other",
-          start, end, forward.size(), backward.size()));
+          start, end, forward, backward));
     }
-    if (forward.size() == 1) {
-      mates[h] = backward.front();
-      mates[backward.front()] = h;
+    if (forward == 1) {
+      mates[h] = mate;
+      mates[mate] = h;
     } else {
-      pairSpokes(spokesOf(triangles, vertices, forward, backward), &mates);
+      pairSpokes(spokesOf(triangles, vertices, arrows.between(triangles, start, end),
+                          arrows.between(triangles, end, start)),
+                 &mates);
     }
   }
   return mates;

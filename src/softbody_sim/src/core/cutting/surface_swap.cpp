@@ -18,30 +18,44 @@ namespace {
 /// known by their places at rest. On the two walls of a cut there are several.
 class Counterparts {
  public:
+  struct Range {
+    const int *first, *last;
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+    std::ptrdiff_t size() const { return last - first; }
+  };
+
   Counterparts(const Points& vertices, const std::vector<int>& sources) {
+    const int count = sources.empty() ? 0 : *std::max_element(sources.begin(), sources.end()) + 1;
+    first_.resize(static_cast<std::size_t>(count) + 1, 0);
     for (std::size_t v = 0; v < sources.size(); ++v) {
-      const int source = sources[v];
       const auto row = static_cast<Eigen::Index>(v);
-      if (source < 0) {
+      if (sources[v] >= 0)
+        ++first_[static_cast<std::size_t>(sources[v])];
+      else
         made_[{vertices(row, 0), vertices(row, 1), vertices(row, 2)}].push_back(static_cast<int>(v));
-        continue;
-      }
-      if (static_cast<std::size_t>(source) >= kept_.size())
-        kept_.resize(static_cast<std::size_t>(source) + 1);
-      kept_[static_cast<std::size_t>(source)].push_back(static_cast<int>(v));
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    kept_.resize(static_cast<std::size_t>(first_.back()));
+    for (std::size_t v = sources.size(); v-- > 0;) {
+      if (sources[v] < 0) continue;
+      kept_[static_cast<std::size_t>(--first_[static_cast<std::size_t>(sources[v])])] = static_cast<int>(v);
     }
   }
 
-  const std::vector<int>& of(int source, const Eigen::RowVector3d& rest) const {
-    if (source >= 0) return kept_[static_cast<std::size_t>(source)];
+  Range of(int source, const Eigen::RowVector3d& rest) const {
+    if (source >= 0) {
+      const auto s = static_cast<std::size_t>(source);
+      return {kept_.data() + first_[s], kept_.data() + first_[s + 1]};
+    }
     const auto found = made_.find({rest[0], rest[1], rest[2]});
-    return found == made_.end() ? none_ : found->second;
+    if (found == made_.end()) return {nullptr, nullptr};
+    return {found->second.data(), found->second.data() + found->second.size()};
   }
 
  private:
-  std::vector<std::vector<int>> kept_;
+  std::vector<int> first_, kept_;  ///< vertices by their sources; those of source s begin at first_[s]
   std::map<std::array<double, 3>, std::vector<int>> made_;
-  std::vector<int> none_;
 };
 
 class Swap {
@@ -81,7 +95,7 @@ class Swap {
     }
   };
 
-  const std::vector<int>& counterpartsOf(Eigen::Index v) const {
+  Counterparts::Range counterpartsOf(Eigen::Index v) const {
     return counterparts_.of(cut_.vertex_sources[static_cast<std::size_t>(v)], cut_.mesh.rest_vertices.row(v));
   }
   std::vector<MaterialPoint> knownPlaces() const;
@@ -103,9 +117,9 @@ class Swap {
 std::vector<MaterialPoint> Swap::knownPlaces() const {
   std::vector<MaterialPoint> known(cut_.vertex_sources.size());
   for (std::size_t v = 0; v < known.size(); ++v) {
-    const std::vector<int>& candidates = counterpartsOf(static_cast<Eigen::Index>(v));
+    const Counterparts::Range candidates = counterpartsOf(static_cast<Eigen::Index>(v));
     if (candidates.size() == 1 && cut_.vertex_sources[v] >= 0) {
-      known[v] = now_.binding().places()[static_cast<std::size_t>(candidates.front())];
+      known[v] = now_.binding().places()[static_cast<std::size_t>(*candidates.begin())];
     }
   }
   return known;
@@ -135,7 +149,7 @@ void Swap::placeNewVertices() {
     const int source = cut_.triangle_sources[static_cast<std::size_t>(t)];
     if (source < 0) continue;
     for (const int v : cut_.mesh.triangles.row(t)) {
-      if (cut_.vertex_sources[static_cast<std::size_t>(v)] < 0 && counterpartsOf(v).empty())
+      if (cut_.vertex_sources[static_cast<std::size_t>(v)] < 0 && counterpartsOf(v).size() == 0)
         made[source].push_back(v);
     }
   }
