@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -17,8 +18,8 @@
 
 /// Projective dynamics against a plain implementation, one thread, bent bodies: `frame` (ten iterations of
 /// each, with and without the volume term), `converged` (as many as bring every vertex within 1e-6 mean edge
-/// lengths of the minimum), and of the fast one in single precision `local` and `global` (one step of them)
-/// and `factor` (a new matrix).
+/// lengths of the minimum), and of the fast one in single precision `local` and `global` (one step of
+/// them), `factor` (a new matrix) and `update` (a matrix that differs by a few targets).
 namespace {
 
 using namespace softbody;
@@ -210,6 +211,38 @@ void factorAnew(State& state, const BentBody& body) {
   for (auto _ : state) solver.factorize(metric.lower());
 }
 
+/// Targets that come and go: how long an update of the factor by so many takes, and by how many it takes as
+/// long as factoring anew.
+void updates(State& state, const std::string& name) {
+  const BentBody& body = bodyOf(name, true);
+  const TetMatrix metric = metricOf(body);
+  MetricSolver<float> solver(metric.lower(), Simd::kAuto);
+  std::vector<Run> runs{[&] { solver.factorize(metric.lower()); }};
+  const std::vector<int> counts{1, 2, 4, 8, 16, 32, 64};
+  for (int count : counts) {
+    std::vector<TetVector> changes;
+    for (int k = 0; k < count; ++k) {
+      const auto& spring = body.potential.targets.springs()[static_cast<std::size_t>(k)];
+      changes.push_back({spring.vertices, std::sqrt(spring.stiffness) * spring.barycentric});
+    }
+    runs.push_back([&solver, changes] {
+      solver.update(changes, {});
+      solver.update({}, changes);
+    });
+  }
+  for (auto _ : state) {
+    const std::vector<double> times = leastTimes(runs);
+    state.counters["factor us"] = 1e6 * times[0];
+    double crossover = 0.0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const double update = 0.5 * times[i + 1];
+      state.counters[fmt::format("update {} us", counts[i])] = 1e6 * update;
+      if (update < times[0]) crossover = counts[i];
+    }
+    state.counters["summary/pd_largest_cheaper_update/" + name] = crossover;
+  }
+}
+
 template <typename Measure>
 auto* add(const std::string& name, Measure measure) {
   return benchmark::RegisterBenchmark(name.c_str(), measure)->Unit(benchmark::kMicrosecond);
@@ -226,6 +259,7 @@ void addBody(const std::string& name) {
   add("local/" + name, [body](State& s) { localStep(s, body(), Simd::kAuto); });
   add("global/" + name, [body](State& s) { globalStep(s, body(), Simd::kAuto); });
   add("factor/" + name, [body](State& s) { factorAnew(s, body()); });
+  add("update/" + name, [name](State& s) { updates(s, name); })->Iterations(1);
 }
 
 void vectorWidth(State& state) {

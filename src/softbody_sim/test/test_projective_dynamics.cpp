@@ -133,5 +133,65 @@ TEST(ProjectiveDynamics, FactorsAnewWhenTargetsChange) {
   }
 }
 
+/// Few changes at a time, of which the factor is updated; more now and then.
+TEST(ProjectiveDynamics, FollowsTargetsThatComeGoAndChangeWeight) {
+  std::mt19937 random(7);
+  const auto below = [&random](std::size_t n) { return random() % n; };
+  Step step;
+  std::vector<Target> all = testing::vertexTargets(
+      step.topology, step.topology.rest_vertices + randomPoints(step.count, 0.005, &random));
+  std::vector<Target> targets(all.begin(), all.begin() + 60);
+  ProjectiveDynamics kept(step.topology, step.lame, withHistory(0, 10));
+  for (int frame = 0; frame < 300; ++frame) {
+    for (std::size_t change = below(frame % 20 == 0 ? 30 : 5); change > 0; --change) {
+      const std::size_t kind = below(3), place = below(targets.size());
+      if (kind == 0)
+        targets.insert(targets.begin() + static_cast<std::ptrdiff_t>(place), all[below(all.size())]);
+      else if (kind == 1 && targets.size() > 20)
+        targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(place));
+      else
+        targets[place].weight = 0.1 + static_cast<double>(below(100));
+    }
+    step.potential.targets.set(targets, step.topology.tets, 300.0);
+    Points x = step.topology.rest_vertices, expected = x;
+    kept.minimize(step.potential, &x);
+    step.run(withHistory(0, 10), &expected);
+    ASSERT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-11) << frame;
+  }
+}
+
+TEST(TargetEnergy, NamesTheFewChangesThatMakeOneMetricAnother) {
+  std::mt19937 random(8);
+  const Step step;
+  std::vector<Target> targets = testing::vertexTargets(step.topology, step.topology.rest_vertices);
+  TargetEnergy before, now;
+  before.set(targets, step.topology.tets, 300.0);
+  targets[3].weight = 2.0;
+  targets.erase(targets.begin() + 10);
+  targets.push_back(targets[40]);
+  now.set(targets, step.topology.tets, 300.0);
+  std::vector<TetVector> added, removed;
+  EXPECT_FALSE(now.metricChanges(before, 2, &added, &removed));
+  ASSERT_TRUE(now.metricChanges(before, 3, &added, &removed));
+  EXPECT_EQ(added.size(), 2u);
+  EXPECT_EQ(removed.size(), 1u);
+
+  TetMatrix expected(step.topology.tets, step.count), found = expected;
+  before.addMetric(&found);
+  now.addMetric(&expected);
+  Eigen::MatrixXd difference = expected.lower() - found.lower();
+  const auto subtract = [&difference](const TetVector& v, double sign) {
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 4; ++b) {
+        if (v.vertices[a] >= v.vertices[b])
+          difference(v.vertices[a], v.vertices[b]) -= sign * v.values[a] * v.values[b];
+      }
+    }
+  };
+  for (const TetVector& v : added) subtract(v, 1.0);
+  for (const TetVector& v : removed) subtract(v, -1.0);
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-9);
+}
+
 }  // namespace
 }  // namespace softbody

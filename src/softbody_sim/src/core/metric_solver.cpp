@@ -1,6 +1,7 @@
 #include "core/metric_solver.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace softbody {
 namespace {
@@ -26,16 +27,18 @@ void appendPanel(const CholeskyView& L, int first, int width, PanelFactor<T>* fa
   panel.width = width;
   panel.row_begin = static_cast<int>(factor->rows.size());
   panel.value_begin = static_cast<int>(factor->values.size());
+  double scale[4];  // of a column of L, which makes it one of L sqrt(D)
   for (int c = 0; c < width; ++c) {
     const double* column = L.values + L.starts[first + c];
-    panel.triangle[c][c] = static_cast<T>(1.0 / column[0]);
-    for (int r = c + 1; r < width; ++r) panel.triangle[r][c] = static_cast<T>(column[r - c]);
+    scale[c] = std::sqrt(column[0]);
+    panel.triangle[c][c] = static_cast<T>(1.0 / scale[c]);
+    for (int r = c + 1; r < width; ++r) panel.triangle[r][c] = static_cast<T>(scale[c] * column[r - c]);
   }
   const int last = first + width - 1;
   for (int k = 1; k < L.row_counts[last]; ++k) {
     factor->rows.push_back(L.rows[L.starts[last] + k]);
     for (int c = 0; c < width; ++c) {
-      factor->values.push_back(static_cast<T>(L.values[L.starts[first + c] + k + width - 1 - c]));
+      factor->values.push_back(static_cast<T>(scale[c] * L.values[L.starts[first + c] + k + width - 1 - c]));
     }
   }
   panel.row_end = static_cast<int>(factor->rows.size());
@@ -61,6 +64,17 @@ MetricSolver<T>::MetricSolver(const Eigen::SparseMatrix<double>& lower, Simd sim
 template <typename T>
 void MetricSolver<T>::factorize(const Eigen::SparseMatrix<double>& lower) {
   factorization_.factorize(lower);
+  takeFactor();
+}
+
+template <typename T>
+void MetricSolver<T>::update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed) {
+  factorization_.update(added, removed);
+  takeFactor();
+}
+
+template <typename T>
+void MetricSolver<T>::takeFactor() {
   const CholeskyView L = factorization_.factor();
   factor_.panels.clear();
   factor_.rows.clear();

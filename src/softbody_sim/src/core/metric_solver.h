@@ -21,6 +21,9 @@ class MetricSolver {
   /// @throw std::runtime_error if A is not positive definite.
   void factorize(const Eigen::SparseMatrix<double>& lower);
 
+  /// As PositiveDefiniteSolver's. Cheaper than factorize() for a few.
+  void update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed);
+
   /// X = A^-1 B, both paddedRows(#V).
   void solve(const Rows<T>& B, Rows<T>* X);
 
@@ -29,6 +32,7 @@ class MetricSolver {
     T lane[16];
   };
 
+  void takeFactor();
   void invert();
   T* inverseColumn(int column) {
     return inverse_[static_cast<std::size_t>(column) * static_cast<std::size_t>(inverse_stride_ / 16)].lane;

@@ -2,13 +2,15 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
+#include <vector>
 
+#include "core/tet_matrix.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
 
-/// Borrowed view of a factor: A(order, order) = L L^T, each column of L with its diagonal first and rows
-/// ascending.
+/// Borrowed view of a factor: A(order, order) = L D L^T, L with a diagonal of ones. Each column of L has its
+/// rows ascending, with D in the place of the diagonal.
 struct CholeskyView {
   int count;
   const int* order;       ///< #V
@@ -29,7 +31,12 @@ class PositiveDefiniteSolver {
   /// @param lower of the analysed pattern. @throw std::runtime_error if A is not positive definite.
   void factorize(const Eigen::SparseMatrix<double>& lower);
 
-  /// Of the last factorize(), until the next.
+  /// Makes it the factor of A plus the sum of v v^T over `added`, minus that over `removed`, whose entries
+  /// the pattern must hold (Davis and Hager 1999). @throw std::runtime_error if that is not positive
+  /// definite.
+  void update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed);
+
+  /// Of the last factorize() or update(), until the next.
   CholeskyView factor() const;
 
   /// X = A^-1 B, both #V by 3. Allocates on the first call only.

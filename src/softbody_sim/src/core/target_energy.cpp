@@ -1,8 +1,27 @@
 #include "core/target_energy.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace softbody {
+namespace {
+
+using Spring = TargetEnergy::Spring;
+using SpringIterator = std::vector<Spring>::const_iterator;
+
+bool samePlace(const Spring& a, const Spring& b) { return a.tet == b.tet && a.barycentric == b.barycentric; }
+
+TetVector metricVector(const Spring& spring, double stiffness) {
+  return {spring.vertices, std::sqrt(stiffness) * spring.barycentric};
+}
+
+/// Whether the spring's place comes up within the next `most`.
+bool soonFollows(SpringIterator first, SpringIterator end, const Spring& spring, std::size_t most) {
+  const auto last = first + std::min<std::ptrdiff_t>(end - first, static_cast<std::ptrdiff_t>(most) + 1);
+  return std::any_of(first, last, [&](const Spring& other) { return samePlace(other, spring); });
+}
+
+}  // namespace
 
 void TargetEnergy::set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness) {
   springs_.clear();
@@ -63,11 +82,28 @@ void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
   }
 }
 
-bool TargetEnergy::sameMetric(const TargetEnergy& other) const {
-  const auto same = [](const Spring& a, const Spring& b) {
-    return a.tet == b.tet && a.stiffness == b.stiffness && a.barycentric == b.barycentric;
-  };
-  return std::equal(springs_.begin(), springs_.end(), other.springs_.begin(), other.springs_.end(), same);
+bool TargetEnergy::metricChanges(const TargetEnergy& earlier, std::size_t most, std::vector<TetVector>* added,
+                                 std::vector<TetVector>* removed) const {
+  added->clear();
+  removed->clear();
+  const auto count = [&] { return added->size() + removed->size(); };
+  auto before = earlier.springs_.begin(), now = springs_.begin();
+  const auto before_end = earlier.springs_.end(), now_end = springs_.end();
+  while ((before != before_end || now != now_end) && count() <= most) {
+    if (before != before_end && now != now_end && samePlace(*before, *now)) {
+      const double change = now->stiffness - before->stiffness;
+      if (change != 0.0) (change > 0.0 ? added : removed)->push_back(metricVector(*now, std::abs(change)));
+      ++before;
+      ++now;
+    } else if (now != now_end && (before == before_end || !soonFollows(before, before_end, *now, most))) {
+      added->push_back(metricVector(*now, now->stiffness));
+      ++now;
+    } else {
+      removed->push_back(metricVector(*before, before->stiffness));
+      ++before;
+    }
+  }
+  return count() <= most;
 }
 
 }  // namespace softbody

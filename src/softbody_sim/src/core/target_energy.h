@@ -41,8 +41,11 @@ class TargetEnergy {
   /// Adds the exact Hessian.
   void addHessian(const Points& x, BlockTetMatrix* matrix) const;
 
-  /// Whether both add the same to a metric: the same places and stiffnesses, whatever the positions.
-  bool sameMetric(const TargetEnergy& other) const;
+  /// What this adds to a metric and `earlier` does not, and the other way round, as vectors v of v v^T.
+  /// Targets that stay are known by their place and order. @return false, and both unfinished, if there are
+  /// more than `most`.
+  bool metricChanges(const TargetEnergy& earlier, std::size_t most, std::vector<TetVector>* added,
+                     std::vector<TetVector>* removed) const;
 
   const std::vector<Spring>& springs() const { return springs_; }
 

@@ -8,6 +8,12 @@
 
 namespace softbody {
 
+/// A #V vector that is zero but at a tet's four vertices.
+struct TetVector {
+  Eigen::Vector4i vertices;
+  Eigen::Vector4d values;
+};
+
 /// A symmetric #V by #V matrix that couples the vertices of each tet. The pattern is fixed; adding never
 /// allocates.
 class TetMatrix {
