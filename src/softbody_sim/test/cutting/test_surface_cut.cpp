@@ -158,6 +158,35 @@ TEST(SurfaceCut, RandomCutsOfToy) {
   cutAtRandom(loadMesh(path), numberOfCuts(60), 4);
 }
 
+TEST(SurfaceCut, NamesParentsAndInterpolatesTextureCoordinates) {
+  MeshTopology sponge = loadMesh(kShipped + "sponge.obj");
+  sponge.vertex_parents[0] = 1000;  // as where the file has coincident vertices
+  sponge.texture_coordinates.setZero(3 * sponge.triangles.rows(), 3);
+  const auto textureAt = [](const Eigen::RowVector3d& p) {
+    return Eigen::RowVector3d(3.0 * p.x() - p.z(), 2.0 * p.y() + p.z(), 0.0);
+  };
+  for (Eigen::Index t = 0; t < sponge.triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k)
+      sponge.texture_coordinates.row(3 * t + k) = textureAt(sponge.rest_vertices.row(sponge.triangles(t, k)));
+  }
+  const SurfaceCut cut = cutSurface(sponge, rectangle({0.013, -0.2, -0.2}, {0.01, 0.4, 0}, {0, 0, 0.4}));
+  ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
+  for (std::size_t v = 0; v < cut.vertex_sources.size(); ++v) {
+    const int source = cut.vertex_sources[v], parent = cut.mesh.vertex_parents[v];
+    EXPECT_EQ(parent, source < 0 ? -1 : sponge.vertex_parents[static_cast<std::size_t>(source)]);
+    if (source < 0) continue;
+    EXPECT_EQ(cut.mesh.rest_vertices.row(static_cast<Eigen::Index>(v)), sponge.rest_vertices.row(source));
+  }
+  for (Eigen::Index t = 0; t < cut.mesh.triangles.rows(); ++t) {
+    const bool is_wall = cut.triangle_sources[static_cast<std::size_t>(t)] < 0;
+    EXPECT_EQ(cut.mesh.cut[static_cast<std::size_t>(t)], is_wall);
+    for (int k = 0; k < 3 && !is_wall; ++k) {
+      const Eigen::RowVector3d expected = textureAt(cut.mesh.rest_vertices.row(cut.mesh.triangles(t, k)));
+      EXPECT_LT((cut.mesh.texture_coordinates.row(3 * t + k) - expected).norm(), 1e-5);
+    }
+  }
+}
+
 /// Two cubes that touch along an edge: four triangles at it.
 TEST(SurfaceCut, PartsCubesThatTouchInAnEdge) {
   TriangleMesh cubes;
