@@ -77,7 +77,7 @@ void trackRecording(benchmark::State& state) {
   std::map<std::string, double> total_ms;
   double frames = 0.0;
   for (auto _ : state) {
-    Pipeline pipeline(sponge(), TrackerConfig{}, SimulatorConfig{});
+    Pipeline pipeline(sponge(), PipelineConfig{});
     for (const RgbdFrame& frame : recording().frames) {
       for (const StageTime& time : pipeline.process(frame).times) {
         if (!time.initialization) total_ms[time.stage] += time.milliseconds;

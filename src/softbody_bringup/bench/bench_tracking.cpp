@@ -50,8 +50,7 @@ Recording record(const std::string& scene, const std::string& object) {
   setup.config_folder = config;
   virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
   CameraIngest ingest(CameraIngestConfig{});
-  Pipeline pipeline(buildObjectModel(loadObjectDescription(config + "/" + object)), TrackerConfig{},
-                    SimulatorConfig{});
+  Pipeline pipeline(buildObjectModel(loadObjectDescription(config + "/" + object)), PipelineConfig{});
   Recording recording{pipeline.volumeTopology(), pipeline.surfaceTopology(), {}, {}, {}};
   std::optional<MeshState> volume;
   for (int i = 0; i < kFrames; ++i) {

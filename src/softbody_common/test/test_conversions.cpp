@@ -7,6 +7,7 @@
 
 #include "random_meshes.h"
 #include "softbody_common/conversions.h"
+#include "softbody_common/cut_messages.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -135,6 +136,30 @@ TEST_P(RoundTrip, Targets) {
     EXPECT_LT((a.position - b.position).norm() + (a.normal - b.normal).norm(), 1e-6);
     EXPECT_NEAR(a.weight, b.weight, 1e-6);
   }
+}
+
+TEST_P(RoundTrip, Cut) {
+  const MeshTopology mesh = randomSurface(GetParam());
+  const Cut before{
+      GetParam(), GetParam() / 2, static_cast<CutKind>(GetParam() % 4), {mesh.rest_vertices, mesh.triangles}};
+  const Cut after = fromMessage(toMessage(before));
+  EXPECT_EQ(after.revision, before.revision);
+  EXPECT_EQ(after.stroke, before.stroke);
+  EXPECT_EQ(after.kind, before.kind);
+  EXPECT_LT((after.patch.vertices - before.patch.vertices).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_EQ(after.patch.triangles, before.patch.triangles);
+}
+
+TEST(Conversions, EveryFieldOfACutIsChecked) {
+  using Message = softbody_msgs::Cut;
+  const MeshTopology mesh = randomSurface(1);
+  const Message good = toMessage(Cut{1, 1, CutKind::kCut, {mesh.rest_vertices, mesh.triangles}});
+  expectRefused<Message>(
+      good, [](Message& m) { m.kind = 4; }, "kind");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_vertices[1].y = kNaN; }, "patch_vertices[1]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_triangles[2].vertex_indices[0] = 999; }, "patch_triangles[2]");
 }
 
 TEST(Conversions, EveryFieldOfAVolumeIsChecked) {

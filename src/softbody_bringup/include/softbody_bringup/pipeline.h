@@ -1,12 +1,15 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "softbody_common/stage_timer.h"
+#include "softbody_sim/cuttable_surface.h"
 #include "softbody_sim/object_model.h"
 #include "softbody_sim/simulator.h"
-#include "softbody_sim/visual_surface.h"
 #include "softbody_tracking/body_tracker.h"
+#include "softbody_tracking/tool_tracker.h"
 
 namespace softbody {
 
@@ -15,26 +18,42 @@ struct FrameOutput {
   TrackingResult tracking;
   std::optional<MeshState> volume;  ///< nothing until the body has been found
   std::optional<MeshState> surface;
+  std::optional<ToolObservation> tool;
+  std::vector<Cut> cuts;              ///< in this frame: the states are of the revision after them
+  std::vector<std::string> refusals;  ///< why given cuts were not made
   std::vector<StageTime> times;
 };
 
-/// Tracker, simulator and surface in a row, without ROS: each frame sees exactly the previous frame's state.
+struct PipelineConfig {
+  TrackerConfig tracker;
+  SimulatorConfig simulator;
+  BladeConfig blade;
+  ToolTrackerConfig tool_tracker;
+};
+
+/// Trackers, simulator and surface in a row, without ROS: each frame sees exactly the previous frame's state.
 class Pipeline {
  public:
-  Pipeline(const ObjectModel& model, const TrackerConfig& tracker, const SimulatorConfig& simulator);
+  /// @param tool that is followed, and cuts; nothing: none.
+  Pipeline(const ObjectModel& model, const PipelineConfig& config,
+           const std::optional<ToolDescription>& tool = std::nullopt);
 
   const TetTopology& volumeTopology() const { return simulator_.topology(); }
-  const MeshTopology& surfaceTopology() const { return surface_.topology(); }
+  const MeshTopology& surfaceTopology() const { return surface_.surface().topology(); }
 
-  FrameOutput process(const RgbdFrame& frame);
+  /// @param cuts that happen in this frame beside the tool's own, as from a journal.
+  FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
 
  private:
-  void simulate(const TargetSet& targets, Nanoseconds stamp, FrameOutput* output);
+  void simulate(const TargetSet& targets, Nanoseconds stamp);
+  void cut(const std::vector<Cut>& cuts, FrameOutput* output);
+  void adopt(const Cut& cut, FrameOutput* output);
 
   StageTimer timer_;
   BodyTracker tracker_;
   Simulator simulator_;
-  VisualSurface surface_;
+  CuttableSurface surface_;
+  std::optional<ToolTracker> tool_tracker_;
 };
 
 }  // namespace softbody

@@ -20,9 +20,11 @@ class ResultBag {
   ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
             bool with_timing);
 
-  /// Both topologies, latched; to be written at the start and again every second. Their stamp stays that of
-  /// the first.
+  /// Both topologies, latched; to be written before the first state of a revision and again every second.
+  /// Their stamp stays that of the revision's first.
   void writeTopologies(const Pipeline& pipeline, const ros::Time& stamp);
+  /// @param blade of the tool that is tracked, in its frame.
+  void setBlade(Points blade) { blade_ = std::move(blade); }
   /// One frame. @param header of the colour image.
   void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
   void finish() { bag_.finish(); }
@@ -31,11 +33,15 @@ class ResultBag {
   std::string topic(const char* name) const { return namespace_ + "/" + name; }
   template <typename Message>
   void write(const std::string& topic, Message message, const std_msgs::Header& header);
-  void writeTransform(const Eigen::Isometry3d& body_pose, const std_msgs::Header& header);
+  void writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
+                      const std_msgs::Header& header);
+  void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
 
   std::string namespace_, body_frame_;
+  Points blade_;
   bool with_timing_;
-  ros::Time first_stamp_;
+  ros::Time revision_stamp_;  ///< of the frame from which the topologies hold
+  std::uint32_t revision_ = 0;
   AtomicBag bag_;
 };
 

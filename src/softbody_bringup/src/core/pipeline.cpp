@@ -1,32 +1,65 @@
 #include "softbody_bringup/pipeline.h"
 
+#include <stdexcept>
+
+#include "softbody_common/rigid_fit.h"
+
 namespace softbody {
 
-Pipeline::Pipeline(const ObjectModel& model, const TrackerConfig& tracker, const SimulatorConfig& simulator)
-    : tracker_(tracker), simulator_(model.volume, model.material, simulator), surface_([&] {
+Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
+                   const std::optional<ToolDescription>& tool)
+    : tracker_(config.tracker), simulator_(model.volume, model.material, config.simulator), surface_([&] {
         const auto scope = timer_.stage("Resolution Enhancement", true);
-        return VisualSurface(model.visual, model.volume);
+        return CuttableSurface(model.visual, model.volume, config.blade);
       }()) {
-  tracker_.setTopologies(simulator_.topology(), surface_.topology());
+  tracker_.setTopologies(volumeTopology(), surfaceTopology());
+  if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
 }
 
-FrameOutput Pipeline::process(const RgbdFrame& frame) {
+FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts) {
   FrameOutput output;
   const bool simulated = simulator_.placed();
   output.tracking = tracker_.track(frame, simulated ? &simulator_.state() : nullptr, &timer_);
-  if (output.tracking.has_targets) simulate(output.tracking.targets, frame.stamp, &output);
+  if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
+  if (output.tracking.has_targets) {
+    simulate(output.tracking.targets, frame.stamp);
+    cut(cuts, &output);
+    const auto scope = timer_.stage("Resolution Enhancement");
+    output.volume = simulator_.state();
+    output.surface = surface_.surface().apply(simulator_.state());
+  } else {
+    for (std::size_t i = 0; i < cuts.size(); ++i)
+      output.refusals.emplace_back("the body is not being tracked");
+  }
   output.times = timer_.take();
   return output;
 }
 
-void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, FrameOutput* output) {
-  {
-    const auto scope = timer_.stage("Soft-body Simulation", targets.reset);
-    simulator_.step(targets, stamp);
+void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp) {
+  const auto scope = timer_.stage("Soft-body Simulation", targets.reset);
+  simulator_.step(targets, stamp);
+}
+
+void Pipeline::cut(const std::vector<Cut>& cuts, FrameOutput* output) {
+  for (const Cut& given : cuts) {
+    std::string reason;
+    if (surface_.apply(given, simulator_.state(), &reason))
+      adopt(given, output);
+    else
+      output->refusals.push_back(reason);
   }
-  const auto scope = timer_.stage("Resolution Enhancement");
-  output->volume = simulator_.state();
-  output->surface = surface_.apply(simulator_.state());
+  // Where the blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
+  if (!output->tool || output->tool->bridged || tool_tracker_->tool().blade.rows() == 0) return;
+  const auto scope = timer_.stage("Cutting");
+  const Points blade = transformed(tool_tracker_->tool().blade, output->tool->T_camera_tool);
+  if (const auto own = surface_.follow(blade, simulator_.state())) adopt(*own, output);
+}
+
+void Pipeline::adopt(const Cut& cut, FrameOutput* output) {
+  std::string reason;
+  if (!simulator_.apply(cut, &reason)) throw std::logic_error("simulator and surface disagree: " + reason);
+  tracker_.setTopologies(volumeTopology(), surfaceTopology());
+  output->cuts.push_back(cut);
 }
 
 }  // namespace softbody

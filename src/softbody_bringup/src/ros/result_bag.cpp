@@ -1,14 +1,19 @@
 #include "softbody_bringup/result_bag.h"
 
+#include <geometry_msgs/PolygonStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <softbody_msgs/StageTiming.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "softbody_common/conversions.h"
+#include "softbody_common/cut_messages.h"
 #include "softbody_common/topics.h"
 #include "softbody_tracking/feature_messages.h"
+#include "softbody_tracking/tool_messages.h"
 
 namespace softbody {
+
 ResultBag::ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
                      bool with_timing)
     : namespace_(std::move(topic_namespace)),
@@ -24,24 +29,39 @@ void ResultBag::write(const std::string& topic, Message message, const std_msgs:
 }
 
 void ResultBag::writeTopologies(const Pipeline& pipeline, const ros::Time& stamp) {
-  if (first_stamp_.isZero()) first_stamp_ = stamp;
+  const std::uint32_t revision = pipeline.volumeTopology().revision;
+  if (revision_stamp_.isZero() || revision != revision_) revision_stamp_ = stamp;
+  revision_ = revision;
   softbody_msgs::TetTopology volume = toMessage(pipeline.volumeTopology());
   volume.header.frame_id = body_frame_;
-  volume.header.stamp = first_stamp_;
+  volume.header.stamp = revision_stamp_;
   bag_.writeLatched(topic(topics::kVolumeTopology), stamp, volume);
   softbody_msgs::MeshTopology surface = toMessage(pipeline.surfaceTopology());
   surface.header = volume.header;
   bag_.writeLatched(topic(topics::kSurfaceTopology), stamp, surface);
 }
 
-void ResultBag::writeTransform(const Eigen::Isometry3d& body_pose, const std_msgs::Header& header) {
-  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(body_pose);
+void ResultBag::writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
+                               const std_msgs::Header& header) {
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(pose);
   transform.header = header;
   transform.header.seq = 0;
-  transform.child_frame_id = body_frame_;
+  transform.child_frame_id = child;
   tf2_msgs::TFMessage message;
   message.transforms.push_back(transform);
   bag_.write("/tf", header.stamp, message);
+}
+
+void ResultBag::writeTool(const ToolObservation& tool, const std_msgs::Header& header) {
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.pose = toMessage(tool);
+  write(topic(topics::kToolPose), pose, header);
+  if (blade_.rows() > 0) {
+    geometry_msgs::PolygonStamped blade;
+    blade.polygon = bladePolygon(blade_, tool.T_camera_tool);
+    write(topic(topics::kToolBlade), blade, header);
+  }
+  writeTransform(tool.T_camera_tool, "tool", header);
 }
 
 void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& header) {
@@ -50,8 +70,12 @@ void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& hea
     write(topic(topics::kFeatures), makeFeatureCloud(frame.tracking.features), header);
     write(topic(topics::kFeaturesMarker), makeFeatureMarker(frame.tracking.features), header);
     write(topic(topics::kTargets), toMessage(frame.tracking.targets), header);
-    writeTransform(frame.tracking.targets.body_pose, header);
+    writeTransform(frame.tracking.targets.body_pose, body_frame_, header);
   }
+  if (frame.tool) writeTool(*frame.tool, header);
+  std_msgs::Header rest = header;
+  rest.frame_id = body_frame_;
+  for (const Cut& cut : frame.cuts) write(topic(topics::kCut), toMessage(cut), rest);
   if (frame.volume) write(topic(topics::kVolumeState), toMessage(*frame.volume), header);
   if (frame.surface) write(topic(topics::kSurfaceState), toMessage(*frame.surface), header);
   if (with_timing_) write(topic(topics::kTiming), timingMessage("replay", frame.times), header);

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <set>
 
 #include "softbody_bringup/bag_frames.h"
+#include "softbody_bringup/cut_journal.h"
 #include "softbody_bringup/pipeline.h"
 #include "softbody_bringup/result_bag.h"
 #include "softbody_common/tracking_state.h"
@@ -18,7 +20,7 @@
 namespace {
 
 struct Options {
-  std::string input, object, output, parameters;
+  std::string input, object, output, parameters, tool, journal;
   std::string camera = "/camera", topic_namespace = "/softbody", body_frame = "softbody", simd;
   bool timing = false;
 };
@@ -27,8 +29,7 @@ struct Options {
 struct GraphConfig {
   softbody::Nanoseconds sync_tolerance = softbody::BagFramesConfig().sync_tolerance;
   softbody::CameraIngestConfig ingest;
-  softbody::TrackerConfig tracker;
-  softbody::SimulatorConfig simulator;
+  softbody::PipelineConfig pipeline;
 };
 
 YAML::Node loadYaml(const std::string& path) {
@@ -60,7 +61,8 @@ GraphConfig readGraphConfig(const std::string& path) {
   const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : loadYaml(path);
   for (const auto& section : file) {
     const auto name = section.first.as<std::string>();
-    const std::set<std::string> nodes{"camera_ingest", "feature_tracker", "simulator", "surface"};
+    const std::set<std::string> nodes{"camera_ingest", "feature_tracker", "simulator", "surface",
+                                      "tool_tracker"};
     if (nodes.count(name) == 0) fmt::print(stderr, "replay: {}: no node is called {}; ignored\n", path, name);
   }
   GraphConfig config;
@@ -74,15 +76,23 @@ GraphConfig readGraphConfig(const std::string& path) {
       parameters.number(live_only, 0.0, 0.0, 1e9);
     return softbody::readCameraIngestConfig(parameters);
   });
-  config.tracker = readSection(file, "feature_tracker", [](softbody::Parameters& parameters) {
+  config.pipeline.tracker = readSection(file, "feature_tracker", [](softbody::Parameters& parameters) {
     for (const char* live_only : {"body_frame", "output_frame"}) parameters.text(live_only, "");
     return softbody::readTrackerConfig(parameters);
   });
-  config.simulator = readSection(file, "simulator", [](softbody::Parameters& parameters) {
+  config.pipeline.simulator = readSection(file, "simulator", [](softbody::Parameters& parameters) {
     for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
     for (const char* live_only : {"free_run_rate_hz", "stall_timeout_s"})
       parameters.number(live_only, 0.0, 0.0, 1e9);
     return softbody::readSimulatorConfig(parameters);
+  });
+  config.pipeline.blade = readSection(file, "surface", [](softbody::Parameters& parameters) {
+    for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
+    return softbody::readBladeConfig(parameters);
+  });
+  config.pipeline.tool_tracker = readSection(file, "tool_tracker", [](softbody::Parameters& parameters) {
+    for (const char* live_only : {"tool", "tool_frame"}) parameters.text(live_only, "");
+    return softbody::readToolTrackerConfig(parameters);
   });
   return config;
 }
@@ -90,6 +100,8 @@ GraphConfig readGraphConfig(const std::string& path) {
 /// What the summary counts.
 struct Tally {
   int states = 0;
+  int tools = 0;
+  int cuts = 0;
   std::map<softbody::TrackingState, int> by_state;
   std::map<softbody::TrackingState, std::string> reasons;  ///< the last one of each state
   double milliseconds = 0.0;
@@ -132,7 +144,7 @@ void printSummary(const softbody::BagFramesReport& report, const Tally& tally, c
 
 void replay(const Options& options) {
   GraphConfig config = readGraphConfig(options.parameters);
-  if (!options.simd.empty()) config.simulator.simd = options.simd;
+  if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
   const softbody::ObjectDescription description = softbody::loadObjectDescription(options.object);
   const softbody::ObjectModel model = softbody::buildObjectModel(description);
   if (!description.pins.empty())
@@ -140,23 +152,36 @@ void replay(const Options& options) {
   for (const std::string& warning : model.warnings)
     fmt::print(stderr, "replay: {}: {}\n", options.object, warning);
   const rosbag::Bag input = openBag(options.input);
-  softbody::Pipeline pipeline(model, config.tracker, config.simulator);
+  std::optional<softbody::ToolDescription> tool;
+  if (!options.tool.empty()) {
+    tool = softbody::loadToolDescription(options.tool);
+    for (const std::string& warning : tool->warnings) fmt::print(stderr, "replay: {}\n", warning);
+  }
+  softbody::CutJournal journal;
+  if (!options.journal.empty())
+    journal = softbody::CutJournal(openBag(options.journal), options.topic_namespace + "/cut");
+  softbody::Pipeline pipeline(model, config.pipeline, tool);
   softbody::CameraIngest ingest(config.ingest);
   softbody::ResultBag output(options.output, options.topic_namespace, options.body_frame, options.timing);
+  if (tool) output.setBlade(tool->blade);
 
   Tally tally;
   ros::Time topologies_written;
   const auto use = [&](const softbody::RgbdFrame& frame, const std_msgs::Header& header, double progress) {
     const auto start = std::chrono::steady_clock::now();
-    const softbody::FrameOutput result = pipeline.process(frame);
+    const softbody::FrameOutput result = pipeline.process(frame, journal.takeUntil(frame.stamp));
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     tally.milliseconds += elapsed.count();
     tally.states += result.surface ? 1 : 0;
+    tally.tools += result.tool ? 1 : 0;
+    tally.cuts += static_cast<int>(result.cuts.size());
+    for (const std::string& refusal : result.refusals)
+      fmt::print(stderr, "replay: a cut of the journal is not made: {}\n", refusal);
     ++tally.by_state[result.tracking.status.state];
     tally.reasons[result.tracking.status.state] = result.tracking.status.reason;
     const bool due =
         header.stamp < topologies_written || header.stamp - topologies_written >= ros::Duration(1.0);
-    if (topologies_written.isZero() || due) {
+    if (topologies_written.isZero() || due || !result.cuts.empty()) {
       output.writeTopologies(pipeline, header.stamp);
       topologies_written = header.stamp;
     }
@@ -178,6 +203,11 @@ void replay(const Options& options) {
   output.finish();
   if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\n");
   printSummary(report, tally, options.output);
+  if (tool || !options.journal.empty()) {
+    const std::vector<std::uint32_t>& bodies = pipeline.surfaceTopology().bodies;
+    fmt::print("frames with the tool {}, cuts {}, pieces {}\n", tally.tools, tally.cuts,
+               bodies.empty() ? 0 : 1 + *std::max_element(bodies.begin(), bodies.end()));
+  }
 }
 
 }  // namespace
@@ -191,6 +221,11 @@ int main(int argc, char** argv) {
   app.add_option("--output", options.output, "bag to write")->required();
   app.add_option("--parameters", options.parameters, "YAML with a section of parameters for each node")
       ->check(CLI::ExistingFile);
+  CLI::Option* tool = app.add_option("--tool", options.tool, "tool YAML: a tool that is tracked, and cuts")
+                          ->check(CLI::ExistingFile);
+  app.add_option("--journal", options.journal, "bag with cuts, which are made again instead of a tool's")
+      ->check(CLI::ExistingFile)
+      ->excludes(tool);
   app.add_option("--camera", options.camera, "namespace of the camera topics")->capture_default_str();
   app.add_option("--namespace", options.topic_namespace, "namespace of the output topics")
       ->capture_default_str();

@@ -28,7 +28,7 @@ class ReplayTest : public ::testing::Test {
   /// Replays the small bag into a file and returns what went by.
   std::vector<FrameOutput> replay(const fs::path& output) {
     const ObjectModel model = buildObjectModel(loadObjectDescription(kObject));
-    Pipeline pipeline(model, TrackerConfig(), SimulatorConfig());
+    Pipeline pipeline(model, PipelineConfig());
     CameraIngest ingest{CameraIngestConfig()};
     const rosbag::Bag input(kBag, rosbag::bagmode::Read);
     ResultBag result(output, "/softbody", "softbody", false);

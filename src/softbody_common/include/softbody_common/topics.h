@@ -27,6 +27,7 @@ constexpr char kPin[] = "pin";
 constexpr char kReaction[] = "reaction/";  // followed by a name
 constexpr char kToolPose[] = "tool/pose";
 constexpr char kToolBlade[] = "tool/blade";
+constexpr char kCut[] = "cut";
 constexpr char kTiming[] = "timing";
 
 }  // namespace softbody::topics

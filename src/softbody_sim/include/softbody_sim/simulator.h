@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "softbody_common/cut.h"
 #include "softbody_common/parameters.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/object_model.h"
@@ -67,9 +68,9 @@ class Simulator {
   /// Advances to `stamp` under the targets. Before anything else a TargetSet with `reset` places the rest
   /// shape at body_pose at rest. A stamp not after the last one advances by no time, only the targets act.
   /// Leaves the state as it was where it throws.
-  /// @throw std::invalid_argument if the revision is not the topology's, a target names a tet beyond it, a
-  /// number is not finite, a barycentric coordinate is beyond 100, or the body has not been placed;
-  /// std::runtime_error if the targets' weights leave a system that cannot be solved.
+  /// @throw std::invalid_argument if the revision is neither the topology's nor one of the last few, a target
+  /// names a tet beyond it, a number is not finite, a barycentric coordinate is beyond 100, or the body has
+  /// not been placed; std::runtime_error if the targets' weights leave a system that cannot be solved.
   void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
 
   /// As step, without a new observation: targets seen earlier still hold (their `reset` does not), `observed`
@@ -86,7 +87,15 @@ class Simulator {
   /// given.
   void setVertices(const Points& vertices);
 
-  /// Back to "not placed".
+  /// Edits the topology. Positions, velocities and confidences go over without a jump; targets of the few
+  /// revisions before are still understood. Nothing changes where it returns false.
+  /// A patch that crosses no tet edge changes the revision only.
+  /// @param reason why the cut is not made: it is not for the next revision, or there is nothing to undo or
+  /// redo.
+  /// @throw std::invalid_argument if the patch is not finite or names a vertex that it does not have.
+  bool apply(const Cut& cut, std::string* reason);
+
+  /// Back to "not placed" and not cut, at the first revision.
   void reset();
 
   const MeshState& state() const;

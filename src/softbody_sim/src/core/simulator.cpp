@@ -7,15 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/constrained_step.h"
-#include "core/fem_solver.h"
-#include "core/observation_confidence.h"
-#include "core/projective_dynamics.h"
+#include "core/body_model.h"
+#include "core/cutting/edited_volume.h"
 #include "core/step_potential.h"
-#include "core/step_solver.h"
 #include "core/surface_follower.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_common/tet_locator.h"
 
 namespace softbody {
 namespace {
@@ -26,43 +24,6 @@ constexpr double kNominalTimeStep = 1.0 / 30.0;
 /// Beyond it a target lies so far out of its tet that it says nothing about the tet, and its square in the
 /// metric drowns the body's own stiffness.
 constexpr double kLargestBarycentric = 100.0;
-
-/// A quarter of each tet's mass to each of its vertices [kg].
-Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) {
-  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
-  Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
-  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    for (int k = 0; k < 4; ++k) masses[topology.tets(t, k)] += 0.25 * density_kg_m3 * volumes[t];
-  }
-  for (Eigen::Index v = 0; v < masses.size(); ++v) {
-    if (!(masses[v] > 0.0))
-      throw std::invalid_argument(fmt::format("vertex {} has no mass: no tet uses it", v));
-  }
-  return masses;
-}
-
-double densityOf(const TetTopology& topology, const Material& material, const SimulatorConfig& config) {
-  if (!config.normalized_mass) return material.density_kg_m3;
-  return 1.0 / tetVolumes(topology.rest_vertices, topology.tets).sum();
-}
-
-std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Material& material,
-                                       const SimulatorConfig& config, double edge_length) {
-  requireConsistent(config);
-  const Lame lame = lameParameters(material.youngs_modulus_pa, material.poisson_ratio);
-  const double tolerance_m = config.tolerance * edge_length;
-  if (config.solver == SolverKind::kFem) {
-    return std::make_unique<FemSolver>(topology, config.elasticity, lame,
-                                       FemSolver::Options{config.iterations, tolerance_m});
-  }
-  ProjectiveDynamicsOptions options;
-  options.minimizer.max_iterations = config.iterations;
-  options.minimizer.tolerance_m = tolerance_m;
-  options.minimizer.history = config.lbfgs_history;
-  options.single_precision = config.single_precision;
-  options.simd = simdFromName(config.simd);
-  return std::make_unique<ProjectiveDynamics>(topology, lame, options);
-}
 
 void requireUsableTarget(const Target& target, std::size_t index, Eigen::Index tet_count) {
   if (target.place.tet < 0 || target.place.tet >= tet_count) {
@@ -80,19 +41,6 @@ void requireUsableTarget(const Target& target, std::size_t index, Eigen::Index t
   }
 }
 
-/// Held vertices are stiffer than the body by so much, which leaves rounding enough digits.
-constexpr double kPinStiffness = 1e5;
-
-ConstrainedStep makeStep(const TetTopology& topology, const Material& material, const SimulatorConfig& config,
-                         double edge_length, StepSolver* solver) {
-  const double E = material.youngs_modulus_pa;
-  return {topology,
-          ContactModel(topology, config.contact_spacing * edge_length,
-                       config.contact_stiffness * E / edge_length, 0.1 * edge_length),
-          {config.target_stiffness * E * edge_length, kPinStiffness * E * edge_length, 1e-3 * edge_length},
-          solver};
-}
-
 /// All that a step changes.
 struct Body {
   bool placed = false;
@@ -104,11 +52,29 @@ struct Body {
   std::vector<Eigen::Isometry3d> obstacle_poses;  ///< at the end of the last step; none: as they are now
 };
 
+bool sameTets(const TetTopology& a, const TetTopology& b) {
+  return a.tets.rows() == b.tets.rows() && a.rest_vertices.rows() == b.rest_vertices.rows() &&
+         a.tets == b.tets && a.rest_vertices == b.rest_vertices;
+}
+
+/// Every vertex stays, or appears, where its material was, and moves as that did.
+void carryOver(const TetEdit& edit, const Tets& tets, Body* body) {
+  std::vector<float> confidence;
+  for (const MaterialPoint& origin : edit.vertex_origins) {
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k)
+      sum += origin.barycentric[k] * body->state.confidence[static_cast<std::size_t>(tets(origin.tet, k))];
+    confidence.push_back(static_cast<float>(sum));
+  }
+  body->state.confidence = std::move(confidence);
+  body->state.vertices = applyBinding(edit.vertex_origins, body->state.vertices, tets);
+  body->velocity = applyBinding(edit.vertex_origins, body->velocity, tets);
+}
+
 }  // namespace
 
 struct Simulator::Implementation {
-  Implementation(const TetTopology& topology_in, const Material& material_in,
-                 const SimulatorConfig& config_in);
+  Implementation(const TetTopology& topology, const Material& material_in, const SimulatorConfig& config_in);
 
   void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const;
@@ -118,37 +84,49 @@ struct Simulator::Implementation {
   void solve(const StepPotential& free, const TargetSet& targets, const Surroundings& surroundings, Points x,
              Body* next);
 
-  const TetTopology topology;
+  void adopt(const TetTopology& topology);
+  /// The targets for the present revision; `storage` holds them where they were for an earlier one.
+  const TargetSet& upToDate(const TargetSet& targets, TargetSet* storage) const;
+
+  const TetTopology uncut;
   const Material material;
   const SimulatorConfig config;
-  const double edge_length;  ///< mean [m]
+  const double edge_length;  ///< mean, of the uncut body [m]
 
-  const Eigen::VectorXd masses;  ///< lumped [kg]
-  const std::unique_ptr<StepSolver> solver;
-  ConstrainedStep constrained_step;
-  ObservationConfidence confidence;
-
+  EditedVolume volume;
+  std::unique_ptr<BodyModel> model;  ///< of the volume's topology
   Body body;
 };
 
-Simulator::Implementation::Implementation(const TetTopology& topology_in, const Material& material_in,
+Simulator::Implementation::Implementation(const TetTopology& topology, const Material& material_in,
                                           const SimulatorConfig& config_in)
-    : topology(topology_in),
+    : uncut(topology),
       material(material_in),
       config(config_in),
       edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
-      masses(lumpedMasses(topology, densityOf(topology, material, config))),
-      solver(makeSolver(topology, material, config, edge_length)),
-      constrained_step(makeStep(topology, material, config, edge_length, solver.get())),
-      confidence(topology.rest_vertices, topology.tets) {
+      volume(topology) {
+  adopt(topology);
+}
+
+void Simulator::Implementation::adopt(const TetTopology& topology) {
+  if (model && sameTets(model->topology, topology))
+    model->topology.revision = topology.revision;
+  else
+    model = std::make_unique<BodyModel>(topology, material, config, edge_length);
   body.state.revision = topology.revision;
+}
+
+const TargetSet& Simulator::Implementation::upToDate(const TargetSet& targets, TargetSet* storage) const {
+  if (targets.revision == model->topology.revision) return targets;
+  *storage = volume.broughtUpToDate(targets);
+  return *storage;
 }
 
 void Simulator::Implementation::requireUsable(const TargetSet& targets,
                                               const Surroundings& surroundings) const {
-  if (targets.revision != topology.revision) {
+  if (targets.revision != model->topology.revision) {
     throw std::invalid_argument(fmt::format("targets are for revision {} of the volume, which is at {}",
-                                            targets.revision, topology.revision));
+                                            targets.revision, model->topology.revision));
   }
   if (!body.placed && !targets.reset) {
     throw std::invalid_argument("the body has no place yet: waiting for targets with reset and a body_pose");
@@ -156,13 +134,13 @@ void Simulator::Implementation::requireUsable(const TargetSet& targets,
   if (targets.reset && !targets.body_pose.matrix().allFinite())
     throw std::invalid_argument("body_pose is not finite");
   for (std::size_t i = 0; i < targets.targets.size(); ++i) {
-    requireUsableTarget(targets.targets[i], i, topology.tets.rows());
+    requireUsableTarget(targets.targets[i], i, model->topology.tets.rows());
   }
-  softbody::requireUsable(surroundings, topology.rest_vertices.rows());
+  softbody::requireUsable(surroundings, model->topology.rest_vertices.rows());
 }
 
 void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const {
-  next->state.vertices = transformed(topology.rest_vertices, pose);
+  next->state.vertices = transformed(model->topology.rest_vertices, pose);
   next->velocity = Points::Zero(next->state.vertices.rows(), 3);
   next->stamp = stamp;
   next->placed = true;
@@ -175,7 +153,7 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
     const double elapsed_s = std::max(0.0, 1e-9 * static_cast<double>(stamp - next->stamp));
     simulate(targets, elapsed_s, surroundings, next);
   } else {
-    followTargets(targets.targets, topology, &next->state.vertices);
+    followTargets(targets.targets, model->topology, &next->state.vertices);
     next->report = {0, true};
   }
   next->stamp = std::max(next->stamp, stamp);
@@ -185,11 +163,11 @@ void Simulator::Implementation::simulate(const TargetSet& targets, double elapse
                                          const Surroundings& surroundings, Body* next) {
   const double h = elapsed_s > 0.0 ? std::min(elapsed_s, config.max_time_step_s) : kNominalTimeStep;
   const Points before = next->state.vertices;
-  StepPotential free{masses / (h * h), before, Points::Zero(masses.size(), 3), {}};
+  StepPotential free{model->masses / (h * h), before, Points::Zero(model->masses.size(), 3), {}};
   if (elapsed_s > 0.0) {
     next->velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
     free.prediction += h * next->velocity;
-    free.loads = masses * config.gravity.transpose();
+    free.loads = model->masses * config.gravity.transpose();
   }
   // From where the loads alone take the vertices.
   const Points start = free.prediction + free.inertia.cwiseInverse().asDiagonal() * free.loads;
@@ -201,8 +179,10 @@ void Simulator::Implementation::simulate(const TargetSet& targets, double elapse
 void Simulator::Implementation::settle(const TargetSet& targets, const Surroundings& surroundings,
                                        Body* next) {
   if (targets.reset) place(targets.body_pose, next->stamp, next);
-  const StepPotential free{
-      Eigen::VectorXd::Zero(masses.size()), next->state.vertices, masses * config.gravity.transpose(), {}};
+  const StepPotential free{Eigen::VectorXd::Zero(model->masses.size()),
+                           next->state.vertices,
+                           model->masses * config.gravity.transpose(),
+                           {}};
   solve(free, targets, surroundings, next->state.vertices, next);
   next->velocity.setZero();
 }
@@ -212,8 +192,8 @@ void Simulator::Implementation::solve(const StepPotential& free, const TargetSet
   std::vector<Eigen::Isometry3d> poses;
   for (const Obstacle& obstacle : surroundings.obstacles) poses.push_back(obstacle.pose);
   if (next->obstacle_poses.size() != poses.size()) next->obstacle_poses = poses;
-  ConstrainedStep::Result result = constrained_step.solve(free, targets.targets, surroundings,
-                                                          next->state.vertices, next->obstacle_poses, &x);
+  ConstrainedStep::Result result = model->constrained_step.solve(
+      free, targets.targets, surroundings, next->state.vertices, next->obstacle_poses, &x);
   next->report = result.report;
   next->reactions = std::move(result.reactions);
   next->obstacle_poses = std::move(poses);
@@ -225,25 +205,28 @@ Simulator::Simulator(const TetTopology& topology, const Material& material, cons
 
 Simulator::~Simulator() = default;
 
-const TetTopology& Simulator::topology() const { return implementation_->topology; }
+const TetTopology& Simulator::topology() const { return implementation_->model->topology; }
 
 bool Simulator::placed() const { return implementation_->body.placed; }
 
-void Simulator::step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings) {
+void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundings& surroundings) {
   Implementation& s = *implementation_;
+  TargetSet storage;
+  const TargetSet& targets = s.upToDate(given, &storage);
   s.requireUsable(targets, surroundings);
   Body next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp, &next);
   s.advance(targets, stamp, surroundings, &next);
-  next.state.confidence = s.confidence.of(targets.targets);
+  next.state.confidence = s.model->confidence.of(targets.targets);
   if (!targets.targets.empty()) next.state.observed = stamp;
   s.body = std::move(next);
 }
 
-void Simulator::stepUnobserved(const TargetSet& earlier, Nanoseconds stamp,
-                               const Surroundings& surroundings) {
+void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const Surroundings& surroundings) {
   constexpr double kHalfLife = 0.5;  // [s]
   Implementation& s = *implementation_;
+  TargetSet storage;
+  const TargetSet& earlier = s.upToDate(given, &storage);
   s.requireUsable(earlier, surroundings);
   if (!s.body.placed) throw std::invalid_argument("the body has no place yet");
   Body next = s.body;
@@ -254,12 +237,14 @@ void Simulator::stepUnobserved(const TargetSet& earlier, Nanoseconds stamp,
   s.body = std::move(next);
 }
 
-void Simulator::settle(const TargetSet& targets, const Surroundings& surroundings) {
+void Simulator::settle(const TargetSet& given, const Surroundings& surroundings) {
   Implementation& s = *implementation_;
+  TargetSet storage;
+  const TargetSet& targets = s.upToDate(given, &storage);
   s.requireUsable(targets, surroundings);
   Body next = s.body;
   s.settle(targets, surroundings, &next);
-  next.state.confidence = s.confidence.of(targets.targets);
+  next.state.confidence = s.model->confidence.of(targets.targets);
   s.body = std::move(next);
 }
 
@@ -278,7 +263,25 @@ void Simulator::setVertices(const Points& vertices) {
 void Simulator::reset() {
   Implementation& s = *implementation_;
   s.body = {};
-  s.body.state.revision = s.topology.revision;
+  if (s.model->topology.revision != s.uncut.revision) {
+    s.volume = EditedVolume(s.uncut);
+    s.adopt(s.uncut);
+  }
+  s.body.state.revision = s.uncut.revision;
+}
+
+bool Simulator::apply(const Cut& cut, std::string* reason) {
+  Implementation& s = *implementation_;
+  EditedVolume edited = s.volume;
+  const std::optional<TetEdit> edit = edited.apply(cut, reason);
+  if (!edit) return false;
+  Body next = s.body;
+  if (next.placed) carryOver(*edit, s.model->topology.tets, &next);
+  s.adopt(edit->topology);
+  next.state.revision = edit->topology.revision;
+  s.volume = std::move(edited);
+  s.body = std::move(next);
+  return true;
 }
 
 const MeshState& Simulator::state() const { return implementation_->body.state; }
@@ -290,7 +293,7 @@ const Reactions& Simulator::reactions() const { return implementation_->body.rea
 double Simulator::elasticEnergy() const {
   const Points& x = implementation_->body.state.vertices;
   Points unused = Points::Zero(x.rows(), 3);
-  return implementation_->solver->addElasticity(x, &unused);
+  return implementation_->model->solver->addElasticity(x, &unused);
 }
 
 }  // namespace softbody

@@ -5,6 +5,7 @@
 #include <boost/make_shared.hpp>
 
 #include "softbody_common/conversions.h"
+#include "softbody_common/cut_messages.h"
 #include "softbody_common/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_msgs/MeshState.h"
@@ -45,6 +46,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); });
   targets_subscriber_ = node.subscribe(topics::kTargets, 1, &SimulatorNode::onTargets, this,
                                        ros::TransportHints().tcpNoDelay());
+  cut_subscriber_ =
+      node.subscribe(topics::kCut, 20, &SimulatorNode::onCut, this, ros::TransportHints().tcpNoDelay());
   pin_subscriber_ = node.subscribe(topics::kPin, 10, &SimulatorNode::onPin, this);
   if (free_run_rate_hz > 0.0) {
     free_run_timer_ = node.createTimer(ros::Duration(1.0 / free_run_rate_hz),
@@ -75,14 +78,17 @@ void SimulatorNode::restartIfTimeJumpedBack(const ros::Time& stamp) {
   if (stamp < last_stamp_) {
     ROS_INFO("time jumped back by %.3f s: the simulation starts anew", (last_stamp_ - stamp).toSec());
     simulator_->reset();
+    surroundings_->regionsChanged(simulator_->topology().rest_vertices, {});
     last_stamp_ = last_arrival_ = {};
     holdTopologyFrom({});
   }
 }
 
 void SimulatorNode::holdTopologyFrom(const ros::Time& stamp) {
-  // A copy: nodelets may still read the one that was sent.
-  topology_message_ = boost::make_shared<softbody_msgs::TetTopology>(*topology_message_);
+  // A new one: nodelets may still read the one that was sent.
+  const std::string frame = topology_message_->header.frame_id;
+  topology_message_ = boost::make_shared<softbody_msgs::TetTopology>(toMessage(simulator_->topology()));
+  topology_message_->header.frame_id = frame;
   topology_message_->header.stamp = stamp;
   publishTopology();
 }
@@ -122,6 +128,22 @@ void SimulatorNode::freeRun() {
     return;
   }
   publishState(header);
+}
+
+void SimulatorNode::onCut(const softbody_msgs::CutConstPtr& message) {
+  if (message->revision <= simulator_->topology().revision) return;  // sent again
+  std::string reason;
+  try {
+    const auto scope = timer_.stage("Cutting");
+    if (simulator_->apply(fromMessage(*message), &reason)) {
+      surroundings_->regionsChanged(simulator_->topology().rest_vertices, simulator_->state().vertices);
+      holdTopologyFrom(message->header.stamp);
+      return;
+    }
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  ROS_WARN_STREAM("the cut of revision " << message->revision << " is not made: " << reason);
 }
 
 void SimulatorNode::onPin(const softbody_msgs::PinRegionConstPtr& message) {

@@ -2,6 +2,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <softbody_msgs/Cut.h>
 #include <softbody_msgs/PinRegion.h>
 #include <softbody_msgs/Targets.h>
 #include <softbody_msgs/TetTopology.h>
@@ -16,8 +17,8 @@
 namespace softbody {
 
 /// Targets in, states of the volumetric model out; without targets, as from a camera that stalls, it goes on
-/// at a rate of its own. Parameters: ~object, ~body_frame, ~obstacles, ~free_run_rate_hz, ~stall_timeout_s
-/// and those of SimulatorConfig.
+/// at a rate of its own. Carries out cuts. Parameters: ~object, ~body_frame, ~obstacles, ~free_run_rate_hz,
+/// ~stall_timeout_s and those of SimulatorConfig.
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -25,6 +26,7 @@ class SimulatorNode {
 
  private:
   void onTargets(const softbody_msgs::TargetsConstPtr& message);
+  void onCut(const softbody_msgs::CutConstPtr& message);
   void onPin(const softbody_msgs::PinRegionConstPtr& message);
   void step(const softbody_msgs::Targets& message);
   void freeRun();
@@ -47,7 +49,7 @@ class SimulatorNode {
 
   ros::Publisher topology_publisher_, state_publisher_, timing_publisher_;
   ros::Timer topology_timer_, free_run_timer_;
-  ros::Subscriber targets_subscriber_, pin_subscriber_;
+  ros::Subscriber targets_subscriber_, cut_subscriber_, pin_subscriber_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer diagnostics_timer_;
 };

@@ -4,7 +4,9 @@
 #include <visualization_msgs/Marker.h>
 
 #include <boost/make_shared.hpp>
+#include <utility>
 
+#include "core/cutting/cut_patch.h"
 #include "softbody_common/conversions.h"
 #include "softbody_common/ros_parameters.h"
 #include "softbody_common/topics.h"
@@ -20,12 +22,22 @@ bool sameMesh(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopol
          a.surface_triangles == b.surface_triangles;
 }
 
+bool sameTets(const TetTopology& volume, const softbody_msgs::TetTopology& message) {
+  if (volume.revision != message.revision ||
+      static_cast<std::size_t>(volume.tets.rows()) != message.tets.size())
+    return false;
+  const TetTopology other = fromMessage(message);
+  return volume.rest_vertices.rows() == other.rest_vertices.rows() &&
+         inSinglePrecision(volume.rest_vertices) == other.rest_vertices && volume.tets == other.tets;
+}
+
 }  // namespace
 
 SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
   Parameters parameters = readParameters(private_node);
   const std::string object = parameters.requiredText("object");
   body_frame_ = parameters.text("body_frame", "softbody");
+  const BladeConfig blade = readBladeConfig(parameters);
   warnUnknown(parameters);
   const ObjectDescription description = loadObjectDescription(object);
   Warnings warnings = description.warnings;
@@ -38,46 +50,65 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
   timing_publisher_ = node.advertise<softbody_msgs::StageTiming>(topics::kTiming, 10);
   topology_timer_ =
       node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); });
+  editor_.emplace(node, private_node, body_frame_, blade, [this] { adoptWaitingTopology(); });
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   topology_subscriber_ = node.subscribe(topics::kVolumeTopology, 1, &SurfaceNode::onTopology, this, hints);
   state_subscriber_ = node.subscribe(topics::kVolumeState, 1, &SurfaceNode::onState, this, hints);
 }
 
 void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) {
-  // Sent again every second; only another body, or another revision, needs new weights.
+  editor_->resendTo(message->revision);
+  // Sent again every second; only another body, or another revision, is news.
   for (std::optional<Binding>* known : {&binding_, &next_binding_}) {
     if (!*known || !sameMesh(*(*known)->volume, *message)) continue;
     (*known)->topology->header.stamp = message->header.stamp;
     return;
   }
   try {
-    Binding binding = bind(message);
-    // An edit is published with its first state; until then the surface before it holds.
-    if (binding_ && message->revision > binding_->volume->revision)
-      next_binding_ = std::move(binding);
-    else
-      replaceBinding(std::move(binding));
+    if (editor_->started() && sameTets(editor_->body().volume(), *message)) {
+      // An edit is published with its first state; until then the surface before it holds.
+      next_binding_ = bindingTo(message);
+    } else if (binding_ && message->revision == editor_->body().volume().revision + 1 && !waiting_topology_) {
+      waiting_topology_ = message;  // of a cut that others send; at the next time it is late
+      return;
+    } else {
+      startBody(message);
+    }
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(
         1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
     return;
   }
+  waiting_topology_.reset();
   if (waiting_state_ && waiting_state_->revision == message->revision) onState(waiting_state_);
 }
 
-SurfaceNode::Binding SurfaceNode::bind(const softbody_msgs::TetTopologyConstPtr& message) {
-  const auto scope = timer_.stage("Resolution Enhancement", true);
-  MeshTopology visual = visual_;
-  visual.revision = message->revision;
-  VisualSurface surface(visual, fromMessage(*message));
+void SurfaceNode::adoptWaitingTopology() {
+  if (waiting_topology_ && sameTets(editor_->body().volume(), *waiting_topology_))
+    onTopology(std::exchange(waiting_topology_, nullptr));
+}
+
+void SurfaceNode::startBody(const softbody_msgs::TetTopologyConstPtr& message) {
+  {
+    const auto scope = timer_.stage("Resolution Enhancement", true);
+    MeshTopology visual = visual_;
+    visual.revision = message->revision;
+    editor_->start(visual, fromMessage(*message));
+  }
+  const VisualSurface& surface = editor_->body().surface();
   if (surface.outsideCount() > 0) {
     ROS_WARN("%d of %d visual vertices lie outside the volume; they follow the nearest tet",
              surface.outsideCount(), static_cast<int>(visual_.rest_vertices.rows()));
   }
+  replaceBinding(bindingTo(message));
+}
+
+SurfaceNode::Binding SurfaceNode::bindingTo(const softbody_msgs::TetTopologyConstPtr& message) const {
+  const VisualSurface& surface = editor_->body().surface();
   const auto topology = boost::make_shared<softbody_msgs::MeshTopology>(toMessage(surface.topology()));
   topology->header.frame_id = body_frame_;
   topology->header.stamp = message->header.stamp;
-  return {message, std::move(surface), topology};
+  return {message, surface, topology};
 }
 
 void SurfaceNode::replaceBinding(Binding binding) {
@@ -105,8 +136,8 @@ void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) {
 
 void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {
   MeshState surface;
+  const MeshState state = fromMessage(volume);
   {
-    const MeshState state = fromMessage(volume);
     const auto scope = timer_.stage("Resolution Enhancement");
     surface = binding_->surface.apply(state);
   }
@@ -120,6 +151,7 @@ void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {
     marker_publisher_.publish(marker);
   }
   publishTiming(volume.header);
+  editor_->onState(state, volume.header);
 }
 
 void SurfaceNode::publishTiming(const std_msgs::Header& header) {

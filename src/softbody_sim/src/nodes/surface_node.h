@@ -8,13 +8,15 @@
 #include <optional>
 #include <string>
 
+#include "nodes/surface_editor.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/visual_surface.h"
 
 namespace softbody {
 
-/// States of the volumetric model in, states of the visual mesh out. Parameters: ~object, ~body_frame.
+/// States of the volumetric model in, states of the visual mesh out; cuts of both. Parameters: ~object,
+/// ~body_frame and those of BladeConfig.
 class SurfaceNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -28,7 +30,10 @@ class SurfaceNode {
     softbody_msgs::MeshTopologyPtr topology;
   };
 
-  Binding bind(const softbody_msgs::TetTopologyConstPtr& message);
+  /// An unknown body: its visual mesh is taken to be uncut.
+  void startBody(const softbody_msgs::TetTopologyConstPtr& message);
+  Binding bindingTo(const softbody_msgs::TetTopologyConstPtr& message) const;
+  void adoptWaitingTopology();
   void onTopology(const softbody_msgs::TetTopologyConstPtr& message);
   void replaceBinding(Binding binding);
   void onState(const softbody_msgs::MeshStateConstPtr& message);
@@ -39,9 +44,11 @@ class SurfaceNode {
   std::string body_frame_;
   MeshTopology visual_;
   StageTimer timer_;
-  std::optional<Binding> binding_;                  ///< that is published
-  std::optional<Binding> next_binding_;             ///< of an edit that no state has come of yet
-  softbody_msgs::MeshStateConstPtr waiting_state_;  ///< its topology has not come yet
+  std::optional<SurfaceEditor> editor_;                  ///< may be ahead of what is published
+  std::optional<Binding> binding_;                       ///< that is published
+  std::optional<Binding> next_binding_;                  ///< of an edit that no state has come of yet
+  softbody_msgs::TetTopologyConstPtr waiting_topology_;  ///< its cut has not come yet
+  softbody_msgs::MeshStateConstPtr waiting_state_;       ///< its topology has not come yet
 
   ros::Publisher topology_publisher_, state_publisher_, marker_publisher_, timing_publisher_;
   ros::Timer topology_timer_;

@@ -4,6 +4,7 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -25,6 +26,16 @@ Wrench aboutOrigin(const Wrench& wrench, const Eigen::Vector3d& place) {
   return {wrench.force, wrench.torque + place.cross(wrench.force)};
 }
 
+/// Ascending.
+std::vector<int> verticesIn(const PinRegion& region, const Points& rest_vertices) {
+  std::vector<int> vertices;
+  for (int v = 0; v < rest_vertices.rows(); ++v) {
+    const Eigen::Array3d p = rest_vertices.row(v).transpose().array();
+    if ((p >= region.min.array()).all() && (p <= region.max.array()).all()) vertices.push_back(v);
+  }
+  return vertices;
+}
+
 }  // namespace
 
 SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node,
@@ -39,15 +50,30 @@ void SurroundingsTracker::hold(const PinRegion& region, const Points& rest_verti
     if (obstacle.description.name == region.name)
       throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
   }
-  Held held{region, {}, {}, Eigen::Isometry3d::Identity(), false};
-  for (int v = 0; v < rest_vertices.rows(); ++v) {
-    const Eigen::Array3d p = rest_vertices.row(v).transpose().array();
-    if ((p >= region.min.array()).all() && (p <= region.max.array()).all()) held.vertices.push_back(v);
-  }
+  Held held{region, verticesIn(region, rest_vertices), {}, Eigen::Isometry3d::Identity(), false};
   if (held.vertices.empty())
     throw std::invalid_argument(
         fmt::format("no vertex of the volume lies in the box of pin '{}'", region.name));
   held_[region.name] = std::move(held);
+}
+
+void SurroundingsTracker::regionsChanged(const Points& rest_vertices, const Points& vertices) {
+  for (auto& entry : held_) {
+    Held& held = entry.second;
+    const std::vector<int> before = std::exchange(held.vertices, verticesIn(held.region, rest_vertices));
+    if (vertices.rows() == 0) held.places.reset();
+    if (!held.places) continue;
+    Points places(static_cast<Eigen::Index>(held.vertices.size()), 3);
+    for (std::size_t k = 0; k < held.vertices.size(); ++k) {
+      const auto known = std::lower_bound(before.begin(), before.end(), held.vertices[k]);
+      const auto row = static_cast<Eigen::Index>(k);
+      if (known != before.end() && *known == held.vertices[k])
+        places.row(row) = held.places->row(known - before.begin());
+      else
+        places.row(row) = held.frame_pose.inverse() * Eigen::Vector3d(vertices.row(held.vertices[k]));
+    }
+    held.places = std::move(places);
+  }
 }
 
 void SurroundingsTracker::release(const std::string& name) { held_.erase(name); }

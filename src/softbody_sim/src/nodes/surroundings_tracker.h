@@ -23,6 +23,9 @@ class SurroundingsTracker {
   /// Holds the vertices of a region from the next at() on. @throw std::invalid_argument if it has none.
   void hold(const PinRegion& region, const Points& rest_vertices);
   void release(const std::string& name);
+  /// The volume was cut: held regions hold their new vertices too, where those are now.
+  /// @param vertices none: the body has no place.
+  void regionsChanged(const Points& rest_vertices, const Points& vertices);
   /// Regions are held anew, where the vertices are then.
   void forgetPlaces();
 

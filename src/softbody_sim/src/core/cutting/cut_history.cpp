@@ -78,22 +78,41 @@ std::optional<TetEdit> CutHistory::preview(const CutPatch& patch, std::uint32_t 
   return cutTets(topology(), cut(), patch, settings_, &copy, reason);
 }
 
-std::optional<TetEdit> CutHistory::cut(const CutPatch& patch, std::uint32_t stroke, std::string* reason) {
+std::optional<TetEdit> CutHistory::grow(const CutPatch& patch, std::uint32_t stroke, std::string* reason) {
   CutStroke grown = strokeFor(stroke);
   std::optional<TetEdit> edit = cutTets(topology(), cut(), patch, settings_, &grown, reason);
   stroke_has_version_ = stroke_has_version_ && stroke_number_ == stroke;
   stroke_ = std::move(grown);
   stroke_number_ = stroke;
-  if (!edit) return edit;
+  return edit;
+}
+
+void CutHistory::record(const TetEdit& edit) {
   versions_.resize(at_ + 1);
   if (stroke_has_version_) {
-    versions_[at_] = composed(versions_[at_ - 1].topology, versions_[at_], *edit);
+    versions_[at_] = composed(versions_[at_ - 1].topology, versions_[at_], edit);
   } else {
-    versions_.push_back(*edit);
+    versions_.push_back(edit);
     ++at_;
     stroke_has_version_ = true;
   }
+}
+
+std::optional<TetEdit> CutHistory::cut(const CutPatch& patch, std::uint32_t stroke, std::string* reason) {
+  std::optional<TetEdit> edit = grow(patch, stroke, reason);
+  if (edit) record(*edit);
   return edit;
+}
+
+TetEdit CutHistory::cutOrAdvance(const CutPatch& patch, std::uint32_t stroke) {
+  std::string reason;
+  std::optional<TetEdit> edit = grow(patch, stroke, &reason);
+  if (!edit) {
+    edit = unchanged(topology(), cut());
+    ++edit->topology.revision;
+  }
+  record(*edit);
+  return *edit;
 }
 
 std::optional<TetEdit> CutHistory::undo() { return at_ == 0 ? std::nullopt : moveTo(at_ - 1); }

@@ -25,6 +25,10 @@ class CutHistory {
   /// @throw std::invalid_argument as cutTets.
   std::optional<TetEdit> cut(const CutPatch& patch, std::uint32_t stroke, std::string* reason);
 
+  /// As cut, but a patch that crosses nothing of the tets is an edit too, which changes only the revision:
+  /// the visual mesh, which is finer, may be cut by it.
+  TetEdit cutOrAdvance(const CutPatch& patch, std::uint32_t stroke);
+
   /// What cut would do, without doing it.
   std::optional<TetEdit> preview(const CutPatch& patch, std::uint32_t stroke, std::string* reason) const;
 
@@ -34,6 +38,8 @@ class CutHistory {
 
  private:
   CutStroke strokeFor(std::uint32_t number) const;
+  std::optional<TetEdit> grow(const CutPatch& patch, std::uint32_t stroke, std::string* reason);
+  void record(const TetEdit& edit);
   std::optional<TetEdit> moveTo(std::size_t version);
 
   SubdivisionSettings settings_;

@@ -1,0 +1,34 @@
+#include "softbody_bringup/cut_journal.h"
+
+#include <fmt/format.h>
+#include <rosbag/view.h>
+
+#include <stdexcept>
+
+#include "softbody_common/conversions.h"
+#include "softbody_common/cut_messages.h"
+
+namespace softbody {
+
+CutJournal::CutJournal(const rosbag::Bag& bag, const std::string& topic) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  if (view.size() == 0)
+    throw std::invalid_argument(fmt::format("{} holds no cuts on {}", bag.getFileName(), topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instance.instantiate<softbody_msgs::Cut>();
+    if (!message) {
+      throw std::invalid_argument(
+          fmt::format("{} on {} is {}, no cut", bag.getFileName(), topic, instance.getDataType()));
+    }
+    entries_.push_back({toNanoseconds(message->header.stamp), fromMessage(*message)});
+  }
+}
+
+std::vector<Cut> CutJournal::takeUntil(Nanoseconds stamp) {
+  std::vector<Cut> due;
+  for (; !entries_.empty() && entries_.front().stamp <= stamp; entries_.pop_front())
+    due.push_back(std::move(entries_.front().cut));
+  return due;
+}
+
+}  // namespace softbody

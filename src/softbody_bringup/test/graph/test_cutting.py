@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Cuts by service and by a blade made by hand; simulator and surface keep step."""
+import sys
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import Point, Point32, PolygonStamped, Pose, Quaternion, Vector3
+from recorder import Recorder
+from softbody_msgs.msg import Cut, MeshState, MeshTopology, Targets, TetTopology
+from softbody_msgs.srv import CutBody, PreviewCut
+from std_srvs.srv import Trigger
+
+FRAME = "made_by_hand"
+
+
+def array(points):
+    return np.array([[p.x, p.y, p.z] for p in points])
+
+
+class Cutting(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState,
+                                softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
+                                softbody__cut=Cut)
+        cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
+        cls.blade = rospy.Publisher("/softbody/tool/blade", PolygonStamped, queue_size=1)
+        cls.rest = array(cls.recorder.wait_for("softbody/surface/topology")[-1].rest_vertices)
+        cls.recorder.wait(lambda _: cls.targets.get_num_connections() > 0 and cls.blade.get_num_connections() > 0,
+                          "nodes that listen")
+        cls.stamp = rospy.Time(1000)
+        cls.revision = 0
+
+    def service(self, name, kind):
+        rospy.wait_for_service("/softbody/surface/" + name, 30)
+        return rospy.ServiceProxy("/softbody/surface/" + name, kind)
+
+    def step(self, stamp=None, **fields):
+        """A frame without targets. @return the surface's state."""
+        type(self).stamp = stamp or self.stamp + rospy.Duration(nsecs=33333333)
+        fields.setdefault("revision", self.revision)
+        message = Targets(**{"body_pose": Pose(orientation=Quaternion(w=1.0)), **fields})
+        message.header.stamp, message.header.frame_id = self.stamp, FRAME
+        self.targets.publish(message)
+        return self.recorder.wait(
+            lambda seen: next((s for s in reversed(seen["softbody/surface/state"]) if s.header.stamp == self.stamp),
+                              None), f"the surface's state of {self.stamp.to_sec():.3f}")
+
+    def expect_revision(self, revision, pieces):
+        """The next frame is answered with it, also where its targets are of the revision before."""
+        self.recorder.wait(lambda seen: seen["softbody/volume/topology"][-1].revision == revision,
+                           f"revision {revision} of the volume")
+        state = self.step()
+        type(self).revision = revision
+        self.assertEqual(state.revision, revision)
+        volume, surface = (self.recorder.wait(
+            lambda seen, name=name: next((t for t in reversed(seen[name]) if t.revision == revision), None),
+            f"revision {revision} on {name}") for name in ("softbody/volume/topology", "softbody/surface/topology"))
+        self.assertEqual(1 + max(volume.tet_bodies), pieces)
+        self.assertEqual(1 + max(surface.triangle_bodies), pieces)
+        self.assertEqual(len(surface.rest_vertices), len(state.vertices))
+        return surface
+
+    def test_1_services(self):
+        self.step(reset=True)
+        middle = self.rest.mean(axis=0)
+        plane = {"point": Point(*middle), "normal": Vector3(1.0, 0.1, 0.0)}
+        preview = self.service("preview", PreviewCut)(**plane)
+        self.assertTrue(preview.success, preview.message)
+        self.assertEqual(len(preview.volumes), 2)
+        cut = self.service("cut", CutBody)(**plane)
+        self.assertTrue(cut.success, cut.message)
+        self.assertEqual(cut.revision, 1)
+        after = self.expect_revision(1, 2)
+        self.assertIn(True, list(after.cut_triangles))
+        self.assertIn(-1, after.vertex_parents)
+        self.assertTrue(self.service("undo", Trigger)().success)
+        before = self.expect_revision(2, 1)
+        self.assertTrue(np.array_equal(array(before.rest_vertices), self.rest))
+        self.assertTrue(self.service("redo", Trigger)().success)
+        self.expect_revision(3, 2)
+        self.assertTrue(self.service("reset", Trigger)().success)
+        self.expect_revision(4, 1)
+        answer = self.service("undo", Trigger)()
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.message, "there is no cut to take back")
+        away = self.service("cut", CutBody)(point=Point(*(middle + 9.0)), normal=Vector3(1.0, 0.0, 0.0))
+        self.assertFalse(away.success)
+        self.assertNotEqual(away.message, "")
+        bent = [Point32(0, 0, 0), Point32(0, 1, 0), Point32(0, 1, 1), Point32(0, 0.9, 0.1)]
+        self.assertIn("convex", self.service("preview", PreviewCut)(polygon=bent).message)
+
+    def test_2_blade(self):
+        """A blade from above, through the body and beyond."""
+        self.step(reset=True)
+        low, high = self.rest.min(axis=0), self.rest.max(axis=0)
+        x, first = 0.55 * low[0] + 0.45 * high[0], self.revision
+        for z in np.arange(high[2] + 0.02, low[2] - 0.01, -0.002):
+            blade = PolygonStamped()
+            blade.polygon.points = [Point32(x, y, h) for y, h in ((low[1] - 0.02, z), (high[1] + 0.02, z),
+                                                                  (high[1] + 0.02, z + 0.06), (low[1] - 0.02, z + 0.06))]
+            state = self.step()
+            blade.header.stamp, blade.header.frame_id = self.stamp, FRAME
+            cuts = len(self.recorder.messages["softbody/cut"])
+            self.blade.publish(blade)
+            rospy.sleep(0.05)
+            if len(self.recorder.messages["softbody/cut"]) > cuts:
+                type(self).revision += 1
+                self.recorder.wait(lambda seen: seen["softbody/volume/topology"][-1].revision == self.revision,
+                                   f"revision {self.revision} of the volume")
+            self.assertLessEqual(state.revision, self.revision)
+        self.assertGreater(self.revision, first)
+        self.expect_revision(self.revision, 2)
+        strokes = {cut.stroke for cut in self.recorder.messages["softbody/cut"] if cut.revision > first}
+        self.assertEqual(len(strokes), 1)
+
+    def test_3_time_that_jumps_back_makes_it_whole(self):
+        type(self).revision = 0
+        state = self.step(stamp=rospy.Time(500), reset=True)
+        self.assertEqual(state.revision, 0)
+        self.assertEqual(len(state.vertices), len(self.rest))
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_cutting")
+    rostest.rosrun("softbody_bringup", "cutting", Cutting, sys.argv)

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "softbody_common/cut.h"
+#include "softbody_common/parameters.h"
+#include "softbody_sim/visual_surface.h"
+
+namespace softbody {
+
+/// How a blade's motion becomes cuts.
+struct BladeConfig {
+  double min_advance_m = 0.005;     ///< the blade cuts when its edge is so far beyond the front of the cut
+  double slit_tolerance_m = 0.005;  ///< a blade that comes so near to an earlier cut is in its slit
+};
+
+/// @throw std::invalid_argument as Parameters does.
+BladeConfig readBladeConfig(Parameters& parameters);
+
+/// What a cut would do.
+struct CutPreview {
+  std::string refusal;          ///< why it cannot be made; empty if it can
+  std::vector<double> volumes;  ///< of the pieces of the visual mesh, largest first [m^3]
+};
+
+/// The visual mesh of a body that is cut, and the tets that it follows. A cut is made where the visual mesh
+/// can be cut; the tets, which are coarser, follow as far as they go. A simulator that is given the same cuts
+/// has the same tets.
+class CuttableSurface {
+ public:
+  /// @throw std::invalid_argument if the volume's surface is not closed.
+  CuttableSurface(const MeshTopology& visual, const TetTopology& volume, const BladeConfig& config = {});
+  ~CuttableSurface();
+  CuttableSurface(CuttableSurface&&) noexcept;
+  CuttableSurface& operator=(CuttableSurface&&) noexcept;
+
+  const VisualSurface& surface() const;
+  const TetTopology& volume() const;
+
+  /// The cut that the blade's motion since the last call asks for, already carried out.
+  /// @param blade polygon in the frame of the volume's state, the same one every time [m].
+  /// @param volume state of the volume at that time; nothing is cut if it is of another revision.
+  std::optional<Cut> follow(const Points& blade, const MeshState& volume);
+
+  /// The blade is not seen.
+  void lift();
+
+  /// A cut of a stroke of its own; for apply(). The patch is rounded as it is published.
+  Cut separateCut(const TriangleMesh& patch) const;
+  /// Undo, redo or reset; for apply().
+  Cut edit(CutKind kind) const;
+
+  /// Carries out a cut. Nothing changes where it returns false; `reason` then says why.
+  /// @param volume state of the volume before the cut: in it the visual mesh does not jump.
+  /// @throw std::invalid_argument if the patch is no oriented surface.
+  bool apply(const Cut& cut, const MeshState& volume, std::string* reason);
+
+  /// What separateCut(patch) would do. @throw std::invalid_argument if the patch is no oriented surface.
+  CutPreview preview(const TriangleMesh& patch) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace softbody

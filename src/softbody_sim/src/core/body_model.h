@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "core/constrained_step.h"
+#include "core/observation_confidence.h"
+#include "core/step_solver.h"
+#include "softbody_sim/simulator.h"
+
+namespace softbody {
+
+/// All that is computed once for a topology of the volume.
+struct BodyModel {
+  /// @param edge_length of the uncut body [m], which targets, contact and tolerances are measured by.
+  /// @throw std::invalid_argument if topology, material or config make no body.
+  BodyModel(TetTopology topology_in, const Material& material, const SimulatorConfig& config,
+            double edge_length);
+
+  TetTopology topology;
+  const Eigen::VectorXd masses;  ///< lumped [kg]
+  const std::unique_ptr<StepSolver> solver;
+  ConstrainedStep constrained_step;
+  const ObservationConfidence confidence;
+};
+
+}  // namespace softbody

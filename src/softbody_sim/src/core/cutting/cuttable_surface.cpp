@@ -1,0 +1,154 @@
+#include "softbody_sim/cuttable_surface.h"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "core/cutting/blade_stroke.h"
+#include "core/cutting/edited_volume.h"
+#include "core/cutting/surface_history.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kNear = 0.1;  // from the body's bounding box; a blade further away is not looked at [m]
+
+Eigen::AlignedBox3d boxOf(const Points& points) {
+  return {Eigen::Vector3d(points.colwise().minCoeff()), Eigen::Vector3d(points.colwise().maxCoeff())};
+}
+
+/// How far the tets reach beyond the visual mesh: no vertex of their surface is further from one of its.
+double overhangOf(const TetTopology& volume, const MeshTopology& visual) {
+  double most = 0.0;
+  for (const int v : volume.surface.reshaped()) {
+    const double nearest =
+        (visual.rest_vertices.rowwise() - volume.rest_vertices.row(v)).rowwise().squaredNorm().minCoeff();
+    most = std::max(most, nearest);
+  }
+  return std::sqrt(most);
+}
+
+/// Enclosed by the pieces, largest first.
+std::vector<double> volumesOf(const MeshTopology& mesh) {
+  std::vector<double> volumes;
+  const Eigen::Vector3d origin = mesh.rest_vertices.row(0);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return mesh.rest_vertices.row(mesh.triangles(t, k)).transpose() - origin;
+    };
+    const std::size_t body = mesh.bodies[static_cast<std::size_t>(t)];
+    if (body >= volumes.size()) volumes.resize(body + 1, 0.0);
+    volumes[body] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
+  }
+  std::sort(volumes.begin(), volumes.end(), std::greater<>());
+  return volumes;
+}
+
+}  // namespace
+
+BladeConfig readBladeConfig(Parameters& parameters) {
+  BladeConfig config;
+  config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
+  config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
+  return config;
+}
+
+struct CuttableSurface::Implementation {
+  Implementation(const MeshTopology& visual, const TetTopology& volume, const BladeConfig& config)
+      : tets(volume),
+        surface(VisualSurface(visual, volume)),
+        solid(visual),
+        blade(config, meanEdgeLength(volume.rest_vertices, volume.tets), overhangOf(volume, visual)) {}
+
+  bool cut(const Cut& cut, const MeshState& state, std::string* reason);
+  bool move(const Cut& cut, std::string* reason);
+
+  CutHistory tets;
+  SurfaceHistory surface;
+  RestSolid solid;
+  BladeStroke blade;
+};
+
+bool CuttableSurface::Implementation::cut(const Cut& cut, const MeshState& state, std::string* reason) {
+  SurfaceCut surface_cut = surface.preview(cut.patch, cut.stroke);
+  *reason = surface_cut.reason;
+  if (surface_cut.outcome != CutOutcome::kCut) return false;
+  const std::optional<TetEdit> edit = applyCut(cut, &tets, reason);
+  if (!edit) return false;
+  surface.cut(cut.patch, cut.stroke, std::move(surface_cut), *edit, state);
+  blade.noteNumber(cut.stroke);
+  return true;
+}
+
+bool CuttableSurface::Implementation::move(const Cut& cut, std::string* reason) {
+  const std::optional<TetEdit> edit = applyCut(cut, &tets, reason);
+  if (!edit) return false;
+  const std::uint32_t revision = edit->topology.revision;
+  if (cut.kind == CutKind::kUndo) surface.undo(revision);
+  if (cut.kind == CutKind::kRedo) surface.redo(revision);
+  if (cut.kind == CutKind::kReset) surface.reset(revision);
+  blade.forgetStrokes();
+  return true;
+}
+
+CuttableSurface::CuttableSurface(const MeshTopology& visual, const TetTopology& volume,
+                                 const BladeConfig& config)
+    : implementation_(std::make_unique<Implementation>(visual, volume, config)) {}
+CuttableSurface::~CuttableSurface() = default;
+CuttableSurface::CuttableSurface(CuttableSurface&&) noexcept = default;
+CuttableSurface& CuttableSurface::operator=(CuttableSurface&&) noexcept = default;
+
+const VisualSurface& CuttableSurface::surface() const { return implementation_->surface.surface(); }
+const TetTopology& CuttableSurface::volume() const { return implementation_->tets.topology(); }
+
+void CuttableSurface::lift() { implementation_->blade.lift(); }
+
+std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState& volume) {
+  Implementation& s = *implementation_;
+  const TetTopology& topology = this->volume();
+  if (volume.revision != topology.revision || volume.vertices.rows() != topology.rest_vertices.rows())
+    return std::nullopt;
+  if (boxOf(volume.vertices).exteriorDistance(boxOf(blade)) > kNear) {
+    s.blade.lift();
+    return std::nullopt;
+  }
+  const RestMap map(topology, volume.vertices, s.solid);
+  const std::optional<BladeCut> next = s.blade.follow(blade, map, s.solid);
+  if (!next) return std::nullopt;
+  const Cut cut{topology.revision + 1, next->stroke, CutKind::kCut, next->patch};
+  std::string reason;
+  if (!s.cut(cut, volume, &reason)) return std::nullopt;
+  s.blade.accept();
+  return cut;
+}
+
+Cut CuttableSurface::separateCut(const TriangleMesh& patch) const {
+  return {volume().revision + 1,
+          implementation_->blade.lastNumber() + 1,
+          CutKind::kCut,
+          {inSinglePrecision(patch.vertices), patch.triangles}};
+}
+
+Cut CuttableSurface::edit(CutKind kind) const {
+  return {volume().revision + 1, implementation_->blade.lastNumber(), kind, {}};
+}
+
+bool CuttableSurface::apply(const Cut& cut, const MeshState& volume, std::string* reason) {
+  Implementation& s = *implementation_;
+  if (cut.kind != CutKind::kCut) return s.move(cut, reason);
+  if (!s.cut(cut, volume, reason)) return false;
+  s.blade.forgetStrokes();
+  return true;
+}
+
+CutPreview CuttableSurface::preview(const TriangleMesh& patch) const {
+  const Cut cut = separateCut(patch);
+  const SurfaceCut surface_cut = implementation_->surface.preview(cut.patch, cut.stroke);
+  CutPreview preview{surface_cut.reason, {}};
+  if (surface_cut.outcome == CutOutcome::kCut) preview.volumes = volumesOf(surface_cut.mesh);
+  return preview;
+}
+
+}  // namespace softbody

@@ -1,0 +1,209 @@
+#include "nodes/surface_editor.h"
+
+#include <fmt/format.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "softbody_common/conversions.h"
+#include "softbody_common/cut_messages.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/topics.h"
+#include "softbody_sim/cut_shapes.h"
+
+namespace softbody {
+namespace {
+
+/// Further apart in time the blade and the body's state say nothing of each other.
+constexpr double kSameInstant = 0.1;  // [s]
+
+}  // namespace
+
+SurfaceEditor::SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle private_node,
+                             std::string body_frame, const BladeConfig& config, std::function<void()> on_cut)
+    : node_(node), body_frame_(std::move(body_frame)), config_(config), on_cut_(std::move(on_cut)) {
+  cut_publisher_ = node_.advertise<softbody_msgs::Cut>(topics::kCut, 20);
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  blade_subscriber_ = node_.subscribe(topics::kToolBlade, 1, &SurfaceEditor::onBlade, this, hints);
+  cut_subscriber_ = node_.subscribe(topics::kCut, 20, &SurfaceEditor::onCut, this, hints);
+  cut_service_ = private_node.advertiseService("cut", &SurfaceEditor::onCutService, this);
+  preview_service_ = private_node.advertiseService("preview", &SurfaceEditor::onPreview, this);
+  const auto edit = [&](const char* name, CutKind kind) {
+    using Trigger = std_srvs::Trigger;
+    return private_node.advertiseService<Trigger::Request, Trigger::Response>(
+        name,
+        [this, kind](Trigger::Request&, Trigger::Response& response) { return onEdit(kind, response); });
+  };
+  undo_service_ = edit("undo", CutKind::kUndo);
+  redo_service_ = edit("redo", CutKind::kRedo);
+  reset_service_ = edit("reset", CutKind::kReset);
+}
+
+void SurfaceEditor::start(const MeshTopology& visual, const TetTopology& volume) {
+  body_.emplace(visual, volume, config_);
+  rest_ = visual.rest_vertices;
+  state_.reset();
+  waiting_blade_.reset();
+  last_cut_.reset();
+}
+
+void SurfaceEditor::onState(const MeshState& state, const std_msgs::Header& header) {
+  state_ = state;
+  state_header_ = header;
+  if (last_cut_ && last_cut_->revision <= state.revision) last_cut_.reset();
+  if (waiting_blade_ && waiting_blade_->header.stamp <= header.stamp) {
+    const geometry_msgs::PolygonStampedConstPtr blade = std::exchange(waiting_blade_, nullptr);
+    follow(*blade);
+  }
+}
+
+void SurfaceEditor::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
+  if (state_ && message->header.stamp <= state_header_.stamp)
+    follow(*message);
+  else
+    waiting_blade_ = message;
+}
+
+void SurfaceEditor::follow(const geometry_msgs::PolygonStamped& blade) {
+  if (!body_ || !state_ || std::abs((state_header_.stamp - blade.header.stamp).toSec()) > kSameInstant)
+    return;
+  const std::optional<Points> polygon = inStatesFrame(blade);
+  if (!polygon || polygon->rows() < 3) return;
+  try {
+    const std::optional<Cut> cut = body_->follow(*polygon, *state_);
+    if (cut) publish(*cut, blade.header.stamp);
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "the blade cannot cut: " << error.what());
+  }
+}
+
+std::optional<Points> SurfaceEditor::inStatesFrame(const geometry_msgs::PolygonStamped& blade) {
+  Points points(static_cast<Eigen::Index>(blade.polygon.points.size()), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const geometry_msgs::Point32& p = blade.polygon.points[static_cast<std::size_t>(i)];
+    points.row(i) << p.x, p.y, p.z;
+  }
+  if (blade.header.frame_id == state_header_.frame_id) return points;
+  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
+  try {
+    const Eigen::Isometry3d T(
+        tf2::transformToEigen(
+            buffer_.lookupTransform(state_header_.frame_id, blade.header.frame_id, blade.header.stamp))
+            .matrix());
+    return transformed(points, T);
+  } catch (const tf2::TransformException& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << error.what());
+    return std::nullopt;
+  }
+}
+
+void SurfaceEditor::publish(const Cut& cut, const ros::Time& stamp) {
+  last_cut_ = boost::make_shared<softbody_msgs::Cut>(toMessage(cut));
+  last_cut_->header.stamp = stamp;
+  last_cut_->header.frame_id = body_frame_;
+  cut_publisher_.publish(last_cut_);
+  on_cut_();
+}
+
+void SurfaceEditor::resendTo(std::uint32_t volume_revision) {
+  if (!last_cut_ || last_cut_->revision != volume_revision + 1) return;
+  ROS_WARN("the simulator has not made the cut of revision %u; it is sent again", last_cut_->revision);
+  cut_publisher_.publish(boost::make_shared<softbody_msgs::Cut>(*last_cut_));
+}
+
+/// Recorded cuts that are played, and one's own, which are done already.
+void SurfaceEditor::onCut(const softbody_msgs::CutConstPtr& message) {
+  if (!body_ || message->revision <= body_->volume().revision) return;
+  std::string reason;
+  try {
+    if (body_->apply(fromMessage(*message), stateOrRest(), &reason)) {
+      on_cut_();
+      return;
+    }
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  ROS_WARN_STREAM("the cut of revision " << message->revision << " is not made: " << reason);
+}
+
+/// The last state where it is of the present revision; before the body is placed, the rest shape.
+MeshState SurfaceEditor::stateOrRest() const {
+  const TetTopology& volume = body_->volume();
+  if (state_ && state_->revision == volume.revision && state_->vertices.rows() == volume.rest_vertices.rows())
+    return *state_;
+  MeshState rest;
+  rest.revision = volume.revision;
+  rest.vertices = volume.rest_vertices;
+  rest.confidence.assign(static_cast<std::size_t>(rest.vertices.rows()), 0.0f);
+  return rest;
+}
+
+bool SurfaceEditor::isIdle(std::string* reason) const {
+  if (!body_)
+    *reason = "the volume's topology has not come yet";
+  else if (last_cut_ && state_)
+    *reason = "an earlier cut is still on its way";
+  else
+    return true;
+  return false;
+}
+
+template <typename Request>
+TriangleMesh SurfaceEditor::patchOf(const Request& request) const {
+  if (!request.header.frame_id.empty() && request.header.frame_id != body_frame_) {
+    throw std::invalid_argument(fmt::format("frame_id is {}, but cuts are made in the rest frame, {}",
+                                            request.header.frame_id, body_frame_));
+  }
+  if (request.polygon.empty()) {
+    return planePatch({request.point.x, request.point.y, request.point.z},
+                      {request.normal.x, request.normal.y, request.normal.z}, rest_);
+  }
+  Points corners(static_cast<Eigen::Index>(request.polygon.size()), 3);
+  for (Eigen::Index i = 0; i < corners.rows(); ++i) {
+    const geometry_msgs::Point32& p = request.polygon[static_cast<std::size_t>(i)];
+    corners.row(i) << p.x, p.y, p.z;
+  }
+  return polygonPatch(corners);
+}
+
+bool SurfaceEditor::onCutService(softbody_msgs::CutBody::Request& request,
+                                 softbody_msgs::CutBody::Response& response) {
+  try {
+    response.success = static_cast<unsigned char>(
+        isIdle(&response.message) && apply(body_->separateCut(patchOf(request)), &response.message));
+  } catch (const std::invalid_argument& error) {
+    response.message = error.what();
+  }
+  if (body_) response.revision = body_->volume().revision;
+  return true;
+}
+
+bool SurfaceEditor::onPreview(softbody_msgs::PreviewCut::Request& request,
+                              softbody_msgs::PreviewCut::Response& response) {
+  try {
+    if (!isIdle(&response.message)) return true;
+    const CutPreview preview = body_->preview(patchOf(request));
+    response.success = static_cast<unsigned char>(preview.refusal.empty());
+    response.message = preview.refusal;
+    response.volumes = preview.volumes;
+  } catch (const std::invalid_argument& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+bool SurfaceEditor::onEdit(CutKind kind, std_srvs::Trigger::Response& response) {
+  response.success =
+      static_cast<unsigned char>(isIdle(&response.message) && apply(body_->edit(kind), &response.message));
+  return true;
+}
+
+bool SurfaceEditor::apply(const Cut& cut, std::string* reason) {
+  if (!body_->apply(cut, stateOrRest(), reason)) return false;
+  reason->clear();
+  publish(cut, state_ ? state_header_.stamp : ros::Time::now());
+  return true;
+}
+
+}  // namespace softbody

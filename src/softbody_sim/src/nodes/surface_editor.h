@@ -1,0 +1,75 @@
+#pragma once
+
+#include <geometry_msgs/PolygonStamped.h>
+#include <ros/ros.h>
+#include <softbody_msgs/Cut.h>
+#include <softbody_msgs/CutBody.h>
+#include <softbody_msgs/PreviewCut.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "softbody_sim/cuttable_surface.h"
+
+namespace softbody {
+
+/// Where the surface's cuts come from: the blade, services, and recorded cuts that are played. Each is
+/// carried out here at once and published for the simulator, whose next topology and state then bring it
+/// about. There is one cut at a time on that way.
+class SurfaceEditor {
+ public:
+  /// @param on_cut called after each cut.
+  SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle private_node, std::string body_frame,
+                const BladeConfig& config, std::function<void()> on_cut);
+
+  /// A body that is not cut, or whose cuts are not known. @throw std::invalid_argument as CuttableSurface.
+  void start(const MeshTopology& visual, const TetTopology& volume);
+  bool started() const { return body_.has_value(); }
+  const CuttableSurface& body() const { return *body_; }
+
+  /// Every state of the volume.
+  void onState(const MeshState& state, const std_msgs::Header& header);
+
+  /// The simulator has sent its topology again: the last cut goes out once more if it does not have it.
+  void resendTo(std::uint32_t volume_revision);
+
+ private:
+  void onBlade(const geometry_msgs::PolygonStampedConstPtr& message);
+  void onCut(const softbody_msgs::CutConstPtr& message);
+  bool onCutService(softbody_msgs::CutBody::Request& request, softbody_msgs::CutBody::Response& response);
+  bool onPreview(softbody_msgs::PreviewCut::Request& request, softbody_msgs::PreviewCut::Response& response);
+  bool onEdit(CutKind kind, std_srvs::Trigger::Response& response);
+
+  void follow(const geometry_msgs::PolygonStamped& blade);
+  std::optional<Points> inStatesFrame(const geometry_msgs::PolygonStamped& blade);
+  bool apply(const Cut& cut, std::string* reason);
+  void publish(const Cut& cut, const ros::Time& stamp);
+  template <typename Request>
+  TriangleMesh patchOf(const Request& request) const;
+  MeshState stateOrRest() const;
+  bool isIdle(std::string* reason) const;
+
+  ros::NodeHandle node_;
+  std::string body_frame_;
+  BladeConfig config_;
+  std::function<void()> on_cut_;
+  std::optional<CuttableSurface> body_;
+  Points rest_;                     ///< vertices of the uncut visual mesh
+  std::optional<MeshState> state_;  ///< the last one
+  std_msgs::Header state_header_;
+  geometry_msgs::PolygonStampedConstPtr waiting_blade_;  ///< its state has not come yet
+  softbody_msgs::CutPtr last_cut_;                       ///< null: there is none, or the simulator has it
+  tf2_ros::Buffer buffer_;
+  std::unique_ptr<tf2_ros::TransformListener>
+      listener_;  ///< once the blade is in another frame than the body
+
+  ros::Publisher cut_publisher_;
+  ros::Subscriber blade_subscriber_, cut_subscriber_;
+  ros::ServiceServer cut_service_, preview_service_, undo_service_, redo_service_, reset_service_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "cutting/surface_meshes.h"
+#include "cutting/visual_sponge.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_sim/cuttable_surface.h"
+#include "softbody_sim/simulator.h"
+
+namespace softbody {
+namespace {
+
+using testing::visualSponge;
+
+constexpr double kHeight = 0.03, kPlace = 0.083;  // of the sponge, and where it is cut (x) [m]
+
+/// A blade 150 mm long and 40 mm high in the plane x = 0; its edge is at z = 0, along y.
+Points bladePolygon() {
+  Points blade(4, 3);
+  blade << 0.0, -0.075, 0.0, 0.0, 0.075, 0.0, 0.0, 0.075, 0.04, 0.0, -0.075, 0.04;
+  return blade;
+}
+
+/// The blade's edge at a height over the sponge's underside, in the middle of its width.
+Eigen::Isometry3d bladeAt(double height, double x = kPlace) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, 0.05, height));
+}
+
+/// A body under a blade: simulator and surface are given the same cuts.
+struct Scene {
+  explicit Scene(const Eigen::Isometry3d& body_pose = testing::somePose())
+      : pose(body_pose),
+        simulator(testing::sponge(), Material(), {}),
+        surface(visualSponge(), testing::sponge()) {
+    step(true);
+  }
+
+  void step(bool reset = false) {
+    TargetSet targets;
+    targets.revision = simulator.topology().revision;
+    targets.reset = reset;
+    targets.body_pose = pose;
+    simulator.step(targets, stamp += 33'000'000);
+  }
+
+  /// The blade at a place of the rest body, as a camera sees it.
+  std::optional<Cut> move(const Eigen::Isometry3d& T_rest_blade) {
+    step();
+    const std::optional<Cut> cut =
+        surface.follow(transformed(bladePolygon(), pose * T_rest_blade), simulator.state());
+    if (!cut) return cut;
+    ++cuts;
+    strokes.push_back(cut->stroke);
+    std::string reason;
+    EXPECT_TRUE(simulator.apply(*cut, &reason)) << reason;
+    checkAgreement();
+    return cut;
+  }
+
+  /// In steps of a millimetre, with the tremor of a tracked pose.
+  void sweep(double from, double to, double tremor_m, double tremor_rad, double x = kPlace) {
+    const int steps = static_cast<int>(std::ceil(std::abs(to - from) / 0.001));
+    std::normal_distribution<double> normal;
+    const auto shaken = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+    for (int k = 0; k <= steps; ++k) {
+      Eigen::Isometry3d T = bladeAt(from + (to - from) * k / steps, x);
+      const Eigen::Vector3d turn = tremor_rad / std::sqrt(3.0) * shaken();
+      T.translation() += tremor_m / std::sqrt(3.0) * shaken();
+      T.rotate(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));
+      move(T);
+    }
+  }
+
+  void checkAgreement() const {
+    EXPECT_EQ(simulator.topology().revision, surface.volume().revision);
+    EXPECT_EQ(simulator.topology().rest_vertices, surface.volume().rest_vertices);
+    EXPECT_EQ(simulator.topology().tets, surface.volume().tets);
+    EXPECT_EQ(surface.surface().topology().revision, surface.volume().revision);
+    EXPECT_EQ(testing::faultOf(surface.surface().topology(), 0.96 * 0.96 * 0.96 * 6e-4), "");
+  }
+
+  std::size_t visualPieces() const { return testing::bodyVolumes(surface.surface().topology()).size(); }
+  std::size_t tetPieces() const {
+    const std::vector<std::uint32_t>& bodies = simulator.topology().bodies;
+    return *std::max_element(bodies.begin(), bodies.end()) + 1;
+  }
+
+  /// Lowest and highest z of the cut faces, and how far they are from the plane x = kPlace.
+  Eigen::Vector3d cutBounds() const {
+    const MeshTopology& mesh = surface.surface().topology();
+    Eigen::Vector3d bounds(1.0, -1.0, 0.0);
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+      if (!mesh.cut[static_cast<std::size_t>(t)]) continue;
+      for (const int v : mesh.triangles.row(t)) {
+        bounds[0] = std::min(bounds[0], mesh.rest_vertices(v, 2));
+        bounds[1] = std::max(bounds[1], mesh.rest_vertices(v, 2));
+        bounds[2] = std::max(bounds[2], std::abs(mesh.rest_vertices(v, 0) - kPlace));
+      }
+    }
+    return bounds;
+  }
+
+  Eigen::Isometry3d pose;
+  Simulator simulator;
+  CuttableSurface surface;
+  Nanoseconds stamp = 0;
+  std::mt19937 random{7};
+  int cuts = 0;
+  std::vector<std::uint32_t> strokes;
+};
+
+TEST(CuttableSurface, ABladeThatGoesThroughLeavesTwoPieces) {
+  Scene scene;
+  scene.sweep(0.05, -0.006, 0.0, 0.0);
+  EXPECT_EQ(scene.visualPieces(), 2u);
+  EXPECT_EQ(scene.tetPieces(), 2u);
+  EXPECT_LT(scene.cutBounds()[2], 2e-4);
+  EXPECT_LE(scene.cuts, 8);
+  const int cuts = scene.cuts;
+  scene.sweep(-0.006, 0.05, 0.0, 0.0);
+  EXPECT_EQ(scene.cuts, cuts) << "the way back cut";
+}
+
+TEST(CuttableSurface, TremorNeitherCutsBesideNorAgain) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    Scene scene;
+    scene.random.seed(seed);
+    scene.sweep(0.05, -0.01, 1e-3, 0.017);
+    EXPECT_EQ(scene.visualPieces(), 2u);
+    EXPECT_EQ(scene.tetPieces(), 2u);
+    EXPECT_LT(scene.cutBounds()[2], 6e-3);
+    const int cuts = scene.cuts;
+    scene.sweep(-0.01, 0.05, 1e-3, 0.017);
+    EXPECT_EQ(scene.cuts, cuts) << "the way back cut";
+    EXPECT_EQ(std::set<std::uint32_t>(scene.strokes.begin(), scene.strokes.end()).size(), 1u);
+  }
+}
+
+TEST(CuttableSurface, ABladeWithdrawnHalfwayLeavesASlitThatItCanDeepen) {
+  Scene scene;
+  scene.sweep(0.05, 0.012, 3e-4, 0.005);
+  scene.sweep(0.012, 0.05, 3e-4, 0.005);
+  EXPECT_EQ(scene.visualPieces(), 1u);
+  EXPECT_NEAR(scene.cutBounds()[0], 0.012, 2.5e-3);
+  const int cuts = scene.cuts;
+  scene.sweep(0.05, 0.014, 3e-4, 0.005);
+  EXPECT_EQ(scene.cuts, cuts) << "the slit was cut again";
+  scene.sweep(0.014, -0.006, 3e-4, 0.005);
+  EXPECT_GT(scene.cuts, cuts);
+  EXPECT_EQ(scene.visualPieces(), 2u);
+  EXPECT_EQ(scene.tetPieces(), 2u);
+  EXPECT_EQ(std::set<std::uint32_t>(scene.strokes.begin(), scene.strokes.end()).size(), 1u);
+}
+
+TEST(CuttableSurface, ABladeThatRestsPressesOrRubsCutsNothing) {
+  Scene scene;
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 60; ++k) {  // rests on the surface
+    scene.move(bladeAt(0.0294 + 1e-3 * normal(scene.random)));
+  }
+  for (int k = 0; k < 60; ++k) {  // its flat side, from the left
+    scene.move(Eigen::Translation3d(-0.03 + 0.001 * k, 0.05, 0.005) * Eigen::Isometry3d::Identity());
+  }
+  EXPECT_EQ(scene.cuts, 0);
+}
+
+TEST(CuttableSurface, TwoStrokesThatCrossLeaveFourPiecesAndAreTakenBackOneByOne) {
+  Scene scene;
+  const TetTopology uncut = scene.surface.volume();
+  scene.sweep(0.05, -0.006, 3e-4, 0.005);
+  scene.sweep(-0.006, 0.05, 3e-4, 0.005);
+  const Eigen::AngleAxisd turn(0.6, Eigen::Vector3d::UnitZ());
+  for (int k = 0; k <= 56; ++k) scene.move(bladeAt(0.05 - 0.001 * k) * turn);
+  EXPECT_EQ(scene.visualPieces(), 4u);
+  EXPECT_EQ(scene.tetPieces(), 4u);
+  EXPECT_EQ(std::set<std::uint32_t>(scene.strokes.begin(), scene.strokes.end()).size(), 2u);
+
+  std::string reason;
+  for (const std::size_t pieces : {2u, 1u}) {
+    const Cut undo = scene.surface.edit(CutKind::kUndo);
+    ASSERT_TRUE(scene.surface.apply(undo, scene.simulator.state(), &reason)) << reason;
+    ASSERT_TRUE(scene.simulator.apply(undo, &reason)) << reason;
+    scene.checkAgreement();
+    EXPECT_EQ(scene.visualPieces(), pieces);
+  }
+  EXPECT_EQ(scene.simulator.topology().rest_vertices, uncut.rest_vertices);
+  EXPECT_EQ(scene.simulator.topology().tets, uncut.tets);
+  scene.step();
+  EXPECT_FALSE(scene.surface.apply(scene.surface.edit(CutKind::kUndo), scene.simulator.state(), &reason));
+  EXPECT_EQ(reason, "there is no cut to take back");
+}
+
+TEST(CuttableSurface, APreviewChangesNothingAndTellsThePieces) {
+  Scene scene;
+  const CutPreview preview =
+      scene.surface.preview(testing::planePatch({0.06, 0.05, 0.015}, {1.0, 0.0, 0.0}, 1.0));
+  EXPECT_EQ(preview.refusal, "");
+  ASSERT_EQ(preview.volumes.size(), 2u);
+  EXPECT_NEAR(preview.volumes[0] + preview.volumes[1], 0.96 * 0.96 * 0.96 * 6e-4, 1e-8);
+  EXPECT_GT(preview.volumes[0], preview.volumes[1]);
+  EXPECT_EQ(scene.surface.volume().revision, 0u);
+  EXPECT_NE(scene.surface.preview(testing::planePatch({0.06, 0.05, 0.5}, {0.0, 0.0, 1.0}, 1.0)).refusal, "");
+}
+
+}  // namespace
+}  // namespace softbody
