@@ -72,8 +72,8 @@ void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
                                           ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
                                           : Eigen::Matrix3d(spring.normal * spring.normal.transpose());
     BlockTetMatrix::TetBlock block;
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b < 4; ++b) {
+    for (Eigen::Index a = 0; a < 4; ++a) {
+      for (Eigen::Index b = 0; b < 4; ++b) {
         block.block<3, 3>(3 * a, 3 * b) =
             spring.stiffness * spring.barycentric[a] * spring.barycentric[b] * curvature;
       }

@@ -14,7 +14,7 @@
 
 namespace softbody {
 
-SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
+SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
     : diagnostics_(node, private_node) {
   Parameters parameters = readParameters(private_node);
   const std::string object = parameters.requiredText("object");

@@ -22,7 +22,7 @@ namespace softbody {
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
-  SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node);
 
  private:
   void onTargets(const softbody_msgs::TargetsConstPtr& message);

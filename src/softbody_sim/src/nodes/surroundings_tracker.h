@@ -19,6 +19,8 @@ namespace softbody {
 class SurroundingsTracker {
  public:
   SurroundingsTracker(const ros::NodeHandle& node, std::vector<ObstacleDescription> obstacles);
+  SurroundingsTracker(const SurroundingsTracker&) = delete;
+  SurroundingsTracker& operator=(const SurroundingsTracker&) = delete;
 
   /// Holds the vertices of a region from the next at() on. @throw std::invalid_argument if it has none.
   void hold(const PinRegion& region, const Points& rest_vertices);
