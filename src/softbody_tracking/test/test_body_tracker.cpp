@@ -261,6 +261,64 @@ TEST(BodyTracker, FindsABodyThatComesBackElsewhereAndTurned) {
             0.003);
 }
 
+/// Largest distance of a vertex between the pose found and another.
+double distanceTo(const BoxBody& box, const TrackingResult& result, const Eigen::Isometry3d& pose) {
+  return (transformed(box.volume.rest_vertices, result.targets.body_pose) -
+          transformed(box.volume.rest_vertices, pose))
+      .rowwise()
+      .norm()
+      .maxCoeff();
+}
+
+TEST(BodyTracker, StartsAnewNearAPoseSetByHand) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  for (int i = 0; i < 5; ++i) tracked.show(rest);
+  // The same surface in depth, half a turn about each axis: which of the four is meant, only the user knows.
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
+    const Eigen::Isometry3d meant = boxPose() * Eigen::AngleAxisd(M_PI, axis);
+    const Eigen::Isometry3d rough =
+        Eigen::Translation3d(0.015, -0.01, 0.02) * meant * Eigen::AngleAxisd(0.15, Eigen::Vector3d::UnitY());
+    tracked.tracker().restart(rough);
+    const TrackingResult result = tracked.show(rest);
+    ASSERT_TRUE(result.has_targets) << result.status.reason;
+    EXPECT_TRUE(result.targets.reset);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    EXPECT_LT(distanceTo(tracked.box(), result, meant), 0.003) << "about " << axis.transpose();
+  }
+}
+
+TEST(BodyTracker, APoseSetByHandHoldsUntilAReset) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
+  tracked.tracker().restart(turned);
+  EXPECT_LT(distanceTo(tracked.box(), tracked.show(rest), turned), 0.003);
+  tracked.tracker().reset();
+  EXPECT_LT(distanceTo(tracked.box(), tracked.show(rest), boxPose()), 0.003);
+}
+
+TEST(BodyTracker, RestartEndsBeingLost) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 0; i < 12; ++i) {
+    tracked.show(posedBox(tracked.box()), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  const Eigen::Isometry3d elsewhere = Eigen::Translation3d(0.06, 0.03, 0.06) * boxPose();
+  tracked.tracker().restart(elsewhere);
+  const TrackingResult result = tracked.show(posedBox(tracked.box(), 0.06));
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << "in the very next frame";
+  EXPECT_LT(distanceTo(tracked.box(), result, elsewhere), 0.003);
+}
+
+TEST(BodyTracker, RefusesARestartWithoutABody) {
+  EXPECT_THROW(BodyTracker(TrackerConfig()).restart(Eigen::Isometry3d::Identity()), std::logic_error);
+}
+
 TEST(BodyTracker, FollowsAJumpOfMoreThanTheSearchWindow) {
   TrackedBox tracked;
   tracked.show(posedBox(tracked.box()));

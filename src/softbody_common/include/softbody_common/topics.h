@@ -14,6 +14,7 @@ constexpr char kRgbInfo[] = "rgb/camera_info";
 constexpr char kDepthRect[] = "depth/image_rect";
 constexpr char kPoints[] = "points";
 
+constexpr char kMask[] = "mask";
 constexpr char kFeatures[] = "features";
 constexpr char kFeaturesMarker[] = "features/marker";
 constexpr char kTargets[] = "targets";

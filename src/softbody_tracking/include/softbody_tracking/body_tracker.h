@@ -44,8 +44,12 @@ class BodyTracker {
   /// @param volume the newest state of the volume in the camera frame, nullptr where there is none yet.
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
 
-  /// Forgets everything seen; topologies stay.
+  /// Forgets everything seen, and restart(); topologies stay.
   void reset();
+
+  /// Forgets everything seen and looks for the body near a rough pose (a few centimetres, some 15 degrees) of
+  /// its rest frame in the camera frame. @throw std::logic_error unless ready().
+  void restart(const Eigen::Isometry3d& rough_pose);
 
  private:
   struct Implementation;

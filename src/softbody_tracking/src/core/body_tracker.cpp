@@ -51,7 +51,8 @@ struct BodyTracker::Implementation {
 
   bool registered = false;
   bool recovering = false;
-  int poses_alike = 1;  ///< of the last registration
+  int poses_alike = 1;                          ///< of the last registration
+  std::optional<Eigen::Isometry3d> given_pose;  ///< rough, by the object's file or by restart()
   Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();
   Nanoseconds placed_since = 0;  ///< stamp of the frame that placed the body; older states do not count
   Nanoseconds last_stamp = 0;
@@ -83,11 +84,20 @@ bool BodyTracker::ready() const { return implementation_->observer != nullptr; }
 
 void BodyTracker::reset() { implementation_->reset(); }
 
+void BodyTracker::restart(const Eigen::Isometry3d& rough_pose) {
+  if (!ready()) throw std::logic_error("the topologies of simulator and surface have not come yet");
+  implementation_->reset();
+  implementation_->given_pose = implementation_->body_pose = rough_pose;
+}
+
 void BodyTracker::Implementation::reset() {
   registered = recovering = false;
+  given_pose.reset();
   if (observer != nullptr) {
     observer->reset();
-    body_pose = observer->surface().volume().initial_pose;
+    const TetTopology& volume = observer->surface().volume();
+    body_pose = volume.initial_pose;
+    if (volume.has_initial_pose) given_pose = volume.initial_pose;
   }
   if (prediction != nullptr) prediction->reset();
   last_stamp = 0;
@@ -100,12 +110,11 @@ bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* time
   if (frames_to_registration-- > 0) return false;
   frames_to_registration = kFramesBetweenRegistrations;
   const auto scope = timer->stage("Model Registration", true);
-  const bool pose_given = observer->surface().volume().has_initial_pose;
   std::optional<Localization> found;
-  if (pose_given && !recovering) found = localizer->near(frame, observer->surface().volume().initial_pose);
+  if (given_pose && !recovering) found = localizer->near(frame, *given_pose);
   if (!found) {
     std::vector<Eigen::Isometry3d> guesses;
-    if (recovering || pose_given) guesses.push_back(body_pose);
+    if (recovering || given_pose) guesses.push_back(body_pose);
     found = localizer->anywhere(frame, observer->colors(), guesses, [&](const Eigen::Isometry3d& pose) {
       return observer->featureShare(frame, pose);
     });

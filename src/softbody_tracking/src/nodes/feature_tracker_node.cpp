@@ -21,6 +21,7 @@ namespace {
 
 constexpr int kSyncQueue = 4;
 constexpr double kTfPatience_s = 0.05;
+constexpr double kSetPosePatience_s = 0.5;
 constexpr double kSilence_s = 2.0;
 
 /// A target set moved to another frame.
@@ -44,6 +45,8 @@ FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle p
   body_frame_ = parameters.text("body_frame", "softbody");
   output_frame_ = parameters.text("output_frame", "");
   tracker_ = std::make_unique<BodyTracker>(readTrackerConfig(parameters));
+  const bool use_mask = parameters.flag("use_mask", false);
+  const double mask_timeout_s = parameters.number("mask_timeout_s", 0.3, 0.0, 5.0);
   warnUnknown(parameters);
 
   features_ = handle_.advertise<sensor_msgs::PointCloud2>(topics::kFeatures, 1);
@@ -51,6 +54,7 @@ FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle p
   targets_ = handle_.advertise<softbody_msgs::Targets>(topics::kTargets, 1);
   status_ = handle_.advertise<softbody_msgs::TrackingStatus>(topics::kStatus, 1);
   timing_ = handle_.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
+  set_pose_ = private_handle.advertiseService("set_pose", &FeatureTrackerNode::onSetPose, this);
 
   volume_topology_subscriber_ =
       handle_.subscribe(topics::kVolumeTopology, 1, &FeatureTrackerNode::onVolumeTopology, this);
@@ -63,6 +67,11 @@ FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle p
   info_subscriber_.subscribe(handle_, topics::kRgbInfo, 1);
   synchronizer_.connectInput(color_subscriber_, depth_subscriber_, info_subscriber_);
   synchronizer_.registerCallback(&FeatureTrackerNode::onFrame, this);
+  if (use_mask) {
+    mask_input_ = std::make_unique<MaskInput>(
+        handle_, mask_timeout_s,
+        [this](const RectifiedImages& images, const cv::Mat1b& mask) { track(images, mask); });
+  }
 
   diagnostics_.setHardwareID("none");
   diagnostics_.add("tracking",
@@ -144,35 +153,65 @@ std::optional<MeshState> FeatureTrackerNode::volumeInCamera(const Eigen::Isometr
   return std::nullopt;
 }
 
+Eigen::Isometry3d FeatureTrackerNode::poseInCamera(const geometry_msgs::PoseStamped& pose) const {
+  const Eigen::Isometry3d T_frame_body = fromMessage(pose.pose);
+  if (pose.header.frame_id.empty() || pose.header.frame_id == camera_frame_) return T_frame_body;
+  return tf2::transformToEigen(tf_buffer_.lookupTransform(
+             camera_frame_, pose.header.frame_id, pose.header.stamp, ros::Duration(kSetPosePatience_s))) *
+         T_frame_body;
+}
+
+bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
+                                   softbody_msgs::SetPose::Response& response) try {
+  if (camera_frame_.empty()) throw std::logic_error("no frame of the camera has come yet");
+  tracker_->restart(poseInCamera(request.pose));
+  response.success = 1;
+  ROS_INFO("tracking starts anew near the pose set by hand");
+  return true;
+} catch (const std::exception& error) {
+  response.success = 0;
+  response.message = std::string("the pose is not taken: ") + error.what();
+  ROS_WARN_STREAM(response.message);
+  return true;
+}
+
 void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
                                  const sensor_msgs::ImageConstPtr& depth,
-                                 const sensor_msgs::CameraInfoConstPtr& info) try {
-  const std::optional<Eigen::Isometry3d> T_output_camera = cameraPose(color->header);
+                                 const sensor_msgs::CameraInfoConstPtr& info) {
+  if (mask_input_) return mask_input_->add({color, depth, info});
+  track({color, depth, info}, cv::Mat1b());
+}
+
+/// @param mask empty: none.
+void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& mask) try {
+  const std_msgs::Header& header = images.color->header;
+  camera_frame_ = header.frame_id;
+  const std::optional<Eigen::Isometry3d> T_output_camera = cameraPose(header);
   if (!T_output_camera) {
     last_status_.state = TrackingState::kInitializing;
-    last_status_.reason =
-        "tf does not connect " + color->header.frame_id + " with output_frame " + output_frame_;
-    return publishStatus(color->header);
+    last_status_.reason = "tf does not connect " + header.frame_id + " with output_frame " + output_frame_;
+    return publishStatus(header);
   }
   // A bag that loops: what the simulator said of later times is void.
-  if (color->header.stamp < last_stamp_) volume_state_.reset();
-  last_stamp_ = color->header.stamp;
+  if (header.stamp < last_stamp_) volume_state_.reset();
+  last_stamp_ = header.stamp;
 
-  const auto color_image = cv_bridge::toCvShare(color, sensor_msgs::image_encodings::BGR8);
-  const auto depth_image = cv_bridge::toCvShare(depth, sensor_msgs::image_encodings::TYPE_32FC1);
-  RgbdFrame frame{toNanoseconds(color->header.stamp), pinholeFromMessage(*info), color_image->image,
-                  depth_image->image};
+  const auto color_image = cv_bridge::toCvShare(images.color, sensor_msgs::image_encodings::BGR8);
+  const auto depth_image = cv_bridge::toCvShare(images.depth, sensor_msgs::image_encodings::TYPE_32FC1);
+  RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
+                  mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask)};
   const std::optional<MeshState> volume = volumeInCamera(*T_output_camera);
   StageTimer timer;
   const TrackingResult result = tracker_->track(frame, volume ? &*volume : nullptr, &timer);
   last_status_ = result.status;
-  publishStatus(color->header);
-  publish(color->header, *T_output_camera, result);
+  publishStatus(header);
+  publish(header, *T_output_camera, result);
   softbody_msgs::StageTiming timing = timingMessage("feature_tracker", timer.take());
-  timing.header = color->header;
+  timing.header = header;
   timing_.publish(timing);
 } catch (const std::exception& error) {
-  ROS_ERROR_STREAM_THROTTLE(5.0, "frame " << color->header.stamp << " cannot be tracked: " << error.what());
+  ROS_ERROR_STREAM_THROTTLE(5.0,
+                            "frame " << images.color->header.stamp << " cannot be tracked: " << error.what());
 }
 
 void FeatureTrackerNode::publishStatus(const std_msgs::Header& header) {

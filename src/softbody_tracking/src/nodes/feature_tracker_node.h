@@ -8,6 +8,7 @@
 #include <sensor_msgs/Image.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
+#include <softbody_msgs/SetPose.h>
 #include <softbody_msgs/TetTopology.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -17,6 +18,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/mask_input.h"
 #include "softbody_common/parameters.h"
 #include "softbody_tracking/body_tracker.h"
 
@@ -34,10 +36,14 @@ class FeatureTrackerNode {
   void onVolumeState(const softbody_msgs::MeshState::ConstPtr& message);
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);
+  void track(const RectifiedImages& images, const cv::Mat1b& mask);
+  bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
   void adoptTopologies();
   /// Camera in the frame in which targets are published; nothing where tf does not know it.
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header) const;
+  /// @throw std::invalid_argument, tf2::TransformException.
+  Eigen::Isometry3d poseInCamera(const geometry_msgs::PoseStamped& pose) const;
   std::optional<MeshState> volumeInCamera(const Eigen::Isometry3d& T_output_camera) const;
   void publishStatus(const std_msgs::Header& header);
   void publish(const std_msgs::Header& camera_header, const Eigen::Isometry3d& T_output_camera,
@@ -46,7 +52,9 @@ class FeatureTrackerNode {
 
   ros::NodeHandle handle_;
   std::string body_frame_, output_frame_;
+  std::string camera_frame_;  ///< of the last frame, empty before the first
   std::unique_ptr<BodyTracker> tracker_;
+  std::unique_ptr<MaskInput> mask_input_;                           ///< only where masks are used
   std::optional<TetTopology> volume_topology_;                      ///< the newest
   std::optional<MeshTopology> surface_topology_;                    ///< the newest
   std::uint32_t adopted_revision_ = 0;                              ///< that the tracker works with
@@ -58,6 +66,7 @@ class FeatureTrackerNode {
   tf2_ros::TransformListener tf_listener_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher features_, features_marker_, targets_, status_, timing_;
+  ros::ServiceServer set_pose_;
   ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, volume_state_subscriber_;
   message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
   message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
