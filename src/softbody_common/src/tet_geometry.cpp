@@ -125,6 +125,17 @@ std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex
   return connectedPieces(triangles, vertex_count);
 }
 
+std::vector<std::vector<int>> verticesOfBodies(const Tets& tets, Eigen::Index vertex_count) {
+  const auto count = static_cast<int>(vertex_count);
+  const std::vector<std::uint32_t> bodies = vertexBodies(tets, tetBodies(tets, count), vertex_count);
+  std::vector<std::vector<int>> pieces;
+  for (int v = 0; v < count; ++v) {
+    if (bodies[v] >= pieces.size()) pieces.resize(bodies[v] + 1);
+    pieces[bodies[v]].push_back(v);
+  }
+  return pieces;
+}
+
 Points vertexNormals(const Points& vertices, const Triangles& triangles) {
   Points normals = Points::Zero(vertices.rows(), 3);
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {

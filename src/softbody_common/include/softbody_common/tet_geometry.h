@@ -37,6 +37,9 @@ std::vector<std::uint32_t> vertexBodies(const Elements& elements, const std::vec
   return result;
 }
 
+/// Vertices of every connected piece of tets.
+std::vector<std::vector<int>> verticesOfBodies(const Tets& tets, Eigen::Index vertex_count);
+
 /// Unit normals, area-weighted mean of the adjacent triangles, #V by 3; zero where no triangle touches the
 /// vertex.
 Points vertexNormals(const Points& vertices, const Triangles& triangles);

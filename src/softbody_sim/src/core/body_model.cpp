@@ -53,12 +53,12 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
 constexpr double kPinStiffness = 1e5;
 
 ConstrainedStep makeStep(const TetTopology& topology, const Material& material, const SimulatorConfig& config,
-                         double edge_length, StepSolver* solver) {
+                         double edge_length, double target_stiffness, StepSolver* solver) {
   const double E = material.youngs_modulus_pa;
   return {topology,
           ContactModel(topology, config.contact_spacing * edge_length,
                        config.contact_stiffness * E / edge_length, 0.1 * edge_length),
-          {config.target_stiffness * E * edge_length, kPinStiffness * E * edge_length, 1e-3 * edge_length},
+          {target_stiffness, kPinStiffness * E * edge_length, 1e-3 * edge_length},
           solver};
 }
 
@@ -68,8 +68,10 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
                      double edge_length)
     : topology(std::move(topology_in)),
       masses(lumpedMasses(topology, densityOf(topology, material, config))),
+      target_stiffness(config.target_stiffness * material.youngs_modulus_pa * edge_length),
       solver(makeSolver(topology, material, config, edge_length)),
-      constrained_step(makeStep(topology, material, config, edge_length, solver.get())),
-      confidence(topology.rest_vertices, topology.tets) {}
+      constrained_step(makeStep(topology, material, config, edge_length, target_stiffness, solver.get())),
+      confidence(topology.rest_vertices, topology.tets),
+      load_estimate(topology, masses, config.load_fade_s) {}
 
 }  // namespace softbody

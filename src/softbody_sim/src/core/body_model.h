@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/constrained_step.h"
+#include "core/load_estimate.h"
 #include "core/observation_confidence.h"
 #include "core/step_solver.h"
 #include "softbody_sim/simulator.h"
@@ -17,10 +18,12 @@ struct BodyModel {
             double edge_length);
 
   TetTopology topology;
-  const Eigen::VectorXd masses;  ///< lumped [kg]
+  const Eigen::VectorXd masses;   ///< lumped [kg]
+  const double target_stiffness;  ///< of a target of weight 1 [N/m]
   const std::unique_ptr<StepSolver> solver;
   ConstrainedStep constrained_step;
   const ObservationConfidence confidence;
+  LoadEstimate load_estimate;
 };
 
 }  // namespace softbody

@@ -46,6 +46,7 @@ struct Body {
   bool placed = false;
   Nanoseconds stamp = 0;
   Points velocity;  ///< [m/s]
+  Points loads;     ///< unknown ones from outside, as estimated, per mass [m/s^2]
   MeshState state;
   StepReport report;
   Reactions reactions;
@@ -69,6 +70,7 @@ void carryOver(const TetEdit& edit, const Tets& tets, Body* body) {
   body->state.confidence = std::move(confidence);
   body->state.vertices = applyBinding(edit.vertex_origins, body->state.vertices, tets);
   body->velocity = applyBinding(edit.vertex_origins, body->velocity, tets);
+  body->loads = applyBinding(edit.vertex_origins, body->loads, tets);
 }
 
 }  // namespace
@@ -80,6 +82,7 @@ struct Simulator::Implementation {
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const;
   void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings, Body* next);
   void simulate(const TargetSet& targets, double elapsed_s, const Surroundings& surroundings, Body* next);
+  void estimateLoads(const TargetSet& targets, double elapsed_s, Body* next);
   void settle(const TargetSet& targets, const Surroundings& surroundings, Body* next);
   void solve(const StepPotential& free, const TargetSet& targets, const Surroundings& surroundings, Points x,
              Body* next);
@@ -141,7 +144,7 @@ void Simulator::Implementation::requireUsable(const TargetSet& targets,
 
 void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds stamp, Body* next) const {
   next->state.vertices = transformed(model->topology.rest_vertices, pose);
-  next->velocity = Points::Zero(next->state.vertices.rows(), 3);
+  next->velocity = next->loads = Points::Zero(next->state.vertices.rows(), 3);
   next->stamp = stamp;
   next->placed = true;
   next->obstacle_poses.clear();  // no way leads from where they were before
@@ -169,11 +172,21 @@ void Simulator::Implementation::simulate(const TargetSet& targets, double elapse
     free.prediction += h * next->velocity;
     free.loads = model->masses * config.gravity.transpose();
   }
-  // From where the loads alone take the vertices.
+  // From where gravity alone takes the vertices; the body's stiffness meets the estimated loads.
   const Points start = free.prediction + free.inertia.cwiseInverse().asDiagonal() * free.loads;
+  if (elapsed_s > 0.0) free.loads += model->masses.asDiagonal() * next->loads;
   solve(free, targets, surroundings, start, next);
   // Over a gap that is simulated as a shorter step the body still took the whole gap for its way.
   if (elapsed_s > 0.0) next->velocity = (next->state.vertices - before) / elapsed_s;
+}
+
+/// What the targets still pull with says what else acts on the body.
+void Simulator::Implementation::estimateLoads(const TargetSet& targets, double elapsed_s, Body* next) {
+  TargetEnergy springs;
+  springs.set(targets.targets, model->topology.tets, model->target_stiffness);
+  Points gradient = Points::Zero(next->loads.rows(), 3);
+  springs.addTo(next->state.vertices, &gradient);
+  model->load_estimate.update(-gradient, next->state.vertices, elapsed_s, &next->loads);
 }
 
 void Simulator::Implementation::settle(const TargetSet& targets, const Surroundings& surroundings,
@@ -217,6 +230,8 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   Body next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp, &next);
   s.advance(targets, stamp, surroundings, &next);
+  if (s.config.simulate && stamp > s.body.stamp)
+    s.estimateLoads(targets, 1e-9 * static_cast<double>(stamp - s.body.stamp), &next);
   next.state.confidence = s.model->confidence.of(targets.targets);
   if (!targets.targets.empty()) next.state.observed = stamp;
   s.body = std::move(next);

@@ -21,15 +21,8 @@ Eigen::Isometry3d continued(const Eigen::Isometry3d& before, const Eigen::Isomet
 
 }  // namespace
 
-RigidPrediction::RigidPrediction(const TetTopology& volume) : rest_(volume.rest_vertices) {
-  const int vertex_count = static_cast<int>(rest_.rows());
-  const std::vector<std::uint32_t> bodies =
-      vertexBodies(volume.tets, tetBodies(volume.tets, vertex_count), vertex_count);
-  for (int v = 0; v < vertex_count; ++v) {
-    if (bodies[v] >= pieces_.size()) pieces_.resize(bodies[v] + 1);
-    pieces_[bodies[v]].push_back(v);
-  }
-}
+RigidPrediction::RigidPrediction(const TetTopology& volume)
+    : rest_(volume.rest_vertices), pieces_(verticesOfBodies(volume.tets, volume.rest_vertices.rows())) {}
 
 void RigidPrediction::observe(const Points& vertices, Nanoseconds stamp) {
   if (last_ && stamp == last_->stamp) return;
