@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "softbody_bringup/evaluation/vertex_error.h"
@@ -70,6 +71,48 @@ TEST(VertexMatch, VerticesMadeByACutStandForTheNearestSuchOneIfItIsNear) {
   result.rest_vertices(2, 1) = 0.001;
   EXPECT_EQ(matchVertices(result, truth, 0.002)[2], 2);
   EXPECT_EQ(matchVertices(result, truth, 0.0005)[2], -1);
+}
+
+/// A vertex on a cut's rim, once for each side: a fan of the wall below it, which faces the other side, and
+/// of the top beside it. Its sizes and angles are random.
+MeshTopology rim(std::mt19937* random) {
+  constexpr int kFan = 3;
+  std::uniform_real_distribution<double> radius(0.005, 0.04), part(0.1, 1.0);
+  std::vector<Eigen::RowVector3d> vertices{{0, 0, 0}, {0, 0, 0}};
+  std::vector<Eigen::RowVector3i> triangles;
+  MeshTopology mesh;
+  for (int side = 0; side < 2; ++side) {
+    const double beside = side == 0 ? -1.0 : 1.0;
+    for (const bool wall : {true, false}) {
+      for (int k = 0; k <= kFan; ++k) {
+        const double angle = M_PI * (k == 0 ? 0.0 : (k - 1 + part(*random)) / kFan), r = radius(*random);
+        vertices.emplace_back(wall ? 0.0 : beside * r * std::sin(angle), r * std::cos(angle),
+                              wall ? -r * std::sin(angle) : 0.0);
+        if (k == 0) continue;
+        const int last = static_cast<int>(vertices.size()) - 1;
+        const bool turned = (side == 0) == wall;
+        triangles.emplace_back(side, turned ? last : last - 1, turned ? last - 1 : last);
+        mesh.bodies.push_back(static_cast<std::uint32_t>(side));
+        mesh.cut.push_back(wall);
+      }
+    }
+  }
+  mesh.rest_vertices.resize(static_cast<Eigen::Index>(vertices.size()), 3);
+  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t v = 0; v < vertices.size(); ++v) mesh.rest_vertices.row(v) = vertices[v];
+  for (std::size_t f = 0; f < triangles.size(); ++f) mesh.triangles.row(f) = triangles[f];
+  mesh.vertex_parents.assign(vertices.size(), -1);
+  return mesh;
+}
+
+TEST(VertexMatch, ACutsRimIsMatchedToItsOwnSideHoweverBothAreTriangulated) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    const MeshTopology result = rim(&random), truth = rim(&random);
+    const std::vector<int> matches = matchVertices(result, truth, 1e-6);
+    EXPECT_EQ(matches[0], 0);
+    EXPECT_EQ(matches[1], 1);
+  }
 }
 
 TEST(VertexMatch, AMissedCutLeavesHalfTheVerticesInTheWrongPiece) {

@@ -92,6 +92,18 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   return block;
 }
 
+double measuredDepth(const Block& block) { return block.predicted + block.difference; }
+
+/// Whether an occluder's depth goes on from one block to the next: without a step, or as steeply as from the
+/// block before. A blade seen from above is steep.
+bool continues(const Block* before, const Block& occluder, const Block& next) {
+  const double step = measuredDepth(next) - measuredDepth(occluder);
+  if (std::abs(step) < kOccluderContinuity) return true;
+  if (before == nullptr || before->kind != BlockKind::kOccluded) return false;
+  const double last_step = measuredDepth(occluder) - measuredDepth(*before);
+  return std::abs(step - last_step) < kOccluderContinuity;
+}
+
 /// The rest of a hand of which one end is recognised as an occluder.
 void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   std::vector<cv::Point> open;
@@ -110,9 +122,10 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
       const cv::Point next = place + step;
       if (!inside.contains(next) || grid(next) < 0) continue;
       Block& block = (*blocks)[grid(next)];
-      const double depth_step = block.predicted + block.difference - occluder.predicted - occluder.difference;
+      const cv::Point back = place - step;
+      const Block* before = inside.contains(back) && grid(back) >= 0 ? &(*blocks)[grid(back)] : nullptr;
       const bool goes_on = block.kind == BlockKind::kAgrees && block.difference < -kOccluderStep &&
-                           std::abs(depth_step) < kOccluderContinuity;
+                           continues(before, occluder, block);
       if (!goes_on) continue;
       block.kind = BlockKind::kOccluded;
       open.push_back(next);

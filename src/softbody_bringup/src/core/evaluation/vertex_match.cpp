@@ -14,14 +14,28 @@ namespace softbody::evaluation {
 namespace {
 
 /// What tells copies of one vertex apart: where the triangles around it lie, and where they face. Inside of a
-/// cut's surface only the latter differs.
+/// cut's surface only the latter differs, and on its rim the cut's own triangles say it best.
 struct Fans {
   Points centres, normals;
 };
 
+/// Of the triangles that fill cuts, where a vertex has any; otherwise of all.
+Points facing(const MeshTopology& topology) {
+  std::vector<Eigen::Index> walls;
+  for (std::size_t f = 0; f < topology.cut.size(); ++f) {
+    if (topology.cut[f]) walls.push_back(static_cast<Eigen::Index>(f));
+  }
+  const Triangles triangles = topology.triangles(walls, Eigen::all);
+  Points normals = vertexNormals(topology.rest_vertices, topology.triangles);
+  const Points of_walls = vertexNormals(topology.rest_vertices, triangles);
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    if (!of_walls.row(v).isZero()) normals.row(v) = of_walls.row(v);
+  }
+  return normals;
+}
+
 Fans fansOf(const MeshTopology& topology) {
-  Fans fans{Points::Zero(topology.rest_vertices.rows(), 3),
-            vertexNormals(topology.rest_vertices, topology.triangles)};
+  Fans fans{Points::Zero(topology.rest_vertices.rows(), 3), facing(topology)};
   Eigen::VectorXd count = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
   for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
     Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
@@ -52,7 +66,7 @@ std::size_t pieceCount(const MeshTopology& topology) {
 /// different welding, the place decides first, then the side.
 int nearestCopy(const MeshTopology& mine, const Fans& my_fans, Eigen::Index vertex, const MeshTopology& its,
                 const Fans& its_fans, const std::vector<int>& candidates, double largest_m) {
-  constexpr double kFacing_m = 0.01;  // cost of facing at right angles; copies face opposite ways
+  constexpr double kFacing_m = 0.05;  // cost of facing at right angles; copies face opposite ways
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const int candidate : candidates) {
