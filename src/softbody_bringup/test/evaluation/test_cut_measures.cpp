@@ -115,6 +115,14 @@ TEST(VertexMatch, ACutsRimIsMatchedToItsOwnSideHoweverBothAreTriangulated) {
   }
 }
 
+TEST(VertexMatch, ACopyThatLooksLikeAnotherSidesIsKnownByItsPiece) {
+  const MeshTopology truth = strip(true);
+  MeshTopology result = truth;
+  result.rest_vertices(4, 0) = result.rest_vertices(5, 0) = -3.0;  // folded over to the other side
+  const std::vector<int> matches = matchVertices(result, truth, 0.002);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(matches[static_cast<std::size_t>(i)], i);
+}
+
 TEST(VertexMatch, AMissedCutLeavesHalfTheVerticesInTheWrongPiece) {
   const MeshTopology result = strip(false), truth = strip(true);
   const PieceMatch pieces = matchPieces(result, truth, matchVertices(result, truth, 0.002));

@@ -11,9 +11,10 @@ namespace softbody::evaluation {
 /// none, as for vertices made by a cut. @param parents MeshTopology::vertex_parents of both.
 std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
 
-/// The same across cuts: a vertex that a cut copied stands for the copy on the same side (the one whose
-/// triangles lie nearer at rest and face the same way), one that a cut made for the nearest such vertex of
-/// the truth, if it is within `largest_m` at rest. Both topologies' rest vertices are in the same frame.
+/// The same across cuts: a vertex that a cut copied stands for the copy on the same side (of those in the
+/// piece that its own stands for, if there are any, the one whose triangles lie nearer at rest and face the
+/// same way), one that a cut made for the nearest such vertex of the truth, if it is within `largest_m` at
+/// rest. Both topologies' rest vertices are in the same frame.
 std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& truth, double largest_m);
 
 /// Which true piece each piece of the result stands for: the one that shares most vertices with it, largest

@@ -101,14 +101,28 @@ std::vector<int> matchVertices(const std::vector<int>& result_parents,
 std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& truth, double largest_m) {
   const Fans result_fans = fansOf(result), truth_fans = fansOf(truth);
   const auto truth_vertices = verticesByParent(truth.vertex_parents);
+  const auto nearestOf = [&](std::size_t i, const std::vector<int>& candidates) {
+    const bool of_the_file = result.vertex_parents[i] >= 0;
+    return nearestCopy(result, result_fans, static_cast<Eigen::Index>(i), truth, truth_fans, candidates,
+                       of_the_file ? std::numeric_limits<double>::infinity() : largest_m);
+  };
   std::vector<int> matches(result.vertex_parents.size(), -1);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const auto candidates = truth_vertices.find(result.vertex_parents[i]);
-    if (candidates == truth_vertices.end()) continue;
-    const bool of_the_file = result.vertex_parents[i] >= 0;
-    matches[i] =
-        nearestCopy(result, result_fans, static_cast<Eigen::Index>(i), truth, truth_fans, candidates->second,
-                    of_the_file ? std::numeric_limits<double>::infinity() : largest_m);
+    if (candidates != truth_vertices.end()) matches[i] = nearestOf(i, candidates->second);
+  }
+  // Where several cuts meet, a small fan may look like another side's; most of a piece says which it is.
+  const PieceMatch pieces = matchPieces(result, truth, matches);
+  const std::vector<int> result_pieces = vertexPieces(result), truth_pieces = vertexPieces(truth);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i] < 0 || result_pieces[i] < 0) continue;
+    const int own = pieces.true_piece[static_cast<std::size_t>(result_pieces[i])];
+    if (own < 0 || truth_pieces[static_cast<std::size_t>(matches[i])] == own) continue;
+    std::vector<int> candidates;
+    for (const int candidate : truth_vertices.at(result.vertex_parents[i])) {
+      if (truth_pieces[static_cast<std::size_t>(candidate)] == own) candidates.push_back(candidate);
+    }
+    if (const int copy = nearestOf(i, candidates); copy >= 0) matches[i] = copy;
   }
   return matches;
 }
