@@ -31,6 +31,10 @@ class BadParameters(unittest.TestCase):
         self.check("softbody_tracking", "feature_tracker", {"target_mode": "magic"},
                    ["/feature_tracker/target_mode", "magic", "knn"])
 
+    def test_feature_tracker_that_waits_for_masks_for_ever(self):
+        self.check("softbody_tracking", "feature_tracker", {"use_mask": "true", "mask_timeout_s": 60},
+                   ["/feature_tracker/mask_timeout_s", "60"])
+
     def test_simulator(self):
         self.check("softbody_sim", "simulator", {"object": OBJECT, "iterations": -3},
                    ["/simulator/iterations", "-3"])

@@ -7,7 +7,7 @@ import numpy as np
 import rospy
 import rostest
 import tf2_ros
-from geometry_msgs.msg import PoseStamped
+from poses import ALIKE, CORNERS_M, placed, pose_in, rotation
 from recorder import Recorder
 from softbody_msgs.msg import Targets, TrackingStatus
 from softbody_msgs.srv import SetPose
@@ -15,31 +15,6 @@ from softbody_msgs.srv import SetPose
 OPTICAL_FRAME, TRUE_FRAME = "camera_color_optical_frame", "ground_truth_softbody"
 ROUGH_M = 0.012  # how far off the poses are that are set
 MAX_ERROR_M = 0.005
-CORNERS_M = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.05, 0.05) for z in (-0.02, 0.02)])  # of the sponge
-# In these the sponge looks the same in depth: half turns about its axes, as quaternions (x, y, z, w).
-ALIKE = [(0, 0, 0, 1), (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0)]
-
-
-def rotation(q):
-    x, y, z, w = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def placed(position, orientation, points):
-    """Points moved by a message's position (or translation) and orientation (or rotation)."""
-    turn = rotation((orientation.x, orientation.y, orientation.z, orientation.w))
-    return points @ turn.T + [position.x, position.y, position.z]
-
-
-def pose_in(frame, position=(0, 0, 0), orientation=(0, 0, 0, 1)):
-    pose = PoseStamped()
-    pose.header.frame_id = frame
-    pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = position
-    q = pose.pose.orientation
-    q.x, q.y, q.z, q.w = orientation
-    return pose
 
 
 class SetPoseByHand(unittest.TestCase):
@@ -55,21 +30,23 @@ class SetPoseByHand(unittest.TestCase):
 
     @classmethod
     def wait_for_tracking(cls, since):
-        cls.recorder.wait(lambda seen: any(status.state == TrackingStatus.TRACKING
-                                           for status in seen["softbody/status"][since:]), "TRACKING")
+        """Until the simulator, too, has taken the start."""
+        cls.recorder.wait(lambda seen: any(not targets.reset for targets in seen["softbody/targets"][since:]),
+                          "targets that go on from the last state")
+        cls.recorder.wait(lambda seen: seen["softbody/status"][-1].state == TrackingStatus.TRACKING, "TRACKING")
 
     def test_the_body_is_tracked_in_the_pose_meant(self):
         true = self.buffer.lookup_transform(OPTICAL_FRAME, TRUE_FRAME, rospy.Time(0)).transform
         for turn in ALIKE:
             expected = placed(true.translation, true.rotation, CORNERS_M @ rotation(turn).T)
-            targets, statuses = (len(self.recorder.messages[name]) for name in ("softbody/targets", "softbody/status"))
+            before = len(self.recorder.messages["softbody/targets"])
             response = self.service(pose_in(TRUE_FRAME, (ROUGH_M, 0.5 * ROUGH_M, -ROUGH_M), turn))
             self.assertTrue(response.success, response.message)
             first = self.recorder.wait(
-                lambda seen: next((t for t in seen["softbody/targets"][targets:] if t.reset), None), "a start")
+                lambda seen: next((t for t in seen["softbody/targets"][before:] if t.reset), None), "a start")
             found = placed(first.body_pose.position, first.body_pose.orientation, CORNERS_M)
             self.assertLess(np.linalg.norm(found - expected, axis=1).max(), MAX_ERROR_M, turn)
-            self.wait_for_tracking(statuses)
+            self.wait_for_tracking(self.recorder.messages["softbody/targets"].index(first))
 
     def test_what_cannot_be_a_pose_is_refused_with_its_reason(self):
         before = len(self.recorder.messages["softbody/targets"])

@@ -1,0 +1,6 @@
+#include "nodes/pose_marker_node.h"
+#include "softbody_common/run_node.h"
+
+int main(int argc, char** argv) {
+  return softbody::runNode<softbody::PoseMarkerNode>(argc, argv, "pose_marker");
+}
