@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,10 +8,10 @@
 #include <filesystem>
 #include <map>
 #include <opencv2/core/utility.hpp>
-#include <set>
 
 #include "softbody_bringup/bag_frames.h"
 #include "softbody_bringup/cut_journal.h"
+#include "softbody_bringup/graph_config.h"
 #include "softbody_bringup/pipeline.h"
 #include "softbody_bringup/result_bag.h"
 #include "softbody_common/tracking_state.h"
@@ -24,78 +23,6 @@ struct Options {
   std::string camera = "/camera", topic_namespace = "/softbody", body_frame = "softbody", simd;
   bool timing = false;
 };
-
-/// Parameters of every node, from one file with a section a node, as launch files take it.
-struct GraphConfig {
-  softbody::Nanoseconds sync_tolerance = softbody::BagFramesConfig().sync_tolerance;
-  softbody::CameraIngestConfig ingest;
-  softbody::PipelineConfig pipeline;
-};
-
-YAML::Node loadYaml(const std::string& path) {
-  YAML::Node file;
-  try {
-    file = YAML::LoadFile(path);
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", path, error.what()));
-  }
-  if (!file.IsMap())
-    throw std::invalid_argument(path + ": must be a map with a section of parameters for each node");
-  return file;
-}
-
-/// Reads one section; says which of its keys nobody knows.
-template <typename Reader>
-auto readSection(const YAML::Node& file, const std::string& name, Reader reader) {
-  const YAML::Node section = file[name];
-  softbody::Parameters parameters(section.IsDefined() ? section : YAML::Node(), name + "/");
-  const auto config = reader(parameters);
-  for (const std::string& key : parameters.unknown())
-    fmt::print(stderr, "replay: unknown parameter {} is ignored\n", key);
-  return config;
-}
-
-/// The nodes' names and the replay's use of their parameters. What concerns only a live graph is known and
-/// unused.
-GraphConfig readGraphConfig(const std::string& path) {
-  const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : loadYaml(path);
-  for (const auto& section : file) {
-    const auto name = section.first.as<std::string>();
-    const std::set<std::string> nodes{"camera_ingest", "feature_tracker", "simulator", "surface",
-                                      "tool_tracker"};
-    if (nodes.count(name) == 0) fmt::print(stderr, "replay: {}: no node is called {}; ignored\n", path, name);
-  }
-  GraphConfig config;
-  config.ingest = readSection(file, "camera_ingest", [&config](softbody::Parameters& parameters) {
-    config.sync_tolerance = static_cast<softbody::Nanoseconds>(
-        1e9 *
-        parameters.number("sync_tolerance_s", 1e-9 * static_cast<double>(config.sync_tolerance), 0.0, 1.0));
-    if (parameters.choice("sync", "approximate", {"approximate", "exact"}) == "exact")
-      config.sync_tolerance = 0;
-    for (const char* live_only : {"queue_size", "voxel_size_m", "silence_timeout_s"})
-      parameters.number(live_only, 0.0, 0.0, 1e9);
-    return softbody::readCameraIngestConfig(parameters);
-  });
-  config.pipeline.tracker = readSection(file, "feature_tracker", [](softbody::Parameters& parameters) {
-    for (const char* live_only : {"body_frame", "output_frame"}) parameters.text(live_only, "");
-    return softbody::readTrackerConfig(parameters);
-  });
-  config.pipeline.simulator = readSection(file, "simulator", [](softbody::Parameters& parameters) {
-    for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
-    for (const char* live_only : {"free_run_rate_hz", "stall_timeout_s"})
-      parameters.number(live_only, 0.0, 0.0, 1e9);
-    return softbody::readSimulatorConfig(parameters);
-  });
-  config.pipeline.blade = readSection(file, "surface", [](softbody::Parameters& parameters) {
-    for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
-    return softbody::readBladeConfig(parameters);
-  });
-  config.pipeline.tool_tracker = readSection(file, "tool_tracker", [](softbody::Parameters& parameters) {
-    for (const char* live_only : {"tool", "tool_frame"}) parameters.text(live_only, "");
-    return softbody::readToolTrackerConfig(parameters);
-  });
-  return config;
-}
 
 /// What the summary counts.
 struct Tally {
@@ -143,7 +70,9 @@ void printSummary(const softbody::BagFramesReport& report, const Tally& tally, c
 }
 
 void replay(const Options& options) {
-  GraphConfig config = readGraphConfig(options.parameters);
+  std::vector<std::string> warnings;
+  softbody::GraphConfig config = softbody::readGraphConfig(options.parameters, &warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "replay: {}\n", warning);
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
   const softbody::ObjectDescription description = softbody::loadObjectDescription(options.object);
   const softbody::ObjectModel model = softbody::buildObjectModel(description);
