@@ -17,6 +17,7 @@ namespace {
 
 /// Further apart in time the blade and the body's state say nothing of each other.
 constexpr double kSameInstant = 0.1;  // [s]
+constexpr std::size_t kMostWaiting = 30;
 
 }  // namespace
 
@@ -44,7 +45,7 @@ void SurfaceEditor::start(const MeshTopology& visual, const TetTopology& volume)
   body_.emplace(visual, volume, config_);
   rest_ = visual.rest_vertices;
   state_.reset();
-  waiting_blade_.reset();
+  waiting_blades_.clear();
   last_cut_.reset();
 }
 
@@ -52,24 +53,28 @@ void SurfaceEditor::onState(const MeshState& state, const std_msgs::Header& head
   state_ = state;
   state_header_ = header;
   if (last_cut_ && last_cut_->revision <= state.revision) last_cut_.reset();
-  if (waiting_blade_ && waiting_blade_->header.stamp <= header.stamp) {
-    const geometry_msgs::PolygonStampedConstPtr blade = std::exchange(waiting_blade_, nullptr);
-    follow(*blade);
+  geometry_msgs::PolygonStampedConstPtr blade;  // the last one up to the state
+  while (!waiting_blades_.empty() && waiting_blades_.front()->header.stamp <= header.stamp) {
+    blade = waiting_blades_.front();
+    waiting_blades_.pop_front();
   }
+  if (blade) follow(*blade);
 }
 
 void SurfaceEditor::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
-  if (state_ && message->header.stamp <= state_header_.stamp)
-    follow(*message);
-  else
-    waiting_blade_ = message;
+  const ros::Time& stamp = message->header.stamp;
+  if (!waiting_blades_.empty() && stamp < waiting_blades_.back()->header.stamp) waiting_blades_.clear();
+  if (state_ && stamp <= state_header_.stamp) return follow(*message);
+  // A body is simulated later than a blade is found, by more than a frame where the machine is slow.
+  waiting_blades_.push_back(message);
+  if (waiting_blades_.size() > kMostWaiting) waiting_blades_.pop_front();
 }
 
 void SurfaceEditor::follow(const geometry_msgs::PolygonStamped& blade) {
   if (!body_ || !state_ || std::abs((state_header_.stamp - blade.header.stamp).toSec()) > kSameInstant)
     return;
   const std::optional<Points> polygon = inStatesFrame(blade);
-  if (!polygon || polygon->rows() < 3) return;
+  if (!polygon || polygon->rows() < 3 || !polygon->allFinite()) return;
   try {
     const std::optional<Cut> cut = body_->follow(*polygon, *state_);
     if (cut) publish(*cut, blade.header.stamp);
@@ -107,6 +112,8 @@ void SurfaceEditor::publish(const Cut& cut, const ros::Time& stamp) {
 }
 
 void SurfaceEditor::resendTo(std::uint32_t volume_revision) {
+  // A body without a place has no state to tell it.
+  if (last_cut_ && !state_ && last_cut_->revision <= volume_revision) last_cut_.reset();
   if (!last_cut_ || last_cut_->revision != volume_revision + 1) return;
   ROS_WARN("the simulator has not made the cut of revision %u; it is sent again", last_cut_->revision);
   cut_publisher_.publish(boost::make_shared<softbody_msgs::Cut>(*last_cut_));
@@ -142,7 +149,7 @@ MeshState SurfaceEditor::stateOrRest() const {
 bool SurfaceEditor::isIdle(std::string* reason) const {
   if (!body_)
     *reason = "the volume's topology has not come yet";
-  else if (last_cut_ && state_)
+  else if (last_cut_)
     *reason = "an earlier cut is still on its way";
   else
     return true;

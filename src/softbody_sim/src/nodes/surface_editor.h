@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -61,8 +62,8 @@ class SurfaceEditor {
   Points rest_;                     ///< vertices of the uncut visual mesh
   std::optional<MeshState> state_;  ///< the last one
   std_msgs::Header state_header_;
-  geometry_msgs::PolygonStampedConstPtr waiting_blade_;  ///< its state has not come yet
-  softbody_msgs::CutPtr last_cut_;                       ///< null: there is none, or the simulator has it
+  std::deque<geometry_msgs::PolygonStampedConstPtr> waiting_blades_;  ///< their states have not come yet
+  softbody_msgs::CutPtr last_cut_;  ///< null: there is none, or the simulator has it
   tf2_ros::Buffer buffer_;
   std::unique_ptr<tf2_ros::TransformListener>
       listener_;  ///< once the blade is in another frame than the body

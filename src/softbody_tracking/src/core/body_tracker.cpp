@@ -65,6 +65,7 @@ BodyTracker::BodyTracker(const TrackerConfig& config)
 BodyTracker::~BodyTracker() = default;
 
 void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
+  if (volume.tets.rows() == 0) throw std::invalid_argument("the volume's topology has no tet");
   Implementation& self = *implementation_;
   const bool edited =
       self.observer != nullptr && volume.revision > self.observer->surface().volume().revision;

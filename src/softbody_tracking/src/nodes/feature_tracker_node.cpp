@@ -118,13 +118,16 @@ void FeatureTrackerNode::adoptTopologies() {
   volume_state_ = edited ? newest_state_ : nullptr;
 }
 
-void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr& message) {
+void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr& message) try {
   newest_state_ = message;
   if (message->revision == adopted_revision_) {
     volume_state_ = message;
   } else {
     adoptTopologies();
   }
+} catch (const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(
+      5.0, "the topologies of revision " << message->revision << " are unusable: " << error.what());
 }
 
 std::optional<Eigen::Isometry3d> FeatureTrackerNode::cameraPose(const std_msgs::Header& header) const try {

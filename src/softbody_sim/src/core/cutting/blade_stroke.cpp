@@ -64,7 +64,11 @@ void BladeStroke::forgetStrokes() {
 }
 
 std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& map, const RestSolid& solid) {
-  if (parts_.empty()) parts_ = partsOfSides(blade, spacing_);
+  if (static_cast<Eigen::Index>(parts_.size()) != blade.rows()) {  // the first blade, or another one
+    parts_ = partsOfSides(blade, spacing_);
+    forgetStrokes();
+    outside_.resize(0, 3);
+  }
   const BladeOutline outline(map.toRest(sampleOutline(blade, parts_)), parts_);
   const std::vector<bool> inside = containedIn(solid, outline.points());
   if (!active_ && any(inside)) active_ = resume(outline, inside) || enter(outline, inside, solid);
