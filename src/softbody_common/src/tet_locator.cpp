@@ -12,12 +12,19 @@
 namespace softbody {
 namespace {
 
-double squaredDistanceToTet(const Eigen::Vector3d& p, const Points& vertices, const Tets& tets, int t) {
+constexpr double kRounding = 1e-6;  // of a squared distance; slivers magnify it
+
+/// From a point outside, whose nearest point is on a face that it sees: one opposite to a corner whose
+/// coordinate is negative.
+double squaredDistanceToTet(const Eigen::Vector3d& p, const Eigen::Vector4d& barycentric,
+                            const Points& vertices, const Tets& tets, int t) {
   static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   std::array<Eigen::Vector3d, 4> corner;
   for (int k = 0; k < 4; ++k) corner[k] = vertices.row(tets(t, k));
   double best = std::numeric_limits<double>::infinity();
-  for (const auto& face : kFaces) {
+  for (int k = 0; k < 4; ++k) {
+    if (barycentric[k] >= 0.0) continue;
+    const auto& face = kFaces[k];
     best = std::min(
         best, (nearestOnTriangle(p, corner[face[0]], corner[face[1]], corner[face[2]]) - p).squaredNorm());
   }
@@ -88,10 +95,24 @@ bool TetLocator::contains(const Eigen::Vector3d& point) const {
                      [&](int tet) { return barycentricIn(tet, point).minCoeff() >= 0.0; });
 }
 
+/// The square of the greatest distance to the plane of a face that the point sees; the tet is no nearer.
+double TetLocator::squaredDistanceToPlanes(int tet, const Eigen::Vector4d& barycentric) const {
+  const Eigen::Matrix3d& gradients = inverse_edges_[tet];  // of the last three coordinates, in rows
+  double most = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    if (barycentric[k] >= 0.0) continue;
+    const double squared_gradient =
+        k == 0 ? gradients.colwise().sum().squaredNorm() : gradients.row(k - 1).squaredNorm();
+    most = std::max(most, barycentric[k] * barycentric[k] / squared_gradient);
+  }
+  return most;
+}
+
 void TetLocator::consider(const Eigen::Vector3d& point, int tet, Candidate* best) const {
   const Eigen::Vector4d barycentric = barycentricIn(tet, point);
+  if (squaredDistanceToPlanes(tet, barycentric) > (1.0 + kRounding) * best->squared_distance) return;
   const double distance =
-      barycentric.minCoeff() >= 0.0 ? 0.0 : squaredDistanceToTet(point, vertices_, tets_, tet);
+      barycentric.minCoeff() >= 0.0 ? 0.0 : squaredDistanceToTet(point, barycentric, vertices_, tets_, tet);
   if (distance < best->squared_distance || (distance == best->squared_distance && tet < best->tet)) {
     *best = {tet, distance, barycentric};
   }

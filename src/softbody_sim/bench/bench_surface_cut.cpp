@@ -1,11 +1,14 @@
 #include <benchmark/benchmark.h>
 
 #include <stdexcept>
+#include <string>
 
 #include "../test/cutting/surface_meshes.h"
 #include "core/cutting/surface_swap.h"
 #include "core/cutting/tet_cutter.h"
+#include "softbody_sim/cuttable_surface.h"
 #include "softbody_sim/object_model.h"
+#include "softbody_sim/simulator.h"
 
 namespace {
 
@@ -80,6 +83,73 @@ void bindCutMesh(benchmark::State& state, const std::string& name, double reach)
     benchmark::DoNotOptimize(swapSurface(body.surface, body.sources, cut, edit, body.bent));
 }
 
+constexpr double kBladeHeight = 0.045;  // [m]
+
+/// Simulator and surface of a body at rest, and a blade across its middle.
+class BodyUnderBlade {
+ public:
+  explicit BodyUnderBlade(const ObjectModel& model)
+      : rest_(model.visual.rest_vertices),
+        simulator_(model.volume, model.material, {}),
+        surface_(model.visual, model.volume) {
+    TargetSet targets;
+    targets.reset = true;
+    simulator_.step(targets, 0);
+  }
+
+  /// The blade 5 mm over the body's top, which is whole again.
+  void lift() {
+    edit(surface_.edit(CutKind::kReset));
+    surface_.lift();
+    if (surface_.follow(bladeAt(-0.005), simulator_.state())) throw std::runtime_error("cut from above");
+  }
+
+  /// From the blade's pose to what is published: the new topologies, and the visual mesh's state.
+  MeshState moveTo(double share_of_height) {
+    const double depth = share_of_height * (rest_.col(2).maxCoeff() - rest_.col(2).minCoeff());
+    const auto cut = surface_.follow(bladeAt(depth), simulator_.state());
+    if (!cut) throw std::runtime_error("the blade does not cut");
+    applyToSimulator(*cut);
+    return surface_.surface().apply(simulator_.state());
+  }
+
+ private:
+  Points bladeAt(double depth) const {
+    const Eigen::RowVector3d low = rest_.colwise().minCoeff(), high = rest_.colwise().maxCoeff();
+    const Eigen::RowVector3d edge(0.47 * low.x() + 0.53 * high.x(), 0.0, high.z() - depth);
+    Points blade(4, 3);
+    blade.row(0) = edge + Eigen::RowVector3d(0.0, low.y() - 0.02, 0.0);
+    blade.row(1) = edge + Eigen::RowVector3d(0.0, high.y() + 0.02, 0.0);
+    blade.row(2) = blade.row(1) + Eigen::RowVector3d(0.0, 0.0, kBladeHeight);
+    blade.row(3) = blade.row(0) + Eigen::RowVector3d(0.0, 0.0, kBladeHeight);
+    return blade;
+  }
+  void edit(const Cut& cut) {
+    std::string reason;
+    if (surface_.apply(cut, simulator_.state(), &reason)) applyToSimulator(cut);
+  }
+  void applyToSimulator(const Cut& cut) {
+    std::string reason;
+    if (!simulator_.apply(cut, &reason)) throw std::runtime_error(reason);
+  }
+
+  Points rest_;
+  Simulator simulator_;
+  CuttableSurface surface_;
+};
+
+/// A frame in which the blade goes on from one depth to another, in shares of the body's height.
+void bladeContact(benchmark::State& state, const std::string& name, double from, double to) {
+  BodyUnderBlade body(buildObjectModel(loadObjectDescription(kConfig + name)));
+  for (auto _ : state) {
+    state.PauseTiming();
+    body.lift();
+    if (from > 0.0) body.moveTo(from);
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(body.moveTo(to));
+  }
+}
+
 BENCHMARK_CAPTURE(cutVisualMesh, sponge_522_vertices, "sponge.obj", 1.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cutVisualMesh, sponge_522_vertices_halfway, "sponge.obj", 0.0)
     ->Unit(benchmark::kMillisecond);
@@ -92,6 +162,13 @@ BENCHMARK_CAPTURE(cutAll, sponge_522_vertices, "sponge.yaml", 1.0)->Unit(benchma
 BENCHMARK_CAPTURE(cutAll, sponge_522_vertices_halfway, "sponge.yaml", 0.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cutAll, doll_18650_vertices, "doll.yaml", 1.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cutAll, doll_18650_vertices_halfway, "doll.yaml", 0.0)->Unit(benchmark::kMillisecond);
+
+BENCHMARK_CAPTURE(bladeContact, sponge_522_vertices, "sponge.yaml", 0.0, 0.3)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bladeContact, sponge_522_vertices_through, "sponge.yaml", 0.8, 1.1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bladeContact, doll_18650_vertices, "doll.yaml", 0.0, 0.5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bladeContact, doll_18650_vertices_through, "doll.yaml", 0.8, 1.1)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

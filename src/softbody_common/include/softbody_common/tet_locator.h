@@ -29,6 +29,7 @@ class TetLocator {
   Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const;
   const std::vector<int>& tetsIn(const Eigen::Vector3i& cell) const;
   Eigen::Vector4d barycentricIn(int tet, const Eigen::Vector3d& point) const;
+  double squaredDistanceToPlanes(int tet, const Eigen::Vector4d& barycentric) const;
   void considerRing(const Eigen::Vector3d& point, const Eigen::Vector3i& center, int ring,
                     Candidate* best) const;
   void consider(const Eigen::Vector3d& point, int tet, Candidate* best) const;
