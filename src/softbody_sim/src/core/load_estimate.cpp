@@ -41,7 +41,7 @@ LoadEstimate::LoadEstimate(const TetTopology& topology, const Eigen::VectorXd& m
 }
 
 /// Takes away what would accelerate the piece as a rigid body.
-void LoadEstimate::balance(const std::vector<int>& piece, const Points& vertices, Points* loads) const {
+void LoadEstimate::balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const {
   double mass = 0.0;
   Eigen::Vector3d center = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero();
   for (int v : piece) {
@@ -64,11 +64,15 @@ void LoadEstimate::balance(const std::vector<int>& piece, const Points& vertices
   }
 }
 
+void LoadEstimate::balance(const Points& vertices, Points* loads) const {
+  for (const std::vector<int>& piece : pieces_) balancePiece(piece, vertices, loads);
+}
+
 void LoadEstimate::update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads) {
   if (fade_s_ <= 0.0) return;
   smoother_.solve(springs, &spread_);
   *loads = std::exp(-elapsed_s / fade_s_) * *loads + spread_;
-  for (const std::vector<int>& piece : pieces_) balance(piece, vertices, loads);
+  balance(vertices, loads);
 }
 
 }  // namespace softbody

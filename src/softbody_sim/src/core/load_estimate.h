@@ -25,8 +25,11 @@ class LoadEstimate {
   /// @param loads as estimated so far, per mass, #V by 3 [m/s^2].
   void update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads);
 
+  /// Makes loads of before a cut balance on every piece.
+  void balance(const Points& vertices, Points* loads) const;
+
  private:
-  void balance(const std::vector<int>& piece, const Points& vertices, Points* loads) const;
+  void balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const;
 
   Eigen::VectorXd masses_;
   std::vector<std::vector<int>> pieces_;  ///< vertices of each

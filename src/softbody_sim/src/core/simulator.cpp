@@ -293,6 +293,7 @@ bool Simulator::apply(const Cut& cut, std::string* reason) {
   Body next = s.body;
   if (next.placed) carryOver(*edit, s.model->topology.tets, &next);
   s.adopt(edit->topology);
+  if (next.placed) s.model->load_estimate.balance(next.state.vertices, &next.loads);
   next.state.revision = edit->topology.revision;
   s.volume = std::move(edited);
   s.body = std::move(next);
