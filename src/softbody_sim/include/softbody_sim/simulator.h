@@ -29,8 +29,9 @@ struct SimulatorConfig {
   bool normalized_mass =
       false;  ///< the body weighs 1 kg, whatever its density (Kang et al. 2022, section 5.1)
   double target_stiffness = 10.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
-  double load_fade_s = 0.3;  ///< in which forces that were estimated from the targets fall to 1/e; 0: none are
-  double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
+  double load_fade_s =
+      0.3;  ///< in which forces that were estimated from the targets fall to 1/e; 0: none are
+  double max_time_step_s = 0.1;  ///< longer gaps between frames are simulated as this
   /// [m/s^2], in the frame of the targets; zero: the rest shape already hangs or lies as it does.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   double contact_stiffness = 20.0;  ///< pressure at a depth of a mean edge length, in units of E
@@ -95,6 +96,9 @@ class Simulator {
   /// redo.
   /// @throw std::invalid_argument if the patch is not finite or names a vertex that it does not have.
   bool apply(const Cut& cut, std::string* reason);
+  /// Targets of one of the last few revisions, for the present one; others as they are. Who keeps targets
+  /// through more edits than that brings them up to date at each.
+  TargetSet broughtUpToDate(TargetSet targets) const;
 
   /// Back to "not placed" and not cut, at the first revision.
   void reset();

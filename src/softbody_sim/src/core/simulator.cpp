@@ -300,6 +300,10 @@ bool Simulator::apply(const Cut& cut, std::string* reason) {
   return true;
 }
 
+TargetSet Simulator::broughtUpToDate(TargetSet targets) const {
+  return implementation_->volume.broughtUpToDate(std::move(targets));
+}
+
 const MeshState& Simulator::state() const { return implementation_->body.state; }
 
 const StepReport& Simulator::report() const { return implementation_->body.report; }

@@ -106,7 +106,7 @@ void SimulatorNode::step(const softbody_msgs::Targets& message) {
   last_stamp_ = message.header.stamp;
   last_header_ = message.header;
   last_arrival_ = ros::Time::now();
-  last_targets_ = std::move(targets);
+  last_targets_ = simulator_->broughtUpToDate(std::move(targets));
   ++steps_;
   if (!simulator_->report().converged) ++steps_not_converged_;
 }
@@ -138,6 +138,7 @@ void SimulatorNode::onCut(const softbody_msgs::CutConstPtr& message) {
     if (simulator_->apply(fromMessage(*message), &reason)) {
       surroundings_->regionsChanged(simulator_->topology().rest_vertices, simulator_->state().vertices);
       holdTopologyFrom(message->header.stamp);
+      last_targets_ = simulator_->broughtUpToDate(std::move(last_targets_));
       return;
     }
   } catch (const std::exception& error) {
