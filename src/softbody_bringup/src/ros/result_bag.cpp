@@ -56,7 +56,7 @@ void ResultBag::writeTool(const ToolObservation& tool, const std_msgs::Header& h
   geometry_msgs::PoseWithCovarianceStamped pose;
   pose.pose = toMessage(tool);
   write(topic(topics::kToolPose), pose, header);
-  if (blade_.rows() > 0) {
+  if (blade_.rows() > 0 && !tool.bridged) {
     geometry_msgs::PolygonStamped blade;
     blade.polygon = bladePolygon(blade_, tool.T_camera_tool);
     write(topic(topics::kToolBlade), blade, header);

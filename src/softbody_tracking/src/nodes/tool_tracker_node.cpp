@@ -74,7 +74,7 @@ void ToolTrackerNode::publish(const std_msgs::Header& header, const ToolObservat
   pose->header = header;
   pose->pose = toMessage(observation);
   pose_.publish(pose);
-  if (blade_) {
+  if (blade_ && !observation.bridged) {  // what is only predicted must not cut
     const auto blade = boost::make_shared<geometry_msgs::PolygonStamped>();
     blade->header = header;
     blade->polygon = bladePolygon(tracker_->tool().blade, observation.T_camera_tool);
