@@ -275,8 +275,8 @@ TEST(BodyTracker, StartsAnewNearAPoseSetByHand) {
   const Points rest = posedBox(tracked.box());
   for (int i = 0; i < 5; ++i) tracked.show(rest);
   // The same surface in depth, half a turn about each axis: which of the four is meant, only the user knows.
-  for (const Eigen::Vector3d& axis :
-       {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
     const Eigen::Isometry3d meant = boxPose() * Eigen::AngleAxisd(M_PI, axis);
     const Eigen::Isometry3d rough =
         Eigen::Translation3d(0.015, -0.01, 0.02) * meant * Eigen::AngleAxisd(0.15, Eigen::Vector3d::UnitY());
