@@ -13,8 +13,8 @@
 namespace softbody {
 namespace {
 
-const std::array<std::string, 5> kNodes{"camera_ingest", "feature_tracker", "simulator", "surface",
-                                        "tool_tracker"};
+const std::array<std::string, 6> kNodes{"camera_ingest", "feature_tracker", "pose_marker",
+                                        "simulator",     "surface",         "tool_tracker"};
 
 YAML::Node sectionsOf(const std::string& path) {
   YAML::Node file = parseYamlFile(path);
