@@ -16,6 +16,9 @@
 namespace softbody {
 namespace {
 
+/// A topology without its cut for this long is taken for that of a cut nobody tells of.
+constexpr double kLongestWaitForACut = 0.5;  // [s]
+
 /// Whether weights for one serve the other; headers differ each time that a topology is sent.
 bool sameMesh(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopology& b) {
   return a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.tets == b.tets &&
@@ -50,6 +53,12 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
   timing_publisher_ = node.advertise<softbody_msgs::StageTiming>(topics::kTiming, 10);
   topology_timer_ =
       node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); });
+  late_timer_ = node.createWallTimer(
+      ros::WallDuration(kLongestWaitForACut),
+      [this](const ros::WallTimerEvent&) {
+        if (const auto waiting = waiting_topology_) onTopology(waiting);
+      },
+      true, false);
   editor_.emplace(node, private_node, body_frame_, blade, [this] { adoptWaitingTopology(); });
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   topology_subscriber_ = node.subscribe(topics::kVolumeTopology, 1, &SurfaceNode::onTopology, this, hints);
@@ -64,12 +73,17 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
     (*known)->topology->header.stamp = message->header.stamp;
     return;
   }
+  const softbody_msgs::TetTopologyConstPtr waiting = std::exchange(waiting_topology_, nullptr);
   try {
-    if (editor_->started() && sameTets(editor_->body().volume(), *message)) {
+    if (binding_ && message->revision != binding_->volume->revision &&
+        sameTets(editor_->body().volume(), *message)) {
       // An edit is published with its first state; until then the surface before it holds.
       next_binding_ = bindingTo(message);
-    } else if (binding_ && message->revision == editor_->body().volume().revision + 1 && !waiting_topology_) {
-      waiting_topology_ = message;  // of a cut that others send; at the next time it is late
+    } else if (binding_ && message->revision == editor_->body().volume().revision + 1 &&
+               !(waiting && sameMesh(*waiting, *message))) {
+      waiting_topology_ = message;  // of a cut that others send and that is yet to come
+      late_timer_.stop();
+      late_timer_.start();
       return;
     } else {
       startBody(message);
@@ -79,7 +93,6 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
         1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
     return;
   }
-  waiting_topology_.reset();
   if (waiting_state_ && waiting_state_->revision == message->revision) onState(waiting_state_);
 }
 
@@ -100,7 +113,11 @@ void SurfaceNode::startBody(const softbody_msgs::TetTopologyConstPtr& message) {
     ROS_WARN("%d of %d visual vertices lie outside the volume; they follow the nearest tet",
              surface.outsideCount(), static_cast<int>(visual_.rest_vertices.rows()));
   }
-  replaceBinding(bindingTo(message));
+  // As an edit of one's own, whose cut is not known.
+  if (binding_ && message->revision > binding_->volume->revision)
+    next_binding_ = bindingTo(message);
+  else
+    replaceBinding(bindingTo(message));
 }
 
 SurfaceNode::Binding SurfaceNode::bindingTo(const softbody_msgs::TetTopologyConstPtr& message) const {

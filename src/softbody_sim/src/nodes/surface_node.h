@@ -52,6 +52,7 @@ class SurfaceNode {
 
   ros::Publisher topology_publisher_, state_publisher_, marker_publisher_, timing_publisher_;
   ros::Timer topology_timer_;
+  ros::WallTimer late_timer_;  ///< ends the wait of waiting_topology_
   ros::Subscriber topology_subscriber_, state_subscriber_;
 };
 
