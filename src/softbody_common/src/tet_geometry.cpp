@@ -5,7 +5,6 @@
 #include <array>
 #include <map>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 
 namespace softbody {
@@ -159,12 +158,15 @@ Eigen::Vector4d barycentricCoordinates(const Eigen::Vector3d& point, const Point
 }
 
 double meanEdgeLength(const Points& vertices, const Tets& tets) {
-  std::set<std::pair<int, int>> edges;
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(static_cast<std::size_t>(6 * tets.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     for (int i = 0; i < 4; ++i) {
-      for (int j = i + 1; j < 4; ++j) edges.insert(std::minmax(tets(t, i), tets(t, j)));
+      for (int j = i + 1; j < 4; ++j) edges.push_back(std::minmax(tets(t, i), tets(t, j)));
     }
   }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   double sum = 0.0;
   for (const auto& [a, b] : edges) sum += (vertices.row(a) - vertices.row(b)).norm();
   return edges.empty() ? 0.0 : sum / static_cast<double>(edges.size());

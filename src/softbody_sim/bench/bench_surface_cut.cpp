@@ -27,12 +27,15 @@ CutPatch planeThrough(const MeshTopology& mesh, double reach) {
   return ruledPatch(before, now);
 }
 
+Sheets sheetsOf(const MeshTopology& mesh) { return partSheets(listOf(mesh.triangles), mesh.rest_vertices); }
+
 /// From the patch to the cut visual mesh.
 void cutVisualMesh(benchmark::State& state, const std::string& name, double reach) {
   const MeshTopology mesh = testing::loadMesh(kConfig + name);
+  const Sheets sheets = sheetsOf(mesh);
   const CutPatch patch = planeThrough(mesh, reach);
   for (auto _ : state) {
-    const SurfaceCut cut = cutSurface(mesh, patch);
+    const SurfaceCut cut = cutSurface(mesh, sheets, patch);
     if (cut.outcome != CutOutcome::kCut) throw std::runtime_error(cut.reason);
     benchmark::DoNotOptimize(cut.mesh.triangles.data());
   }
@@ -44,6 +47,7 @@ struct CutBody {
       : model(buildObjectModel(loadObjectDescription(kConfig + name))),
         surface(model.visual, model.volume),
         sources(ownSources(model.visual)),
+        sheets(sheetsOf(model.visual)),
         uncut(static_cast<std::size_t>(model.volume.surface.rows()), false),
         patch(planeThrough(model.visual, reach)) {
     bent.vertices = model.volume.rest_vertices;
@@ -61,6 +65,7 @@ struct CutBody {
   ObjectModel model;
   VisualSurface surface;
   MeshSources sources;
+  Sheets sheets;
   std::vector<bool> uncut;
   CutPatch patch;
   MeshState bent;
@@ -70,7 +75,7 @@ void cutAll(benchmark::State& state, const std::string& name, double reach) {
   const CutBody body(name, reach);
   for (auto _ : state) {
     const TetEdit edit = body.cutTetsOnce();
-    SurfaceCut cut = cutSurface(body.model.visual, body.patch);
+    SurfaceCut cut = cutSurface(body.model.visual, body.sheets, body.patch);
     benchmark::DoNotOptimize(swapSurface(body.surface, body.sources, std::move(cut), edit, body.bent));
   }
 }
@@ -78,7 +83,7 @@ void cutAll(benchmark::State& state, const std::string& name, double reach) {
 void bindCutMesh(benchmark::State& state, const std::string& name, double reach) {
   const CutBody body(name, reach);
   const TetEdit edit = body.cutTetsOnce();
-  const SurfaceCut cut = cutSurface(body.model.visual, body.patch);
+  const SurfaceCut cut = cutSurface(body.model.visual, body.sheets, body.patch);
   for (auto _ : state)
     benchmark::DoNotOptimize(swapSurface(body.surface, body.sources, cut, edit, body.bent));
 }

@@ -5,28 +5,39 @@
 #include <functional>
 #include <limits>
 #include <queue>
-#include <set>
 #include <utility>
 
-#include "softbody_common/tet_geometry.h"
-
 namespace softbody {
+namespace {
 
-ObservationConfidence::ObservationConfidence(const Points& rest_vertices, const Tets& tets)
-    : tets_(tets),
-      neighbors_(static_cast<std::size_t>(rest_vertices.rows())),
-      decay_length_(2.0 * meanEdgeLength(rest_vertices, tets)) {
-  std::set<std::pair<int, int>> edges;
+/// Each once, from its lower vertex, ascending.
+std::vector<std::pair<int, int>> edgesOf(const Tets& tets) {
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(static_cast<std::size_t>(6 * tets.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b < 4; ++b) {
-        if (a != b) edges.emplace(tets(t, a), tets(t, b));
-      }
+      for (int b = a + 1; b < 4; ++b) edges.push_back(std::minmax(tets(t, a), tets(t, b)));
     }
   }
-  for (const auto& [a, b] : edges) {
-    neighbors_[a].push_back({b, (rest_vertices.row(a) - rest_vertices.row(b)).norm()});
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+ObservationConfidence::ObservationConfidence(const Points& rest_vertices, const Tets& tets)
+    : tets_(tets), neighbors_(static_cast<std::size_t>(rest_vertices.rows())) {
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& [a, b] : edgesOf(tets)) {
+    const double length = (rest_vertices.row(a) - rest_vertices.row(b)).norm();
+    neighbors_[a].push_back({b, length});
+    neighbors_[b].push_back({a, length});
+    sum += length;
+    ++count;
   }
+  decay_length_ = count > 0 ? 2.0 * sum / count : 0.0;
 }
 
 std::vector<float> ObservationConfidence::of(const std::vector<Target>& targets) const {

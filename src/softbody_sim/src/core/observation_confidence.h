@@ -23,7 +23,7 @@ class ObservationConfidence {
   };
   const Tets tets_;
   std::vector<std::vector<Neighbor>> neighbors_;
-  double decay_length_;  ///< [m]
+  double decay_length_ = 0.0;  ///< [m]
 };
 
 }  // namespace softbody

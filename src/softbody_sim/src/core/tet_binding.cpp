@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "softbody_common/tet_geometry.h"
 
@@ -43,13 +44,16 @@ std::vector<double> TetBinding::correctionScales(const Points& vertices) const {
 }
 
 void TetBinding::meet(const Points& vertices, const Points& positions) {
+  using Solver = Eigen::PartialPivLU<Eigen::Matrix3d>;
   strains_ = squaredStrains(vertices);
   corrections_.resize(places_.size());
+  std::vector<std::optional<Solver>> solvers(static_cast<std::size_t>(volume_.tets.rows()));
   for (std::size_t p = 0; p < places_.size(); ++p) {
+    std::optional<Solver>& solver = solvers[static_cast<std::size_t>(places_[p].tet)];
+    if (!solver) solver.emplace(edgesOf(vertices, volume_.tets.row(places_[p].tet)));
     const Eigen::Vector3d missing = positions.row(static_cast<Eigen::Index>(p)).transpose() -
                                     positionOf(places_[p], vertices, volume_.tets);
-    const Eigen::Vector3d weights =
-        edgesOf(vertices, volume_.tets.row(places_[p].tet)).partialPivLu().solve(missing);
+    const Eigen::Vector3d weights = solver->solve(missing);
     corrections_[p] << -weights.sum(), weights;
   }
 }

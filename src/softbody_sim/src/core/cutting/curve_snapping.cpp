@@ -105,10 +105,8 @@ void snapCurve(double distance, SplitSurface* surface) { Snapping(distance, surf
 
 void splitLonePieces(SplitSurface* surface) {
   std::map<int, int> pieces_at;  // vertex -> number of pieces of the curve
-  std::vector<int> pieces;
-  for (int h = 0; h < static_cast<int>(surface->curve.size()); ++h) {
-    if (surface->curve[h] < 0 || !surface->used(h / 3)) continue;
-    pieces.push_back(h);
+  const std::vector<int> pieces = halfEdgesOfCurve(*surface);
+  for (const int h : pieces) {
     ++pieces_at[startOf(surface->triangles, h)];
     ++pieces_at[endOf(surface->triangles, h)];
   }

@@ -7,6 +7,7 @@
 
 #include "core/cutting/cut_refused.h"
 #include "core/cutting/patch_intersector.h"
+#include "core/cutting/patch_slab.h"
 
 namespace softbody {
 namespace {
@@ -100,9 +101,12 @@ class Intersection {
 
 CutCurve Intersection::run() {
   const PatchIntersector patch(facets_.patch);
+  const std::vector<signed char> sides = PatchSlab(facets_.patch).sidesOf(vertices_);
   Eigen::AlignedBox3d whole;
   for (const auto& vertex : facets_.patch.vertices.rowwise()) whole.extend(vertex.transpose());
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    if (sides[a] != 0 && sides[a] == sides[b] && sides[b] == sides[c]) continue;
     Eigen::AlignedBox3d box;
     for (const int vertex : triangles_[t]) box.extend(vertices_.row(vertex).transpose());
     if (!box.intersects(whole)) continue;

@@ -65,7 +65,7 @@ TetEdit unchanged(const TetTopology& topology, const std::vector<bool>& cut) {
 
 CutHistory::CutHistory(TetTopology uncut, const SubdivisionSettings& settings) : settings_(settings) {
   const std::vector<bool> none(static_cast<std::size_t>(uncut.surface.rows()), false);
-  versions_.push_back(unchanged(uncut, none));
+  versions_.push_back(std::make_shared<TetEdit>(unchanged(uncut, none)));
 }
 
 CutStroke CutHistory::strokeFor(std::uint32_t number) const {
@@ -90,9 +90,9 @@ std::optional<TetEdit> CutHistory::grow(const CutPatch& patch, std::uint32_t str
 void CutHistory::record(const TetEdit& edit) {
   versions_.resize(at_ + 1);
   if (stroke_has_version_) {
-    versions_[at_] = composed(versions_[at_ - 1].topology, versions_[at_], edit);
+    versions_[at_] = std::make_shared<TetEdit>(composed(versions_[at_ - 1]->topology, *versions_[at_], edit));
   } else {
-    versions_.push_back(edit);
+    versions_.push_back(std::make_shared<TetEdit>(edit));
     ++at_;
     stroke_has_version_ = true;
   }
@@ -127,15 +127,17 @@ std::optional<TetEdit> CutHistory::moveTo(std::size_t version) {
   const std::uint32_t revision = topology().revision + 1;
   TetEdit edit;
   if (version > at_) {
-    edit = versions_[version];
+    edit = *versions_[version];
   } else {
-    TetEdit cuts = versions_[version + 1];
+    TetEdit cuts = *versions_[version + 1];
     for (std::size_t v = version + 2; v <= at_; ++v)
-      cuts = composed(versions_[version].topology, cuts, versions_[v]);
-    edit = inverted(cuts, versions_[version]);
+      cuts = composed(versions_[version]->topology, cuts, *versions_[v]);
+    edit = inverted(cuts, *versions_[version]);
   }
   at_ = version;
-  versions_[at_].topology.revision = edit.topology.revision = revision;
+  TetEdit renumbered = *versions_[at_];
+  renumbered.topology.revision = edit.topology.revision = revision;
+  versions_[at_] = std::make_shared<TetEdit>(std::move(renumbered));
   stroke_ = {};
   stroke_number_.reset();
   stroke_has_version_ = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,9 +16,11 @@ class CutHistory {
  public:
   explicit CutHistory(TetTopology uncut, const SubdivisionSettings& settings = {});
 
-  const TetTopology& topology() const { return versions_[at_].topology; }
+  const TetTopology& topology() const { return versions_[at_]->topology; }
   /// Per triangle of the topology's surface: was inside the uncut body.
-  const std::vector<bool>& cut() const { return versions_[at_].cut; }
+  const std::vector<bool>& cut() const { return versions_[at_]->cut; }
+  /// The topology with the edit that led to it from the version before, or, uncut, none.
+  std::shared_ptr<const TetEdit> version() const { return versions_[at_]; }
 
   /// Cuts along a patch. Another stroke number than in the last call begins a new stroke, and so does the
   /// same one after undo, redo or reset. Nothing but the stroke's progress changes if there is no edit, whose
@@ -43,8 +46,9 @@ class CutHistory {
   std::optional<TetEdit> moveTo(std::size_t version);
 
   SubdivisionSettings settings_;
-  std::vector<TetEdit>
-      versions_;  ///< the uncut body, then after each stroke as an edit of the version before
+  /// The uncut body, then after each stroke as an edit of the version before. Copies of the history share
+  /// them.
+  std::vector<std::shared_ptr<const TetEdit>> versions_;
   std::size_t at_ = 0;
   CutStroke stroke_;
   std::optional<std::uint32_t> stroke_number_;  ///< of stroke_

@@ -60,19 +60,19 @@ std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string
 EditedVolume::EditedVolume(TetTopology uncut) : history_(std::move(uncut)) {}
 
 std::optional<TetEdit> EditedVolume::apply(const Cut& cut, std::string* reason) {
-  TetTopology before = topology();
+  std::shared_ptr<const TetEdit> before = history_.version();
   std::optional<TetEdit> edit = applyCut(cut, &history_, reason);
   if (!edit) return edit;
-  recent_.push_back({std::move(before), *edit});
+  recent_.push_back({std::move(before), std::make_shared<TetEdit>(*edit)});
   if (recent_.size() > kRemembered) recent_.pop_front();
   return edit;
 }
 
 TargetSet EditedVolume::broughtUpToDate(TargetSet targets) const {
   for (const Step& step : recent_) {
-    if (targets.revision != step.before.revision) continue;
-    targets.targets = mapped(std::move(targets.targets), step.before, step.edit);
-    targets.revision = step.edit.topology.revision;
+    if (targets.revision != step.before->topology.revision) continue;
+    targets.targets = mapped(std::move(targets.targets), step.before->topology, *step.edit);
+    targets.revision = step.edit->topology.revision;
   }
   return targets;
 }

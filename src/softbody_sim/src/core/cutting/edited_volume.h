@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,8 +33,8 @@ class EditedVolume {
 
  private:
   struct Step {
-    TetTopology before;
-    TetEdit edit;
+    std::shared_ptr<const TetEdit> before;  ///< its topology
+    std::shared_ptr<const TetEdit> edit;
   };
   CutHistory history_;
   std::deque<Step> recent_;  ///< oldest first

@@ -37,12 +37,20 @@ std::vector<FlatTriangle> candidates(const SplitSurface& surface, const WallFill
   }
   box.min().array() -= distance;
   box.max().array() += distance;
+  std::vector<unsigned char> beyond;  // per vertex a bit for each side of the box that it lies beyond
+  beyond.reserve(surface.vertices.size());
+  for (const Eigen::Vector3d& v : surface.vertices) {
+    unsigned sides = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      sides |= static_cast<unsigned>(v[axis] < box.min()[axis]) << axis;
+      sides |= static_cast<unsigned>(v[axis] > box.max()[axis]) << (3 + axis);
+    }
+    beyond.push_back(static_cast<unsigned char>(sides));
+  }
   std::vector<FlatTriangle> found;
   for (const auto& triangle : surface.triangles) {
-    if (triangle[0] < 0) continue;
-    Eigen::AlignedBox3d own;
-    for (const int v : triangle) own.extend(surface.vertices[v]);
-    if (!own.intersects(box)) continue;
+    const auto& [a, b, c] = triangle;
+    if (a < 0 || (beyond[a] & beyond[b] & beyond[c]) != 0) continue;
     const FlatTriangle flat(surface.vertices, triangle);
     const auto parallel = [&flat](const Eigen::Vector3d& n) {
       return n.cross(flat.normal).norm() < kParallel;

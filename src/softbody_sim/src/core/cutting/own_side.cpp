@@ -1,9 +1,9 @@
 #include "core/cutting/own_side.h"
 
 #include <algorithm>
-#include <map>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "core/cutting/tet_walk.h"
 #include "softbody_common/tet_locator.h"
@@ -23,6 +23,10 @@ std::vector<bool> crackVertices(const TetTopology& before, const TetEdit& edit) 
     }
   }
   return crack;
+}
+
+std::size_t countOf(const std::vector<std::uint32_t>& bodies) {
+  return bodies.empty() ? 0 : *std::max_element(bodies.begin(), bodies.end()) + 1;
 }
 
 class OwnSide {
@@ -48,10 +52,11 @@ class OwnSide {
   const std::vector<MaterialPoint>& places() const { return places_; }
 
  private:
+  using Link = std::pair<int, int>;  ///< from a vertex to a neighbour
   static std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
   MaterialPoint placeAfter(const MaterialPoint& place) const;
   std::uint32_t pieceOf(std::size_t v) const { return edit_.topology.bodies[at(places_[v].tet)]; }
-  std::multimap<int, int> neighboursOfUnplaced(bool over_new_walls) const;
+  std::vector<Link> linksToUnplaced(bool over_new_walls) const;
 
   const SurfaceCut& surface_;
   const MeshTopology& mesh_;
@@ -84,17 +89,18 @@ void OwnSide::placeSureOnes(const std::vector<MaterialPoint>& known) {
 
 /// Of the pieces of tets that a piece of the mesh has places in, the one with most of them counts.
 void OwnSide::keepOnePieceEach() {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> counts;
+  const std::size_t piece_count = countOf(edit_.topology.bodies);
+  std::vector<int> counts(countOf(bodies_) * piece_count, 0);
   for (std::size_t v = 0; v < places_.size(); ++v) {
-    if (places_[v].tet >= 0) ++counts[{bodies_[v], pieceOf(v)}];
+    if (places_[v].tet >= 0) ++counts[bodies_[v] * piece_count + pieceOf(v)];
   }
-  std::map<std::uint32_t, std::pair<int, std::uint32_t>> most;
-  for (const auto& [pieces, count] : counts) {
-    auto& best = most[pieces.first];
-    if (count > best.first) best = {count, pieces.second};
+  std::vector<std::uint32_t> most;
+  for (auto row = counts.begin(); row != counts.end(); row += static_cast<std::ptrdiff_t>(piece_count)) {
+    const auto end = row + static_cast<std::ptrdiff_t>(piece_count);
+    most.push_back(static_cast<std::uint32_t>(std::max_element(row, end) - row));
   }
   for (std::size_t v = 0; v < places_.size(); ++v) {
-    if (places_[v].tet >= 0 && pieceOf(v) != most[bodies_[v]].second) places_[v] = {};
+    if (places_[v].tet >= 0 && pieceOf(v) != most[bodies_[v]]) places_[v] = {};
   }
 }
 
@@ -105,7 +111,7 @@ void OwnSide::placeWithoutNeighbours() {
     bool placed = false;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   };
-  std::map<std::uint32_t, Piece> pieces;
+  std::vector<Piece> pieces(countOf(bodies_));
   for (std::size_t v = 0; v < places_.size(); ++v) {
     Piece& piece = pieces[bodies_[v]];
     if (piece.first < 0) piece.first = static_cast<int>(v);
@@ -113,45 +119,44 @@ void OwnSide::placeWithoutNeighbours() {
     piece.sum += mesh_.rest_vertices.row(static_cast<Eigen::Index>(v)).transpose();
     ++piece.count;
   }
-  for (const auto& [body, piece] : pieces) {
-    if (piece.placed) continue;
+  for (const Piece& piece : pieces) {
+    if (piece.placed || piece.count == 0) continue;
     const MaterialPoint middle =
         TetLocator(edit_.topology.rest_vertices, edit_.topology.tets).locate(piece.sum / piece.count);
     places_[at(piece.first)] = walk_.towards(middle.tet, mesh_.rest_vertices.row(piece.first));
   }
 }
 
-std::multimap<int, int> OwnSide::neighboursOfUnplaced(bool over_new_walls) const {
-  std::multimap<int, int> neighbours;
+/// Sorted by where they start.
+std::vector<OwnSide::Link> OwnSide::linksToUnplaced(bool over_new_walls) const {
+  std::vector<Link> links;
   for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
     if (!over_new_walls && surface_.triangle_sources[at(t)] < 0) continue;
     for (int k = 0; k < 3; ++k) {
-      const int from = mesh_.triangles(t, k);
-      for (const int to : {mesh_.triangles(t, (k + 1) % 3), mesh_.triangles(t, (k + 2) % 3)}) {
-        if (places_[at(to)].tet < 0) neighbours.emplace(from, to);
-      }
+      const int to = mesh_.triangles(t, k);
+      if (places_[at(to)].tet >= 0) continue;
+      links.emplace_back(mesh_.triangles(t, (k + 1) % 3), to);
+      links.emplace_back(mesh_.triangles(t, (k + 2) % 3), to);
     }
   }
-  return neighbours;
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
 }
 
 /// Shortest ways first (Dijkstra 1959), so that a place comes from this side of a slit, not round its end.
 void OwnSide::spread(bool over_new_walls) {
-  const std::multimap<int, int> neighbours = neighboursOfUnplaced(over_new_walls);
+  const std::vector<Link> links = linksToUnplaced(over_new_walls);
   using Step = std::tuple<double, int, int>;  // distance, to, from
   std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
-  const auto leave = [&](int from) {
-    const auto [first, last] = neighbours.equal_range(from);
-    for (auto entry = first; entry != last; ++entry) {
-      const int to = entry->second;
-      if (places_[at(to)].tet >= 0) continue;
-      const double length = (mesh_.rest_vertices.row(from) - mesh_.rest_vertices.row(to)).norm();
-      open.emplace(distances_[at(from)] + length, to, from);
-    }
+  const auto follow = [&](const Link& link) {
+    const auto [from, to] = link;
+    if (places_[at(to)].tet >= 0) return;
+    const double length = (mesh_.rest_vertices.row(from) - mesh_.rest_vertices.row(to)).norm();
+    open.emplace(distances_[at(from)] + length, to, from);
   };
-  for (auto entry = neighbours.begin(); entry != neighbours.end();
-       entry = neighbours.upper_bound(entry->first)) {
-    if (places_[at(entry->first)].tet >= 0) leave(entry->first);
+  for (const Link& link : links) {
+    if (places_[at(link.first)].tet >= 0) follow(link);
   }
   while (!open.empty()) {
     const auto [distance, to, from] = open.top();
@@ -159,7 +164,8 @@ void OwnSide::spread(bool over_new_walls) {
     if (places_[at(to)].tet >= 0) continue;
     places_[at(to)] = walk_.towards(places_[at(from)].tet, mesh_.rest_vertices.row(to));
     distances_[at(to)] = distance;
-    leave(to);
+    auto link = std::lower_bound(links.begin(), links.end(), Link{to, 0});
+    for (; link != links.end() && link->first == to; ++link) follow(*link);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "core/cutting/cut_refused.h"
@@ -228,18 +229,33 @@ void pairChangedTriangles(const std::vector<int>& mates, SplitSurface* surface) 
 
 }  // namespace
 
+std::vector<int> halfEdgesOfCurve(const SplitSurface& surface) {
+  std::vector<int> half_edges;
+  for (int h = 0; h < static_cast<int>(surface.curve.size()); ++h) {
+    if (surface.curve[h] >= 0 && surface.used(h / 3)) half_edges.push_back(h);
+  }
+  return half_edges;
+}
+
 SplitSurface splitAlong(const CutCurve& curve, const MeshTopology& mesh, TriangleList triangles,
                         const std::vector<int>& mates) {
   SplitSurface surface;
   surface.own_vertices = static_cast<int>(mesh.rest_vertices.rows());
-  for (Eigen::Index v = 0; v < mesh.rest_vertices.rows(); ++v)
-    surface.vertices.push_back(mesh.rest_vertices.row(v));
+  surface.vertices.reserve(static_cast<std::size_t>(surface.own_vertices) + curve.nodes.size());
+  for (int v = 0; v < surface.own_vertices; ++v) surface.vertices.push_back(mesh.rest_vertices.row(v));
   for (const CurveNode& node : curve.nodes) {
     surface.node_vertices.push_back(static_cast<int>(surface.vertices.size()));
     surface.vertices.push_back(node.position);
   }
   surface.triangles = std::move(triangles);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) surface.sources.push_back(static_cast<int>(t));
+  surface.sources.resize(surface.triangles.size());
+  std::iota(surface.sources.begin(), surface.sources.end(), 0);
+  // A triangle with k pieces of the curve has 2 k + 1 parts or hardly more.
+  const std::size_t part_count = surface.triangles.size() + 3 * curve.segments.size();
+  surface.triangles.reserve(part_count);
+  surface.sources.reserve(part_count);
+  surface.curve.reserve(3 * part_count);
+  if (mesh.texture_coordinates.rows() > 0) surface.texture.reserve(3 * part_count);
   for (Eigen::Index c = 0; c < mesh.texture_coordinates.rows(); ++c) {
     surface.texture.push_back(mesh.texture_coordinates.row(c).head<2>());
   }

@@ -24,6 +24,9 @@ struct SplitSurface {
   bool used(int triangle) const { return triangles[triangle][0] >= 0; }
 };
 
+/// The half-edges that the curve runs along, ascending.
+std::vector<int> halfEdgesOfCurve(const SplitSurface& surface);
+
 /// Divides each triangle that the curve passes by constrained Delaunay triangulation.
 /// @throw CutRefused if pieces of the curve cross each other.
 SplitSurface splitAlong(const CutCurve& curve, const MeshTopology& mesh, TriangleList triangles,

@@ -11,6 +11,7 @@
 #include "core/cutting/grazing.h"
 #include "core/cutting/sheets.h"
 #include "core/cutting/split_surface.h"
+#include "core/cutting/surface_compaction.h"
 #include "core/cutting/surface_stitching.h"
 #include "core/cutting/wall_fill.h"
 
@@ -29,99 +30,19 @@ double diagonalOf(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
-/// As published in Point32. Volatile, because g++ 12 drops the conversion of neighbouring coordinates at -O3.
-Eigen::Vector3d rounded(const Eigen::Vector3d& point) {
-  return point.unaryExpr([](double coordinate) {
-    const volatile auto single = static_cast<float>(coordinate);
-    return static_cast<double>(single);
-  });
-}
-
 void roundNewVertices(SplitSurface* surface) {
   for (std::size_t v = static_cast<std::size_t>(surface->own_vertices); v < surface->vertices.size(); ++v) {
     surface->vertices[v] = rounded(surface->vertices[v]);
   }
 }
 
-std::vector<std::uint32_t> numberBodies(const TriangleList& triangles, const std::vector<int>& mates) {
-  constexpr auto kUnknown = static_cast<std::uint32_t>(-1);
-  std::vector<std::uint32_t> bodies(triangles.size(), kUnknown);
-  std::uint32_t count = 0;
-  std::vector<int> open;
-  for (std::size_t first = 0; first < triangles.size(); ++first) {
-    if (bodies[first] != kUnknown || triangles[first][0] < 0) continue;
-    bodies[first] = count;
-    open.push_back(static_cast<int>(first));
-    while (!open.empty()) {
-      const int t = open.back();
-      open.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const int neighbour = mates[3 * t + k] / 3;
-        if (bodies[neighbour] != kUnknown) continue;
-        bodies[neighbour] = count;
-        open.push_back(neighbour);
-      }
-    }
-    ++count;
-  }
-  return bodies;
-}
-
 SurfaceCut uncut(const MeshTopology& mesh, CutOutcome outcome, const std::string& reason) {
-  SurfaceCut result{outcome, reason, mesh, {}, {}};
+  SurfaceCut result{outcome, reason, mesh, {}, {}, {}};
   result.vertex_sources.resize(static_cast<std::size_t>(mesh.rest_vertices.rows()));
   result.triangle_sources.resize(static_cast<std::size_t>(mesh.triangles.rows()));
   std::iota(result.vertex_sources.begin(), result.vertex_sources.end(), 0);
   std::iota(result.triangle_sources.begin(), result.triangle_sources.end(), 0);
   return result;
-}
-
-/// What is published: without the vertices and triangles that are no longer used.
-SurfaceCut compacted(const MeshTopology& before, const SplitSurface& surface,
-                     const StitchedSurface& stitched) {
-  const auto triangle_count = static_cast<Eigen::Index>(std::count_if(
-      stitched.triangles.begin(), stitched.triangles.end(), [](const auto& t) { return t[0] >= 0; }));
-  const std::vector<std::uint32_t> bodies = numberBodies(stitched.triangles, stitched.mates);
-  std::vector<int> numbers(stitched.vertices.size(), -1);
-  for (const auto& triangle : stitched.triangles) {
-    for (const int v : triangle) {
-      if (v >= 0) numbers[v] = 0;
-    }
-  }
-  SurfaceCut cut{CutOutcome::kCut, "", {}, {}, {}};
-  MeshTopology& mesh = cut.mesh;
-  mesh.revision = before.revision + 1;
-  Eigen::Index vertex_count = 0;
-  mesh.rest_vertices.resize(static_cast<Eigen::Index>(stitched.vertices.size()), 3);
-  for (std::size_t v = 0; v < stitched.vertices.size(); ++v) {
-    if (numbers[v] < 0) continue;
-    const int source = stitched.copied_from[v];
-    const bool own = source >= 0 && source < surface.own_vertices;
-    mesh.rest_vertices.row(vertex_count) = own ? stitched.vertices[v] : rounded(stitched.vertices[v]);
-    mesh.vertex_parents.push_back(own ? before.vertex_parents[source] : -1);
-    cut.vertex_sources.push_back(own ? source : -1);
-    numbers[v] = static_cast<int>(vertex_count++);
-  }
-  mesh.rest_vertices.conservativeResize(vertex_count, Eigen::NoChange);
-  mesh.triangles.resize(triangle_count, 3);
-  mesh.texture_coordinates.setZero(surface.texture.empty() ? 0 : 3 * triangle_count, 3);
-  Eigen::Index row = 0;
-  for (std::size_t t = 0; t < stitched.triangles.size(); ++t) {
-    if (stitched.triangles[t][0] < 0) continue;
-    const bool of_surface = t < surface.triangles.size();
-    for (int k = 0; k < 3; ++k) {
-      mesh.triangles(row, k) = numbers[stitched.triangles[t][k]];
-      if (of_surface && !surface.texture.empty()) {
-        mesh.texture_coordinates.row(3 * row + k).head<2>() =
-            surface.texture[3 * t + static_cast<std::size_t>(k)];
-      }
-    }
-    mesh.bodies.push_back(bodies[t]);
-    mesh.cut.push_back(of_surface ? before.cut[surface.sources[t]] : true);
-    cut.triangle_sources.push_back(of_surface ? surface.sources[t] : -1);
-    ++row;
-  }
-  return cut;
 }
 
 /// Triangles that the cut has made, after rounding, are not too low; parts of a low triangle of the mesh may
@@ -197,7 +118,7 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   snapCurve(snap_distance, &surface);
   splitLonePieces(&surface);
   roundNewVertices(&surface);
-  if (std::all_of(surface.curve.begin(), surface.curve.end(), [](int facet) { return facet < 0; })) {
+  if (halfEdgesOfCurve(surface).empty()) {
     return uncut(mesh_, CutOutcome::kMissed, "the patch does not pass through the surface");
   }
   WallFill fill = fillWalls(surface, curve, facets, snap_distance);
@@ -251,7 +172,10 @@ MeshTopology withSheets(MeshTopology mesh, const Sheets& sheets) {
 }  // namespace
 
 SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch) {
-  const Sheets sheets = partSheets(listOf(mesh.triangles), mesh.rest_vertices);
+  return cutSurface(mesh, partSheets(listOf(mesh.triangles), mesh.rest_vertices), patch);
+}
+
+SurfaceCut cutSurface(const MeshTopology& mesh, const Sheets& sheets, const CutPatch& patch) {
   if (sheets.copied_from.empty()) return SurfaceCutter(mesh, sheets).cut(patch);
   const MeshTopology parted = withSheets(mesh, sheets);
   SurfaceCut cut = SurfaceCutter(parted, sheets).cut(patch);

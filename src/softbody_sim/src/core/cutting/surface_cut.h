@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/cutting/cut_patch.h"
+#include "core/cutting/sheets.h"
 
 namespace softbody {
 
@@ -20,6 +21,7 @@ struct SurfaceCut {
   MeshTopology mesh;
   std::vector<int> vertex_sources;    ///< per vertex the one before that it is or was copied from; -1: new
   std::vector<int> triangle_sources;  ///< per triangle the one before that it is a part of; -1: of a new wall
+  Sheets sheets;                      ///< of the mesh, if it is cut
 };
 
 /// Cuts a closed triangle mesh along a patch: triangles are divided along the curve of intersection, the mesh
@@ -30,5 +32,8 @@ struct SurfaceCut {
 /// @param mesh its sheets may touch in edges and vertices: these are parted first.
 /// @throw std::invalid_argument if the mesh is not closed, or the patch is no oriented surface.
 SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch);
+
+/// The same for a mesh whose sheets are known, which spares looking at all of it again.
+SurfaceCut cutSurface(const MeshTopology& mesh, const Sheets& sheets, const CutPatch& patch);
 
 }  // namespace softbody

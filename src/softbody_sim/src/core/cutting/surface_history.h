@@ -15,7 +15,7 @@ class SurfaceHistory {
  public:
   explicit SurfaceHistory(VisualSurface uncut);
 
-  const VisualSurface& surface() const { return versions_[at_]; }
+  const VisualSurface& surface() const { return versions_[at_].surface; }
 
   /// The mesh after the next part of a stroke: the mesh from before the stroke, cut along all of the stroke.
   /// Nothing is changed. @throw std::invalid_argument as cutSurface.
@@ -40,7 +40,11 @@ class SurfaceHistory {
   CutPatch strokeWith(const CutPatch& patch, std::uint32_t stroke) const;
   bool moveTo(std::size_t version, std::uint32_t revision);
 
-  std::vector<VisualSurface> versions_;  ///< the uncut surface, then after each stroke
+  struct Version {
+    VisualSurface surface;
+    std::optional<Sheets> sheets;  ///< of its mesh; none if that is not closed
+  };
+  std::vector<Version> versions_;  ///< the uncut surface, then after each stroke
   std::size_t at_ = 0;
   MeshSources sources_;  ///< of the surface, in the mesh before the current stroke
   CutPatch stroke_;      ///< all of the current one

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "core/cutting/cut_refused.h"
 
@@ -21,7 +23,7 @@ class Stitching {
     makeVertices();
   }
 
-  const StitchedSurface& result() const { return result_; }
+  StitchedSurface takeResult() { return std::move(result_); }
 
   /// Half-edges of the fill that lie between the same two vertices as another edge.
   std::vector<int> doubledFillEdges() const;
@@ -36,12 +38,15 @@ class Stitching {
   }
   void pairEdges();
   void makeVertices();
+  std::vector<int> cornersAtCurve() const;
   void nameCorners(int corner, int vertex);
+  std::vector<int> surfaceEdgesBetweenWalls() const;
 
   const SplitSurface& surface_;
   const WallFill& fill_;
   int back_, front_;  ///< first half-edges of the walls
   StitchedSurface result_;
+  std::vector<char> named_;  ///< per corner of the result: has its vertex
 };
 
 void Stitching::pairEdges() {
@@ -60,56 +65,58 @@ void Stitching::pairEdges() {
   }
 }
 
+/// Corners of the surface at the curve's vertices, ascending.
+std::vector<int> Stitching::cornersAtCurve() const {
+  std::vector<int> corners;
+  std::vector<char> seen(surface_.vertices.size(), 0);
+  for (const int on_curve : halfEdgesOfCurve(surface_)) {
+    for (const int first : {on_curve, nextHalfEdge(on_curve)}) {
+      if (std::exchange(seen[startOf(surface_.triangles, first)], 1) != 0) continue;
+      int h = first;
+      do {
+        corners.push_back(h);
+        h = surface_.mates[previousHalfEdge(h)];
+      } while (h != first);
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
 /// Gives a vertex to all corners round it.
 void Stitching::nameCorners(int corner, int vertex) {
   int h = corner;
   do {
     result_.triangles[h / 3][h % 3] = vertex;
+    named_[h] = 1;
     h = result_.mates[previousHalfEdge(h)];
   } while (h != corner);
 }
 
 void Stitching::makeVertices() {
-  const int count = static_cast<int>(result_.mates.size());
-  std::vector<bool> on_curve(surface_.vertices.size(), false);
   result_.triangles = surface_.triangles;
-  result_.triangles.resize(static_cast<std::size_t>(count / 3), {-1, -1, -1});
+  result_.triangles.resize(result_.mates.size() / 3, {-1, -1, -1});
   result_.vertices = surface_.vertices;
-  for (std::size_t v = 0; v < surface_.vertices.size(); ++v)
-    result_.copied_from.push_back(static_cast<int>(v));
-  for (int h = 0; h < back_; ++h) {
-    if (surface_.used(h / 3) && surface_.curve[h] >= 0) {
-      on_curve[startOf(surface_.triangles, h)] = on_curve[endOf(surface_.triangles, h)] = true;
-    }
-  }
-  // The first corners of a vertex on the curve keep its number, those beyond the cut get copies.
-  std::vector<bool> taken(surface_.vertices.size(), false);
-  std::vector<bool> named(static_cast<std::size_t>(count), false);
+  result_.copied_from.resize(surface_.vertices.size());
+  std::iota(result_.copied_from.begin(), result_.copied_from.end(), 0);
+  named_.assign(result_.mates.size(), 0);
   const auto add = [this](const Eigen::Vector3d& position, int copied_from) {
     result_.vertices.push_back(position);
     result_.copied_from.push_back(copied_from);
     return static_cast<int>(result_.vertices.size()) - 1;
   };
-  const auto visit = [&](int h, int vertex_of_surface, const Eigen::Vector3d& position) {
-    if (named[h]) return;
-    int vertex = vertex_of_surface;
-    if (vertex < 0 || taken[vertex]) vertex = add(position, vertex_of_surface);
-    if (vertex_of_surface >= 0) taken[vertex_of_surface] = true;
-    int g = h;
-    do {
-      named[g] = true;
-      g = result_.mates[previousHalfEdge(g)];
-    } while (g != h);
-    nameCorners(h, vertex);
-  };
-  for (int h = 0; h < back_; ++h) {
-    if (!surface_.used(h / 3)) continue;
+  // The first corners of a vertex on the curve keep its number, those beyond the cut get copies.
+  std::vector<char> taken(surface_.vertices.size(), 0);
+  for (const int h : cornersAtCurve()) {
+    if (named_[h] != 0) continue;
     const int vertex = startOf(surface_.triangles, h);
-    if (on_curve[vertex]) visit(h, vertex, surface_.vertices[vertex]);
+    const bool is_first = std::exchange(taken[vertex], 1) == 0;
+    nameCorners(h, is_first ? vertex : add(surface_.vertices[vertex], vertex));
   }
   for (int h = 0; h < front_ - back_; ++h) {
-    visit(onBack(h), -1, fill_.points[startOf(fill_.triangles, h)]);
-    visit(onFront(h), -1, fill_.points[endOf(fill_.triangles, h)]);
+    const int start = startOf(fill_.triangles, h), end = endOf(fill_.triangles, h);
+    if (named_[onBack(h)] == 0) nameCorners(onBack(h), add(fill_.points[start], -1));
+    if (named_[onFront(h)] == 0) nameCorners(onFront(h), add(fill_.points[end], -1));
   }
 }
 
@@ -130,26 +137,38 @@ std::vector<int> Stitching::doubledFillEdges() const {
     examine(onBack(h), fill_edge);
     examine(onFront(h), fill_edge);
   }
-  std::vector<bool> on_wall(result_.vertices.size(), false);
-  for (std::size_t t = static_cast<std::size_t>(back_) / 3; t < result_.triangles.size(); ++t) {
-    for (const int v : result_.triangles[t]) on_wall[v] = true;
-  }
-  for (int h = 0; h < back_; ++h) {
-    if (!surface_.used(h / 3)) continue;
-    if (on_wall[startOf(result_.triangles, h)] && on_wall[endOf(result_.triangles, h)]) examine(h, -1);
-  }
+  for (const int h : surfaceEdgesBetweenWalls()) examine(h, -1);
   std::sort(doubled.begin(), doubled.end());
   doubled.erase(std::unique(doubled.begin(), doubled.end()), doubled.end());
   return doubled;
+}
+
+/// Half-edges of the surface's triangles that run between vertices of the walls.
+std::vector<int> Stitching::surfaceEdgesBetweenWalls() const {
+  std::vector<char> on_wall(result_.vertices.size(), 0);
+  for (std::size_t t = static_cast<std::size_t>(back_) / 3; t < result_.triangles.size(); ++t) {
+    for (const int v : result_.triangles[t]) on_wall[v] = 1;
+  }
+  std::vector<int> found;
+  std::vector<char> seen(result_.vertices.size(), 0);
+  for (int corner = back_; corner < static_cast<int>(result_.mates.size()); ++corner) {
+    if (std::exchange(seen[startOf(result_.triangles, corner)], 1) != 0) continue;
+    int h = corner;
+    do {
+      if (h < back_ && on_wall[endOf(result_.triangles, h)] != 0) found.push_back(h);
+      h = result_.mates[previousHalfEdge(h)];
+    } while (h != corner);
+  }
+  return found;
 }
 
 }  // namespace
 
 StitchedSurface stitch(const SplitSurface& surface, WallFill fill) {
   for (int repair = 0; repair < kMaxRepairs; ++repair) {
-    const Stitching stitching(surface, fill);
+    Stitching stitching(surface, fill);
     const std::vector<int> doubled = stitching.doubledFillEdges();
-    if (doubled.empty()) return stitching.result();
+    if (doubled.empty()) return stitching.takeResult();
     for (const int h : doubled) splitFillEdge(h, &fill);
   }
   throw CutRefused("the cut would leave edges of its faces between the same vertices");

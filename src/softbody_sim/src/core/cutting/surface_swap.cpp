@@ -100,6 +100,7 @@ class Swap {
   }
   std::vector<MaterialPoint> knownPlaces() const;
   void placeOldVertices();
+  std::vector<std::vector<int>> newVerticesBySource() const;
   void placeNewVertices();
   Spot spotOn(const Eigen::RowVector3i& triangle, int v) const;
 
@@ -140,24 +141,31 @@ void Swap::placeOldVertices() {
   }
 }
 
-/// On the triangle of the surface before that has the vertex at rest; of two beside a slit, on the one shown
-/// nearest to where the vertex's own side is.
-void Swap::placeNewVertices() {
-  const MeshTopology& before = now_.topology();
-  std::map<int, std::vector<int>> made;  // source -> new vertices on it
+/// Per triangle of the mesh before the stroke the vertices that the cut has made on it.
+std::vector<std::vector<int>> Swap::newVerticesBySource() const {
+  std::vector<std::vector<int>> made;
   for (Eigen::Index t = 0; t < cut_.mesh.triangles.rows(); ++t) {
     const int source = cut_.triangle_sources[static_cast<std::size_t>(t)];
     if (source < 0) continue;
     for (const int v : cut_.mesh.triangles.row(t)) {
-      if (cut_.vertex_sources[static_cast<std::size_t>(v)] < 0 && counterpartsOf(v).size() == 0)
-        made[source].push_back(v);
+      if (cut_.vertex_sources[static_cast<std::size_t>(v)] >= 0 || counterpartsOf(v).size() > 0) continue;
+      if (made.size() <= static_cast<std::size_t>(source)) made.resize(static_cast<std::size_t>(source) + 1);
+      made[static_cast<std::size_t>(source)].push_back(v);
     }
   }
+  return made;
+}
+
+/// On the triangle of the surface before that has the vertex at rest; of two beside a slit, on the one shown
+/// nearest to where the vertex's own side is.
+void Swap::placeNewVertices() {
+  const MeshTopology& before = now_.topology();
+  const std::vector<std::vector<int>> made = newVerticesBySource();
   std::map<int, Spot> spots;
   for (Eigen::Index t = 0; t < before.triangles.rows(); ++t) {
-    const auto found = made.find(sources_.triangles[static_cast<std::size_t>(t)]);
-    if (found == made.end()) continue;
-    for (const int v : found->second) {
+    const auto source = static_cast<std::size_t>(sources_.triangles[static_cast<std::size_t>(t)]);
+    if (source >= made.size()) continue;
+    for (const int v : made[source]) {
       const Spot spot = spotOn(before.triangles.row(t), v);
       const auto [entry, is_first] = spots.emplace(v, spot);
       if (!is_first && spot.isBetterThan(entry->second)) entry->second = spot;

@@ -79,8 +79,7 @@ int Filling::patchPoint(int patch_vertex) {
 }
 
 void Filling::addCurve() {
-  for (int h = 0; h < static_cast<int>(surface_.curve.size()); ++h) {
-    if (surface_.curve[h] < 0 || !surface_.used(h / 3)) continue;
+  for (const int h : halfEdgesOfCurve(surface_)) {
     const DirectedEdge edge{pointAt(surface_.vertices[startOf(surface_.triangles, h)]),
                             pointAt(surface_.vertices[endOf(surface_.triangles, h)])};
     if (!curve_edges_.emplace(edge, h).second)

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Two parallel planes with a patch between them, the closer the more planar the patch is: most of a body is
+/// known to be off the patch by one look at each of its vertices.
+class PatchSlab {
+ public:
+  explicit PatchSlab(const TriangleMesh& patch);
+
+  /// Per point -1 below the slab, 1 above, 0 between the planes.
+  std::vector<signed char> sidesOf(const Points& points) const;
+
+ private:
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+};
+
+}  // namespace softbody
