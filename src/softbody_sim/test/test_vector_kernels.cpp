@@ -77,6 +77,16 @@ TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeOnEveryWidth) {
   this->expectElasticityMatches(rest * Eigen::Vector3d(1.7, 0.5, 0.8).asDiagonal(), "stretched");
 }
 
+TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeHoweverManyTetsAreLeftOver) {
+  for (int cells : {1, 3, 6, 9, 11}) {  // one to five blocks
+    this->topology_ = boxTopology({cells, 1, 1}, {0.02 * cells, 0.02, 0.02});
+    this->count_ = this->topology_.rest_vertices.rows();
+    this->expectElasticityMatches(
+        this->topology_.rest_vertices + randomPoints(this->count_, 2e-3, &this->random_),
+        fmt::format("{} cells", cells));
+  }
+}
+
 /// Where the rotation is not unique the energy still is; it is all that can be compared.
 TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodesEnergy) {
   const CorotatedElasticity reference(this->topology_.rest_vertices, this->topology_.tets, kLame);

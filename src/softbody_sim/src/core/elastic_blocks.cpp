@@ -22,8 +22,8 @@ Eigen::Matrix3d inverseTriangle(const Eigen::Matrix3d& edges) {
 }
 
 std::size_t blockCount(Eigen::Index tet_count) {
-  constexpr Eigen::Index kAtOnce = kBlocksSideBySide * TetBlock<float>::kLanes;
-  return static_cast<std::size_t>((tet_count + kAtOnce - 1) / kAtOnce * kBlocksSideBySide);
+  constexpr Eigen::Index kLanes = TetBlock<float>::kLanes;
+  return static_cast<std::size_t>((tet_count + kLanes - 1) / kLanes);
 }
 
 }  // namespace

@@ -262,29 +262,41 @@ HWY_INLINE void addForces(D d, const TetBlock<T>& block, std::size_t lane, const
   addRows(d, negatedSum(f1, f2, f3), gradient, block.corners[0] + lane);
 }
 
+/// kVectors vectors of tets side by side, from lane `first` of all blocks' on.
+template <std::size_t kVectors, class D, typename T = hn::TFromD<D>>
+HWY_INLINE double addVectors(D d, const TetBlock<T>* blocks, std::size_t first, T mu, T lambda, const T* x,
+                             T* gradient) {
+  using V = hn::Vec<D>;
+  constexpr std::size_t kLanes = TetBlock<T>::kLanes;
+  const std::size_t lanes = hn::Lanes(d);
+  Deformation<V> deformations[kVectors];
+  for (std::size_t k = 0, tet = first; k < kVectors; ++k, tet += lanes) {
+    deformations[k] = loadDeformation(d, blocks[tet / kLanes], tet % kLanes, x);
+  }
+  findTraces<kVectors>(d, deformations);
+  V sum = hn::Zero(d);
+  for (std::size_t k = 0, tet = first; k < kVectors; ++k, tet += lanes) {
+    const TetBlock<T>& block = blocks[tet / kLanes];
+    const V volume = hn::Load(d, block.volume + tet % kLanes);
+    const Response<V> response = respond(d, mu, lambda, volume, deformations[k]);
+    addForces(d, block, tet % kLanes, response.stress, gradient);
+    sum = hn::Add(sum, response.energy);
+  }
+  return static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sum)));
+}
+
 template <typename T>
 double corotated(const TetBlock<T>* blocks, std::size_t count, T mu, T lambda, const T* x, T* gradient) {
   const hn::CappedTag<T, TetBlock<T>::kLanes> d;
-  using V = hn::Vec<decltype(d)>;
-  constexpr std::size_t kLanes = TetBlock<T>::kLanes, kVectors = kBlocksSideBySide;
-  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t lanes = hn::Lanes(d), end = count * TetBlock<T>::kLanes;
   double energy = 0.0;
-  for (std::size_t first = 0; first < count * kLanes; first += kVectors * lanes) {
-    Deformation<V> deformations[kVectors];
-    for (std::size_t k = 0, tet = first; k < kVectors; ++k, tet += lanes) {
-      deformations[k] = loadDeformation(d, blocks[tet / kLanes], tet % kLanes, x);
-    }
-    findTraces<kVectors>(d, deformations);
-    V sum = hn::Zero(d);
-    for (std::size_t k = 0, tet = first; k < kVectors; ++k, tet += lanes) {
-      const TetBlock<T>& block = blocks[tet / kLanes];
-      const V volume = hn::Load(d, block.volume + tet % kLanes);
-      const Response<V> response = respond(d, mu, lambda, volume, deformations[k]);
-      addForces(d, block, tet % kLanes, response.stress, gradient);
-      sum = hn::Add(sum, response.energy);
-    }
-    energy += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sum)));
-  }
+  std::size_t first = 0;
+  for (; first + 4 * lanes <= end; first += 4 * lanes)
+    energy += addVectors<4>(d, blocks, first, mu, lambda, x, gradient);
+  const std::size_t left = (end - first) / lanes;
+  if (left == 3) energy += addVectors<3>(d, blocks, first, mu, lambda, x, gradient);
+  if (left == 2) energy += addVectors<2>(d, blocks, first, mu, lambda, x, gradient);
+  if (left == 1) energy += addVectors<1>(d, blocks, first, mu, lambda, x, gradient);
   return energy;
 }
 

@@ -17,11 +17,8 @@ struct alignas(64) TetBlock {
   int corners[4][kLanes];  ///< where the vertices' rows begin
 };
 
-/// The kernel takes so many at once.
-constexpr int kBlocksSideBySide = 4;
-
-/// Energy [J] of the corotated material over `count` blocks, a multiple of kBlocksSideBySide; adds its
-/// gradient [N]. @param x, gradient rows of four numbers (x, y, z, 0).
+/// Energy [J] of the corotated material over `count` blocks; adds its gradient [N]. @param x, gradient rows
+/// of four numbers (x, y, z, 0).
 template <typename T>
 using ElasticityKernel = double (*)(const TetBlock<T>* blocks, std::size_t count, T mu, T lambda, const T* x,
                                     T* gradient);

@@ -27,9 +27,8 @@ using PanelSolve = void (*)(const PanelFactor<T>& factor, T* y);
 template <typename T>
 PanelSolve<T> panelSolve(Simd simd);
 
-/// x := A b. @param A symmetric `count` by `count`, columns `stride` apart and padded with zeros to a
-/// multiple of 16
-/// @param b, x rows (x, y, z, 0); x as many as `stride`.
+/// x := A b. @param A `count` columns, `stride` numbers each, a multiple of 8, aligned to 32 bytes
+/// @param b, x rows (x, y, z, 0); b `count` of them, x `stride`.
 template <typename T>
 using DenseProduct = void (*)(const T* A, int count, int stride, const T* b, T* x);
 template <typename T>

@@ -17,12 +17,20 @@ double dot(const Positions& a, const Positions& b) {
 
 template <typename Positions>
 double longestRow(const Positions& points) {
-  typename Positions::Scalar longest{0};
-  for (Eigen::Index v = 0; v < points.rows(); ++v) {
-    const auto x = points(v, 0), y = points(v, 1), z = points(v, 2);
-    longest = std::max(longest, x * x + y * y + z * z);
+  using Scalar = typename Positions::Scalar;
+  // Side by side: one maximum waits for the one before.
+  constexpr Eigen::Index kSideBySide = 4;
+  std::array<Scalar, kSideBySide> longest{};
+  const auto include = [&](Eigen::Index v, Eigen::Index k) {
+    const Scalar x = points(v, 0), y = points(v, 1), z = points(v, 2), squared = x * x + y * y + z * z;
+    longest[k] = longest[k] < squared ? squared : longest[k];
+  };
+  Eigen::Index v = 0;
+  for (; v + kSideBySide <= points.rows(); v += kSideBySide) {
+    for (Eigen::Index k = 0; k < kSideBySide; ++k) include(v + k, k);
   }
-  return std::sqrt(static_cast<double>(longest));
+  for (; v < points.rows(); ++v) include(v, 0);
+  return std::sqrt(static_cast<double>(*std::max_element(longest.begin(), longest.end())));
 }
 
 }  // namespace
