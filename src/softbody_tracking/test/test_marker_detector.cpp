@@ -14,6 +14,14 @@ namespace {
 /// Real photographs with corners from OpenCV's own tests.
 const std::filesystem::path kBoards = std::filesystem::path(SOURCE_DIR) / "../../../shared/data/aruco_boards";
 
+using Corners = Eigen::Matrix<double, 2, 4>;
+
+cv::Mat1b grayOf(const RgbdFrame& frame) {
+  cv::Mat1b gray;
+  cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
 double cornerError(const MarkerDetection& detection, const Eigen::Matrix<double, 2, 4>& expected) {
   return (detection.corners - expected).colwise().norm().maxCoeff();
 }
@@ -28,8 +36,7 @@ TEST(MarkerDetector, EveryDictionaryIsReadWithItsIdsAndCorners) {
       std::mt19937 random(static_cast<unsigned>(id));
       const Eigen::Isometry3d T = slanted(0.5, &random);
       const RgbdFrame frame = renderTool(tool, T, 0, 1);
-      cv::Mat1b gray;
-      cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
+      const cv::Mat1b gray = grayOf(frame);
       const auto detections = detector.detect(gray);
       ASSERT_EQ(detections.size(), 1u);
       EXPECT_EQ(detections[0].id, id);
@@ -44,8 +51,7 @@ TEST(MarkerDetector, EveryDictionaryIsReadWithItsIdsAndCorners) {
 TEST(MarkerDetector, SearchesOnlyTheRegionAndAnswersInTheImage) {
   const ToolDescription tool{"DICT_4X4_50", {toolMarker(7, 0.06)}, Points(0, 3), {}};
   const RgbdFrame frame = renderTool(tool, facing({0.0, 0.0, 0.5}), 0, 1);
-  cv::Mat1b gray;
-  cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
+  const cv::Mat1b gray = grayOf(frame);
   const MarkerDetector detector(tool.dictionary);
   const auto all = detector.detect(gray), part = detector.detect(gray, {240, 160, 180, 180});
   ASSERT_EQ(all.size(), 1u);
@@ -53,6 +59,34 @@ TEST(MarkerDetector, SearchesOnlyTheRegionAndAnswersInTheImage) {
   EXPECT_LT(cornerError(part[0], all[0].corners), 0.05);
   EXPECT_TRUE(detector.detect(gray, {0, 0, 120, 120}).empty());
   EXPECT_TRUE(detector.detect(gray, {2000, 0, 10, 10}).empty());
+}
+
+TEST(MarkerDetector, SidesOfBentPaperMeetInTheCornersAllTheSame) {
+  const ToolDescription tool{"DICT_4X4_50", {toolMarker(7, 0.06)}, Points(0, 3), {}};
+  const RgbdFrame frame = renderTool(tool, facing({0.0, 0.0, 0.5}), 0, 1);
+  const cv::Mat1b gray = grayOf(frame);
+  const MarkerDetector detector(tool.dictionary);
+  const auto flat = detector.detect(gray);
+  ASSERT_EQ(flat.size(), 1u);
+  const double middle = flat[0].corners.row(0).mean(),
+               half = (flat[0].corners.row(0).array() - middle).abs().maxCoeff();
+  for (const double bow_px : {-1.5, -0.5, 0.5, 1.5}) {
+    // Every column is moved down, the corners' by the bow and the middle one by nothing.
+    cv::Mat1f map_u(gray.size()), map_v(gray.size());
+    for (int v = 0; v < gray.rows; ++v) {
+      for (int u = 0; u < gray.cols; ++u) {
+        map_u(v, u) = static_cast<float>(u);
+        map_v(v, u) = static_cast<float>(v - bow_px * std::pow((u - middle) / half, 2));
+      }
+    }
+    cv::Mat1b bent;
+    cv::remap(gray, bent, map_u, map_v, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    const auto detections = detector.detect(bent);
+    ASSERT_EQ(detections.size(), 1u) << bow_px;
+    Corners expected = flat[0].corners;
+    expected.row(1).array() += bow_px;
+    EXPECT_LT(cornerError(detections[0], expected), 0.25) << bow_px;
+  }
 }
 
 TEST(MarkerDetector, UnknownDictionariesAreRefusedWithTheKnownNames) {
@@ -65,8 +99,6 @@ TEST(MarkerDetector, UnknownDictionariesAreRefusedWithTheKnownNames) {
   }
   EXPECT_THROW(markerCells("DICT_4X4_50", 50), std::invalid_argument);
 }
-
-using Corners = Eigen::Matrix<double, 2, 4>;
 
 /// The known corners are the outermost dark pixels of a contour, whose centres lie half a pixel inside of the
 /// two edges that meet there.
@@ -113,10 +145,11 @@ TEST(MarkerDetector, PhotographedBoardsGiveEveryKnownIdAndNoOther) {
       worst = std::max(worst, error.maxCoeff());
       far += static_cast<int>((error.array() > 1.0).count());
     }
-    // The known corners of gboriginal.png are themselves up to 1 px off the contours that they come from.
+    // The known corners are whole pixels of contours; two of gboriginal.png lie more than 1 px beside the
+    // tips of their markers.
     const bool exact = image != "gboriginal.png";
-    EXPECT_LE(far, exact ? 0 : 4 * static_cast<int>(expected.size()) / 20);
-    EXPECT_LE(worst, exact ? 1.0 : 2.0);
+    EXPECT_LE(far, exact ? 0 : 2);
+    EXPECT_LE(worst, exact ? 1.0 : 1.15);
     RecordProperty("far_corners_" + image.substr(0, image.find('.')), far);
     RecordProperty("worst_corner_px_" + image.substr(0, image.find('.')), std::to_string(worst));
   }
