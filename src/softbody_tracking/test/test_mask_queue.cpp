@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -84,6 +85,23 @@ TEST(MaskQueue, AMaskOfTheNextPassMayComeBeforeItsFrame) {
   const auto ready = queue.ready(0.0);
   ASSERT_TRUE(ready);
   EXPECT_EQ(ready->mask, 5);
+}
+
+TEST(MaskQueue, MasksThatCameInAnyOrderBeforeTheirFramesAreUsed) {
+  constexpr Nanoseconds kFrame = 33'000'000;
+  std::vector<int> order{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::shuffle(order.begin(), order.end(), random);
+    Queue queue(kPatience);
+    for (const int k : order) queue.addMask(k * kFrame, k);
+    for (int k = 1; k <= 9; ++k) {
+      queue.addFrame(k * kFrame, k, 0.0);
+      const auto ready = queue.ready(0.0);
+      ASSERT_TRUE(ready);
+      EXPECT_EQ(ready->mask, k);
+    }
+  }
 }
 
 TEST(MaskQueue, EveryFrameLeavesOnceInOrderWithItsOwnMaskOrNone) {

@@ -36,7 +36,8 @@ class MaskQueue {
   }
 
   void addMask(Nanoseconds stamp, Mask mask) {
-    if (!masks_.empty() && stamp < masks_.rbegin()->first) masks_.clear();
+    // A little back is a segmentation that works on several frames at a time.
+    if (!masks_.empty() && masks_.rbegin()->first - stamp >= kStartsAgain) masks_.clear();
     masks_[stamp] = std::move(mask);
     if (masks_.size() > kMostMasks) masks_.erase(masks_.begin());
   }
@@ -63,6 +64,7 @@ class MaskQueue {
     Frame frame;
   };
   static constexpr std::size_t kMostMasks = 100;  // that came before their frames
+  static constexpr Nanoseconds kStartsAgain = 1'000'000'000;
 
   double patience_s_;
   std::deque<Waiting> frames_;
