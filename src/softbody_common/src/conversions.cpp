@@ -81,6 +81,14 @@ Nanoseconds toNanoseconds(const ros::Time& time) { return static_cast<Nanosecond
 
 ros::Time toTime(Nanoseconds time) { return ros::Time().fromNSec(static_cast<std::uint64_t>(time)); }
 
+geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
 geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond q(pose.linear());
   geometry_msgs::Pose message;

@@ -5,24 +5,22 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "softbody_common/conversions.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
-geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
-}
-
 std_msgs::ColorRGBA shade(const Eigen::Vector3d& position, const Eigen::Vector3d& normal, float confidence) {
   const Eigen::Vector3f inferred(0.72f, 0.74f, 0.78f), observed(0.93f, 0.72f, 0.42f);
   const double facing = std::max(0.0, -normal.dot(position.normalized()));
   const auto light = static_cast<float>(0.35 + 0.65 * facing);
-  const Eigen::Vector3f rgb = light * (inferred + confidence * (observed - inferred));
+  return colorMessage(light * (inferred + confidence * (observed - inferred)));
+}
+
+}  // namespace
+
+std_msgs::ColorRGBA colorMessage(const Eigen::Vector3f& rgb) {
   std_msgs::ColorRGBA color;
   color.r = rgb.x();
   color.g = rgb.y();
@@ -30,8 +28,6 @@ std_msgs::ColorRGBA shade(const Eigen::Vector3d& position, const Eigen::Vector3d
   color.a = 1.0f;
   return color;
 }
-
-}  // namespace
 
 visualization_msgs::Marker makeSurfaceMarker(const MeshTopology& topology, const MeshState& state) {
   if (state.revision != topology.revision || state.vertices.rows() != topology.rest_vertices.rows()) {
@@ -50,7 +46,7 @@ visualization_msgs::Marker makeSurfaceMarker(const MeshTopology& topology, const
   marker.points.reserve(static_cast<std::size_t>(topology.triangles.size()));
   marker.colors.reserve(static_cast<std::size_t>(topology.triangles.size()));
   for (const int vertex : topology.triangles.reshaped<Eigen::RowMajor>()) {
-    marker.points.push_back(toPoint(state.vertices.row(vertex)));
+    marker.points.push_back(pointMessage(state.vertices.row(vertex)));
     marker.colors.push_back(shade(state.vertices.row(vertex), normals.row(vertex),
                                   state.confidence[static_cast<std::size_t>(vertex)]));
   }

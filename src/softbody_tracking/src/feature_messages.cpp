@@ -2,18 +2,12 @@
 
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include "softbody_common/conversions.h"
+
 namespace softbody {
 namespace {
 
 constexpr double kLineWidth = 0.0008;  // [m]
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point message;
-  message.x = p.x();
-  message.y = p.y();
-  message.z = p.z();
-  return message;
-}
 
 }  // namespace
 
@@ -49,8 +43,8 @@ visualization_msgs::Marker makeFeatureMarker(const std::vector<TrackedFeature>& 
   marker.color.b = marker.color.a = 1.0f;
   marker.color.g = 0.4f;
   for (const TrackedFeature& feature : features) {
-    marker.points.push_back(toPoint(feature.reference));
-    marker.points.push_back(toPoint(feature.position));
+    marker.points.push_back(pointMessage(feature.reference));
+    marker.points.push_back(pointMessage(feature.position));
   }
   return marker;
 }

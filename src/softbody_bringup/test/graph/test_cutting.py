@@ -6,11 +6,13 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from geometry_msgs.msg import Point, Point32, PolygonStamped, Pose, Quaternion, Vector3
+from geometry_msgs.msg import Point, Point32, PolygonStamped, Pose, Quaternion, TransformStamped, Vector3
 from recorder import Recorder
 from softbody_msgs.msg import Cut, MeshState, MeshTopology, Targets, TetTopology
 from softbody_msgs.srv import CutBody, PreviewCut
 from std_srvs.srv import Trigger
+from tf2_ros import StaticTransformBroadcaster
+from visualization_msgs.msg import Marker, MarkerArray
 
 FRAME = "made_by_hand"
 
@@ -24,7 +26,8 @@ class Cutting(unittest.TestCase):
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState,
                                 softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
-                                softbody__cut=Cut)
+                                softbody__cut=Cut, softbody__cut__marker=Marker,
+                                softbody__preview__marker=MarkerArray)
         cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.blade = rospy.Publisher("/softbody/tool/blade", PolygonStamped, queue_size=1)
         cls.rest = array(cls.recorder.wait_for("softbody/surface/topology")[-1].rest_vertices)
@@ -63,6 +66,30 @@ class Cutting(unittest.TestCase):
         self.assertEqual(len(surface.rest_vertices), len(state.vertices))
         return surface
 
+    def expect_preview(self):
+        """Two pieces in two colours, a little outside of the body, and nothing once it is cut."""
+        state = self.step()
+        markers = self.recorder.wait(
+            lambda seen: next((m.markers for m in seen["softbody/preview/marker"]
+                               if m.markers[0].header.stamp == self.stamp), None), "a preview")
+        self.assertEqual([m.ns for m in markers], ["pieces", "lines"])
+        pieces, lines = (array(m.points) for m in markers)
+        body = array(state.vertices)
+        self.assertTrue((pieces.min(axis=0) < body.min(axis=0)).all() and (pieces.max(axis=0) > body.max(axis=0)).all())
+        self.assertLess(np.abs(pieces.max(axis=0) - body.max(axis=0)).max(), 0.003)
+        hues = {tuple(np.round(np.array([c.r, c.g, c.b]) / max(c.r, c.g, c.b), 2)) for c in markers[0].colors}
+        self.assertEqual(len(hues), 2)
+        self.assertLess(np.abs(lines[:, 0] - lines[:, 0].mean()).max(), 0.02)
+
+    def expect_cut_lines(self, state_stamp):
+        lines = self.recorder.wait(
+            lambda seen: next((m for m in seen["softbody/cut/marker"] if m.header.stamp == state_stamp), None),
+            "cut lines")
+        self.assertEqual(lines.action, Marker.ADD)
+        self.assertGreater(len(lines.points), 8)
+        last = self.recorder.messages["softbody/preview/marker"][-1].markers
+        self.assertEqual([m.action for m in last], [Marker.DELETEALL])
+
     def test_1_services(self):
         self.step(reset=True)
         middle = self.rest.mean(axis=0)
@@ -70,14 +97,17 @@ class Cutting(unittest.TestCase):
         preview = self.service("preview", PreviewCut)(**plane)
         self.assertTrue(preview.success, preview.message)
         self.assertEqual(len(preview.volumes), 2)
+        self.expect_preview()
         cut = self.service("cut", CutBody)(**plane)
         self.assertTrue(cut.success, cut.message)
         self.assertEqual(cut.revision, 1)
         after = self.expect_revision(1, 2)
         self.assertIn(True, list(after.cut_triangles))
         self.assertIn(-1, after.vertex_parents)
+        self.expect_cut_lines(state_stamp=self.stamp)
         self.assertTrue(self.service("undo", Trigger)().success)
         before = self.expect_revision(2, 1)
+        self.recorder.wait(lambda seen: seen["softbody/cut/marker"][-1].action == Marker.DELETE, "no cut lines")
         self.assertTrue(np.array_equal(array(before.rest_vertices), self.rest))
         self.assertTrue(self.service("redo", Trigger)().success)
         self.expect_revision(3, 2)
@@ -92,17 +122,18 @@ class Cutting(unittest.TestCase):
         bent = [Point32(0, 0, 0), Point32(0, 1, 0), Point32(0, 1, 1), Point32(0, 0.9, 0.1)]
         self.assertIn("convex", self.service("preview", PreviewCut)(polygon=bent).message)
 
-    def test_2_blade(self):
-        """A blade from above, through the body and beyond."""
+    def stroke(self, frame=FRAME, offset=np.zeros(3)):
+        """A blade from above, through the body and beyond. @param offset of the frame in that of the states."""
         self.step(reset=True)
         low, high = self.rest.min(axis=0), self.rest.max(axis=0)
         x, first = 0.55 * low[0] + 0.45 * high[0], self.revision
         for z in np.arange(high[2] + 0.02, low[2] - 0.01, -0.002):
+            corners = [(x, y, h) for y, h in ((low[1] - 0.02, z), (high[1] + 0.02, z),
+                                              (high[1] + 0.02, z + 0.06), (low[1] - 0.02, z + 0.06))]
             blade = PolygonStamped()
-            blade.polygon.points = [Point32(x, y, h) for y, h in ((low[1] - 0.02, z), (high[1] + 0.02, z),
-                                                                  (high[1] + 0.02, z + 0.06), (low[1] - 0.02, z + 0.06))]
+            blade.polygon.points = [Point32(*(np.array(corner) - offset)) for corner in corners]
             state = self.step()
-            blade.header.stamp, blade.header.frame_id = self.stamp, FRAME
+            blade.header.stamp, blade.header.frame_id = self.stamp, frame
             cuts = len(self.recorder.messages["softbody/cut"])
             self.blade.publish(blade)
             rospy.sleep(0.05)
@@ -113,8 +144,24 @@ class Cutting(unittest.TestCase):
             self.assertLessEqual(state.revision, self.revision)
         self.assertGreater(self.revision, first)
         self.expect_revision(self.revision, 2)
-        strokes = {cut.stroke for cut in self.recorder.messages["softbody/cut"] if cut.revision > first}
-        self.assertEqual(len(strokes), 1)
+        cuts = [cut for cut in self.recorder.messages["softbody/cut"] if cut.revision > first]
+        self.assertEqual(len({cut.stroke for cut in cuts}), 1)
+        return np.concatenate([array(cut.patch_vertices) for cut in cuts])
+
+    def test_2_blade(self):
+        """Where it is told in another frame, at a known place in that of the states, it makes the same cut."""
+        patches = self.stroke()
+        self.assertTrue(self.service("reset", Trigger)().success)
+        self.expect_revision(self.revision + 1, 1)
+        offset = np.array([0.3, -0.2, 0.7])
+        broadcaster = StaticTransformBroadcaster()
+        transform = TransformStamped()
+        transform.header.frame_id, transform.child_frame_id = FRAME, "elsewhere"
+        transform.transform.translation, transform.transform.rotation.w = Vector3(*offset), 1.0
+        broadcaster.sendTransform(transform)
+        again = self.stroke("elsewhere", offset)
+        np.testing.assert_allclose(again.min(axis=0), patches.min(axis=0), atol=2e-3)
+        np.testing.assert_allclose(again.max(axis=0), patches.max(axis=0), atol=2e-3)
 
     def test_3_time_that_jumps_back_makes_it_whole(self):
         type(self).revision = 0

@@ -25,6 +25,7 @@ namespace softbody {
 Nanoseconds toNanoseconds(const ros::Time& time);
 ros::Time toTime(Nanoseconds time);
 
+geometry_msgs::Point pointMessage(const Eigen::Vector3d& point);
 geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose);
 /// @throw std::invalid_argument if the quaternion is not of unit length (within 1e-3) or a number is not
 /// finite.

@@ -28,7 +28,10 @@ constexpr char kPin[] = "pin";
 constexpr char kReaction[] = "reaction/";  // followed by a name
 constexpr char kToolPose[] = "tool/pose";
 constexpr char kToolBlade[] = "tool/blade";
+constexpr char kToolMarker[] = "tool/marker";
 constexpr char kCut[] = "cut";
+constexpr char kCutMarker[] = "cut/marker";
+constexpr char kPreviewMarker[] = "preview/marker";
 constexpr char kTiming[] = "timing";
 
 }  // namespace softbody::topics

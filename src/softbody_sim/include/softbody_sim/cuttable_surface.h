@@ -24,6 +24,7 @@ BladeConfig readBladeConfig(Parameters& parameters);
 struct CutPreview {
   std::string refusal;          ///< why it cannot be made; empty if it can
   std::vector<double> volumes;  ///< of the pieces of the visual mesh, largest first [m^3]
+  MeshTopology pieces;          ///< the visual mesh as it would be; empty if it cannot be cut
 };
 
 /// The visual mesh of a body that is cut, and the tets that it follows. A cut is made where the visual mesh

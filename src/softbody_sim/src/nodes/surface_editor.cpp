@@ -22,8 +22,13 @@ constexpr std::size_t kMostWaiting = 30;
 }  // namespace
 
 SurfaceEditor::SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle private_node,
-                             std::string body_frame, const BladeConfig& config, std::function<void()> on_cut)
-    : node_(node), body_frame_(std::move(body_frame)), config_(config), on_cut_(std::move(on_cut)) {
+                             std::string body_frame, const BladeConfig& config, std::function<void()> on_cut,
+                             std::function<void(const CutPreview&)> on_preview)
+    : node_(node),
+      body_frame_(std::move(body_frame)),
+      config_(config),
+      on_cut_(std::move(on_cut)),
+      on_preview_(std::move(on_preview)) {
   cut_publisher_ = node_.advertise<softbody_msgs::Cut>(topics::kCut, 20);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   blade_subscriber_ = node_.subscribe(topics::kToolBlade, 1, &SurfaceEditor::onBlade, this, hints);
@@ -194,6 +199,7 @@ bool SurfaceEditor::onPreview(softbody_msgs::PreviewCut::Request& request,
     response.success = static_cast<unsigned char>(preview.refusal.empty());
     response.message = preview.refusal;
     response.volumes = preview.volumes;
+    on_preview_(preview);
   } catch (const std::invalid_argument& error) {
     response.message = error.what();
   }

@@ -23,9 +23,10 @@ namespace softbody {
 /// about. There is one cut at a time on that way.
 class SurfaceEditor {
  public:
-  /// @param on_cut called after each cut.
+  /// @param on_cut called after each cut. @param on_preview called with what a cut would do.
   SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle private_node, std::string body_frame,
-                const BladeConfig& config, std::function<void()> on_cut);
+                const BladeConfig& config, std::function<void()> on_cut,
+                std::function<void(const CutPreview&)> on_preview);
 
   /// A body that is not cut, or whose cuts are not known. @throw std::invalid_argument as CuttableSurface.
   void start(const MeshTopology& visual, const TetTopology& volume);
@@ -58,6 +59,7 @@ class SurfaceEditor {
   std::string body_frame_;
   BladeConfig config_;
   std::function<void()> on_cut_;
+  std::function<void(const CutPreview&)> on_preview_;
   std::optional<CuttableSurface> body_;
   Points rest_;                     ///< vertices of the uncut visual mesh
   std::optional<MeshState> state_;  ///< the last one

@@ -36,7 +36,7 @@ bool sameTets(const TetTopology& volume, const softbody_msgs::TetTopology& messa
 
 }  // namespace
 
-SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
+SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) : cut_display_(node) {
   Parameters parameters = readParameters(private_node);
   const std::string object = parameters.requiredText("object");
   body_frame_ = parameters.text("body_frame", "softbody");
@@ -59,7 +59,9 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) {
         if (const auto waiting = waiting_topology_) onTopology(waiting);
       },
       true, false);
-  editor_.emplace(node, private_node, body_frame_, blade, [this] { adoptWaitingTopology(); });
+  editor_.emplace(
+      node, private_node, body_frame_, blade, [this] { adoptWaitingTopology(); },
+      [this](const CutPreview& preview) { cut_display_.preview(preview, editor_->body().volume()); });
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   topology_subscriber_ = node.subscribe(topics::kVolumeTopology, 1, &SurfaceNode::onTopology, this, hints);
   state_subscriber_ = node.subscribe(topics::kVolumeState, 1, &SurfaceNode::onState, this, hints);
@@ -131,6 +133,7 @@ SurfaceNode::Binding SurfaceNode::bindingTo(const softbody_msgs::TetTopologyCons
 void SurfaceNode::replaceBinding(Binding binding) {
   binding_ = std::move(binding);
   next_binding_.reset();
+  cut_display_.forgetLines();
   publishTopology();
 }
 
@@ -167,6 +170,7 @@ void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {
     marker->header = volume.header;
     marker_publisher_.publish(marker);
   }
+  cut_display_.show(binding_->surface.topology(), surface, state, volume.header);
   publishTiming(volume.header);
   editor_->onState(state, volume.header);
 }

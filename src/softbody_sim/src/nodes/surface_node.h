@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/cut_display.h"
 #include "nodes/surface_editor.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
@@ -44,6 +45,7 @@ class SurfaceNode {
   std::string body_frame_;
   MeshTopology visual_;
   StageTimer timer_;
+  CutDisplay cut_display_;
   std::optional<SurfaceEditor> editor_;                  ///< may be ahead of what is published
   std::optional<Binding> binding_;                       ///< that is published
   std::optional<Binding> next_binding_;                  ///< of an edit that no state has come of yet

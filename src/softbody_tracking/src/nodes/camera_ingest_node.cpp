@@ -36,7 +36,7 @@ CameraIngestNode::CameraIngestNode(ros::NodeHandle handle, ros::NodeHandle priva
   parameters.text("image_transport", "raw");
   warnUnknown(parameters);
   monitor_ = std::make_unique<StreamMonitor>(
-      config_.exact_sync ? 0 : toNanoseconds(ros::Time(config_.sync_tolerance_s)));
+      config_.sync.exact ? 0 : toNanoseconds(ros::Time(config_.sync.tolerance_s)));
   resetPairer();
   advertise();
   subscribe();
@@ -47,8 +47,7 @@ CameraIngestNode::CameraIngestNode(ros::NodeHandle handle, ros::NodeHandle priva
 }
 
 void CameraIngestNode::readConfig(Parameters& parameters) {
-  config_.exact_sync = parameters.choice("sync", "approximate", {"approximate", "exact"}) == "exact";
-  config_.sync_tolerance_s = parameters.number("sync_tolerance_s", config_.sync_tolerance_s, 0.0001, 1.0);
+  config_.sync = readSyncConfig(parameters);
   config_.queue_size = parameters.integer("queue_size", config_.queue_size, 1, 1000);
   config_.voxel_size_m = parameters.number("voxel_size_m", config_.voxel_size_m, 0.0, 1.0);
   config_.silence_timeout_s = parameters.number("silence_timeout_s", config_.silence_timeout_s, 0.1, 3600.0);
@@ -74,8 +73,8 @@ void CameraIngestNode::subscribe() {
 
 void CameraIngestNode::resetPairer() {
   const auto on_pair = [this](const auto& color, const auto& depth) { onPair(color, depth); };
-  pairer_ = config_.exact_sync ? makeExactPairer(config_.queue_size, on_pair)
-                               : makeApproximatePairer(config_.queue_size, config_.sync_tolerance_s, on_pair);
+  pairer_ = config_.sync.exact ? makeExactPairer(config_.queue_size, on_pair)
+                               : makeApproximatePairer(config_.queue_size, config_.sync.tolerance_s, on_pair);
 }
 
 bool CameraIngestNode::accept(Stream stream, const ros::Time& stamp, ros::Time* last) {

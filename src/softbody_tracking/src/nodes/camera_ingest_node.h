@@ -17,8 +17,7 @@
 namespace softbody {
 
 struct CameraIngestNodeConfig {
-  bool exact_sync = false;
-  double sync_tolerance_s = 0.015;
+  SyncConfig sync;
   int queue_size = 10;
   double voxel_size_m = 0.0;       ///< of points; 0: organised, one point a pixel
   double silence_timeout_s = 2.0;  ///< without a frame for so long the node says why

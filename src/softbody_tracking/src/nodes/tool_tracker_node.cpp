@@ -35,7 +35,11 @@ ToolTrackerNode::ToolTrackerNode(ros::NodeHandle handle, ros::NodeHandle private
   warnUnknown(parameters);
 
   pose_ = handle_.advertise<geometry_msgs::PoseWithCovarianceStamped>(topics::kToolPose, 1);
-  if (tool.blade.rows() > 0) blade_ = handle_.advertise<geometry_msgs::PolygonStamped>(topics::kToolBlade, 1);
+  if (tool.blade.rows() > 0) {
+    blade_ = handle_.advertise<geometry_msgs::PolygonStamped>(topics::kToolBlade, 1);
+    marker_ = handle_.advertise<visualization_msgs::MarkerArray>(topics::kToolMarker, 1);
+    trail_.emplace(tool.blade);
+  }
   timing_ = handle_.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
 
   color_subscriber_.subscribe(handle_, topics::kRgbRect, 1);
@@ -74,16 +78,22 @@ void ToolTrackerNode::publish(const std_msgs::Header& header, const ToolObservat
   pose->header = header;
   pose->pose = toMessage(observation);
   pose_.publish(pose);
-  if (blade_ && !observation.bridged) {  // what is only predicted must not cut
-    const auto blade = boost::make_shared<geometry_msgs::PolygonStamped>();
-    blade->header = header;
-    blade->polygon = bladePolygon(tracker_->tool().blade, observation.T_camera_tool);
-    blade_.publish(blade);
-  }
+  // What is only predicted must not cut.
+  if (trail_ && !observation.bridged) publishBlade(header, observation.T_camera_tool);
   geometry_msgs::TransformStamped transform = tf2::eigenToTransform(observation.T_camera_tool);
   transform.header = header;
   transform.child_frame_id = tool_frame_;
   tf_broadcaster_.sendTransform(transform);
+}
+
+void ToolTrackerNode::publishBlade(const std_msgs::Header& header, const Eigen::Isometry3d& T_camera_tool) {
+  const auto blade = boost::make_shared<geometry_msgs::PolygonStamped>();
+  blade->header = header;
+  blade->polygon = bladePolygon(tracker_->tool().blade, T_camera_tool);
+  blade_.publish(blade);
+  trail_->add(toNanoseconds(header.stamp), T_camera_tool);
+  if (marker_.getNumSubscribers() > 0)
+    marker_.publish(boost::make_shared<visualization_msgs::MarkerArray>(trail_->markers(header)));
 }
 
 void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "softbody_tracking/blade_trail.h"
 #include "softbody_tracking/tool_tracker.h"
 
 namespace softbody {
@@ -26,6 +27,7 @@ class ToolTrackerNode {
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);
   void publish(const std_msgs::Header& header, const ToolObservation& observation);
+  void publishBlade(const std_msgs::Header& header, const Eigen::Isometry3d& T_camera_tool);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   ros::NodeHandle handle_;
@@ -35,7 +37,8 @@ class ToolTrackerNode {
   ros::Time last_stamp_;
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher pose_, blade_, timing_;
+  std::optional<BladeTrail> trail_;  ///< of a tool with a blade
+  ros::Publisher pose_, blade_, marker_, timing_;
   message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
   message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
   message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>

@@ -145,10 +145,10 @@ bool CuttableSurface::apply(const Cut& cut, const MeshState& volume, std::string
 
 CutPreview CuttableSurface::preview(const TriangleMesh& patch) const {
   const Cut cut = separateCut(patch);
-  const SurfaceCut surface_cut = implementation_->surface.preview(cut.patch, cut.stroke);
-  CutPreview preview{surface_cut.reason, {}};
-  if (surface_cut.outcome == CutOutcome::kCut) preview.volumes = volumesOf(surface_cut.mesh);
-  return preview;
+  SurfaceCut surface_cut = implementation_->surface.preview(cut.patch, cut.stroke);
+  if (surface_cut.outcome != CutOutcome::kCut) return {surface_cut.reason, {}, {}};
+  std::vector<double> volumes = volumesOf(surface_cut.mesh);
+  return {"", std::move(volumes), std::move(surface_cut.mesh)};
 }
 
 }  // namespace softbody
