@@ -17,7 +17,7 @@ struct GraphConfig {
 
 /// What a replay uses of the nodes' parameters. What concerns only a live graph is known and unused.
 /// @param path of a YAML file; empty: every parameter has its default.
-/// @param warnings to which the keys are added that no node knows.
+/// @param warnings to which the keys are added that no node knows, and those that a replay misses.
 /// @throw std::invalid_argument if the file cannot be read, has a section that is no node's, or a value that
 /// is not allowed.
 GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings);

@@ -20,7 +20,7 @@ struct FrameOutput {
   std::optional<MeshState> surface;
   std::optional<ToolObservation> tool;
   std::vector<Cut> cuts;              ///< in this frame: the states are of the revision after them
-  std::vector<std::string> refusals;  ///< why given cuts were not made
+  std::vector<std::string> warnings;  ///< why a cut was not made, in sentences
   std::vector<StageTime> times;
 };
 
@@ -41,12 +41,17 @@ class Pipeline {
   const TetTopology& volumeTopology() const { return simulator_.topology(); }
   const MeshTopology& surfaceTopology() const { return surface_.surface().topology(); }
 
-  /// @param cuts that happen in this frame beside the tool's own, as from a journal.
+  /// @param cuts that happen in this frame beside the tool's own, as from a journal; where the body is not
+  /// tracked they wait for the next frame in which it is.
   FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
+
+  /// Given cuts that still wait for the body.
+  std::size_t waitingCuts() const { return waiting_cuts_.size(); }
 
  private:
   void simulate(const TargetSet& targets, Nanoseconds stamp);
-  void cut(const std::vector<Cut>& cuts, FrameOutput* output);
+  void makeWaitingCuts(FrameOutput* output);
+  void followBlade(FrameOutput* output);
   void adopt(const Cut& cut, FrameOutput* output);
 
   StageTimer timer_;
@@ -54,6 +59,7 @@ class Pipeline {
   Simulator simulator_;
   CuttableSurface surface_;
   std::optional<ToolTracker> tool_tracker_;
+  std::vector<Cut> waiting_cuts_;
 };
 
 }  // namespace softbody

@@ -1,6 +1,9 @@
 #include "softbody_bringup/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
+#include <utility>
 
 #include "softbody_common/rigid_fit.h"
 
@@ -18,18 +21,17 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
 
 FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts) {
   FrameOutput output;
+  waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());
   const bool simulated = simulator_.placed();
   output.tracking = tracker_.track(frame, simulated ? &simulator_.state() : nullptr, &timer_);
   if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
   if (output.tracking.has_targets) {
     simulate(output.tracking.targets, frame.stamp);
-    cut(cuts, &output);
+    makeWaitingCuts(&output);
+    followBlade(&output);
     const auto scope = timer_.stage("Resolution Enhancement");
     output.volume = simulator_.state();
     output.surface = surface_.surface().apply(simulator_.state());
-  } else {
-    for (std::size_t i = 0; i < cuts.size(); ++i)
-      output.refusals.emplace_back("the body is not being tracked");
   }
   output.times = timer_.take();
   return output;
@@ -40,19 +42,34 @@ void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp) {
   simulator_.step(targets, stamp);
 }
 
-void Pipeline::cut(const std::vector<Cut>& cuts, FrameOutput* output) {
-  for (const Cut& given : cuts) {
+void Pipeline::makeWaitingCuts(FrameOutput* output) {
+  for (const Cut& given : std::exchange(waiting_cuts_, {})) {
     std::string reason;
-    if (surface_.apply(given, simulator_.state(), &reason))
-      adopt(given, output);
-    else
-      output->refusals.push_back(reason);
+    try {
+      if (surface_.apply(given, simulator_.state(), &reason)) {
+        adopt(given, output);
+        continue;
+      }
+    } catch (const std::invalid_argument& error) {
+      reason = error.what();
+    }
+    output->warnings.push_back(
+        fmt::format("the given cut of revision {} is not made: {}", given.revision, reason));
   }
+}
+
+void Pipeline::followBlade(FrameOutput* output) {
   // Where the blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
   if (!output->tool || output->tool->bridged || tool_tracker_->tool().blade.rows() == 0) return;
   const auto scope = timer_.stage("Cutting");
   const Points blade = transformed(tool_tracker_->tool().blade, output->tool->T_camera_tool);
-  if (const auto own = surface_.follow(blade, simulator_.state())) adopt(*own, output);
+  std::optional<Cut> own;
+  try {
+    own = surface_.follow(blade, simulator_.state());
+  } catch (const std::exception& error) {
+    output->warnings.push_back(fmt::format("the blade cannot cut: {}", error.what()));
+  }
+  if (own) adopt(*own, output);
 }
 
 void Pipeline::adopt(const Cut& cut, FrameOutput* output) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <stdexcept>
 
 #include "softbody_common/parameters.h"
@@ -30,15 +31,26 @@ YAML::Node sectionsOf(const std::string& path) {
   return file;
 }
 
-/// Reads one section; says which of its keys nobody knows.
+/// What a replay does not read of a node's section.
+struct LiveOnly {
+  std::set<std::string> unused;
+  std::set<std::string> missed;  ///< without them something else comes out
+};
+
+/// Reads one section; says which of its keys nobody knows, or a replay misses.
 template <typename Reader>
-auto readSection(const YAML::Node& file, const std::string& name, std::vector<std::string>* warnings,
-                 Reader reader) {
+auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly& live,
+                 std::vector<std::string>* warnings, Reader reader) {
   const YAML::Node section = file[name];
   Parameters parameters(section.IsDefined() ? section : YAML::Node(), name + "/");
   const auto config = reader(parameters);
-  for (const std::string& key : parameters.unknown())
-    warnings->push_back(fmt::format("unknown parameter {} is ignored", key));
+  for (const std::string& full_key : parameters.unknown()) {
+    const std::string key = full_key.substr(name.size() + 1);
+    if (live.unused.count(key) != 0) continue;
+    warnings->push_back(live.missed.count(key) != 0
+                            ? fmt::format("parameter {} has no effect in a replay", full_key)
+                            : fmt::format("unknown parameter {} is ignored", full_key));
+  }
   return config;
 }
 
@@ -47,34 +59,24 @@ auto readSection(const YAML::Node& file, const std::string& name, std::vector<st
 GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings) {
   const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
   GraphConfig config;
-  config.ingest = readSection(file, "camera_ingest", warnings, [&config](Parameters& parameters) {
-    config.sync_tolerance = static_cast<Nanoseconds>(
-        1e9 *
-        parameters.number("sync_tolerance_s", 1e-9 * static_cast<double>(config.sync_tolerance), 0.0, 1.0));
-    if (parameters.choice("sync", "approximate", {"approximate", "exact"}) == "exact")
-      config.sync_tolerance = 0;
-    for (const char* live_only : {"queue_size", "voxel_size_m", "silence_timeout_s"})
-      parameters.number(live_only, 0.0, 0.0, 1e9);
-    return readCameraIngestConfig(parameters);
-  });
-  config.pipeline.tracker = readSection(file, "feature_tracker", warnings, [](Parameters& parameters) {
-    for (const char* live_only : {"body_frame", "output_frame"}) parameters.text(live_only, "");
-    return readTrackerConfig(parameters);
-  });
-  config.pipeline.simulator = readSection(file, "simulator", warnings, [](Parameters& parameters) {
-    for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
-    for (const char* live_only : {"free_run_rate_hz", "stall_timeout_s"})
-      parameters.number(live_only, 0.0, 0.0, 1e9);
-    return readSimulatorConfig(parameters);
-  });
-  config.pipeline.blade = readSection(file, "surface", warnings, [](Parameters& parameters) {
-    for (const char* live_only : {"body_frame", "object"}) parameters.text(live_only, "");
-    return readBladeConfig(parameters);
-  });
-  config.pipeline.tool_tracker = readSection(file, "tool_tracker", warnings, [](Parameters& parameters) {
-    for (const char* live_only : {"tool", "tool_frame"}) parameters.text(live_only, "");
-    return readToolTrackerConfig(parameters);
-  });
+  config.ingest = readSection(
+      file, "camera_ingest", {{"queue_size", "voxel_size_m", "silence_timeout_s", "image_transport"}, {}},
+      warnings, [&config](Parameters& parameters) {
+        const SyncConfig sync = readSyncConfig(parameters);
+        config.sync_tolerance = sync.exact ? 0 : static_cast<Nanoseconds>(1e9 * sync.tolerance_s);
+        return readCameraIngestConfig(parameters);
+      });
+  config.pipeline.tracker =
+      readSection(file, "feature_tracker", {{"body_frame", "mask_timeout_s"}, {"output_frame", "use_mask"}},
+                  warnings, readTrackerConfig);
+  readSection(file, "pose_marker", {{"frame"}, {}}, warnings, [](Parameters&) { return 0; });
+  config.pipeline.simulator = readSection(
+      file, "simulator", {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s"}, {"obstacles"}},
+      warnings, readSimulatorConfig);
+  config.pipeline.blade =
+      readSection(file, "surface", {{"body_frame", "object"}, {}}, warnings, readBladeConfig);
+  config.pipeline.tool_tracker =
+      readSection(file, "tool_tracker", {{"tool", "tool_frame"}, {}}, warnings, readToolTrackerConfig);
   return config;
 }
 

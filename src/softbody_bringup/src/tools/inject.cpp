@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"color", "depth", "both"}))
       ->capture_default_str();
   addFaults(&app, &options);
+  app.callback([&] { softbody::requireOtherFile(options.input, options.output); });
   return softbody::runTool(&app, argc, argv, [&] {
     options.images.seed = options.deliveries.seed;
     options.in_color = stream != "depth";

@@ -71,5 +71,31 @@ TEST_F(GraphConfigTest, NamesKeysThatTheNodeDoesNotKnow) {
   EXPECT_NE(warnings_.front().find("simulator/iteration "), std::string::npos) << warnings_.front();
 }
 
+TEST_F(GraphConfigTest, KnowsWhatOnlyALiveGraphUses) {
+  read(
+      "camera_ingest: {queue_size: 5, voxel_size_m: 0.01, silence_timeout_s: 3, image_transport: raw}\n"
+      "feature_tracker: {body_frame: b, mask_timeout_s: 0.2}\n"
+      "pose_marker: {frame: world}\n"
+      "simulator: {object: x.yaml, body_frame: b, free_run_rate_hz: 30, stall_timeout_s: 1}\n"
+      "surface: {object: x.yaml, body_frame: b}\n"
+      "tool_tracker: {tool: x.yaml, tool_frame: knife}\n");
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+}
+
+TEST_F(GraphConfigTest, SaysWhatAReplayMisses) {
+  read(
+      "feature_tracker: {use_mask: true, output_frame: world}\n"
+      "simulator: {obstacles: [{name: table, shape: plane}]}\n");
+  ASSERT_EQ(warnings_.size(), 3u);
+  for (const std::string& warning : warnings_)
+    EXPECT_NE(warning.find("has no effect in a replay"), std::string::npos) << warning;
+}
+
+TEST_F(GraphConfigTest, RefusesWhatTheNodeRefuses) {
+  EXPECT_NE(refusalOf("camera_ingest: {sync_tolerance_s: 0}\n").find("sync_tolerance_s is 0"),
+            std::string::npos);
+  EXPECT_EQ(read("camera_ingest: {sync_tolerance_s: 0.02}\n").sync_tolerance, 20'000'000);
+}
+
 }  // namespace
 }  // namespace softbody

@@ -29,6 +29,14 @@ int runTool(CLI::App* app, int argc, char** argv, const Work& work) {
   }
 }
 
+/// For the callback of a tool's command line. @throw CLI::ValidationError if the output would replace the
+/// input.
+inline void requireOtherFile(const std::string& input, const std::string& output) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(input, output, ignored))
+    throw CLI::ValidationError("--output", "is the input " + input + "; name another file");
+}
+
 /// Shows on one line of a terminal how much is done; in a log it would be a hundred lines.
 class ProgressLine {
  public:

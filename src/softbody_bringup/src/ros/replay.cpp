@@ -1,0 +1,136 @@
+#include "softbody_bringup/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "softbody_bringup/cut_journal.h"
+#include "softbody_bringup/graph_config.h"
+#include "softbody_bringup/input_bag.h"
+#include "softbody_bringup/pipeline.h"
+#include "softbody_bringup/result_bag.h"
+
+namespace softbody {
+namespace {
+
+constexpr char kBodyFrame[] = "softbody";
+
+using Warn = std::function<void(const std::string&)>;
+
+void warnAll(const Warn& warn, const std::string& source, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) warn(source.empty() ? warning : source + ": " + warning);
+}
+
+ObjectModel loadModel(const std::string& object, const Warn& warn) {
+  const ObjectDescription description = loadObjectDescription(object);
+  ObjectModel model = buildObjectModel(description);
+  if (!description.pins.empty())
+    warn(fmt::format("{}: its pins hold nothing here, where there is no tf", object));
+  warnAll(warn, object, model.warnings);
+  return model;
+}
+
+std::optional<ToolDescription> loadTool(const std::string& path, const Warn& warn) {
+  if (path.empty()) return std::nullopt;
+  const ToolDescription tool = loadToolDescription(path);
+  warnAll(warn, "", tool.warnings);
+  return tool;
+}
+
+CutJournal loadJournal(const ReplayOptions& options) {
+  if (options.journal.empty()) return {};
+  return {openBag(options.journal), options.topic_namespace + "/cut"};
+}
+
+/// Frames through the pipeline into the bag.
+class Replay {
+ public:
+  Replay(const ReplayOptions& options, const ObjectModel& model, const PipelineConfig& config,
+         const std::optional<ToolDescription>& tool, Warn warn)
+      : warn_(std::move(warn)),
+        pipeline_(model, config, tool),
+        journal_(loadJournal(options)),
+        output_(options.output, options.topic_namespace, kBodyFrame, options.timing) {
+    if (tool) output_.setBlade(tool->blade);
+  }
+
+  void process(const RgbdFrame& frame, const std_msgs::Header& header) {
+    const auto start = std::chrono::steady_clock::now();
+    const FrameOutput result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    summary_.milliseconds += elapsed.count();
+    for (const std::string& warning : result.warnings)
+      warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
+    count(result);
+    const bool due =
+        header.stamp < topologies_written_ || header.stamp - topologies_written_ >= ros::Duration(1.0);
+    if (topologies_written_.isZero() || due || !result.cuts.empty()) {
+      output_.writeTopologies(pipeline_, header.stamp);
+      topologies_written_ = header.stamp;
+    }
+    output_.writeFrame(result, header);
+  }
+
+  ReplaySummary finish() {
+    const std::size_t left = journal_.size() + pipeline_.waitingCuts();
+    if (left > 0)
+      warn_(fmt::format("{} cuts of the journal are not made: the body is not tracked after them", left));
+    output_.finish();
+    const std::vector<std::uint32_t>& bodies = pipeline_.surfaceTopology().bodies;
+    summary_.pieces = bodies.empty() ? 0 : 1 + *std::max_element(bodies.begin(), bodies.end());
+    return summary_;
+  }
+
+  const ReplaySummary& summary() const { return summary_; }
+
+ private:
+  void count(const FrameOutput& result) {
+    summary_.states += result.surface ? 1 : 0;
+    summary_.tools += result.tool ? 1 : 0;
+    summary_.cuts += static_cast<int>(result.cuts.size());
+    ++summary_.frames_by_state[result.tracking.status.state];
+    summary_.reasons[result.tracking.status.state] = result.tracking.status.reason;
+  }
+
+  Warn warn_;
+  Pipeline pipeline_;
+  CutJournal journal_;
+  ResultBag output_;
+  ReplaySummary summary_;
+  ros::Time topologies_written_;
+};
+
+}  // namespace
+
+ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
+                     const std::function<void(double)>& progress) {
+  std::vector<std::string> warnings;
+  GraphConfig config = readGraphConfig(options.parameters, &warnings);
+  warnAll(warn, "", warnings);
+  if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
+  const ObjectModel model = loadModel(options.object, warn);
+  const rosbag::Bag input = openBag(options.input);
+  Replay run(options, model, config.pipeline, loadTool(options.tool, warn), warn);
+  CameraIngest ingest(config.ingest);
+  const BagFramesReport read =
+      readBagFrames(input, {options.camera, config.sync_tolerance}, &ingest,
+                    [&](const RgbdFrame& frame, const std_msgs::Header& header, double share) {
+                      run.process(frame, header);
+                      progress(share);
+                    });
+  if (run.summary().frames_by_state.empty()) {
+    throw std::runtime_error(fmt::format("{} holds no usable frame{}{}", options.input,
+                                         read.last_error.empty() ? "" : ": ", read.last_error));
+  }
+  if (run.summary().states == 0) {
+    throw std::runtime_error(fmt::format("no frame of {} gave a surface: {}", options.input,
+                                         run.summary().reasons.begin()->second));
+  }
+  ReplaySummary summary = run.finish();
+  summary.read = read;
+  return summary;
+}
+
+}  // namespace softbody

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
+
+#include "softbody_bringup/evaluation/bags.h"
+#include "softbody_bringup/pipeline.h"
+#include "softbody_bringup/replay.h"
+#include "softbody_bringup/virtual_camera/bag_writer.h"
+#include "softbody_bringup/virtual_camera/camera_setup.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_sim/cut_shapes.h"
+#include "softbody_tracking/camera_ingest.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// A knife goes through a sponge before a small virtual camera.
+class CutReplay : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("softbody_cut_replay_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    virtual_camera::CameraSetup setup;
+    setup.scene = "cut";
+    setup.config_folder = CONFIG_DIR;
+    setup.width = 320;
+    setup.height = 240;
+    virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
+    // Up to when the blade is at its lowest, and a moment more.
+    virtual_camera::writeBag(&camera, {folder_ / "cut.bag", 84, 30.0, false}, [](int) {});
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static ReplaySummary run(const std::string& output, const std::string& tool, const std::string& journal) {
+    ReplayOptions options;
+    options.input = folder_ / "cut.bag";
+    options.object = CONFIG_DIR "/sponge.yaml";
+    options.output = folder_ / output;
+    options.tool = tool;
+    options.journal = journal.empty() ? "" : (folder_ / journal).string();
+    return replay(
+        options, [](const std::string& warning) { ADD_FAILURE() << warning; }, [](double) {});
+  }
+
+  static MeshTopology lastTopology(const std::string& result) {
+    return evaluation::readSurface(folder_ / result, "/softbody/surface/topology", "/softbody/surface/state")
+        .topologies.rbegin()
+        ->second;
+  }
+
+  static fs::path folder_;
+};
+
+fs::path CutReplay::folder_;
+
+TEST_F(CutReplay, AToolCutsTheBodyInTwoAndItsJournalDoesItAgain) {
+  const std::string knife = CONFIG_DIR "/knife.yaml";
+  const ReplaySummary first = run("first.bag", knife, "");
+  EXPECT_EQ(first.pieces, 2u);
+  EXPECT_GT(first.cuts, 1);
+  EXPECT_GT(first.tools, 40);
+  EXPECT_EQ(first.states, first.read.frames);
+  const MeshTopology by_blade = lastTopology("first.bag");
+  EXPECT_EQ(by_blade.revision, static_cast<std::uint32_t>(first.cuts));
+  EXPECT_TRUE(isClosed(by_blade.triangles));
+
+  run("second.bag", knife, "");
+  EXPECT_TRUE(bytes(folder_ / "first.bag") == bytes(folder_ / "second.bag"));
+
+  const ReplaySummary again = run("again.bag", "", "first.bag");
+  EXPECT_EQ(again.cuts, first.cuts);
+  EXPECT_EQ(again.pieces, 2u);
+  EXPECT_EQ(again.tools, 0);
+  const MeshTopology by_journal = lastTopology("again.bag");
+  EXPECT_EQ(by_journal.revision, by_blade.revision);
+  EXPECT_EQ(by_journal.rest_vertices, by_blade.rest_vertices);
+  EXPECT_EQ(by_journal.triangles, by_blade.triangles);
+  EXPECT_EQ(by_journal.vertex_parents, by_blade.vertex_parents);
+  EXPECT_EQ(by_journal.bodies, by_blade.bodies);
+  EXPECT_EQ(by_journal.cut, by_blade.cut);
+}
+
+/// Frames of the virtual sponge at rest, and frames in which nothing is to be seen.
+class CutPipeline : public ::testing::Test {
+ protected:
+  static virtual_camera::VirtualCamera makeStill() {
+    virtual_camera::CameraSetup setup;
+    setup.scene = "still";
+    setup.config_folder = CONFIG_DIR;
+    return virtual_camera::makeCamera(setup);
+  }
+
+  FrameOutput process(bool body_in_view, const std::vector<Cut>& cuts = {}) {
+    const virtual_camera::Capture capture = camera_.capture(frame_, 0.0);
+    const Nanoseconds stamp = 1'000'000'000 + 33'333'333 * static_cast<Nanoseconds>(frame_++);
+    cv::Mat3b color(capture.color.size(), cv::Vec3b(90, 90, 90));
+    cv::Mat1w depth_mm(color.size(), static_cast<std::uint16_t>(0));
+    if (body_in_view) {
+      cv::cvtColor(capture.color, color, cv::COLOR_RGB2BGR);
+      depth_mm = capture.depth_mm;
+    }
+    return pipeline_.process(ingest_.process(color, depth_mm, Distortion{}, camera_.pinhole(), stamp), cuts);
+  }
+
+  static Cut middleCut(std::uint32_t revision) {
+    const MeshTopology body = buildObjectModel(loadObjectDescription(CONFIG_DIR "/sponge.yaml")).visual;
+    return {revision, 1, CutKind::kCut,
+            planePatch({0.0123, 0.0, 0.0}, Eigen::Vector3d::UnitX(), body.rest_vertices)};
+  }
+
+  int frame_ = 0;
+  virtual_camera::VirtualCamera camera_ = makeStill();
+  CameraIngest ingest_{CameraIngestConfig()};
+  Pipeline pipeline_{buildObjectModel(loadObjectDescription(CONFIG_DIR "/sponge.yaml")), PipelineConfig()};
+};
+
+TEST_F(CutPipeline, ACutBeforeTheBodyIsFoundIsMadeOnceItIs) {
+  for (const bool with_cut : {true, false}) {
+    const FrameOutput blind = process(false, with_cut ? std::vector<Cut>{middleCut(1)} : std::vector<Cut>{});
+    ASSERT_FALSE(blind.tracking.has_targets);
+    EXPECT_TRUE(blind.cuts.empty());
+    EXPECT_EQ(pipeline_.waitingCuts(), 1u);
+  }
+  FrameOutput seen = process(true);
+  for (int k = 0; k < 20 && !seen.tracking.has_targets; ++k) seen = process(true);
+  ASSERT_TRUE(seen.tracking.has_targets) << seen.tracking.status.reason;
+  EXPECT_EQ(seen.cuts.size(), 1u);
+  EXPECT_TRUE(seen.warnings.empty()) << seen.warnings.front();
+  EXPECT_EQ(pipeline_.waitingCuts(), 0u);
+  EXPECT_EQ(pipeline_.surfaceTopology().revision, 1u);
+}
+
+TEST_F(CutPipeline, ACutThatCannotBeMadeIsAWarning) {
+  EXPECT_TRUE(process(true).surface.has_value());
+  Cut torn = middleCut(1);
+  torn.patch.triangles.row(1) = torn.patch.triangles.row(0);
+  const FrameOutput output = process(true, {torn, middleCut(7)});
+  EXPECT_TRUE(output.cuts.empty());
+  ASSERT_EQ(output.warnings.size(), 2u);
+  EXPECT_NE(output.warnings[1].find("revision 7"), std::string::npos) << output.warnings[1];
+  EXPECT_TRUE(output.surface.has_value());
+  EXPECT_EQ(process(true, {middleCut(1)}).cuts.size(), 1u);
+}
+
+}  // namespace
+}  // namespace softbody
