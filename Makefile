@@ -9,7 +9,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test cuts demo bench evaluate corpus validation tidy format clean help dependencies
+.PHONY: build test cuts demo bench evaluate figures corpus validation tidy format clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
@@ -35,6 +35,9 @@ corpus: build  ## prepare a model of every mesh of ../shared/data, and feed the 
 
 evaluate: build  ## accuracy over all scenes; writes docs/evaluation.md. SCENES="bend cut": only these, nothing written
 	scripts/evaluate $(SCENES)
+
+figures: build  ## the paper's Figures 10 and 11 with our models, in docs/images
+	scripts/figures
 
 validation: build  ## the simulator against known solutions; writes docs/validation.md
 	scripts/validate
