@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/core/hal/intrin.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -56,18 +57,59 @@ void clip(const Linear& weight, double inverse_slope, double* first, double* las
   if (weight.slope == 0.0 && weight.at_first < -kRounding) *last = -1.0;
 }
 
+void drawPixel(double inverse_z, int index, float* depth, int* triangle) {
+  const auto z = static_cast<float>(1.0 / inverse_z);
+  if (*depth != 0.0f && z >= *depth) return;
+  *depth = z;
+  *triangle = index;
+}
+
 void drawSpan(const Linear& inverse_z, int first, int last, int index, float* depth, int* triangle) {
-  for (int i = first; i <= last; ++i) {
-    const auto z = static_cast<float>(1.0 / (inverse_z.at_first + i * inverse_z.slope));
-    if (depth[i] != 0.0f && z >= depth[i]) continue;
-    depth[i] = z;
-    triangle[i] = index;
+  for (int i = first; i <= last; ++i)
+    drawPixel(inverse_z.at_first + i * inverse_z.slope, index, depth + i, triangle + i);
+}
+
+constexpr int kFew = 4;           // pixels in a vector
+constexpr double kSliver = 0.01;  // [px^2], twice the area below which weights ask for double precision
+
+/// A linear function at a row's first pixels.
+cv::v_float32x4 atFirstFew(const Linear& function) {
+  return cv::v_setall_f32(static_cast<float>(function.at_first)) +
+         cv::v_float32x4(0.0f, 1.0f, 2.0f, 3.0f) * cv::v_setall_f32(static_cast<float>(function.slope));
+}
+
+void drawFew(const Linear& weight0, const Linear& weight1, const Linear& inverse_z,
+             const cv::v_int32x4& index, float* depth, int* triangle) {
+  // What single precision may lose, so that pixel centres on a shared edge do not fall between.
+  const double rounding = 4e-7 * (1.0 + kFew * (std::abs(weight0.slope) + std::abs(weight1.slope)));
+  const cv::v_float32x4 one = cv::v_setall_f32(1.0f);
+  const cv::v_float32x4 w0 = atFirstFew(weight0), w1 = atFirstFew(weight1);
+  const cv::v_float32x4 smallest = cv::v_min(cv::v_min(w0, w1), one - w0 - w1);
+  const cv::v_float32x4 z = one / atFirstFew(inverse_z), before = cv::v_load(depth);
+  const cv::v_float32x4 drawn = (smallest >= cv::v_setall_f32(static_cast<float>(-rounding))) &
+                                ((before == cv::v_setzero_f32()) | (z < before));
+  cv::v_store(depth, cv::v_select(drawn, z, before));
+  cv::v_store(triangle, cv::v_select(cv::v_reinterpret_as_s32(drawn), index, cv::v_load(triangle)));
+}
+
+/// Most triangles of a fine mesh: a vector a row, without a branch. Clipping such rows would cost more.
+void drawSmall(const Corner (&c)[3], double area, int column, const Range& rows, int index,
+               RasterImage* image) {
+  const double inverse_area = 1.0 / area;
+  const double slope0 = (c[1].v - c[2].v) * inverse_area, slope1 = (c[2].v - c[0].v) * inverse_area;
+  const double z0 = c[0].inverse_z - c[2].inverse_z, z1 = c[1].inverse_z - c[2].inverse_z;
+  const cv::v_int32x4 indices = cv::v_setall_s32(index);
+  for (int v = rows.first; v <= rows.last; ++v) {
+    const double w0 = edge(c[1], c[2], column, v) * inverse_area;
+    const double w1 = edge(c[2], c[0], column, v) * inverse_area;
+    drawFew({w0, slope0}, {w1, slope1}, {w0 * z0 + w1 * z1 + c[2].inverse_z, slope0 * z0 + slope1 * z1},
+            indices, image->depth[v] + column, image->triangle[v] + column);
   }
 }
 
 /// Draws row by row: weights are linear along a row, so that it needs no test pixel by pixel.
-void drawPixels(const Corner (&c)[3], double area, const Range& columns, const Range& rows, int index,
-                RasterImage* image) {
+void drawRows(const Corner (&c)[3], double area, const Range& columns, const Range& rows, int index,
+              RasterImage* image) {
   const double inverse_area = 1.0 / area;
   const double slope0 = (c[1].v - c[2].v) * inverse_area, slope1 = (c[2].v - c[0].v) * inverse_area;
   const double slope2 = -slope0 - slope1;
@@ -104,15 +146,21 @@ struct Extent {
 
 void drawTriangle(const Corner (&c)[3], bool front_only, int index, RasterImage* image, Extent* extent) {
   const double area = edge(c[0], c[1], c[2].u, c[2].v);
-  if (!(std::abs(area) <= std::numeric_limits<double>::max()) || area == 0.0) return;
+  // Outward triangles that face the camera turn against the image's axes, of which v points down.
+  if (!(std::abs(area) <= std::numeric_limits<double>::max()) || area == 0.0 || (front_only && area > 0.0))
+    return;
   const Range columns = centersBetween(std::min(std::min(c[0].u, c[1].u), c[2].u),
                                        std::max(std::max(c[0].u, c[1].u), c[2].u), image->depth.cols);
   const Range rows = centersBetween(std::min(std::min(c[0].v, c[1].v), c[2].v),
                                     std::max(std::max(c[0].v, c[1].v), c[2].v), image->depth.rows);
   if (columns.first > columns.last || rows.first > rows.last) return;
   extent->add(columns, rows);
-  // Outward triangles that face the camera turn against the image's axes, of which v points down.
-  if (!front_only || area < 0.0) drawPixels(c, area, columns, rows, index, image);
+  const bool small = columns.last - columns.first < kFew && columns.first + kFew <= image->depth.cols;
+  if (small && std::abs(area) > kSliver) {
+    drawSmall(c, area, columns.first, rows, index, image);
+  } else {
+    drawRows(c, area, columns, rows, index, image);
+  }
 }
 
 void clear(const cv::Size& size, RasterImage* image) {
@@ -160,14 +208,19 @@ void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& t
   image->region = extent.region();
 }
 
-Eigen::Vector3d rayWeights(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
-                           int triangle, double u, double v) {
+Eigen::Vector3d rayWeights(const Pinhole& camera, const Eigen::Matrix3d& corners, double u, double v) {
   const Eigen::Vector3d ray = camera.unproject(u, v, 1.0);
-  const auto corner = [&](int k) -> Eigen::Vector3d { return vertices.row(triangles(triangle, k % 3)); };
   // The ray as a multiple of the corners (Cramer's rule): the weights up to scale.
   Eigen::Vector3d weights;
-  for (int k = 0; k < 3; ++k) weights[k] = ray.dot(corner(k + 1).cross(corner(k + 2)));
+  for (int k = 0; k < 3; ++k) weights[k] = ray.dot(corners.col((k + 1) % 3).cross(corners.col((k + 2) % 3)));
   return weights / weights.sum();
+}
+
+Eigen::Vector3d rayWeights(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
+                           int triangle, double u, double v) {
+  Eigen::Matrix3d corners;
+  for (int k = 0; k < 3; ++k) corners.col(k) = vertices.row(triangles(triangle, k));
+  return rayWeights(camera, corners, u, v);
 }
 
 }  // namespace softbody

@@ -18,9 +18,11 @@ class DepthAssociationsTest : public ::testing::Test {
   }
 
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
-                              const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity()) {
-    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
-                          colors_, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets), config);
+                              const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
+                              int pixel_step = 1) {
+    DepthAssociator depth(config, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+    return depth.associate(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
+                           colors_, pixel_step);
   }
 
   BoxBody box_ = makeBox();
@@ -49,6 +51,34 @@ TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
     EXPECT_LT(a.residual(), 0.0) << "the body lies behind its prediction, against the normals";
     EXPECT_NEAR(a.residual(), 0.004 * a.normal.z(), 0.0025);
   }
+}
+
+TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
+  surface_.update(frame_.camera,
+                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
+  const DepthAssociations all = associate();
+  for (const int step : {2, 3, 1000}) {
+    const DepthAssociations some = associate({}, Eigen::Isometry3d::Identity(), step);
+    EXPECT_NEAR(static_cast<double>(some.associations.size()), all.associations.size(),
+                0.05 * all.associations.size());
+    EXPECT_NEAR(rmsResidual(some.associations), rmsResidual(all.associations),
+                0.1 * rmsResidual(all.associations));
+  }
+}
+
+TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
+  DepthAssociator depth(DepthConfig(), meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+  const RigidMotions still = {Eigen::Isometry3d::Identity()};
+  SurfaceSamples samples = sampleSurface(surface_, 1500);
+  const DepthAssociations fresh = depth.associate(frame_, surface_.image(), samples, still, colors_);
+  const DepthAssociations few =
+      depth.associate(frame_, surface_.image(), sampleSurface(surface_, 100), still, colors_);
+  EXPECT_LT(few.associations.size(), 200u);
+  samples = sampleSurface(surface_, 1500, sampleSurface(surface_, 100));
+  const DepthAssociations again = depth.associate(frame_, surface_.image(), samples, still, colors_);
+  EXPECT_EQ(again.associations.size(), fresh.associations.size());
+  EXPECT_EQ(again.visible_blocks, fresh.visible_blocks);
+  EXPECT_EQ(rmsResidual(again.associations), rmsResidual(fresh.associations));
 }
 
 TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlocks) {

@@ -10,12 +10,14 @@
 namespace softbody {
 namespace {
 
+constexpr double kReach = 0.04;  // [m]
+
 /// A map bound to the box in its first pose.
 class FeatureMapTest : public ::testing::Test {
  protected:
   FeatureMapTest() : surface_(box_.volume, box_.surface), orb_(1000), map_(FeatureConfig()) {
     look(transformed(box_.volume.rest_vertices, boxPose()));
-    map_.admit(frame_, image_, keypoints_, {}, surface_);
+    map_.admit(frame_, image_, keypoints_, surface_);
   }
 
   /// Renders the box at the vertices and predicts it there, moved by an error.
@@ -28,7 +30,8 @@ class FeatureMapTest : public ::testing::Test {
   }
 
   std::vector<FeatureMatch> align() {
-    std::vector<FeatureMatch> matches = map_.align(frame_, image_, surface_);
+    map_.predict(frame_, colors_, kReach, surface_);
+    std::vector<FeatureMatch> matches = map_.align(frame_, image_);
     map_.judge(frame_.camera, &matches);
     map_.credit(matches);
     return matches;
@@ -36,6 +39,7 @@ class FeatureMapTest : public ::testing::Test {
 
   BoxBody box_ = makeBox();
   PredictedSurface surface_;
+  ColorModel colors_;
   GrayPyramid image_;
   OrbExtractor orb_;
   FeatureMap map_;
@@ -69,6 +73,49 @@ TEST_F(FeatureMapTest, FindsThemAgainWithSubPixelPrecision) {
   // The checkered test texture is not anti-aliased: it moves by whole pixels itself.
   EXPECT_LT(errors[errors.size() / 2], 0.3);
   EXPECT_LT(errors[errors.size() * 9 / 10], 1.0);
+}
+
+TEST_F(FeatureMapTest, SomeAreSpreadOverAll) {
+  map_.predict(frame_, colors_, kReach, surface_);
+  const std::vector<FeatureMatch> all = map_.align(frame_, image_), some = map_.align(frame_, image_, 40);
+  EXPECT_NEAR(static_cast<double>(some.size()), 50.0, 15.0);
+  std::set<int> features;
+  for (const FeatureMatch& match : all) features.insert(match.feature);
+  for (const FeatureMatch& match : some) EXPECT_EQ(features.count(match.feature), 1u);
+  EXPECT_GT(some.back().feature - some.front().feature, 3 * map_.expected() / 4);
+}
+
+/// Where the prediction is far off, its rigid motion says where full resolution finds the patches.
+TEST_F(FeatureMapTest, ShiftedPredictionsStartWhereTheMotionTakesThem) {
+  const Eigen::Vector3d error(0.02, 0.0, 0.0);  // beyond the window
+  look(transformed(box_.volume.rest_vertices, boxPose()), error);
+  EXPECT_LT(align().size(), 0.2 * map_.features().size());
+  map_.predict(frame_, colors_, kReach, surface_);
+  map_.shift(frame_.camera, {Eigen::Isometry3d(Eigen::Translation3d(-error))});
+  const std::vector<FeatureMatch> found = map_.align(frame_, image_);
+  EXPECT_GT(found.size(), 0.8 * map_.expected());
+  for (const FeatureMatch& match : found) {
+    EXPECT_LT((surface_.position(match.association.place) - match.association.predicted).norm(), 1e-9)
+        << "the prediction itself stays";
+  }
+}
+
+/// What is covered is not missed: it is not expected, and does not count against a feature's merit.
+TEST_F(FeatureMapTest, CoveredFeaturesAreNotExpected) {
+  align();
+  const int expected = map_.expected();
+  const cv::Rect covered(0, 0, surface_.image().region.x + surface_.image().region.width / 2, 480);
+  frame_.depth(covered).setTo(0.3f);
+  frame_.color(covered).setTo(cv::Vec3b(90, 90, 90));
+  image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
+  for (int i = 0; i < 60; ++i) {
+    const std::vector<FeatureMatch> found = align();
+    EXPECT_GT(found.size(), 0.8 * map_.expected());
+  }
+  EXPECT_LT(map_.expected(), 0.8 * expected);
+  const std::size_t known = map_.features().size();
+  map_.admit(frame_, image_, {}, surface_);
+  EXPECT_GT(map_.features().size(), 0.9 * known) << "the covered ones stay";
 }
 
 TEST_F(FeatureMapTest, DescriptorsFindWhatMovedTooFarForThePatches) {
@@ -108,12 +155,14 @@ TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
 
 TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
   const std::size_t bound = map_.features().size();
-  map_.admit(frame_, image_, keypoints_, align(), surface_);
+  cv::Mat1b free(frame_.color.size(), 255);
+  map_.eraseTaken(align(), &free);
+  map_.admit(frame_, image_, orb_.extract(frame_.color, free, surface_.image().region), surface_);
   EXPECT_LT(map_.features().size(), bound + bound / 5) << "the surface was covered with features already";
   frame_.color.setTo(cv::Vec3b(90, 90, 90));
   image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
   for (int i = 0; i < 400; ++i) EXPECT_TRUE(align().empty());
-  map_.admit(frame_, image_, {}, {}, surface_);
+  map_.admit(frame_, image_, {}, surface_);
   EXPECT_TRUE(map_.features().empty());
 }
 
@@ -121,7 +170,7 @@ TEST_F(FeatureMapTest, HoldsNoMoreThanAsked) {
   FeatureConfig config;
   config.max_features = 50;
   FeatureMap small(config);
-  small.admit(frame_, image_, keypoints_, {}, surface_);
+  small.admit(frame_, image_, keypoints_, surface_);
   EXPECT_EQ(small.features().size(), 50u);
 }
 

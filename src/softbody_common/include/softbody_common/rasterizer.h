@@ -30,6 +30,10 @@ enum class Faces { kAll, kFront };
 void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& triangles, RasterImage* image,
                Faces faces = Faces::kAll);
 
+/// Weights of a triangle's corners (columns, [m]) where the ray through (u, v) meets its plane; they sum
+/// to 1.
+Eigen::Vector3d rayWeights(const Pinhole& camera, const Eigen::Matrix3d& corners, double u, double v);
+
 /// Weights of a triangle's corners where the ray through (u, v) meets its plane; they sum to 1.
 Eigen::Vector3d rayWeights(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
                            int triangle, double u, double v);

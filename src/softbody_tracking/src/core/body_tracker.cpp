@@ -255,6 +255,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   result.targets.revision = self.observer->surface().volume().revision;
   result.targets.reset = !placed;
   result.targets.body_pose = self.body_pose;
+  result.targets.targets.reserve(associations.size());
   for (const Association& association : associations) result.targets.targets.push_back(toTarget(association));
   if (result.status.state == TrackingState::kLost) self.prediction->reset();
   if (result.status.state == TrackingState::kTracking) {

@@ -69,10 +69,10 @@ void ColorModel::learn(const cv::Mat3b& color, const cv::Mat1b& mask) {
   const cv::Mat1f density = smoothed(counts);
   // The density that a typical pixel of the body meets: sum of squares over sum.
   const double typical = cv::sum(density.mul(counts))[0] / cv::sum(counts)[0];
-  of_body_.create(1, 32 * 32 * 32);
   const cv::Mat3b palette = paletteInLab();
+  of_body_.resize(static_cast<std::size_t>(palette.cols));
   for (int i = 0; i < palette.cols; ++i) {
-    of_body_(0, i) = density(binOf(palette(0, i))) >= kSmallestDensity * typical ? 255 : 0;
+    of_body_[i] = density(binOf(palette(0, i))) >= kSmallestDensity * typical ? 1 : 0;
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace softbody {
 
@@ -16,15 +17,15 @@ class ColorModel {
 
   /// Whether a pixel's colour (blue, green, red) is one of the body's; everything is before learn().
   bool belongs(const cv::Vec3b& color) const {
-    return !learned() || of_body_(0, (color[0] >> 3 << 10) | (color[1] >> 3 << 5) | color[2] >> 3) != 0;
+    return !learned() || of_body_[(color[0] >> 3 << 10) | (color[1] >> 3 << 5) | color[2] >> 3] != 0;
   }
   /// 255 where a pixel's colour is one of the body's, 0 elsewhere, inside the region; size of the image.
   cv::Mat1b mask(const cv::Mat3b& color, const cv::Rect& region) const;
 
-  void reset() { of_body_.release(); }
+  void reset() { of_body_.clear(); }
 
  private:
-  cv::Mat1b of_body_;  ///< one entry for every 8 by 8 by 8 colours
+  std::vector<unsigned char> of_body_;  ///< one entry for every 8 by 8 by 8 colours
 };
 
 }  // namespace softbody

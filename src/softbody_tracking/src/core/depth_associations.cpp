@@ -11,17 +11,8 @@ constexpr double kMostGrazing = 0.2;           // cosine between normal and ray 
 constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction that an occluder's end may be
 constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
 
-enum class BlockKind { kUnmeasured, kAgrees, kOccluded, kAbsent };
-
-/// What a block of pixels shows.
-struct Block {
-  BlockKind kind = BlockKind::kUnmeasured;
-  cv::Point center;          ///< where the sample is now [px]
-  double predicted = 0.0;    ///< depth of the sample's plane there [m]
-  double difference = 0.0;   ///< mean of the agreeing pixels: measured minus predicted [m]
-  Eigen::Vector3d position;  ///< the sample's, moved [m]
-  Eigen::Vector3d normal;
-};
+using Block = DepthBlock;
+using BlockKind = DepthBlock::Kind;
 
 /// Offsets from first to one before end that keep both places in [0, length).
 struct Offsets {
@@ -34,7 +25,7 @@ Offsets offsetsInside(int a, int b, int size, int length) {
 
 /// Counts a block's pixels. The surface's shape around the sample is the rendered one.
 void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& rendered_center, int size,
-             const ColorModel& colors, double max_distance, Block* block) {
+             int step, const ColorModel& colors, double max_distance, Block* block) {
   const cv::Point& center = block->center;
   const Offsets columns = offsetsInside(rendered_center.x, center.x, size, frame.depth.cols);
   const Offsets rows = offsetsInside(rendered_center.y, center.y, size, frame.depth.rows);
@@ -42,11 +33,11 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
   const auto gate = static_cast<float>(max_distance);
   int measured = 0, agreeing = 0, nearer = 0, farther = 0;
   float sum = 0.0f;
-  for (int j = rows.first; j < rows.end; ++j) {
+  for (int j = rows.first; j < rows.end; j += step) {
     const float* rendered = image.depth[rendered_center.y + j] + rendered_center.x;
     const float* depth = frame.depth[center.y + j] + center.x;
     const cv::Vec3b* color = frame.color[center.y + j] + center.x;
-    for (int i = columns.first; i < columns.end; ++i) {
+    for (int i = columns.first; i < columns.end; i += step) {
       if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
       ++measured;
       const float difference = depth[i] - rendered[i] - nearer_by;
@@ -77,7 +68,7 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
 
 /// The sample where the rigid motion takes it, and the frame's depth there.
 Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSample& sample, int size,
-              const Eigen::Isometry3d& motion, const ColorModel& colors, double max_distance) {
+              int step, const Eigen::Isometry3d& motion, const ColorModel& colors, double max_distance) {
   Block block;
   block.position = motion * sample.position;
   block.normal = motion.linear() * sample.normal;
@@ -88,7 +79,7 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
   if (-slope < 0.05) return block;
   block.predicted = block.normal.dot(block.position) / slope;
-  measure(frame, image, sample.center, size, colors, max_distance, &block);
+  measure(frame, image, sample.center, size, step, colors, max_distance, &block);
   return block;
 }
 
@@ -135,25 +126,26 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
 
 }  // namespace
 
-DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
-                                 const SurfaceSamples& surface, const RigidMotions& motions,
-                                 const ColorModel& colors, double volume_edge_m, const DepthConfig& config) {
-  std::vector<Block> blocks;
-  blocks.reserve(surface.samples.size());
+const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, const RasterImage& image,
+                                                    const SurfaceSamples& surface,
+                                                    const RigidMotions& motions, const ColorModel& colors,
+                                                    int pixel_step) {
+  const int step = std::min(pixel_step, surface.block_px);
+  blocks_.clear();
   for (const SurfaceSample& sample : surface.samples) {
-    blocks.push_back(
-        observe(frame, image, sample, surface.block_px, motions[sample.body], colors, config.max_distance_m));
+    blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.body], colors,
+                              config_.max_distance_m));
   }
-  growOccluders(surface.grid, &blocks);
+  growOccluders(surface.grid, &blocks_);
 
-  DepthAssociations result;
-  result.associations.reserve(blocks.size());
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const Block& block = blocks[i];
+  found_.associations.clear();
+  found_.visible_blocks = found_.occluded_blocks = found_.absent_blocks = 0;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const Block& block = blocks_[i];
     if (block.kind == BlockKind::kUnmeasured) continue;
-    ++result.visible_blocks;
-    result.occluded_blocks += block.kind == BlockKind::kOccluded ? 1 : 0;
-    result.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
+    ++found_.visible_blocks;
+    found_.occluded_blocks += block.kind == BlockKind::kOccluded ? 1 : 0;
+    found_.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
     if (block.kind != BlockKind::kAgrees) continue;
     if (-block.normal.dot(block.position.normalized()) < kMostGrazing) continue;
     Association association;
@@ -164,11 +156,11 @@ DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& imag
     association.measured =
         frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);
     association.normal = block.normal;
-    const double block_width_m = surface.block_px * block.position.z() / frame.camera.fx;
-    association.weight = config.weight * std::pow(block_width_m / volume_edge_m, 2);
-    result.associations.push_back(association);
+    const double width = surface.block_px * block.position.z() / (frame.camera.fx * volume_edge_m_);
+    association.weight = config_.weight * width * width;
+    found_.associations.push_back(association);
   }
-  return result;
+  return found_;
 }
 
 }  // namespace softbody

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "softbody_common/surface_binding.h"
 
@@ -15,9 +14,10 @@ constexpr double kLargestMotion = 0.1;      // [m] a frame; 3 m/s at 30 Hz
 constexpr double kVisibleTolerance = 0.01;  // [m], feature behind the rendered surface by more: hidden
 constexpr float kRatio = 0.85f;             // best to second-best distance
 constexpr float kSamePlacePx = 3.0f;        // two keypoints nearer than this are no rivals
-constexpr float kFreeRadiusPx = 8.0f;       // around a known feature no other is admitted
+constexpr int kFreeRadiusPx = 7;            // around a known feature no other is admitted
 constexpr int kNeighborhoodPx = 40;
 constexpr std::size_t kFewestNeighbors = 4;
+constexpr std::size_t kEnoughNeighbors = 100;  // for a median; of more every second, third, ...
 constexpr double kBindTolerance = 0.01;        // [m], surface and depth must agree where a feature is bound
 constexpr double kMostGrazing = 0.35;          // cosine of normal and ray where a feature is bound
 constexpr int kFewestDepths = 20;              // of the 25 pixels around a feature: fewer is a depth edge
@@ -48,6 +48,8 @@ class PixelGrid {
       }
     }
   }
+
+  const std::vector<std::vector<int>>& cells() const { return cells_; }
 
  private:
   int column(double u) const { return std::clamp(static_cast<int>(u) / cell_, 0, columns_ - 1); }
@@ -96,6 +98,38 @@ bool predictedVisible(const PredictedSurface& surface, const Eigen::Vector3d& po
   return rendered > 0.0f && position.z() - rendered < kVisibleTolerance;
 }
 
+/// Whether something nearer than the body can be, or of another colour and not behind it, stands where a
+/// feature should be.
+bool isCovered(const RgbdFrame& frame, const ColorModel& colors, const cv::Point2f& pixel, double z,
+               double reach) {
+  constexpr int kReach = 3;  // [px]
+  const cv::Rect image(cv::Point(), frame.color.size());
+  const cv::Point center = toPixel(pixel);
+  const auto nearest = static_cast<float>(z - reach), farthest = static_cast<float>(z + kVisibleTolerance);
+  const auto isForeign = [&](const cv::Point& place) {
+    const float depth = image.contains(place) ? frame.depth(place) : 0.0f;
+    return depth > 0.0f && (depth < nearest || (depth < farthest && !colors.belongs(frame.color(place))));
+  };
+  if (!isForeign(center)) return false;
+  int foreign = 0;
+  for (const cv::Point& offset :
+       {cv::Point(kReach, 0), cv::Point(-kReach, 0), cv::Point(0, kReach), cv::Point(0, -kReach)}) {
+    foreign += isForeign(center + offset) ? 1 : 0;
+  }
+  return foreign >= 3;
+}
+
+/// No other feature is admitted so near.
+void erase(const cv::Point2f& pixel, cv::Mat1b* mask) {
+  const cv::Point center = toPixel(pixel);
+  const int left = std::max(0, center.x - kFreeRadiusPx),
+            right = std::min(mask->cols, center.x + kFreeRadiusPx + 1);
+  const int bottom = std::min(mask->rows, center.y + kFreeRadiusPx + 1);
+  if (left >= right) return;
+  for (int v = std::max(0, center.y - kFreeRadiusPx); v < bottom; ++v)
+    std::fill((*mask)[v] + left, (*mask)[v] + right, 0);
+}
+
 double median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
   std::nth_element(values->begin(), middle, values->end());
@@ -109,37 +143,34 @@ Eigen::Matrix4d homogeneousCorners(const TetTopology& volume, int tet) {
   return corners;
 }
 
-Eigen::Vector3d motionOf(const FeatureMatch& match) {
-  return match.association.measured - match.association.predicted;
-}
-
 /// Local rigidity: neighbouring features move alike relative to the prediction.
 void markOutliers(const Pinhole& camera, double max_disagreement, std::vector<FeatureMatch>* matches) {
-  std::map<std::pair<int, int>, std::vector<int>> cells;
-  const auto cellOf = [](const cv::Point2f& pixel) {
-    return std::pair<int, int>(static_cast<int>(pixel.x) / kNeighborhoodPx,
-                               static_cast<int>(pixel.y) / kNeighborhoodPx);
-  };
   PixelGrid grid(camera, kNeighborhoodPx);
-  for (std::size_t m = 0; m < matches->size(); ++m) {
-    const cv::Point2f pixel = (*matches)[m].pixel;
-    grid.insert(pixel, static_cast<int>(m));
-    cells[cellOf(pixel)].push_back(static_cast<int>(m));
+  std::vector<Eigen::Vector3d> motions;
+  motions.reserve(matches->size());
+  for (const FeatureMatch& match : *matches) {
+    grid.insert(match.pixel, static_cast<int>(motions.size()));
+    motions.push_back(match.association.measured - match.association.predicted);
   }
+  std::array<std::vector<double>, 3> neighbors;
   // A cell's matches have the same neighbours.
-  for (const auto& [cell, members] : cells) {
-    std::array<std::vector<double>, 3> motions;
-    const cv::Point2f pixel = (*matches)[members.front()].pixel;
+  for (const std::vector<int>& cell : grid.cells()) {
+    if (cell.empty()) continue;
+    for (auto& values : neighbors) values.clear();
+    const cv::Point2f pixel = (*matches)[cell.front()].pixel;
+    std::size_t count = 0;
+    grid.around(pixel.x, pixel.y, [&](int) { ++count; });
+    const std::size_t step = 1 + count / kEnoughNeighbors;
     grid.around(pixel.x, pixel.y, [&](int other) {
-      for (int k = 0; k < 3; ++k) motions[k].push_back(motionOf((*matches)[other])[k]);
+      if (count++ % step != 0) return;
+      for (int k = 0; k < 3; ++k) neighbors[k].push_back(motions[other][k]);
     });
     Eigen::Vector3d typical = Eigen::Vector3d::Zero();
-    if (motions[0].size() >= kFewestNeighbors)
-      typical = {median(&motions[0]), median(&motions[1]), median(&motions[2])};
-    for (int m : members) {
-      FeatureMatch& match = (*matches)[m];
-      const Eigen::Vector3d motion = motionOf(match);
-      match.inlier = motion.norm() < kLargestMotion && (motion - typical).norm() < max_disagreement;
+    if (neighbors[0].size() >= kFewestNeighbors)
+      typical = {median(&neighbors[0]), median(&neighbors[1]), median(&neighbors[2])};
+    for (int m : cell) {
+      (*matches)[m].inlier =
+          motions[m].norm() < kLargestMotion && (motions[m] - typical).norm() < max_disagreement;
     }
   }
 }
@@ -164,18 +195,26 @@ double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
   return count >= kFewestDepths ? sum / count : 0.0;
 }
 
-std::vector<FeatureMap::Prediction> FeatureMap::predict(const PredictedSurface& surface) const {
-  std::vector<Prediction> predictions;
+void FeatureMap::predict(const RgbdFrame& frame, const ColorModel& colors, double reach_m,
+                         const PredictedSurface& surface) {
+  predictions_.clear();
   for (std::size_t f = 0; f < features_.size(); ++f) {
     Prediction p;
     p.feature = static_cast<int>(f);
     p.position = surface.position(features_[f].place);
     p.body = surface.bodyOf(features_[f].place);
     if (!predictedVisible(surface, p.position, &p.pixel)) continue;
+    if (isCovered(frame, colors, p.pixel, p.position.z(), reach_m)) continue;
     p.warp = surface.imageWarp(features_[f].place, features_[f].gradient);
-    predictions.push_back(p);
+    predictions_.push_back(p);
   }
-  return predictions;
+}
+
+void FeatureMap::shift(const Pinhole& camera, const RigidMotions& motions) {
+  for (Prediction& p : predictions_) {
+    const Eigen::Vector3d moved = motions[p.body] * p.position;
+    if (moved.z() > 0.0) p.pixel = toPoint2f(camera.project(moved));
+  }
 }
 
 /// Where the patch is, if it is anywhere around.
@@ -211,17 +250,15 @@ bool FeatureMap::addMatch(const RgbdFrame& frame, const GrayPyramid& image, cons
   return true;
 }
 
-std::vector<FeatureMatch> FeatureMap::align(const RgbdFrame& frame, const GrayPyramid& image,
-                                            const PredictedSurface& surface) {
+std::vector<FeatureMatch> FeatureMap::align(const RgbdFrame& frame, const GrayPyramid& image, int wanted) {
   std::vector<FeatureMatch> matches;
+  matches.reserve(std::min(predictions_.size(), static_cast<std::size_t>(wanted) + 1));
   missed_.clear();
-  const std::vector<Prediction> predictions = predict(surface);
-  for (const Prediction& prediction : predictions) {
-    ++features_[prediction.feature].predicted;
-    if (!addMatch(frame, image, prediction, prediction.pixel, config_.search_radius_px, &matches))
-      missed_.push_back(prediction);
+  const std::size_t step = std::max<std::size_t>(1, predictions_.size() / static_cast<std::size_t>(wanted));
+  for (std::size_t i = 0; i < predictions_.size(); i += step) {
+    const Prediction& p = predictions_[i];
+    if (!addMatch(frame, image, p, p.pixel, config_.search_radius_px, &matches)) missed_.push_back(p);
   }
-  expected_ = static_cast<int>(predictions.size());
   return matches;
 }
 
@@ -251,7 +288,13 @@ void FeatureMap::judge(const Pinhole& camera, std::vector<FeatureMatch>* matches
 }
 
 void FeatureMap::credit(const std::vector<FeatureMatch>& matches) {
+  for (const Prediction& prediction : predictions_) ++features_[prediction.feature].predicted;
   for (const FeatureMatch& match : matches) features_[match.feature].matched += match.inlier ? 1 : 0;
+}
+
+void FeatureMap::eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const {
+  for (const FeatureMatch& match : matches) erase(match.pixel, mask);
+  for (const Prediction& prediction : missed_) erase(prediction.pixel, mask);
 }
 
 void FeatureMap::retire() {
@@ -259,50 +302,38 @@ void FeatureMap::retire() {
     return f.predicted >= kTrialFrames && f.matched < kWorstHitRate * f.predicted;
   };
   features_.erase(std::remove_if(features_.begin(), features_.end(), hopeless), features_.end());
+  predictions_.clear();
+  missed_.clear();
 }
 
 void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
-                       const std::vector<Keypoint>& keypoints, const std::vector<FeatureMatch>& matches,
-                       const PredictedSurface& surface) {
+                       const std::vector<Keypoint>& keypoints, const PredictedSurface& surface) {
   std::vector<cv::Point2f> taken;
-  PixelGrid grid(frame.camera, static_cast<int>(kFreeRadiusPx));
-  const auto take = [&](const cv::Point2f& pixel) {
-    grid.insert(pixel, static_cast<int>(taken.size()));
-    taken.push_back(pixel);
-  };
   const auto isFree = [&](const cv::Point2f& pixel) {
-    bool free = true;
-    grid.around(pixel.x, pixel.y, [&](int i) {
-      const cv::Point2f d = taken[i] - pixel;
-      free = free && d.dot(d) > kFreeRadiusPx * kFreeRadiusPx;
+    return std::none_of(taken.begin(), taken.end(), [&](const cv::Point2f& other) {
+      const cv::Point2f d = other - pixel;
+      return d.dot(d) <= kFreeRadiusPx * kFreeRadiusPx;
     });
-    return free;
   };
-  for (const FeatureMatch& match : matches) take(match.pixel);
-  for (const MapFeature& feature : features_) {
-    cv::Point2f pixel;
-    if (predictedVisible(surface, surface.position(feature.place), &pixel)) take(pixel);
-  }
   const bool first = features_.empty();
   for (const Keypoint& keypoint : keypoints) {
     if (static_cast<int>(features_.size()) >= config_.max_features) break;
     // The reference frame takes every keypoint, like the paper; later ones fill gaps.
     if (!first && !isFree(keypoint.pixel)) continue;
-    const cv::Point pixel = toPixel(keypoint.pixel);
     const double z = featureDepth(frame.depth, keypoint.pixel);
-    if (z <= 0.0 || surface.image().triangle(pixel) < 0) continue;
-    if (std::abs(z - surface.image().depth(pixel)) > kBindTolerance) continue;
-    const Eigen::Vector3d ray = frame.camera.unproject(pixel.x, pixel.y, 1.0).normalized();
-    if (-surface.normal(pixel).dot(ray) < kMostGrazing) continue;
+    if (z <= 0.0) continue;
+    const Eigen::Vector3d measured = frame.camera.unproject(keypoint.pixel.x, keypoint.pixel.y, z);
+    const int triangle = surface.triangleAt(measured, kBindTolerance);
+    if (triangle < 0 || -surface.normal(triangle).dot(measured.normalized()) < kMostGrazing) continue;
     MapFeature feature;
     if (!feature.patch.learn(image, keypoint.pixel)) continue;
     feature.id = next_id_++;
-    feature.place = surface.materialPoint(keypoint.pixel);
-    feature.gradient = surface.placeGradient(feature.place, keypoint.pixel);
+    feature.place = surface.materialPoint(triangle, keypoint.pixel);
+    feature.gradient = surface.placeGradient(feature.place, triangle, keypoint.pixel);
     feature.descriptor = keypoint.descriptor;
-    feature.reference = frame.camera.unproject(keypoint.pixel.x, keypoint.pixel.y, z);
+    feature.reference = measured;
     features_.push_back(feature);
-    if (!first) take(keypoint.pixel);
+    if (!first) taken.push_back(keypoint.pixel);
   }
   retire();
 }
@@ -320,6 +351,7 @@ void FeatureMap::rebind(const TetTopology& before, const TetTopology& after) {
 
 void FeatureMap::reset() {
   features_.clear();
+  predictions_.clear();
   missed_.clear();
   next_id_ = 0;
 }

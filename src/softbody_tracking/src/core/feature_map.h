@@ -1,9 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "association.h"
+#include "color_model.h"
 #include "feature_patch.h"
 #include "gray_pyramid.h"
 #include "orb_extractor.h"
@@ -44,9 +46,19 @@ class FeatureMap {
 
   const std::vector<MapFeature>& features() const { return features_; }
 
-  /// Aligns the patches of the features that should be visible.
+  /// Says which features should be visible, and where. Those that something else stands before are not
+  /// expected.
+  /// @param reach_m what is nearer to the camera than predicted by more is something else, whatever its
+  /// colour.
+  void predict(const RgbdFrame& frame, const ColorModel& colors, double reach_m,
+               const PredictedSurface& surface);
+
+  /// Looks for the features where the motions of the body's pieces take the prediction.
+  void shift(const Pinhole& camera, const RigidMotions& motions);
+
+  /// Aligns the patches of the predicted features. @param wanted about so many of them, spread evenly.
   std::vector<FeatureMatch> align(const RgbdFrame& frame, const GrayPyramid& image,
-                                  const PredictedSurface& surface);
+                                  int wanted = std::numeric_limits<int>::max());
 
   /// Adds matches, by descriptor and then aligned, of the visible features that the last align() did not
   /// find.
@@ -57,16 +69,20 @@ class FeatureMap {
   /// their prediction than a body moves in a frame.
   void judge(const Pinhole& camera, std::vector<FeatureMatch>* matches) const;
 
-  /// Remembers which features were found again.
+  /// Remembers which of the predicted features were found again.
   void credit(const std::vector<FeatureMatch>& matches);
 
-  /// How many features the last align() expected to see.
-  int expected() const { return expected_; }
+  /// How many features the last predict() expected to see.
+  int expected() const { return static_cast<int>(predictions_.size()); }
 
-  /// Binds keypoints on visible surface where no feature is, and drops features that are hardly ever found
-  /// again.
+  /// Sets a mask of the image to 0 around known features: those found, and those that were not where they
+  /// should be.
+  void eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const;
+
+  /// Binds keypoints on visible surface, and drops features that are hardly ever found again.
+  /// @param keypoints away from known features: see eraseTaken().
   void admit(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
-             const std::vector<FeatureMatch>& matches, const PredictedSurface& surface);
+             const PredictedSurface& surface);
 
   /// Takes the features to an edited body. Those on the wall of a cut stay on their side.
   void rebind(const TetTopology& before, const TetTopology& after);
@@ -83,7 +99,6 @@ class FeatureMap {
     Eigen::Matrix2f warp;
   };
 
-  std::vector<Prediction> predict(const PredictedSurface& surface) const;
   std::optional<cv::Point2f> locate(const GrayPyramid& image, const Prediction& prediction,
                                     const cv::Point2f& start, int coarsest_level, int radius_px) const;
   bool addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
@@ -92,9 +107,9 @@ class FeatureMap {
 
   FeatureConfig config_;
   std::vector<MapFeature> features_;
+  std::vector<Prediction> predictions_;
   std::vector<Prediction> missed_;  ///< by the last align()
   int next_id_ = 0;
-  int expected_ = 0;
 };
 
 /// Depth at a keypoint [m]: mean over the 5x5 pixels that lie within 2 % of the middle one; 0 where there is

@@ -8,7 +8,7 @@ namespace softbody {
 namespace {
 
 constexpr int kIterations = 8;
-constexpr float kConverged = 0.01f;         // [px of the level]
+constexpr float kConverged = 0.03f;  // [px of the level], of the last step, which is more than what remains
 constexpr float kSmallestSpread = 4.0f;     // grey values: standard deviation below which there is only noise
 constexpr float kWeakestDirection = 0.02f;  // eigenvalue of the Hessian of a patch of norm 1 [1/px^2]
 

@@ -1,5 +1,7 @@
 #include "frame_observer.h"
 
+#include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "softbody_common/rigid_fit.h"
@@ -8,50 +10,40 @@
 namespace softbody {
 namespace {
 
-constexpr int kRigidIterations = 5;
-constexpr int kPatchMargin = 32;            // [px] around features for their descriptors and patches
-constexpr double kRigidConvergence = 3e-4;  // [m]
-constexpr double kLearnTolerance = 0.008;   // [m], depth agrees well enough to learn the body's colours
-constexpr double kLookAgain = 0.004;        // [m] of any vertex; a rough step beyond it is rendered again
-constexpr double kLargestRigidStep = 0.1;   // [m] of any vertex; more is no tracking
+constexpr int kPatchMargin = 32;           // [px] around features for their descriptors and patches
+constexpr double kLearnTolerance = 0.008;  // [m], depth agrees well enough to learn the body's colours
+constexpr double kLookAgain = 0.004;       // [m] of any vertex; a rough step beyond it is rendered again
 constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer, descriptors are matched too
-constexpr int kFramesBetweenAdmissions = 10;  // of new features
-constexpr int kFewestExpectedFeatures = 30;   // with so many expected, hardly any found says something
+constexpr int kTiles = 4;               // of the predicted surface
+constexpr double kTileShare = 0.7;      // of the most features: a tile may have more texture than others
+constexpr int kFramesBetweenTiles = 3;  // in which new features are looked for
+constexpr int kFewestExpectedFeatures = 30;  // with so many expected, hardly any found says something
+constexpr int kScouts = 48;                  // features that say whether the prediction is far off
+constexpr double kFarOff = 4.0;              // [px] that full resolution hardly aligns
 
-/// A feature's image position says where it is across its ray; how far along it, the depth around says
-/// better. Two directions across the ray, each an association.
-void addAcrossRay(const Association& feature, std::vector<Association>* associations) {
-  const Eigen::Vector3d ray = feature.measured.normalized();
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitY().cross(ray).normalized();
-  for (const Eigen::Vector3d& normal : {right, Eigen::Vector3d(ray.cross(right))}) {
-    associations->push_back(feature);
-    associations->back().normal = normal;
-  }
+bool farOff(const std::vector<FeatureMatch>& scouts, const PredictedSurface& surface) {
+  if (static_cast<int>(scouts.size()) < kFewestAssociations) return false;
+  const auto far = std::count_if(scouts.begin(), scouts.end(), [&](const FeatureMatch& match) {
+    const Eigen::Vector2d predicted = surface.camera().project(match.association.predicted);
+    return (predicted - Eigen::Vector2d(match.pixel.x, match.pixel.y)).norm() > kFarOff;
+  });
+  return 2 * far > static_cast<std::ptrdiff_t>(scouts.size());
 }
 
 }  // namespace
 
-std::vector<Association> inliers(const std::vector<FeatureMatch>& matches) {
-  std::vector<Association> result;
-  result.reserve(2 * matches.size());
-  for (const FeatureMatch& match : matches) {
-    if (match.inlier) addAcrossRay(match.association, &result);
-  }
-  return result;
-}
-
 FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& volume,
                              const MeshTopology& surface)
     : config_(config),
-      volume_edge_m_(meanEdgeLength(volume.rest_vertices, volume.tets)),
       surface_(volume, surface),
+      depth_(config.depth, meanEdgeLength(volume.rest_vertices, volume.tets)),
       orb_(config.features.max_features),
       map_(config.features) {}
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   map_.rebind(surface_.volume(), volume);
   surface_ = PredictedSurface(volume, surface);
-  volume_edge_m_ = meanEdgeLength(volume.rest_vertices, volume.tets);
+  depth_ = DepthAssociator(config_.depth, meanEdgeLength(volume.rest_vertices, volume.tets));
 }
 
 void FrameObserver::reset() {
@@ -63,7 +55,8 @@ void FrameObserver::reset() {
 /// Share of the known features that show at a pose of the undeformed body; -1 where too few should.
 double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) {
   surface_.update(frame.camera, transformed(surface_.volume().rest_vertices, pose));
-  const std::vector<FeatureMatch> matches = alignFeatures(frame);
+  expectFeatures(frame);
+  const std::vector<FeatureMatch> matches = map_.align(frame, pyramid_);
   if (map_.expected() < kFewestExpectedFeatures) return -1.0;
   return static_cast<double>(matches.size()) / map_.expected();
 }
@@ -85,41 +78,11 @@ void FrameObserver::learnColors(const RgbdFrame& frame) {
 /// Renders and samples the prediction.
 void FrameObserver::look(const RgbdFrame& frame, const Points& vertices) {
   surface_.update(frame.camera, vertices);
-  samples_ = sampleSurface(surface_, config_.depth.max_targets);
+  samples_ = sampleSurface(surface_, config_.depth.max_targets, std::move(samples_));
 }
 
-/// The rigid motions that the depth and the features ask of the prediction. A piece that hardly shows stays.
-RigidMotions FrameObserver::rigidMotions(const RgbdFrame& frame,
-                                         const std::vector<FeatureMatch>& matches) const {
-  RigidMotions motions(surface_.bodyCount(), Eigen::Isometry3d::Identity());
-  const std::vector<Association> features = inliers(matches);
-  for (int i = 0; i < kRigidIterations; ++i) {
-    const DepthAssociations depth =
-        associateDepth(frame, surface_.image(), samples_, motions, colors_, volume_edge_m_, config_.depth);
-    std::vector<std::vector<Association>> of_body(motions.size());
-    for (auto& associations : of_body) associations.reserve(depth.associations.size() + features.size());
-    for (const Association& association : depth.associations)
-      of_body[association.body].push_back(association);
-    for (Association association : features) {
-      association.predicted = motions[association.body] * association.predicted;
-      of_body[association.body].push_back(association);
-    }
-    const RigidMotions before = motions;
-    for (std::size_t body = 0; body < motions.size(); ++body) {
-      if (static_cast<int>(of_body[body].size()) < kFewestAssociations) continue;
-      motions[body] = rigidStep(of_body[body]) * motions[body];
-    }
-    const double moved =
-        (surface_.movedVolume(motions) - surface_.movedVolume(before)).rowwise().norm().maxCoeff();
-    if (moved > kLargestRigidStep) return before;
-    if (moved < kRigidConvergence) break;
-  }
-  return motions;
-}
-
-/// How far the motions take any vertex of the prediction [m].
-double FrameObserver::largestMotion(const RigidMotions& motions) const {
-  return (surface_.movedVolume(motions) - surface_.volumeVertices()).rowwise().norm().maxCoeff();
+RigidMotions FrameObserver::alignRigidly(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches) {
+  return rigid_.align(frame, surface_, samples_, colors_, matches, &depth_);
 }
 
 cv::Rect FrameObserver::searchRegion(const cv::Size& size) const {
@@ -131,9 +94,28 @@ cv::Rect FrameObserver::searchRegion(const cv::Size& size) const {
          cv::Rect(cv::Point(), size);
 }
 
-std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
+/// A quarter of the predicted surface after the other.
+cv::Rect FrameObserver::nextTile() {
+  const cv::Rect& covered = surface_.image().region;
+  const cv::Point middle(covered.x + covered.width / 2, covered.y + covered.height / 2);
+  const std::array<cv::Point, kTiles> corners = {
+      covered.tl(), {covered.br().x, covered.y}, covered.br(), {covered.x, covered.br().y}};
+  tile_ = (tile_ + 1) % kTiles;
+  return cv::Rect(middle, corners[tile_]);
+}
+
+void FrameObserver::expectFeatures(const RgbdFrame& frame) {
   pyramid_.build(frame.color, searchRegion(frame.color.size()));
-  return map_.align(frame, pyramid_, surface_);
+  map_.predict(frame, colors_, config_.depth.max_distance_m, surface_);
+}
+
+/// Some features first, from coarse to fine: where they say that the prediction is far off, all are looked
+/// for where it moves rigidly to.
+std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
+  expectFeatures(frame);
+  const std::vector<FeatureMatch> scouts = map_.align(frame, pyramid_, kScouts);
+  if (farOff(scouts, surface_)) map_.shift(frame.camera, alignRigidly(frame, scouts));
+  return map_.align(frame, pyramid_);
 }
 
 bool FrameObserver::few(const std::vector<FeatureMatch>& matches) const {
@@ -145,11 +127,10 @@ bool FrameObserver::few(const std::vector<FeatureMatch>& matches) const {
 void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   seen->matches = alignFeatures(frame);
   if (few(seen->matches)) {
-    seen->keypoints = extract(frame);
-    map_.search(frame, pyramid_, seen->keypoints, surface_, &seen->matches);
+    map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
     map_.judge(frame.camera, &seen->matches);
-    const RigidMotions rough = rigidMotions(frame, seen->matches);
-    if (largestMotion(rough) > kLookAgain) {
+    const RigidMotions rough = alignRigidly(frame, seen->matches);
+    if (largestMotion(surface_, rough) > kLookAgain) {
       look(frame, surface_.movedVolume(rough));
       seen->matches = alignFeatures(frame);
     }
@@ -157,10 +138,23 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   map_.judge(frame.camera, &seen->matches);
 }
 
+/// Wherever the body may be.
 std::vector<Keypoint> FrameObserver::extract(const RgbdFrame& frame) {
-  frames_to_admission_ = kFramesBetweenAdmissions;
   const cv::Rect region = searchRegion(frame.color.size());
   return orb_.extract(frame.color, colors_.mask(frame.color, region), region);
+}
+
+/// The first features at once; later only in gaps between the known ones, tile by tile, so that no frame
+/// takes much longer than others.
+std::vector<Keypoint> FrameObserver::extractNew(const RgbdFrame& frame,
+                                                const std::vector<FeatureMatch>& matches) {
+  const bool first = map_.features().empty();
+  const cv::Rect region = first ? surface_.image().region : nextTile();
+  const cv::Mat1b mask = colors_.mask(frame.color, region);
+  if (first) return orb_.extract(frame.color, mask, region);
+  cv::Mat1b taken = mask.clone();
+  map_.eraseTaken(matches, &taken);
+  return orb_.extractNew(frame.color, mask, taken, region, kTileShare);
 }
 
 Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertices) {
@@ -169,10 +163,12 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   if (!colors_.learned()) learnColors(frame);
   followFeatures(frame, &seen);
   map_.credit(seen.matches);
-  if (seen.keypoints.empty() && frames_to_admission_-- <= 0) seen.keypoints = extract(frame);
-  const RigidMotions motions = rigidMotions(frame, seen.matches);
-  seen.depth =
-      associateDepth(frame, surface_.image(), samples_, motions, colors_, volume_edge_m_, config_.depth);
+  if (--frames_to_admission_ < 0) {
+    frames_to_admission_ = kFramesBetweenTiles - 1;
+    seen.keypoints = extractNew(frame, seen.matches);
+  }
+  const RigidMotions motions = alignRigidly(frame, seen.matches);
+  seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
   surface_.move(motions);
   for (FeatureMatch& match : seen.matches) {
     match.association.predicted = motions[match.association.body] * match.association.predicted;
@@ -181,9 +177,7 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
 }
 
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
-  if (seen.keypoints.empty()) return;
-  surface_.update(frame.camera, surface_.volumeVertices());
-  map_.admit(frame, pyramid_, seen.keypoints, seen.matches, surface_);
+  if (!seen.keypoints.empty()) map_.admit(frame, pyramid_, seen.keypoints, surface_);
 }
 
 }  // namespace softbody

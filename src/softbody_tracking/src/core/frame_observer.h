@@ -8,23 +8,17 @@
 #include "gray_pyramid.h"
 #include "orb_extractor.h"
 #include "predicted_surface.h"
+#include "rigid_alignment.h"
 #include "surface_samples.h"
 
 namespace softbody {
 
-/// Below so many features and depth points nothing is fixed.
-constexpr int kFewestAssociations = 12;
-
 /// What a frame's images give against a prediction.
 struct Observation {
-  std::vector<Keypoint> keypoints;  ///< empty in most frames: only where new or lost features are looked for
+  std::vector<Keypoint> keypoints;  ///< without a feature; empty in most frames
   std::vector<FeatureMatch> matches;
   DepthAssociations depth;
 };
-
-/// The matches that are no outliers. A feature's image position says where it is across its ray; how far
-/// along it, the depth around says better: two associations each, with normals across the ray.
-std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
 
 /// Follows one body from a predicted to the observed place: features and depth, associated and brought
 /// together by a rigid motion. Keeps what it learns of the body's features and colours.
@@ -54,24 +48,28 @@ class FrameObserver {
 
  private:
   void look(const RgbdFrame& frame, const Points& vertices);
+  RigidMotions alignRigidly(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches);
   void learnColors(const RgbdFrame& frame);
   cv::Rect searchRegion(const cv::Size& size) const;
+  cv::Rect nextTile();
+  void expectFeatures(const RgbdFrame& frame);
   std::vector<FeatureMatch> alignFeatures(const RgbdFrame& frame);
   bool few(const std::vector<FeatureMatch>& matches) const;
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
-  RigidMotions rigidMotions(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches) const;
-  double largestMotion(const RigidMotions& motions) const;
+  std::vector<Keypoint> extractNew(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches);
 
   TrackerConfig config_;
-  double volume_edge_m_;
   PredictedSurface surface_;
+  DepthAssociator depth_;
+  RigidAlignment rigid_;
   SurfaceSamples samples_;  ///< of the prediction
   OrbExtractor orb_;
   GrayPyramid pyramid_;
   FeatureMap map_;
   ColorModel colors_;
   int frames_to_admission_ = 0;
+  int tile_ = 0;  ///< of the surface, where new features are looked for next
 };
 
 }  // namespace softbody

@@ -14,7 +14,8 @@ class GrayPyramid {
   /// @param region of the frame; widened a little so that it halves evenly.
   void build(const cv::Mat3b& color, const cv::Rect& region);
 
-  const cv::Mat1b& level(int l) const { return levels_[l]; }
+  /// Halved only when first asked for: most frames need nothing but full resolution.
+  const cv::Mat1b& level(int l) const;
   cv::Point2f toLevel(const cv::Point2f& pixel, int l) const {
     return (pixel - origin_) * (1.0f / static_cast<float>(1 << l));
   }
@@ -24,7 +25,9 @@ class GrayPyramid {
 
  private:
   cv::Point2f origin_;
-  std::array<cv::Mat1b, kLevels> levels_;
+  mutable std::array<cv::Mat1b, kLevels> levels_;
+  std::array<cv::Mat1b, kLevels> memory_;  ///< for a whole image, so that a frame allocates none
+  mutable int built_ = kLevels;            ///< levels of this frame
 };
 
 }  // namespace softbody

@@ -27,7 +27,13 @@ class OrbExtractor {
   /// @param region only this part of the image is looked at. @param mask size of the image, 0: nowhere.
   std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
+  /// Of the strongest keypoints those that are new. @param taken like the mask, 0: known already.
+  /// @param share of the most features, for a part of the body.
+  std::vector<Keypoint> extractNew(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Mat1b& taken,
+                                   const cv::Rect& region, double share);
+
  private:
+  int max_features_;
   cv::Ptr<cv::ORB> orb_;
 };
 

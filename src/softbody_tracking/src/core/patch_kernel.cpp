@@ -107,7 +107,14 @@ struct Sum {
   HWY_INLINE float total() const {
     alignas(64) float lanes[kLanes];
     for (int part = 0; part < kParts; ++part) hn::Store(parts[part], Floats(), lanes + part * kWidth);
-    for (int half = kLanes / 2; half > 0; half /= 2) {
+    // The same pairs are added whatever the width.
+    const hn::CappedTag<float, 4> few;
+    constexpr int kFew = static_cast<int>(hn::MaxLanes(few));
+    for (int half = kLanes / 2; half >= kFew; half /= 2) {
+      for (int i = 0; i < half; i += kFew)
+        hn::Store(hn::Add(hn::Load(few, lanes + i), hn::Load(few, lanes + i + half)), few, lanes + i);
+    }
+    for (int half = kFew / 2; half > 0; half /= 2) {
       for (int i = 0; i < half; ++i) lanes[i] += lanes[i + half];
     }
     return lanes[0];

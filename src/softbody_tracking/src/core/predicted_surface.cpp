@@ -32,6 +32,7 @@ void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertic
   camera_ = camera;
   volume_vertices_ = volume_vertices;
   vertices_ = applyBinding(binding_, volume_vertices, volume_.tets);
+  motions_.clear();
   rasterize(camera, vertices_, surface_.triangles, &image_, faces_);
 }
 
@@ -45,13 +46,36 @@ Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
 
 void PredictedSurface::move(const RigidMotions& motions) {
   volume_vertices_ = movedVolume(motions);
-  vertices_ = applyBinding(binding_, volume_vertices_, volume_.tets);
+  motions_.resize(body_count_, Eigen::Isometry3d::Identity());
+  for (std::size_t body = 0; body < body_count_; ++body) motions_[body] = motions[body] * motions_[body];
+}
+
+/// A triangle's corners, each a column.
+Eigen::Matrix3d PredictedSurface::corners(int triangle) const {
+  Eigen::Matrix3d corners;
+  for (int k = 0; k < 3; ++k) corners.col(k) = vertices_.row(surface_.triangles(triangle, k));
+  if (motions_.empty()) return corners;
+  return motions_[tet_bodies_[binding_[surface_.triangles(triangle, 0)].tet]] * corners;
+}
+
+int PredictedSurface::triangleAt(const Eigen::Vector3d& measured, double tolerance) const {
+  for (std::size_t body = 0; body < body_count_; ++body) {
+    const Eigen::Vector3d rendered =
+        motions_.empty() ? measured : Eigen::Vector3d(motions_[body].inverse(Eigen::Isometry) * measured);
+    if (!(rendered.z() > 0.0)) continue;
+    const Eigen::Vector2d pixel = camera_.project(rendered);
+    if (!camera_.contains(pixel.x(), pixel.y())) continue;
+    const cv::Point nearest(cvRound(pixel.x()), cvRound(pixel.y()));
+    const int triangle = image_.triangle(nearest);
+    if (triangle < 0 || std::abs(rendered.z() - image_.depth(nearest)) > tolerance) continue;
+    if (tet_bodies_[binding_[surface_.triangles(triangle, 0)].tet] == body) return triangle;
+  }
+  return -1;
 }
 
 /// Where the ray through a pixel meets a triangle's plane, in the rest shape.
 Eigen::Vector3d PredictedSurface::restPoint(int triangle, const cv::Point2f& pixel) const {
-  const Eigen::Vector3d weights =
-      rayWeights(camera_, vertices_, surface_.triangles, triangle, pixel.x, pixel.y);
+  const Eigen::Vector3d weights = rayWeights(camera_, corners(triangle), pixel.x, pixel.y);
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k)
     rest += weights[k] * surface_.rest_vertices.row(surface_.triangles(triangle, k)).transpose();
@@ -64,8 +88,7 @@ Eigen::Vector4d PredictedSurface::barycentric(int tet, const Eigen::Vector3d& re
   return {1.0 - weights.sum(), weights.x(), weights.y(), weights.z()};
 }
 
-MaterialPoint PredictedSurface::materialPoint(const cv::Point2f& pixel) const {
-  const int triangle = image_.triangle(cvRound(pixel.y), cvRound(pixel.x));
+MaterialPoint PredictedSurface::materialPoint(int triangle, const cv::Point2f& pixel) const {
   const Eigen::Vector3d rest = restPoint(triangle, pixel);
   // One of the tets that hold the triangle's corners holds the point too, or nearly so: far cheaper than a
   // search.
@@ -79,8 +102,8 @@ MaterialPoint PredictedSurface::materialPoint(const cv::Point2f& pixel) const {
   return best;
 }
 
-PlaceGradient PredictedSurface::placeGradient(const MaterialPoint& place, const cv::Point2f& pixel) const {
-  const int triangle = image_.triangle(cvRound(pixel.y), cvRound(pixel.x));
+PlaceGradient PredictedSurface::placeGradient(const MaterialPoint& place, int triangle,
+                                              const cv::Point2f& pixel) const {
   PlaceGradient gradient;
   gradient.col(0) = barycentric(place.tet, restPoint(triangle, pixel + cv::Point2f(1, 0)));
   gradient.col(1) = barycentric(place.tet, restPoint(triangle, pixel + cv::Point2f(0, 1)));
@@ -98,11 +121,9 @@ Eigen::Matrix2f PredictedSurface::imageWarp(const MaterialPoint& place, const Pl
   return (projection * offsets).cast<float>();
 }
 
-Eigen::Vector3d PredictedSurface::normal(const cv::Point& pixel) const {
-  const auto corner = [&](int k) -> Eigen::Vector3d {
-    return vertices_.row(surface_.triangles(image_.triangle(pixel), k));
-  };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+Eigen::Vector3d PredictedSurface::normal(int triangle) const {
+  const Eigen::Matrix3d c = corners(triangle);
+  return (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).normalized();
 }
 
 Eigen::Vector3d PredictedSurface::position(const MaterialPoint& place) const {

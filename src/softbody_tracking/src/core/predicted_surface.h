@@ -24,7 +24,7 @@ class PredictedSurface {
   /// Moves the surface with the volume's vertices (camera frame) and renders it.
   void update(const Pinhole& camera, const Points& volume_vertices);
 
-  /// Moves each connected piece of the body; the image stays as it was.
+  /// Moves each connected piece of the body since it was rendered; the image stays as it was.
   void move(const RigidMotions& motions);
 
   /// The piece that a place belongs to, and how many there are.
@@ -35,25 +35,27 @@ class PredictedSurface {
 
   const Pinhole& camera() const { return camera_; }
   const Points& volumeVertices() const { return volume_vertices_; }
-  const Points& vertices() const { return vertices_; }
   /// Which triangle lies at a pixel, and how deep.
   const RasterImage& image() const { return image_; }
   const TetTopology& volume() const { return volume_; }
 
-  /// The place in the rest body that a ray through (u, v) meets, on the plane of the triangle at the nearest
-  /// pixel, which must be covered.
-  MaterialPoint materialPoint(const cv::Point2f& pixel) const;
-  /// How a place's barycentric coordinates change per pixel to the right (first column) and downwards, on the
-  /// plane of the triangle at the nearest pixel.
-  PlaceGradient placeGradient(const MaterialPoint& place, const cv::Point2f& pixel) const;
+  /// The visible triangle at a point measured in the frame, -1 where the surface as moved is further from it
+  /// than the tolerance along the ray [m].
+  int triangleAt(const Eigen::Vector3d& measured, double tolerance) const;
+  /// The place in the rest body that a ray through (u, v) meets, on a triangle's plane.
+  MaterialPoint materialPoint(int triangle, const cv::Point2f& pixel) const;
+  /// How a place's barycentric coordinates change per pixel to the right (first column) and downwards, on a
+  /// triangle's plane.
+  PlaceGradient placeGradient(const MaterialPoint& place, int triangle, const cv::Point2f& pixel) const;
   /// Pixels here per pixel of the image in which the gradient was taken.
   Eigen::Matrix2f imageWarp(const MaterialPoint& place, const PlaceGradient& gradient) const;
-  /// Outward unit normal of the triangle at a visible pixel, camera frame. Not smoothed: near a sharp edge a
-  /// mean of both sides' normals would pull the surface off either.
-  Eigen::Vector3d normal(const cv::Point& pixel) const;
+  /// Outward unit normal of a triangle, camera frame. Not smoothed: near a sharp edge a mean of both sides'
+  /// normals would pull the surface off either.
+  Eigen::Vector3d normal(int triangle) const;
   Eigen::Vector3d position(const MaterialPoint& place) const;
 
  private:
+  Eigen::Matrix3d corners(int triangle) const;
   Eigen::Vector3d restPoint(int triangle, const cv::Point2f& pixel) const;
   Eigen::Vector4d barycentric(int tet, const Eigen::Vector3d& rest) const;
 
@@ -65,7 +67,9 @@ class PredictedSurface {
   std::vector<MaterialPoint> binding_;
   std::vector<Eigen::Matrix3d> rest_inverse_;  ///< #T: takes offsets from a tet's first vertex to weights
   Pinhole camera_;
-  Points volume_vertices_, vertices_;
+  Points volume_vertices_;
+  Points vertices_;       ///< of the surface, as rendered
+  RigidMotions motions_;  ///< since then; none: not moved
   RasterImage image_;
 };
 

@@ -14,10 +14,11 @@ int blockSize(const RasterImage& image, int wanted) {
 
 }  // namespace
 
-SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted) {
+SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, SurfaceSamples memory) {
   const RasterImage& image = surface.image();
   const cv::Rect& region = image.region;
-  SurfaceSamples result;
+  SurfaceSamples result = std::move(memory);
+  result.samples.clear();
   result.block_px = blockSize(image, wanted);
   const int size = result.block_px;
   result.grid.create((region.height + size - 1) / size, (region.width + size - 1) / size);
@@ -26,12 +27,13 @@ SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted) {
     for (int column = 0; column < result.grid.cols; ++column) {
       const cv::Point center(std::min(region.x + column * size + size / 2, region.br().x - 1),
                              std::min(region.y + row * size + size / 2, region.br().y - 1));
-      if (image.triangle(center) < 0) continue;
+      const int triangle = image.triangle(center);
+      if (triangle < 0) continue;
       result.grid(row, column) = static_cast<int>(result.samples.size());
-      const MaterialPoint place = surface.materialPoint(center);
+      const MaterialPoint place = surface.materialPoint(triangle, center);
       result.samples.push_back({center, place, surface.bodyOf(place),
                                 surface.camera().unproject(center.x, center.y, image.depth(center)),
-                                surface.normal(center)});
+                                surface.normal(triangle)});
     }
   }
   return result;

@@ -22,7 +22,7 @@ struct SurfaceSamples {
   cv::Mat1i grid;  ///< sample of a block, -1: none
 };
 
-/// About as many samples as wanted.
-SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted);
+/// About as many samples as wanted. @param memory what an earlier call gave, for its memory.
+SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, SurfaceSamples memory = {});
 
 }  // namespace softbody
