@@ -59,12 +59,27 @@ TEST(FindContacts, StopsAPointBeforeAnObstacleThatPassedThroughIt) {
     const Eigen::Vector3d place = positionOf(point.place, topology.rest_vertices, topology.tets);
     const Eigen::Isometry3d before(Eigen::Translation3d(place + Eigen::Vector3d(0.05, 0.0, 0.0)));
     ball.pose = Eigen::Translation3d(place - Eigen::Vector3d(0.05, 0.0, 0.0));
-    const auto contacts = findContacts({point}, topology.tets, topology.rest_vertices, topology.rest_vertices,
-                                       {ball}, {before}, 0.001);
+    std::vector<Contact> contacts;
+    findContacts({point}, topology.tets, topology.rest_vertices, topology.rest_vertices, {ball}, {before},
+                 0.001, &contacts);
     ASSERT_EQ(contacts.size(), 1u);
     EXPECT_LT((contacts[0].normal + Eigen::Vector3d::UnitX()).norm(), 1e-6);
     EXPECT_LT((contacts[0].position - (ball.pose.translation() - 0.003 * Eigen::Vector3d::UnitX())).norm(),
               1e-6);
+  }
+}
+
+TEST(KeepEarlier, AddsWhatWasNotFoundAgainInOrder) {
+  const auto contact = [](int obstacle, int point, double height) {
+    return Contact{point, obstacle, Eigen::Vector3d(0.0, 0.0, height), Eigen::Vector3d::UnitZ()};
+  };
+  std::vector<Contact> now{contact(0, 3, 1.0), contact(1, 2, 1.0)};
+  keepEarlier({contact(0, 1, 2.0), contact(0, 3, 2.0), contact(1, 0, 2.0), contact(2, 9, 2.0)}, &now);
+  ASSERT_EQ(now.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(now.begin(), now.end(), comesBefore));
+  for (const Contact& found : now) {
+    const bool again = found.point == 3 || found.point == 2;
+    EXPECT_EQ(found.position.z(), again ? 1.0 : 2.0) << found.obstacle << ", " << found.point;
   }
 }
 

@@ -69,7 +69,8 @@ class Simulator {
 
   /// Advances to `stamp` under the targets. Before anything else a TargetSet with `reset` places the rest
   /// shape at body_pose at rest. A stamp not after the last one advances by no time, only the targets act.
-  /// Leaves the state as it was where it throws.
+  /// Leaves the state as it was where it throws. Allocates nothing, projective dynamics that is, but where
+  /// there are more targets or contacts than ever before, and in the first steps after a change of topology.
   /// @throw std::invalid_argument if the revision is neither the topology's nor one of the last few, a target
   /// names a tet beyond it, a number is not finite, a barycentric coordinate is beyond 100, or the body has
   /// not been placed; std::runtime_error if the targets' weights leave a system that cannot be solved.

@@ -22,7 +22,7 @@ struct BodyModel {
   const double target_stiffness;  ///< of a target of weight 1 [N/m]
   const std::unique_ptr<StepSolver> solver;
   ConstrainedStep constrained_step;
-  const ObservationConfidence confidence;
+  ObservationConfidence confidence;
   LoadEstimate load_estimate;
 };
 

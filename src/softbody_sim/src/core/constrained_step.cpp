@@ -40,85 +40,94 @@ ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel conta
                                  StepSolver* solver)
     : topology_(&topology), contact_(std::move(contact)), options_(options), solver_(solver) {}
 
-/// What stays the same while contacts are found again.
+/// What is given.
 struct ConstrainedStep::Problem {
+  const StepPotential& free;
   const std::vector<Target>& targets;
   const Surroundings& surroundings;
   const Points& before;
   const std::vector<Eigen::Isometry3d>& before_poses;
-  StepPotential potential;  ///< with the springs of the latest contacts
 };
 
-ConstrainedStep::Result ConstrainedStep::solve(StepPotential free, const std::vector<Target>& targets,
-                                               const Surroundings& surroundings, const Points& before,
-                                               const std::vector<Eigen::Isometry3d>& before_poses,
-                                               Points* x) {
-  if (surroundings.loads.size() > 0) free.loads += surroundings.loads;
-  Problem problem{targets, surroundings, before, before_poses, free};
-  hold(surroundings.pins, options_.pin_stiffness, &problem.potential);
-  chooseStart(&problem, x);
-  Result result;
-  const std::vector<Contact> contacts = iterate(&problem, x, &result.report);
-  result.reactions.obstacles = contact_.wrenches(contacts, *x, surroundings.obstacles);
-  free.targets = std::move(problem.potential.targets);
-  result.reactions.pins = pinWrenches(free, surroundings.pins, *x);
-  return result;
+const ConstrainedStep::Result& ConstrainedStep::solve(const StepPotential& free,
+                                                      const std::vector<Target>& targets,
+                                                      const Surroundings& surroundings, const Points& before,
+                                                      const std::vector<Eigen::Isometry3d>& before_poses,
+                                                      Points* x) {
+  const Problem problem{free, targets, surroundings, before, before_poses};
+  setPotential(problem);
+  hold(surroundings.pins, options_.pin_stiffness, &potential_);
+  gradient_.resize(x->rows(), 3);
+  chooseStart(problem, x);
+  iterate(problem, x);
+  contact_.wrenches(contacts_, *x, surroundings.obstacles, &result_.reactions.obstacles);
+  findPinForces(problem, *x);
+  return result_;
+}
+
+void ConstrainedStep::setPotential(const Problem& problem) {
+  potential_.inertia = problem.free.inertia;
+  potential_.prediction = problem.free.prediction;
+  potential_.loads = problem.free.loads;
+  if (problem.surroundings.loads.size() > 0) potential_.loads += problem.surroundings.loads;
 }
 
 /// A body that hangs or lies is nearer to its end where it was than where the loads alone take it.
-void ConstrainedStep::chooseStart(Problem* problem, Points* x) {
-  const Surroundings& surroundings = problem->surroundings;
+void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
+  const Surroundings& surroundings = problem.surroundings;
   if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
-  Points still = problem->before;
-  for (const Pin& pin : surroundings.pins) still.row(pin.vertex) = x->row(pin.vertex) = pin.position;
-  if (energyAt(still, problem) < energyAt(*x, problem)) x->swap(still);
+  still_ = problem.before;
+  for (const Pin& pin : surroundings.pins) still_.row(pin.vertex) = x->row(pin.vertex) = pin.position;
+  if (energyAt(still_, problem) < energyAt(*x, problem)) x->swap(still_);
 }
 
-double ConstrainedStep::energyAt(const Points& x, Problem* problem) {
-  setSprings(contactsAt(x, *problem), problem);
-  Points unused(x.rows(), 3);
-  return problem->potential.evaluate(x, &unused) + solver_->addElasticity(x, &unused);
+double ConstrainedStep::energyAt(const Points& x, const Problem& problem) {
+  findContacts(x, problem, &contacts_);
+  setSprings(problem);
+  return potential_.evaluate(x, &gradient_) + solver_->addElasticity(x, &gradient_);
 }
 
-/// @return the contacts under which the result was found.
-std::vector<Contact> ConstrainedStep::iterate(Problem* problem, Points* x, StepReport* report) {
+void ConstrainedStep::iterate(const Problem& problem, Points* x) {
   constexpr int kMaxRounds = 5;
-  std::vector<Contact> contacts = contactsAt(*x, *problem);
+  StepReport& report = result_.report;
+  report = {};
+  findContacts(*x, problem, &contacts_);
   for (int round = 1;; ++round) {
-    setSprings(contacts, problem);
-    const int iterations = report->iterations;
-    *report = solver_->minimize(problem->potential, x);
-    report->iterations += iterations;
-    if (problem->surroundings.obstacles.empty()) return contacts;
-    std::vector<Contact> now = updated(contacts, contactsAt(*x, *problem));
-    if (contact_.difference(contacts, now, *x) < options_.contact_tolerance_m) return contacts;
+    setSprings(problem);
+    const int iterations = report.iterations;
+    report = solver_->minimize(potential_, x);
+    report.iterations += iterations;
+    if (problem.surroundings.obstacles.empty()) return;
+    findContacts(*x, problem, &found_);
+    keepEarlier(contacts_, &found_);
+    if (contact_.difference(contacts_, found_, *x) < options_.contact_tolerance_m) return;
     if (round == kMaxRounds) {
-      report->converged = false;
-      return contacts;
+      report.converged = false;
+      return;
     }
-    contacts = std::move(now);
+    contacts_.swap(found_);
   }
 }
 
-std::vector<Contact> ConstrainedStep::contactsAt(const Points& x, const Problem& problem) {
-  return contact_.find(problem.before, x, problem.surroundings.obstacles, problem.before_poses);
+void ConstrainedStep::findContacts(const Points& x, const Problem& problem, std::vector<Contact>* contacts) {
+  contact_.find(problem.before, x, problem.surroundings.obstacles, problem.before_poses, contacts);
 }
 
-void ConstrainedStep::setSprings(const std::vector<Contact>& contacts, Problem* problem) const {
-  problem->potential.targets.set(problem->targets, topology_->tets, options_.target_stiffness);
-  contact_.addSprings(contacts, &problem->potential.targets);
+void ConstrainedStep::setSprings(const Problem& problem) {
+  potential_.targets.set(problem.targets, topology_->tets, options_.target_stiffness);
+  contact_.addSprings(contacts_, &potential_.targets);
 }
 
 /// A held vertex would follow the rest of its forces; the pin takes them up.
-std::vector<Wrench> ConstrainedStep::pinWrenches(const StepPotential& free, const std::vector<Pin>& pins,
-                                                 const Points& x) const {
-  if (pins.empty()) return {};
-  Points gradient(x.rows(), 3);
-  free.evaluate(x, &gradient);
-  solver_->addElasticity(x, &gradient);
-  std::vector<Wrench> wrenches(pins.size());
-  for (std::size_t k = 0; k < pins.size(); ++k) wrenches[k].force = -gradient.row(pins[k].vertex);
-  return wrenches;
+void ConstrainedStep::findPinForces(const Problem& problem, const Points& x) {
+  const std::vector<Pin>& pins = problem.surroundings.pins;
+  result_.reactions.pins.assign(pins.size(), Wrench());
+  if (pins.empty()) return;
+  setPotential(problem);  // nothing held
+  potential_.evaluate(x, &gradient_);
+  solver_->addElasticity(x, &gradient_);
+  for (std::size_t k = 0; k < pins.size(); ++k)
+    result_.reactions.pins[k].force = -gradient_.row(pins[k].vertex);
 }
 
 }  // namespace softbody

@@ -29,26 +29,33 @@ class ConstrainedStep {
   ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
                   StepSolver* solver);
 
+  /// Allocates only where there are more targets or contacts than ever before.
   /// @param free the step without targets and surroundings; @param before vertices at its start;
-  /// @param before_poses of the obstacles then; @param x start, then result.
-  Result solve(StepPotential free, const std::vector<Target>& targets, const Surroundings& surroundings,
-               const Points& before, const std::vector<Eigen::Isometry3d>& before_poses, Points* x);
+  /// @param before_poses of the obstacles then; @param x start, then result. @return until the next call.
+  const Result& solve(const StepPotential& free, const std::vector<Target>& targets,
+                      const Surroundings& surroundings, const Points& before,
+                      const std::vector<Eigen::Isometry3d>& before_poses, Points* x);
 
  private:
   struct Problem;
 
-  void chooseStart(Problem* problem, Points* x);
-  double energyAt(const Points& x, Problem* problem);
-  std::vector<Contact> iterate(Problem* problem, Points* x, StepReport* report);
-  std::vector<Contact> contactsAt(const Points& x, const Problem& problem);
-  void setSprings(const std::vector<Contact>& contacts, Problem* problem) const;
-  std::vector<Wrench> pinWrenches(const StepPotential& free, const std::vector<Pin>& pins,
-                                  const Points& x) const;
+  void setPotential(const Problem& problem);
+  void chooseStart(const Problem& problem, Points* x);
+  double energyAt(const Points& x, const Problem& problem);
+  void iterate(const Problem& problem, Points* x);
+  void findContacts(const Points& x, const Problem& problem, std::vector<Contact>* contacts);
+  void setSprings(const Problem& problem);
+  void findPinForces(const Problem& problem, const Points& x);
 
   const TetTopology* topology_;
   ContactModel contact_;
   Options options_;
   StepSolver* solver_;
+  StepPotential potential_;        ///< with pins held, and the springs of contacts_
+  std::vector<Contact> contacts_;  ///< under which the result was found
+  std::vector<Contact> found_;     ///< where the result is
+  Points still_, gradient_;
+  Result result_;
 };
 
 }  // namespace softbody

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
+#include <tuple>
 #include <utility>
 
 #include "softbody_common/tet_geometry.h"
@@ -124,11 +124,11 @@ std::vector<ContactPoint> contactPoints(const TetTopology& topology, double spac
   return result;
 }
 
-std::vector<Contact> findContacts(const std::vector<ContactPoint>& points, const Tets& tets,
-                                  const Points& before, const Points& after,
-                                  const std::vector<Obstacle>& obstacles,
-                                  const std::vector<Eigen::Isometry3d>& before_poses, double reach_m) {
-  std::vector<Contact> contacts;
+void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, const Points& before,
+                  const Points& after, const std::vector<Obstacle>& obstacles,
+                  const std::vector<Eigen::Isometry3d>& before_poses, double reach_m,
+                  std::vector<Contact>* contacts) {
+  contacts->clear();
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     const Obstacle& obstacle = obstacles[o];
     const Eigen::Isometry3d to_obstacle = obstacle.pose.inverse(), to_earlier = before_poses[o].inverse();
@@ -138,21 +138,24 @@ std::vector<Contact> findContacts(const std::vector<ContactPoint>& points, const
       const Eigen::Vector3d meeting = firstMeeting(obstacle, start, end);
       const SurfaceDistance surface = distanceTo(obstacle, meeting);
       if (surface.distance > reach_m) continue;
-      contacts.push_back({static_cast<int>(p), static_cast<int>(o),
-                          obstacle.pose * (meeting - surface.distance * surface.normal),
-                          obstacle.pose.linear() * surface.normal});
+      contacts->push_back({static_cast<int>(p), static_cast<int>(o),
+                           obstacle.pose * (meeting - surface.distance * surface.normal),
+                           obstacle.pose.linear() * surface.normal});
     }
   }
-  return contacts;
 }
 
-std::vector<Contact> updated(const std::vector<Contact>& earlier, std::vector<Contact> now) {
-  std::set<std::pair<int, int>> found;
-  for (const Contact& contact : now) found.emplace(contact.point, contact.obstacle);
+bool comesBefore(const Contact& a, const Contact& b) {
+  return std::tie(a.obstacle, a.point) < std::tie(b.obstacle, b.point);
+}
+
+void keepEarlier(const std::vector<Contact>& earlier, std::vector<Contact>* contacts) {
+  const auto found = static_cast<std::ptrdiff_t>(contacts->size());
   for (const Contact& contact : earlier) {
-    if (found.count({contact.point, contact.obstacle}) == 0) now.push_back(contact);
+    const auto begin = contacts->begin();
+    if (!std::binary_search(begin, begin + found, contact, comesBefore)) contacts->push_back(contact);
   }
-  return now;
+  std::sort(contacts->begin(), contacts->end(), comesBefore);
 }
 
 }  // namespace softbody

@@ -25,18 +25,22 @@ struct Contact {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< outward
 };
 
-/// One contact for each pair of point and obstacle closer than `reach_m`. A point that was outside is stopped
-/// where its way meets the obstacle, seen from the obstacle as both move, so that nothing gets through a thin
-/// or fast one between two steps; any other belongs to the nearest place on the surface.
+/// One contact for each pair of point and obstacle closer than `reach_m`, obstacle by obstacle and point by
+/// point. A point that was outside is stopped where its way meets the obstacle, seen from the obstacle as
+/// both move, so that nothing gets through a thin or fast one between two steps; any other belongs to the
+/// nearest place on the surface.
 /// @param before, after vertices at the step's start and as they are now; @param before_poses of the
 /// obstacles at the step's start.
-std::vector<Contact> findContacts(const std::vector<ContactPoint>& points, const Tets& tets,
-                                  const Points& before, const Points& after,
-                                  const std::vector<Obstacle>& obstacles,
-                                  const std::vector<Eigen::Isometry3d>& before_poses, double reach_m);
+void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, const Points& before,
+                  const Points& after, const std::vector<Obstacle>& obstacles,
+                  const std::vector<Eigen::Isometry3d>& before_poses, double reach_m,
+                  std::vector<Contact>* contacts);
 
-/// The contacts found now, and those of earlier that were not found again: a point that a contact has pushed
-/// out of the obstacle's way would otherwise fall back into it.
-std::vector<Contact> updated(const std::vector<Contact>& earlier, std::vector<Contact> now);
+/// Adds those of `earlier` that were not found again: a point that a contact has pushed out of the obstacle's
+/// way would otherwise fall back into it. Both as findContacts orders them.
+void keepEarlier(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
+
+/// The order of findContacts.
+bool comesBefore(const Contact& a, const Contact& b);
 
 }  // namespace softbody

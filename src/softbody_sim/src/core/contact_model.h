@@ -16,18 +16,18 @@ class ContactModel {
 
   /// The contacts of a step from `before`, as its vertices are now. The first obstacles make the contact
   /// points. @param before_poses as in findContacts.
-  std::vector<Contact> find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
-                            const std::vector<Eigen::Isometry3d>& before_poses);
+  void find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
+            const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts);
 
   void addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const;
 
   /// Largest change between two lists in how deep a point is in its obstacle [m]: how far one is from
-  /// describing contact as the other does.
+  /// describing contact as the other does. Both as findContacts orders them.
   double difference(const std::vector<Contact>& a, const std::vector<Contact>& b, const Points& x) const;
 
   /// What the body does to each obstacle.
-  std::vector<Wrench> wrenches(const std::vector<Contact>& contacts, const Points& x,
-                               const std::vector<Obstacle>& obstacles) const;
+  void wrenches(const std::vector<Contact>& contacts, const Points& x, const std::vector<Obstacle>& obstacles,
+                std::vector<Wrench>* wrenches) const;
 
  private:
   double depthOf(const Contact& contact, const Points& x) const;

@@ -21,7 +21,8 @@ class LoadEstimate {
   /// estimated.
   LoadEstimate(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s);
 
-  /// @param springs forces of the springs on the vertices, #V by 3 [N]. @param vertices #V by 3 [m].
+  /// Allocates on the first call only. @param springs forces of the springs on the vertices, #V by 3 [N].
+  /// @param vertices #V by 3 [m].
   /// @param loads as estimated so far, per mass, #V by 3 [m/s^2].
   void update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads);
 

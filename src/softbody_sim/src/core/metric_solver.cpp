@@ -53,6 +53,7 @@ MetricSolver<T>::MetricSolver(const Eigen::SparseMatrix<double>& lower, Simd sim
       solve_panels_(panelSolve<T>(simd)),
       count_(static_cast<int>(lower.rows())),
       permuted_(Rows<T>::Zero(paddedRows(count_), 4)) {
+  factorization_.reserveUpdates(kMostUpdates);
   if (count_ <= kLargestInverse) inverse_.emplace(lower, simd);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <queue>
 #include <utility>
 
 namespace softbody {
@@ -38,37 +37,45 @@ ObservationConfidence::ObservationConfidence(const Points& rest_vertices, const 
     ++count;
   }
   decay_length_ = count > 0 ? 2.0 * sum / count : 0.0;
+  support_.reserve(neighbors_.size());
+  distance_.reserve(neighbors_.size());
+  queue_.reserve(neighbors_.size() + 2 * static_cast<std::size_t>(count));  // each edge once from each end
 }
 
-std::vector<float> ObservationConfidence::of(const std::vector<Target>& targets) const {
+/// Dijkstra from all observed vertices at once.
+void ObservationConfidence::findDistances() {
   constexpr double kObserved = 0.25;
-  std::vector<double> support(neighbors_.size(), 0.0);
-  for (const Target& target : targets) {
-    for (int k = 0; k < 4; ++k) {
-      support[tets_(target.place.tet, k)] += target.weight * std::max(0.0, target.place.barycentric[k]);
-    }
+  const auto push = [this](double distance, int vertex) {
+    queue_.emplace_back(distance_[vertex] = distance, vertex);
+    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+  };
+  distance_.assign(neighbors_.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < support_.size(); ++v) {
+    if (support_[v] >= kObserved) push(0.0, static_cast<int>(v));
   }
-  // Dijkstra from all observed vertices at once.
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-  std::vector<double> distance(neighbors_.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t v = 0; v < support.size(); ++v) {
-    if (support[v] >= kObserved) queue.emplace(distance[v] = 0.0, static_cast<int>(v));
-  }
-  while (!queue.empty()) {
-    const auto [reached, vertex] = queue.top();
-    queue.pop();
-    if (reached > distance[vertex]) continue;
+  while (!queue_.empty()) {
+    const auto [reached, vertex] = queue_.front();
+    std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
+    queue_.pop_back();
+    if (reached > distance_[vertex]) continue;
     for (const Neighbor& neighbor : neighbors_[vertex]) {
       const double candidate = reached + neighbor.distance;
-      if (candidate < distance[neighbor.vertex])
-        queue.emplace(distance[neighbor.vertex] = candidate, neighbor.vertex);
+      if (candidate < distance_[neighbor.vertex]) push(candidate, neighbor.vertex);
     }
   }
-  std::vector<float> confidence(distance.size());
-  for (std::size_t v = 0; v < distance.size(); ++v)
-    confidence[v] = static_cast<float>(std::exp(-distance[v] / decay_length_));
-  return confidence;
+}
+
+void ObservationConfidence::find(const std::vector<Target>& targets, std::vector<float>* confidence) {
+  support_.assign(neighbors_.size(), 0.0);
+  for (const Target& target : targets) {
+    for (int k = 0; k < 4; ++k) {
+      support_[tets_(target.place.tet, k)] += target.weight * std::max(0.0, target.place.barycentric[k]);
+    }
+  }
+  findDistances();
+  confidence->resize(distance_.size());
+  for (std::size_t v = 0; v < distance_.size(); ++v)
+    (*confidence)[v] = static_cast<float>(std::exp(-distance_[v] / decay_length_));
 }
 
 }  // namespace softbody

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "softbody_common/types.h"
@@ -14,16 +15,22 @@ class ObservationConfidence {
   ObservationConfidence(const Points& rest_vertices, const Tets& tets);
 
   /// A vertex is observed when its barycentric shares, times the targets' weights, sum to at least 1/4.
-  std::vector<float> of(const std::vector<Target>& targets) const;
+  /// Allocates nothing. @param confidence #V.
+  void find(const std::vector<Target>& targets, std::vector<float>* confidence);
 
  private:
   struct Neighbor {
     int vertex;
     double distance;  ///< [m]
   };
+  /// From where support_ is enough.
+  void findDistances();
+
   const Tets tets_;
   std::vector<std::vector<Neighbor>> neighbors_;
-  double decay_length_ = 0.0;  ///< [m]
+  double decay_length_ = 0.0;               ///< [m]
+  std::vector<double> support_, distance_;  ///< per vertex
+  std::vector<std::pair<double, int>> queue_;
 };
 
 }  // namespace softbody

@@ -10,16 +10,17 @@
 namespace softbody {
 namespace {
 
-/// CHOLMOD's view of a compressed lower triangle; it borrows the memory and does not write to it.
-cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
+/// CHOLMOD's view of a compressed triangle; it borrows the memory and does not write to it.
+/// @param triangle -1: lower, 1: upper.
+cholmod_sparse view(const Eigen::SparseMatrix<double>& matrix, int triangle) {
   cholmod_sparse A{};
-  A.nrow = static_cast<std::size_t>(lower.rows());
-  A.ncol = static_cast<std::size_t>(lower.cols());
-  A.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  A.p = const_cast<int*>(lower.outerIndexPtr());
-  A.i = const_cast<int*>(lower.innerIndexPtr());
-  A.x = const_cast<double*>(lower.valuePtr());
-  A.stype = -1;
+  A.nrow = static_cast<std::size_t>(matrix.rows());
+  A.ncol = static_cast<std::size_t>(matrix.cols());
+  A.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  A.p = const_cast<int*>(matrix.outerIndexPtr());
+  A.i = const_cast<int*>(matrix.innerIndexPtr());
+  A.x = const_cast<double*>(matrix.valuePtr());
+  A.stype = triangle;
   A.itype = CHOLMOD_INT;
   A.xtype = CHOLMOD_REAL;
   A.dtype = CHOLMOD_DOUBLE;
@@ -33,10 +34,13 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
 struct PositiveDefiniteSolver::Implementation {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
-  std::vector<int> place;  ///< of a vertex in the factor's order
+  /// A in the factor's order: CHOLMOD copies a matrix that it has to permute or transpose itself.
+  Eigen::SparseMatrix<double> upper;
+  std::vector<int> slots;         ///< where the values of A's lower triangle are among those of upper
+  std::vector<int> order, place;  ///< vertex by place in the factor's order, and the other way round
   std::vector<int> starts, rows;
   std::vector<double> values;  ///< of an update's columns
-  cholmod_dense *B = nullptr, *X = nullptr, *Y = nullptr, *E = nullptr;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> substituted;
 
   Implementation() {
     cholmod_start(&common);
@@ -47,7 +51,6 @@ struct PositiveDefiniteSolver::Implementation {
     common.final_monotonic = 1;
   }
   ~Implementation() {
-    for (cholmod_dense** workspace : {&B, &X, &Y, &E}) cholmod_free_dense(workspace, &common);
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
@@ -61,6 +64,8 @@ struct PositiveDefiniteSolver::Implementation {
     }
     if (common.status != CHOLMOD_OK) throw std::runtime_error("the system matrix is not positive definite");
   }
+  void findOrder(const Eigen::SparseMatrix<double>& lower);
+  void permute(const Eigen::SparseMatrix<double>& lower);
   void update(const std::vector<TetVector>& columns, bool add);
 
   Implementation(const Implementation&) = delete;
@@ -98,25 +103,65 @@ void PositiveDefiniteSolver::Implementation::update(const std::vector<TetVector>
   cholmod_updown(add ? 1 : 0, &C, factor, &common);
 }
 
+void PositiveDefiniteSolver::Implementation::findOrder(const Eigen::SparseMatrix<double>& lower) {
+  cholmod_sparse A = view(lower, -1);
+  cholmod_factor* analysis = cholmod_analyze(&A, &common);
+  if (analysis == nullptr) throw std::runtime_error("CHOLMOD could not analyse the matrix");
+  const auto* permutation = static_cast<const int*>(analysis->Perm);
+  order.assign(permutation, permutation + A.nrow);
+  cholmod_free_factor(&analysis, &common);
+  place.resize(A.nrow);
+  for (std::size_t k = 0; k < A.nrow; ++k) place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+}
+
+/// The pattern of upper, and slots.
+void PositiveDefiniteSolver::Implementation::permute(const Eigen::SparseMatrix<double>& lower) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < lower.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, column); entry; ++entry) {
+      const auto [first, last] =
+          std::minmax(place[static_cast<std::size_t>(entry.row())], place[static_cast<std::size_t>(column)]);
+      entries.emplace_back(first, last, static_cast<double>(entries.size()));
+    }
+  }
+  upper.resize(lower.rows(), lower.cols());
+  upper.setFromTriplets(entries.begin(), entries.end());
+  slots.resize(entries.size());
+  for (Eigen::Index k = 0; k < upper.nonZeros(); ++k)
+    slots[static_cast<std::size_t>(upper.valuePtr()[k])] = static_cast<int>(k);
+}
+
 PositiveDefiniteSolver::PositiveDefiniteSolver(const Eigen::SparseMatrix<double>& lower)
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& s = *implementation_;
-  cholmod_sparse A = view(lower);
+  s.findOrder(lower);
+  s.permute(lower);
+  s.common.nmethods = 1;
+  s.common.method[0].ordering = CHOLMOD_NATURAL;
+  s.common.postorder = 0;
+  cholmod_sparse A = view(s.upper, 1);
   s.factor = cholmod_analyze(&A, &s.common);
-  s.B = cholmod_allocate_dense(A.nrow, 3, A.nrow, CHOLMOD_REAL, &s.common);
-  if (s.factor == nullptr || s.B == nullptr) throw std::runtime_error("CHOLMOD could not analyse the matrix");
-  const auto* order = static_cast<const int*>(s.factor->Perm);
-  s.place.resize(A.nrow);
-  for (std::size_t k = 0; k < A.nrow; ++k) s.place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+  s.substituted.resize(lower.rows(), 3);
+  if (s.factor == nullptr) throw std::runtime_error("CHOLMOD could not analyse the matrix");
 }
 
 PositiveDefiniteSolver::~PositiveDefiniteSolver() = default;
 
 void PositiveDefiniteSolver::factorize(const Eigen::SparseMatrix<double>& lower) {
   Implementation& s = *implementation_;
-  cholmod_sparse A = view(lower);
+  for (std::size_t k = 0; k < s.slots.size(); ++k) s.upper.valuePtr()[s.slots[k]] = lower.valuePtr()[k];
+  cholmod_sparse A = view(s.upper, 1);
   cholmod_factorize(&A, s.factor, &s.common);
   s.requirePositive();
+}
+
+void PositiveDefiniteSolver::reserveUpdates(std::size_t count) {
+  Implementation& s = *implementation_;
+  s.starts.reserve(count + 1);
+  s.rows.reserve(4 * count);
+  s.values.reserve(4 * count);
+  const std::size_t n = s.order.size();
+  cholmod_allocate_work(n, n, s.common.maxrank * n, &s.common);
 }
 
 void PositiveDefiniteSolver::update(const std::vector<TetVector>& added,
@@ -129,17 +174,25 @@ void PositiveDefiniteSolver::update(const std::vector<TetVector>& added,
 
 CholeskyView PositiveDefiniteSolver::factor() const {
   const cholmod_factor& L = *implementation_->factor;
-  return {static_cast<int>(L.n),         static_cast<const int*>(L.Perm), static_cast<const int*>(L.p),
-          static_cast<const int*>(L.nz), static_cast<const int*>(L.i),    static_cast<const double*>(L.x)};
+  return {static_cast<int>(L.n),         implementation_->order.data(), static_cast<const int*>(L.p),
+          static_cast<const int*>(L.nz), static_cast<const int*>(L.i),  static_cast<const double*>(L.x)};
 }
 
+/// By the factor itself: cholmod_solve2 allocates at every call.
 void PositiveDefiniteSolver::solve(const Points& B, Points* X) {
-  Implementation& s = *implementation_;
-  Eigen::Map<Eigen::MatrixX3d>(static_cast<double*>(s.B->x), B.rows(), 3) = B;
-  if (cholmod_solve2(CHOLMOD_A, s.factor, s.B, nullptr, &s.X, nullptr, &s.Y, &s.E, &s.common) == 0) {
-    throw std::runtime_error("CHOLMOD could not solve the system");
+  const CholeskyView L = factor();
+  auto& y = implementation_->substituted;
+  for (int j = 0; j < L.count; ++j) y.row(j) = B.row(L.order[j]);
+  const auto each = [&L](int j, auto use) {
+    for (int k = L.starts[j] + 1; k < L.starts[j] + L.row_counts[j]; ++k) use(L.rows[k], L.values[k]);
+  };
+  for (int j = 0; j < L.count; ++j) each(j, [&](int row, double value) { y.row(row) -= value * y.row(j); });
+  for (int j = L.count - 1; j >= 0; --j) {
+    y.row(j) /= L.values[L.starts[j]];
+    each(j, [&](int row, double value) { y.row(j) -= value * y.row(row); });
   }
-  *X = Eigen::Map<const Eigen::MatrixX3d>(static_cast<const double*>(s.X->x), B.rows(), 3);
+  X->resize(L.count, 3);
+  for (int j = 0; j < L.count; ++j) X->row(L.order[j]) = y.row(j);
 }
 
 }  // namespace softbody

@@ -21,7 +21,8 @@ struct CholeskyView {
 };
 
 /// Solves A X = B for sparse symmetric positive definite matrices A of one pattern (CHOLMOD). The same on
-/// every run: no threads, no BLAS.
+/// every run: no threads, no BLAS. Allocates on the first factorize() only, and where an update is wider than
+/// reserved.
 class PositiveDefiniteSolver {
  public:
   /// Orders and analyses the pattern, once. @param lower compressed lower triangle of A.
@@ -31,6 +32,9 @@ class PositiveDefiniteSolver {
   /// @param lower of the analysed pattern. @throw std::runtime_error if A is not positive definite.
   void factorize(const Eigen::SparseMatrix<double>& lower);
 
+  /// For updates by so many vectors.
+  void reserveUpdates(std::size_t count);
+
   /// Makes it the factor of A plus the sum of v v^T over `added`, minus that over `removed`, whose entries
   /// the pattern must hold (Davis and Hager 1999). @throw std::runtime_error if that is not positive
   /// definite.
@@ -39,7 +43,7 @@ class PositiveDefiniteSolver {
   /// Of the last factorize() or update(), until the next.
   CholeskyView factor() const;
 
-  /// X = A^-1 B, both #V by 3. Allocates on the first call only.
+  /// X = A^-1 B, both #V by 3.
   void solve(const Points& B, Points* X);
 
  private:

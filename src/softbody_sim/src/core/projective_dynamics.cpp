@@ -21,9 +21,6 @@ TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& 
   return metric;
 }
 
-/// Rank-one changes up to which updating a factor costs less than factoring anew, whatever the body: about 24
-/// for 300 tets, 50 for a thousand, more beyond (bench_projective_dynamics, `update`).
-constexpr std::size_t kMostUpdates = 16;
 /// Updates in a row, so that their rounding does not pile up.
 constexpr int kMostUpdatedFrames = 100;
 
@@ -33,8 +30,8 @@ class StepMetric {
  public:
   StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity)
       : metric_(elasticMetric(topology, elasticity)), elastic_(metric_.values()) {
-    added_.reserve(kMostUpdates + 1);
-    removed_.reserve(kMostUpdates + 1);
+    added_.reserve(kMost + 1);
+    removed_.reserve(kMost + 1);
   }
 
   const Eigen::SparseMatrix<double>& lower() const { return metric_.lower(); }
@@ -43,7 +40,7 @@ class StepMetric {
   template <typename T>
   void set(const StepPotential& potential, MetricSolver<T>* solver) {
     const bool few = has_factor_ && inertia_ == potential.inertia &&
-                     potential.targets.metricChanges(targets_, kMostUpdates, &added_, &removed_);
+                     potential.targets.metricChanges(targets_, kMost, &added_, &removed_);
     if (few && added_.empty() && removed_.empty()) return;
     has_factor_ = false;  // until it is made
     if (few && updated_frames_ < kMostUpdatedFrames) {
@@ -62,6 +59,8 @@ class StepMetric {
   }
 
  private:
+  static constexpr std::size_t kMost = MetricSolver<double>::kMostUpdates;
+
   TetMatrix metric_;
   const Eigen::VectorXd elastic_;  ///< the values that never change
   bool has_factor_ = false;

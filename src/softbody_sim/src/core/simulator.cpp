@@ -84,8 +84,8 @@ struct Simulator::Implementation {
   void simulate(const TargetSet& targets, double elapsed_s, const Surroundings& surroundings, Body* next);
   void estimateLoads(const TargetSet& targets, double elapsed_s, Body* next);
   void settle(const TargetSet& targets, const Surroundings& surroundings, Body* next);
-  void solve(const StepPotential& free, const TargetSet& targets, const Surroundings& surroundings, Points x,
-             Body* next);
+  /// From `solution`, which becomes the next vertices, under `free`.
+  void solve(const TargetSet& targets, const Surroundings& surroundings, Body* next);
 
   void adopt(const TetTopology& topology);
   /// The targets for the present revision; `storage` holds them where they were for an earlier one.
@@ -99,6 +99,14 @@ struct Simulator::Implementation {
   EditedVolume volume;
   std::unique_ptr<BodyModel> model;  ///< of the volume's topology
   Body body;
+
+  // Kept from step to step, so that steps allocate nothing.
+  Body next;
+  StepPotential free;  ///< without targets and surroundings
+  Points solution;
+  std::vector<Eigen::Isometry3d> poses;  ///< of the obstacles
+  TargetEnergy springs;
+  Points spring_forces;
 };
 
 Simulator::Implementation::Implementation(const TetTopology& topology, const Material& material_in,
@@ -165,52 +173,53 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
 void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s,
                                          const Surroundings& surroundings, Body* next) {
   const double h = elapsed_s > 0.0 ? std::min(elapsed_s, config.max_time_step_s) : kNominalTimeStep;
-  const Points before = next->state.vertices;
-  StepPotential free{model->masses / (h * h), before, Points::Zero(model->masses.size(), 3), {}};
+  free.inertia = model->masses / (h * h);
+  free.prediction = next->state.vertices;
+  free.loads.setZero(model->masses.size(), 3);
   if (elapsed_s > 0.0) {
     next->velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
     free.prediction += h * next->velocity;
-    free.loads = model->masses * config.gravity.transpose();
+    free.loads.noalias() = model->masses * config.gravity.transpose();
   }
   // From where gravity alone takes the vertices; the body's stiffness meets the estimated loads.
-  const Points start = free.prediction + free.inertia.cwiseInverse().asDiagonal() * free.loads;
+  solution = free.prediction + free.inertia.cwiseInverse().asDiagonal() * free.loads;
   if (elapsed_s > 0.0) free.loads += model->masses.asDiagonal() * next->loads;
-  solve(free, targets, surroundings, start, next);
+  solve(targets, surroundings, next);
   // Over a gap that is simulated as a shorter step the body still took the whole gap for its way.
-  if (elapsed_s > 0.0) next->velocity = (next->state.vertices - before) / elapsed_s;
+  if (elapsed_s > 0.0) next->velocity = (solution - next->state.vertices) / elapsed_s;
+  next->state.vertices.swap(solution);
 }
 
 /// What the targets still pull with says what else acts on the body.
 void Simulator::Implementation::estimateLoads(const TargetSet& targets, double elapsed_s, Body* next) {
-  TargetEnergy springs;
   springs.set(targets.targets, model->topology.tets, model->target_stiffness);
-  Points gradient = Points::Zero(next->loads.rows(), 3);
-  springs.addTo(next->state.vertices, &gradient);
-  model->load_estimate.update(-gradient, next->state.vertices, elapsed_s, &next->loads);
+  spring_forces.setZero(next->loads.rows(), 3);
+  springs.addTo(next->state.vertices, &spring_forces);
+  spring_forces *= -1.0;
+  model->load_estimate.update(spring_forces, next->state.vertices, elapsed_s, &next->loads);
 }
 
 void Simulator::Implementation::settle(const TargetSet& targets, const Surroundings& surroundings,
                                        Body* next) {
   if (targets.reset) place(targets.body_pose, next->stamp, next);
-  const StepPotential free{Eigen::VectorXd::Zero(model->masses.size()),
-                           next->state.vertices,
-                           model->masses * config.gravity.transpose(),
-                           {}};
-  solve(free, targets, surroundings, next->state.vertices, next);
+  free.inertia.setZero(model->masses.size());
+  free.prediction = solution = next->state.vertices;
+  free.loads.noalias() = model->masses * config.gravity.transpose();
+  solve(targets, surroundings, next);
+  next->state.vertices.swap(solution);
   next->velocity.setZero();
 }
 
-void Simulator::Implementation::solve(const StepPotential& free, const TargetSet& targets,
-                                      const Surroundings& surroundings, Points x, Body* next) {
-  std::vector<Eigen::Isometry3d> poses;
+void Simulator::Implementation::solve(const TargetSet& targets, const Surroundings& surroundings,
+                                      Body* next) {
+  poses.clear();
   for (const Obstacle& obstacle : surroundings.obstacles) poses.push_back(obstacle.pose);
   if (next->obstacle_poses.size() != poses.size()) next->obstacle_poses = poses;
-  ConstrainedStep::Result result = model->constrained_step.solve(
-      free, targets.targets, surroundings, next->state.vertices, next->obstacle_poses, &x);
+  const ConstrainedStep::Result& result = model->constrained_step.solve(
+      free, targets.targets, surroundings, next->state.vertices, next->obstacle_poses, &solution);
   next->report = result.report;
-  next->reactions = std::move(result.reactions);
-  next->obstacle_poses = std::move(poses);
-  next->state.vertices.swap(x);
+  next->reactions = result.reactions;
+  next->obstacle_poses.swap(poses);
 }
 
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
@@ -227,14 +236,15 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   TargetSet storage;
   const TargetSet& targets = s.upToDate(given, &storage);
   s.requireUsable(targets, surroundings);
-  Body next = s.body;
+  Body& next = s.next;
+  next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp, &next);
   s.advance(targets, stamp, surroundings, &next);
   if (s.config.simulate && stamp > s.body.stamp)
     s.estimateLoads(targets, 1e-9 * static_cast<double>(stamp - s.body.stamp), &next);
-  next.state.confidence = s.model->confidence.of(targets.targets);
+  s.model->confidence.find(targets.targets, &next.state.confidence);
   if (!targets.targets.empty()) next.state.observed = stamp;
-  s.body = std::move(next);
+  std::swap(s.body, next);
 }
 
 void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const Surroundings& surroundings) {
@@ -244,12 +254,13 @@ void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const 
   const TargetSet& earlier = s.upToDate(given, &storage);
   s.requireUsable(earlier, surroundings);
   if (!s.body.placed) throw std::invalid_argument("the body has no place yet");
-  Body next = s.body;
+  Body& next = s.next;
+  next = s.body;
   s.advance(earlier, stamp, surroundings, &next);
   const double elapsed_s = 1e-9 * static_cast<double>(next.stamp - s.body.stamp);
   const auto fade = static_cast<float>(std::pow(0.5, elapsed_s / kHalfLife));
   for (float& confidence : next.state.confidence) confidence *= fade;
-  s.body = std::move(next);
+  std::swap(s.body, next);
 }
 
 void Simulator::settle(const TargetSet& given, const Surroundings& surroundings) {
@@ -257,10 +268,11 @@ void Simulator::settle(const TargetSet& given, const Surroundings& surroundings)
   TargetSet storage;
   const TargetSet& targets = s.upToDate(given, &storage);
   s.requireUsable(targets, surroundings);
-  Body next = s.body;
+  Body& next = s.next;
+  next = s.body;
   s.settle(targets, surroundings, &next);
-  next.state.confidence = s.model->confidence.of(targets.targets);
-  s.body = std::move(next);
+  s.model->confidence.find(targets.targets, &next.state.confidence);
+  std::swap(s.body, next);
 }
 
 void Simulator::setVertices(const Points& vertices) {

@@ -25,7 +25,6 @@ bool soonFollows(SpringIterator first, SpringIterator end, const Spring& spring,
 
 void TargetEnergy::set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness) {
   springs_.clear();
-  springs_.reserve(targets.size());
   for (const Target& target : targets) {
     springs_.push_back({target.place.tet, tets.row(target.place.tet), target.place.barycentric,
                         target.position, target.normal.normalized(), target.weight * unit_stiffness});
