@@ -106,13 +106,13 @@ class BodyUnderBlade {
   void lift() {
     edit(surface_.edit(CutKind::kReset));
     surface_.lift();
-    if (surface_.follow(bladeAt(-0.005), simulator_.state())) throw std::runtime_error("cut from above");
+    if (surface_.follow(bladeAt(-0.005), simulator_.state(), 0)) throw std::runtime_error("cut from above");
   }
 
   /// From the blade's pose to what is published: the new topologies, and the visual mesh's state.
   MeshState moveTo(double share_of_height) {
     const double depth = share_of_height * (rest_.col(2).maxCoeff() - rest_.col(2).minCoeff());
-    const auto cut = surface_.follow(bladeAt(depth), simulator_.state());
+    const auto cut = surface_.follow(bladeAt(depth), simulator_.state(), 0);
     if (!cut) throw std::runtime_error("the blade does not cut");
     applyToSimulator(*cut);
     return surface_.surface().apply(simulator_.state());
@@ -136,6 +136,7 @@ class BodyUnderBlade {
   void applyToSimulator(const Cut& cut) {
     std::string reason;
     if (!simulator_.apply(cut, &reason)) throw std::runtime_error(reason);
+    surface_.confirm(cut.revision);
   }
 
   Points rest_;

@@ -51,7 +51,7 @@ class Pipeline {
  private:
   void simulate(const TargetSet& targets, Nanoseconds stamp);
   void makeWaitingCuts(FrameOutput* output);
-  void followBlade(FrameOutput* output);
+  void followBlade(Nanoseconds stamp, FrameOutput* output);
   void adopt(const Cut& cut, FrameOutput* output);
 
   StageTimer timer_;

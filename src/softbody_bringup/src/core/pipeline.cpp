@@ -28,7 +28,7 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   if (output.tracking.has_targets) {
     simulate(output.tracking.targets, frame.stamp);
     makeWaitingCuts(&output);
-    followBlade(&output);
+    followBlade(frame.stamp, &output);
     const auto scope = timer_.stage("Resolution Enhancement");
     output.volume = simulator_.state();
     output.surface = surface_.surface().apply(simulator_.state());
@@ -58,14 +58,14 @@ void Pipeline::makeWaitingCuts(FrameOutput* output) {
   }
 }
 
-void Pipeline::followBlade(FrameOutput* output) {
+void Pipeline::followBlade(Nanoseconds stamp, FrameOutput* output) {
   // Where the blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
   if (!output->tool || output->tool->bridged || tool_tracker_->tool().blade.rows() == 0) return;
   const auto scope = timer_.stage("Cutting");
   const Points blade = transformed(tool_tracker_->tool().blade, output->tool->T_camera_tool);
   std::optional<Cut> own;
   try {
-    own = surface_.follow(blade, simulator_.state());
+    own = surface_.follow(blade, simulator_.state(), stamp);
   } catch (const std::exception& error) {
     output->warnings.push_back(fmt::format("the blade cannot cut: {}", error.what()));
   }
@@ -75,6 +75,7 @@ void Pipeline::followBlade(FrameOutput* output) {
 void Pipeline::adopt(const Cut& cut, FrameOutput* output) {
   std::string reason;
   if (!simulator_.apply(cut, &reason)) throw std::logic_error("simulator and surface disagree: " + reason);
+  surface_.confirm(cut.revision);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
   output->cuts.push_back(cut);
 }

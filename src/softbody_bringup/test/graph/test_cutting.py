@@ -90,7 +90,25 @@ class Cutting(unittest.TestCase):
         last = self.recorder.messages["softbody/preview/marker"][-1].markers
         self.assertEqual([m.action for m in last], [Marker.DELETEALL])
 
+    def test_0_before_the_body_has_a_place(self):
+        """Such a cut holds from the first frame on, whatever the clock says."""
+        middle = self.rest.mean(axis=0)
+        cut = self.service("cut", CutBody)(point=Point(*middle), normal=Vector3(1.0, 0.1, 0.0))
+        self.assertTrue(cut.success, cut.message)
+        topology = self.recorder.wait(lambda seen: next(
+            (t for t in seen["softbody/volume/topology"] if t.revision == 1), None), "revision 1 of the volume")
+        self.assertEqual(topology.header.stamp, rospy.Time(0))
+        type(self).revision = 1
+        self.assertEqual(self.step(reset=True).revision, 1)
+        for name in ("softbody/volume/topology", "softbody/surface/topology"):
+            self.recorder.wait(lambda seen, name=name: [t for t in seen[name] if t.revision == 1
+                                                        and t.header.stamp == self.stamp],
+                               f"revision 1 on {name} with the first frame's stamp")
+        self.assertTrue(self.service("reset", Trigger)().success)
+        self.expect_revision(2, 1)
+
     def test_1_services(self):
+        first = self.revision
         self.step(reset=True)
         middle = self.rest.mean(axis=0)
         plane = {"point": Point(*middle), "normal": Vector3(1.0, 0.1, 0.0)}
@@ -100,19 +118,19 @@ class Cutting(unittest.TestCase):
         self.expect_preview()
         cut = self.service("cut", CutBody)(**plane)
         self.assertTrue(cut.success, cut.message)
-        self.assertEqual(cut.revision, 1)
-        after = self.expect_revision(1, 2)
+        self.assertEqual(cut.revision, first + 1)
+        after = self.expect_revision(first + 1, 2)
         self.assertIn(True, list(after.cut_triangles))
         self.assertIn(-1, after.vertex_parents)
         self.expect_cut_lines(state_stamp=self.stamp)
         self.assertTrue(self.service("undo", Trigger)().success)
-        before = self.expect_revision(2, 1)
+        before = self.expect_revision(first + 2, 1)
         self.recorder.wait(lambda seen: seen["softbody/cut/marker"][-1].action == Marker.DELETE, "no cut lines")
         self.assertTrue(np.array_equal(array(before.rest_vertices), self.rest))
         self.assertTrue(self.service("redo", Trigger)().success)
-        self.expect_revision(3, 2)
+        self.expect_revision(first + 3, 2)
         self.assertTrue(self.service("reset", Trigger)().success)
-        self.expect_revision(4, 1)
+        self.expect_revision(first + 4, 1)
         answer = self.service("undo", Trigger)()
         self.assertFalse(answer.success)
         self.assertEqual(answer.message, "there is no cut to take back")

@@ -3,16 +3,18 @@
 import copy
 import itertools
 import sys
+import time
 import unittest
 
 import numpy as np
 import rospy
 import rostest
-from geometry_msgs.msg import Point32
+from geometry_msgs.msg import Point, Point32, Vector3
 from recorder import Recorder
 from rosgraph_msgs.msg import Log
 from shape_msgs.msg import MeshTriangle
 from softbody_msgs.msg import MeshState, MeshTopology, TetTopology, Tetrahedron
+from softbody_msgs.srv import CutBody
 
 FRAME = "made_by_hand"
 HALF_SIZE_M = np.array([0.11, 0.06, 0.03])
@@ -105,6 +107,34 @@ class SurfaceAlone(unittest.TestCase):
         self.assertEqual(topology.header.stamp, rospy.Time(40))
         self.topology_publisher.publish(self.topology)
         self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 0, "revision 0 again")
+
+    def test_takes_back_a_cut_that_no_simulator_makes(self):
+        def cut():
+            rospy.wait_for_service("/softbody/surface/cut", 30)
+            return rospy.ServiceProxy("/softbody/surface/cut", CutBody)(point=Point(0.01, 0, 0), normal=Vector3(1, 0.1, 0))
+
+        self.surface_for(self.corners, 50)
+        answer = cut()
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("on its way", cut().message)
+
+        def taken_back(seen):
+            if time.monotonic() > taken_back.next:  # as a simulator does every second
+                self.topology_publisher.publish(self.topology)
+                taken_back.next = time.monotonic() + 0.9
+            return [log for log in seen["rosout"] if log.level >= Log.ERROR and "takes it back" in log.msg]
+
+        taken_back.next = 0.0
+        self.recorder.wait(taken_back, "an error that tells of the cut")
+        for second in (51, 52):
+            state = self.surface_for(self.corners, second)
+            self.assertEqual(state.revision, 0)
+            np.testing.assert_allclose(array(state.vertices), array(self.surface.rest_vertices), atol=2e-6)
+        answer = cut()
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.revision, 1)
+        self.recorder.messages["rosout"].clear()
+        self.recorder.wait(taken_back, "the same of the second cut")
 
     def test_refuses_an_open_volume_and_keeps_the_last_one(self):
         open_topology = copy.deepcopy(self.topology)

@@ -15,6 +15,7 @@ namespace softbody {
 struct BladeConfig {
   double min_advance_m = 0.005;     ///< the blade cuts when its edge is so far beyond the front of the cut
   double slit_tolerance_m = 0.005;  ///< a blade that comes so near to an earlier cut is in its slit
+  double max_gap_s = 0.5;           ///< a blade not followed for longer has been lifted
 };
 
 /// @throw std::invalid_argument as Parameters does.
@@ -44,7 +45,9 @@ class CuttableSurface {
   /// The cut that the blade's motion since the last call asks for, already carried out.
   /// @param blade polygon in the frame of the volume's state, the same one every time [m].
   /// @param volume state of the volume at that time; nothing is cut if it is of another revision.
-  std::optional<Cut> follow(const Points& blade, const MeshState& volume);
+  /// @param stamp of the blade. After a gap, or where time jumps back, no cut leads from where it was to
+  /// where it is.
+  std::optional<Cut> follow(const Points& blade, const MeshState& volume, Nanoseconds stamp);
 
   /// The blade is not seen.
   void lift();
@@ -54,10 +57,18 @@ class CuttableSurface {
   /// Undo, redo or reset; for apply().
   Cut edit(CutKind kind) const;
 
-  /// Carries out a cut. Nothing changes where it returns false; `reason` then says why.
+  /// Carries out a cut. Nothing changes where it returns false, `reason` then says why, or throws.
   /// @param volume state of the volume before the cut: in it the visual mesh does not jump.
   /// @throw std::invalid_argument if the patch is no oriented surface.
   bool apply(const Cut& cut, const MeshState& volume, std::string* reason);
+
+  /// The simulator has come to this revision, too: what was before is not needed for rollBack any more.
+  /// Who never confirms keeps all of it.
+  void confirm(std::uint32_t revision);
+
+  /// Takes back the cuts after a revision that the simulator has not come beyond, as if they had never been
+  /// made. @return false, and nothing is changed, if it is a later one or one before a confirmed one.
+  bool rollBack(std::uint32_t revision);
 
   /// What separateCut(patch) would do. @throw std::invalid_argument if the patch is no oriented surface.
   CutPreview preview(const TriangleMesh& patch) const;

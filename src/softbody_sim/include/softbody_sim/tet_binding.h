@@ -8,9 +8,10 @@
 namespace softbody {
 
 /// Points that follow tets. At rest each is at its place; a correction can make them meet given positions in
-/// one deformed state. A correction is kept in the material of its tet, so that it turns and stretches with
-/// it, and is scaled by the strain of the tet's piece over that in the state that it was made for: to nothing
-/// at rest, never above what it was made with.
+/// one deformed state. A correction is kept in the material of the point's tet, so that it turns and
+/// stretches with it, or of a neighbouring one where that is too flat to hold it; and is scaled by the strain
+/// of the tet's piece over that in the state that it was made for: to nothing at rest, never above what it
+/// was made with.
 class TetBinding {
  public:
   TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places);
@@ -26,13 +27,20 @@ class TetBinding {
   void apply(const MeshState& volume, const std::vector<int>& which, MeshState* state) const;
 
  private:
+  /// To be added to a point's position: the barycentric coordinates in a tet, which sum to 0.
+  struct Correction {
+    int tet = -1;
+    Eigen::Vector4d barycentric = Eigen::Vector4d::Zero();
+  };
+  class Meeting;
+
   std::vector<double> squaredStrains(const Points& vertices) const;
   std::vector<double> correctionScales(const Points& vertices) const;
 
   TetTopology volume_;
   std::vector<MaterialPoint> places_;
-  std::vector<Eigen::Vector4d> corrections_;  ///< per point, to its barycentric coordinates; or none
-  std::vector<double> strains_;               ///< per piece, squared, in the state that was met
+  std::vector<Correction> corrections_;  ///< per point, or none
+  std::vector<double> strains_;          ///< per piece, squared, in the state that was met
 };
 
 }  // namespace softbody

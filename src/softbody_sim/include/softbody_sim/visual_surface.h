@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "softbody_common/types.h"
@@ -42,8 +43,9 @@ class VisualSurface {
   TetBinding binding_;
   std::vector<int> surface_vertices_;  ///< of the volume, in ascending order
   std::vector<int> inside_;            ///< visual vertices
-  TiledWeights inside_weights_;        ///< #inside by #surface vertices, rows sum to 1
-  std::vector<int> by_tet_;            ///< visual vertices
+  /// #inside by #surface vertices, rows sum to 1; shared by copies. Null: none is inside.
+  std::shared_ptr<const TiledWeights> inside_weights_;
+  std::vector<int> by_tet_;  ///< visual vertices
 };
 
 }  // namespace softbody

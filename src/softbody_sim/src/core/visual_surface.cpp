@@ -35,8 +35,7 @@ MeanValueCage compactCage(const TetTopology& volume, const std::vector<int>& sur
 VisualSurface::VisualSurface(MeshTopology visual, const TetTopology& volume)
     : visual_(std::move(visual)),
       binding_(volume, bindPoints(visual_.rest_vertices, volume.rest_vertices, volume.tets)),
-      surface_vertices_(verticesOf(volume.surface)),
-      inside_weights_(static_cast<Eigen::Index>(surface_vertices_.size())) {
+      surface_vertices_(verticesOf(volume.surface)) {
   bindInside(volume);
 }
 
@@ -50,6 +49,7 @@ void VisualSurface::bindInside(const TetTopology& volume) {
   constexpr Eigen::Index kAtOnce = 1024;  // bounds the memory of weights in double precision
   const MeanValueCage cage = compactCage(volume, surface_vertices_);
   const Eigen::Index count = visual_.rest_vertices.rows();
+  auto inside_weights = std::make_shared<TiledWeights>(static_cast<Eigen::Index>(surface_vertices_.size()));
   WeightRows weights;
   for (Eigen::Index first = 0; first < count; first += kAtOnce) {
     const Points points = visual_.rest_vertices.middleRows(first, std::min(kAtOnce, count - first));
@@ -57,9 +57,10 @@ void VisualSurface::bindInside(const TetTopology& volume) {
     for (Eigen::Index p = 0; p < points.rows(); ++p) {
       const bool is_inside = turns[static_cast<std::size_t>(p)] != 0;
       (is_inside ? inside_ : by_tet_).push_back(static_cast<int>(first + p));
-      if (is_inside) inside_weights_.append(weights.row(p));
+      if (is_inside) inside_weights->append(weights.row(p));
     }
   }
+  inside_weights_ = std::move(inside_weights);
 }
 
 void VisualSurface::setRevision(std::uint32_t revision) {
@@ -98,14 +99,14 @@ void VisualSurface::applyInside(const MeshState& volume, MeshState* state) const
   if (inside_.empty()) return;
   // Relative to the centre: single precision then costs nothing that shows, wherever the body is.
   const Eigen::RowVector3d center = volume.vertices.colwise().mean();
-  TiledWeights::Values values(inside_weights_.columns(), 4);
+  TiledWeights::Values values(inside_weights_->columns(), 4);
   for (std::size_t k = 0; k < surface_vertices_.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     values.block<1, 3>(row, 0) = (volume.vertices.row(surface_vertices_[k]) - center).cast<float>();
     values(row, 3) = volume.confidence[surface_vertices_[k]];
   }
   TiledWeights::Products interpolated;
-  inside_weights_.multiply(values, &interpolated);
+  inside_weights_->multiply(values, &interpolated);
   for (std::size_t k = 0; k < inside_.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     state->vertices.row(inside_[k]) = interpolated.block<1, 3>(row, 0).cast<double>() + center;

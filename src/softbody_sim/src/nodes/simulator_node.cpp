@@ -137,7 +137,8 @@ void SimulatorNode::onCut(const softbody_msgs::CutConstPtr& message) {
     const auto scope = timer_.stage("Cutting");
     if (simulator_->apply(fromMessage(*message), &reason)) {
       surroundings_->regionsChanged(simulator_->topology().rest_vertices, simulator_->state().vertices);
-      holdTopologyFrom(message->header.stamp);
+      // A body without a place has no frame yet: it holds from the first one, as the uncut one would.
+      holdTopologyFrom(simulator_->placed() ? message->header.stamp : ros::Time());
       last_targets_ = simulator_->broughtUpToDate(std::move(last_targets_));
       return;
     }

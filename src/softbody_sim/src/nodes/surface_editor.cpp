@@ -18,6 +18,8 @@ namespace {
 /// Further apart in time the blade and the body's state say nothing of each other.
 constexpr double kSameInstant = 0.1;  // [s]
 constexpr std::size_t kMostWaiting = 30;
+/// A simulator that goes on for so long without a cut will not make it.
+constexpr double kLongestBehind = 3.0;  // [s]
 
 }  // namespace
 
@@ -47,17 +49,19 @@ SurfaceEditor::SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle privat
 }
 
 void SurfaceEditor::start(const MeshTopology& visual, const TetTopology& volume) {
-  body_.emplace(visual, volume, config_);
+  body_ = CuttableSurface(visual, volume, config_);  // the one before stays where this throws
   rest_ = visual.rest_vertices;
   state_.reset();
   waiting_blades_.clear();
   last_cut_.reset();
+  behind_.reset();
 }
 
 void SurfaceEditor::onState(const MeshState& state, const std_msgs::Header& header) {
   state_ = state;
   state_header_ = header;
   if (last_cut_ && last_cut_->revision <= state.revision) last_cut_.reset();
+  if (body_) body_->confirm(state.revision);
   geometry_msgs::PolygonStampedConstPtr blade;  // the last one up to the state
   while (!waiting_blades_.empty() && waiting_blades_.front()->header.stamp <= header.stamp) {
     blade = waiting_blades_.front();
@@ -81,7 +85,7 @@ void SurfaceEditor::follow(const geometry_msgs::PolygonStamped& blade) {
   const std::optional<Points> polygon = inStatesFrame(blade);
   if (!polygon || polygon->rows() < 3 || !polygon->allFinite()) return;
   try {
-    const std::optional<Cut> cut = body_->follow(*polygon, *state_);
+    const std::optional<Cut> cut = body_->follow(*polygon, *state_, toNanoseconds(blade.header.stamp));
     if (cut) publish(*cut, blade.header.stamp);
   } catch (const std::exception& error) {
     ROS_WARN_STREAM_THROTTLE(5.0, "the blade cannot cut: " << error.what());
@@ -119,9 +123,32 @@ void SurfaceEditor::publish(const Cut& cut, const ros::Time& stamp) {
 void SurfaceEditor::resendTo(std::uint32_t volume_revision) {
   // A body without a place has no state to tell it.
   if (last_cut_ && !state_ && last_cut_->revision <= volume_revision) last_cut_.reset();
+  if (isStuckAt(volume_revision)) return rollBack(volume_revision);
   if (!last_cut_ || last_cut_->revision != volume_revision + 1) return;
   ROS_WARN("the simulator has not made the cut of revision %u; it is sent again", last_cut_->revision);
   cut_publisher_.publish(boost::make_shared<softbody_msgs::Cut>(*last_cut_));
+}
+
+bool SurfaceEditor::isStuckAt(std::uint32_t volume_revision) {
+  if (!body_ || body_->volume().revision <= volume_revision) {
+    behind_.reset();
+    return false;
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  if (!behind_ || behind_->second != volume_revision) behind_.emplace(now, volume_revision);
+  return (now - behind_->first).toSec() > kLongestBehind;
+}
+
+/// The simulator refused the cut, or failed: until it is taken back here nothing can be cut any more.
+void SurfaceEditor::rollBack(std::uint32_t volume_revision) {
+  const std::uint32_t revision = body_->volume().revision;
+  if (!body_->rollBack(volume_revision)) return;  // another body, which starts with its topology
+  last_cut_.reset();
+  behind_.reset();
+  ROS_ERROR(
+      "the simulator stays at revision %u and does not make the cut of revision %u: the surface takes it "
+      "back",
+      volume_revision, revision);
 }
 
 /// Recorded cuts that are played, and one's own, which are done already.
@@ -215,7 +242,7 @@ bool SurfaceEditor::onEdit(CutKind kind, std_srvs::Trigger::Response& response) 
 bool SurfaceEditor::apply(const Cut& cut, std::string* reason) {
   if (!body_->apply(cut, stateOrRest(), reason)) return false;
   reason->clear();
-  publish(cut, state_ ? state_header_.stamp : ros::Time::now());
+  publish(cut, state_ ? state_header_.stamp : ros::Time());
   return true;
 }
 

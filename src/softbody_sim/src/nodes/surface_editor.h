@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "softbody_sim/cuttable_surface.h"
 
@@ -36,7 +37,8 @@ class SurfaceEditor {
   /// Every state of the volume.
   void onState(const MeshState& state, const std_msgs::Header& header);
 
-  /// The simulator has sent its topology again: the last cut goes out once more if it does not have it.
+  /// The simulator has sent its topology, which it does every second: the last cut goes out once more if it
+  /// does not have it. What it still does not have then is taken back.
   void resendTo(std::uint32_t volume_revision);
 
  private:
@@ -50,6 +52,8 @@ class SurfaceEditor {
   std::optional<Points> inStatesFrame(const geometry_msgs::PolygonStamped& blade);
   bool apply(const Cut& cut, std::string* reason);
   void publish(const Cut& cut, const ros::Time& stamp);
+  bool isStuckAt(std::uint32_t volume_revision);
+  void rollBack(std::uint32_t volume_revision);
   template <typename Request>
   TriangleMesh patchOf(const Request& request) const;
   MeshState stateOrRest() const;
@@ -66,6 +70,8 @@ class SurfaceEditor {
   std_msgs::Header state_header_;
   std::deque<geometry_msgs::PolygonStampedConstPtr> waiting_blades_;  ///< their states have not come yet
   softbody_msgs::CutPtr last_cut_;  ///< null: there is none, or the simulator has it
+  /// Since when, and at which revision, the simulator sends topologies from before a cut.
+  std::optional<std::pair<ros::WallTime, std::uint32_t>> behind_;
   tf2_ros::Buffer buffer_;
   std::unique_ptr<tf2_ros::TransformListener>
       listener_;  ///< once the blade is in another frame than the body

@@ -50,7 +50,7 @@ struct Scene {
   std::optional<Cut> move(const Eigen::Isometry3d& T_rest_blade) {
     step();
     const std::optional<Cut> cut =
-        surface.follow(transformed(bladePolygon(), pose * T_rest_blade), simulator.state());
+        surface.follow(transformed(bladePolygon(), pose * T_rest_blade), simulator.state(), stamp);
     if (!cut) return cut;
     ++cuts;
     strokes.push_back(cut->stroke);
@@ -203,6 +203,78 @@ TEST(CuttableSurface, APreviewChangesNothingAndTellsThePieces) {
   EXPECT_GT(preview.volumes[0], preview.volumes[1]);
   EXPECT_EQ(scene.surface.volume().revision, 0u);
   EXPECT_NE(scene.surface.preview(testing::planePatch({0.06, 0.05, 0.5}, {0.0, 0.0, 1.0}, 1.0)).refusal, "");
+}
+
+TEST(CuttableSurface, ABladeThatVanishesIsLifted) {
+  Scene scene;
+  scene.sweep(0.05, 0.015, 0.0, 0.0);
+  const int cuts = scene.cuts;
+  EXPECT_GT(cuts, 0);
+  scene.stamp += 2'000'000'000;
+  scene.sweep(0.015, 0.005, 0.0, 0.0, kPlace + 0.03);
+  EXPECT_EQ(scene.cuts, cuts) << "it cut from where it vanished to where it came back";
+  scene.stamp += 2'000'000'000;
+  scene.sweep(0.016, -0.006, 0.0, 0.0);
+  EXPECT_EQ(scene.visualPieces(), 2u) << "it came back into its slit";
+  EXPECT_LT(scene.cutBounds()[2], 2e-4);
+}
+
+TEST(CuttableSurface, ABladeSeenInEverySecondFrameCuts) {
+  Scene scene;
+  for (int k = 0; k <= 28; ++k) {
+    scene.stamp += 400'000'000;
+    scene.move(bladeAt(0.05 - 0.002 * k));
+  }
+  EXPECT_EQ(scene.visualPieces(), 2u);
+}
+
+/// What is thrown between the edits of tets and mesh: the state that the binding has to meet is not whole.
+TEST(CuttableSurface, AnEditThatFailsHalfwayChangesNothing) {
+  Scene scene;
+  scene.sweep(0.05, 0.012, 0.0, 0.0);
+  const TetTopology tets = scene.surface.volume();
+  const MeshTopology mesh = scene.surface.surface().topology();
+  const Cut cut = scene.surface.separateCut(testing::planePatch({0.04, 0.05, 0.015}, {1.0, 0.1, 0.0}, 1.0));
+  MeshState broken = scene.simulator.state();
+  broken.confidence.pop_back();
+  std::string reason;
+  EXPECT_THROW(scene.surface.apply(cut, broken, &reason), std::invalid_argument);
+  EXPECT_EQ(scene.surface.volume().revision, tets.revision);
+  EXPECT_EQ(scene.surface.volume().tets, tets.tets);
+  EXPECT_EQ(scene.surface.surface().topology().triangles, mesh.triangles);
+  ASSERT_TRUE(scene.surface.apply(cut, scene.simulator.state(), &reason)) << reason;
+  ASSERT_TRUE(scene.simulator.apply(cut, &reason)) << reason;
+  scene.checkAgreement();
+  EXPECT_EQ(scene.visualPieces(), 2u);
+}
+
+TEST(CuttableSurface, CutsThatTheSimulatorDoesNotMakeAreTakenBack) {
+  Scene scene;
+  scene.sweep(0.05, 0.012, 0.0, 0.0);  // a stroke of several cuts, all confirmed
+  scene.surface.confirm(scene.surface.volume().revision);
+  const TetTopology tets = scene.surface.volume();
+  const MeshTopology mesh = scene.surface.surface().topology();
+  const Points shown = scene.surface.surface().apply(scene.simulator.state()).vertices;
+  MeshState state = scene.simulator.state();
+  std::string reason;
+  for (const double x : {0.03, 0.06}) {
+    const Cut cut = scene.surface.separateCut(testing::planePatch({x, 0.05, 0.015}, {1.0, 0.1, 0.0}, 1.0));
+    state.revision = scene.surface.volume().revision;
+    state.vertices = scene.surface.volume().rest_vertices;
+    state.confidence.assign(static_cast<std::size_t>(state.vertices.rows()), 1.0f);
+    ASSERT_TRUE(scene.surface.apply(cut, state, &reason)) << reason;
+  }
+  EXPECT_FALSE(scene.surface.rollBack(tets.revision - 1)) << "that is confirmed";
+  EXPECT_FALSE(scene.surface.rollBack(tets.revision + 3));
+  EXPECT_EQ(scene.surface.volume().revision, tets.revision + 2);
+  ASSERT_TRUE(scene.surface.rollBack(tets.revision));
+  scene.checkAgreement();
+  EXPECT_EQ(scene.surface.volume().rest_vertices, tets.rest_vertices);
+  EXPECT_EQ(scene.surface.surface().topology().rest_vertices, mesh.rest_vertices);
+  EXPECT_EQ(scene.surface.surface().apply(scene.simulator.state()).vertices, shown);
+  scene.sweep(0.012, 0.05, 0.0, 0.0);
+  scene.sweep(0.05, -0.006, 0.0, 0.0);
+  EXPECT_EQ(scene.visualPieces(), 2u) << "nothing can be cut after a cut was taken back";
 }
 
 }  // namespace

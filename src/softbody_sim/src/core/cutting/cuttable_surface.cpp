@@ -1,6 +1,7 @@
 #include "softbody_sim/cuttable_surface.h"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -46,51 +47,77 @@ std::vector<double> volumesOf(const MeshTopology& mesh) {
   return volumes;
 }
 
-}  // namespace
-
-BladeConfig readBladeConfig(Parameters& parameters) {
-  BladeConfig config;
-  config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
-  config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
-  return config;
-}
-
-struct CuttableSurface::Implementation {
-  Implementation(const MeshTopology& visual, const TetTopology& volume, const BladeConfig& config)
-      : tets(volume),
-        surface(VisualSurface(visual, volume)),
-        solid(visual),
-        blade(config, meanEdgeLength(volume.rest_vertices, volume.tets), overhangOf(volume, visual)) {}
+/// What cuts change. Copies share all that an edit leaves alone.
+struct Models {
+  CutHistory tets;
+  SurfaceHistory surface;
 
   bool cut(const Cut& cut, const MeshState& state, std::string* reason);
   bool move(const Cut& cut, std::string* reason);
-
-  CutHistory tets;
-  SurfaceHistory surface;
-  RestSolid solid;
-  BladeStroke blade;
 };
 
-bool CuttableSurface::Implementation::cut(const Cut& cut, const MeshState& state, std::string* reason) {
+bool Models::cut(const Cut& cut, const MeshState& state, std::string* reason) {
   SurfaceCut surface_cut = surface.preview(cut.patch, cut.stroke);
   *reason = surface_cut.reason;
   if (surface_cut.outcome != CutOutcome::kCut) return false;
   const std::optional<TetEdit> edit = applyCut(cut, &tets, reason);
   if (!edit) return false;
   surface.cut(cut.patch, cut.stroke, std::move(surface_cut), *edit, state);
-  blade.noteNumber(cut.stroke);
   return true;
 }
 
-bool CuttableSurface::Implementation::move(const Cut& cut, std::string* reason) {
+bool Models::move(const Cut& cut, std::string* reason) {
   const std::optional<TetEdit> edit = applyCut(cut, &tets, reason);
   if (!edit) return false;
   const std::uint32_t revision = edit->topology.revision;
   if (cut.kind == CutKind::kUndo) surface.undo(revision);
   if (cut.kind == CutKind::kRedo) surface.redo(revision);
   if (cut.kind == CutKind::kReset) surface.reset(revision);
-  blade.forgetStrokes();
   return true;
+}
+
+}  // namespace
+
+BladeConfig readBladeConfig(Parameters& parameters) {
+  BladeConfig config;
+  config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
+  config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
+  config.max_gap_s = parameters.number("max_gap_s", config.max_gap_s, 0.0, 60.0);
+  return config;
+}
+
+struct CuttableSurface::Implementation {
+  Implementation(const MeshTopology& visual, const TetTopology& volume, const BladeConfig& config_in)
+      : config(config_in),
+        models{CutHistory(volume), SurfaceHistory(VisualSurface(visual, volume))},
+        solid(visual),
+        blade(config, meanEdgeLength(volume.rest_vertices, volume.tets), overhangOf(volume, visual)) {}
+
+  bool apply(const Cut& cut, const MeshState& state, std::string* reason);
+  void liftAfterGap(Nanoseconds stamp);
+
+  BladeConfig config;
+  Models models;
+  std::deque<Models> unconfirmed;  ///< before each cut that the simulator may still refuse, oldest first
+  RestSolid solid;
+  BladeStroke blade;
+  std::optional<Nanoseconds> followed;  ///< stamp of the last blade
+};
+
+/// On a copy, so that tets and surface stay in step whatever is thrown between their edits.
+bool CuttableSurface::Implementation::apply(const Cut& cut, const MeshState& state, std::string* reason) {
+  Models next = models;
+  if (!(cut.kind == CutKind::kCut ? next.cut(cut, state, reason) : next.move(cut, reason))) return false;
+  unconfirmed.push_back(std::move(models));
+  models = std::move(next);
+  blade.noteNumber(cut.stroke);
+  return true;
+}
+
+void CuttableSurface::Implementation::liftAfterGap(Nanoseconds stamp) {
+  if (followed && (stamp < *followed || 1e-9 * static_cast<double>(stamp - *followed) > config.max_gap_s))
+    blade.lift();
+  followed = stamp;
 }
 
 CuttableSurface::CuttableSurface(const MeshTopology& visual, const TetTopology& volume,
@@ -100,16 +127,17 @@ CuttableSurface::~CuttableSurface() = default;
 CuttableSurface::CuttableSurface(CuttableSurface&&) noexcept = default;
 CuttableSurface& CuttableSurface::operator=(CuttableSurface&&) noexcept = default;
 
-const VisualSurface& CuttableSurface::surface() const { return implementation_->surface.surface(); }
-const TetTopology& CuttableSurface::volume() const { return implementation_->tets.topology(); }
+const VisualSurface& CuttableSurface::surface() const { return implementation_->models.surface.surface(); }
+const TetTopology& CuttableSurface::volume() const { return implementation_->models.tets.topology(); }
 
 void CuttableSurface::lift() { implementation_->blade.lift(); }
 
-std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState& volume) {
+std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState& volume, Nanoseconds stamp) {
   Implementation& s = *implementation_;
   const TetTopology& topology = this->volume();
   if (volume.revision != topology.revision || volume.vertices.rows() != topology.rest_vertices.rows())
     return std::nullopt;
+  s.liftAfterGap(stamp);
   if (boxOf(volume.vertices).exteriorDistance(boxOf(blade)) > kNear) {
     s.blade.lift();
     return std::nullopt;
@@ -119,7 +147,7 @@ std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState&
   if (!next) return std::nullopt;
   const Cut cut{topology.revision + 1, next->stroke, CutKind::kCut, next->patch};
   std::string reason;
-  if (!s.cut(cut, volume, &reason)) return std::nullopt;
+  if (!s.apply(cut, volume, &reason)) return std::nullopt;
   s.blade.accept();
   return cut;
 }
@@ -137,15 +165,33 @@ Cut CuttableSurface::edit(CutKind kind) const {
 
 bool CuttableSurface::apply(const Cut& cut, const MeshState& volume, std::string* reason) {
   Implementation& s = *implementation_;
-  if (cut.kind != CutKind::kCut) return s.move(cut, reason);
-  if (!s.cut(cut, volume, reason)) return false;
+  if (!s.apply(cut, volume, reason)) return false;
   s.blade.forgetStrokes();
+  return true;
+}
+
+void CuttableSurface::confirm(std::uint32_t revision) {
+  std::deque<Models>& before = implementation_->unconfirmed;
+  while (!before.empty() && before.front().tets.topology().revision < revision) before.pop_front();
+}
+
+bool CuttableSurface::rollBack(std::uint32_t revision) {
+  Implementation& s = *implementation_;
+  if (volume().revision == revision) return true;
+  const auto kept = std::find_if(s.unconfirmed.begin(), s.unconfirmed.end(), [=](const Models& models) {
+    return models.tets.topology().revision == revision;
+  });
+  if (kept == s.unconfirmed.end()) return false;
+  s.models = std::move(*kept);
+  s.unconfirmed.erase(kept, s.unconfirmed.end());
+  s.blade.forgetStrokes();
+  s.blade.lift();  // the same cut is not asked for again at once
   return true;
 }
 
 CutPreview CuttableSurface::preview(const TriangleMesh& patch) const {
   const Cut cut = separateCut(patch);
-  SurfaceCut surface_cut = implementation_->surface.preview(cut.patch, cut.stroke);
+  SurfaceCut surface_cut = implementation_->models.surface.preview(cut.patch, cut.stroke);
   if (surface_cut.outcome != CutOutcome::kCut) return {surface_cut.reason, {}, {}};
   std::vector<double> volumes = volumesOf(surface_cut.mesh);
   return {"", std::move(volumes), std::move(surface_cut.mesh)};

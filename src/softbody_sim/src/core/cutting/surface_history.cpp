@@ -20,7 +20,7 @@ std::optional<Sheets> sheetsOf(const MeshTopology& mesh) {
 
 SurfaceHistory::SurfaceHistory(VisualSurface uncut) {
   std::optional<Sheets> sheets = sheetsOf(uncut.topology());
-  versions_.push_back({std::move(uncut), std::move(sheets)});
+  versions_.push_back(std::make_shared<Version>(Version{std::move(uncut), std::move(sheets)}));
 }
 
 CutPatch SurfaceHistory::strokeWith(const CutPatch& patch, std::uint32_t stroke) const {
@@ -28,7 +28,7 @@ CutPatch SurfaceHistory::strokeWith(const CutPatch& patch, std::uint32_t stroke)
 }
 
 SurfaceCut SurfaceHistory::preview(const CutPatch& patch, std::uint32_t stroke) const {
-  const Version& start = versions_[hasVersion(stroke) ? at_ - 1 : at_];
+  const Version& start = *versions_[hasVersion(stroke) ? at_ - 1 : at_];
   const MeshTopology& mesh = start.surface.topology();
   const CutPatch whole = strokeWith(patch, stroke);
   return start.sheets ? cutSurface(mesh, *start.sheets, whole) : cutSurface(mesh, whole);
@@ -49,7 +49,7 @@ void SurfaceHistory::cut(const CutPatch& patch, std::uint32_t stroke, SurfaceCut
   VisualSurface swapped = swapSurface(surface(), sources_, std::move(cut), edit, volume);
   versions_.erase(versions_.begin() + static_cast<std::ptrdiff_t>(stroke_has_version_ ? at_ : at_ + 1),
                   versions_.end());
-  versions_.push_back({std::move(swapped), std::move(sheets)});
+  versions_.push_back(std::make_shared<Version>(Version{std::move(swapped), std::move(sheets)}));
   at_ = versions_.size() - 1;
   sources_ = std::move(sources);
   stroke_has_version_ = true;
@@ -65,7 +65,9 @@ bool SurfaceHistory::reset(std::uint32_t revision) { return at_ > 0 && moveTo(0,
 
 bool SurfaceHistory::moveTo(std::size_t version, std::uint32_t revision) {
   at_ = version;
-  versions_[at_].surface.setRevision(revision);
+  auto renumbered = std::make_shared<Version>(*versions_[at_]);
+  renumbered->surface.setRevision(revision);
+  versions_[at_] = std::move(renumbered);
   stroke_number_.reset();
   stroke_has_version_ = false;
   return true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -10,12 +11,12 @@ namespace softbody {
 
 /// The visual surface of a body through strokes of the blade, undo and redo: CutHistory's companion, to be
 /// given the same strokes, undos and redos. An undone surface is the one from before, mesh and binding, bit
-/// for bit, but for its revision.
+/// for bit, but for its revision. Copies share the surfaces.
 class SurfaceHistory {
  public:
   explicit SurfaceHistory(VisualSurface uncut);
 
-  const VisualSurface& surface() const { return versions_[at_].surface; }
+  const VisualSurface& surface() const { return versions_[at_]->surface; }
 
   /// The mesh after the next part of a stroke: the mesh from before the stroke, cut along all of the stroke.
   /// Nothing is changed. @throw std::invalid_argument as cutSurface.
@@ -44,7 +45,7 @@ class SurfaceHistory {
     VisualSurface surface;
     std::optional<Sheets> sheets;  ///< of its mesh; none if that is not closed
   };
-  std::vector<Version> versions_;  ///< the uncut surface, then after each stroke
+  std::vector<std::shared_ptr<const Version>> versions_;  ///< the uncut surface, then after each stroke
   std::size_t at_ = 0;
   MeshSources sources_;  ///< of the surface, in the mesh before the current stroke
   CutPatch stroke_;      ///< all of the current one
