@@ -59,8 +59,8 @@ visualization_msgs::MarkerArray BladeTrail::markers(const std_msgs::Header& head
   if (outlines_.empty()) return message;
   Marker blade = lineList("blade", kOutlineWidth, header), trail = lineList("trail", kTrailWidth, header);
   addOutline(outlines_.back().corners, 1.0f, &blade);
-  // The oldest last: rviz blends all lines as the alpha of the last one asks for.
-  for (std::size_t k = outlines_.size() - 1; k-- > 0;) {
+  trail.color.a = 0.99f;  // rviz blends lines of several colours only where this one is not opaque
+  for (std::size_t k = 0; k + 1 < outlines_.size(); ++k) {
     const float from = freshness(outlines_[k]), to = freshness(outlines_[k + 1]);
     addOutline(outlines_[k].corners, kOutlineAlpha * from, &trail);
     for (Eigen::Index i = 0; i < blade_.rows(); ++i)

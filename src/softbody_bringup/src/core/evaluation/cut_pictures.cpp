@@ -119,6 +119,7 @@ CutStrip::CutStrip(const SurfaceRecord& result, std::map<Nanoseconds, Points> bl
   const std::vector<Nanoseconds> begins = revisionBegins(result);
   shown_ = {std::prev(result.states.find(begins[1]))->first, begins[(begins.size() + 1) / 2], begins.back(),
             result.states.rbegin()->first};
+  shown_.erase(std::unique(shown_.begin(), shown_.end()), shown_.end());
 }
 
 void CutStrip::add(const RecordedFrame& frame) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace softbody {
 namespace {
@@ -21,12 +22,15 @@ void forEachEdge(const MeshTopology& mesh, bool of_cuts, Use use) {
 
 Edges cutLines(const MeshTopology& mesh) {
   std::set<std::pair<int, int>> of_cuts, lines;
-  forEachEdge(mesh, true, [&](const std::pair<int, int>& edge) { of_cuts.insert(edge); });
-  if (!of_cuts.empty()) {
-    forEachEdge(mesh, false, [&](const std::pair<int, int>& edge) {
-      if (of_cuts.count(edge) != 0) lines.insert(edge);
-    });
-  }
+  std::vector<bool> on_cut(static_cast<std::size_t>(mesh.rest_vertices.rows()), false);
+  forEachEdge(mesh, true, [&](const std::pair<int, int>& edge) {
+    of_cuts.insert(edge);
+    on_cut[static_cast<std::size_t>(edge.first)] = true;
+  });
+  // Few edges of a fine skin are worth a look.
+  forEachEdge(mesh, false, [&](const std::pair<int, int>& edge) {
+    if (on_cut[static_cast<std::size_t>(edge.first)] && of_cuts.count(edge) != 0) lines.insert(edge);
+  });
   Edges result(static_cast<Eigen::Index>(lines.size()), 2);
   Eigen::Index row = 0;
   for (const auto& [a, b] : lines) result.row(row++) << a, b;
