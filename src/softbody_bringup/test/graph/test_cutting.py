@@ -87,8 +87,9 @@ class Cutting(unittest.TestCase):
             "cut lines")
         self.assertEqual(lines.action, Marker.ADD)
         self.assertGreater(len(lines.points), 8)
-        last = self.recorder.messages["softbody/preview/marker"][-1].markers
-        self.assertEqual([m.action for m in last], [Marker.DELETEALL])
+        self.recorder.wait(
+            lambda seen: [m.action for m in seen["softbody/preview/marker"][-1].markers] == [Marker.DELETEALL],
+            "the end of the preview")
 
     def test_0_before_the_body_has_a_place(self):
         """Such a cut holds from the first frame on, whatever the clock says."""
