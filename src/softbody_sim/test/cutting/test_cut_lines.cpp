@@ -34,6 +34,17 @@ MeshTopology cutBy(const TriangleMesh& patch) {
 
 TEST(CutLines, AreNotOnAnUncutBody) { EXPECT_EQ(cutLines(visualSponge()).rows(), 0); }
 
+TEST(CutLines, AreTheEdgesOfACutFaceWhereItMeetsTheSkin) {
+  MeshTopology mesh;  // a tet whose first face is cut
+  mesh.rest_vertices = Points::Random(4, 3);
+  mesh.triangles.resize(4, 3);
+  mesh.triangles << 2, 1, 0, 0, 1, 3, 1, 2, 3, 2, 0, 3;
+  mesh.cut = {true, false, false, false};
+  Edges expected(3, 2);
+  expected << 0, 1, 0, 2, 1, 2;
+  EXPECT_EQ(cutLines(mesh), expected);
+}
+
 TEST(CutLines, RunRoundEveryPieceOfASeparatedBody) {
   const MeshTopology uncut = visualSponge();
   const Eigen::Vector3d point(0.083, 0.05, 0.015);
