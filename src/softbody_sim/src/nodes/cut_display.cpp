@@ -40,7 +40,9 @@ void CutDisplay::show(const MeshTopology& mesh, const MeshState& surface, const 
 void CutDisplay::showPreview(const MeshState& volume, const std_msgs::Header& header) {
   if (!preview_->begin) preview_->begin = header.stamp;
   const double age = (header.stamp - *preview_->begin).toSec();
-  if (volume.revision != preview_->volume.revision || age < 0.0 || age > kPreviewTime) {
+  const bool same_tets = volume.revision == preview_->volume.revision &&
+                         volume.vertices.rows() == preview_->volume.rest_vertices.rows();
+  if (!same_tets || age < 0.0 || age > kPreviewTime) {
     preview_.reset();
     preview_publisher_.publish(boost::make_shared<visualization_msgs::MarkerArray>(endOfPreview(header)));
     return;
