@@ -114,6 +114,15 @@ Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& message) {
   return Eigen::Translation3d(t) * q.normalized();
 }
 
+Points fromMessage(const geometry_msgs::Polygon& polygon) {
+  Points corners(static_cast<Eigen::Index>(polygon.points.size()), 3);
+  for (Eigen::Index i = 0; i < corners.rows(); ++i) {
+    const geometry_msgs::Point32& p = polygon.points[static_cast<std::size_t>(i)];
+    corners.row(i) << p.x, p.y, p.z;
+  }
+  return corners;
+}
+
 softbody_msgs::TetTopology toMessage(const TetTopology& topology) {
   softbody_msgs::TetTopology message;
   message.revision = topology.revision;

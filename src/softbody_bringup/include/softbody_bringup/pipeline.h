@@ -9,6 +9,7 @@
 #include "softbody_sim/object_model.h"
 #include "softbody_sim/simulator.h"
 #include "softbody_tracking/body_tracker.h"
+#include "softbody_tracking/tool_mask.h"
 #include "softbody_tracking/tool_tracker.h"
 
 namespace softbody {
@@ -51,7 +52,8 @@ class Pipeline {
  private:
   void simulate(const TargetSet& targets, Nanoseconds stamp);
   void makeWaitingCuts(FrameOutput* output);
-  void followBlade(Nanoseconds stamp, FrameOutput* output);
+  std::optional<Points> seenBlade(const FrameOutput& output) const;
+  void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
   void adopt(const Cut& cut, FrameOutput* output);
 
   StageTimer timer_;
@@ -59,6 +61,7 @@ class Pipeline {
   Simulator simulator_;
   CuttableSurface surface_;
   std::optional<ToolTracker> tool_tracker_;
+  ToolMask tool_mask_;
   std::vector<Cut> waiting_cuts_;
 };
 

@@ -23,12 +23,15 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   FrameOutput output;
   waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());
   const bool simulated = simulator_.placed();
-  output.tracking = tracker_.track(frame, simulated ? &simulator_.state() : nullptr, &timer_);
   if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
+  const std::optional<Points> blade = seenBlade(output);
+  if (blade) tool_mask_.see(frame.stamp, *blade);
+  const RgbdFrame body_frame{frame.stamp, frame.camera, frame.color, tool_mask_.depthWithout(frame)};
+  output.tracking = tracker_.track(body_frame, simulated ? &simulator_.state() : nullptr, &timer_);
   if (output.tracking.has_targets) {
     simulate(output.tracking.targets, frame.stamp);
     makeWaitingCuts(&output);
-    followBlade(frame.stamp, &output);
+    if (blade) followBlade(*blade, frame.stamp, &output);
     const auto scope = timer_.stage("Resolution Enhancement");
     output.volume = simulator_.state();
     output.surface = surface_.surface().apply(simulator_.state());
@@ -58,11 +61,14 @@ void Pipeline::makeWaitingCuts(FrameOutput* output) {
   }
 }
 
-void Pipeline::followBlade(Nanoseconds stamp, FrameOutput* output) {
-  // Where the blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
-  if (!output->tool || output->tool->bridged || tool_tracker_->tool().blade.rows() == 0) return;
+/// Where a blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
+std::optional<Points> Pipeline::seenBlade(const FrameOutput& output) const {
+  if (!output.tool || output.tool->bridged || tool_tracker_->tool().blade.rows() == 0) return std::nullopt;
+  return transformed(tool_tracker_->tool().blade, output.tool->T_camera_tool);
+}
+
+void Pipeline::followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output) {
   const auto scope = timer_.stage("Cutting");
-  const Points blade = transformed(tool_tracker_->tool().blade, output->tool->T_camera_tool);
   std::optional<Cut> own;
   try {
     own = surface_.follow(blade, simulator_.state(), stamp);

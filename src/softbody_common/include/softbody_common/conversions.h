@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/Polygon.h>
 #include <geometry_msgs/Pose.h>
 #include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -30,6 +31,9 @@ geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose);
 /// @throw std::invalid_argument if the quaternion is not of unit length (within 1e-3) or a number is not
 /// finite.
 Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& pose);
+
+/// Corners, #P by 3.
+Points fromMessage(const geometry_msgs::Polygon& polygon);
 
 softbody_msgs::TetTopology toMessage(const TetTopology& topology);
 TetTopology fromMessage(const softbody_msgs::TetTopology& message);

@@ -72,6 +72,7 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
       solver(makeSolver(topology, material, config, edge_length)),
       constrained_step(makeStep(topology, material, config, edge_length, target_stiffness, solver.get())),
       confidence(topology.rest_vertices, topology.tets),
-      load_estimate(topology, masses, config.load_fade_s) {}
+      load_estimate(topology, masses, config.load_fade_s),
+      unseen_pieces(topology) {}
 
 }  // namespace softbody

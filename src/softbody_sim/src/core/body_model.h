@@ -6,6 +6,7 @@
 #include "core/load_estimate.h"
 #include "core/observation_confidence.h"
 #include "core/step_solver.h"
+#include "core/unseen_pieces.h"
 #include "softbody_sim/simulator.h"
 
 namespace softbody {
@@ -24,6 +25,7 @@ struct BodyModel {
   ConstrainedStep constrained_step;
   ObservationConfidence confidence;
   LoadEstimate load_estimate;
+  const UnseenPieces unseen_pieces;
 };
 
 }  // namespace softbody

@@ -178,6 +178,7 @@ void Simulator::Implementation::simulate(const TargetSet& targets, double elapse
   free.loads.setZero(model->masses.size(), 3);
   if (elapsed_s > 0.0) {
     next->velocity *= std::pow(1.0 - material.damping, h / kNominalTimeStep);
+    model->unseen_pieces.slow(targets.targets, elapsed_s, &next->velocity);
     free.prediction += h * next->velocity;
     free.loads.noalias() = model->masses * config.gravity.transpose();
   }

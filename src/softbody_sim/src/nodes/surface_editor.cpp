@@ -93,11 +93,7 @@ void SurfaceEditor::follow(const geometry_msgs::PolygonStamped& blade) {
 }
 
 std::optional<Points> SurfaceEditor::inStatesFrame(const geometry_msgs::PolygonStamped& blade) {
-  Points points(static_cast<Eigen::Index>(blade.polygon.points.size()), 3);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const geometry_msgs::Point32& p = blade.polygon.points[static_cast<std::size_t>(i)];
-    points.row(i) << p.x, p.y, p.z;
-  }
+  Points points = fromMessage(blade.polygon);
   if (blade.header.frame_id == state_header_.frame_id) return points;
   if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
   try {

@@ -124,6 +124,16 @@ TEST(CuttableSurface, ABladeThatGoesThroughLeavesTwoPieces) {
   EXPECT_EQ(scene.cuts, cuts) << "the way back cut";
 }
 
+TEST(CuttableSurface, ABladeThatJustGetsThroughLeavesNoCornerUncut) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    Scene scene;
+    scene.random.seed(seed);
+    scene.sweep(0.05, 0.0, 5e-4, 0.02);
+    for (int k = 0; k < 10; ++k) scene.sweep(-0.002, -0.003, 5e-4, 0.02);
+    EXPECT_EQ(scene.visualPieces(), 2u) << "seed " << seed;
+  }
+}
+
 TEST(CuttableSurface, TremorNeitherCutsBesideNorAgain) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     Scene scene;

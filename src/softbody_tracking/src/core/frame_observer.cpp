@@ -4,6 +4,7 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "shown_pieces.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 
@@ -157,6 +158,16 @@ std::vector<Keypoint> FrameObserver::extractNew(const RgbdFrame& frame,
   return orb_.extractNew(frame.color, mask, taken, region, kTileShare);
 }
 
+/// What hardly shows is left to the simulation, which lets it come to rest.
+void FrameObserver::keepShownPieces(Observation* seen) const {
+  const std::vector<bool> shown =
+      shownPieces(samples_, seen->depth.associations, seen->matches, surface_.bodyCount());
+  const auto is_hidden = [&](const Association& association) { return !shown[association.body]; };
+  std::vector<Association>& depth = seen->depth.associations;
+  depth.erase(std::remove_if(depth.begin(), depth.end(), is_hidden), depth.end());
+  for (FeatureMatch& match : seen->matches) match.inlier = match.inlier && shown[match.association.body];
+}
+
 Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertices) {
   Observation seen;
   look(frame, vertices);
@@ -169,6 +180,7 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   }
   const RigidMotions motions = alignRigidly(frame, seen.matches);
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
+  keepShownPieces(&seen);
   surface_.move(motions);
   for (FeatureMatch& match : seen.matches) {
     match.association.predicted = motions[match.association.body] * match.association.predicted;

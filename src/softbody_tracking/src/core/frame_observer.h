@@ -57,6 +57,7 @@ class FrameObserver {
   bool few(const std::vector<FeatureMatch>& matches) const;
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
+  void keepShownPieces(Observation* seen) const;
   std::vector<Keypoint> extractNew(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches);
 
   TrackerConfig config_;

@@ -1,5 +1,7 @@
 #include "rigid_alignment.h"
 
+#include "shown_pieces.h"
+
 namespace softbody {
 namespace {
 
@@ -60,10 +62,13 @@ RigidMotions RigidAlignment::align(const RgbdFrame& frame, const PredictedSurfac
   features_.clear();
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features_);
   for (int i = 0; i < kIterations; ++i) {
-    gather(depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep), motions);
+    const DepthAssociations& seen =
+        depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);
+    gather(seen, motions);
+    const std::vector<bool> shown = shownPieces(samples, seen.associations, matches, motions.size());
     const RigidMotions before = motions;
     for (std::size_t body = 0; body < motions.size(); ++body) {
-      if (static_cast<int>(of_body_[body].size()) < kFewestAssociations) continue;
+      if (!shown[body] || static_cast<int>(of_body_[body].size()) < kFewestAssociations) continue;
       motions[body] = rigidStep(of_body_[body]) * motions[body];
     }
     const double moved =

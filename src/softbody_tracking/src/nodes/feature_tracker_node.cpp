@@ -62,6 +62,7 @@ FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle p
       handle_.subscribe(topics::kSurfaceTopology, 1, &FeatureTrackerNode::onSurfaceTopology, this);
   volume_state_subscriber_ =
       handle_.subscribe(topics::kVolumeState, 1, &FeatureTrackerNode::onVolumeState, this);
+  blade_subscriber_ = handle_.subscribe(topics::kToolBlade, 1, &FeatureTrackerNode::onBlade, this);
   color_subscriber_.subscribe(handle_, topics::kRgbRect, 1);
   depth_subscriber_.subscribe(handle_, topics::kDepthRect, 1);
   info_subscriber_.subscribe(handle_, topics::kRgbInfo, 1);
@@ -128,6 +129,11 @@ void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr&
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(
       5.0, "the topologies of revision " << message->revision << " are unusable: " << error.what());
+}
+
+void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {
+  blade_frame_ = message->header.frame_id;
+  tool_mask_.see(toNanoseconds(message->header.stamp), fromMessage(message->polygon));
 }
 
 std::optional<Eigen::Isometry3d> FeatureTrackerNode::cameraPose(const std_msgs::Header& header) const try {
@@ -203,6 +209,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   const auto depth_image = cv_bridge::toCvShare(images.depth, sensor_msgs::image_encodings::TYPE_32FC1);
   RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
                   mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask)};
+  if (blade_frame_ == header.frame_id) frame.depth = tool_mask_.depthWithout(frame);
   const std::optional<MeshState> volume = volumeInCamera(*T_output_camera);
   StageTimer timer;
   const TrackingResult result = tracker_->track(frame, volume ? &*volume : nullptr, &timer);

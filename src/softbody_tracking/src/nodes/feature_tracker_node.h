@@ -1,6 +1,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PolygonStamped.h>
 #include <message_filters/subscriber.h>
 #include <message_filters/time_synchronizer.h>
 #include <ros/ros.h>
@@ -21,6 +22,7 @@
 #include "nodes/mask_input.h"
 #include "softbody_common/parameters.h"
 #include "softbody_tracking/body_tracker.h"
+#include "softbody_tracking/tool_mask.h"
 
 namespace softbody {
 
@@ -33,6 +35,7 @@ class FeatureTrackerNode {
  private:
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
+  void onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message);
   void onVolumeState(const softbody_msgs::MeshState::ConstPtr& message);
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);
@@ -59,6 +62,8 @@ class FeatureTrackerNode {
   std::optional<MeshTopology> surface_topology_;                    ///< the newest
   std::uint32_t adopted_revision_ = 0;                              ///< that the tracker works with
   softbody_msgs::MeshState::ConstPtr newest_state_, volume_state_;  ///< of any, and of the adopted revision
+  ToolMask tool_mask_;
+  std::string blade_frame_;
   TrackingStatus last_status_;
   ros::Time last_stamp_;
 
@@ -67,7 +72,8 @@ class FeatureTrackerNode {
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher features_, features_marker_, targets_, status_, timing_;
   ros::ServiceServer set_pose_;
-  ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, volume_state_subscriber_;
+  ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, volume_state_subscriber_,
+      blade_subscriber_;
   message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
   message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
   message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>

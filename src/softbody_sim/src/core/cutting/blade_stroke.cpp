@@ -35,6 +35,27 @@ bool any(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
+/// Points of the blade between its outline and its middle: a large blade's outline can enclose the body.
+Points withinOutline(const Points& outline) {
+  const Eigen::RowVector3d middle = outline.colwise().mean();
+  Points within(2 * outline.rows(), 3);
+  within.topRows(outline.rows()) = (2.0 * outline).rowwise() + middle;
+  within.bottomRows(outline.rows()) = outline.rowwise() + 2.0 * middle;
+  return within / 3.0;
+}
+
+/// Of each point on a row, whether it or the way to a neighbour is in the solid: a corner of the body can lie
+/// between two samples.
+std::vector<bool> inMaterial(const Points& row, const RestSolid& solid) {
+  std::vector<bool> in = containedIn(solid, row);
+  for (Eigen::Index i = 0; i + 1 < row.rows(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (!solid.meets(row.row(i).transpose(), row.row(i + 1).transpose())) continue;
+    in[k] = in[k + 1] = true;
+  }
+  return in;
+}
+
 /// The point moved on, unless that meets the solid.
 Eigen::RowVector3d movedOn(const Eigen::RowVector3d& point, const Eigen::RowVector3d& way,
                            const RestSolid& solid) {
@@ -74,7 +95,7 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
   if (!active_ && any(inside)) active_ = resume(outline, inside) || enter(outline, inside, solid);
   std::optional<BladeCut> cut;
   if (active_) cut = advance(outline, solid);
-  if (!any(inside)) {
+  if (!any(inside) && !any(containedIn(solid, withinOutline(outline.points())))) {
     outside_ = outline.points();
     active_ = cut.has_value();
     if (!active_ && !strokes_.empty() && strokes_.back().patches.empty()) strokes_.pop_back();
@@ -135,23 +156,24 @@ std::optional<BladeCut> BladeStroke::advance(const BladeOutline& outline, const 
   const Points row = withEnds(outline.points()(stroke.edge, Eigen::all), overhang_, solid);
   const Points normals = outline.outwardNormals(stroke.edge);
   double now = 0.0, most = 0.0;  // how far the blade is, and was, beyond the front where there is material
-  bool ends_inside = false, began_inside = false;
+  Eigen::VectorXd ahead(row.rows());
   for (Eigen::Index i = 0; i < row.rows(); ++i) {
     const Eigen::Index k = std::clamp<Eigen::Index>(i - 1, 0, normals.rows() - 1);
-    const double ahead = normals.row(k).dot(row.row(i) - stroke.front.row(i));
-    if (ahead > stroke.reached[i]) {
-      stroke.reached[i] = ahead;
-      stroke.reach.row(i) = row.row(i);
-    }
-    const Eigen::Vector3d front = stroke.front.row(i), reach = stroke.reach.row(i);
-    const bool inside = solid.contains(reach), began = solid.contains(front);
-    ends_inside = ends_inside || inside;
-    began_inside = began_inside || began;
-    if (!inside && !began && !solid.meets(front, reach)) continue;
-    now = std::max(now, ahead);
+    ahead[i] = normals.row(k).dot(row.row(i) - stroke.front.row(i));
+    if (ahead[i] <= stroke.reached[i]) continue;
+    stroke.reached[i] = ahead[i];
+    stroke.reach.row(i) = row.row(i);
+  }
+  const std::vector<bool> began = inMaterial(stroke.front, solid), ends = inMaterial(stroke.reach, solid);
+  for (Eigen::Index i = 0; i < row.rows(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool cuts =
+        began[k] || ends[k] || solid.meets(stroke.front.row(i).transpose(), stroke.reach.row(i).transpose());
+    if (!cuts) continue;
+    now = std::max(now, ahead[i]);
     most = std::max(most, stroke.reached[i]);
   }
-  const bool is_through = began_inside && !ends_inside && most > 0.0;
+  const bool is_through = any(began) && !any(ends) && most > 0.0;
   const bool turned_back =
       most >= kLeastRest * config_.min_advance_m && now <= most - kLeastRest * config_.min_advance_m;
   if (most < config_.min_advance_m && !is_through && !turned_back) return std::nullopt;

@@ -1,0 +1,79 @@
+#include "softbody_tracking/tool_mask.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+
+namespace softbody {
+namespace {
+
+constexpr double kMargin = 0.008;                 // [m] for the blade's thickness and its way since
+constexpr Nanoseconds kStillThere = 200'000'000;  // [ns]
+constexpr double kNearest = 0.01;                 // [m]
+
+/// The plane of a polygon, and the polygon in it.
+struct PlanePolygon {
+  explicit PlanePolygon(const Points& corners) : origin(corners.colwise().mean().transpose()) {
+    const Eigen::Index n = corners.rows();
+    normal.setZero();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::Vector3d a = corners.row(i), b = corners.row((i + 1) % n);
+      normal += (a - origin).cross(b - origin);
+    }
+    normal.normalize();
+    x = normal.unitOrthogonal();
+    y = normal.cross(x);
+    for (Eigen::Index i = 0; i < n; ++i) outline.push_back(inPlane(corners.row(i).transpose()));
+  }
+  cv::Point2f inPlane(const Eigen::Vector3d& p) const {
+    return {static_cast<float>(x.dot(p - origin)), static_cast<float>(y.dot(p - origin))};
+  }
+  bool isNear(const Eigen::Vector3d& p) const {
+    return std::abs(normal.dot(p - origin)) < kMargin &&
+           cv::pointPolygonTest(outline, inPlane(p), true) > -kMargin;
+  }
+
+  Eigen::Vector3d origin, normal, x, y;
+  std::vector<cv::Point2f> outline;
+};
+
+/// Pixels that the polygon and a margin around it fall on.
+cv::Rect regionOf(const Pinhole& camera, const Points& polygon) {
+  std::vector<cv::Point2f> pixels;
+  double margin = 0.0;
+  for (const auto& corner : polygon.rowwise()) {
+    const Eigen::Vector2d pixel = camera.project(corner.transpose());
+    pixels.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+    margin = std::max(margin, kMargin * camera.fx / corner.z());
+  }
+  const int border = static_cast<int>(std::ceil(margin)) + 1;
+  const cv::Rect box = cv::boundingRect(pixels);
+  return cv::Rect(box.x - border, box.y - border, box.width + 2 * border, box.height + 2 * border) &
+         cv::Rect(0, 0, camera.width, camera.height);
+}
+
+}  // namespace
+
+void ToolMask::see(Nanoseconds stamp, const Points& blade) {
+  stamp_ = stamp;
+  blade_ = blade;
+}
+
+cv::Mat1f ToolMask::depthWithout(const RgbdFrame& frame) const {
+  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kStillThere)
+    return frame.depth;
+  if (blade_.col(2).minCoeff() < kNearest) return frame.depth;
+  const PlanePolygon blade(blade_);
+  const cv::Rect region = regionOf(frame.camera, blade_);
+  cv::Mat1f depth = frame.depth.clone();
+  for (int v = region.y; v < region.br().y; ++v) {
+    for (int u = region.x; u < region.br().x; ++u) {
+      float& z = depth(v, u);
+      if (z > 0.0f && blade.isNear(frame.camera.unproject(u, v, z))) z = 0.0f;
+    }
+  }
+  return depth;
+}
+
+}  // namespace softbody
