@@ -21,27 +21,6 @@ TetTopology doll() {
   return buildObjectModel(loadObjectDescription(SOFTBODY_CONFIG_DIR "/doll.yaml"), settings).volume;
 }
 
-TetTopology topologyOf(const std::string& name) {
-  if (name == "sponge") return testing::sponge();
-  if (name == "doll") return doll();
-  static const std::map<std::string, Eigen::Vector3i> kCells{
-      {"1k", {6, 6, 5}}, {"10k", {12, 12, 12}}, {"100k", {25, 26, 26}}};
-  return testing::boxTopology(kCells.at(name), {0.2, 0.1, 0.1});
-}
-
-/// Bent about y to a curvature [1/m].
-Points bent(const Points& rest, double curvature) {
-  const Eigen::RowVector3d center = rest.colwise().mean();
-  Points x = rest;
-  for (Eigen::Index v = 0; v < x.rows(); ++v) {
-    const double angle = curvature * (rest(v, 0) - center.x());
-    const double radius = 1.0 / curvature - (rest(v, 2) - center.z());
-    x(v, 0) = radius * std::sin(angle);
-    x(v, 2) = 1.0 / curvature - radius * std::cos(angle);
-  }
-  return x;
-}
-
 std::vector<Target> hundredTargets(const TetTopology& topology, const Points& positions,
                                    std::mt19937* random) {
   std::vector<Target> targets(100);
@@ -55,11 +34,31 @@ std::vector<Target> hundredTargets(const TetTopology& topology, const Points& po
 
 }  // namespace
 
+TetTopology bodyTopology(const std::string& name) {
+  if (name == "sponge") return testing::sponge();
+  if (name == "doll") return doll();
+  static const std::map<std::string, Eigen::Vector3i> kCells{
+      {"1k", {6, 6, 5}}, {"10k", {12, 12, 12}}, {"100k", {25, 26, 26}}};
+  return testing::boxTopology(kCells.at(name), {0.2, 0.1, 0.1});
+}
+
+Points bent(const Points& rest, double curvature) {
+  const Eigen::RowVector3d center = rest.colwise().mean();
+  Points x = rest;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const double angle = curvature * (rest(v, 0) - center.x());
+    const double radius = 1.0 / curvature - (rest(v, 2) - center.z());
+    x(v, 0) = radius * std::sin(angle);
+    x(v, 2) = 1.0 / curvature - radius * std::cos(angle);
+  }
+  return x;
+}
+
 BentBody bentBody(const std::string& name, double poisson_ratio) {
   std::mt19937 random(1);
   BentBody body;
   body.name = name;
-  body.topology = topologyOf(name);
+  body.topology = bodyTopology(name);
   body.lame = lameParameters(kYoungsModulus, poisson_ratio);
   const Points& rest = body.topology.rest_vertices;
   body.edge_length = meanEdgeLength(rest, body.topology.tets);

@@ -20,7 +20,13 @@ struct BentBody {
 };
 
 /// @param name sponge, doll (of the shipped doll, with a cage of about 150 vertices), 1k, 10k or 100k (boxes
-/// of about as many tets). @param poisson_ratio 0: no volume term.
+/// of about as many tets).
+TetTopology bodyTopology(const std::string& name);
+
+/// Bent about y to a curvature [1/m]. @param rest #V by 3 [m].
+Points bent(const Points& rest, double curvature);
+
+/// @param name as bodyTopology's. @param poisson_ratio 0: no volume term.
 BentBody bentBody(const std::string& name, double poisson_ratio);
 
 }  // namespace softbody::bench
