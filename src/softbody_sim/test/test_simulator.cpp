@@ -302,12 +302,41 @@ TEST(Simulator, RefusesWhatItCannotUseAndKeepsItsState) {
   bad.weight = -1.0;
   refuses(placing(Eigen::Isometry3d::Identity()), bad);
   bad = good;
+  bad.weight = 1.01e6;
+  refuses({}, bad);
+  bad = good;
   bad.place.barycentric = {1e12, -1e12, 1.0, 0.0};
   refuses(placing(Eigen::Isometry3d::Identity()), bad);
 
   simulator.reset();
   EXPECT_FALSE(simulator.placed());
   EXPECT_EQ(simulator.state().vertices.rows(), 0);
+}
+
+/// Were they stiffer, rounding would move the body about.
+TEST(Simulator, TheStiffestTargetsLeaveABodyAtRestWhereItIs) {
+  const TetTopology topology = sponge();
+  std::mt19937 random(6);
+  for (bool single : {false, true}) {
+    for (int history : {0, 5}) {
+      SimulatorConfig config;
+      config.single_precision = single;
+      config.lbfgs_history = history;
+      Simulator simulator(topology, Material(), config);
+      TargetSet targets = placing(Eigen::Isometry3d::Identity());
+      targets.targets = vertexTargets(topology, topology.rest_vertices);
+      for (Target& target : targets.targets) {
+        target.weight = largestStiffness(config) / config.target_stiffness;
+        target.normal = testing::randomPoints(1, 1.0, &random).transpose().normalized();
+      }
+      for (int frame = 0; frame < 30; ++frame) {
+        simulator.step(targets, frame * kFrame);
+        targets.reset = false;
+      }
+      const Points moved = simulator.state().vertices - topology.rest_vertices;
+      EXPECT_LT(moved.cwiseAbs().maxCoeff(), single ? 2e-4 : 1e-6) << "history " << history;
+    }
+  }
 }
 
 TEST(Simulator, AStepThatFailsOnTheWayLeavesNoTrace) {
@@ -319,12 +348,10 @@ TEST(Simulator, AStepThatFailsOnTheWayLeavesNoTrace) {
     simulator->step(placing(somePose()), 0);
     simulator->step({}, kFrame);
   }
-  TargetSet impossible = placing(Eigen::Isometry3d::Identity());
-  impossible.targets = {vertexTargets(topology, topology.rest_vertices).front()};
-  // Stiffer by so much than the rest that rounding leaves the system without a Cholesky factor.
-  impossible.targets[0].place.barycentric = {7.0, -3.0, 0.3, -3.3};
-  impossible.targets[0].weight = 1e24;
-  EXPECT_THROW(failing.step(impossible, 2 * kFrame), std::runtime_error);
+  Surroundings impossible;
+  impossible.loads = Points::Constant(topology.rest_vertices.rows(), 3, 1e300);
+  EXPECT_THROW(failing.step(placing(Eigen::Isometry3d::Identity()), 2 * kFrame, impossible),
+               std::runtime_error);
   for (int frame = 2; frame <= 4; ++frame) {
     EXPECT_TRUE(failing.state().vertices == untouched.state().vertices) << frame;
     for (Simulator* simulator : {&failing, &untouched}) simulator->step({}, frame * kFrame);
@@ -345,6 +372,8 @@ TEST(SimulatorConfig, ReadsItsParametersAndNamesWhatIsOutOfRange) {
   EXPECT_EQ(config.iterations, 7);
   EXPECT_EQ(config.gravity.y(), 9.81);
   EXPECT_TRUE(good.unknown().empty());
+  Parameters stiff(YAML::Load("{single_precision: true, target_stiffness: 1e5}"), "/simulator/");
+  EXPECT_THROW(readSimulatorConfig(stiff), std::invalid_argument);
   Parameters bad(YAML::Load("{iterations: 0}"), "/simulator/");
   try {
     readSimulatorConfig(bad);

@@ -38,7 +38,12 @@ struct SimulatorConfig {
   double contact_spacing = 0.5;     ///< between points of the surface that feel contact [mean edge lengths]
 };
 
-/// @throw std::invalid_argument if the solver does not have the elasticity.
+/// Of a target, weight times target_stiffness, in units of E * mean edge length: beside stiffer ones the
+/// body's own stiffness is lost in rounding.
+double largestStiffness(const SimulatorConfig& config);
+
+/// @throw std::invalid_argument if the solver does not have the elasticity, or a target of weight 1 is too
+/// stiff.
 void requireConsistent(const SimulatorConfig& config);
 
 /// @throw std::invalid_argument as Parameters and requireConsistent do.
@@ -72,8 +77,9 @@ class Simulator {
   /// Leaves the state as it was where it throws. Allocates nothing, projective dynamics that is, but where
   /// there are more targets or contacts than ever before, and in the first steps after a change of topology.
   /// @throw std::invalid_argument if the revision is neither the topology's nor one of the last few, a target
-  /// names a tet beyond it, a number is not finite, a barycentric coordinate is beyond 100, or the body has
-  /// not been placed; std::runtime_error if the targets' weights leave a system that cannot be solved.
+  /// names a tet beyond it, a number is not finite, a barycentric coordinate is beyond 100, a weight is not
+  /// above 0 or beyond largestStiffness, or the body has not been placed; std::runtime_error if loads or
+  /// targets leave a system that cannot be solved or has no finite solution.
   void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
 
   /// As step, without a new observation: targets seen earlier still hold (their `reset` does not), `observed`

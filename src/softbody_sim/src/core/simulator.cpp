@@ -25,15 +25,18 @@ constexpr double kNominalTimeStep = 1.0 / 30.0;
 /// metric drowns the body's own stiffness.
 constexpr double kLargestBarycentric = 100.0;
 
-void requireUsableTarget(const Target& target, std::size_t index, Eigen::Index tet_count) {
+void requireUsableTarget(const Target& target, std::size_t index, Eigen::Index tet_count,
+                         double largest_weight) {
   if (target.place.tet < 0 || target.place.tet >= tet_count) {
     throw std::invalid_argument(
         fmt::format("targets[{}] names tet {} of {}", index, target.place.tet, tet_count));
   }
   const bool finite = target.place.barycentric.allFinite() && target.position.allFinite() &&
                       target.normal.allFinite() && std::isfinite(target.weight);
-  if (!finite || target.weight <= 0.0) {
-    throw std::invalid_argument(fmt::format("targets[{}]: not finite, or its weight is not above 0", index));
+  if (!finite) throw std::invalid_argument(fmt::format("targets[{}] is not finite", index));
+  if (target.weight <= 0.0 || target.weight > largest_weight) {
+    throw std::invalid_argument(fmt::format("targets[{}] has the weight {}: must be above 0 and at most {}",
+                                            index, target.weight, largest_weight));
   }
   if (target.place.barycentric.cwiseAbs().maxCoeff() > kLargestBarycentric) {
     throw std::invalid_argument(fmt::format("targets[{}] has a barycentric coordinate beyond {} either way",
@@ -145,7 +148,8 @@ void Simulator::Implementation::requireUsable(const TargetSet& targets,
   if (targets.reset && !targets.body_pose.matrix().allFinite())
     throw std::invalid_argument("body_pose is not finite");
   for (std::size_t i = 0; i < targets.targets.size(); ++i) {
-    requireUsableTarget(targets.targets[i], i, model->topology.tets.rows());
+    requireUsableTarget(targets.targets[i], i, model->topology.tets.rows(),
+                        largestStiffness(config) / config.target_stiffness);
   }
   softbody::requireUsable(surroundings, model->topology.rest_vertices.rows());
 }
@@ -218,6 +222,8 @@ void Simulator::Implementation::solve(const TargetSet& targets, const Surroundin
   if (next->obstacle_poses.size() != poses.size()) next->obstacle_poses = poses;
   const ConstrainedStep::Result& result = model->constrained_step.solve(
       free, targets.targets, surroundings, next->state.vertices, next->obstacle_poses, &solution);
+  if (!solution.allFinite() || !std::isfinite(result.report.residual_n))
+    throw std::runtime_error("loads or targets leave a step without a finite result");
   next->report = result.report;
   next->reactions = result.reactions;
   next->obstacle_poses.swap(poses);

@@ -1,10 +1,21 @@
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "softbody_sim/simulator.h"
 
 namespace softbody {
 
+double largestStiffness(const SimulatorConfig& config) {
+  // Rounding then leaves the body's own stiffness three digits in single precision, nine in double.
+  return config.single_precision ? 1e4 : 1e7;
+}
+
 void requireConsistent(const SimulatorConfig& config) {
+  if (config.target_stiffness > largestStiffness(config)) {
+    throw std::invalid_argument(fmt::format("target_stiffness is {}: with single_precision at most {}",
+                                            config.target_stiffness, largestStiffness(config)));
+  }
   if (config.solver == SolverKind::kProjectiveDynamics && config.elasticity != Elasticity::kCorotated) {
     throw std::invalid_argument("elasticity is 'neo_hookean' with solver 'pd'; it needs solver 'fem'");
   }
