@@ -28,7 +28,7 @@ struct FrameOutput {
 struct PipelineConfig {
   TrackerConfig tracker;
   SimulatorConfig simulator;
-  BladeConfig blade;
+  CuttingConfig cutting;
   ToolTrackerConfig tool_tracker;
 };
 
@@ -54,6 +54,7 @@ class Pipeline {
   void makeWaitingCuts(FrameOutput* output);
   std::optional<Points> seenBlade(const FrameOutput& output) const;
   void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
+  void tear(FrameOutput* output);
   void adopt(const Cut& cut, FrameOutput* output);
 
   StageTimer timer_;

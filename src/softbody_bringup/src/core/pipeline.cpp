@@ -13,7 +13,7 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
                    const std::optional<ToolDescription>& tool)
     : tracker_(config.tracker), simulator_(model.volume, model.material, config.simulator), surface_([&] {
         const auto scope = timer_.stage("Resolution Enhancement", true);
-        return CuttableSurface(model.visual, model.volume, config.blade);
+        return CuttableSurface(model.visual, model.volume, config.cutting);
       }()) {
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
@@ -32,6 +32,7 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
     simulate(output.tracking.targets, frame.stamp);
     makeWaitingCuts(&output);
     if (blade) followBlade(*blade, frame.stamp, &output);
+    tear(&output);
     const auto scope = timer_.stage("Resolution Enhancement");
     output.volume = simulator_.state();
     output.surface = surface_.surface().apply(simulator_.state());
@@ -76,6 +77,16 @@ void Pipeline::followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* 
     output->warnings.push_back(fmt::format("the blade cannot cut: {}", error.what()));
   }
   if (own) adopt(*own, output);
+}
+
+void Pipeline::tear(FrameOutput* output) {
+  std::optional<Cut> torn;
+  try {
+    torn = surface_.tear(simulator_.state());
+  } catch (const std::exception& error) {
+    output->warnings.push_back(fmt::format("the body cannot tear: {}", error.what()));
+  }
+  if (torn) adopt(*torn, output);
 }
 
 void Pipeline::adopt(const Cut& cut, FrameOutput* output) {

@@ -73,8 +73,8 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
   config.pipeline.simulator = readSection(
       file, "simulator", {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s"}, {"obstacles"}},
       warnings, readSimulatorConfig);
-  config.pipeline.blade =
-      readSection(file, "surface", {{"body_frame", "object"}, {}}, warnings, readBladeConfig);
+  config.pipeline.cutting =
+      readSection(file, "surface", {{"body_frame", "object"}, {}}, warnings, readCuttingConfig);
   config.pipeline.tool_tracker =
       readSection(file, "tool_tracker", {{"tool", "tool_frame"}, {}}, warnings, readToolTrackerConfig);
   return config;

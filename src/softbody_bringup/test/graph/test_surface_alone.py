@@ -13,7 +13,7 @@ from geometry_msgs.msg import Point, Point32, Vector3
 from recorder import Recorder
 from rosgraph_msgs.msg import Log
 from shape_msgs.msg import MeshTriangle
-from softbody_msgs.msg import MeshState, MeshTopology, TetTopology, Tetrahedron
+from softbody_msgs.msg import Cut, MeshState, MeshTopology, TetTopology, Tetrahedron
 from softbody_msgs.srv import CutBody
 
 FRAME = "made_by_hand"
@@ -50,7 +50,7 @@ class SurfaceAlone(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
-                                rosout=Log)
+                                softbody__cut=Cut, rosout=Log)
         cls.corners, tets = box_tets()
         cls.topology = TetTopology(
             rest_vertices=points32(cls.corners), tets=[Tetrahedron(vertex_indices=tet) for tet in tets],
@@ -135,6 +135,17 @@ class SurfaceAlone(unittest.TestCase):
         self.assertEqual(answer.revision, 1)
         self.recorder.messages["rosout"].clear()
         self.recorder.wait(taken_back, "the same of the second cut")
+
+    def test_tears_where_it_is_stretched(self):
+        before = len(self.recorder.messages["softbody/cut"])
+        for i in range(5):
+            self.assertEqual(len(self.recorder.messages["softbody/cut"]), before)
+            self.surface_for(self.corners * [4.0, 1.0, 1.0], 60 + i)
+        cut = self.recorder.wait(lambda seen: seen["softbody/cut"][before:], "a tear")[0]
+        self.assertEqual((cut.kind, cut.revision, cut.header.stamp), (Cut.CUT, 1, rospy.Time(64)))
+        patch = array(cut.patch_vertices)
+        self.assertLess(np.ptp(patch[:, 0]), 1e-6)
+        self.assertTrue((np.ptp(patch, axis=0)[1:] > 2 * HALF_SIZE_M[1:]).all())
 
     def test_refuses_an_open_volume_and_keeps_the_last_one(self):
         open_topology = copy.deepcopy(self.topology)

@@ -40,7 +40,7 @@ TEST_F(GraphConfigTest, ReadsEachNodesSection) {
       "tool_tracker:\n");
   EXPECT_EQ(config.sync_tolerance, 0);
   EXPECT_EQ(config.pipeline.simulator.iterations, 7);
-  EXPECT_EQ(config.pipeline.blade.min_advance_m, 0.004);
+  EXPECT_EQ(config.pipeline.cutting.min_advance_m, 0.004);
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();
 }
 

@@ -11,15 +11,16 @@
 
 namespace softbody {
 
-/// How a blade's motion becomes cuts.
-struct BladeConfig {
+/// How a blade's motion becomes cuts, and stretch becomes tears.
+struct CuttingConfig {
   double min_advance_m = 0.005;     ///< the blade cuts when its edge is so far beyond the front of the cut
   double slit_tolerance_m = 0.005;  ///< a blade that comes so near to an earlier cut is in its slit
   double max_gap_s = 0.5;           ///< a blade not followed for longer has been lifted
+  double tear_strain = 0.0;  ///< the body tears where it is longer than at rest by this share; 0: never
 };
 
 /// @throw std::invalid_argument as Parameters does.
-BladeConfig readBladeConfig(Parameters& parameters);
+CuttingConfig readCuttingConfig(Parameters& parameters);
 
 /// What a cut would do.
 struct CutPreview {
@@ -34,7 +35,7 @@ struct CutPreview {
 class CuttableSurface {
  public:
   /// @throw std::invalid_argument if the volume's surface is not closed.
-  CuttableSurface(const MeshTopology& visual, const TetTopology& volume, const BladeConfig& config = {});
+  CuttableSurface(const MeshTopology& visual, const TetTopology& volume, const CuttingConfig& config = {});
   ~CuttableSurface();
   CuttableSurface(CuttableSurface&&) noexcept;
   CuttableSurface& operator=(CuttableSurface&&) noexcept;
@@ -51,6 +52,11 @@ class CuttableSurface {
 
   /// The blade is not seen.
   void lift();
+
+  /// The cut that overstretched material asks for, already carried out: call it with every state. A tear is a
+  /// stroke of its own. None leaves a piece of less than a hundredth of the body.
+  /// @param volume its state; nothing tears if it is of another revision.
+  std::optional<Cut> tear(const MeshState& volume);
 
   /// A cut of a stroke of its own; for apply(). The patch is rounded as it is published.
   Cut separateCut(const TriangleMesh& patch) const;

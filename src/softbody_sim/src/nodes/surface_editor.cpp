@@ -24,8 +24,8 @@ constexpr double kLongestBehind = 3.0;  // [s]
 }  // namespace
 
 SurfaceEditor::SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle private_node,
-                             std::string body_frame, const BladeConfig& config, std::function<void()> on_cut,
-                             std::function<void(const CutPreview&)> on_preview)
+                             std::string body_frame, const CuttingConfig& config,
+                             std::function<void()> on_cut, std::function<void(const CutPreview&)> on_preview)
     : node_(node),
       body_frame_(std::move(body_frame)),
       config_(config),
@@ -68,6 +68,7 @@ void SurfaceEditor::onState(const MeshState& state, const std_msgs::Header& head
     waiting_blades_.pop_front();
   }
   if (blade) follow(*blade);
+  tear();
 }
 
 void SurfaceEditor::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
@@ -89,6 +90,18 @@ void SurfaceEditor::follow(const geometry_msgs::PolygonStamped& blade) {
     if (cut) publish(*cut, blade.header.stamp);
   } catch (const std::exception& error) {
     ROS_WARN_STREAM_THROTTLE(5.0, "the blade cannot cut: " << error.what());
+  }
+}
+
+void SurfaceEditor::tear() {
+  if (!body_) return;
+  try {
+    const std::optional<Cut> cut = body_->tear(*state_);
+    if (!cut) return;
+    ROS_INFO("the body tears: revision %u", cut->revision);
+    publish(*cut, state_header_.stamp);
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "the body cannot tear: " << error.what());
   }
 }
 

@@ -26,7 +26,7 @@ class SurfaceEditor {
  public:
   /// @param on_cut called after each cut. @param on_preview called with what a cut would do.
   SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle private_node, std::string body_frame,
-                const BladeConfig& config, std::function<void()> on_cut,
+                const CuttingConfig& config, std::function<void()> on_cut,
                 std::function<void(const CutPreview&)> on_preview);
 
   /// A body that is not cut, or whose cuts are not known. @throw std::invalid_argument as CuttableSurface.
@@ -49,6 +49,7 @@ class SurfaceEditor {
   bool onEdit(CutKind kind, std_srvs::Trigger::Response& response);
 
   void follow(const geometry_msgs::PolygonStamped& blade);
+  void tear();
   std::optional<Points> inStatesFrame(const geometry_msgs::PolygonStamped& blade);
   bool apply(const Cut& cut, std::string* reason);
   void publish(const Cut& cut, const ros::Time& stamp);
@@ -61,7 +62,7 @@ class SurfaceEditor {
 
   ros::NodeHandle node_;
   std::string body_frame_;
-  BladeConfig config_;
+  CuttingConfig config_;
   std::function<void()> on_cut_;
   std::function<void(const CutPreview&)> on_preview_;
   std::optional<CuttableSurface> body_;

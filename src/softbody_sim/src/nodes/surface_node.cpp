@@ -40,7 +40,7 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) : c
   Parameters parameters = readParameters(private_node);
   const std::string object = parameters.requiredText("object");
   body_frame_ = parameters.text("body_frame", "softbody");
-  const BladeConfig blade = readBladeConfig(parameters);
+  const CuttingConfig cutting = readCuttingConfig(parameters);
   warnUnknown(parameters);
   const ObjectDescription description = loadObjectDescription(object);
   Warnings warnings = description.warnings;
@@ -60,7 +60,7 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) : c
       },
       true, false);
   editor_.emplace(
-      node, private_node, body_frame_, blade, [this] { adoptWaitingTopology(); },
+      node, private_node, body_frame_, cutting, [this] { adoptWaitingTopology(); },
       [this](const CutPreview& preview) { cut_display_.preview(preview, editor_->body().volume()); });
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   topology_subscriber_ = node.subscribe(topics::kVolumeTopology, 1, &SurfaceNode::onTopology, this, hints);

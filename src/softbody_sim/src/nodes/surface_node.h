@@ -17,7 +17,7 @@
 namespace softbody {
 
 /// States of the volumetric model in, states of the visual mesh out; cuts of both. Parameters: ~object,
-/// ~body_frame and those of BladeConfig.
+/// ~body_frame and those of CuttingConfig.
 class SurfaceNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.

@@ -1,81 +1,168 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 
-#include "core/cutting/manifold.h"
 #include "core/cutting/tearing.h"
-#include "cut_bodies.h"
+#include "cutting/surface_meshes.h"
+#include "cutting/visual_sponge.h"
+#include "softbody_sim/cuttable_surface.h"
+#include "softbody_sim/simulator.h"
 
 namespace softbody {
 namespace {
 
-/// The sponge with the part from x = 90 to 110 mm stretched to `factor` times its length.
-Points stretchedMiddle(const Points& rest, double factor) {
-  Points x = rest;
-  for (Eigen::Index v = 0; v < x.rows(); ++v) {
-    x(v, 0) += (factor - 1.0) * std::clamp(rest(v, 0) - 0.08, 0.0, 0.04);
+constexpr double kVisualVolume = 0.96 * 0.96 * 0.96 * 6e-4;  // [m^3]
+
+/// From a place at rest to where it is.
+using Deformation = std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>;
+
+/// The sponge's part from x = 80 to 120 mm stretched to `factor` times its length, where `where` says so.
+Deformation stretchedMiddle(double factor, double only_below_y = 1.0) {
+  return [=](const Eigen::RowVector3d& rest) -> Eigen::RowVector3d {
+    const double share = rest.y() < only_below_y ? 1.0 : 0.0;
+    return rest +
+           Eigen::RowVector3d((factor - 1.0) * share * std::clamp(rest.x() - 0.08, 0.0, 0.04), 0.0, 0.0);
+  };
+}
+
+/// A body that is shown in one deformed state after the other.
+struct Scene {
+  explicit Scene(double tear_strain, const TetTopology& volume = testing::sponge(),
+                 const MeshTopology& visual = testing::visualSponge())
+      : surface(visual, volume, config(tear_strain)) {}
+
+  static CuttingConfig config(double tear_strain) {
+    CuttingConfig config;
+    config.tear_strain = tear_strain;
+    return config;
   }
-  return x;
-}
+  MeshState stateOf(const Deformation& deformation) const {
+    MeshState state;
+    state.revision = surface.volume().revision;
+    state.vertices = surface.volume().rest_vertices;
+    for (auto&& row : state.vertices.rowwise()) row = deformation(row);
+    state.confidence.assign(static_cast<std::size_t>(state.vertices.rows()), 1.0f);
+    return state;
+  }
+  /// @return the states until the body tears; 0: it does not.
+  int statesUntilTear(const Deformation& deformation, int most = 20) {
+    for (int k = 1; k <= most; ++k) {
+      last = surface.tear(stateOf(deformation));
+      if (last) return k;
+    }
+    return 0;
+  }
+  std::size_t pieces() const { return testing::bodyVolumes(surface.surface().topology()).size(); }
+  void expectSound() const {
+    EXPECT_EQ(testing::faultOf(surface.surface().topology(), kVisualVolume), "");
+    const TetTopology& volume = surface.volume();
+    EXPECT_NEAR(tetVolumes(volume.rest_vertices, volume.tets).sum() / 6e-4, 1.0, 1e-5);
+    EXPECT_GT(tetVolumes(volume.rest_vertices, volume.tets).minCoeff(), 0.0);
+  }
 
-std::vector<bool> uncut(const TetTopology& body) {
-  return std::vector<bool>(static_cast<std::size_t>(body.surface.rows()), false);
-}
+  CuttableSurface surface;
+  std::optional<Cut> last;
+};
 
-TEST(Tearing, StrainAlongTheNormalDecides) {
+TEST(Tearing, TheStretchDecidesNotTheTurn) {
   const TetTopology sponge = testing::sponge();
-  // Stretched by 1.5 along x: Green strain (1.5^2 - 1) / 2 = 0.625 along x, none across.
   Points x = sponge.rest_vertices;
   x.col(0) *= 1.5;
-  EXPECT_TRUE(overstrainedFaces(sponge, x, 0.63).empty());
-  const std::vector<Face> faces = overstrainedFaces(sponge, x, 0.62);
-  EXPECT_FALSE(faces.empty());
-  for (const Face& face : faces) {
-    EXPECT_EQ(sponge.rest_vertices(face[0], 0), sponge.rest_vertices(face[1], 0));
-    EXPECT_EQ(sponge.rest_vertices(face[0], 0), sponge.rest_vertices(face[2], 0));
-  }
+  x.col(1) *= 0.8;
+  const PrincipalStretch stretch = principalStretch(sponge, transformed(x, testing::somePose()), 17);
+  EXPECT_NEAR(stretch.stretch, 1.5, 1e-9);
+  EXPECT_NEAR(std::abs(stretch.direction.x()), 1.0, 1e-9);
 }
 
-TEST(Tearing, ATurnedBodyDoesNotTear) {
-  const TetTopology sponge = testing::sponge();
-  const Points x = transformed(sponge.rest_vertices, testing::somePose());
-  std::vector<Face> closed;
-  EXPECT_FALSE(tearTets(sponge, uncut(sponge), x, 1e-6, &closed).has_value());
-}
-
-TEST(Tearing, TearsApartWhereItIsStretchedIntoSoundPieces) {
-  const TetTopology sponge = testing::sponge();
-  std::vector<Face> closed;
-  const auto edit = tearTets(sponge, uncut(sponge), stretchedMiddle(sponge.rest_vertices, 1.8), 0.5, &closed);
-  ASSERT_TRUE(edit.has_value());
-  const TetTopology& after = edit->topology;
-  EXPECT_GE(*std::max_element(after.bodies.begin(), after.bodies.end()), 1u);
-  EXPECT_EQ(nonManifoldVertices(after.surface), std::vector<int>());
-  EXPECT_EQ(after.tets.rows(), sponge.tets.rows());
-  EXPECT_NEAR(enclosedVolume(after.rest_vertices, after.surface) / (0.2 * 0.1 * 0.03), 1.0, 1e-6);
-  EXPECT_NE(std::count(edit->cut.begin(), edit->cut.end(), true), 0);
-}
-
-TEST(Tearing, RandomStrainLeavesTheSurfaceManifold) {
-  for (const TetTopology& body : {testing::sponge(), testing::torus()}) {
-    std::mt19937 random(4);
-    for (int k = 0; k < 40; ++k) {
-      TetTopology topology = body;
-      std::vector<bool> cut = uncut(body);
-      std::vector<Face> closed;
-      for (int step = 0; step < 3; ++step) {
-        const Points x =
-            topology.rest_vertices + testing::randomPoints(topology.rest_vertices.rows(), 0.01, &random);
-        const auto edit = tearTets(topology, cut, x, 0.4, &closed);
-        if (!edit) continue;
-        topology = edit->topology;
-        cut = edit->cut;
-        ASSERT_EQ(nonManifoldVertices(topology.surface), std::vector<int>());
-        ASSERT_EQ(topology.surface, boundaryTriangles(topology.tets));
-      }
+TEST(Tearing, AStretchedBarTearsIntoTwoClosedPieces) {
+  Scene scene(0.4);
+  EXPECT_EQ(scene.statesUntilTear(stretchedMiddle(1.5)), 5);
+  EXPECT_EQ(scene.pieces(), 2u);
+  EXPECT_EQ(*std::max_element(scene.surface.volume().bodies.begin(), scene.surface.volume().bodies.end()),
+            1u);
+  scene.expectSound();
+  const MeshTopology& mesh = scene.surface.surface().topology();
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    if (!mesh.cut[static_cast<std::size_t>(t)]) continue;
+    for (const int v : mesh.triangles.row(t)) {
+      EXPECT_GT(mesh.rest_vertices(v, 0), 0.08);
+      EXPECT_LT(mesh.rest_vertices(v, 0), 0.12);
     }
   }
+}
+
+TEST(Tearing, TheSimulatorMakesTheSameTear) {
+  Scene scene(0.4);
+  Simulator simulator(testing::sponge(), Material(), {});
+  ASSERT_GT(scene.statesUntilTear(stretchedMiddle(1.5)), 0);
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(*scene.last, &reason)) << reason;
+  EXPECT_EQ(simulator.topology().tets, scene.surface.volume().tets);
+  EXPECT_EQ(simulator.topology().rest_vertices, scene.surface.volume().rest_vertices);
+}
+
+TEST(Tearing, BelowTheLimitOrWithoutOneNothingTears) {
+  EXPECT_EQ(Scene(0.4).statesUntilTear(stretchedMiddle(1.35)), 0);
+  EXPECT_EQ(Scene(0.0).statesUntilTear(stretchedMiddle(3.0)), 0);
+  EXPECT_EQ(Scene(0.01).statesUntilTear([](const Eigen::RowVector3d& rest) -> Eigen::RowVector3d {
+    return (testing::somePose() * rest.transpose()).transpose();
+  }),
+            0);
+}
+
+TEST(Tearing, AStateThatJerksDoesNotTear) {
+  Scene scene(0.4);
+  for (int k = 0; k < 30; ++k)
+    EXPECT_EQ(scene.statesUntilTear(stretchedMiddle(k % 2 == 0 ? 1.6 : 1.1), k % 2 == 0 ? 4 : 1), 0);
+}
+
+TEST(Tearing, ATearEndsWhereTheStretchDoes) {
+  Scene scene(0.4);
+  EXPECT_EQ(scene.statesUntilTear(stretchedMiddle(1.6, 0.05)), 5);
+  EXPECT_EQ(scene.pieces(), 1u);
+  scene.expectSound();
+  EXPECT_EQ(scene.statesUntilTear(stretchedMiddle(1.6)), 5) << "it goes on";
+  scene.expectSound();
+}
+
+/// A bar of cells that are two thirds of a hundredth of it, stretched in one cell at its end or further in.
+TEST(Tearing, NoCrumbIsTorn) {
+  const TetTopology bar = testing::boxTopology({150, 1, 1}, {0.3, 0.02, 0.02});
+  const MeshTopology mesh = testing::meshTopology({bar.rest_vertices, bar.surface});
+  const auto stretchedFrom = [](double x) {
+    return [=](const Eigen::RowVector3d& rest) -> Eigen::RowVector3d {
+      return rest + Eigen::RowVector3d(0.7 * std::clamp(rest.x() - x, 0.0, 0.002), 0.0, 0.0);
+    };
+  };
+  Scene scene(0.4, bar, mesh);
+  EXPECT_EQ(scene.statesUntilTear(stretchedFrom(0.298)), 0);
+  EXPECT_EQ(scene.surface.volume().revision, 0u);
+  EXPECT_EQ(scene.statesUntilTear(stretchedFrom(0.29)), 5);
+  EXPECT_EQ(scene.pieces(), 2u);
+}
+
+/// Bodies that are pulled apart again and again stay sound.
+TEST(Tearing, RandomStretchLeavesSoundPieces) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int tears = 0;
+  for (int k = 0; k < 12; ++k) {
+    Scene scene(0.3);
+    for (int step = 0; step < 3; ++step) {
+      const Eigen::RowVector3d way(uniform(random), uniform(random), 0.3 * uniform(random));
+      const Eigen::RowVector3d direction = way.normalized();
+      const double place = 0.06 * uniform(random), width = 0.03 + 0.01 * uniform(random);
+      const auto pulled = [=](const Eigen::RowVector3d& rest) -> Eigen::RowVector3d {
+        const double along = direction.dot(rest - Eigen::RowVector3d(0.1, 0.05, 0.015)) - place;
+        return rest + 0.7 * std::clamp(along, 0.0, width) * direction;
+      };
+      tears += scene.statesUntilTear(pulled) > 0;
+      scene.expectSound();
+    }
+  }
+  EXPECT_GT(tears, 12);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ Points withEnds(const Points& edge, double overhang, const RestSolid& solid) {
 
 }  // namespace
 
-BladeStroke::BladeStroke(const BladeConfig& config, double spacing, double overhang)
+BladeStroke::BladeStroke(const CuttingConfig& config, double spacing, double overhang)
     : config_(config), spacing_(spacing), overhang_(overhang) {}
 
 void BladeStroke::forgetStrokes() {

@@ -26,7 +26,7 @@ class BladeStroke {
  public:
   /// @param spacing of the samples on the blade's outline [m]; @param overhang of the tets over the visual
   /// mesh [m]: where the blade is outside of the one the patch goes on through the other.
-  BladeStroke(const BladeConfig& config, double spacing, double overhang);
+  BladeStroke(const CuttingConfig& config, double spacing, double overhang);
 
   /// @param blade polygon where it is now, the same one every time; @param map of the body as it is now.
   /// @return the cut that the blade asks for now; it asks again, with its way since added, until accept() is
@@ -58,7 +58,7 @@ class BladeStroke {
   void startFromFront();
   std::optional<BladeCut> advance(const BladeOutline& outline, const RestSolid& solid);
 
-  BladeConfig config_;
+  CuttingConfig config_;
   double spacing_, overhang_;
   std::vector<int> parts_;  ///< per side of the polygon, as many samples begin on it
   Points outside_;          ///< outline when it was outside last

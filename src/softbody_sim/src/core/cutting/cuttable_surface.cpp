@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "core/cutting/blade_stroke.h"
 #include "core/cutting/edited_volume.h"
 #include "core/cutting/surface_history.h"
+#include "core/cutting/tearing.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
+constexpr double kLeastTorn = 0.01;  // of the body's volume, that a tear may leave
 constexpr double kNear = 0.1;  // from the body's bounding box; a blade further away is not looked at [m]
 
 Eigen::AlignedBox3d boxOf(const Points& points) {
@@ -78,29 +81,32 @@ bool Models::move(const Cut& cut, std::string* reason) {
 
 }  // namespace
 
-BladeConfig readBladeConfig(Parameters& parameters) {
-  BladeConfig config;
+CuttingConfig readCuttingConfig(Parameters& parameters) {
+  CuttingConfig config;
   config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
   config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
   config.max_gap_s = parameters.number("max_gap_s", config.max_gap_s, 0.0, 60.0);
+  config.tear_strain = parameters.number("tear_strain", config.tear_strain, 0.0, 100.0);
   return config;
 }
 
 struct CuttableSurface::Implementation {
-  Implementation(const MeshTopology& visual, const TetTopology& volume, const BladeConfig& config_in)
+  Implementation(const MeshTopology& visual, const TetTopology& volume, const CuttingConfig& config_in)
       : config(config_in),
         models{CutHistory(volume), SurfaceHistory(VisualSurface(visual, volume))},
         solid(visual),
-        blade(config, meanEdgeLength(volume.rest_vertices, volume.tets), overhangOf(volume, visual)) {}
+        blade(config, meanEdgeLength(volume.rest_vertices, volume.tets), overhangOf(volume, visual)),
+        tears(config.tear_strain) {}
 
   bool apply(const Cut& cut, const MeshState& state, std::string* reason);
   void liftAfterGap(Nanoseconds stamp);
 
-  BladeConfig config;
+  CuttingConfig config;
   Models models;
   std::deque<Models> unconfirmed;  ///< before each cut that the simulator may still refuse, oldest first
   RestSolid solid;
   BladeStroke blade;
+  TearWatch tears;
   std::optional<Nanoseconds> followed;  ///< stamp of the last blade
 };
 
@@ -121,7 +127,7 @@ void CuttableSurface::Implementation::liftAfterGap(Nanoseconds stamp) {
 }
 
 CuttableSurface::CuttableSurface(const MeshTopology& visual, const TetTopology& volume,
-                                 const BladeConfig& config)
+                                 const CuttingConfig& config)
     : implementation_(std::make_unique<Implementation>(visual, volume, config)) {}
 CuttableSurface::~CuttableSurface() = default;
 CuttableSurface::CuttableSurface(CuttableSurface&&) noexcept = default;
@@ -149,6 +155,25 @@ std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState&
   std::string reason;
   if (!s.apply(cut, volume, &reason)) return std::nullopt;
   s.blade.accept();
+  return cut;
+}
+
+std::optional<Cut> CuttableSurface::tear(const MeshState& volume) {
+  Implementation& s = *implementation_;
+  const TetTopology& topology = this->volume();
+  if (volume.revision != topology.revision || volume.vertices.rows() != topology.rest_vertices.rows())
+    return std::nullopt;
+  const std::optional<CutPatch> patch = s.tears.follow(topology, volume.vertices);
+  if (!patch) return std::nullopt;
+  const std::vector<double> before = volumesOf(surface().topology());
+  const double least = kLeastTorn * std::accumulate(before.begin(), before.end(), 0.0);
+  const auto crumbs = [least](const std::vector<double>& volumes) {
+    return std::count_if(volumes.begin(), volumes.end(), [least](double v) { return v < least; });
+  };
+  if (crumbs(preview(*patch).volumes) > crumbs(before)) return std::nullopt;
+  Cut cut = separateCut(*patch);
+  std::string reason;
+  if (!apply(cut, volume, &reason)) return std::nullopt;
   return cut;
 }
 

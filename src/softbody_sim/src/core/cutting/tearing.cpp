@@ -2,14 +2,17 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <iterator>
-#include <map>
+#include <cmath>
 
-#include "core/cutting/cut_patch.h"
-#include "core/cutting/manifold.h"
+#include "core/cutting/plane_section.h"
+#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
+
+/// So many states on end: neither one wrong measurement nor the swing after a cut tears.
+constexpr int kStates = 5;
+constexpr double kOverhang = 0.1;  // of a mean edge
 
 Eigen::Matrix3d edgesOf(const Points& vertices, const Eigen::RowVector4i& tet) {
   Eigen::Matrix3d edges;
@@ -17,61 +20,41 @@ Eigen::Matrix3d edgesOf(const Points& vertices, const Eigen::RowVector4i& tet) {
   return edges;
 }
 
-/// Green strain of a tet: (F^T F - I) / 2.
-Eigen::Matrix3d strainOf(const TetTopology& topology, const Points& vertices, Eigen::Index tet) {
-  const Eigen::RowVector4i corners = topology.tets.row(tet);
-  const Eigen::Matrix3d F = edgesOf(vertices, corners) * edgesOf(topology.rest_vertices, corners).inverse();
-  return 0.5 * (F.transpose() * F - Eigen::Matrix3d::Identity());
-}
-
-Eigen::Vector3d restNormal(const Points& vertices, const Face& face) {
-  const Eigen::Vector3d first = vertices.row(face[1]) - vertices.row(face[0]);
-  const Eigen::Vector3d second = vertices.row(face[2]) - vertices.row(face[0]);
-  return first.cross(second).normalized();
-}
-
-/// The tets as they are, as a subdivision without splits.
-CutSubdivision undivided(const TetTopology& topology) {
-  CutSubdivision same;
-  same.vertices = inSinglePrecision(topology.rest_vertices);
-  same.parts.tets = topology.tets;
-  for (int t = 0; t < static_cast<int>(topology.tets.rows()); ++t) same.parts.parents.push_back(t);
-  return same;
+/// Of F^T F = V diag(stretch^2) V^T, F the deformation gradient.
+Eigen::Matrix3d rightCauchyGreen(const TetTopology& volume, const Points& vertices, int tet) {
+  const Eigen::RowVector4i corners = volume.tets.row(tet);
+  const Eigen::Matrix3d F = edgesOf(vertices, corners) * edgesOf(volume.rest_vertices, corners).inverse();
+  return F.transpose() * F;
 }
 
 }  // namespace
 
-std::vector<Face> overstrainedFaces(const TetTopology& topology, const Points& vertices,
-                                    double strain_limit) {
-  std::map<Face, Eigen::Matrix3d> first_strains;  // of the faces seen once
-  std::vector<Face> faces;
-  for (int t = 0; t < static_cast<int>(topology.tets.rows()); ++t) {
-    const Eigen::Matrix3d strain = strainOf(topology, vertices, t);
-    for (int k = 0; k < 4; ++k) {
-      const Face face = faceOf(topology.tets, t, k);
-      const auto [other, is_first] = first_strains.emplace(face, strain);
-      if (is_first) continue;
-      const Eigen::Vector3d normal = restNormal(topology.rest_vertices, face);
-      if (0.5 * normal.dot((strain + other->second) * normal) > strain_limit) faces.push_back(face);
-    }
-  }
-  std::sort(faces.begin(), faces.end());
-  return faces;
+PrincipalStretch principalStretch(const TetTopology& volume, const Points& vertices, int tet) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(rightCauchyGreen(volume, vertices, tet));
+  return {std::sqrt(std::max(0.0, solver.eigenvalues()[2])), solver.eigenvectors().col(2)};
 }
 
-std::optional<TetEdit> tearTets(const TetTopology& topology, const std::vector<bool>& cut,
-                                const Points& vertices, double strain_limit,
-                                std::vector<Face>* closed_faces) {
-  const std::vector<Face> strained = overstrainedFaces(topology, vertices, strain_limit);
-  std::vector<Face> faces;
-  std::set_union(strained.begin(), strained.end(), closed_faces->begin(), closed_faces->end(),
-                 std::back_inserter(faces));
-  const auto count = static_cast<int>(topology.rest_vertices.rows());
-  const ManifoldCrack crack =
-      openManifoldCrack(topology.tets, count, faces, nonManifoldVertices(topology.surface));
-  *closed_faces = crack.closed_faces;
-  if (crack.opened.copied_from.empty()) return std::nullopt;
-  return assembleEdit(topology, cut, undivided(topology), crack);
+std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Points& vertices) {
+  if (strain_ <= 0.0) return std::nullopt;
+  const auto count = static_cast<std::size_t>(volume.tets.rows());
+  if (revision_ != volume.revision || states_beyond_.size() != count) states_beyond_.assign(count, 0);
+  revision_ = volume.revision;
+  int first = -1;
+  PrincipalStretch most;
+  std::vector<bool> beyond(count, false);
+  for (std::size_t t = 0; t < count; ++t) {
+    const PrincipalStretch now = principalStretch(volume, vertices, static_cast<int>(t));
+    beyond[t] = now.stretch > 1.0 + strain_;
+    states_beyond_[t] = beyond[t] ? states_beyond_[t] + 1 : 0;
+    if (states_beyond_[t] < kStates || (first >= 0 && now.stretch <= most.stretch)) continue;
+    first = static_cast<int>(t);
+    most = now;
+  }
+  if (first < 0) return std::nullopt;
+  states_beyond_.assign(count, 0);
+  const MaterialPoint middle{first, Eigen::Vector4d::Constant(0.25)};
+  return planeSection(volume, positionOf(middle, volume.rest_vertices, volume.tets), most.direction, first,
+                      beyond, kOverhang * meanEdgeLength(volume.rest_vertices, volume.tets));
 }
 
 }  // namespace softbody

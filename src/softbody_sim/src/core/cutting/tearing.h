@@ -1,22 +1,37 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "core/cutting/tet_edit.h"
-#include "softbody_common/types.h"
+#include "core/cutting/cut_patch.h"
 
 namespace softbody {
 
-/// Inner faces that are stretched apart: the Green strain of their two tets, averaged, exceeds the limit
-/// along the face's normal. Ascending. @param vertices deformed, #V by 3 [m].
-std::vector<Face> overstrainedFaces(const TetTopology& topology, const Points& vertices, double strain_limit);
+/// Watches a body for material that is stretched too far.
+class TearWatch {
+ public:
+  /// @param strain principal stretch beyond 1 that the material bears; 0: all.
+  explicit TearWatch(double strain) : strain_(strain) {}
 
-/// Tears the tets along the faces that are stretched beyond the limit, and along those of earlier calls that
-/// were still held together. Tets are not subdivided: the tear is as fine as they are.
-/// @param cut per triangle of the topology's surface, as in TetEdit; @param closed_faces of earlier calls for
-/// this topology, ascending; afterwards for the edit's. @return nothing if nothing opens.
-std::optional<TetEdit> tearTets(const TetTopology& topology, const std::vector<bool>& cut,
-                                const Points& vertices, double strain_limit, std::vector<Face>* closed_faces);
+  /// The patch along which the body tears now: once tets have been stretched beyond the limit in several
+  /// states on end, the section through them, and those beyond the limit that it reaches from tet to tet,
+  /// across the principal direction of the most stretched one. At the body's surface it goes on by a tenth of
+  /// a mean edge. After a patch the watch begins anew.
+  /// @param vertices of the volume in the next state [m].
+  std::optional<CutPatch> follow(const TetTopology& volume, const Points& vertices);
+
+ private:
+  double strain_;
+  std::uint32_t revision_ = 0;
+  std::vector<int> states_beyond_;  ///< per tet, on end up to the last one
+};
+
+/// A tet's greatest principal stretch, and its direction at rest.
+struct PrincipalStretch {
+  double stretch = 1.0;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+};
+PrincipalStretch principalStretch(const TetTopology& volume, const Points& vertices, int tet);
 
 }  // namespace softbody
