@@ -5,60 +5,22 @@
 #include <cmath>
 #include <limits>
 
+#include "pixel_grid.h"
 #include "softbody_common/surface_binding.h"
 
 namespace softbody {
 namespace {
 
-constexpr double kLargestMotion = 0.1;      // [m] a frame; 3 m/s at 30 Hz
-constexpr double kVisibleTolerance = 0.01;  // [m], feature behind the rendered surface by more: hidden
-constexpr float kRatio = 0.85f;             // best to second-best distance
-constexpr float kSamePlacePx = 3.0f;        // two keypoints nearer than this are no rivals
-constexpr int kFreeRadiusPx = 7;            // around a known feature no other is admitted
-constexpr int kNeighborhoodPx = 40;
-constexpr std::size_t kFewestNeighbors = 4;
-constexpr std::size_t kEnoughNeighbors = 100;  // for a median; of more every second, third, ...
+constexpr double kVisibleTolerance = 0.01;     // [m], feature behind the rendered surface by more: hidden
+constexpr float kRatio = 0.85f;                // best to second-best distance
+constexpr float kSamePlacePx = 3.0f;           // two keypoints nearer than this are no rivals
+constexpr int kFreeRadiusPx = 7;               // around a known feature no other is admitted
 constexpr double kBindTolerance = 0.01;        // [m], surface and depth must agree where a feature is bound
 constexpr double kMostGrazing = 0.35;          // cosine of normal and ray where a feature is bound
 constexpr int kFewestDepths = 20;              // of the 25 pixels around a feature: fewer is a depth edge
 constexpr float kSmallestCorrelation = 0.75f;  // of a patch that is found again
 constexpr int kTrialFrames = 20;
 constexpr double kWorstHitRate = 0.2;
-
-/// Indices of points by square cells of an image.
-class PixelGrid {
- public:
-  PixelGrid(const Pinhole& camera, int cell_px)
-      : cell_(cell_px),
-        columns_(camera.width / cell_px + 1),
-        rows_(camera.height / cell_px + 1),
-        cells_(static_cast<std::size_t>(columns_) * rows_) {}
-
-  void insert(const cv::Point2f& pixel, int index) {
-    cells_[cellIndex(column(pixel.x), row(pixel.y))].push_back(index);
-  }
-
-  /// Calls visit(index) for everything in the 3x3 cells around a pixel.
-  template <typename Visitor>
-  void around(double u, double v, Visitor visit) const {
-    const int x = column(u), y = row(v);
-    for (int j = std::max(0, y - 1); j <= std::min(rows_ - 1, y + 1); ++j) {
-      for (int i = std::max(0, x - 1); i <= std::min(columns_ - 1, x + 1); ++i) {
-        for (int index : cells_[cellIndex(i, j)]) visit(index);
-      }
-    }
-  }
-
-  const std::vector<std::vector<int>>& cells() const { return cells_; }
-
- private:
-  int column(double u) const { return std::clamp(static_cast<int>(u) / cell_, 0, columns_ - 1); }
-  int row(double v) const { return std::clamp(static_cast<int>(v) / cell_, 0, rows_ - 1); }
-  std::size_t cellIndex(int x, int y) const { return static_cast<std::size_t>(y) * columns_ + x; }
-
-  int cell_, columns_, rows_;
-  std::vector<std::vector<int>> cells_;
-};
 
 cv::Point2f toPoint2f(const Eigen::Vector2d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y())};
@@ -130,49 +92,11 @@ void erase(const cv::Point2f& pixel, cv::Mat1b* mask) {
     std::fill((*mask)[v] + left, (*mask)[v] + right, 0);
 }
 
-double median(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
-
 /// Takes barycentric coordinates in a tet to the rest shape.
 Eigen::Matrix4d homogeneousCorners(const TetTopology& volume, int tet) {
   Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
   for (int k = 0; k < 4; ++k) corners.col(k).head<3>() = volume.rest_vertices.row(volume.tets(tet, k));
   return corners;
-}
-
-/// Local rigidity: neighbouring features move alike relative to the prediction.
-void markOutliers(const Pinhole& camera, double max_disagreement, std::vector<FeatureMatch>* matches) {
-  PixelGrid grid(camera, kNeighborhoodPx);
-  std::vector<Eigen::Vector3d> motions;
-  motions.reserve(matches->size());
-  for (const FeatureMatch& match : *matches) {
-    grid.insert(match.pixel, static_cast<int>(motions.size()));
-    motions.push_back(match.association.measured - match.association.predicted);
-  }
-  std::array<std::vector<double>, 3> neighbors;
-  // A cell's matches have the same neighbours.
-  for (const std::vector<int>& cell : grid.cells()) {
-    if (cell.empty()) continue;
-    for (auto& values : neighbors) values.clear();
-    const cv::Point2f pixel = (*matches)[cell.front()].pixel;
-    std::size_t count = 0;
-    grid.around(pixel.x, pixel.y, [&](int) { ++count; });
-    const std::size_t step = 1 + count / kEnoughNeighbors;
-    grid.around(pixel.x, pixel.y, [&](int other) {
-      if (count++ % step != 0) return;
-      for (int k = 0; k < 3; ++k) neighbors[k].push_back(motions[other][k]);
-    });
-    Eigen::Vector3d typical = Eigen::Vector3d::Zero();
-    if (neighbors[0].size() >= kFewestNeighbors)
-      typical = {median(&neighbors[0]), median(&neighbors[1]), median(&neighbors[2])};
-    for (int m : cell) {
-      (*matches)[m].inlier =
-          motions[m].norm() < kLargestMotion && (motions[m] - typical).norm() < max_disagreement;
-    }
-  }
 }
 
 }  // namespace
@@ -198,6 +122,7 @@ double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
 void FeatureMap::predict(const RgbdFrame& frame, const ColorModel& colors, double reach_m,
                          const PredictedSurface& surface) {
   predictions_.clear();
+  missed_.clear();
   for (std::size_t f = 0; f < features_.size(); ++f) {
     Prediction p;
     p.feature = static_cast<int>(f);
@@ -211,7 +136,9 @@ void FeatureMap::predict(const RgbdFrame& frame, const ColorModel& colors, doubl
 }
 
 void FeatureMap::shift(const Pinhole& camera, const RigidMotions& motions) {
+  missed_.clear();
   for (Prediction& p : predictions_) {
+    p.tried = false;
     const Eigen::Vector3d moved = motions[p.body] * p.position;
     if (moved.z() > 0.0) p.pixel = toPoint2f(camera.project(moved));
   }
@@ -250,16 +177,16 @@ bool FeatureMap::addMatch(const RgbdFrame& frame, const GrayPyramid& image, cons
   return true;
 }
 
-std::vector<FeatureMatch> FeatureMap::align(const RgbdFrame& frame, const GrayPyramid& image, int wanted) {
-  std::vector<FeatureMatch> matches;
-  matches.reserve(std::min(predictions_.size(), static_cast<std::size_t>(wanted) + 1));
-  missed_.clear();
-  const std::size_t step = std::max<std::size_t>(1, predictions_.size() / static_cast<std::size_t>(wanted));
+void FeatureMap::align(const RgbdFrame& frame, const GrayPyramid& image, int wanted,
+                       std::vector<FeatureMatch>* matches) {
+  matches->reserve(predictions_.size());
+  const std::size_t step = 1 + predictions_.size() / static_cast<std::size_t>(wanted);
   for (std::size_t i = 0; i < predictions_.size(); i += step) {
-    const Prediction& p = predictions_[i];
-    if (!addMatch(frame, image, p, p.pixel, config_.search_radius_px, &matches)) missed_.push_back(p);
+    Prediction& p = predictions_[i];
+    if (p.tried) continue;
+    p.tried = true;
+    if (!addMatch(frame, image, p, p.pixel, config_.search_radius_px, matches)) missed_.push_back(p);
   }
-  return matches;
 }
 
 void FeatureMap::search(const RgbdFrame& frame, const GrayPyramid& image,
@@ -281,10 +208,6 @@ void FeatureMap::search(const RgbdFrame& frame, const GrayPyramid& image,
   for (std::size_t k = 0; k < keypoints.size(); ++k) {
     if (owner[k] >= 0) addMatch(frame, image, missed_[owner[k]], keypoints[k].pixel, kWideSearchPx, matches);
   }
-}
-
-void FeatureMap::judge(const Pinhole& camera, std::vector<FeatureMatch>* matches) const {
-  markOutliers(camera, config_.max_disagreement_m, matches);
 }
 
 void FeatureMap::credit(const std::vector<FeatureMatch>& matches) {

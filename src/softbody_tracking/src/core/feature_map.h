@@ -6,6 +6,7 @@
 
 #include "association.h"
 #include "color_model.h"
+#include "feature_match.h"
 #include "feature_patch.h"
 #include "gray_pyramid.h"
 #include "orb_extractor.h"
@@ -30,18 +31,12 @@ struct MapFeature {
   int matched = 0;                                      ///< frames in which it was
 };
 
-/// A map feature found in a frame.
-struct FeatureMatch {
-  int feature = 0;  ///< index into FeatureMap::features()
-  cv::Point2f pixel;
-  Association association;  ///< to the measured 3-D position, all three directions
-  bool inlier = true;
-};
-
 /// ORB features bound to the body where they lie and found again around their predicted positions: by
 /// aligning their patches with sub-pixel precision, and those that moved too far for it by their descriptors.
 class FeatureMap {
  public:
+  static constexpr int kAll = std::numeric_limits<int>::max();
+
   explicit FeatureMap(const FeatureConfig& config) : config_(config) {}
 
   const std::vector<MapFeature>& features() const { return features_; }
@@ -56,18 +51,14 @@ class FeatureMap {
   /// Looks for the features where the motions of the body's pieces take the prediction.
   void shift(const Pinhole& camera, const RigidMotions& motions);
 
-  /// Aligns the patches of the predicted features. @param wanted about so many of them, spread evenly.
-  std::vector<FeatureMatch> align(const RgbdFrame& frame, const GrayPyramid& image,
-                                  int wanted = std::numeric_limits<int>::max());
+  /// Aligns the patches of the predicted features that have not been tried since predict() or shift().
+  /// @param wanted about so many of all, spread evenly; at least 1. @param matches those found are added.
+  void align(const RgbdFrame& frame, const GrayPyramid& image, int wanted,
+             std::vector<FeatureMatch>* matches);
 
-  /// Adds matches, by descriptor and then aligned, of the visible features that the last align() did not
-  /// find.
+  /// Adds matches, by descriptor and then aligned, of the visible features that align() did not find.
   void search(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
               const PredictedSurface& surface, std::vector<FeatureMatch>* matches);
-
-  /// Marks outliers: matches that disagree with the median motion of their neighbourhood, or are further from
-  /// their prediction than a body moves in a frame.
-  void judge(const Pinhole& camera, std::vector<FeatureMatch>* matches) const;
 
   /// Remembers which of the predicted features were found again.
   void credit(const std::vector<FeatureMatch>& matches);
@@ -97,6 +88,7 @@ class FeatureMap {
     std::uint32_t body = 0;
     Eigen::Vector3d position;
     Eigen::Matrix2f warp;
+    bool tried = false;
   };
 
   std::optional<cv::Point2f> locate(const GrayPyramid& image, const Prediction& prediction,
@@ -108,7 +100,7 @@ class FeatureMap {
   FeatureConfig config_;
   std::vector<MapFeature> features_;
   std::vector<Prediction> predictions_;
-  std::vector<Prediction> missed_;  ///< by the last align()
+  std::vector<Prediction> missed_;  ///< by align()
   int next_id_ = 0;
 };
 

@@ -8,6 +8,8 @@ namespace softbody {
 namespace {
 
 constexpr int kIterations = 8;
+constexpr int kHopelessAfter = 3;    // iterations; what is found after all looks alike by then
+constexpr float kHopeless = 0.4f;    // correlation
 constexpr float kConverged = 0.03f;  // [px of the level], of the last step, which is more than what remains
 constexpr float kSmallestSpread = 4.0f;     // grey values: standard deviation below which there is only noise
 constexpr float kWeakestDirection = 0.02f;  // eigenvalue of the Hessian of a patch of norm 1 [1/px^2]
@@ -91,6 +93,7 @@ float FeaturePatch::alignLevel(const Level& level, const cv::Mat1b& image, const
     const PatchSums sums = comparePatch(samples, level.pattern);
     if (sums.spread < kSmallestSpread * kPatchSide) return -1.0f;
     correlation = sums.product / sums.spread;
+    if (i >= kHopelessAfter && correlation < kHopeless) return -1.0f;
     const Eigen::Vector2f shift =
         level.inverse_hessian * Eigen::Vector2f(sums.along_x / sums.spread - level.dx_offset,
                                                 sums.along_y / sums.spread - level.dy_offset);

@@ -57,7 +57,8 @@ void FrameObserver::reset() {
 double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) {
   surface_.update(frame.camera, transformed(surface_.volume().rest_vertices, pose));
   expectFeatures(frame);
-  const std::vector<FeatureMatch> matches = map_.align(frame, pyramid_);
+  std::vector<FeatureMatch> matches;
+  map_.align(frame, pyramid_, FeatureMap::kAll, &matches);
   if (map_.expected() < kFewestExpectedFeatures) return -1.0;
   return static_cast<double>(matches.size()) / map_.expected();
 }
@@ -114,9 +115,14 @@ void FrameObserver::expectFeatures(const RgbdFrame& frame) {
 /// for where it moves rigidly to.
 std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
   expectFeatures(frame);
-  const std::vector<FeatureMatch> scouts = map_.align(frame, pyramid_, kScouts);
-  if (farOff(scouts, surface_)) map_.shift(frame.camera, alignRigidly(frame, scouts));
-  return map_.align(frame, pyramid_);
+  std::vector<FeatureMatch> matches;
+  map_.align(frame, pyramid_, kScouts, &matches);
+  if (farOff(matches, surface_)) {
+    map_.shift(frame.camera, alignRigidly(frame, matches));
+    matches.clear();
+  }
+  map_.align(frame, pyramid_, FeatureMap::kAll, &matches);
+  return matches;
 }
 
 bool FrameObserver::few(const std::vector<FeatureMatch>& matches) const {
@@ -129,14 +135,14 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   seen->matches = alignFeatures(frame);
   if (few(seen->matches)) {
     map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
-    map_.judge(frame.camera, &seen->matches);
+    markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     const RigidMotions rough = alignRigidly(frame, seen->matches);
     if (largestMotion(surface_, rough) > kLookAgain) {
       look(frame, surface_.movedVolume(rough));
       seen->matches = alignFeatures(frame);
     }
   }
-  map_.judge(frame.camera, &seen->matches);
+  markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
 }
 
 /// Wherever the body may be.
