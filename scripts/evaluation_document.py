@@ -213,6 +213,7 @@ def goals(reports):
         ("leave: back to normal after", "<= 1.0", "s", recovery("leave")),
         ("shake: frames followed, mean error up to 10 mm", ">= 100", "%", followed(reports.get(("scene", "shake")))),
         ("30 % depth holes: error", "<= 1.2", "times", fault("30 % depth holes")),
+        ("20 % wrong matches: error", "<= 1.2", "times", fault("20 % wrong matches")),
         ("50 features instead of 1000: error", "<= 1.2", "times", fault("50 features instead of 1000")),
         ("cut: surface from the true one and back, at most", "<= 2.0", "mm",
          worst(scene("cut", "cut_surface", way, "max_mm") for way in ("distance", "missed"))),

@@ -36,17 +36,18 @@ sensor_msgs::Image FaultyImages::next(const sensor_msgs::Image& original) {
   if (count_ == 0) first_ = stamp;
   const bool occluded = occluderPresent(1e-9 * static_cast<double>(stamp - first_), faults_);
   sensor_msgs::Image image = original;
-  if (!is_depth_ && occluded) spoilColor(&image);
+  if (!is_depth_ && (occluded || faults_.misplaced_share > 0.0)) spoilColor(occluded, &image);
   if (is_depth_ && (occluded || faults_.hole_share > 0.0)) spoilDepth(occluded, &image);
   ++count_;
   return image;
 }
 
-void FaultyImages::spoilColor(sensor_msgs::Image* image) const {
+void FaultyImages::spoilColor(bool occluded, sensor_msgs::Image* image) const {
   const bool rgb = image->encoding == encodings::RGB8;
   if (!rgb && image->encoding != encodings::BGR8) refuse(topic_, *image, "rgb8 or bgr8");
   cv::Mat3b color = pixels(topic_, CV_8UC3, image);
-  occludeColor(faults_, rgb, &color);
+  if (faults_.misplaced_share > 0.0) misplaceBlocks(faults_, count_, &color);
+  if (occluded) occludeColor(faults_, rgb, &color);
 }
 
 void FaultyImages::spoilDepth(bool occluded, sensor_msgs::Image* image) const {

@@ -22,7 +22,7 @@ class FaultyImages {
   std::size_t count() const { return count_; }
 
  private:
-  void spoilColor(sensor_msgs::Image* image) const;
+  void spoilColor(bool occluded, sensor_msgs::Image* image) const;
   void spoilDepth(bool occluded, sensor_msgs::Image* image) const;
 
   std::string topic_;

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <opencv2/imgproc.hpp>
+#include <random>
 #include <set>
 
 #include "softbody_bringup/injection/injector.h"
@@ -250,6 +252,38 @@ TEST(Inject, HolesAreTheirShareOfEveryDepthImageAndOthersInEach) {
   const std::vector<Arrival> depth = arrivals(options.output, kDepth);
   for (const Arrival& arrival : depth) EXPECT_DOUBLE_EQ(shareOf(arrival.image, 0), 0.25);
   EXPECT_NE(depth[0].image.data, depth[1].image.data);
+}
+
+TEST(ImageFaults, MisplacedBlocksShowWhatIsBesideThem) {
+  std::mt19937 random(3);
+  cv::Mat3b original(240, 480);
+  for (cv::Vec3b& pixel : original) pixel = {uchar(random()), uchar(random()), uchar(random())};
+  ImageFaults faults;
+  faults.misplaced_share = 0.25;
+  cv::Mat3b images[2];
+  for (int frame = 0; frame < 2; ++frame) {
+    original.copyTo(images[frame]);
+    misplaceBlocks(faults, frame, &images[frame]);
+    int misplaced = 0;
+    for (int v = 0; v < original.rows; v += 24) {
+      for (int u = 0; u < original.cols; u += 24) {
+        const cv::Mat3b block = images[frame](cv::Rect(u, v, 24, 24));
+        if (cv::norm(block, original(cv::Rect(u, v, 24, 24)), cv::NORM_INF) == 0.0) continue;
+        ++misplaced;
+        cv::Mat1f likeness;
+        cv::matchTemplate(original, block, likeness, cv::TM_SQDIFF);
+        cv::Point place;
+        cv::minMaxLoc(likeness, nullptr, nullptr, &place);
+        EXPECT_EQ(cv::norm(block, original(cv::Rect(place, block.size())), cv::NORM_INF), 0.0)
+            << u << " " << v;
+        EXPECT_LT(cv::norm(place - cv::Point(u, v)), 12.8);
+        const bool at_border = u == 0 || v == 0 || u + 24 == original.cols || v + 24 == original.rows;
+        EXPECT_TRUE(at_border || cv::norm(place - cv::Point(u, v)) > 3.2);
+      }
+    }
+    EXPECT_NEAR(misplaced, 50, 8) << "at the border a block may stay where it is";
+  }
+  EXPECT_GT(cv::norm(images[0], images[1], cv::NORM_INF), 0.0) << "others in every image";
 }
 
 TEST(Inject, TheSameSeedGivesTheSameBytes) {

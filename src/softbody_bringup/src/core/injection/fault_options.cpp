@@ -20,6 +20,9 @@ std::vector<FaultOption> faultOptions(DeliveryFaults* deliveries, ImageFaults* i
       {"occluder_for", "s", &images->occluder_for_s, 0.0, 1e9, "how long it stays"},
       {"holes", "", &images->hole_share, 0.0, 1.0,
        "share of the depth image that is not measured, in blocks of 8 x 8 px"},
+      {"misplaced", "", &images->misplaced_share, 0.0, 1.0,
+       "share of the colour image that shows what is 4 to 12 px beside it, in blocks of 24 x 24 px: features "
+       "are found in wrong places"},
   };
 }
 

@@ -1,15 +1,20 @@
 #include "softbody_bringup/injection/image_faults.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "softbody_bringup/injection/deliveries.h"
 
 namespace softbody::injection {
 namespace {
 
-constexpr int kBlock = 8;                    // [px]
-constexpr std::uint64_t kHolePurpose = 100;  // plus the frame's number
+constexpr int kHoleBlock = 8, kMisplacedBlock = 24;  // [px]
+constexpr double kNearest = 4.0, kFarthest = 12.0;   // [px] that a block is misplaced by
+// Plus the frame's number:
+constexpr std::uint64_t kHolePurpose = 100, kMisplacedPurpose = 1ull << 40, kOffsetPurpose = 2ull << 40;
 const cv::Vec3b kSkinRgb(224, 172, 138);
 
 template <typename Pixel>
@@ -18,6 +23,35 @@ void bringNearer(Pixel distance, cv::Mat_<Pixel> region) {
     const bool nearer = z > Pixel(0) && z < distance;
     if (!nearer) z = distance;
   }
+}
+
+/// The chosen share of an image's blocks.
+std::vector<cv::Rect> chosenBlocks(const cv::Size& image, int side, double share, std::uint64_t seed,
+                                   std::uint64_t purpose) {
+  const int columns = (image.width + side - 1) / side, rows = (image.height + side - 1) / side;
+  const std::vector<bool> chosen = choose(static_cast<std::size_t>(columns * rows), share, seed, purpose);
+  std::vector<cv::Rect> blocks;
+  for (int i = 0; i < columns * rows; ++i) {
+    const cv::Rect block(i % columns * side, i / columns * side, side, side);
+    if (chosen[static_cast<std::size_t>(i)]) blocks.push_back(block & cv::Rect(cv::Point(), image));
+  }
+  return blocks;
+}
+
+/// 0..1, the same on every machine.
+double uniform(std::mt19937_64* random) { return static_cast<double>((*random)() >> 11) * 0x1.0p-53; }
+
+cv::Point randomOffset(std::mt19937_64* random) {
+  const double length = kNearest + (kFarthest - kNearest) * uniform(random),
+               angle = 2.0 * CV_PI * uniform(random);
+  return {cvRound(length * std::cos(angle)), cvRound(length * std::sin(angle))};
+}
+
+/// The block, moved into the image.
+cv::Rect inside(cv::Rect block, const cv::Size& image) {
+  block.x = std::clamp(block.x, 0, image.width - block.width);
+  block.y = std::clamp(block.y, 0, image.height - block.height);
+  return block;
 }
 
 }  // namespace
@@ -54,13 +88,17 @@ void occludeDepth(const ImageFaults& faults, cv::Mat* depth) {
 }
 
 void punchHoles(const ImageFaults& faults, std::size_t frame, cv::Mat* depth) {
-  const int columns = (depth->cols + kBlock - 1) / kBlock, rows = (depth->rows + kBlock - 1) / kBlock;
-  const std::vector<bool> holes =
-      choose(static_cast<std::size_t>(columns * rows), faults.hole_share, faults.seed, kHolePurpose + frame);
-  for (int i = 0; i < columns * rows; ++i) {
-    if (!holes[static_cast<std::size_t>(i)]) continue;
-    const cv::Rect block(i % columns * kBlock, i / columns * kBlock, kBlock, kBlock);
-    (*depth)(block & cv::Rect(cv::Point(), depth->size())).setTo(0);
+  for (const cv::Rect& block :
+       chosenBlocks(depth->size(), kHoleBlock, faults.hole_share, faults.seed, kHolePurpose + frame))
+    (*depth)(block).setTo(0);
+}
+
+void misplaceBlocks(const ImageFaults& faults, std::size_t frame, cv::Mat3b* color) {
+  const cv::Mat3b original = color->clone();
+  std::mt19937_64 random(faults.seed + kOffsetPurpose + frame);
+  for (const cv::Rect& block : chosenBlocks(color->size(), kMisplacedBlock, faults.misplaced_share,
+                                            faults.seed, kMisplacedPurpose + frame)) {
+    original(inside(block + randomOffset(&random), color->size())).copyTo((*color)(block));
   }
 }
 
