@@ -10,6 +10,9 @@
 namespace softbody {
 namespace {
 
+/// Three right-hand sides, and zeros that make a row whole vectors.
+using SubstitutedRows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
 /// CHOLMOD's view of a compressed triangle; it borrows the memory and does not write to it.
 /// @param triangle -1: lower, 1: upper.
 cholmod_sparse view(const Eigen::SparseMatrix<double>& matrix, int triangle) {
@@ -40,7 +43,7 @@ struct PositiveDefiniteSolver::Implementation {
   std::vector<int> order, place;  ///< vertex by place in the factor's order, and the other way round
   std::vector<int> starts, rows;
   std::vector<double> values;  ///< of an update's columns
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> substituted;
+  SubstitutedRows substituted;
 
   Implementation() {
     cholmod_start(&common);
@@ -141,7 +144,7 @@ PositiveDefiniteSolver::PositiveDefiniteSolver(const Eigen::SparseMatrix<double>
   s.common.postorder = 0;
   cholmod_sparse A = view(s.upper, 1);
   s.factor = cholmod_analyze(&A, &s.common);
-  s.substituted.resize(lower.rows(), 3);
+  s.substituted.resize(lower.rows(), 4);
   if (s.factor == nullptr) throw std::runtime_error("CHOLMOD could not analyse the matrix");
 }
 
@@ -181,18 +184,21 @@ CholeskyView PositiveDefiniteSolver::factor() const {
 /// By the factor itself: cholmod_solve2 allocates at every call.
 void PositiveDefiniteSolver::solve(const Points& B, Points* X) {
   const CholeskyView L = factor();
-  auto& y = implementation_->substituted;
-  for (int j = 0; j < L.count; ++j) y.row(j) = B.row(L.order[j]);
-  const auto each = [&L](int j, auto use) {
-    for (int k = L.starts[j] + 1; k < L.starts[j] + L.row_counts[j]; ++k) use(L.rows[k], L.values[k]);
-  };
-  for (int j = 0; j < L.count; ++j) each(j, [&](int row, double value) { y.row(row) -= value * y.row(j); });
+  SubstitutedRows& y = implementation_->substituted;
+  for (int j = 0; j < L.count; ++j) y.row(j) << B.row(L.order[j]), 0.0;
+  for (int j = 0; j < L.count; ++j) {
+    const Eigen::RowVector4d row = y.row(j);
+    for (int k = L.starts[j] + 1, end = L.starts[j] + L.row_counts[j]; k < end; ++k)
+      y.row(L.rows[k]) -= L.values[k] * row;
+  }
   for (int j = L.count - 1; j >= 0; --j) {
-    y.row(j) /= L.values[L.starts[j]];
-    each(j, [&](int row, double value) { y.row(j) -= value * y.row(row); });
+    Eigen::RowVector4d row = y.row(j) / L.values[L.starts[j]];
+    for (int k = L.starts[j] + 1, end = L.starts[j] + L.row_counts[j]; k < end; ++k)
+      row -= L.values[k] * y.row(L.rows[k]);
+    y.row(j) = row;
   }
   X->resize(L.count, 3);
-  for (int j = 0; j < L.count; ++j) X->row(L.order[j]) = y.row(j);
+  for (int j = 0; j < L.count; ++j) X->row(L.order[j]) = y.row(j).head<3>();
 }
 
 }  // namespace softbody
