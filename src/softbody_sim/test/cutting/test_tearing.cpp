@@ -127,6 +127,20 @@ TEST(Tearing, ATearEndsWhereTheStretchDoes) {
   scene.expectSound();
 }
 
+TEST(Tearing, ATearCrossesASlit) {
+  Scene scene(0.4);
+  CutPatch slit{Points(4, 3), Triangles(2, 3)};
+  slit.vertices << -0.1, 0.047, -0.1, 0.15, 0.047, -0.1, 0.15, 0.047, 0.1, -0.1, 0.047, 0.1;
+  slit.triangles << 0, 1, 2, 0, 2, 3;
+  std::string reason;
+  const Deformation none = [](const Eigen::RowVector3d& rest) -> Eigen::RowVector3d { return rest; };
+  ASSERT_TRUE(scene.surface.apply(scene.surface.separateCut(slit), scene.stateOf(none), &reason)) << reason;
+  EXPECT_EQ(scene.pieces(), 1u);
+  EXPECT_EQ(scene.statesUntilTear(stretchedMiddle(1.5)), 5);
+  EXPECT_EQ(scene.pieces(), 3u);
+  scene.expectSound();
+}
+
 /// A bar of cells that are two thirds of a hundredth of it, stretched in one cell at its end or further in.
 TEST(Tearing, NoCrumbIsTorn) {
   const TetTopology bar = testing::boxTopology({150, 1, 1}, {0.3, 0.02, 0.02});

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace softbody {
 namespace {
@@ -19,7 +20,11 @@ class Section {
       : volume_(volume),
         x_(normal.unitOrthogonal()),
         y_(normal.normalized().cross(x_)),
-        heights_((volume.rest_vertices.rowwise() - point.transpose()) * normal) {}
+        heights_(volume.rest_vertices.rows()) {
+    // One by one: as a product of matrices, coincident vertices might differ in their last digit.
+    for (Eigen::Index v = 0; v < heights_.size(); ++v)
+      heights_[v] = normal.dot(volume.rest_vertices.row(v).transpose() - point);
+  }
 
   void cutThrough(int first, const std::vector<bool>& wanted);
   void extend(double overhang);
@@ -45,20 +50,25 @@ class Section {
   const TetTopology& volume_;
   Eigen::Vector3d x_, y_;
   Eigen::VectorXd heights_;
-  std::vector<Polygon> polygons_;           ///< per tet
-  std::map<Edge, std::vector<int>> sides_;  ///< between two points -> tets
-  std::map<Edge, int> crossings_;           ///< edge of tets -> point
+  std::vector<Polygon> polygons_;                 ///< per tet
+  std::map<Edge, std::vector<int>> sides_;        ///< between two points -> tets
+  std::map<std::array<double, 3>, int> numbers_;  ///< of the points
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::array<int, 3>> triangles_;
 };
 
+/// The two walls of an earlier cut, which coincide at rest, share their points: the section passes over them.
 int Section::pointOn(int a, int b) {
-  const auto [entry, is_new] = crossings_.emplace(edgeBetween(a, b), static_cast<int>(points_.size()));
-  if (is_new) {
-    const auto [low, high] = entry->first;
-    const double t = heights_[low] / (heights_[low] - heights_[high]);
-    points_.emplace_back((1.0 - t) * volume_.rest_vertices.row(low) + t * volume_.rest_vertices.row(high));
+  Eigen::RowVector3d low = volume_.rest_vertices.row(a), high = volume_.rest_vertices.row(b);
+  if (std::lexicographical_compare(high.data(), high.data() + 3, low.data(), low.data() + 3)) {
+    std::swap(a, b);
+    std::swap(low, high);
   }
+  const double t = heights_[a] / (heights_[a] - heights_[b]);
+  const Eigen::Vector3d point = (1.0 - t) * low + t * high;
+  const auto [entry, is_new] =
+      numbers_.try_emplace({point.x(), point.y(), point.z()}, static_cast<int>(points_.size()));
+  if (is_new) points_.push_back(point);
   return entry->second;
 }
 
