@@ -119,6 +119,39 @@ TEST_P(Rasterizer, PlanesAreExactAndWithoutHoles) {
   }
 }
 
+TEST_P(Rasterizer, TrianglesSmallerThanAPixelAgreeWithTheSurfaceThatTheyDivide) {
+  // A plane in triangles of about a pixel, as of a fine mesh, slivers among them.
+  const Eigen::Vector3d normal =
+      (Eigen::Vector3d(0, 0, -1) + 0.4 * randomPoint(-1, 1, &random_)).normalized();
+  const auto depth_at = [&](double u, double v) { return -0.5 / normal.dot(kCamera.unproject(u, v, 1.0)); };
+  std::uniform_real_distribution<double> shake(-0.3, 0.3);
+  const int columns = 60, rows = 44;
+  TriangleMesh mesh;
+  mesh.vertices.resize((columns + 1) * (rows + 1), 3);
+  mesh.triangles.resize(2 * columns * rows, 3);
+  for (int r = 0, f = 0; r <= rows; ++r) {
+    for (int c = 0; c <= columns; ++c) {
+      const int i = r * (columns + 1) + c;
+      const double u = 3.0 + 0.9 * c + shake(random_), v = 3.0 + 0.9 * r + shake(random_);
+      mesh.vertices.row(i) = kCamera.unproject(u, v, depth_at(u, v));
+      if (r == rows || c == columns) continue;
+      mesh.triangles.row(f++) << i, i + 1, i + columns + 1;
+      mesh.triangles.row(f++) << i + 1, i + columns + 2, i + columns + 1;
+    }
+  }
+  RasterImage image;
+  rasterize(kCamera, mesh.vertices, mesh.triangles, &image);
+  for (int v = 4; v < 42; ++v) {
+    for (int u = 4; u < 56; ++u) {
+      ASSERT_GE(image.triangle(v, u), 0) << "a hole at " << u << " " << v;
+      EXPECT_NEAR(image.depth(v, u), depth_at(u, v), 2e-6) << u << " " << v;
+      const Eigen::Vector3d weights =
+          rayWeights(kCamera, mesh.vertices, mesh.triangles, image.triangle(v, u), u, v);
+      EXPECT_GT(weights.minCoeff(), -1e-4);
+    }
+  }
+}
+
 TEST_P(Rasterizer, AReusedImageEqualsAFreshOne) {
   RasterImage used, fresh;
   const TriangleMesh before = triangleSoup(20, &random_), after = triangleSoup(3, &random_);
