@@ -203,6 +203,17 @@ TEST(CuttableSurface, TwoStrokesThatCrossLeaveFourPiecesAndAreTakenBackOneByOne)
   EXPECT_EQ(reason, "there is no cut to take back");
 }
 
+TEST(CuttableSurface, ABladeThatEntersAcrossASlitBeginsAnotherStroke) {
+  Scene scene;
+  scene.sweep(0.05, -0.006, 0.0, 0.0);
+  scene.sweep(-0.006, 0.05, 0.0, 0.0);
+  // Its lower end comes down in the slit, and is all of it that is in the body at first.
+  const Eigen::Quaterniond turn = Eigen::AngleAxisd(-M_PI / 2.0, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(-0.15, Eigen::Vector3d::UnitX());
+  for (int k = 0; k <= 60; ++k) scene.move(bladeAt(0.06 - 0.001 * k, kPlace - 0.0745) * turn);
+  EXPECT_EQ(std::set<std::uint32_t>(scene.strokes.begin(), scene.strokes.end()).size(), 2u);
+}
+
 TEST(CuttableSurface, APreviewChangesNothingAndTellsThePieces) {
   Scene scene;
   const CutPreview preview =

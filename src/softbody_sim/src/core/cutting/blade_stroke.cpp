@@ -10,7 +10,8 @@
 namespace softbody {
 namespace {
 
-constexpr double kLeastRest = 0.3;  // of an advance, that is cut when the blade turns back
+constexpr double kSameDirection = 0.85;  // cosine between normals of a slit and of a blade that is in it
+constexpr double kLeastRest = 0.3;       // of an advance, that is cut when the blade turns back
 
 double distanceTo(const std::vector<CutPatch>& patches, const Eigen::Vector3d& point) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -22,6 +23,19 @@ double distanceTo(const std::vector<CutPatch>& patches, const Eigen::Vector3d& p
     }
   }
   return nearest;
+}
+
+/// Unit normal, mean over the area. A ruled patch has one side all along.
+Eigen::Vector3d meanNormal(const std::vector<CutPatch>& patches) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const CutPatch& patch : patches) {
+    for (const auto& t : patch.triangles.rowwise()) {
+      const Eigen::Vector3d a = patch.vertices.row(t[0]), b = patch.vertices.row(t[1]),
+                            c = patch.vertices.row(t[2]);
+      sum += (b - a).cross(c - a);
+    }
+  }
+  return sum.stableNormalized();
 }
 
 std::vector<bool> containedIn(const RestSolid& solid, const Points& points) {
@@ -105,6 +119,8 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
 
 bool BladeStroke::resume(const BladeOutline& outline, const std::vector<bool>& inside) {
   for (auto stroke = strokes_.rbegin(); stroke != strokes_.rend(); ++stroke) {
+    // A blade that crosses the slit is in it too, at first.
+    if (std::abs(meanNormal(stroke->patches).dot(outline.normal())) < kSameDirection) continue;
     int near = 0, all = 0;
     for (std::size_t i = 0; i < inside.size(); ++i) {
       if (!inside[i]) continue;
