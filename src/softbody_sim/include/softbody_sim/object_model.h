@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ struct ObjectDescription {
 struct VolumeSettings {
   int cage_vertices = 0;  ///< about as many vertices has the low-resolution surface; 0: as suits its shape
   bool use_cache = true;  ///< $XDG_CACHE_HOME/softbody or ~/.cache/softbody, by content
+  std::function<void(double)> progress = [](double) {};  ///< told the share that is done (0..1)
 };
 
 /// Everything the graph needs of one object.

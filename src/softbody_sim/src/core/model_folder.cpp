@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kShareOfMaking = 0.8;  // of the time
 constexpr std::array<const char*, 6> kFiles{"visual.obj",        "cage.obj",         "tets.vtu",
                                             "report/models.png", "report/report.md", "object.yaml"};
 
@@ -113,12 +114,13 @@ class StagingFolder {
 }  // namespace
 
 void prepareModel(const std::string& mesh, const std::string& unit, const std::string& folder,
-                  const VolumeSettings& settings, std::ostream& progress) {
+                  const VolumeSettings& settings, std::ostream& told) {
   ObjectDescription description;
   description.visual_mesh = mesh;
   description.unit_m = metresPer(unit);
-  progress << "reading " << mesh << ", making its cage and tets\n" << std::flush;
-  const ObjectModel model = buildObjectModel(description, settings);
+  VolumeSettings making = settings;
+  making.progress = [&](double share) { settings.progress(kShareOfMaking * share); };
+  const ObjectModel model = buildObjectModel(description, making);
   const TriangleMesh cage = cageOf(model.volume);
 
   const fs::path target = fs::absolute(folder).lexically_normal();
@@ -127,15 +129,15 @@ void prepareModel(const std::string& mesh, const std::string& unit, const std::s
            model.visual.texture_coordinates);
   writeObj((staging.path() / "cage.obj").string(), cage);
   writeVtu((staging.path() / "tets.vtu").string(), {model.volume.rest_vertices, model.volume.tets});
-  progress << "drawing and measuring it\n" << std::flush;
-  const std::string told = report(mesh, model, measureModel(model));
-  writeText(staging.path() / "report/report.md", told);
+  const std::string text = report(mesh, model, measureModel(model));
+  writeText(staging.path() / "report/report.md", text);
   if (!cv::imwrite((staging.path() / "report/models.png").string(), drawModel(model))) {
     throw std::runtime_error("the picture of the models cannot be written");
   }
   writeText(staging.path() / "object.yaml", objectYaml(mesh, model.material));
   staging.moveInto(target);
-  progress << told << "written to " << target.string() << '\n';
+  settings.progress(1.0);
+  told << text << "written to " << target.string() << '\n';
 }
 
 }  // namespace softbody

@@ -46,9 +46,10 @@ TetMesh fillCage(const ObjectDescription& description, Warnings* warnings) {
   }
 }
 
-TetMesh wrapVisual(const ObjectDescription& description, const MeshTopology& visual, int cage_vertices) {
+TetMesh wrapVisual(const ObjectDescription& description, const MeshTopology& visual,
+                   const VolumeSettings& settings) {
   try {
-    return volumeAround({visual.rest_vertices, visual.triangles}, cage_vertices);
+    return volumeAround({visual.rest_vertices, visual.triangles}, settings.cage_vertices, settings.progress);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(
         fmt::format("{}: no volume could be made around it: {}", description.visual_mesh, error.what()));
@@ -89,7 +90,7 @@ TetMesh loadOrMakeVolume(const ObjectDescription& description, const MeshTopolog
   const auto make = [&] {
     Warnings said_above;
     if (!description.cage_mesh.empty()) return fillCage(description, &said_above);
-    return wrapVisual(description, visual, settings.cage_vertices);
+    return wrapVisual(description, visual, settings);
   };
   if (!settings.use_cache) return make();
   return cachedTetMesh(contentName(volumeContent(description, settings.cage_vertices)), make, warnings);

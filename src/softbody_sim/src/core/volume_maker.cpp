@@ -67,12 +67,16 @@ TriangleMesh fitAround(const TriangleMesh& hull, const TriangleMesh& wrap, const
   return fitCage(hull, stacked(wrap.vertices, visual));
 }
 
-TetMesh wrapAndFill(const TriangleMesh& visual, int cage_vertices, const Wrapping& wrapping) {
+TetMesh wrapAndFill(const TriangleMesh& visual, int cage_vertices, const Wrapping& wrapping,
+                    const std::function<void(double)>& progress) {
   const double edge_length = edgeLengthFor(areaOf(visual), cage_vertices);
   const TriangleMesh wrap = alphaWrap(visual, wrapping.alpha * edge_length, wrapping.offset * edge_length);
+  progress(0.3);
   const TriangleMesh hull = progressiveHull(wrap, cage_vertices);
   if (intersectsItself(hull)) throw std::runtime_error("the cage intersects itself");
+  progress(0.5);
   const TriangleMesh cage = fitAround(hull, wrap, visual.vertices);
+  progress(0.8);
   TetMesh mesh = meshInside(cage, edge_length, true);
   const Triangles boundary = boundaryTriangles(mesh.tets);
   if (boundary.rows() != cage.triangles.rows()) throw std::runtime_error("the tets do not fill the cage");
@@ -81,6 +85,7 @@ TetMesh wrapAndFill(const TriangleMesh& visual, int cage_vertices, const Wrappin
     throw std::runtime_error(fmt::format("{} of {} vertices would be outside of the cage", outside.size(),
                                          visual.vertices.rows()));
   }
+  progress(1.0);
   return mesh;
 }
 
@@ -97,13 +102,15 @@ double areaOf(const TriangleMesh& mesh) {
   return area;
 }
 
-TetMesh volumeAround(const TriangleMesh& visual, int cage_vertices) {
+TetMesh volumeAround(const TriangleMesh& visual, int cage_vertices,
+                     const std::function<void(double)>& progress) {
   const TriangleMesh body = withHolesCovered(visual);
   if (cage_vertices == 0) cage_vertices = verticesByShape(body);
+  progress(0.1);
   std::string reason;
   for (const Wrapping& wrapping : kWrappings) {
     try {
-      return wrapAndFill(body, cage_vertices, wrapping);
+      return wrapAndFill(body, cage_vertices, wrapping, progress);
     } catch (const std::runtime_error& error) {
       reason = error.what();
     }

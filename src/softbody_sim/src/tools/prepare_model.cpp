@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   std::string mesh, output, unit = "m";
   softbody::VolumeSettings settings;
   settings.use_cache = false;
+  settings.progress = softbody::ProgressLine("prepare_model");
   app.add_option("MESH", mesh, "OBJ, PLY, STL or OFF")->required();
   app.add_option("--output", output, "folder to write")->required();
   app.add_option("--unit", unit, "unit of the mesh")
