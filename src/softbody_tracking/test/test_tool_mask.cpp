@@ -56,6 +56,16 @@ TEST(ToolMask, HidesOnlyWhereABladeOnEdgeMeetsTheBody) {
   EXPECT_EQ(depth(60 + 6, 80), 0.5f);  // 20 mm beside it
 }
 
+TEST(ToolMask, StaysInTheImageWhereTheCameraClaimsALargerOne) {
+  ToolMask mask;
+  mask.see(0, blade(0.5));
+  RgbdFrame frame = wall(0);
+  frame.camera = {1600, 1200, 1500.0, 1500.0, 79.5, 59.5};
+  const cv::Mat1f depth = mask.depthWithout(frame);
+  EXPECT_EQ(depth.size(), frame.depth.size());
+  EXPECT_EQ(depth(60, 80), 0.0f);
+}
+
 TEST(ToolMask, ForgetsABladeThatIsNoLongerSeen) {
   ToolMask mask;
   const RgbdFrame late = wall(300'000'000);

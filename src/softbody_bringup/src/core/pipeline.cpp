@@ -91,7 +91,18 @@ void Pipeline::tear(FrameOutput* output) {
 
 void Pipeline::adopt(const Cut& cut, FrameOutput* output) {
   std::string reason;
-  if (!simulator_.apply(cut, &reason)) throw std::logic_error("simulator and surface disagree: " + reason);
+  bool made = false;
+  try {
+    made = simulator_.apply(cut, &reason);
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (!made) {
+    surface_.rollBack(cut.revision - 1);
+    output->warnings.push_back(
+        fmt::format("the simulator cannot make the cut of revision {}: {}", cut.revision, reason));
+    return;
+  }
   surface_.confirm(cut.revision);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
   output->cuts.push_back(cut);

@@ -20,7 +20,10 @@ CutJournal::CutJournal(const rosbag::Bag& bag, const std::string& topic) {
       throw std::invalid_argument(
           fmt::format("{} on {} is {}, no cut", bag.getFileName(), topic, instance.getDataType()));
     }
-    entries_.push_back({toNanoseconds(message->header.stamp), fromMessage(*message)});
+    Entry entry{toNanoseconds(message->header.stamp), fromMessage(*message)};
+    // A cut that was taken back, or sent again, has the revision of the one that took its place.
+    while (!entries_.empty() && entries_.back().cut.revision >= entry.cut.revision) entries_.pop_back();
+    entries_.push_back(std::move(entry));
   }
 }
 

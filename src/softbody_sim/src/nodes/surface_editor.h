@@ -33,6 +33,8 @@ class SurfaceEditor {
   void start(const MeshTopology& visual, const TetTopology& volume);
   bool started() const { return body_.has_value(); }
   const CuttableSurface& body() const { return *body_; }
+  /// Whether a state of the volume has come.
+  bool placed() const { return state_.has_value(); }
 
   /// Every state of the volume.
   void onState(const MeshState& state, const std_msgs::Header& header);

@@ -79,10 +79,15 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
   try {
     if (binding_ && message->revision != binding_->volume->revision &&
         sameTets(editor_->body().volume(), *message)) {
-      // An edit is published with its first state; until then the surface before it holds.
-      next_binding_ = bindingTo(message);
+      // An edit is published with its first state; until then the surface before it holds. A body without a
+      // place has no states, and will have none before the tracker knows the edit.
+      if (editor_->placed())
+        next_binding_ = bindingTo(message);
+      else
+        replaceBinding(bindingTo(message));
     } else if (binding_ && message->revision == editor_->body().volume().revision + 1 &&
                !(waiting && sameMesh(*waiting, *message))) {
+      fromMessage(*message);        // throws where it is no topology
       waiting_topology_ = message;  // of a cut that others send and that is yet to come
       late_timer_.stop();
       late_timer_.start();

@@ -214,6 +214,21 @@ TEST(CuttableSurface, ABladeThatEntersAcrossASlitBeginsAnotherStroke) {
   EXPECT_EQ(std::set<std::uint32_t>(scene.strokes.begin(), scene.strokes.end()).size(), 2u);
 }
 
+TEST(CuttableSurface, ABladeThatIsInTheBodyDuringAnUndoDoesNotMakeItsCutAgain) {
+  Scene scene;
+  scene.sweep(0.05, 0.01, 0.0, 0.0);
+  const Cut undo = scene.surface.edit(CutKind::kUndo);
+  std::string reason;
+  ASSERT_TRUE(scene.surface.apply(undo, scene.simulator.state(), &reason)) << reason;
+  ASSERT_TRUE(scene.simulator.apply(undo, &reason)) << reason;
+  const int cuts = scene.cuts;
+  scene.sweep(0.01, 0.009, 5e-4, 0.0);
+  scene.sweep(0.009, 0.05, 0.0, 0.0);
+  EXPECT_EQ(scene.cuts, cuts);
+  scene.sweep(0.05, 0.01, 0.0, 0.0);
+  EXPECT_GT(scene.cuts, cuts) << "it does not cut when it comes anew";
+}
+
 TEST(CuttableSurface, APreviewChangesNothingAndTellsThePieces) {
   Scene scene;
   const CutPreview preview =

@@ -4,6 +4,7 @@ namespace softbody {
 namespace {
 
 constexpr int kFewest = 12;          // features, or blocks of depth
+constexpr int kEnough = 150;         // blocks of depth, whatever is hidden beside them
 constexpr double kLeastShown = 0.3;  // of the blocks that the prediction shows of a piece
 
 }  // namespace
@@ -17,7 +18,7 @@ std::vector<bool> shownPieces(const SurfaceSamples& samples, const std::vector<A
   for (const FeatureMatch& match : matches) features[match.association.body] += match.inlier ? 1 : 0;
   std::vector<bool> shown;
   for (std::size_t body = 0; body < body_count; ++body) {
-    shown.push_back(features[body] >= kFewest ||
+    shown.push_back(features[body] >= kFewest || agreeing[body] >= kEnough ||
                     (agreeing[body] >= kFewest && agreeing[body] >= kLeastShown * blocks[body]));
   }
   return shown;

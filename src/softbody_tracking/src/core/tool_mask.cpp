@@ -65,7 +65,7 @@ cv::Mat1f ToolMask::depthWithout(const RgbdFrame& frame) const {
     return frame.depth;
   if (blade_.col(2).minCoeff() < kNearest) return frame.depth;
   const PlanePolygon blade(blade_);
-  const cv::Rect region = regionOf(frame.camera, blade_);
+  const cv::Rect region = regionOf(frame.camera, blade_) & cv::Rect(cv::Point(), frame.depth.size());
   cv::Mat1f depth = frame.depth.clone();
   for (int v = region.y; v < region.br().y; ++v) {
     for (int u = region.x; u < region.br().x; ++u) {

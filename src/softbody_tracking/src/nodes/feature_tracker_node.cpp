@@ -107,13 +107,14 @@ void FeatureTrackerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::Co
   ROS_ERROR_STREAM_THROTTLE(5.0, surface_topology_subscriber_.getTopic() << " is unusable: " << error.what());
 }
 
-/// Both topologies of one revision; those of an edit when the body's first state of that revision has come.
+/// Both topologies of one revision; those of an edit when the body's first state of that revision has come,
+/// unless the body has no state at all.
 void FeatureTrackerNode::adoptTopologies() {
   if (!volume_topology_ || !surface_topology_) return;
   const std::uint32_t revision = volume_topology_->revision;
   if (surface_topology_->revision != revision) return;
   const bool edited = tracker_->ready() && revision > adopted_revision_;
-  if (edited && (!newest_state_ || newest_state_->revision != revision)) return;
+  if (edited && newest_state_ && newest_state_->revision != revision) return;
   tracker_->setTopologies(*volume_topology_, *surface_topology_);
   adopted_revision_ = revision;
   volume_state_ = edited ? newest_state_ : nullptr;
@@ -202,7 +203,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
     return publishStatus(header);
   }
   // A bag that loops: what the simulator said of later times is void.
-  if (header.stamp < last_stamp_) volume_state_.reset();
+  if (header.stamp < last_stamp_) volume_state_.reset(), newest_state_.reset();
   last_stamp_ = header.stamp;
 
   const auto color_image = cv_bridge::toCvShare(images.color, sensor_msgs::image_encodings::BGR8);

@@ -13,29 +13,23 @@ namespace {
 constexpr double kSameDirection = 0.85;  // cosine between normals of a slit and of a blade that is in it
 constexpr double kLeastRest = 0.3;       // of an advance, that is cut when the blade turns back
 
-double distanceTo(const std::vector<CutPatch>& patches, const Eigen::Vector3d& point) {
+/// Whether a patch lies within a distance of a point, and is turned there as a blade with this normal: one
+/// that crosses the slit is in it too, at first.
+bool lieNear(const std::vector<CutPatch>& patches, const Eigen::Vector3d& point,
+             const Eigen::Vector3d& blade_normal, double tolerance) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const CutPatch& patch : patches) {
-    for (const auto& t : patch.triangles.rowwise()) {
-      const Eigen::Vector3d on = nearestOnTriangle(point, patch.vertices.row(t[0]), patch.vertices.row(t[1]),
-                                                   patch.vertices.row(t[2]));
-      nearest = std::min(nearest, (on - point).norm());
-    }
-  }
-  return nearest;
-}
-
-/// Unit normal, mean over the area. A ruled patch has one side all along.
-Eigen::Vector3d meanNormal(const std::vector<CutPatch>& patches) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (const CutPatch& patch : patches) {
     for (const auto& t : patch.triangles.rowwise()) {
       const Eigen::Vector3d a = patch.vertices.row(t[0]), b = patch.vertices.row(t[1]),
                             c = patch.vertices.row(t[2]);
-      sum += (b - a).cross(c - a);
+      const double distance = (nearestOnTriangle(point, a, b, c) - point).norm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      normal = (b - a).cross(c - a).stableNormalized();
     }
   }
-  return sum.stableNormalized();
+  return nearest <= tolerance && std::abs(normal.dot(blade_normal)) >= kSameDirection;
 }
 
 std::vector<bool> containedIn(const RestSolid& solid, const Points& points) {
@@ -119,14 +113,12 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
 
 bool BladeStroke::resume(const BladeOutline& outline, const std::vector<bool>& inside) {
   for (auto stroke = strokes_.rbegin(); stroke != strokes_.rend(); ++stroke) {
-    // A blade that crosses the slit is in it too, at first.
-    if (std::abs(meanNormal(stroke->patches).dot(outline.normal())) < kSameDirection) continue;
     int near = 0, all = 0;
     for (std::size_t i = 0; i < inside.size(); ++i) {
       if (!inside[i]) continue;
       ++all;
       const Eigen::Vector3d point = outline.points().row(static_cast<Eigen::Index>(i));
-      if (distanceTo(stroke->patches, point) <= config_.slit_tolerance_m) ++near;
+      if (lieNear(stroke->patches, point, outline.normal(), config_.slit_tolerance_m)) ++near;
     }
     if (3 * near < 2 * all) continue;
     if (stroke != strokes_.rbegin()) stroke->number = newNumber();

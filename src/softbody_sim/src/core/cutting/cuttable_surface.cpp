@@ -141,9 +141,9 @@ void CuttableSurface::lift() { implementation_->blade.lift(); }
 std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState& volume, Nanoseconds stamp) {
   Implementation& s = *implementation_;
   const TetTopology& topology = this->volume();
+  s.liftAfterGap(stamp);
   if (volume.revision != topology.revision || volume.vertices.rows() != topology.rest_vertices.rows())
     return std::nullopt;
-  s.liftAfterGap(stamp);
   if (boxOf(volume.vertices).exteriorDistance(boxOf(blade)) > kNear) {
     s.blade.lift();
     return std::nullopt;
@@ -191,7 +191,9 @@ Cut CuttableSurface::edit(CutKind kind) const {
 bool CuttableSurface::apply(const Cut& cut, const MeshState& volume, std::string* reason) {
   Implementation& s = *implementation_;
   if (!s.apply(cut, volume, reason)) return false;
+  // A blade that is still in the body must not make its way since it came in again.
   s.blade.forgetStrokes();
+  s.blade.lift();
   return true;
 }
 
