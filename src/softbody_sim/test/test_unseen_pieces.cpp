@@ -33,7 +33,7 @@ TEST(UnseenPieces, ComeToRestWhileOthersAreSeen) {
   const TetTopology topology = twoBoxes();
   const Eigen::Index count = topology.rest_vertices.rows() / 2;
   const Points before = randomPoints(2 * count, 1.0, &random);
-  const UnseenPieces pieces(topology);
+  UnseenPieces pieces(topology);
   Points velocities = before;
   pieces.slow({targetIn(0)}, 0.1, &velocities);
   EXPECT_EQ(velocities.topRows(count), before.topRows(count));
@@ -44,7 +44,7 @@ TEST(UnseenPieces, GoOnWhereNothingIsSeenAtAllOrAllIs) {
   std::mt19937 random(3);
   const TetTopology topology = twoBoxes();
   const Points before = randomPoints(topology.rest_vertices.rows(), 1.0, &random);
-  const UnseenPieces pieces(topology);
+  UnseenPieces pieces(topology);
   Points velocities = before;
   pieces.slow({}, 0.1, &velocities);
   const int last = static_cast<int>(topology.tets.rows()) - 1;

@@ -14,6 +14,7 @@ namespace {
 
 /// A quarter of each tet's mass to each of its vertices [kg].
 Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) {
+  if (topology.tets.rows() == 0) throw std::invalid_argument("the topology has no tet");
   const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {

@@ -25,7 +25,7 @@ struct BodyModel {
   ConstrainedStep constrained_step;
   ObservationConfidence confidence;
   LoadEstimate load_estimate;
-  const UnseenPieces unseen_pieces;
+  UnseenPieces unseen_pieces;
 };
 
 }  // namespace softbody

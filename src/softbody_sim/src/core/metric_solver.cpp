@@ -111,8 +111,8 @@ void MetricSolver<T>::invert() {
       for (int v = 0; v < count_; ++v) column[inverse_->placeOf(order[v])] = permuted_(v, c);
     }
   }
-  inverse_->split();
-  inverted_ = true;
+  inverted_ = inverse_->split();
+  if (!inverted_) inverse_.reset();  // too stiff for T; the factor in double goes on
 }
 
 template class MetricSolver<float>;

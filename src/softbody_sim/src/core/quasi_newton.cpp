@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "core/rows.h"
@@ -31,6 +32,12 @@ double longestRow(const Positions& points) {
   }
   for (; v < points.rows(); ++v) include(v, 0);
   return std::sqrt(static_cast<double>(*std::max_element(longest.begin(), longest.end())));
+}
+
+/// Longest row; not a number where any number is not finite.
+template <typename Positions>
+double residualOf(const Positions& gradient) {
+  return gradient.allFinite() ? longestRow(gradient) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -68,7 +75,7 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
     report.last_move_m = step * longestRow(direction_);
     report.converged = step == 1.0 && report.last_move_m < options.tolerance_m;
   }
-  report.residual_n = longestRow(gradient_);
+  report.residual_n = residualOf(gradient_);
   return report;
 }
 
@@ -86,7 +93,7 @@ StepReport QuasiNewton<Positions>::iterate(const Energy& energy, const Metric& m
     report.last_move_m = longestRow(direction_);
     report.converged = report.last_move_m < options.tolerance_m;
   }
-  report.residual_n = longestRow(gradient_);
+  report.residual_n = residualOf(gradient_);
   return report;
 }
 

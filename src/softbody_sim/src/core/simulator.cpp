@@ -25,6 +25,10 @@ constexpr double kNominalTimeStep = 1.0 / 30.0;
 /// metric drowns the body's own stiffness.
 constexpr double kLargestBarycentric = 100.0;
 
+/// To the microsecond: stamps of frames at 30 Hz are 33,333,333 or 33,333,334 ns apart, and one factor serves
+/// both.
+double timeStep(double elapsed_s) { return std::max(1.0, std::round(1e6 * elapsed_s)) * 1e-6; }
+
 void requireUsableTarget(const Target& target, std::size_t index, Eigen::Index tet_count,
                          double largest_weight) {
   if (target.place.tet < 0 || target.place.tet >= tet_count) {
@@ -176,7 +180,7 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
 
 void Simulator::Implementation::simulate(const TargetSet& targets, double elapsed_s,
                                          const Surroundings& surroundings, Body* next) {
-  const double h = elapsed_s > 0.0 ? std::min(elapsed_s, config.max_time_step_s) : kNominalTimeStep;
+  const double h = elapsed_s > 0.0 ? timeStep(std::min(elapsed_s, config.max_time_step_s)) : kNominalTimeStep;
   free.inertia = model->masses / (h * h);
   free.prediction = next->state.vertices;
   free.loads.setZero(model->masses.size(), 3);
@@ -191,7 +195,10 @@ void Simulator::Implementation::simulate(const TargetSet& targets, double elapse
   if (elapsed_s > 0.0) free.loads += model->masses.asDiagonal() * next->loads;
   solve(targets, surroundings, next);
   // Over a gap that is simulated as a shorter step the body still took the whole gap for its way.
-  if (elapsed_s > 0.0) next->velocity = (solution - next->state.vertices) / elapsed_s;
+  if (elapsed_s > 0.0) {
+    const double passed_s = elapsed_s > config.max_time_step_s ? elapsed_s : h;
+    next->velocity = (solution - next->state.vertices) / passed_s;
+  }
   next->state.vertices.swap(solution);
 }
 

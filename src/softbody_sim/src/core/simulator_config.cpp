@@ -13,8 +13,9 @@ double largestStiffness(const SimulatorConfig& config) {
 
 void requireConsistent(const SimulatorConfig& config) {
   if (config.target_stiffness > largestStiffness(config)) {
-    throw std::invalid_argument(fmt::format("target_stiffness is {}: with single_precision at most {}",
-                                            config.target_stiffness, largestStiffness(config)));
+    throw std::invalid_argument(
+        fmt::format("target_stiffness is {}: in {} precision at most {}", config.target_stiffness,
+                    config.single_precision ? "single" : "double", largestStiffness(config)));
   }
   if (config.solver == SolverKind::kProjectiveDynamics && config.elasticity != Elasticity::kCorotated) {
     throw std::invalid_argument("elasticity is 'neo_hookean' with solver 'pd'; it needs solver 'fem'");

@@ -14,6 +14,7 @@ SplitInverse<T>::Block::Block(int row_count, int column_count)
 template <typename T>
 template <typename Values>
 void SplitInverse<T>::Block::set(int first_column, const Values& block) {
+  if (rows == 0) return;
   for (Eigen::Index j = 0; j < block.cols(); ++j) {
     T* column = values[static_cast<std::size_t>(first_column + j) * static_cast<std::size_t>(lanes)].lane;
     Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, 1>>(column, rows) = block.col(j);
@@ -49,12 +50,14 @@ SplitInverse<T>::SplitInverse(const Eigen::SparseMatrix<double>& lower, Simd sim
 }
 
 template <typename T>
-void SplitInverse<T>::split() {
+bool SplitInverse<T>::split() {
   const int first = dissection_.first, separator = dissection_.separator;
   separator_.set(0, inverse_.middleRows(first, separator));
   separator_factor_.compute(inverse_.block(first, first, separator, separator));
+  if (separator > 0 && separator_factor_.info() != Eigen::Success) return false;
   splitPart(0, 0, first, &first_);
   splitPart(first + separator, separator, 0, &second_);
+  return true;
 }
 
 /// With C = A^-1, -A_PP^-1 A_PS = C_PS C_SS^-1 =: G and A_PP^-1 = C_PP - G C_SP.

@@ -22,8 +22,8 @@ class SplitInverse {
   int placeOf(int vertex) const { return places_[static_cast<std::size_t>(vertex)]; }
   /// A^-1, both triangles, to be filled in before split().
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>& inverse() { return inverse_; }
-  /// Makes the blocks. Allocates nothing.
-  void split();
+  /// Makes the blocks. @return false where a part is not positive definite within rounding.
+  bool split();
 
   /// X = A^-1 B, both paddedRows(#V).
   void multiply(const Rows<T>& B, Rows<T>* X);

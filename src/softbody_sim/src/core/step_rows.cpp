@@ -58,6 +58,7 @@ double StepRows<T>::evaluate(const Rows<T>& x, Rows<T>* gradient) const {
 
 template <typename T>
 void StepRows<T>::toRows(const Points& points, Rows<T>* rows) const {
+  rows->col(3).setZero();
   rows->topLeftCorner(points.rows(), 3) = (points.rowwise() - origin_).template cast<T>();
 }
 

@@ -14,11 +14,11 @@ class UnseenPieces {
   explicit UnseenPieces(const TetTopology& topology);
 
   /// Slows the pieces without targets; the speed halves in 0.1 s. @param velocities #V by 3.
-  void slow(const std::vector<Target>& targets, double elapsed_s, Points* velocities) const;
+  void slow(const std::vector<Target>& targets, double elapsed_s, Points* velocities);
 
  private:
   std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;
-  std::size_t body_count_;
+  std::vector<bool> seen_;  ///< of each piece, in this step
 };
 
 }  // namespace softbody
