@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cutting/visual_sponge.h"
@@ -106,6 +107,33 @@ TEST(CutSimulation, PiecesMoveOnTheirOwn) {
             2e-3);
   EXPECT_LT((simulator.state().vertices(still, Eigen::all) - before(still, Eigen::all)).cwiseAbs().maxCoeff(),
             1e-6);
+}
+
+TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
+  Simulator simulator(testing::sponge(), Material(), {});
+  simulator.step(atRest(simulator), kFrame);
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  const TetTopology& topology = simulator.topology();
+  const std::vector<int> hidden = verticesOfBody(topology, 1);
+  TargetSet targets;
+  targets.revision = 1;
+  Points goal = simulator.state().vertices;
+  for (int k = 2; k < 8; ++k) {  // at 0.3 m/s
+    goal.col(2).array() += 0.01;
+    targets.targets = testing::vertexTargets(topology, goal);
+    simulator.step(targets, k * kFrame);
+  }
+  const Points before = simulator.state().vertices;
+  std::vector<Target>& seen = targets.targets;
+  const auto is_hidden = [&](const Target& target) {
+    return topology.bodies[static_cast<std::size_t>(target.place.tet)] == 1;
+  };
+  seen.erase(std::remove_if(seen.begin(), seen.end(), is_hidden), seen.end());
+  for (int k = 8; k < 38; ++k) simulator.step(targets, k * kFrame);
+  const double way = (simulator.state().vertices - before)(hidden, 2).mean();
+  EXPECT_GT(way, 0.005);
+  EXPECT_LT(way, 0.04);  // the material's damping alone lets it go 0.09 m
 }
 
 TEST(CutSimulation, TargetsOfTheRevisionBeforeAreStillUnderstood) {
