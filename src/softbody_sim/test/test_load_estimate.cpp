@@ -14,21 +14,9 @@ using testing::vertexTargets;
 
 constexpr Nanoseconds kFrame = 33333333;
 
-/// Two boxes 0.3 m apart.
-TetTopology twoBoxes() {
-  const TetTopology box = boxTopology({4, 3, 2}, {0.2, 0.1, 0.04});
-  const Eigen::Index count = box.rest_vertices.rows(), tets = box.tets.rows();
-  TetTopology both = box;
-  both.rest_vertices.conservativeResize(2 * count, 3);
-  both.rest_vertices.bottomRows(count) = box.rest_vertices.rowwise() + Eigen::RowVector3d(0.3, 0.0, 0.0);
-  both.tets.conservativeResize(2 * tets, 4);
-  both.tets.bottomRows(tets) = box.tets.array() + static_cast<int>(count);
-  return both;
-}
-
 TEST(LoadEstimate, BalancesOnEveryPiece) {
   std::mt19937 random(4);
-  const TetTopology topology = twoBoxes();
+  const TetTopology topology = testing::twoBoxes({4, 3, 2}, {0.2, 0.1, 0.04});
   const Eigen::Index count = topology.rest_vertices.rows();
   const Eigen::VectorXd masses = randomPoints(count, 0.5, &random).col(0).array() + 1.0;
   LoadEstimate estimate(topology, masses, 0.3);
@@ -48,7 +36,7 @@ TEST(LoadEstimate, BalancesOnEveryPiece) {
 }
 
 TEST(LoadEstimate, OnePieceFeelsNothingOfAnother) {
-  const TetTopology topology = twoBoxes();
+  const TetTopology topology = testing::twoBoxes({4, 3, 2}, {0.2, 0.1, 0.04});
   const Eigen::Index count = topology.rest_vertices.rows();
   LoadEstimate estimate(topology, Eigen::VectorXd::Ones(count), 0.3);
   Points springs = Points::Zero(count, 3), loads = springs;

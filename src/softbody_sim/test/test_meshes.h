@@ -47,6 +47,18 @@ inline TetTopology boxTopology(const Eigen::Vector3i& cells, const Eigen::Vector
   return topology;
 }
 
+/// Vertices and tets of two such boxes, the second one's after the first one's and 0.3 m along x.
+inline TetTopology twoBoxes(const Eigen::Vector3i& cells, const Eigen::Vector3d& size) {
+  TetTopology both = boxTopology(cells, size);
+  const Eigen::Index count = both.rest_vertices.rows(), tets = both.tets.rows();
+  both.rest_vertices.conservativeResize(2 * count, 3);
+  both.rest_vertices.bottomRows(count) =
+      both.rest_vertices.topRows(count).rowwise() + Eigen::RowVector3d(0.3, 0.0, 0.0);
+  both.tets.conservativeResize(2 * tets, 4);
+  both.tets.bottomRows(tets) = both.tets.topRows(tets).array() + static_cast<int>(count);
+  return both;
+}
+
 /// The paper's sponge: 132 vertices, 300 tets.
 inline TetTopology sponge() { return boxTopology({10, 5, 1}, {0.2, 0.1, 0.03}); }
 

@@ -7,20 +7,7 @@
 namespace softbody {
 namespace {
 
-using testing::boxTopology;
 using testing::randomPoints;
-
-/// Two boxes 0.3 m apart; the second one's tets come last.
-TetTopology twoBoxes() {
-  const TetTopology box = boxTopology({2, 2, 2}, {0.1, 0.1, 0.1});
-  const Eigen::Index count = box.rest_vertices.rows(), tets = box.tets.rows();
-  TetTopology both = box;
-  both.rest_vertices.conservativeResize(2 * count, 3);
-  both.rest_vertices.bottomRows(count) = box.rest_vertices.rowwise() + Eigen::RowVector3d(0.3, 0.0, 0.0);
-  both.tets.conservativeResize(2 * tets, 4);
-  both.tets.bottomRows(tets) = box.tets.array() + static_cast<int>(count);
-  return both;
-}
 
 Target targetIn(int tet) {
   Target target;
@@ -30,7 +17,7 @@ Target targetIn(int tet) {
 
 TEST(UnseenPieces, ComeToRestWhileOthersAreSeen) {
   std::mt19937 random(3);
-  const TetTopology topology = twoBoxes();
+  const TetTopology topology = testing::twoBoxes({2, 2, 2}, {0.1, 0.1, 0.1});
   const Eigen::Index count = topology.rest_vertices.rows() / 2;
   const Points before = randomPoints(2 * count, 1.0, &random);
   UnseenPieces pieces(topology);
@@ -42,7 +29,7 @@ TEST(UnseenPieces, ComeToRestWhileOthersAreSeen) {
 
 TEST(UnseenPieces, GoOnWhereNothingIsSeenAtAllOrAllIs) {
   std::mt19937 random(3);
-  const TetTopology topology = twoBoxes();
+  const TetTopology topology = testing::twoBoxes({2, 2, 2}, {0.1, 0.1, 0.1});
   const Points before = randomPoints(topology.rest_vertices.rows(), 1.0, &random);
   UnseenPieces pieces(topology);
   Points velocities = before;
@@ -53,7 +40,7 @@ TEST(UnseenPieces, GoOnWhereNothingIsSeenAtAllOrAllIs) {
 }
 
 TEST(UnseenPieces, AnUncutBodyIsLeftAlone) {
-  const TetTopology topology = boxTopology({2, 2, 2}, {0.1, 0.1, 0.1});
+  const TetTopology topology = testing::boxTopology({2, 2, 2}, {0.1, 0.1, 0.1});
   Points velocities = Points::Ones(topology.rest_vertices.rows(), 3);
   UnseenPieces(topology).slow({targetIn(0)}, 0.1, &velocities);
   EXPECT_EQ(velocities, Points::Ones(velocities.rows(), 3));

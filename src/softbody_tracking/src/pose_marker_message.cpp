@@ -23,12 +23,7 @@ Marker meshMarker(const MeshTopology& mesh) {
   marker.points.reserve(3 * mesh.triangles.rows());
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d corner = mesh.rest_vertices.row(mesh.triangles(t, k));
-      geometry_msgs::Point point;
-      point.x = corner.x();
-      point.y = corner.y();
-      point.z = corner.z();
-      marker.points.push_back(point);
+      marker.points.push_back(pointMessage(mesh.rest_vertices.row(mesh.triangles(t, k))));
     }
   }
   return marker;

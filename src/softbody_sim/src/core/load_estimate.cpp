@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/tet_edges.h"
 #include "core/tet_matrix.h"
 #include "softbody_common/tet_geometry.h"
 
@@ -16,13 +17,8 @@ TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& ma
   TetMatrix matrix(topology.tets, topology.rest_vertices.rows());
   matrix.addToDiagonal(masses);
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) {
-      edges.col(k) = topology.rest_vertices.row(topology.tets(t, k + 1)) -
-                     topology.rest_vertices.row(topology.tets(t, 0));
-    }
     Eigen::Matrix<double, 4, 3> gradients;  // of the barycentric coordinates
-    gradients.bottomRows<3>() = edges.inverse();
+    gradients.bottomRows<3>() = edgesOf(topology.rest_vertices, topology.tets.row(t)).inverse();
     gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
     matrix.addToTet(static_cast<int>(t),
                     length * length * density * volumes[t] * gradients * gradients.transpose());

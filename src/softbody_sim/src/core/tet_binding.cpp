@@ -6,18 +6,10 @@
 #include <map>
 #include <optional>
 
+#include "core/tet_edges.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
-namespace {
-
-Eigen::Matrix3d edgesOf(const Points& vertices, const Eigen::RowVector4i& tet) {
-  Eigen::Matrix3d edges;
-  for (int k = 0; k < 3; ++k) edges.col(k) = vertices.row(tet[k + 1]) - vertices.row(tet[0]);
-  return edges;
-}
-
-}  // namespace
 
 TetBinding::TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places)
     : volume_(volume), places_(std::move(places)) {}

@@ -2,16 +2,11 @@
 
 #include <Eigen/Dense>
 
+#include "core/tet_edges.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
-
-Eigen::Matrix3d edgesOf(const Points& vertices, const Eigen::RowVector4i& tet) {
-  Eigen::Matrix3d edges;
-  for (int k = 0; k < 3; ++k) edges.col(k) = vertices.row(tet[k + 1]) - vertices.row(tet[0]);
-  return edges;
-}
 
 /// The rotation of the polar decomposition.
 Eigen::Matrix3d rotationOf(const Eigen::Matrix3d& F) {
