@@ -61,6 +61,18 @@ std::vector<TetFace> facesByLowestVertex(const Tets& tets) {
   return sorted;
 }
 
+/// Of edges with the same lower vertex the higher ones: 2 v where the edge runs upwards, 2 v + 1 downwards.
+bool asManyUpAsDown(std::vector<int>::iterator begin, std::vector<int>::iterator end) {
+  std::sort(begin, end);
+  int surplus = 0;
+  for (auto e = begin; e != end; ++e) {
+    surplus += *e % 2 == 0 ? 1 : -1;
+    const bool is_last = e + 1 == end || *e / 2 != *(e + 1) / 2;
+    if (is_last && surplus != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Eigen::VectorXd tetVolumes(const Points& vertices, const Tets& tets) {
@@ -104,16 +116,25 @@ Triangles boundaryTriangles(const Tets& tets) {
 }
 
 bool isClosed(const Triangles& triangles) {
-  std::vector<std::pair<int, int>> forward, backward;
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
-      (a < b ? forward : backward).emplace_back(std::minmax(a, b));
+  std::vector<std::size_t> start(
+      triangles.size() > 0 ? static_cast<std::size_t>(triangles.maxCoeff()) + 2 : 1, 0);
+  const auto forEachEdge = [&](const auto& visit) {
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+      for (int k = 0; k < 3; ++k) visit(triangles(f, k), triangles(f, (k + 1) % 3));
     }
+  };
+  forEachEdge([&](int a, int b) { ++start[static_cast<std::size_t>(std::min(a, b)) + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<int> ends(static_cast<std::size_t>(triangles.size()));
+  std::vector<std::size_t> next = start;
+  forEachEdge([&](int a, int b) {
+    ends[next[static_cast<std::size_t>(std::min(a, b))]++] = 2 * std::max(a, b) + (a < b ? 0 : 1);
+  });
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    const auto at = [&](std::size_t i) { return ends.begin() + static_cast<std::ptrdiff_t>(i); };
+    if (!asManyUpAsDown(at(start[v]), at(start[v + 1]))) return false;
   }
-  std::sort(forward.begin(), forward.end());
-  std::sort(backward.begin(), backward.end());
-  return forward == backward;
+  return true;
 }
 
 std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count) {

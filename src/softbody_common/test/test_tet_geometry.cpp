@@ -54,6 +54,22 @@ TEST_P(TetGeometry, TheBoundaryIsClosedAndOutward) {
   EXPECT_NEAR(enclosedVolume(mesh_.vertices, boundary), sum, 1e-12 * sum);
 }
 
+TEST_P(TetGeometry, ASurfaceIsClosedUntilATriangleIsMissingTurnedOrTwice) {
+  const Triangles closed = boundaryTriangles(mesh_.tets);
+  EXPECT_TRUE(isClosed(closed));
+  EXPECT_TRUE(isClosed(closed.rowwise().reverse()));
+  EXPECT_TRUE(isClosed(closed.replicate(2, 1)));
+  EXPECT_TRUE(isClosed(Triangles(0, 3)));
+  const auto f = static_cast<Eigen::Index>(random_() % static_cast<unsigned>(closed.rows()));
+  Triangles missing = closed, turned = closed, twice(closed.rows() + 1, 3);
+  missing.row(f) = missing.row(missing.rows() - 1).eval();
+  turned.row(f).reverseInPlace();
+  twice << closed, closed.row(f);
+  EXPECT_FALSE(isClosed(missing.topRows(missing.rows() - 1)));
+  EXPECT_FALSE(isClosed(turned));
+  EXPECT_FALSE(isClosed(twice));
+}
+
 TEST_P(TetGeometry, BarycentricCoordinatesReproduceThePoint) {
   for (int trial = 0; trial < 100; ++trial) {
     const int t = static_cast<int>(random_() % mesh_.tets.rows());

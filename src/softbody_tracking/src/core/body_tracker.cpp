@@ -47,7 +47,7 @@ struct BodyTracker::Implementation {
   KnnTargets knn;
   std::unique_ptr<FrameObserver> observer;
   std::unique_ptr<RigidPrediction> prediction;
-  std::unique_ptr<Localizer> localizer;
+  std::unique_ptr<Localizer> localizer;  ///< null until it is needed: no frame waits for it after a cut
 
   bool registered = false;
   bool recovering = false;
@@ -76,8 +76,7 @@ void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& s
     self.observer = std::make_unique<FrameObserver>(self.config, volume, surface);
   }
   self.prediction = std::make_unique<RigidPrediction>(volume);
-  self.localizer = std::make_unique<Localizer>(TriangleMesh{surface.rest_vertices, surface.triangles},
-                                               self.config.registration);
+  self.localizer.reset();
   if (!edited) self.reset();
 }
 
@@ -111,6 +110,11 @@ bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* time
   if (frames_to_registration-- > 0) return false;
   frames_to_registration = kFramesBetweenRegistrations;
   const auto scope = timer->stage("Model Registration", true);
+  if (localizer == nullptr) {
+    const MeshTopology& surface = observer->surface().topology();
+    localizer = std::make_unique<Localizer>(TriangleMesh{surface.rest_vertices, surface.triangles},
+                                            config.registration);
+  }
   std::optional<Localization> found;
   if (given_pose && !recovering) found = localizer->near(frame, *given_pose);
   if (!found) {

@@ -38,6 +38,7 @@ class PredictedSurface {
   /// Which triangle lies at a pixel, and how deep.
   const RasterImage& image() const { return image_; }
   const TetTopology& volume() const { return volume_; }
+  const MeshTopology& topology() const { return surface_; }
 
   /// The visible triangle at a point measured in the frame, -1 where the surface as moved is further from it
   /// than the tolerance along the ray [m].
