@@ -81,6 +81,25 @@ TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
   EXPECT_EQ(rmsResidual(again.associations), rmsResidual(fresh.associations));
 }
 
+TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
+  const double edge = meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
+  for (const double angle : {0.0, 0.6, 1.1}) {
+    const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
+    truth_ = transformed(box_.volume.rest_vertices, turned);
+    frame_ = renderFrame(box_, truth_, 1);
+    surface_.update(frame_.camera, truth_);
+    double weights = 0.0, area = 0.0;
+    for (const Association& a : associate().associations) weights += a.weight * edge * edge;
+    for (const auto& triangle : box_.volume.surface.rowwise()) {
+      const Eigen::Vector3d a = truth_.row(triangle[0]), b = truth_.row(triangle[1]),
+                            c = truth_.row(triangle[2]);
+      const Eigen::Vector3d normal = (b - a).cross(c - a);  // twice the area long
+      if (normal.dot(a) < 0.0) area += 0.5 * normal.norm();
+    }
+    EXPECT_NEAR(weights, DepthConfig().weight * area, 0.07 * area) << "turned by " << angle;
+  }
+}
+
 TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlocks) {
   const auto totalWeight = [](const DepthAssociations& found) {
     double sum = 0.0;

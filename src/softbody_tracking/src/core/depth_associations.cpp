@@ -7,7 +7,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kMostGrazing = 0.2;           // cosine between normal and ray below which depth says little
+constexpr double kMostGrazing = 0.1;           // cosine between normal and ray below which depth says little
 constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction that an occluder's end may be
 constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
 
@@ -147,7 +147,8 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     found_.occluded_blocks += block.kind == BlockKind::kOccluded ? 1 : 0;
     found_.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
     if (block.kind != BlockKind::kAgrees) continue;
-    if (-block.normal.dot(block.position.normalized()) < kMostGrazing) continue;
+    const double cosine = -block.normal.dot(block.position.normalized());
+    if (cosine < kMostGrazing) continue;
     Association association;
     association.kind = TargetKind::kDepth;
     association.place = surface.samples[i].place;
@@ -157,7 +158,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
         frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);
     association.normal = block.normal;
     const double width = surface.block_px * block.position.z() / (frame.camera.fx * volume_edge_m_);
-    association.weight = config_.weight * width * width;
+    association.weight = config_.weight * width * width / cosine;  // per area of surface, not of picture
     found_.associations.push_back(association);
   }
   return found_;
