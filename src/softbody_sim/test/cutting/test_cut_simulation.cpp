@@ -5,6 +5,7 @@
 
 #include "cutting/visual_sponge.h"
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 #include "softbody_sim/simulator.h"
 
@@ -46,6 +47,19 @@ std::vector<int> verticesOfBody(const TetTopology& topology, std::uint32_t body)
     for (const int v : topology.tets.row(t)) vertices.push_back(v);
   }
   return vertices;
+}
+
+/// Over a piece's material.
+Eigen::Vector3d meanOfBody(const TetTopology& topology, std::uint32_t body, const Points& values) {
+  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double all = 0.0;
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    if (topology.bodies[static_cast<std::size_t>(t)] != body) continue;
+    all += volumes[t];
+    for (const int v : topology.tets.row(t)) sum += 0.25 * volumes[t] * values.row(v).transpose();
+  }
+  return sum / all;
 }
 
 TEST(CutSimulation, NothingJumpsAtACutNorWhenItIsTakenBack) {
@@ -107,6 +121,27 @@ TEST(CutSimulation, PiecesMoveOnTheirOwn) {
             2e-3);
   EXPECT_LT((simulator.state().vertices(still, Eigen::all) - before(still, Eigen::all)).cwiseAbs().maxCoeff(),
             1e-6);
+}
+
+/// The loads that are estimated of a body pulled at both ends balance on the whole, not on its halves.
+TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
+  Simulator simulator(testing::sponge(), Material(), {});
+  simulator.step(atRest(simulator), kFrame);
+  const TetTopology uncut = simulator.topology();
+  Points stretched = uncut.rest_vertices;
+  stretched.col(0) *= 1.2;
+  TargetSet targets;
+  targets.targets = testing::vertexTargets(uncut, transformed(stretched, testing::somePose()));
+  for (int k = 2; k < 22; ++k) simulator.step(targets, k * kFrame);
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  const Points before = simulator.state().vertices;
+  TargetSet none;
+  none.revision = 1;
+  for (int k = 22; k < 32; ++k) simulator.step(none, k * kFrame);
+  const Points way = simulator.state().vertices - before;
+  for (const std::uint32_t body : {0u, 1u})
+    EXPECT_LT(meanOfBody(simulator.topology(), body, way).norm(), 1e-4) << "piece " << body;
 }
 
 TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {

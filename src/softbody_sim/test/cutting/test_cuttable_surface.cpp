@@ -124,13 +124,19 @@ TEST(CuttableSurface, ABladeThatGoesThroughLeavesTwoPieces) {
   EXPECT_EQ(scene.cuts, cuts) << "the way back cut";
 }
 
-TEST(CuttableSurface, ABladeThatJustGetsThroughLeavesNoCornerUncut) {
-  for (unsigned seed = 1; seed <= 6; ++seed) {
-    Scene scene;
-    scene.random.seed(seed);
-    scene.sweep(0.05, 0.0, 5e-4, 0.02);
-    for (int k = 0; k < 10; ++k) scene.sweep(-0.002, -0.003, 5e-4, 0.02);
-    EXPECT_EQ(scene.visualPieces(), 2u) << "seed " << seed;
+/// The edge of a blade that is tilted meets and leaves the body at corners, which can lie between two
+/// samples.
+TEST(CuttableSurface, ATiltedBladeThatJustGetsThroughLeavesNoCornerUncut) {
+  for (const double tilt : {-0.4, -0.3, 0.1, 0.4}) {
+    for (const double shift : {-0.008, -0.002, 0.006}) {
+      Scene scene;
+      const double last = -(0.05 + std::abs(shift)) * std::tan(std::abs(tilt)) - 0.002;
+      for (double height = 0.07; height > last - 0.001; height -= 0.001) {
+        scene.move(Eigen::Translation3d(kPlace, 0.05 + shift, std::max(last, height)) *
+                   Eigen::Isometry3d(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX())));
+      }
+      EXPECT_EQ(scene.visualPieces(), 2u) << "tilt " << tilt << ", shift " << shift;
+    }
   }
 }
 

@@ -157,6 +157,23 @@ TEST(Tearing, NoCrumbIsTorn) {
   EXPECT_EQ(scene.pieces(), 2u);
 }
 
+/// Patches of which none becomes a cut.
+TEST(Tearing, ATetAsksOnceUntilItHasBeenWithinTheLimit) {
+  Scene scene(0.4);
+  const MeshState pulled = scene.stateOf(stretchedMiddle(1.5)), slack = scene.stateOf(stretchedMiddle(1.1));
+  const TetTopology& volume = scene.surface.volume();
+  TearWatch watch(0.4);
+  int beyond = 0, asked = 0;
+  for (int t = 0; t < volume.tets.rows(); ++t)
+    beyond += principalStretch(volume, pulled.vertices, t).stretch > 1.4 ? 1 : 0;
+  for (int k = 0; k < 5 * beyond; ++k) asked += watch.follow(volume, pulled.vertices) ? 1 : 0;
+  EXPECT_GT(asked, 0);
+  EXPECT_LE(asked, beyond);
+  for (int k = 0; k < 50; ++k) EXPECT_FALSE(watch.follow(volume, pulled.vertices));
+  EXPECT_FALSE(watch.follow(volume, slack.vertices));
+  for (int k = 1; k <= 5; ++k) EXPECT_EQ(watch.follow(volume, pulled.vertices).has_value(), k == 5);
+}
+
 /// Bodies that are pulled apart again and again stay sound.
 TEST(Tearing, RandomStretchLeavesSoundPieces) {
   std::mt19937 random(5);

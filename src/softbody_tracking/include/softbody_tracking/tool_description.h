@@ -23,7 +23,7 @@ struct ToolDescription {
   std::vector<std::string> warnings;
 };
 
-/// @throw std::invalid_argument with file, line, key, value and what is allowed.
+/// @throw std::invalid_argument with file, line, key, value and what is allowed; a tool spans at most 2 m.
 ToolDescription loadToolDescription(const std::string& yaml_path);
 
 /// A marker's corners in the tool frame [m], in the order in which they are detected: clockwise on the print

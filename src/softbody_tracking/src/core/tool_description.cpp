@@ -5,6 +5,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "softbody_common/yaml_map_reader.h"
@@ -13,7 +14,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kReach_m = 10.0;
+constexpr double kLargest_m = 2.0;  ///< what is larger was given in mm
 constexpr double kFlatness = 0.02;  ///< of the blade's extent that a corner may lie off its plane
 
 std::string readDictionary(YamlMapReader& tool) {
@@ -31,7 +32,7 @@ std::string readDictionary(YamlMapReader& tool) {
 ToolMarker readMarker(YamlMapReader& reader, int count) {
   ToolMarker marker;
   marker.id = reader.requiredInteger("id", 0, count - 1);
-  marker.size_m = reader.requiredNumber("size_m", 0.001, kReach_m);
+  marker.size_m = reader.requiredNumber("size_m", 0.001, kLargest_m);
   if (reader.has("pose")) marker.T_tool_marker = reader.pose("pose");
   return marker;
 }
@@ -65,16 +66,32 @@ Points readBlade(YamlMapReader& tool) {
       corner = list[i].as<std::vector<double>>();
     } catch (const YAML::Exception&) {
     }
-    const bool usable = corner.size() == 3 && std::all_of(corner.begin(), corner.end(), [](double x) {
-                          return x >= -kReach_m && x <= kReach_m;
-                        });
+    const bool usable = corner.size() == 3 &&
+                        std::all_of(corner.begin(), corner.end(), [](double x) { return std::isfinite(x); });
     if (!usable) {
-      tool.fail(list[i], fmt::format("tool/blade[{}] is '{}'; allowed: three numbers from {} to {}", i,
-                                     YamlMapReader::shown(list[i]), -kReach_m, kReach_m));
+      tool.fail(list[i], fmt::format("tool/blade[{}] is '{}'; allowed: three numbers [m]", i,
+                                     YamlMapReader::shown(list[i])));
     }
     blade.row(static_cast<Eigen::Index>(i)) << corner[0], corner[1], corner[2];
   }
   return blade;
+}
+
+void checkSize(YamlMapReader& tool, const ToolDescription& description) {
+  Eigen::AlignedBox3d box;
+  const auto check = [&](const std::string& key) {
+    const double span = box.isEmpty() ? 0.0 : box.diagonal().norm();
+    if (span <= kLargest_m) return;
+    tool.fail(tool.get(key),
+              fmt::format("with tool/{} the tool spans {:.4g} m; allowed: up to {} m; lengths are in metres",
+                          key, span, kLargest_m));
+  };
+  for (const auto& corner : description.blade.rowwise()) box.extend(corner.transpose());
+  check("blade");
+  for (const ToolMarker& marker : description.markers) {
+    for (const auto& corner : markerCorners(marker).colwise()) box.extend(corner);
+  }
+  check("markers");
 }
 
 /// Extents along the principal axes; the last one is the deviation from a plane.
@@ -102,6 +119,7 @@ ToolDescription loadToolDescription(const std::string& yaml_path) {
   description.dictionary = readDictionary(tool);
   readMarkers(tool, yaml_path, &description);
   description.blade = readBlade(tool);
+  checkSize(tool, description);
   if (description.blade.rows() > 0) checkBlade(tool, description.blade);
   tool.warnOfUnknown(&description.warnings);
   file.warnOfUnknown(&description.warnings);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace softbody {
@@ -23,23 +24,25 @@ Eigen::Vector3d normalOf(const Points& outline) {
 }  // namespace
 
 std::vector<int> partsOfSides(const Points& polygon, double spacing) {
+  constexpr double kMostParts = 400.0;
+  Eigen::VectorXd lengths(polygon.rows());
+  for (Eigen::Index i = 0; i < polygon.rows(); ++i)
+    lengths[i] = (polygon.row((i + 1) % polygon.rows()) - polygon.row(i)).norm();
+  const double apart = std::max(spacing, lengths.sum() / kMostParts);
   std::vector<int> parts;
-  for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
-    const double length = (polygon.row((i + 1) % polygon.rows()) - polygon.row(i)).norm();
-    parts.push_back(std::max(1, static_cast<int>(std::ceil(length / spacing))));
-  }
+  for (const double length : lengths)
+    parts.push_back(std::max(1, static_cast<int>(std::ceil(length / apart))));
   return parts;
 }
 
 Points sampleOutline(const Points& polygon, const std::vector<int>& parts) {
-  Points samples(0, 3);
+  Points samples(std::accumulate(parts.begin(), parts.end(), 0), 3);
+  Eigen::Index row = 0;
   for (std::size_t side = 0; side < parts.size(); ++side) {
     const auto i = static_cast<Eigen::Index>(side);
     for (int k = 0; k < parts[side]; ++k) {
       const double share = static_cast<double>(k) / parts[side];
-      samples.conservativeResize(samples.rows() + 1, Eigen::NoChange);
-      samples.bottomRows<1>() =
-          (1.0 - share) * polygon.row(i) + share * polygon.row((i + 1) % polygon.rows());
+      samples.row(row++) = (1.0 - share) * polygon.row(i) + share * polygon.row((i + 1) % polygon.rows());
     }
   }
   return samples;

@@ -6,7 +6,8 @@
 
 namespace softbody {
 
-/// Per side of a polygon, in how many parts samples at most `spacing` apart divide it.
+/// Per side of a polygon, in how many parts samples at most `spacing` apart divide it; further apart where
+/// they would be more than some hundreds, as on a blade that is much larger than the body.
 std::vector<int> partsOfSides(const Points& polygon, double spacing);
 
 /// Samples along a closed polygon, from its first corner on.

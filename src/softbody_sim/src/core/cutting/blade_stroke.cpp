@@ -43,15 +43,6 @@ bool any(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
-/// Points of the blade between its outline and its middle: a large blade's outline can enclose the body.
-Points withinOutline(const Points& outline) {
-  const Eigen::RowVector3d middle = outline.colwise().mean();
-  Points within(2 * outline.rows(), 3);
-  within.topRows(outline.rows()) = (2.0 * outline).rowwise() + middle;
-  within.bottomRows(outline.rows()) = outline.rowwise() + 2.0 * middle;
-  return within / 3.0;
-}
-
 /// Of each point on a row, whether it or the way to a neighbour is in the solid: a corner of the body can lie
 /// between two samples.
 std::vector<bool> inMaterial(const Points& row, const RestSolid& solid) {
@@ -62,6 +53,17 @@ std::vector<bool> inMaterial(const Points& row, const RestSolid& solid) {
     in[k] = in[k + 1] = true;
   }
   return in;
+}
+
+/// Whether some of a blade is in the solid, by its outline and by points between that and its middle: a large
+/// blade's outline can enclose the body.
+bool isInMaterial(const Points& outline, const RestSolid& solid) {
+  Points closed(outline.rows() + 1, 3), within(2 * outline.rows(), 3);
+  closed << outline, outline.row(0);
+  const Eigen::RowVector3d middle = outline.colwise().mean();
+  within.topRows(outline.rows()) = (2.0 * outline).rowwise() + middle;
+  within.bottomRows(outline.rows()) = outline.rowwise() + 2.0 * middle;
+  return any(inMaterial(closed, solid)) || any(containedIn(solid, within / 3.0));
 }
 
 /// The point moved on, unless that meets the solid.
@@ -103,7 +105,7 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
   if (!active_ && any(inside)) active_ = resume(outline, inside) || enter(outline, inside, solid);
   std::optional<BladeCut> cut;
   if (active_) cut = advance(outline, solid);
-  if (!any(inside) && !any(containedIn(solid, withinOutline(outline.points())))) {
+  if (!any(inside) && !isInMaterial(outline.points(), solid)) {
     outside_ = outline.points();
     active_ = cut.has_value();
     if (!active_ && !strokes_.empty() && strokes_.back().patches.empty()) strokes_.pop_back();

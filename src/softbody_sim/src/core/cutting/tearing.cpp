@@ -37,7 +37,10 @@ PrincipalStretch principalStretch(const TetTopology& volume, const Points& verti
 std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Points& vertices) {
   if (strain_ <= 0.0) return std::nullopt;
   const auto count = static_cast<std::size_t>(volume.tets.rows());
-  if (revision_ != volume.revision || states_beyond_.size() != count) states_beyond_.assign(count, 0);
+  if (revision_ != volume.revision || states_beyond_.size() != count) {
+    states_beyond_.assign(count, 0);
+    has_asked_.assign(count, false);
+  }
   revision_ = volume.revision;
   int first = -1;
   PrincipalStretch most;
@@ -46,12 +49,14 @@ std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Point
     const PrincipalStretch now = principalStretch(volume, vertices, static_cast<int>(t));
     beyond[t] = now.stretch > 1.0 + strain_;
     states_beyond_[t] = beyond[t] ? states_beyond_[t] + 1 : 0;
-    if (states_beyond_[t] < kStates || (first >= 0 && now.stretch <= most.stretch)) continue;
+    has_asked_[t] = has_asked_[t] && beyond[t];
+    if (states_beyond_[t] < kStates || has_asked_[t] || (first >= 0 && now.stretch <= most.stretch)) continue;
     first = static_cast<int>(t);
     most = now;
   }
   if (first < 0) return std::nullopt;
   states_beyond_.assign(count, 0);
+  has_asked_[static_cast<std::size_t>(first)] = true;
   const MaterialPoint middle{first, Eigen::Vector4d::Constant(0.25)};
   return planeSection(volume, positionOf(middle, volume.rest_vertices, volume.tets), most.direction, first,
                       beyond, kOverhang * meanEdgeLength(volume.rest_vertices, volume.tets));

@@ -17,7 +17,8 @@ class TearWatch {
   /// The patch along which the body tears now: once tets have been stretched beyond the limit in several
   /// states on end, the section through them, and those beyond the limit that it reaches from tet to tet,
   /// across the principal direction of the most stretched one. At the body's surface it goes on by a tenth of
-  /// a mean edge. After a patch the watch begins anew.
+  /// a mean edge. After a patch the watch begins anew; if it does not become a cut, the same tet asks for
+  /// none until it has been within the limit.
   /// @param vertices of the volume in the next state [m].
   std::optional<CutPatch> follow(const TetTopology& volume, const Points& vertices);
 
@@ -25,6 +26,7 @@ class TearWatch {
   double strain_;
   std::uint32_t revision_ = 0;
   std::vector<int> states_beyond_;  ///< per tet, on end up to the last one
+  std::vector<bool> has_asked_;     ///< per tet, while it is beyond the limit
 };
 
 /// A tet's greatest principal stretch, and its direction at rest.
