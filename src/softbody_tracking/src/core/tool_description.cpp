@@ -89,7 +89,8 @@ void checkSize(YamlMapReader& tool, const ToolDescription& description) {
   for (const auto& corner : description.blade.rowwise()) box.extend(corner.transpose());
   check("blade");
   for (const ToolMarker& marker : description.markers) {
-    for (const auto& corner : markerCorners(marker).colwise()) box.extend(corner);
+    const Eigen::Matrix<double, 3, 4> corners = markerCorners(marker);
+    for (int k = 0; k < 4; ++k) box.extend(corners.col(k));
   }
   check("markers");
 }
