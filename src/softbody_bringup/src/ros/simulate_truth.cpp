@@ -1,0 +1,114 @@
+#include "softbody_bringup/simulate_truth.h"
+
+#include <fmt/format.h>
+#include <std_msgs/Header.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "softbody_bringup/atomic_bag.h"
+#include "softbody_bringup/evaluation/bags.h"
+#include "softbody_bringup/virtual_camera/messages.h"
+#include "softbody_common/conversions.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/topics.h"
+#include "softbody_sim/object_model.h"
+#include "softbody_sim/simulator.h"
+#include "softbody_sim/visual_surface.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kFirm = 100.0;  // weight of a target: what it holds gives way by hundredths of a millimetre
+
+evaluation::SurfaceRecord readTruth(const std::string& path) {
+  evaluation::SurfaceRecord truth =
+      evaluation::readSurface(path, std::string("/") + virtual_camera::kTruthTopologyTopic,
+                              std::string("/") + virtual_camera::kTruthStateTopic);
+  if (truth.topologies.size() != 1 || truth.topologies.begin()->first != 0)
+    throw std::invalid_argument(path + ": the body is cut; only one that stays whole can be simulated");
+  return truth;
+}
+
+void requireSame(const MeshTopology& object, const MeshTopology& truth,
+                 const TruthSimulationOptions& options) {
+  const auto inside = [&](int parent) { return parent < object.rest_vertices.rows(); };
+  if (!std::all_of(truth.vertex_parents.begin(), truth.vertex_parents.end(), inside)) {
+    throw std::invalid_argument(fmt::format("{} has {} vertices, fewer than the truth in {} names",
+                                            options.object, object.rest_vertices.rows(), options.truth));
+  }
+}
+
+SimulatorConfig convergedConfig() {
+  SimulatorConfig config;
+  config.iterations = 300;
+  config.tolerance = 1e-6;
+  return config;
+}
+
+class TruthSimulation {
+ public:
+  TruthSimulation(const TruthSimulationOptions& options, const ObjectModel& model)
+      : truth_(readTruth(options.truth)),
+        simulator_(model.volume, model.material, convergedConfig()),
+        surface_(model.visual, model.volume),
+        bag_(options.output) {
+    requireSame(surface_.topology(), seen(), options);
+  }
+
+  void run(const std::function<void(double)>& progress) {
+    std::size_t done = 0;
+    for (const auto& [stamp, state] : truth_.states) {
+      simulator_.step(exactTargets(state, done == 0), stamp);
+      write(stamp, done == 0);
+      progress(static_cast<double>(++done) / static_cast<double>(truth_.states.size()));
+    }
+    bag_.finish();
+  }
+
+ private:
+  const MeshTopology& seen() const { return truth_.topologies.begin()->second; }
+
+  TargetSet exactTargets(const MeshState& truth, bool first) const {
+    TargetSet set;
+    set.reset = first;
+    set.body_pose = fitRigid(seen().rest_vertices, truth.vertices);
+    for (std::size_t v = 0; v < truth.confidence.size(); ++v) {
+      const int parent = seen().vertex_parents[v];
+      if (truth.confidence[v] <= 0.5f || parent < 0) continue;
+      Target target;
+      target.place = surface_.binding().places()[parent];
+      target.position = truth.vertices.row(static_cast<Eigen::Index>(v));
+      target.weight = kFirm;
+      set.targets.push_back(target);
+    }
+    return set;
+  }
+
+  void write(Nanoseconds stamp, bool first) {
+    std_msgs::Header header;
+    header.stamp.fromNSec(static_cast<std::uint64_t>(stamp));
+    header.frame_id = truth_.frame_id;
+    if (first) {
+      softbody_msgs::MeshTopology topology = toMessage(surface_.topology());
+      topology.header = header;
+      bag_.writeLatched(std::string("/softbody/") + topics::kSurfaceTopology, header.stamp, topology);
+    }
+    softbody_msgs::MeshState state = toMessage(surface_.apply(simulator_.state()));
+    state.header = header;
+    bag_.write(std::string("/softbody/") + topics::kSurfaceState, header.stamp, state);
+  }
+
+  evaluation::SurfaceRecord truth_;
+  Simulator simulator_;
+  VisualSurface surface_;
+  AtomicBag bag_;
+};
+
+}  // namespace
+
+void simulateTruth(const TruthSimulationOptions& options, const std::function<void(double)>& progress) {
+  TruthSimulation(options, buildObjectModel(loadObjectDescription(options.object))).run(progress);
+}
+
+}  // namespace softbody

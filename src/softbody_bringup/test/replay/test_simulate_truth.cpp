@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "softbody_bringup/evaluation/evaluator.h"
+#include "softbody_bringup/simulate_truth.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SimulateTruthTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("softbody_simulate_truth_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    options_ = {ROSBAGS_DIR "/bend_small.bag", CONFIG_DIR "/sponge.yaml", folder_ / "result.bag"};
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+  TruthSimulationOptions options_;
+};
+
+TEST_F(SimulateTruthTest, PutsTheVisibleVerticesWhereTheyTrulyAre) {
+  simulateTruth(options_, [](double) {});
+  evaluation::EvaluatorOptions evaluation;
+  evaluation.result = options_.output;
+  evaluation.truth = options_.truth;
+  const evaluation::Report report = evaluation::evaluate(evaluation);
+  EXPECT_EQ(report.frames.answered, report.frames.expected);
+  ASSERT_TRUE(report.vertex_error.has_value());
+  EXPECT_LT(report.vertex_error->visible.mean, 2e-4);
+  EXPECT_GT(report.vertex_error->hidden.mean, report.vertex_error->visible.mean)
+      << "nothing is told of the hidden ones";
+}
+
+TEST_F(SimulateTruthTest, NamesAnObjectThatIsNotTheTruths) {
+  const fs::path object = folder_ / "tetrahedron.yaml";
+  std::ofstream(folder_ / "tetrahedron.obj")
+      << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  std::ofstream(object) << "object: {visual_mesh: tetrahedron.obj}\n";
+  options_.object = object;
+  try {
+    simulateTruth(options_, [](double) {});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("tetrahedron.yaml has 4 vertices"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_FALSE(fs::exists(options_.output));
+}
+
+}  // namespace
+}  // namespace softbody
