@@ -77,6 +77,12 @@ void keepToPieces(const MeshTopology& surface, const TetTopology& volume, const 
   }
 }
 
+/// Whether a tet has the same number and, at rest, the same corners in both.
+bool isSameTet(int tet, const TetTopology& a, const TetTopology& b) {
+  return tet < b.tets.rows() &&
+         a.rest_vertices(a.tets.row(tet), Eigen::all) == b.rest_vertices(b.tets.row(tet), Eigen::all);
+}
+
 }  // namespace
 
 std::vector<MaterialPoint> bindSurface(const MeshTopology& surface, const TetTopology& volume) {
@@ -98,6 +104,10 @@ std::vector<MaterialPoint> transferPlaces(const std::vector<MaterialPoint>& plac
   const TetLocator locator(after.rest_vertices, after.tets);
   std::vector<MaterialPoint> result;
   for (const MaterialPoint& place : places) {
+    if (place.barycentric.minCoeff() >= 0.0 && isSameTet(place.tet, before, after)) {
+      result.push_back(place);
+      continue;
+    }
     const Eigen::Vector3d point = positionOf(place, before.rest_vertices, before.tets);
     const Eigen::Vector3d centroid =
         positionOf({place.tet, Eigen::Vector4d::Constant(0.25)}, before.rest_vertices, before.tets);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "softbody_bringup/evaluation/bags.h"
@@ -150,6 +151,54 @@ TEST_F(CutPipeline, ACutThatCannotBeMadeIsAWarning) {
   EXPECT_NE(output.warnings[1].find("revision 7"), std::string::npos) << output.warnings[1];
   EXPECT_TRUE(output.surface.has_value());
   EXPECT_EQ(process(true, {middleCut(1)}).cuts.size(), 1u);
+}
+
+/// Where features are bound, by their ids. Each gives two targets, for the two directions across its ray.
+std::map<int, MaterialPoint> boundFeatures(const TrackingResult& tracking) {
+  std::map<int, MaterialPoint> places;
+  std::size_t next = 0;
+  for (const Target& target : tracking.targets.targets) {
+    if (target.kind == TargetKind::kFeature) places[tracking.features.at(next++ / 2).id] = target.place;
+  }
+  EXPECT_EQ(next, 2 * tracking.features.size());
+  return places;
+}
+
+TEST_F(CutPipeline, FiveCutsTakenBackLeaveModelsAndBindingsAsTheyWereBitByBit) {
+  std::map<int, MaterialPoint> before;
+  for (int k = 0; k < 15; ++k) before.merge(boundFeatures(process(true).tracking));
+  const TetTopology volume = pipeline_.volumeTopology();
+  const MeshTopology surface = pipeline_.surfaceTopology();
+  for (std::uint32_t k = 1; k <= 5; ++k) {
+    const Eigen::Vector3d normal(std::cos(0.6 * k), std::sin(0.6 * k), 0.05 * k);
+    const Cut cut{k, k, CutKind::kCut,
+                  planePatch({0.0123 + 0.011 * k - 0.04, 0.003, 0.0}, normal, surface.rest_vertices)};
+    ASSERT_EQ(process(true, {cut}).cuts.size(), 1u) << "cut " << k;
+  }
+  EXPECT_GT(pipeline_.volumeTopology().tets.rows(), volume.tets.rows());
+  for (std::uint32_t k = 6; k <= 10; ++k)
+    ASSERT_EQ(process(true, {{k, 5, CutKind::kUndo, {}}}).cuts.size(), 1u) << "undo " << k;
+  const FrameOutput output = process(true);
+
+  EXPECT_EQ(pipeline_.volumeTopology().rest_vertices, volume.rest_vertices);
+  EXPECT_EQ(pipeline_.volumeTopology().tets, volume.tets);
+  EXPECT_EQ(pipeline_.volumeTopology().surface, volume.surface);
+  EXPECT_EQ(pipeline_.volumeTopology().bodies, volume.bodies);
+  EXPECT_EQ(pipeline_.surfaceTopology().rest_vertices, surface.rest_vertices);
+  EXPECT_EQ(pipeline_.surfaceTopology().triangles, surface.triangles);
+  EXPECT_EQ(pipeline_.surfaceTopology().vertex_parents, surface.vertex_parents);
+  EXPECT_EQ(pipeline_.surfaceTopology().bodies, surface.bodies);
+  EXPECT_EQ(pipeline_.surfaceTopology().cut, surface.cut);
+  EXPECT_EQ(output.tracking.targets.revision, 10u);
+  int again = 0;
+  for (const auto& [id, place] : boundFeatures(output.tracking)) {
+    const auto known = before.find(id);
+    if (known == before.end()) continue;
+    ++again;
+    EXPECT_EQ(place.tet, known->second.tet) << "feature " << id;
+    EXPECT_EQ(place.barycentric, known->second.barycentric) << "feature " << id;
+  }
+  EXPECT_GT(again, 100);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace softbody {
 std::vector<MaterialPoint> bindSurface(const MeshTopology& surface, const TetTopology& volume);
 
 /// The same places in an edited mesh whose tets fill the same room at rest. A place on the wall of a slit
-/// stays on its side.
+/// stays on its side; one inside of a tet that the edit leaves as it is stays the same, bit by bit.
 std::vector<MaterialPoint> transferPlaces(const std::vector<MaterialPoint>& places, const TetTopology& before,
                                           const TetTopology& after);
 

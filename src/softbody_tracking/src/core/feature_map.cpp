@@ -253,6 +253,9 @@ void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
     feature.id = next_id_++;
     feature.place = surface.materialPoint(triangle, keypoint.pixel);
     feature.gradient = surface.placeGradient(feature.place, triangle, keypoint.pixel);
+    feature.first = feature;
+    feature.first_tet = homogeneousCorners(surface.volume(), feature.place.tet);
+    feature.first_vertices = surface.volume().rest_vertices.rows();
     feature.descriptor = keypoint.descriptor;
     feature.reference = measured;
     features_.push_back(feature);
@@ -266,9 +269,17 @@ void FeatureMap::rebind(const TetTopology& before, const TetTopology& after) {
   for (const MapFeature& feature : features_) places.push_back(feature.place);
   const std::vector<MaterialPoint> moved = transferPlaces(places, before, after);
   for (std::size_t f = 0; f < features_.size(); ++f) {
-    features_[f].gradient = homogeneousCorners(after, moved[f].tet).inverse() *
-                            homogeneousCorners(before, places[f].tet) * features_[f].gradient;
-    features_[f].place = moved[f];
+    MapFeature& feature = features_[f];
+    const int first = feature.first.place.tet;
+    if (after.rest_vertices.rows() == feature.first_vertices && first < after.tets.rows() &&
+        homogeneousCorners(after, first) == feature.first_tet) {
+      static_cast<FeaturePlace&>(feature) = feature.first;
+      continue;
+    }
+    const Eigen::Matrix4d from = homogeneousCorners(before, feature.place.tet),
+                          to = homogeneousCorners(after, moved[f].tet);
+    if (from != to) feature.gradient = to.inverse() * from * feature.gradient;
+    feature.place = moved[f];
   }
 }
 

@@ -19,13 +19,20 @@ namespace softbody {
 /// How far from the prediction a descriptor is looked for where patches are not found [px].
 constexpr int kWideSearchPx = 64;
 
-/// A feature bound to the body, with its descriptor as first seen.
-struct MapFeature {
-  int id = 0;
+/// Where a feature lies, and how that changes in the image that its patch is from.
+struct FeaturePlace {
   MaterialPoint place;
+  PlaceGradient gradient = PlaceGradient::Zero();
+};
+
+/// A feature bound to the body, with its descriptor as first seen.
+struct MapFeature : FeaturePlace {
+  int id = 0;
   Descriptor descriptor{};
   FeaturePatch patch;
-  PlaceGradient gradient = PlaceGradient::Zero();       ///< of the place in the image that the patch is from
+  FeaturePlace first;                                   ///< as it was bound when admitted,
+  Eigen::Matrix4d first_tet = Eigen::Matrix4d::Zero();  ///< that tet's corners at rest, homogeneous [m],
+  Eigen::Index first_vertices = 0;                      ///< and how many vertices the body had
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< measured position when bound, camera frame [m]
   int predicted = 0;                                    ///< frames in which it should have been seen
   int matched = 0;                                      ///< frames in which it was
@@ -75,7 +82,9 @@ class FeatureMap {
   void admit(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
              const PredictedSurface& surface);
 
-  /// Takes the features to an edited body. Those on the wall of a cut stay on their side.
+  /// Takes the features to an edited body. Those on the wall of a cut stay on their side; where an edit
+  /// brings back the body in which a feature was admitted, the feature's place is what it was then, bit by
+  /// bit.
   void rebind(const TetTopology& before, const TetTopology& after);
 
   void reset();
