@@ -162,6 +162,39 @@ TEST_F(DepthAssociationsTest, AnOccluderIsOneDownToItsTipHoweverSteep) {
   }
 }
 
+/// A tool's handle with the body's colours, nowhere as near as the gate.
+TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
+  const cv::Rect& region = surface_.image().region;
+  const cv::Rect handle(region.x + region.width / 2, region.y + region.height / 3, 24, region.height / 3);
+  for (const float before : {0.015f, 0.025f, 0.035f}) {
+    cv::Mat1f depth = frame_.depth.clone();
+    std::swap(depth, frame_.depth);
+    frame_.depth(handle) -= before;
+    const DepthAssociations found = associate();
+    std::swap(depth, frame_.depth);
+    EXPECT_GT(found.occluded_blocks, 10) << before;
+    EXPECT_GT(found.associations.size(), 800u) << "the surface beside it stays";
+    for (const Association& a : found.associations) EXPECT_LT(std::abs(a.residual()), 0.01) << before;
+  }
+}
+
+TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
+  constexpr double kHeight = 0.03, kRadiusPx = 90.0;
+  const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
+  for (int v = 0; v < frame_.depth.rows; ++v) {
+    for (int u = 0; u < frame_.depth.cols; ++u) {
+      const double distance = (Eigen::Vector2d(u, v) - middle).norm();
+      if (surface_.image().triangle(v, u) < 0 || distance > kRadiusPx) continue;
+      frame_.depth(v, u) -= static_cast<float>(kHeight * 0.5 * (1.0 + std::cos(M_PI * distance / kRadiusPx)));
+    }
+  }
+  const DepthAssociations found = associate();
+  EXPECT_EQ(found.occluded_blocks, 0);
+  double highest = 0.0;
+  for (const Association& a : found.associations) highest = std::max(highest, a.residual());
+  EXPECT_GT(highest, 0.02);
+}
+
 TEST_F(DepthAssociationsTest, NoDepthGivesNothing) {
   frame_.depth.setTo(0.0f);
   EXPECT_EQ(associate().visible_blocks, 0);

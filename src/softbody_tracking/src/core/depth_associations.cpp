@@ -10,6 +10,7 @@ namespace {
 constexpr double kMostGrazing = 0.1;           // cosine between normal and ray below which depth says little
 constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction that an occluder's end may be
 constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
+constexpr double kStandsOut = 0.01;  // [m] before the surface beside it; no body bends so within two blocks
 
 using Block = DepthBlock;
 using BlockKind = DepthBlock::Kind;
@@ -95,6 +96,37 @@ bool continues(const Block* before, const Block& occluder, const Block& next) {
   return std::abs(step - last_step) < kOccluderContinuity;
 }
 
+/// Of two blocks of one smooth surface, whether the first lies in front of what the other shows to be there.
+bool standsBefore(const Block& block, const Block& other) {
+  return other.kind == BlockKind::kAgrees && std::abs(other.difference) < kOccluderStep &&
+         block.difference < other.difference - kStandsOut &&
+         std::abs(block.predicted - other.predicted) < kOccluderContinuity;
+}
+
+/// What stands out from the surface by a step is something before it, whatever its colour: a tool's handle,
+/// nearer than the gate. The blocks at its border see both, so the second next counts as well.
+void markSteps(const SurfaceSamples& surface, std::vector<Block>* blocks) {
+  const cv::Mat1i& grid = surface.grid;
+  const cv::Rect inside(cv::Point(), grid.size());
+  std::vector<int> before;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.cols; ++column) {
+      const int b = grid(row, column);
+      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].difference > -kStandsOut) continue;
+      for (const cv::Point& way : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1),
+                                   cv::Point(2, 0), cv::Point(-2, 0), cv::Point(0, 2), cv::Point(0, -2)}) {
+        const cv::Point place = cv::Point(column, row) + way;
+        const int other = inside.contains(place) ? grid(place) : -1;
+        if (other < 0 || surface.samples[other].body != surface.samples[b].body) continue;
+        if (!standsBefore((*blocks)[b], (*blocks)[other])) continue;
+        before.push_back(b);
+        break;
+      }
+    }
+  }
+  for (const int b : before) (*blocks)[b].kind = BlockKind::kOccluded;
+}
+
 /// The rest of a hand of which one end is recognised as an occluder.
 void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   std::vector<cv::Point> open;
@@ -136,6 +168,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.body], colors,
                               config_.max_distance_m));
   }
+  markSteps(surface, &blocks_);
   growOccluders(surface.grid, &blocks_);
 
   found_.associations.clear();
