@@ -17,7 +17,7 @@ class FeatureMapTest : public ::testing::Test {
  protected:
   FeatureMapTest() : surface_(box_.volume, box_.surface), orb_(1000), map_(FeatureConfig()) {
     look(transformed(box_.volume.rest_vertices, boxPose()));
-    map_.admit(frame_, image_, keypoints_, surface_);
+    map_.admit(frame_, image_, keypoints_, surface_, {true});
   }
 
   /// Renders the box at the vertices and predicts it there, moved by an error.
@@ -39,7 +39,7 @@ class FeatureMapTest : public ::testing::Test {
     map_.predict(frame_, colors_, kReach, surface_);
     std::vector<FeatureMatch> matches = some(FeatureMap::kAll);
     markOutliers(frame_.camera, FeatureConfig().max_disagreement_m, &matches);
-    map_.credit(matches);
+    map_.credit(matches, {true});
     return matches;
   }
 
@@ -124,7 +124,7 @@ TEST_F(FeatureMapTest, CoveredFeaturesAreNotExpected) {
   }
   EXPECT_LT(map_.expected(), 0.8 * expected);
   const std::size_t known = map_.features().size();
-  map_.admit(frame_, image_, {}, surface_);
+  map_.admit(frame_, image_, {}, surface_, {true});
   EXPECT_GT(map_.features().size(), 0.9 * known) << "the covered ones stay";
 }
 
@@ -167,20 +167,33 @@ TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
   const std::size_t bound = map_.features().size();
   cv::Mat1b free(frame_.color.size(), 255);
   map_.eraseTaken(align(), &free);
-  map_.admit(frame_, image_, orb_.extract(frame_.color, free, surface_.image().region), surface_);
+  map_.admit(frame_, image_, orb_.extract(frame_.color, free, surface_.image().region), surface_, {true});
   EXPECT_LT(map_.features().size(), bound + bound / 5) << "the surface was covered with features already";
   frame_.color.setTo(cv::Vec3b(90, 90, 90));
   image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
   for (int i = 0; i < 400; ++i) EXPECT_TRUE(align().empty());
-  map_.admit(frame_, image_, {}, surface_);
+  map_.admit(frame_, image_, {}, surface_, {true});
   EXPECT_TRUE(map_.features().empty());
+}
+
+TEST_F(FeatureMapTest, LearnsNothingOfAPieceThatHardlyShows) {
+  FeatureMap none{FeatureConfig()};
+  none.admit(frame_, image_, keypoints_, surface_, {false});
+  EXPECT_TRUE(none.features().empty());
+  const std::vector<FeatureMatch> matches = align();
+  const std::vector<MapFeature> before = map_.features();
+  map_.credit(matches, {false});
+  for (std::size_t f = 0; f < before.size(); ++f) {
+    EXPECT_EQ(map_.features()[f].predicted, before[f].predicted);
+    EXPECT_EQ(map_.features()[f].matched, before[f].matched);
+  }
 }
 
 TEST_F(FeatureMapTest, HoldsNoMoreThanAsked) {
   FeatureConfig config;
   config.max_features = 50;
   FeatureMap small(config);
-  small.admit(frame_, image_, keypoints_, surface_);
+  small.admit(frame_, image_, keypoints_, surface_, {true});
   EXPECT_EQ(small.features().size(), 50u);
 }
 

@@ -114,5 +114,18 @@ TEST_P(FeatureMatches, FewWithoutNeighborsAreJudgedByTheirLengthAlone) {
   EXPECT_TRUE(made.matches[2].inlier);
 }
 
+/// A few features of a small piece among many of another.
+TEST(FeatureMatchesOfPieces, AreJudgedByTheirOwnPiece) {
+  std::mt19937 random(4);
+  std::vector<FeatureMatch> matches = makeScene(400, 0.0, Eigen::Vector3d::Zero(), &random).matches;
+  std::vector<FeatureMatch> small = makeScene(40, 0.0, {0.02, 0.0, 0.0}, &random).matches;
+  for (FeatureMatch& match : small) match.association.body = 1;
+  matches.insert(matches.end(), small.begin(), small.end());
+  markOutliers(kCamera, kMaxDisagreement, &matches);
+  const auto kept =
+      std::count_if(matches.begin() + 400, matches.end(), [](const auto& m) { return m.inlier; });
+  EXPECT_GT(kept, 35);
+}
+
 }  // namespace
 }  // namespace softbody

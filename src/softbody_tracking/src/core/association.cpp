@@ -12,7 +12,8 @@ constexpr double kSmallestScale = 0.003;  // [m], of the Cauchy weights: below t
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// d(point moved by (rotation, translation)) = J (rotation, translation), about the centre.
+}  // namespace
+
 Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
   Eigen::Matrix<double, 3, 6> J;
   J << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
@@ -20,8 +21,6 @@ Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
       arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
   return J;
 }
-
-}  // namespace
 
 Eigen::Isometry3d rigidStep(const std::vector<Association>& associations) {
   if (associations.empty()) return Eigen::Isometry3d::Identity();

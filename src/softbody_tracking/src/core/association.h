@@ -24,6 +24,10 @@ struct Association {
   }
 };
 
+/// d(point moved by (rotation, translation)) = J (rotation, translation), about the centre.
+/// @param arm from the centre to the point.
+Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm);
+
 /// The small rigid motion that best takes predictions to measurements: one Gauss-Newton step with Cauchy
 /// weights (point-to-plane where there is a normal, point-to-point elsewhere; Chen and Medioni 1992).
 /// @return identity where the associations do not fix a motion at all.

@@ -8,6 +8,7 @@
 #include "frame_observer.h"
 #include "knn_targets.h"
 #include "localizer.h"
+#include "piece_hold.h"
 #include "rigid_prediction.h"
 #include "softbody_common/rigid_fit.h"
 
@@ -40,6 +41,7 @@ struct BodyTracker::Implementation {
   std::vector<TrackedFeature> trackedFeatures(const Observation& seen) const;
   TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations);
   void admit(const RgbdFrame& frame, const Observation& seen);
+  void holdUnseen(const Observation& seen, const Points& vertices, std::vector<Target>* targets) const;
   TrackingResult waiting(const std::string& reason) const;
   void reset();
 
@@ -48,6 +50,8 @@ struct BodyTracker::Implementation {
   std::unique_ptr<FrameObserver> observer;
   std::unique_ptr<RigidPrediction> prediction;
   std::unique_ptr<Localizer> localizer;  ///< null until it is needed: no frame waits for it after a cut
+  std::unique_ptr<PieceHold> hold;
+  std::vector<bool> moving;  ///< pieces whose velocity is known well enough to go on with; none: all
 
   bool registered = false;
   bool recovering = false;
@@ -77,6 +81,8 @@ void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& s
   }
   self.prediction = std::make_unique<RigidPrediction>(volume);
   self.localizer.reset();
+  self.hold = std::make_unique<PieceHold>(volume);
+  self.moving.clear();
   if (!edited) self.reset();
 }
 
@@ -222,6 +228,19 @@ void BodyTracker::Implementation::admit(const RgbdFrame& frame, const Observatio
     knn.bind(observer->map().features(), observer->surface().volume(), observer->surface().volumeVertices());
 }
 
+/// While others are seen, what hardly shows stays where the simulation had it: nothing tells where else it
+/// is. What shows loosely goes as a whole where it was found.
+void BodyTracker::Implementation::holdUnseen(const Observation& seen, const Points& vertices,
+                                             std::vector<Target>* targets) const {
+  if (std::count(seen.shown.begin(), seen.shown.end(), Shows::kWell) == 0) return;
+  const std::vector<std::vector<int>>& pieces = observer->surface().pieces();
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (seen.shown[p] == Shows::kWell) continue;
+    const bool hardly = seen.shown[p] == Shows::kHardly;
+    hold->add(pieces[p], hardly ? vertices : observer->surface().volumeVertices(), PieceHold::kWeak, targets);
+  }
+}
+
 TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
   Implementation& self = *implementation_;
   const cv::Size size(frame.camera.width, frame.camera.height);
@@ -247,7 +266,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   const bool placed = !first && self.answers(volume, frame.stamp);
   if (placed) self.prediction->observe(volume->vertices, volume->observed);
   const Points predicted = placed
-                               ? self.prediction->at(frame.stamp)
+                               ? self.prediction->at(frame.stamp, self.moving)
                                : transformed(self.observer->surface().volume().rest_vertices, self.body_pose);
   const Observation seen = self.observer->observe(frame, predicted);
   self.body_pose =
@@ -261,6 +280,8 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   result.targets.body_pose = self.body_pose;
   result.targets.targets.reserve(associations.size());
   for (const Association& association : associations) result.targets.targets.push_back(toTarget(association));
+  self.moving = seen.atLeast(Shows::kWell);
+  if (placed) self.holdUnseen(seen, volume->vertices, &result.targets.targets);
   if (result.status.state == TrackingState::kLost) self.prediction->reset();
   if (result.status.state == TrackingState::kTracking) {
     self.admit(frame, seen);

@@ -210,9 +210,11 @@ void FeatureMap::search(const RgbdFrame& frame, const GrayPyramid& image,
   }
 }
 
-void FeatureMap::credit(const std::vector<FeatureMatch>& matches) {
-  for (const Prediction& prediction : predictions_) ++features_[prediction.feature].predicted;
-  for (const FeatureMatch& match : matches) features_[match.feature].matched += match.inlier ? 1 : 0;
+void FeatureMap::credit(const std::vector<FeatureMatch>& matches, const std::vector<bool>& shown) {
+  for (const Prediction& prediction : predictions_)
+    features_[prediction.feature].predicted += shown[prediction.body] ? 1 : 0;
+  for (const FeatureMatch& match : matches)
+    features_[match.feature].matched += match.inlier && shown[match.association.body] ? 1 : 0;
 }
 
 void FeatureMap::eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const {
@@ -230,7 +232,8 @@ void FeatureMap::retire() {
 }
 
 void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
-                       const std::vector<Keypoint>& keypoints, const PredictedSurface& surface) {
+                       const std::vector<Keypoint>& keypoints, const PredictedSurface& surface,
+                       const std::vector<bool>& shown) {
   std::vector<cv::Point2f> taken;
   const auto isFree = [&](const cv::Point2f& pixel) {
     return std::none_of(taken.begin(), taken.end(), [&](const cv::Point2f& other) {
@@ -249,9 +252,9 @@ void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
     const int triangle = surface.triangleAt(measured, kBindTolerance);
     if (triangle < 0 || -surface.normal(triangle).dot(measured.normalized()) < kMostGrazing) continue;
     MapFeature feature;
-    if (!feature.patch.learn(image, keypoint.pixel)) continue;
-    feature.id = next_id_++;
     feature.place = surface.materialPoint(triangle, keypoint.pixel);
+    if (!shown[surface.bodyOf(feature.place)] || !feature.patch.learn(image, keypoint.pixel)) continue;
+    feature.id = next_id_++;
     feature.gradient = surface.placeGradient(feature.place, triangle, keypoint.pixel);
     feature.first = feature;
     feature.first_tet = homogeneousCorners(surface.volume(), feature.place.tet);

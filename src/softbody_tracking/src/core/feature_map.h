@@ -67,8 +67,9 @@ class FeatureMap {
   void search(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
               const PredictedSurface& surface, std::vector<FeatureMatch>* matches);
 
-  /// Remembers which of the predicted features were found again.
-  void credit(const std::vector<FeatureMatch>& matches);
+  /// Remembers which of the predicted features were found again. @param shown of each piece: features of one
+  /// that hardly shows are held in no esteem for it, good or bad.
+  void credit(const std::vector<FeatureMatch>& matches, const std::vector<bool>& shown);
 
   /// How many features the last predict() expected to see.
   int expected() const { return static_cast<int>(predictions_.size()); }
@@ -77,10 +78,10 @@ class FeatureMap {
   /// should be.
   void eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const;
 
-  /// Binds keypoints on visible surface, and drops features that are hardly ever found again.
-  /// @param keypoints away from known features: see eraseTaken().
+  /// Binds keypoints on visible surface of pieces that show, and drops features that are hardly ever found
+  /// again. @param keypoints away from known features: see eraseTaken().
   void admit(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
-             const PredictedSurface& surface);
+             const PredictedSurface& surface, const std::vector<bool>& shown);
 
   /// Takes the features to an edited body. Those on the wall of a cut stay on their side; where an edit
   /// brings back the body in which a feature was admitted, the feature's place is what it was then, bit by

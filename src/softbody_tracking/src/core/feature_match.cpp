@@ -103,12 +103,12 @@ class Motions {
   std::vector<double> values_;
 };
 
-}  // namespace
-
-void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches) {
+void markPiece(const Pinhole& camera, double max_disagreement_m, std::uint32_t body, Motions& motions,
+               std::vector<FeatureMatch>* matches) {
   PixelGrid grid(camera, kNeighborhoodPx);
-  for (std::size_t m = 0; m < matches->size(); ++m) grid.insert((*matches)[m].pixel, static_cast<int>(m));
-  Motions motions(*matches);
+  for (std::size_t m = 0; m < matches->size(); ++m) {
+    if ((*matches)[m].association.body == body) grid.insert((*matches)[m].pixel, static_cast<int>(m));
+  }
   // A cell's matches have the same neighbours.
   for (const std::vector<int>& cell : grid.cells()) {
     if (cell.empty()) continue;
@@ -122,6 +122,16 @@ void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<
           (around.spread == 0.0 || motions.disagreement(m, around) < across);
     }
   }
+}
+
+}  // namespace
+
+void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches) {
+  Motions motions(*matches);
+  std::uint32_t last = 0;
+  for (const FeatureMatch& match : *matches) last = std::max(last, match.association.body);
+  for (std::uint32_t body = 0; body <= last; ++body)
+    markPiece(camera, max_disagreement_m, body, motions, matches);
 }
 
 }  // namespace softbody

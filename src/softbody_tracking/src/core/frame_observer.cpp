@@ -4,7 +4,6 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "shown_pieces.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 
@@ -164,14 +163,21 @@ std::vector<Keypoint> FrameObserver::extractNew(const RgbdFrame& frame,
   return orb_.extractNew(frame.color, mask, taken, region, kTileShare);
 }
 
-/// What hardly shows is left to the simulation, which lets it come to rest.
+std::vector<bool> Observation::atLeast(Shows least) const {
+  std::vector<bool> result;
+  for (const Shows piece : shown) result.push_back(piece >= least);
+  return result;
+}
+
+/// What hardly shows is held where it was, and what shows loosely goes where the rigid step took it: depth at
+/// its rims would bend it.
 void FrameObserver::keepShownPieces(Observation* seen) const {
-  const std::vector<bool> shown =
-      shownPieces(samples_, seen->depth.associations, seen->matches, surface_.bodyCount());
-  const auto is_hidden = [&](const Association& association) { return !shown[association.body]; };
   std::vector<Association>& depth = seen->depth.associations;
-  depth.erase(std::remove_if(depth.begin(), depth.end(), is_hidden), depth.end());
-  for (FeatureMatch& match : seen->matches) match.inlier = match.inlier && shown[match.association.body];
+  seen->shown = shownPieces(samples_, depth, seen->matches, surface_.pieceVertices());
+  const std::vector<bool> well = seen->atLeast(Shows::kWell), loosely = seen->atLeast(Shows::kLoosely);
+  const auto is_loose = [&](const Association& association) { return !well[association.body]; };
+  depth.erase(std::remove_if(depth.begin(), depth.end(), is_loose), depth.end());
+  for (FeatureMatch& match : seen->matches) match.inlier = match.inlier && loosely[match.association.body];
 }
 
 Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertices) {
@@ -179,7 +185,6 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   look(frame, vertices);
   if (!colors_.learned()) learnColors(frame);
   followFeatures(frame, &seen);
-  map_.credit(seen.matches);
   if (--frames_to_admission_ < 0) {
     frames_to_admission_ = kFramesBetweenTiles - 1;
     seen.keypoints = extractNew(frame, seen.matches);
@@ -187,6 +192,7 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   const RigidMotions motions = alignRigidly(frame, seen.matches);
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
   keepShownPieces(&seen);
+  map_.credit(seen.matches, seen.atLeast(Shows::kLoosely));
   surface_.move(motions);
   for (FeatureMatch& match : seen.matches) {
     match.association.predicted = motions[match.association.body] * match.association.predicted;
@@ -195,7 +201,8 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
 }
 
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
-  if (!seen.keypoints.empty()) map_.admit(frame, pyramid_, seen.keypoints, surface_);
+  if (!seen.keypoints.empty())
+    map_.admit(frame, pyramid_, seen.keypoints, surface_, seen.atLeast(Shows::kWell));
 }
 
 }  // namespace softbody

@@ -9,6 +9,7 @@
 #include "orb_extractor.h"
 #include "predicted_surface.h"
 #include "rigid_alignment.h"
+#include "shown_pieces.h"
 #include "surface_samples.h"
 
 namespace softbody {
@@ -18,6 +19,10 @@ struct Observation {
   std::vector<Keypoint> keypoints;  ///< without a feature; empty in most frames
   std::vector<FeatureMatch> matches;
   DepthAssociations depth;
+  std::vector<Shows> shown;  ///< of each piece of the body
+
+  /// Of each piece, whether it shows at least so well.
+  std::vector<bool> atLeast(Shows least) const;
 };
 
 /// Follows one body from a predicted to the observed place: features and depth, associated and brought

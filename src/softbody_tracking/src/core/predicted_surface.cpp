@@ -15,7 +15,7 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
       faces_(isClosed(surface.triangles) ? Faces::kFront : Faces::kAll),
       tet_bodies_(tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
       vertex_bodies_(vertexBodies(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
-      body_count_(*std::max_element(tet_bodies_.begin(), tet_bodies_.end()) + 1),
+      pieces_(verticesOfBodies(volume.tets, volume.rest_vertices.rows())),
       binding_(bindSurface(surface, volume)) {
   rest_inverse_.reserve(static_cast<std::size_t>(volume.tets.rows()));
   for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
@@ -36,6 +36,12 @@ void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertic
   rasterize(camera, vertices_, surface_.triangles, &image_, faces_);
 }
 
+std::vector<Points> PredictedSurface::pieceVertices() const {
+  std::vector<Points> result;
+  for (const std::vector<int>& piece : pieces_) result.emplace_back(volume_vertices_(piece, Eigen::all));
+  return result;
+}
+
 Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
   Points moved(volume_vertices_.rows(), 3);
   for (Eigen::Index v = 0; v < moved.rows(); ++v) {
@@ -46,8 +52,8 @@ Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
 
 void PredictedSurface::move(const RigidMotions& motions) {
   volume_vertices_ = movedVolume(motions);
-  motions_.resize(body_count_, Eigen::Isometry3d::Identity());
-  for (std::size_t body = 0; body < body_count_; ++body) motions_[body] = motions[body] * motions_[body];
+  motions_.resize(bodyCount(), Eigen::Isometry3d::Identity());
+  for (std::size_t body = 0; body < bodyCount(); ++body) motions_[body] = motions[body] * motions_[body];
 }
 
 /// A triangle's corners, each a column.
@@ -59,7 +65,7 @@ Eigen::Matrix3d PredictedSurface::corners(int triangle) const {
 }
 
 int PredictedSurface::triangleAt(const Eigen::Vector3d& measured, double tolerance) const {
-  for (std::size_t body = 0; body < body_count_; ++body) {
+  for (std::size_t body = 0; body < bodyCount(); ++body) {
     const Eigen::Vector3d rendered =
         motions_.empty() ? measured : Eigen::Vector3d(motions_[body].inverse(Eigen::Isometry) * measured);
     if (!(rendered.z() > 0.0)) continue;

@@ -29,7 +29,11 @@ class PredictedSurface {
 
   /// The piece that a place belongs to, and how many there are.
   std::uint32_t bodyOf(const MaterialPoint& place) const { return tet_bodies_[place.tet]; }
-  std::size_t bodyCount() const { return body_count_; }
+  std::size_t bodyCount() const { return pieces_.size(); }
+  /// The volume's vertices of each.
+  const std::vector<std::vector<int>>& pieces() const { return pieces_; }
+  /// Where they are, piece by piece.
+  std::vector<Points> pieceVertices() const;
   /// Every piece's vertices moved by its motion.
   Points movedVolume(const RigidMotions& motions) const;
 
@@ -64,7 +68,7 @@ class PredictedSurface {
   MeshTopology surface_;
   Faces faces_;
   std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;  ///< connected piece, #T and #V of the volume
-  std::size_t body_count_ = 1;
+  std::vector<std::vector<int>> pieces_;                   ///< vertices of each
   std::vector<MaterialPoint> binding_;
   std::vector<Eigen::Matrix3d> rest_inverse_;  ///< #T: takes offsets from a tet's first vertex to weights
   Pinhole camera_;

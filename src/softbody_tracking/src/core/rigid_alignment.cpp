@@ -1,5 +1,6 @@
 #include "rigid_alignment.h"
 
+#include "piece_hold.h"
 #include "shown_pieces.h"
 
 namespace softbody {
@@ -55,20 +56,35 @@ void RigidAlignment::gather(const DepthAssociations& depth, const RigidMotions& 
   }
 }
 
+/// Draws a piece back to where it was predicted.
+void RigidAlignment::hold(const Points& piece, const Eigen::Isometry3d& motion,
+                          std::vector<Association>* associations) {
+  for (const auto& vertex : piece.rowwise()) {
+    Association held;
+    held.measured = vertex;
+    held.predicted = motion * held.measured;
+    held.weight = PieceHold::kWeak;
+    associations->push_back(held);
+  }
+}
+
 RigidMotions RigidAlignment::align(const RgbdFrame& frame, const PredictedSurface& surface,
                                    const SurfaceSamples& samples, const ColorModel& colors,
                                    const std::vector<FeatureMatch>& matches, DepthAssociator* depth) {
   RigidMotions motions(surface.bodyCount(), Eigen::Isometry3d::Identity());
+  const std::vector<Points> pieces = surface.pieceVertices();
   features_.clear();
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features_);
   for (int i = 0; i < kIterations; ++i) {
     const DepthAssociations& seen =
         depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);
     gather(seen, motions);
-    const std::vector<bool> shown = shownPieces(samples, seen.associations, matches, motions.size());
+    const std::vector<Shows> shown = shownPieces(samples, seen.associations, matches, pieces);
     const RigidMotions before = motions;
     for (std::size_t body = 0; body < motions.size(); ++body) {
-      if (!shown[body] || static_cast<int>(of_body_[body].size()) < kFewestAssociations) continue;
+      if (shown[body] == Shows::kHardly || static_cast<int>(of_body_[body].size()) < kFewestAssociations)
+        continue;
+      if (shown[body] == Shows::kLoosely) hold(pieces[body], motions[body], &of_body_[body]);
       motions[body] = rigidStep(of_body_[body]) * motions[body];
     }
     const double moved =

@@ -29,6 +29,8 @@ class RigidAlignment {
                      DepthAssociator* depth);
 
  private:
+  static void hold(const Points& piece, const Eigen::Isometry3d& motion,
+                   std::vector<Association>* associations);
   void gather(const DepthAssociations& depth, const RigidMotions& motions);
 
   std::vector<Association> features_;

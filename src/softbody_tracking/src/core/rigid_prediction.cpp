@@ -34,13 +34,14 @@ void RigidPrediction::observe(const Points& vertices, Nanoseconds stamp) {
   if (before_ && stamp < before_->stamp) before_.reset();
 }
 
-Points RigidPrediction::at(Nanoseconds stamp) const {
+Points RigidPrediction::at(Nanoseconds stamp, const std::vector<bool>& moving) const {
   Points vertices = last_->vertices;
   if (!before_ || stamp <= last_->stamp) return vertices;
   const double intervals =
       static_cast<double>(stamp - last_->stamp) / static_cast<double>(last_->stamp - before_->stamp);
   if (intervals > kLongestExtrapolation) return vertices;
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    if (p < moving.size() && !moving[p]) continue;
     const Eigen::Vector3d center = Points(rest_(pieces_[p], Eigen::all)).colwise().mean();
     const Eigen::Isometry3d motion = continued(before_->poses[p], last_->poses[p], center, intervals);
     for (int v : pieces_[p]) vertices.row(v) = motion * last_->vertices.row(v).transpose();

@@ -20,7 +20,9 @@ class RigidPrediction {
 
   /// The vertices at a later stamp: as last observed without two states, or long after them.
   /// There must be a state.
-  Points at(Nanoseconds stamp) const;
+  /// @param moving of each piece: false where its velocity is not known, so it is taken to stay; none: all
+  /// move.
+  Points at(Nanoseconds stamp, const std::vector<bool>& moving = {}) const;
 
   void reset() { last_.reset(), before_.reset(); }
 

@@ -1,26 +1,78 @@
 #include "shown_pieces.h"
 
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace softbody {
 namespace {
 
 constexpr int kFewest = 12;          // features, or blocks of depth
 constexpr int kEnough = 150;         // blocks of depth, whatever is hidden beside them
 constexpr double kLeastShown = 0.3;  // of the blocks that the prediction shows of a piece
+// Times the error of a block of depth, anywhere on the piece.
+constexpr double kLoose = 1.0, kMostUnsure = 2.0;
+constexpr double kPrecision = 3.0;  // of a feature, times that of a block
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// What a frame says of a piece, and of its rigid motion about its centre: the inverse of the covariance
+/// where every block of depth errs by 1.
+struct Evidence {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  int blocks = 0, agreeing = 0, features = 0;
+  Matrix6d information = Matrix6d::Zero();
+
+  void addDepth(const Association& a) {
+    ++agreeing;
+    const Eigen::Matrix<double, 6, 1> row = motionJacobian(a.predicted - center).transpose() * a.normal;
+    information += row * row.transpose();
+  }
+  /// Across its ray only.
+  void addFeature(const Association& a) {
+    ++features;
+    const Eigen::Matrix<double, 3, 6> J = motionJacobian(a.predicted - center);
+    const Eigen::Vector3d ray = a.predicted.normalized();
+    information +=
+        kPrecision * kPrecision * J.transpose() * (Eigen::Matrix3d::Identity() - ray * ray.transpose()) * J;
+  }
+};
+
+/// Standard deviation of where it is fixed least; infinite where some motion is not fixed at all.
+double largestError(const Evidence& evidence, const Points& points) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(evidence.information);
+  const Eigen::Matrix<double, 6, 1>& values = eigen.eigenvalues();
+  if (!(values[0] > 1e-9 * values[5])) return std::numeric_limits<double>::infinity();
+  const Matrix6d root = eigen.eigenvectors() * values.cwiseSqrt().cwiseInverse().asDiagonal();
+  double largest = 0.0;
+  for (const auto& point : points.rowwise())
+    largest = std::max(largest, (motionJacobian(point.transpose() - evidence.center) * root).squaredNorm());
+  return std::sqrt(largest);
+}
+
+Shows judge(const Evidence& evidence, const Points& points) {
+  if (evidence.agreeing >= kEnough) return Shows::kWell;
+  const bool shows = evidence.features >= kFewest ||
+                     (evidence.agreeing >= kFewest && evidence.agreeing >= kLeastShown * evidence.blocks);
+  const double error = shows ? largestError(evidence, points) : kMostUnsure;
+  return error >= kMostUnsure ? Shows::kHardly : error >= kLoose ? Shows::kLoosely : Shows::kWell;
+}
 
 }  // namespace
 
-std::vector<bool> shownPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,
-                              const std::vector<FeatureMatch>& matches, std::size_t body_count) {
-  if (body_count == 1) return {true};
-  std::vector<int> blocks(body_count, 0), agreeing(body_count, 0), features(body_count, 0);
-  for (const SurfaceSample& sample : samples.samples) ++blocks[sample.body];
-  for (const Association& association : depth) ++agreeing[association.body];
-  for (const FeatureMatch& match : matches) features[match.association.body] += match.inlier ? 1 : 0;
-  std::vector<bool> shown;
-  for (std::size_t body = 0; body < body_count; ++body) {
-    shown.push_back(features[body] >= kFewest || agreeing[body] >= kEnough ||
-                    (agreeing[body] >= kFewest && agreeing[body] >= kLeastShown * blocks[body]));
+std::vector<Shows> shownPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,
+                               const std::vector<FeatureMatch>& matches, const std::vector<Points>& pieces) {
+  if (pieces.size() == 1) return {Shows::kWell};
+  std::vector<Evidence> evidence(pieces.size());
+  for (std::size_t p = 0; p < pieces.size(); ++p) evidence[p].center = pieces[p].colwise().mean();
+  for (const SurfaceSample& sample : samples.samples) ++evidence[sample.body].blocks;
+  for (const Association& association : depth) evidence[association.body].addDepth(association);
+  for (const FeatureMatch& match : matches) {
+    if (match.inlier) evidence[match.association.body].addFeature(match.association);
   }
+  std::vector<Shows> shown;
+  for (std::size_t p = 0; p < pieces.size(); ++p) shown.push_back(judge(evidence[p], pieces[p]));
   return shown;
 }
 

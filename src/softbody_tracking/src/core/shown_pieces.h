@@ -8,9 +8,15 @@
 
 namespace softbody {
 
-/// Of each piece of a cut body, whether enough of it shows to say how it moves: a rim that is left beside the
-/// blade would turn it any way. An uncut body always shows enough; the tracker's status tells how well.
-std::vector<bool> shownPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,
-                              const std::vector<FeatureMatch>& matches, std::size_t body_count);
+/// What a frame says of how a piece of a cut body moves.
+enum class Shows {
+  kHardly,   ///< a rim that is left beside the blade, or features close together, would turn it any way
+  kLoosely,  ///< enough to follow it, if it is held against what measurements at its rims say
+  kWell      ///< an uncut body always does; the tracker's status tells how well
+};
+
+/// Of each piece. @param pieces the vertices of each [m].
+std::vector<Shows> shownPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,
+                               const std::vector<FeatureMatch>& matches, const std::vector<Points>& pieces);
 
 }  // namespace softbody
