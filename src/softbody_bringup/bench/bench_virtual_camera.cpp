@@ -35,7 +35,7 @@ void renderFrame(benchmark::State& state) {
     state.PauseTiming();
     const SceneState scene = camera.scene().state(timeOf(frame++));
     state.ResumeTiming();
-    renderer.render(scene.vertices, &image);
+    renderer.render(scene, &image);
   }
 }
 

@@ -10,6 +10,9 @@
 namespace softbody {
 namespace {
 
+const Eigen::Matrix3d kUpright =
+    Eigen::Matrix3d::Identity();  // the camera as it was when features were bound
+
 TEST(InverseDistanceWeights, SumToOneAndFallWithDistance) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> uniform(1e-4, 0.01);
@@ -54,12 +57,13 @@ struct MovedFeatures {
   }
 };
 
-double worstError(const MovedFeatures& moved, bool local_rotation, const Eigen::Isometry3d& motion) {
+double worstError(const MovedFeatures& moved, bool local_rotation, const Eigen::Isometry3d& motion,
+                  const Eigen::Matrix3d& R_camera_fixed = kUpright) {
   KnnConfig config;
   config.local_rotation = local_rotation;
   KnnTargets knn(config);
   knn.bind(moved.features, moved.box.volume, moved.box.volume.rest_vertices);
-  const auto associations = knn.associations(moved.features, moved.matches, moved.surface);
+  const auto associations = knn.associations(moved.features, moved.matches, moved.surface, R_camera_fixed);
   EXPECT_GT(associations.size(), 60u) << "the top face has 66 vertices";
   double worst = 0.0;
   for (const Association& a : associations)
@@ -73,6 +77,11 @@ TEST(KnnTargets, TranslationsAreExact) {
   EXPECT_LT(worstError(MovedFeatures(motion), true, motion), 1e-9);
 }
 
+TEST(KnnTargets, ACameraThatTurnsIsNoRotationOfTheBody) {
+  const Eigen::Isometry3d motion(Eigen::AngleAxisd(0.26, Eigen::Vector3d(1.0, 1.0, 1.0).normalized()));
+  EXPECT_LT(worstError(MovedFeatures(motion), false, motion, motion.linear()), 1e-9);
+}
+
 TEST(KnnTargets, LocalRotationMendsThePapersErrorUnderRotation) {
   const Eigen::Isometry3d motion(Eigen::AngleAxisd(0.26, Eigen::Vector3d(1.0, 1.0, 1.0).normalized()));
   const MovedFeatures moved(motion);
@@ -84,13 +93,13 @@ TEST(KnnTargets, VerticesWithoutFeaturesGetNoTarget) {
   MovedFeatures moved(Eigen::Isometry3d::Identity());
   KnnTargets knn{KnnConfig()};
   knn.bind(moved.features, moved.box.volume, moved.box.volume.rest_vertices);
-  for (const Association& a : knn.associations(moved.features, moved.matches, moved.surface)) {
+  for (const Association& a : knn.associations(moved.features, moved.matches, moved.surface, kUpright)) {
     EXPECT_GT(a.predicted.z(), 0.0) << "the bottom face has no feature within 10 mm";
   }
   moved.matches.clear();
-  EXPECT_TRUE(knn.associations(moved.features, moved.matches, moved.surface).empty());
+  EXPECT_TRUE(knn.associations(moved.features, moved.matches, moved.surface, kUpright).empty());
   knn.bind({}, moved.box.volume, moved.box.volume.rest_vertices);
-  EXPECT_TRUE(knn.associations({}, {}, moved.surface).empty());
+  EXPECT_TRUE(knn.associations({}, {}, moved.surface, kUpright).empty());
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct GraphConfig {
   Nanoseconds sync_tolerance = BagFramesConfig().sync_tolerance;
   CameraIngestConfig ingest;
   PipelineConfig pipeline;
+  std::string output_frame;  ///< empty: the colour optical frame
 };
 
 /// What a replay uses of the nodes' parameters. What concerns only a live graph is known and unused.

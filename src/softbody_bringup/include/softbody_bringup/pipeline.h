@@ -17,7 +17,8 @@ namespace softbody {
 /// What the graph's nodes publish for one frame.
 struct FrameOutput {
   TrackingResult tracking;
-  std::optional<MeshState> volume;  ///< nothing until the body has been found
+  Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
+  std::optional<MeshState> volume;  ///< fixed frame, as the surface; nothing until the body has been found
   std::optional<MeshState> surface;
   std::optional<ToolObservation> tool;
   std::vector<Cut> cuts;              ///< in this frame: the states are of the revision after them
@@ -52,7 +53,7 @@ class Pipeline {
  private:
   void simulate(const TargetSet& targets, Nanoseconds stamp);
   void makeWaitingCuts(FrameOutput* output);
-  std::optional<Points> seenBlade(const FrameOutput& output) const;
+  std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;
   void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
   void tear(FrameOutput* output);
   void adopt(const Cut& cut, FrameOutput* output);

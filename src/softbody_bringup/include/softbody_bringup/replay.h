@@ -14,6 +14,7 @@ struct ReplayOptions {
   std::string parameters, tool, journal;      ///< YAML, tool YAML, bag with cuts; empty: none
   std::string camera = "/camera";             ///< namespace of the camera's topics
   std::string topic_namespace = "/softbody";  ///< of the output topics
+  std::string output_frame;                   ///< of targets and states; empty: what the parameters say
   std::string simd;                           ///< of the simulator; empty: what the parameters say
   bool timing = false;                        ///< write wall-clock stage times too
 };
@@ -22,6 +23,7 @@ struct ReplayOptions {
 struct ReplaySummary {
   BagFramesReport read;
   int states = 0, tools = 0, cuts = 0;  ///< frames with a surface, with the tool; edits made
+  int skipped = 0;                      ///< frames of which tf does not tell where the camera is
   std::size_t pieces = 1;               ///< at the end
   std::map<TrackingState, int> frames_by_state;
   std::map<TrackingState, std::string> reasons;  ///< the last one of each state

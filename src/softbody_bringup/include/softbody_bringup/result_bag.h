@@ -23,9 +23,13 @@ class ResultBag {
   /// Both topologies, latched; to be written before the first state of a revision and again every second.
   /// Their stamp stays that of the revision's first.
   void writeTopologies(const Pipeline& pipeline, const ros::Time& stamp);
+  /// @param frame_id of targets and states; empty, as before this call: the images'.
+  void setOutputFrame(std::string frame_id) { output_frame_ = std::move(frame_id); }
   /// @param blade of the tool that is tracked, in its frame.
   void setBlade(Points blade) { blade_ = std::move(blade); }
-  /// One frame. @param header of the colour image.
+  /// What there is of a frame that is not tracked. @param header of the colour image, as below.
+  void writeStatus(const TrackingStatus& status, const std_msgs::Header& header);
+  /// One frame.
   void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
   void finish() { bag_.finish(); }
 
@@ -37,7 +41,7 @@ class ResultBag {
                       const std_msgs::Header& header);
   void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
 
-  std::string namespace_, body_frame_;
+  std::string namespace_, body_frame_, output_frame_;
   Points blade_;
   bool with_timing_;
   ros::Time revision_stamp_;  ///< of the frame from which the topologies hold

@@ -21,12 +21,14 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
 
 FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts) {
   FrameOutput output;
+  output.T_fixed_camera = frame.T_fixed_camera;
   waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());
   const bool simulated = simulator_.placed();
   if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
-  const std::optional<Points> blade = seenBlade(output);
+  const std::optional<Points> blade = seenBlade(frame, output);
   if (blade) tool_mask_.see(frame.stamp, *blade);
-  const RgbdFrame body_frame{frame.stamp, frame.camera, frame.color, tool_mask_.depthWithout(frame)};
+  RgbdFrame body_frame = frame;
+  body_frame.depth = tool_mask_.depthWithout(frame);
   output.tracking = tracker_.track(body_frame, simulated ? &simulator_.state() : nullptr, &timer_);
   if (output.tracking.has_targets) {
     simulate(output.tracking.targets, frame.stamp);
@@ -63,9 +65,9 @@ void Pipeline::makeWaitingCuts(FrameOutput* output) {
 }
 
 /// Where a blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
-std::optional<Points> Pipeline::seenBlade(const FrameOutput& output) const {
+std::optional<Points> Pipeline::seenBlade(const RgbdFrame& frame, const FrameOutput& output) const {
   if (!output.tool || output.tool->bridged || tool_tracker_->tool().blade.rows() == 0) return std::nullopt;
-  return transformed(tool_tracker_->tool().blade, output.tool->T_camera_tool);
+  return transformed(tool_tracker_->tool().blade, frame.T_fixed_camera * output.tool->T_camera_tool);
 }
 
 void Pipeline::followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output) {

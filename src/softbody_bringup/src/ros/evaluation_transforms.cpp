@@ -1,38 +1,19 @@
 #include <fmt/format.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <tf2/buffer_core.h>
-#include <tf2_eigen/tf2_eigen.h>
-#include <tf2_msgs/TFMessage.h>
+#include <tf2/exceptions.h>
 
 #include <stdexcept>
 
+#include "softbody_bringup/bag_transforms.h"
 #include "softbody_bringup/evaluation/bags.h"
-#include "softbody_bringup/input_bag.h"
 #include "softbody_common/conversions.h"
 
 namespace softbody::evaluation {
 namespace {
 
-constexpr double kWholeBag_s = 1e6;
-
-void addTransforms(const std::string& path, tf2::BufferCore* buffer) {
-  const rosbag::Bag bag = openBag(path);
-  rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
-  for (const rosbag::MessageInstance& instance : view) {
-    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
-    if (!message) continue;
-    for (const geometry_msgs::TransformStamped& transform : message->transforms)
-      buffer->setTransform(transform, path, instance.getTopic() == "/tf_static");
-  }
-}
-
 /// Items by stamp with their transforms into another frame.
 class Transforms {
  public:
-  explicit Transforms(const std::vector<std::string>& bags) {
-    for (const std::string& path : bags) addTransforms(path, &buffer_);
-  }
+  explicit Transforms(const std::vector<std::string>& bags) : bags_(bags) {}
 
   /// Replaces every item by `move(transform, item)`, and drops those without a transform.
   template <typename Item, typename Move>
@@ -41,8 +22,7 @@ class Transforms {
     const std::size_t before = items->size();
     for (auto item = items->begin(); item != items->end();) {
       try {
-        move(tf2::transformToEigen(buffer_.lookupTransform(target, source, toTime(item->first))),
-             &item->second);
+        move(bags_.at(target, source, toTime(item->first)), &item->second);
         ++item;
       } catch (const tf2::TransformException& error) {
         reason_ = error.what();
@@ -55,7 +35,7 @@ class Transforms {
   const std::string& reason() const { return reason_; }
 
  private:
-  tf2::BufferCore buffer_{ros::Duration(kWholeBag_s)};
+  BagTransforms bags_;
   std::string reason_;
 };
 
@@ -70,9 +50,8 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
             ((state->vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose()).eval();
       });
   if (surface->states.empty()) {
-    throw std::invalid_argument(
-        fmt::format("the result's surface is in frame '{}' and /tf does not lead to '{}': {}",
-                    surface->frame_id, frame_id, transforms.reason()));
+    throw std::invalid_argument(fmt::format("the surface is in frame '{}' and /tf does not lead to '{}': {}",
+                                            surface->frame_id, frame_id, transforms.reason()));
   }
   if (left_out > 0) {
     surface->notes.push_back(fmt::format(

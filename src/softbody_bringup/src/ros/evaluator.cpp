@@ -42,12 +42,25 @@ std::vector<std::string> transformBags(const EvaluatorOptions& options, const st
   return bags;
 }
 
-/// Brings the result into the frame of what it is compared with.
-void alignFrames(const EvaluatorOptions& options, const std::string& recording, const SurfaceRecord* truth,
-                 SurfaceRecord* result) {
-  if (truth == nullptr && recording.empty()) return;
-  const std::string frame_id = truth != nullptr ? truth->frame_id : recordingFrame(recording, options.camera);
-  expressIn(frame_id, transformBags(options, recording), result);
+/// The surface in another frame: itself, or a copy in `moved`.
+const SurfaceRecord* inFrame(const std::string& frame_id, const std::vector<std::string>& bags,
+                             const SurfaceRecord* surface, std::optional<SurfaceRecord>* moved) {
+  if (surface == nullptr || surface->frame_id == frame_id) return surface;
+  *moved = *surface;
+  expressIn(frame_id, bags, &**moved);
+  return &**moved;
+}
+
+/// In the camera's frame, which moves where it is not that of the truth.
+void compareInCamera(const EvaluatorOptions& options, const std::string& recording,
+                     const SurfaceRecord& result, const SurfaceRecord* truth, Measured* measured) {
+  const std::string camera = recordingFrame(recording, options.camera);
+  const std::vector<std::string> bags = transformBags(options, recording);
+  std::optional<SurfaceRecord> moved_result, moved_truth;
+  const SurfaceRecord* seen = inFrame(camera, bags, &result, &moved_result);
+  if (seen != &result) measured->report.notes = seen->notes;
+  compareWithRecording(options, recording, *seen, inFrame(camera, bags, truth, &moved_truth),
+                       &measured->report, &measured->pictures);
 }
 
 VolumeReport volumeOf(const SurfaceRecord& surface) {
@@ -73,16 +86,14 @@ Measured measure(const EvaluatorOptions& options) {
   const std::string recording = recordingOf(options);
   std::optional<SurfaceRecord> truth;
   if (!options.truth.empty()) truth = readTruth(options);
-  const SurfaceRecord* truth_or_null = truth ? &*truth : nullptr;
-  alignFrames(options, recording, truth_or_null, &result);
+  if (truth) expressIn(truth->frame_id, transformBags(options, recording), &result);
   report.notes = result.notes;
 
   report.frames = {result.states.size(), result.states.size(), {}};
   report.volume = volumeOf(result);
   report.states = readTrackingStates(options.result, options.result_namespace + "/" + topics::kStatus);
   report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
-  if (!recording.empty())
-    compareWithRecording(options, recording, result, truth_or_null, &report, &measured.pictures);
+  if (!recording.empty()) compareInCamera(options, recording, result, truth ? &*truth : nullptr, &measured);
   if (truth) {
     compareWithTruth(options, result, *truth, &report, &measured.pictures);
     addTool(options, recording, &report);

@@ -67,8 +67,11 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
         return readCameraIngestConfig(parameters);
       });
   config.pipeline.tracker =
-      readSection(file, "feature_tracker", {{"body_frame", "mask_timeout_s"}, {"output_frame", "use_mask"}},
-                  warnings, readTrackerConfig);
+      readSection(file, "feature_tracker", {{"body_frame", "mask_timeout_s", "tf_timeout_s"}, {"use_mask"}},
+                  warnings, [&config](Parameters& parameters) {
+                    config.output_frame = parameters.text("output_frame", "");
+                    return readTrackerConfig(parameters);
+                  });
   readSection(file, "pose_marker", {{"frame"}, {}}, warnings, [](Parameters&) { return 0; });
   config.pipeline.simulator = readSection(
       file, "simulator", {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s"}, {"obstacles"}},

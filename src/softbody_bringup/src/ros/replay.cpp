@@ -1,11 +1,13 @@
 #include "softbody_bringup/replay.h"
 
 #include <fmt/format.h>
+#include <tf2/exceptions.h>
 
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
+#include "softbody_bringup/bag_transforms.h"
 #include "softbody_bringup/cut_journal.h"
 #include "softbody_bringup/graph_config.h"
 #include "softbody_bringup/input_bag.h"
@@ -44,19 +46,48 @@ CutJournal loadJournal(const ReplayOptions& options) {
   return {openBag(options.journal), options.topic_namespace + "/cut"};
 }
 
+/// Where the camera is in the output frame.
+class CameraPoses {
+ public:
+  /// @param output_frame empty: the camera's own.
+  CameraPoses(const std::string& bag, std::string output_frame) : output_frame_(std::move(output_frame)) {
+    if (!output_frame_.empty()) transforms_.emplace(std::vector<std::string>{bag});
+  }
+
+  /// @throw tf2::TransformException where the bag does not tell it.
+  Eigen::Isometry3d of(const std_msgs::Header& header) const {
+    if (!transforms_ || header.frame_id == output_frame_) return Eigen::Isometry3d::Identity();
+    return transforms_->at(output_frame_, header.frame_id, header.stamp);
+  }
+
+  const std::string& outputFrame() const { return output_frame_; }
+
+ private:
+  std::string output_frame_;
+  std::optional<BagTransforms> transforms_;
+};
+
 /// Frames through the pipeline into the bag.
 class Replay {
  public:
-  Replay(const ReplayOptions& options, const ObjectModel& model, const PipelineConfig& config,
+  Replay(const ReplayOptions& options, const ObjectModel& model, const GraphConfig& config,
          const std::optional<ToolDescription>& tool, Warn warn)
       : warn_(std::move(warn)),
-        pipeline_(model, config, tool),
+        camera_poses_(options.input,
+                      options.output_frame.empty() ? config.output_frame : options.output_frame),
+        pipeline_(model, config.pipeline, tool),
         journal_(loadJournal(options)),
         output_(options.output, options.topic_namespace, kBodyFrame, options.timing) {
+    output_.setOutputFrame(camera_poses_.outputFrame());
     if (tool) output_.setBlade(tool->blade);
   }
 
-  void process(const RgbdFrame& frame, const std_msgs::Header& header) {
+  void process(RgbdFrame frame, const std_msgs::Header& header) {
+    try {
+      frame.T_fixed_camera = camera_poses_.of(header);
+    } catch (const tf2::TransformException& error) {
+      return skip(header, error.what());
+    }
     const auto start = std::chrono::steady_clock::now();
     const FrameOutput result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
@@ -86,15 +117,29 @@ class Replay {
   const ReplaySummary& summary() const { return summary_; }
 
  private:
+  void skip(const std_msgs::Header& header, const std::string& why) {
+    if (summary_.skipped++ == 0)
+      warn_(fmt::format("frame at {:.3f} s skipped: {}", header.stamp.toSec(), why));
+    count(skippedFrame(last_status_, header.frame_id, camera_poses_.outputFrame(), why));
+    output_.writeStatus(last_status_, header);
+  }
+
+  void count(const TrackingStatus& status) {
+    last_status_ = status;
+    ++summary_.frames_by_state[status.state];
+    summary_.reasons[status.state] = status.reason;
+  }
+
   void count(const FrameOutput& result) {
     summary_.states += result.surface ? 1 : 0;
     summary_.tools += result.tool ? 1 : 0;
     summary_.cuts += static_cast<int>(result.cuts.size());
-    ++summary_.frames_by_state[result.tracking.status.state];
-    summary_.reasons[result.tracking.status.state] = result.tracking.status.reason;
+    count(result.tracking.status);
   }
 
   Warn warn_;
+  CameraPoses camera_poses_;
+  TrackingStatus last_status_;
   Pipeline pipeline_;
   CutJournal journal_;
   ResultBag output_;
@@ -112,7 +157,7 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
   const ObjectModel model = loadModel(options.object, warn);
   const rosbag::Bag input = openBag(options.input);
-  Replay run(options, model, config.pipeline, loadTool(options.tool, warn), warn);
+  Replay run(options, model, config, loadTool(options.tool, warn), warn);
   CameraIngest ingest(config.ingest);
   const BagFramesReport read =
       readBagFrames(input, {options.camera, config.sync_tolerance}, &ingest,

@@ -64,20 +64,26 @@ void ResultBag::writeTool(const ToolObservation& tool, const std_msgs::Header& h
   writeTransform(tool.T_camera_tool, "tool", header);
 }
 
+void ResultBag::writeStatus(const TrackingStatus& status, const std_msgs::Header& header) {
+  write(topic(topics::kStatus), toMessage(status), header);
+}
+
 void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& header) {
-  write(topic(topics::kStatus), toMessage(frame.tracking.status), header);
+  std_msgs::Header fixed = header;
+  if (!output_frame_.empty()) fixed.frame_id = output_frame_;
+  writeStatus(frame.tracking.status, header);
   if (frame.tracking.has_targets) {
     write(topic(topics::kFeatures), makeFeatureCloud(frame.tracking.features), header);
     write(topic(topics::kFeaturesMarker), makeFeatureMarker(frame.tracking.features), header);
-    write(topic(topics::kTargets), toMessage(frame.tracking.targets), header);
-    writeTransform(frame.tracking.targets.body_pose, body_frame_, header);
+    write(topic(topics::kTargets), toMessage(frame.tracking.targets), fixed);
+    writeTransform(frame.T_fixed_camera.inverse() * frame.tracking.targets.body_pose, body_frame_, header);
   }
   if (frame.tool) writeTool(*frame.tool, header);
   std_msgs::Header rest = header;
   rest.frame_id = body_frame_;
   for (const Cut& cut : frame.cuts) write(topic(topics::kCut), toMessage(cut), rest);
-  if (frame.volume) write(topic(topics::kVolumeState), toMessage(*frame.volume), header);
-  if (frame.surface) write(topic(topics::kSurfaceState), toMessage(*frame.surface), header);
+  if (frame.volume) write(topic(topics::kVolumeState), toMessage(*frame.volume), fixed);
+  if (frame.surface) write(topic(topics::kSurfaceState), toMessage(*frame.surface), fixed);
   if (with_timing_) write(topic(topics::kTiming), timingMessage("replay", frame.times), header);
 }
 

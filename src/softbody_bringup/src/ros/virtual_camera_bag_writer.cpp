@@ -12,17 +12,11 @@ namespace {
 
 const ros::Time kStart(1600000000, 0);
 
-tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) {
-  tf2_msgs::TFMessage message;
-  message.transforms.push_back(transform);
-  return message;
-}
-
 std::string absolute(const char* topic) { return std::string("/") + topic; }
 
 void writeLatched(const VirtualCamera& camera, std::uint32_t revision, const ros::Time& stamp,
                   AtomicBag* bag) {
-  bag->writeLatched("/tf_static", stamp, tfMessage(opticalFrameTransform(stamp)));
+  bag->writeLatched("/tf_static", stamp, opticalFrameTransform(stamp));
   bag->writeLatched(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(revision), stamp));
 }
 
@@ -34,7 +28,7 @@ void writeCuts(const VirtualCamera& camera, std::uint32_t last_revision, std::ui
 }
 
 void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, AtomicBag* bag) {
-  bag->write("/tf", stamp, tfMessage(messages.body));
+  bag->write("/tf", stamp, messages.transforms);
   bag->write(absolute(topics::kCameraColorInfo), stamp, messages.info);
   bag->write(absolute(topics::kCameraDepthInfo), stamp, messages.info);
   bag->write(absolute(topics::kCameraColor), stamp, messages.color);

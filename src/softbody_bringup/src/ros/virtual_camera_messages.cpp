@@ -22,6 +22,20 @@ geometry_msgs::TransformStamped transformMessage(const std_msgs::Header& header,
   return message;
 }
 
+/// camera_link (x forward, z up) -> camera_color_optical_frame (z forward, y down).
+Eigen::Isometry3d opticalFrame() {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5).toRotationMatrix();
+  return T;
+}
+
+std_msgs::Header headerOf(const ros::Time& stamp, const char* frame_id) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame_id;
+  return header;
+}
+
 }  // namespace
 
 CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,
@@ -38,8 +52,13 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
   messages.info->header = header;
   messages.truth = boost::make_shared<softbody_msgs::MeshState>(toMessage(capture.truth));
   messages.truth->header = header;
+  if (capture.T_world_camera) messages.truth->header.frame_id = kWorldFrame;
   messages.truth->observed = stamp;
-  messages.body = transformMessage(header, kBodyFrame, capture.T_camera_body);
+  messages.transforms.transforms.push_back(transformMessage(header, kBodyFrame, capture.T_camera_body));
+  if (capture.T_world_camera) {
+    messages.transforms.transforms.push_back(transformMessage(
+        headerOf(stamp, kWorldFrame), kCameraFrame, *capture.T_world_camera * opticalFrame().inverse()));
+  }
   if (capture.T_camera_tool) {
     messages.tool = boost::make_shared<geometry_msgs::PoseStamped>();
     messages.tool->header = header;
@@ -70,13 +89,11 @@ softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp) {
   return message;
 }
 
-geometry_msgs::TransformStamped opticalFrameTransform(const ros::Time& stamp) {
-  std_msgs::Header header;
-  header.stamp = stamp;
-  header.frame_id = kCameraFrame;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5).toRotationMatrix();
-  return transformMessage(header, kOpticalFrame, T);
+tf2_msgs::TFMessage opticalFrameTransform(const ros::Time& stamp) {
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(
+      transformMessage(headerOf(stamp, kCameraFrame), kOpticalFrame, opticalFrame()));
+  return message;
 }
 
 }  // namespace softbody::virtual_camera

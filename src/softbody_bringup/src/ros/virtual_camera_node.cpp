@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "softbody_bringup/virtual_camera/camera_motion.h"
 #include "softbody_bringup/virtual_camera/messages.h"
 #include "softbody_common/ros_parameters.h"
 #include "softbody_common/topics.h"
@@ -14,15 +15,10 @@ namespace {
 
 constexpr int kQueue = 2;
 
-tf2_msgs::TFMessage tfMessage(const geometry_msgs::TransformStamped& transform) {
-  tf2_msgs::TFMessage message;
-  message.transforms.push_back(transform);
-  return message;
-}
-
 CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
   CameraSetup setup = defaults;
   setup.scene = parameters->choice("scene", setup.scene, sceneNames());
+  setup.camera_motion = parameters->choice("camera_motion", setup.camera_motion, cameraMotionNames());
   setup.body = parameters->text("body", setup.body);
   setup.unit = parameters->choice("unit", setup.unit, {"m", "cm", "mm", "inch"});
   setup.seed =
@@ -65,7 +61,7 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle priva
 }
 
 void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& stamp) {
-  if (publish_camera_tf_) tf_static_.publish(tfMessage(opticalFrameTransform(stamp)));
+  if (publish_camera_tf_) tf_static_.publish(opticalFrameTransform(stamp));
   truth_topology_.publish(topologyMessage(camera_->topology(revision), stamp));
 }
 
@@ -91,7 +87,7 @@ void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
   if (edited || frame_ % std::max(1, static_cast<int>(std::lround(setup_.rate_hz))) == 0) {
     publishLatched(revision_, stamp);
   }
-  tf_.publish(tfMessage(messages.body));
+  tf_.publish(messages.transforms);
   if (messages.tool) truth_tool_.publish(messages.tool);
   color_info_.publish(messages.info);
   depth_info_.publish(messages.info);

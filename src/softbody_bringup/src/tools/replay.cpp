@@ -32,6 +32,10 @@ void declare(CLI::App* app, ReplayOptions* options) {
   app->add_option("--camera", options->camera, "namespace of the camera topics")->capture_default_str();
   app->add_option("--namespace", options->topic_namespace, "namespace of the output topics")
       ->capture_default_str();
+  app->add_option(
+      "--output-frame", options->output_frame,
+      "frame of targets and states by the bag's tf, one that stands still for a camera that moves; "
+      "default: as the parameters say, or else the colour optical frame");
   app->add_option("--simd", options->simd,
                   "vector instructions of the simulator, whatever the parameters say")
       ->check(CLI::IsMember({"auto", "sse4", "avx2", "avx512"}));
@@ -45,8 +49,8 @@ void print(const ReplaySummary& summary, const ReplayOptions& options) {
     const auto found = summary.frames_by_state.find(state);
     return found == summary.frames_by_state.end() ? 0 : found->second;
   };
-  fmt::print("frames {}, with a surface {}, without depth {}, unusable {}\n", summary.read.frames,
-             summary.states, summary.read.without_depth, summary.read.unusable);
+  fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", summary.read.frames,
+             summary.states, summary.read.without_depth, summary.read.unusable, summary.skipped);
   fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
              count(TrackingState::kTracking), count(TrackingState::kDegraded), count(TrackingState::kLost),
              count(TrackingState::kRecovering), count(TrackingState::kInitializing));

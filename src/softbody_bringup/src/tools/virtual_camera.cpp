@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "softbody_bringup/virtual_camera/bag_writer.h"
+#include "softbody_bringup/virtual_camera/camera_motion.h"
 #include "softbody_bringup/virtual_camera/node.h"
 
 namespace {
@@ -28,6 +29,10 @@ void declare(CLI::App* app, Arguments* arguments) {
   app->add_option("--output", arguments->output, "bag to write; without it: a live node");
   app->add_option("--scene", setup.scene, "what to look at")
       ->check(CLI::IsMember(sceneNames()))
+      ->capture_default_str();
+  app->add_option("--camera-motion", setup.camera_motion,
+                  "orbit: an arm moves the camera around the body; truth and /tf then have the frame world")
+      ->check(CLI::IsMember(cameraMotionNames()))
       ->capture_default_str();
   app->add_option("--body", setup.body,
                   "soft body at rest, OBJ (with the pictures of its materials), PLY, STL or OFF; default: "

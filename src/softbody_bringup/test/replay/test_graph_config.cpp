@@ -74,7 +74,7 @@ TEST_F(GraphConfigTest, NamesKeysThatTheNodeDoesNotKnow) {
 TEST_F(GraphConfigTest, KnowsWhatOnlyALiveGraphUses) {
   read(
       "camera_ingest: {queue_size: 5, voxel_size_m: 0.01, silence_timeout_s: 3, image_transport: raw}\n"
-      "feature_tracker: {body_frame: b, mask_timeout_s: 0.2}\n"
+      "feature_tracker: {body_frame: b, mask_timeout_s: 0.2, tf_timeout_s: 0.1}\n"
       "pose_marker: {frame: world}\n"
       "simulator: {object: x.yaml, body_frame: b, free_run_rate_hz: 30, stall_timeout_s: 1}\n"
       "surface: {object: x.yaml, body_frame: b}\n"
@@ -84,9 +84,9 @@ TEST_F(GraphConfigTest, KnowsWhatOnlyALiveGraphUses) {
 
 TEST_F(GraphConfigTest, SaysWhatAReplayMisses) {
   read(
-      "feature_tracker: {use_mask: true, output_frame: world}\n"
+      "feature_tracker: {use_mask: true}\n"
       "simulator: {obstacles: [{name: table, shape: plane}]}\n");
-  ASSERT_EQ(warnings_.size(), 3u);
+  ASSERT_EQ(warnings_.size(), 2u);
   for (const std::string& warning : warnings_)
     EXPECT_NE(warning.find("has no effect in a replay"), std::string::npos) << warning;
 }

@@ -23,7 +23,7 @@ Eigen::Isometry3d pose(double x, double y, double z, double degrees, const Eigen
 
 RenderedImage render(const Scene& scene) {
   RenderedImage image;
-  Renderer(scene, kCamera).render(scene.state(0.0).vertices, &image);
+  Renderer(scene, kCamera).render(scene.state(0.0), &image);
   return image;
 }
 

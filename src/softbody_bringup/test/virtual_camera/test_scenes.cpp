@@ -43,7 +43,7 @@ RenderedImage render(Scene scene, double t) {
     scene.actors[0].skin = {};
   }
   RenderedImage image;
-  Renderer(scene, kCamera).render(state.vertices, &image);
+  Renderer(scene, kCamera).render(state, &image);
   return image;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "softbody_common/pinhole.h"
@@ -13,6 +14,8 @@ struct RgbdFrame {
   Pinhole camera;
   cv::Mat3b color;  ///< BGR
   cv::Mat1f depth;  ///< z [m]; 0: none
+  /// The camera in the frame that stands still, in which the body is simulated; identity: the camera's own.
+  Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace softbody

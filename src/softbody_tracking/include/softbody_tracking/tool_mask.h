@@ -9,7 +9,7 @@ namespace softbody {
 /// and would be taken for the body.
 class ToolMask {
  public:
-  /// @param blade planar polygon, camera frame, #B by 3 [m].
+  /// @param blade planar polygon in the fixed frame, #B by 3 [m].
   void see(Nanoseconds stamp, const Points& blade);
 
   /// The frame's depth, 0 within 8 mm of the blade where that was seen last. The frame's own image where no
@@ -18,7 +18,7 @@ class ToolMask {
 
  private:
   Nanoseconds stamp_ = 0;
-  Points blade_;
+  Points blade_;  ///< fixed frame
 };
 
 }  // namespace softbody

@@ -1,5 +1,7 @@
 #include "softbody_tracking/body_tracker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -27,21 +29,26 @@ std::string sizeText(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-Target toTarget(const Association& a) { return {a.kind, a.place, a.measured, a.normal, a.weight}; }
+Target toTarget(const Association& a, const Eigen::Isometry3d& T_fixed_camera) {
+  return {a.kind, a.place, T_fixed_camera * a.measured, T_fixed_camera.linear() * a.normal, a.weight};
+}
 
 }  // namespace
 
 struct BodyTracker::Implementation {
   explicit Implementation(const TrackerConfig& tracker_config) : config(tracker_config), knn(config.knn) {}
 
+  void takeInitialPose(const RgbdFrame& frame);
   bool start(const RgbdFrame& frame, StageTimer* timer);
   /// Whether a state of the volume answers the targets sent since the body was placed.
   bool answers(const MeshState* volume, Nanoseconds stamp) const;
-  std::vector<Association> all(const Observation& seen) const;
-  std::vector<TrackedFeature> trackedFeatures(const Observation& seen) const;
+  std::vector<Association> all(const Observation& seen, const Eigen::Matrix3d& R_camera_fixed) const;
+  std::vector<TrackedFeature> trackedFeatures(const Observation& seen,
+                                              const Eigen::Isometry3d& T_camera_fixed) const;
   TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations);
   void admit(const RgbdFrame& frame, const Observation& seen);
-  void holdUnseen(const Observation& seen, const Points& vertices, std::vector<Target>* targets) const;
+  void holdUnseen(const Observation& seen, const Points& vertices, const Eigen::Isometry3d& T_fixed_camera,
+                  std::vector<Target>* targets) const;
   TrackingResult waiting(const std::string& reason) const;
   void reset();
 
@@ -53,16 +60,27 @@ struct BodyTracker::Implementation {
   std::unique_ptr<PieceHold> hold;
   std::vector<bool> moving;  ///< pieces whose velocity is known well enough to go on with; none: all
 
+  bool fresh = true;  ///< no frame since the last reset
   bool registered = false;
   bool recovering = false;
   int poses_alike = 1;                          ///< of the last registration
-  std::optional<Eigen::Isometry3d> given_pose;  ///< rough, by the object's file or by restart()
-  Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> given_pose;  ///< rough, by the object's file or by restart(); fixed frame
+  Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();  ///< fixed frame
   Nanoseconds placed_since = 0;  ///< stamp of the frame that placed the body; older states do not count
   Nanoseconds last_stamp = 0;
   int lost_frames = 0;
   int frames_to_registration = 0;
 };
+
+TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
+                            const std::string& output_frame, const std::string& why) {
+  TrackingStatus status;
+  status.state = last.state == TrackingState::kTracking ? TrackingState::kDegraded : last.state;
+  status.features_total = last.features_total;
+  status.reason = fmt::format("frame skipped: tf does not say where {} is in output_frame {}: {}",
+                              camera_frame, output_frame, why);
+  return status;
+}
 
 BodyTracker::BodyTracker(const TrackerConfig& config)
     : implementation_(std::make_unique<Implementation>(config)) {}
@@ -93,22 +111,27 @@ void BodyTracker::reset() { implementation_->reset(); }
 void BodyTracker::restart(const Eigen::Isometry3d& rough_pose) {
   if (!ready()) throw std::logic_error("the topologies of simulator and surface have not come yet");
   implementation_->reset();
+  implementation_->fresh = false;
   implementation_->given_pose = implementation_->body_pose = rough_pose;
 }
 
 void BodyTracker::Implementation::reset() {
+  fresh = true;
   registered = recovering = false;
   given_pose.reset();
-  if (observer != nullptr) {
-    observer->reset();
-    const TetTopology& volume = observer->surface().volume();
-    body_pose = volume.initial_pose;
-    if (volume.has_initial_pose) given_pose = volume.initial_pose;
-  }
+  if (observer != nullptr) observer->reset();
   if (prediction != nullptr) prediction->reset();
   last_stamp = 0;
   lost_frames = frames_to_registration = 0;
   knn.reset();
+}
+
+/// The object's file says where the body is before the camera as it stands at the start.
+void BodyTracker::Implementation::takeInitialPose(const RgbdFrame& frame) {
+  const TetTopology& volume = observer->surface().volume();
+  body_pose = frame.T_fixed_camera * volume.initial_pose;
+  if (volume.has_initial_pose) given_pose = body_pose;
+  fresh = false;
 }
 
 /// Finds the body where nothing predicts it: near the pose that the user gave, or anywhere.
@@ -121,17 +144,18 @@ bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* time
     localizer = std::make_unique<Localizer>(TriangleMesh{surface.rest_vertices, surface.triangles},
                                             config.registration);
   }
+  const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   std::optional<Localization> found;
-  if (given_pose && !recovering) found = localizer->near(frame, *given_pose);
+  if (given_pose && !recovering) found = localizer->near(frame, T_camera_fixed * *given_pose);
   if (!found) {
     std::vector<Eigen::Isometry3d> guesses;
-    if (recovering || given_pose) guesses.push_back(body_pose);
+    if (recovering || given_pose) guesses.push_back(T_camera_fixed * body_pose);
     found = localizer->anywhere(frame, observer->colors(), guesses, [&](const Eigen::Isometry3d& pose) {
       return observer->featureShare(frame, pose);
     });
   }
   if (!found) return false;
-  body_pose = found->pose;
+  body_pose = frame.T_fixed_camera * found->pose;
   poses_alike = found->alike;
   registered = true;
   prediction->reset();
@@ -146,17 +170,20 @@ bool BodyTracker::Implementation::answers(const MeshState* volume, Nanoseconds s
          volume->vertices.rows() == observer->surface().volume().rest_vertices.rows();
 }
 
-std::vector<Association> BodyTracker::Implementation::all(const Observation& seen) const {
+std::vector<Association> BodyTracker::Implementation::all(const Observation& seen,
+                                                          const Eigen::Matrix3d& R_camera_fixed) const {
   std::vector<Association> associations =
-      config.knn_targets ? knn.associations(observer->map().features(), seen.matches, observer->surface())
-                         : inliers(seen.matches);
+      config.knn_targets
+          ? knn.associations(observer->map().features(), seen.matches, observer->surface(), R_camera_fixed)
+          : inliers(seen.matches);
   if (config.use_depth && !config.knn_targets) {
     associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
   }
   return associations;
 }
 
-std::vector<TrackedFeature> BodyTracker::Implementation::trackedFeatures(const Observation& seen) const {
+std::vector<TrackedFeature> BodyTracker::Implementation::trackedFeatures(
+    const Observation& seen, const Eigen::Isometry3d& T_camera_fixed) const {
   std::vector<TrackedFeature> result;
   for (const FeatureMatch& match : seen.matches) {
     if (!match.inlier) continue;
@@ -164,8 +191,11 @@ std::vector<TrackedFeature> BodyTracker::Implementation::trackedFeatures(const O
     const cv::Point2f pixel = match.pixel;
     const double confidence =
         feature.predicted > 0 ? static_cast<double>(feature.matched) / feature.predicted : 0.0;
-    result.push_back(
-        {feature.id, {pixel.x, pixel.y}, match.association.measured, feature.reference, confidence});
+    result.push_back({feature.id,
+                      {pixel.x, pixel.y},
+                      match.association.measured,
+                      T_camera_fixed * feature.reference,
+                      confidence});
   }
   return result;
 }
@@ -224,20 +254,23 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
 void BodyTracker::Implementation::admit(const RgbdFrame& frame, const Observation& seen) {
   const bool bind = observer->map().features().empty();
   observer->admit(frame, seen);
-  if (bind)
-    knn.bind(observer->map().features(), observer->surface().volume(), observer->surface().volumeVertices());
+  if (!bind) return;
+  knn.bind(observer->map().features(), observer->surface().volume(),
+           transformed(observer->surface().volumeVertices(), frame.T_fixed_camera));
 }
 
 /// While others are seen, what hardly shows stays where the simulation had it: nothing tells where else it
-/// is. What shows loosely goes as a whole where it was found.
+/// is. What shows loosely goes as a whole where it was found. @param vertices of the simulation, fixed frame.
 void BodyTracker::Implementation::holdUnseen(const Observation& seen, const Points& vertices,
+                                             const Eigen::Isometry3d& T_fixed_camera,
                                              std::vector<Target>* targets) const {
   if (std::count(seen.shown.begin(), seen.shown.end(), Shows::kWell) == 0) return;
   const std::vector<std::vector<int>>& pieces = observer->surface().pieces();
+  const Points found = transformed(observer->surface().volumeVertices(), T_fixed_camera);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (seen.shown[p] == Shows::kWell) continue;
     const bool hardly = seen.shown[p] == Shows::kHardly;
-    hold->add(pieces[p], hardly ? vertices : observer->surface().volumeVertices(), PieceHold::kWeak, targets);
+    hold->add(pieces[p], hardly ? vertices : found, PieceHold::kWeak, targets);
   }
 }
 
@@ -251,6 +284,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   if (!ready()) return self.waiting("waiting for the topologies of simulator and surface");
   if (frame.stamp < self.last_stamp) self.reset();
   self.last_stamp = frame.stamp;
+  if (self.fresh) self.takeInitialPose(frame);
   if (self.lost_frames >= kLostFramesBeforeRecovery) {
     self.registered = false;
     self.recovering = true;
@@ -268,20 +302,22 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   const Points predicted = placed
                                ? self.prediction->at(frame.stamp, self.moving)
                                : transformed(self.observer->surface().volume().rest_vertices, self.body_pose);
-  const Observation seen = self.observer->observe(frame, predicted);
-  self.body_pose =
-      fitRigid(self.observer->surface().volume().rest_vertices, self.observer->surface().volumeVertices());
-  const std::vector<Association> associations = self.all(seen);
+  const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
+  const Observation seen = self.observer->observe(frame, transformed(predicted, T_camera_fixed));
+  self.body_pose = frame.T_fixed_camera * fitRigid(self.observer->surface().volume().rest_vertices,
+                                                   self.observer->surface().volumeVertices());
+  const std::vector<Association> associations = self.all(seen, T_camera_fixed.linear());
   result.status = self.judge(seen, associations);
-  result.features = self.trackedFeatures(seen);
+  result.features = self.trackedFeatures(seen, T_camera_fixed);
   result.has_targets = true;
   result.targets.revision = self.observer->surface().volume().revision;
   result.targets.reset = !placed;
   result.targets.body_pose = self.body_pose;
   result.targets.targets.reserve(associations.size());
-  for (const Association& association : associations) result.targets.targets.push_back(toTarget(association));
+  for (const Association& association : associations)
+    result.targets.targets.push_back(toTarget(association, frame.T_fixed_camera));
   self.moving = seen.atLeast(Shows::kWell);
-  if (placed) self.holdUnseen(seen, volume->vertices, &result.targets.targets);
+  if (placed) self.holdUnseen(seen, volume->vertices, frame.T_fixed_camera, &result.targets.targets);
   if (result.status.state == TrackingState::kLost) self.prediction->reset();
   if (result.status.state == TrackingState::kTracking) {
     self.admit(frame, seen);

@@ -260,7 +260,7 @@ void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
     feature.first_tet = homogeneousCorners(surface.volume(), feature.place.tet);
     feature.first_vertices = surface.volume().rest_vertices.rows();
     feature.descriptor = keypoint.descriptor;
-    feature.reference = measured;
+    feature.reference = frame.T_fixed_camera * measured;
     features_.push_back(feature);
     if (!first) taken.push_back(keypoint.pixel);
   }

@@ -33,7 +33,7 @@ struct MapFeature : FeaturePlace {
   FeaturePlace first;                                   ///< as it was bound when admitted,
   Eigen::Matrix4d first_tet = Eigen::Matrix4d::Zero();  ///< that tet's corners at rest, homogeneous [m],
   Eigen::Index first_vertices = 0;                      ///< and how many vertices the body had
-  Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< measured position when bound, camera frame [m]
+  Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< measured position when bound, fixed frame [m]
   int predicted = 0;                                    ///< frames in which it should have been seen
   int matched = 0;                                      ///< frames in which it was
 };

@@ -85,7 +85,8 @@ void KnnTargets::rebind(const TetTopology& before, const TetTopology& after) {
 
 std::vector<Association> KnnTargets::associations(const std::vector<MapFeature>& features,
                                                   const std::vector<FeatureMatch>& matches,
-                                                  const PredictedSurface& surface) const {
+                                                  const PredictedSurface& surface,
+                                                  const Eigen::Matrix3d& R_camera_fixed) const {
   struct Motion {
     std::uint32_t body;
     Eigen::Vector3d reference, current;
@@ -99,7 +100,7 @@ std::vector<Association> KnnTargets::associations(const std::vector<MapFeature>&
   std::vector<Association> result;
   for (const BoundVertex& bound : vertices_) {
     const std::uint32_t body = surface.bodyOf(bound.place);
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d rotation = R_camera_fixed;
     if (config_.local_rotation) {
       Points from(static_cast<Eigen::Index>(bound.wider_ids.size()), 3), to(from.rows(), 3);
       Eigen::Index n = 0;

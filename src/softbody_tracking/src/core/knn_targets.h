@@ -17,14 +17,16 @@ class KnnTargets {
  public:
   explicit KnnTargets(const KnnConfig& config) : config_(config) {}
 
-  /// Weights, once, in the reference frame. @param vertices volume vertices there, camera frame.
+  /// Weights, once, in the reference frame. @param vertices volume vertices there, fixed frame.
   void bind(const std::vector<MapFeature>& features, const TetTopology& volume, const Points& vertices);
 
   /// Where the vertices' features have gone. Neighbours that were not found, or that a cut has parted from
-  /// the vertex, leave their weight to the others.
+  /// the vertex, leave their weight to the others. @param R_camera_fixed turns offsets of then into those of
+  /// a body that has not turned since.
   std::vector<Association> associations(const std::vector<MapFeature>& features,
                                         const std::vector<FeatureMatch>& matches,
-                                        const PredictedSurface& surface) const;
+                                        const PredictedSurface& surface,
+                                        const Eigen::Matrix3d& R_camera_fixed) const;
 
   /// Takes the vertices to an edited body.
   void rebind(const TetTopology& before, const TetTopology& after);

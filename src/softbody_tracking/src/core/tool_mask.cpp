@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
+#include "softbody_common/rigid_fit.h"
+
 namespace softbody {
 namespace {
 
@@ -63,9 +65,10 @@ void ToolMask::see(Nanoseconds stamp, const Points& blade) {
 cv::Mat1f ToolMask::depthWithout(const RgbdFrame& frame) const {
   if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kStillThere)
     return frame.depth;
-  if (blade_.col(2).minCoeff() < kNearest) return frame.depth;
-  const PlanePolygon blade(blade_);
-  const cv::Rect region = regionOf(frame.camera, blade_) & cv::Rect(cv::Point(), frame.depth.size());
+  const Points corners = transformed(blade_, frame.T_fixed_camera.inverse());
+  if (corners.col(2).minCoeff() < kNearest) return frame.depth;
+  const PlanePolygon blade(corners);
+  const cv::Rect region = regionOf(frame.camera, corners) & cv::Rect(cv::Point(), frame.depth.size());
   cv::Mat1f depth = frame.depth.clone();
   for (int v = region.y; v < region.br().y; ++v) {
     for (int u = region.x; u < region.br().x; ++u) {

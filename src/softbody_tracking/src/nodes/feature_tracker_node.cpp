@@ -20,19 +20,9 @@ namespace softbody {
 namespace {
 
 constexpr int kSyncQueue = 4;
-constexpr double kTfPatience_s = 0.05;
+constexpr double kTfPoll_s = 0.002;
 constexpr double kSetPosePatience_s = 0.5;
 constexpr double kSilence_s = 2.0;
-
-/// A target set moved to another frame.
-TargetSet transformed(TargetSet targets, const Eigen::Isometry3d& T) {
-  targets.body_pose = T * targets.body_pose;
-  for (Target& target : targets.targets) {
-    target.position = T * target.position;
-    target.normal = T.linear() * target.normal;
-  }
-  return targets;
-}
 
 }  // namespace
 
@@ -45,6 +35,7 @@ FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle p
   body_frame_ = parameters.text("body_frame", "softbody");
   output_frame_ = parameters.text("output_frame", "");
   tracker_ = std::make_unique<BodyTracker>(readTrackerConfig(parameters));
+  tf_timeout_s_ = parameters.number("tf_timeout_s", 0.05, 0.0, 5.0);
   const bool use_mask = parameters.flag("use_mask", false);
   const double mask_timeout_s = parameters.number("mask_timeout_s", 0.3, 0.0, 5.0);
   warnUnknown(parameters);
@@ -132,23 +123,34 @@ void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr&
       5.0, "the topologies of revision " << message->revision << " are unusable: " << error.what());
 }
 
-void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {
-  blade_frame_ = message->header.frame_id;
-  tool_mask_.see(toNanoseconds(message->header.stamp), fromMessage(message->polygon));
-}
-
-std::optional<Eigen::Isometry3d> FeatureTrackerNode::cameraPose(const std_msgs::Header& header) const try {
-  if (output_frame_.empty() || output_frame_ == header.frame_id) return Eigen::Isometry3d::Identity();
-  return tf2::transformToEigen(
-      tf_buffer_.lookupTransform(output_frame_, header.frame_id, header.stamp, ros::Duration(kTfPatience_s)));
+void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {
+  // Without an output_frame blades in other frames than the camera's are of no use, and known once it shows.
+  blade_frame_ = output_frame_.empty() ? message->header.frame_id : "";
+  const Eigen::Isometry3d T_output_blade = poseInOutput(message->header);
+  tool_mask_.see(toNanoseconds(message->header.stamp),
+                 transformed(fromMessage(message->polygon), T_output_blade));
 } catch (const tf2::TransformException& error) {
-  ROS_WARN_STREAM_THROTTLE(5.0, "no transform from " << header.frame_id << " to output_frame "
-                                                     << output_frame_ << ": " << error.what());
-  return std::nullopt;
+  ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << error.what());
 }
 
-std::optional<MeshState> FeatureTrackerNode::volumeInCamera(const Eigen::Isometry3d& T_output_camera) const
-    try {
+/// Waits in wall time: the time of a bag that is held would never run out.
+Eigen::Isometry3d FeatureTrackerNode::poseInOutput(const std_msgs::Header& header) const {
+  if (output_frame_.empty() || output_frame_ == header.frame_id) return Eigen::Isometry3d::Identity();
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(tf_timeout_s_);
+  while (!tf_buffer_.canTransform(output_frame_, header.frame_id, header.stamp) && ros::ok() &&
+         ros::WallTime::now() < deadline) {
+    ros::WallDuration(kTfPoll_s).sleep();
+  }
+  return tf2::transformToEigen(tf_buffer_.lookupTransform(output_frame_, header.frame_id, header.stamp));
+}
+
+void FeatureTrackerNode::skip(const std_msgs::Header& header, const std::string& why) {
+  last_status_ = skippedFrame(last_status_, header.frame_id, output_frame_, why);
+  ROS_WARN_STREAM_THROTTLE(5.0, last_status_.reason);
+  publishStatus(header);
+}
+
+std::optional<MeshState> FeatureTrackerNode::volume() const try {
   if (!volume_state_) return std::nullopt;
   MeshState state = fromMessage(*volume_state_);
   if (volume_topology_ && volume_topology_->revision == state.revision &&
@@ -156,25 +158,27 @@ std::optional<MeshState> FeatureTrackerNode::volumeInCamera(const Eigen::Isometr
     throw std::invalid_argument(std::to_string(state.vertices.rows()) + " vertices, but the topology has " +
                                 std::to_string(volume_topology_->rest_vertices.rows()));
   }
-  state.vertices = softbody::transformed(state.vertices, T_output_camera.inverse());
   return state;
 } catch (const std::invalid_argument& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, volume_state_subscriber_.getTopic() << " is unusable: " << error.what());
   return std::nullopt;
 }
 
-Eigen::Isometry3d FeatureTrackerNode::poseInCamera(const geometry_msgs::PoseStamped& pose) const {
+/// Where a pose is in the fixed frame: the output frame, or without one that of the camera.
+Eigen::Isometry3d FeatureTrackerNode::fixedPose(const geometry_msgs::PoseStamped& pose) const {
   const Eigen::Isometry3d T_frame_body = fromMessage(pose.pose);
-  if (pose.header.frame_id.empty() || pose.header.frame_id == camera_frame_) return T_frame_body;
-  return tf2::transformToEigen(tf_buffer_.lookupTransform(
-             camera_frame_, pose.header.frame_id, pose.header.stamp, ros::Duration(kSetPosePatience_s))) *
+  const std::string& fixed = output_frame_.empty() ? camera_frame_ : output_frame_;
+  const std::string& frame = pose.header.frame_id.empty() ? camera_frame_ : pose.header.frame_id;
+  if (frame == fixed) return T_frame_body;
+  return tf2::transformToEigen(
+             tf_buffer_.lookupTransform(fixed, frame, pose.header.stamp, ros::Duration(kSetPosePatience_s))) *
          T_frame_body;
 }
 
 bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
                                    softbody_msgs::SetPose::Response& response) try {
   if (camera_frame_.empty()) throw std::logic_error("no frame of the camera has come yet");
-  tracker_->restart(poseInCamera(request.pose));
+  tracker_->restart(fixedPose(request.pose));
   response.success = 1;
   ROS_INFO("tracking starts anew near the pose set by hand");
   return true;
@@ -196,27 +200,28 @@ void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
 void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& mask) try {
   const std_msgs::Header& header = images.color->header;
   camera_frame_ = header.frame_id;
-  const std::optional<Eigen::Isometry3d> T_output_camera = cameraPose(header);
-  if (!T_output_camera) {
-    last_status_.state = TrackingState::kInitializing;
-    last_status_.reason = "tf does not connect " + header.frame_id + " with output_frame " + output_frame_;
-    return publishStatus(header);
-  }
   // A bag that loops: what the simulator said of later times is void.
   if (header.stamp < last_stamp_) volume_state_.reset(), newest_state_.reset();
   last_stamp_ = header.stamp;
+  Eigen::Isometry3d T_output_camera;
+  try {
+    T_output_camera = poseInOutput(header);
+  } catch (const tf2::TransformException& error) {
+    return skip(header, error.what());
+  }
 
   const auto color_image = cv_bridge::toCvShare(images.color, sensor_msgs::image_encodings::BGR8);
   const auto depth_image = cv_bridge::toCvShare(images.depth, sensor_msgs::image_encodings::TYPE_32FC1);
   RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
-                  mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask)};
-  if (blade_frame_ == header.frame_id) frame.depth = tool_mask_.depthWithout(frame);
-  const std::optional<MeshState> volume = volumeInCamera(*T_output_camera);
+                  mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask),
+                  T_output_camera};
+  if (blade_frame_.empty() || blade_frame_ == header.frame_id) frame.depth = tool_mask_.depthWithout(frame);
+  const std::optional<MeshState> state = volume();
   StageTimer timer;
-  const TrackingResult result = tracker_->track(frame, volume ? &*volume : nullptr, &timer);
+  const TrackingResult result = tracker_->track(frame, state ? &*state : nullptr, &timer);
   last_status_ = result.status;
   publishStatus(header);
-  publish(header, *T_output_camera, result);
+  publish(header, T_output_camera, result);
   softbody_msgs::StageTiming timing = timingMessage("feature_tracker", timer.take());
   timing.header = header;
   timing_.publish(timing);
@@ -247,13 +252,13 @@ void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
     marker->header = camera_header;
     features_marker_.publish(marker);
   }
-  const auto targets =
-      boost::make_shared<softbody_msgs::Targets>(toMessage(transformed(result.targets, T_output_camera)));
+  const auto targets = boost::make_shared<softbody_msgs::Targets>(toMessage(result.targets));
   targets->header = camera_header;
   if (!output_frame_.empty()) targets->header.frame_id = output_frame_;
   targets_.publish(targets);
 
-  geometry_msgs::TransformStamped body = tf2::eigenToTransform(result.targets.body_pose);
+  geometry_msgs::TransformStamped body =
+      tf2::eigenToTransform(T_output_camera.inverse() * result.targets.body_pose);
   body.header = camera_header;
   body.child_frame_id = body_frame_;
   tf_broadcaster_.sendTransform(body);

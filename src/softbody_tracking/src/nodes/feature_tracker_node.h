@@ -43,11 +43,13 @@ class FeatureTrackerNode {
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
   void adoptTopologies();
-  /// Camera in the frame in which targets are published; nothing where tf does not know it.
-  std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header) const;
+  /// A header's frame in the one in which targets are published, at its stamp.
+  /// @throw tf2::TransformException.
+  Eigen::Isometry3d poseInOutput(const std_msgs::Header& header) const;
+  void skip(const std_msgs::Header& header, const std::string& why);
   /// @throw std::invalid_argument, tf2::TransformException.
-  Eigen::Isometry3d poseInCamera(const geometry_msgs::PoseStamped& pose) const;
-  std::optional<MeshState> volumeInCamera(const Eigen::Isometry3d& T_output_camera) const;
+  Eigen::Isometry3d fixedPose(const geometry_msgs::PoseStamped& pose) const;
+  std::optional<MeshState> volume() const;
   void publishStatus(const std_msgs::Header& header);
   void publish(const std_msgs::Header& camera_header, const Eigen::Isometry3d& T_output_camera,
                const TrackingResult& result);
@@ -55,6 +57,7 @@ class FeatureTrackerNode {
 
   ros::NodeHandle handle_;
   std::string body_frame_, output_frame_;
+  double tf_timeout_s_ = 0.0;
   std::string camera_frame_;  ///< of the last frame, empty before the first
   std::unique_ptr<BodyTracker> tracker_;
   std::unique_ptr<MaskInput> mask_input_;                           ///< only where masks are used
@@ -63,7 +66,7 @@ class FeatureTrackerNode {
   std::uint32_t adopted_revision_ = 0;                              ///< that the tracker works with
   softbody_msgs::MeshState::ConstPtr newest_state_, volume_state_;  ///< of any, and of the adopted revision
   ToolMask tool_mask_;
-  std::string blade_frame_;
+  std::string blade_frame_;  ///< that the blade's place is in; empty: the output frame
   TrackingStatus last_status_;
   ros::Time last_stamp_;
 

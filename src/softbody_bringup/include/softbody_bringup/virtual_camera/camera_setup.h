@@ -10,6 +10,7 @@ namespace softbody::virtual_camera {
 /// What a user chooses, on the command line or as parameters.
 struct CameraSetup {
   std::string scene = "bend";
+  std::string camera_motion = "none";
   std::string body;           ///< OBJ, PLY, STL or OFF; empty: the scene's own object
   std::string unit = "m";     ///< of the body's file: m, cm, mm or inch
   std::string config_folder;  ///< of the shipped objects and of knife.yaml
@@ -20,7 +21,8 @@ struct CameraSetup {
 };
 
 /// @param warnings gets what was ignored in the body's file, if given.
-/// @throw std::invalid_argument if the scene is unknown, or the body cannot be read or does not fit it.
+/// @throw std::invalid_argument if the scene or the camera's motion is unknown, or the body cannot be read or
+/// does not fit it.
 VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* warnings = nullptr);
 
 /// Names of the parts of the noise: exposure, blur, color, disparity, quantization, edges, holes.

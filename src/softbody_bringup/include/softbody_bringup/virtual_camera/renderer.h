@@ -19,17 +19,16 @@ class Renderer {
  public:
   Renderer(const Scene& scene, const Pinhole& camera);
 
-  /// @param vertices one entry an actor, in the camera's frame [m]; those of still actors are not looked at.
-  void render(const std::vector<Points>& vertices, RenderedImage* image);
+  /// The vertices of still actors, and the light on them, are not looked at.
+  void render(const SceneState& state, RenderedImage* image);
   /// One half of it each.
-  void renderColor(const std::vector<Points>& vertices, cv::Mat3b* color);
-  void renderDepth(const std::vector<Points>& vertices, RenderedImage* image);
+  void renderColor(const SceneState& state, cv::Mat3b* color);
+  void renderDepth(const SceneState& state, RenderedImage* image);
 
  private:
-  void place(const std::vector<Points>& vertices);
+  void place(const SceneState& state);
   void drawDepth(RenderedImage* image);
 
-  Eigen::Vector3d to_light_;
   int body_vertices_ = 0;
   std::vector<char> still_;  ///< per actor
   Layer moving_;

@@ -27,6 +27,8 @@ struct SceneState {
   std::vector<Points> vertices;  ///< one entry an actor, in the colour optical frame [m]
   std::uint32_t revision = 0;    ///< of the body's topology
   std::optional<Eigen::Isometry3d> T_camera_tool = std::nullopt;
+  Eigen::Vector3d to_light = -Eigen::Vector3d::UnitZ();            ///< unit, in the optical frame
+  std::optional<Eigen::Isometry3d> T_world_camera = std::nullopt;  ///< of a camera that moves
 };
 
 /// A cut of the body and its topology from then on.
@@ -42,9 +44,9 @@ struct Scene {
   std::string name;
   double duration_s = 0.0;  ///< one run; the motion goes on after it
   std::vector<Actor> actors;
-  std::vector<Edit> edits;                               ///< revision 1 and on, one stroke of a blade each
-  Eigen::Vector3d to_light = -Eigen::Vector3d::UnitZ();  ///< unit, in the colour optical frame
-  std::function<SceneState(double t)> state;             ///< t in seconds from 0
+  std::vector<Edit> edits;  ///< revision 1 and on, one stroke of a blade each
+  Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< before the camera moves; z is up
+  std::function<SceneState(double t)> state;                         ///< t in seconds from 0
 };
 
 /// Names of the scenes that makeScene knows.

@@ -24,9 +24,10 @@ NoiseOptions noNoise();
 struct Capture {
   cv::Mat3b color;     ///< r, g, b
   cv::Mat1w depth_mm;  ///< registered to colour; 0: none
-  MeshState truth;     ///< colour optical frame; confidence 1 visible, 0 hidden
+  MeshState truth;     ///< optical frame, that of the world if the camera moves; confidence 1 seen, 0 hidden
   Eigen::Isometry3d T_camera_body;
   std::optional<Eigen::Isometry3d> T_camera_tool;
+  std::optional<Eigen::Isometry3d> T_world_camera;  ///< of a camera that moves
 };
 
 /// A seeded RGB-D camera before a scene: the same seed, scene and frame give the same bytes.

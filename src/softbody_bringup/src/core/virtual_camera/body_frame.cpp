@@ -57,6 +57,7 @@ Scene toOwn(const BodyFrame& frame, const Scene& played, const TriangleMesh& bod
   scene.actors.at(0).texture = [=, texture = played.actors.at(0).texture](const Eigen::Vector3d& p) {
     return texture(frame.turn * (p - frame.center) / frame.scale);
   };
+  scene.T_camera_world.translation() *= frame.scale;
   for (Edit& edit : scene.edits) {
     edit.topology.rest_vertices = ownRows(frame, edit.topology.rest_vertices);
     edit.patch.vertices = ownRows(frame, edit.patch.vertices);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "softbody_bringup/virtual_camera/body.h"
+#include "softbody_bringup/virtual_camera/camera_motion.h"
 #include "softbody_sim/object_model.h"
 
 namespace softbody::virtual_camera {
@@ -29,8 +30,9 @@ VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* war
   Warnings ignored;
   const Body body =
       readBody(file, setup.body.empty() ? 1.0 : metresPer(setup.unit), warnings ? warnings : &ignored);
-  return VirtualCamera(makeScene(setup.scene, body, setup.seed, setup.config_folder + "/knife.yaml"),
-                       d435(setup.width, setup.height), setup.noise, setup.seed);
+  const Scene scene = makeScene(setup.scene, body, setup.seed, setup.config_folder + "/knife.yaml");
+  return VirtualCamera(withCameraMotion(setup.camera_motion, scene), d435(setup.width, setup.height),
+                       setup.noise, setup.seed);
 }
 
 std::vector<std::string> noiseParts() {

@@ -18,37 +18,36 @@ std::vector<const Points*> select(const std::vector<Points>& vertices, const std
 }  // namespace
 
 Renderer::Renderer(const Scene& scene, const Pinhole& camera)
-    : to_light_(scene.to_light),
-      body_vertices_(static_cast<int>(scene.actors.at(0).rest.vertices.rows())),
-      moving_(camera) {
+    : body_vertices_(static_cast<int>(scene.actors.at(0).rest.vertices.rows())), moving_(camera) {
   Layer still(camera);
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     // The body is the first of the moving layer, whether it moves or not: its vertices are asked for.
     still_.push_back(i > 0 && scene.actors[i].still);
     (still_.back() ? still : moving_).add(scene.actors[i]);
   }
-  still.place(select(scene.state(0.0).vertices, still_, true), to_light_);
+  const SceneState start = scene.state(0.0);
+  still.place(select(start.vertices, still_, true), start.to_light);
   backdrop_ = still.draw(emptyCanvas(camera));
 }
 
-void Renderer::render(const std::vector<Points>& vertices, RenderedImage* image) {
-  place(vertices);
+void Renderer::render(const SceneState& state, RenderedImage* image) {
+  place(state);
   moving_.drawColor(backdrop_, &image->color);
   drawDepth(image);
 }
 
-void Renderer::renderColor(const std::vector<Points>& vertices, cv::Mat3b* color) {
-  place(vertices);
+void Renderer::renderColor(const SceneState& state, cv::Mat3b* color) {
+  place(state);
   moving_.drawColor(backdrop_, color);
 }
 
-void Renderer::renderDepth(const std::vector<Points>& vertices, RenderedImage* image) {
-  place(vertices);
+void Renderer::renderDepth(const SceneState& state, RenderedImage* image) {
+  place(state);
   drawDepth(image);
 }
 
-void Renderer::place(const std::vector<Points>& vertices) {
-  moving_.place(select(vertices, still_, false), to_light_);
+void Renderer::place(const SceneState& state) {
+  moving_.place(select(state.vertices, still_, false), state.to_light);
 }
 
 void Renderer::drawDepth(RenderedImage* image) {

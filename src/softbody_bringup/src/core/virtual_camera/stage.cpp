@@ -53,7 +53,9 @@ Scene perform(const Stage& stage, const Play& play) {
   Scene scene;
   scene.name = play.name;
   scene.duration_s = play.duration_s;
-  scene.to_light = stage.T_camera_world.linear() * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
+  scene.T_camera_world = stage.T_camera_world;
+  const Eigen::Vector3d to_light =
+      stage.T_camera_world.linear() * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
   scene.actors = stage.actors;
   for (const Prop& prop : play.props) scene.actors.push_back(prop.actor);
   const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
@@ -65,6 +67,7 @@ Scene perform(const Stage& stage, const Play& play) {
       for (Eigen::Index i = 0; i < rest.rows(); ++i) body.row(i) = play.deformation(rest.row(i), t);
     }
     SceneState state;
+    state.to_light = to_light;
     state.T_camera_body = play.T_camera_body ? play.T_camera_body(t) : stage.T_camera_body;
     state.vertices = {transformed(state.T_camera_body, body), table, wall};
     for (const Prop& prop : play.props) {

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "softbody_bringup/virtual_camera/random.h"
+#include "softbody_bringup/virtual_camera/shapes.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -79,10 +80,10 @@ Capture VirtualCamera::capture(int frame, double t) {
   Renderer& renderer = renderers_.at(state.revision);
   const int images = imagesAt(t, state);
   if (images == 1) {
-    renderer.render(state.vertices, &image_);
+    renderer.render(state, &image_);
     capture.color = image_.color.clone();
   } else {
-    renderer.renderDepth(state.vertices, &image_);
+    renderer.renderDepth(state, &image_);
     capture.color = blurredColor(t, images);
   }
   exposure_drift_.apply(t, &capture.color);
@@ -90,10 +91,12 @@ Capture VirtualCamera::capture(int frame, double t) {
   depth_noise_.apply(frame, camera_.fx, &image_.depth);
   capture.depth_mm = toMillimetres(image_.depth);
   capture.truth.revision = state.revision;
-  capture.truth.vertices = state.vertices.at(0);
+  capture.truth.vertices =
+      state.T_world_camera ? transformed(*state.T_world_camera, state.vertices.at(0)) : state.vertices.at(0);
   capture.truth.confidence = image_.visibility;
   capture.T_camera_body = state.T_camera_body;
   capture.T_camera_tool = state.T_camera_tool;
+  capture.T_world_camera = state.T_world_camera;
   return capture;
 }
 
@@ -108,7 +111,7 @@ cv::Mat3b VirtualCamera::blurredColor(double t, int images) {
   for (int i = 0; i < images; ++i) {
     const double offset = blur_.exposure_s * ((i + 0.5) / images - 0.5);
     const SceneState state = scene_.state(std::max(0.0, t + offset));
-    renderers_.at(state.revision).renderColor(state.vertices, &image_.color);
+    renderers_.at(state.revision).renderColor(state, &image_.color);
     cv::accumulate(image_.color, sum);
   }
   cv::Mat3b color;

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <softbody_msgs/TrackingStatus.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <filesystem>
+
+#include "softbody_bringup/evaluation/evaluator.h"
+#include "softbody_bringup/replay.h"
+#include "softbody_bringup/virtual_camera/bag_writer.h"
+#include "softbody_bringup/virtual_camera/camera_setup.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A sponge at rest before a small virtual camera that moves.
+class MovingCamera : public ::testing::Test {
+ protected:
+  static constexpr int kFrames = 45;
+
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("softbody_moving_camera_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    virtual_camera::CameraSetup setup;
+    setup.scene = "still";
+    setup.camera_motion = "orbit";
+    setup.config_folder = CONFIG_DIR;
+    setup.width = 320;
+    setup.height = 240;
+    virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
+    virtual_camera::writeBag(&camera, {folder_ / "moving.bag", kFrames, 30.0, false}, [](int) {});
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  /// The recording without /tf from frame `first` to before `last`.
+  static std::string withoutTf(const std::string& name, int first, int last) {
+    const std::string path = folder_ / name;
+    const rosbag::Bag whole(folder_ / "moving.bag");
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    int frame = -1;
+    for (const rosbag::MessageInstance& message : rosbag::View(whole)) {
+      const bool tf = message.getTopic() == "/tf";
+      if (tf) ++frame;
+      if (tf && frame >= first && frame < last) continue;
+      bag.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+    }
+    return path;
+  }
+
+  static ReplaySummary run(const std::string& input, const std::string& output) {
+    ReplayOptions options;
+    options.input = input;
+    options.object = CONFIG_DIR "/sponge.yaml";
+    options.output = folder_ / output;
+    options.output_frame = "world";
+    return replay(
+        options, [](const std::string&) {}, [](double) {});
+  }
+
+  static evaluation::Report measure(const std::string& result) {
+    evaluation::EvaluatorOptions options;
+    options.result = folder_ / result;
+    options.truth = folder_ / "moving.bag";
+    return evaluation::evaluate(options);
+  }
+
+  static fs::path folder_;
+};
+
+fs::path MovingCamera::folder_;
+
+TEST_F(MovingCamera, ABodyAtRestIsAtRestInTheWorld) {
+  const ReplaySummary summary = run(folder_ / "moving.bag", "world.bag");
+  EXPECT_EQ(summary.states, kFrames);
+  EXPECT_EQ(summary.skipped, 0);
+  const evaluation::Report report = measure("world.bag");
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
+  EXPECT_LT(report.vertex_error->all.mean, 0.0015);
+  ASSERT_TRUE(report.jitter);
+  // What is compared with the images goes through the camera's frame.
+  ASSERT_TRUE(report.silhouette);
+  EXPECT_GT(report.silhouette->mean, 0.95);
+}
+
+TEST_F(MovingCamera, FramesWithoutTfAreLeftOutWithTheReason) {
+  const ReplaySummary gap = run(withoutTf("gap.bag", 20, 36), "gap_result.bag");
+  EXPECT_EQ(gap.skipped, 16);
+  EXPECT_EQ(gap.states, kFrames - 16);
+  EXPECT_EQ(gap.frames_by_state.at(TrackingState::kDegraded), 16) << "after the gap it is tracked at once";
+  EXPECT_LT(measure("gap_result.bag").vertex_error->all.mean, 0.0015);
+  // The straight way over a short gap is good enough.
+  EXPECT_EQ(run(withoutTf("short.bag", 20, 24), "short_result.bag").skipped, 0);
+  const ReplaySummary cut_off = run(withoutTf("end.bag", 20, kFrames), "end_result.bag");
+  EXPECT_EQ(cut_off.skipped, kFrames - 20);
+  const std::string& reason = cut_off.reasons.at(TrackingState::kDegraded);
+  EXPECT_NE(reason.find("camera_color_optical_frame is in output_frame world"), std::string::npos) << reason;
+  const rosbag::Bag bag(folder_ / "end_result.bag");
+  EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("/softbody/status")).size(), static_cast<unsigned>(kFrames));
+}
+
+TEST_F(MovingCamera, TfThatNeverComesIsAnError) {
+  const std::string input = withoutTf("none.bag", 0, kFrames);
+  try {
+    run(input, "none_result.bag");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("tf does not say where"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "none_result.bag"));
+}
+
+}  // namespace
+}  // namespace softbody
