@@ -55,15 +55,20 @@ std::vector<bool> inMaterial(const Points& row, const RestSolid& solid) {
   return in;
 }
 
-/// Whether some of a blade is in the solid, by its outline and by points between that and its middle: a large
-/// blade's outline can enclose the body.
-bool isInMaterial(const Points& outline, const RestSolid& solid) {
-  Points closed(outline.rows() + 1, 3), within(2 * outline.rows(), 3);
+/// Whether an outline passes through the solid, be it between two samples.
+bool meets(const Points& outline, const RestSolid& solid) {
+  Points closed(outline.rows() + 1, 3);
   closed << outline, outline.row(0);
+  return any(inMaterial(closed, solid));
+}
+
+/// Points of the blade between its outline and its middle: a large blade's outline can enclose the body.
+Points withinOutline(const Points& outline) {
   const Eigen::RowVector3d middle = outline.colwise().mean();
+  Points within(2 * outline.rows(), 3);
   within.topRows(outline.rows()) = (2.0 * outline).rowwise() + middle;
   within.bottomRows(outline.rows()) = outline.rowwise() + 2.0 * middle;
-  return any(inMaterial(closed, solid)) || any(containedIn(solid, within / 3.0));
+  return within / 3.0;
 }
 
 /// The point moved on, unless that meets the solid.
@@ -105,8 +110,9 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
   if (!active_ && any(inside)) active_ = resume(outline, inside) || enter(outline, inside, solid);
   std::optional<BladeCut> cut;
   if (active_) cut = advance(outline, solid);
-  if (!any(inside) && !isInMaterial(outline.points(), solid)) {
-    outside_ = outline.points();
+  if (!any(inside) && !any(containedIn(solid, withinOutline(outline.points())))) {
+    // A stroke ends here; one begins before the first corner is met, or that would stay uncut.
+    if (active_ || !meets(outline.points(), solid)) outside_ = outline.points();
     active_ = cut.has_value();
     if (!active_ && !strokes_.empty() && strokes_.back().patches.empty()) strokes_.pop_back();
   }
