@@ -158,6 +158,33 @@ TEST(BodyTracker, FollowsThePiecesOfABodyThatIsCut) {
   }
 }
 
+TEST(BodyTracker, HoldsAPieceThatDoesNotShowUntilItDoes) {
+  TrackedBox tracked;
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
+  tracked.cut(posedBox(cutBox(tracked.box())));
+  const Points rest = posedBox(tracked.box());
+  EXPECT_EQ(tracked.show(rest).status.state, TrackingState::kTracking);
+  const TetTopology& volume = tracked.box().volume;
+  const int middle = cvRound(tracked.frame().camera.project(boxPose().translation()).x());
+  const cv::Rect right(middle - 20, 0, 640 - middle + 20, 480);
+  TrackingResult result;
+  for (int i = 0; i < 10; ++i) {
+    result = tracked.show(rest, [&](RgbdFrame* frame) { frame->depth(right).setTo(0.3f); });
+  }
+  EXPECT_EQ(result.status.state, TrackingState::kDegraded);
+  EXPECT_NE(result.status.reason.find("of 2 shows too little"), std::string::npos) << result.status.reason;
+  int held = 0;
+  for (const Target& target : result.targets.targets) {
+    if (target.kind != TargetKind::kVertex) continue;
+    EXPECT_LT((target.position - positionOf(target.place, rest, volume.tets)).norm(), 1e-9);
+    ++held;
+  }
+  EXPECT_GT(held, volume.rest_vertices.rows() / 3);
+  result = tracked.show(rest);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_LT(tracked.shareOff(result, rest, 0.002), 0.01);
+}
+
 TEST(BodyTracker, AnOccluderMakesNoTargets) {
   TrackedBox tracked;
   const Points rest = posedBox(tracked.box());

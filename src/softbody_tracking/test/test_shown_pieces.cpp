@@ -123,5 +123,21 @@ TEST(ShownPieces, OnePlaneOfDepthDoesNotFixWhatFeaturesDo) {
   EXPECT_NE(shown[1], Shows::kHardly);
 }
 
+TEST(ConfirmedPieces, AreThoseWhoseDepthAgreesNearlyEverywhere) {
+  SurfaceSamples samples;
+  std::vector<Association> depth;
+  const int agreeing[] = {100, 80, 4};
+  for (std::uint32_t body = 0; body < 3; ++body) {
+    SurfaceSample sample;
+    sample.position = sample.normal = Eigen::Vector3d::Zero();
+    sample.body = body;
+    samples.samples.insert(samples.samples.end(), body == 2 ? 4 : 100, sample);
+    Association association;
+    association.body = body;
+    depth.insert(depth.end(), static_cast<std::size_t>(agreeing[body]), association);
+  }
+  EXPECT_EQ(confirmedPieces(samples, depth, 3), std::vector<bool>({true, false, false}));
+}
+
 }  // namespace
 }  // namespace softbody

@@ -23,6 +23,7 @@ constexpr int kFewestExpectedFeatures =
 constexpr double kFewestFound = 0.05;  // of the expected features
 constexpr double kWorstInlierRatio = 0.2;
 constexpr int kLostFramesBeforeRecovery = 10;
+constexpr int kHeldFrames = 5;                   // that a piece of a cut body is held before the status tells
 constexpr int kFramesBetweenRegistrations = 10;  // it takes about a second
 
 std::string sizeText(const cv::Size& size) {
@@ -46,6 +47,7 @@ struct BodyTracker::Implementation {
   std::vector<TrackedFeature> trackedFeatures(const Observation& seen,
                                               const Eigen::Isometry3d& T_camera_fixed) const;
   TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations);
+  void tellOfHeld(const Observation& seen, TrackingStatus* status);
   void admit(const RgbdFrame& frame, const Observation& seen);
   void holdUnseen(const Observation& seen, const Points& vertices, const Eigen::Isometry3d& T_fixed_camera,
                   std::vector<Target>* targets) const;
@@ -58,7 +60,8 @@ struct BodyTracker::Implementation {
   std::unique_ptr<RigidPrediction> prediction;
   std::unique_ptr<Localizer> localizer;  ///< null until it is needed: no frame waits for it after a cut
   std::unique_ptr<PieceHold> hold;
-  std::vector<bool> moving;  ///< pieces whose velocity is known well enough to go on with; none: all
+  std::vector<int> held_frames;  ///< of each piece: in which it hardly showed, on end
+  std::vector<bool> moving;      ///< pieces whose velocity is known well enough to go on with; none: all
 
   bool fresh = true;  ///< no frame since the last reset
   bool registered = false;
@@ -101,6 +104,7 @@ void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& s
   self.localizer.reset();
   self.hold = std::make_unique<PieceHold>(volume);
   self.moving.clear();
+  self.held_frames.clear();
   if (!edited) self.reset();
 }
 
@@ -251,6 +255,17 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
   return status;
 }
 
+void BodyTracker::Implementation::tellOfHeld(const Observation& seen, TrackingStatus* status) {
+  held_frames.resize(seen.shown.size(), 0);
+  for (std::size_t p = 0; p < held_frames.size(); ++p) {
+    held_frames[p] = seen.shown[p] == Shows::kHardly ? held_frames[p] + 1 : 0;
+    if (held_frames[p] < kHeldFrames || status->state != TrackingState::kTracking) continue;
+    status->state = TrackingState::kDegraded;
+    status->reason = "piece " + std::to_string(p + 1) + " of " + std::to_string(held_frames.size()) +
+                     " shows too little to be followed: it is held where it was";
+  }
+}
+
 void BodyTracker::Implementation::admit(const RgbdFrame& frame, const Observation& seen) {
   const bool bind = observer->map().features().empty();
   observer->admit(frame, seen);
@@ -308,6 +323,8 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
                                                    self.observer->surface().volumeVertices());
   const std::vector<Association> associations = self.all(seen, T_camera_fixed.linear());
   result.status = self.judge(seen, associations);
+  const bool learns = result.status.state == TrackingState::kTracking;
+  self.tellOfHeld(seen, &result.status);
   result.features = self.trackedFeatures(seen, T_camera_fixed);
   result.has_targets = true;
   result.targets.revision = self.observer->surface().volume().revision;
@@ -319,7 +336,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   self.moving = seen.atLeast(Shows::kWell);
   if (placed) self.holdUnseen(seen, volume->vertices, frame.T_fixed_camera, &result.targets.targets);
   if (result.status.state == TrackingState::kLost) self.prediction->reset();
-  if (result.status.state == TrackingState::kTracking) {
+  if (learns) {
     self.admit(frame, seen);
     result.status.features_total = static_cast<std::uint32_t>(self.observer->map().features().size());
   }

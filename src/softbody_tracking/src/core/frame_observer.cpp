@@ -174,7 +174,9 @@ std::vector<bool> Observation::atLeast(Shows least) const {
 void FrameObserver::keepShownPieces(Observation* seen) const {
   std::vector<Association>& depth = seen->depth.associations;
   seen->shown = shownPieces(samples_, depth, seen->matches, surface_.pieceVertices());
+  seen->learnable = confirmedPieces(samples_, depth, seen->shown.size());
   const std::vector<bool> well = seen->atLeast(Shows::kWell), loosely = seen->atLeast(Shows::kLoosely);
+  for (std::size_t p = 0; p < well.size(); ++p) seen->learnable[p] = seen->learnable[p] || well[p];
   const auto is_loose = [&](const Association& association) { return !well[association.body]; };
   depth.erase(std::remove_if(depth.begin(), depth.end(), is_loose), depth.end());
   for (FeatureMatch& match : seen->matches) match.inlier = match.inlier && loosely[match.association.body];
@@ -201,8 +203,7 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
 }
 
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
-  if (!seen.keypoints.empty())
-    map_.admit(frame, pyramid_, seen.keypoints, surface_, seen.atLeast(Shows::kWell));
+  if (!seen.keypoints.empty()) map_.admit(frame, pyramid_, seen.keypoints, surface_, seen.learnable);
 }
 
 }  // namespace softbody

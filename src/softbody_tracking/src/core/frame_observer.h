@@ -19,7 +19,8 @@ struct Observation {
   std::vector<Keypoint> keypoints;  ///< without a feature; empty in most frames
   std::vector<FeatureMatch> matches;
   DepthAssociations depth;
-  std::vector<Shows> shown;  ///< of each piece of the body
+  std::vector<Shows> shown;     ///< of each piece of the body
+  std::vector<bool> learnable;  ///< of each, whether what is seen of it is certainly at its place
 
   /// Of each piece, whether it shows at least so well.
   std::vector<bool> atLeast(Shows least) const;

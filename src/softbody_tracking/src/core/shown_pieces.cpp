@@ -13,6 +13,7 @@ constexpr int kEnough = 150;         // blocks of depth, whatever is hidden besi
 constexpr double kLeastShown = 0.3;  // of the blocks that the prediction shows of a piece
 // Times the error of a block of depth, anywhere on the piece.
 constexpr double kLoose = 1.0, kMostUnsure = 2.0;
+constexpr double kConfirmed = 0.9;  // of the blocks
 constexpr double kPrecision = 3.0;  // of a feature, times that of a block
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -74,6 +75,17 @@ std::vector<Shows> shownPieces(const SurfaceSamples& samples, const std::vector<
   std::vector<Shows> shown;
   for (std::size_t p = 0; p < pieces.size(); ++p) shown.push_back(judge(evidence[p], pieces[p]));
   return shown;
+}
+
+std::vector<bool> confirmedPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,
+                                  std::size_t piece_count) {
+  std::vector<int> blocks(piece_count, 0), agreeing(piece_count, 0);
+  for (const SurfaceSample& sample : samples.samples) ++blocks[sample.body];
+  for (const Association& association : depth) ++agreeing[association.body];
+  std::vector<bool> confirmed;
+  for (std::size_t p = 0; p < piece_count; ++p)
+    confirmed.push_back(agreeing[p] >= kFewest && agreeing[p] >= kConfirmed * blocks[p]);
+  return confirmed;
 }
 
 }  // namespace softbody
