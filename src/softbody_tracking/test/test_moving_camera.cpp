@@ -53,21 +53,21 @@ class MovingCamera {
   Nanoseconds stamp_ = 1'000'000'000;
 };
 
-/// Somewhere in a world of its own, and from there around the box by some 4 cm and 5 degrees a step.
+/// Somewhere in a world of its own, and from there around the box by some 12 cm and 14 degrees a step.
 Eigen::Isometry3d cameraAt(double step) {
   const Eigen::Isometry3d start = Eigen::Translation3d(2.0, -1.0, 0.7) *
                                   Eigen::AngleAxisd(2.0, Eigen::Vector3d(1.0, -0.4, 0.6).normalized());
   const Eigen::Vector3d box(0.0, 0.0, 0.5);
   return start * Eigen::Translation3d(box) *
-         Eigen::AngleAxisd(0.09 * step, Eigen::Vector3d(0.1, 1.0, 0.0).normalized()) *
+         Eigen::AngleAxisd(0.25 * step, Eigen::Vector3d(0.1, 1.0, 0.0).normalized()) *
          Eigen::Translation3d(-box);
 }
 
 TEST(MovingCamera, ABodyAtRestStaysWhereItIsHoweverTheCameraMoves) {
   MovingCamera moving, resting;
   const Points body = transformed(moving.box().volume.rest_vertices, cameraAt(0) * boxPose());
-  // To and fro: a body taken to move with the camera would be looked for 8 cm off where it turns back.
-  for (const double step : {0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 0.0}) {
+  // To and fro: a body taken to move with the camera would be looked for where nothing finds it.
+  for (const double step : {0.0, 1.0, 2.0, 1.0, 0.0, -1.0, 0.0}) {
     const TrackingResult result = moving.show(cameraAt(step), body), still = resting.show(cameraAt(0), body);
     ASSERT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
     EXPECT_LT(moving.worstTarget(result, body), 0.002) << step;
@@ -77,14 +77,14 @@ TEST(MovingCamera, ABodyAtRestStaysWhereItIsHoweverTheCameraMoves) {
                   .maxCoeff(),
               0.002);
     // Seen from the side no fewer of the features are found than from the front by more than a third.
-    EXPECT_GE(result.features.size(), 0.6 * static_cast<double>(still.features.size())) << step;
+    EXPECT_GE(result.features.size(), 0.65 * static_cast<double>(still.features.size())) << step;
   }
 }
 
 TEST(MovingCamera, FeatureVectorsOfABodyAtRestHaveNoLength) {
   MovingCamera moving;
   const Points body = transformed(moving.box().volume.rest_vertices, cameraAt(0) * boxPose());
-  for (const double step : {0.0, 0.5, 1.0}) {
+  for (const double step : {0.0, 0.2, 0.4}) {
     for (const TrackedFeature& feature : moving.show(cameraAt(step), body).features)
       EXPECT_LT((feature.position - feature.reference).norm(), 0.003);
   }
@@ -96,7 +96,7 @@ TEST(MovingCamera, ARoughPoseByHandIsInTheFixedFrame) {
   const Points body = transformed(moving.box().volume.rest_vertices, pose);
   moving.show(cameraAt(0), body);
   moving.tracker().restart(pose * Eigen::Translation3d(0.01, 0.01, 0.0));
-  const TrackingResult result = moving.show(cameraAt(3), body);
+  const TrackingResult result = moving.show(cameraAt(1), body);
   ASSERT_TRUE(result.has_targets) << result.status.reason;
   EXPECT_TRUE(result.targets.reset);
   EXPECT_LT(moving.worstTarget(result, body), 0.003);
