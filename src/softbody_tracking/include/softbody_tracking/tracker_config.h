@@ -27,6 +27,11 @@ struct DepthConfig {
   double weight = 1.0;           ///< of all depth targets on a patch of one mean tet edge squared
 };
 
+/// Where the body ends in the image.
+struct OutlineConfig {
+  double weight = 1.0;  ///< of all outline targets on the length of one mean tet edge; 0: none are made
+};
+
 /// The paper's way of making targets: vertices moved by their neighbouring features (Kang et al. 2022, eq.
 /// 3-4).
 struct KnnConfig {
@@ -41,6 +46,7 @@ struct TrackerConfig {
   RegistrationConfig registration;
   FeatureConfig features;
   DepthConfig depth;
+  OutlineConfig outline;
   KnnConfig knn;
 };
 

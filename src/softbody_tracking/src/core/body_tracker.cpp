@@ -182,6 +182,7 @@ std::vector<Association> BodyTracker::Implementation::all(const Observation& see
           : inliers(seen.matches);
   if (config.use_depth && !config.knn_targets) {
     associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
+    associations.insert(associations.end(), seen.outline.begin(), seen.outline.end());
   }
   return associations;
 }

@@ -37,13 +37,16 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
     : config_(config),
       surface_(volume, surface),
       depth_(config.depth, meanEdgeLength(volume.rest_vertices, volume.tets)),
+      outline_(config.outline, meanEdgeLength(volume.rest_vertices, volume.tets)),
       orb_(config.features.max_features),
       map_(config.features) {}
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   map_.rebind(surface_.volume(), volume);
   surface_ = PredictedSurface(volume, surface);
-  depth_ = DepthAssociator(config_.depth, meanEdgeLength(volume.rest_vertices, volume.tets));
+  const double volume_edge_m = meanEdgeLength(volume.rest_vertices, volume.tets);
+  depth_ = DepthAssociator(config_.depth, volume_edge_m);
+  outline_ = OutlineAssociator(config_.outline, volume_edge_m);
 }
 
 void FrameObserver::reset() {
@@ -80,6 +83,7 @@ void FrameObserver::learnColors(const RgbdFrame& frame) {
 void FrameObserver::look(const RgbdFrame& frame, const Points& vertices) {
   surface_.update(frame.camera, vertices);
   samples_ = sampleSurface(surface_, config_.depth.max_targets, std::move(samples_));
+  outline_.sample(surface_);
 }
 
 RigidMotions FrameObserver::alignRigidly(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches) {
@@ -172,13 +176,14 @@ std::vector<bool> Observation::atLeast(Shows least) const {
 /// What hardly shows is held where it was, and what shows loosely goes where the rigid step took it: depth at
 /// its rims would bend it.
 void FrameObserver::keepShownPieces(Observation* seen) const {
-  std::vector<Association>& depth = seen->depth.associations;
+  const std::vector<Association>& depth = seen->depth.associations;
   seen->shown = shownPieces(samples_, depth, seen->matches, surface_.pieceVertices());
   seen->learnable = confirmedPieces(samples_, depth, seen->shown.size());
   const std::vector<bool> well = seen->atLeast(Shows::kWell), loosely = seen->atLeast(Shows::kLoosely);
   for (std::size_t p = 0; p < well.size(); ++p) seen->learnable[p] = seen->learnable[p] || well[p];
   const auto is_loose = [&](const Association& association) { return !well[association.body]; };
-  depth.erase(std::remove_if(depth.begin(), depth.end(), is_loose), depth.end());
+  for (std::vector<Association>* found : {&seen->depth.associations, &seen->outline})
+    found->erase(std::remove_if(found->begin(), found->end(), is_loose), found->end());
   for (FeatureMatch& match : seen->matches) match.inlier = match.inlier && loosely[match.association.body];
 }
 
@@ -193,6 +198,7 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   }
   const RigidMotions motions = alignRigidly(frame, seen.matches);
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
+  seen.outline = outline_.associate(frame, surface_.image(), motions, colors_);
   keepShownPieces(&seen);
   map_.credit(seen.matches, seen.atLeast(Shows::kLoosely));
   surface_.move(motions);

@@ -7,6 +7,7 @@
 #include "feature_map.h"
 #include "gray_pyramid.h"
 #include "orb_extractor.h"
+#include "outline_associations.h"
 #include "predicted_surface.h"
 #include "rigid_alignment.h"
 #include "shown_pieces.h"
@@ -19,6 +20,7 @@ struct Observation {
   std::vector<Keypoint> keypoints;  ///< without a feature; empty in most frames
   std::vector<FeatureMatch> matches;
   DepthAssociations depth;
+  std::vector<Association> outline;
   std::vector<Shows> shown;     ///< of each piece of the body
   std::vector<bool> learnable;  ///< of each, whether what is seen of it is certainly at its place
 
@@ -69,6 +71,7 @@ class FrameObserver {
   TrackerConfig config_;
   PredictedSurface surface_;
   DepthAssociator depth_;
+  OutlineAssociator outline_;
   RigidAlignment rigid_;
   SurfaceSamples samples_;  ///< of the prediction
   OrbExtractor orb_;

@@ -16,7 +16,12 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
       tet_bodies_(tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
       vertex_bodies_(vertexBodies(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
       pieces_(verticesOfBodies(volume.tets, volume.rest_vertices.rows())),
+      at_cut_(static_cast<std::size_t>(surface.rest_vertices.rows()), false),
       binding_(bindSurface(surface, volume)) {
+  for (std::size_t t = 0; t < surface.cut.size(); ++t) {
+    if (!surface.cut[t]) continue;
+    for (int k = 0; k < 3; ++k) at_cut_[surface.triangles(static_cast<Eigen::Index>(t), k)] = true;
+  }
   rest_inverse_.reserve(static_cast<std::size_t>(volume.tets.rows()));
   for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
     Eigen::Matrix3d edges;
@@ -54,6 +59,11 @@ void PredictedSurface::move(const RigidMotions& motions) {
   volume_vertices_ = movedVolume(motions);
   motions_.resize(bodyCount(), Eigen::Isometry3d::Identity());
   for (std::size_t body = 0; body < bodyCount(); ++body) motions_[body] = motions[body] * motions_[body];
+}
+
+bool PredictedSurface::isAtCut(int triangle) const {
+  const auto corners = surface_.triangles.row(triangle);
+  return at_cut_[corners[0]] || at_cut_[corners[1]] || at_cut_[corners[2]];
 }
 
 /// A triangle's corners, each a column.

@@ -37,6 +37,9 @@ class PredictedSurface {
   /// Every piece's vertices moved by its motion.
   Points movedVolume(const RigidMotions& motions) const;
 
+  /// Whether a triangle fills a cut or borders on one.
+  bool isAtCut(int triangle) const;
+
   const Pinhole& camera() const { return camera_; }
   const Points& volumeVertices() const { return volume_vertices_; }
   /// Which triangle lies at a pixel, and how deep.
@@ -69,6 +72,7 @@ class PredictedSurface {
   Faces faces_;
   std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;  ///< connected piece, #T and #V of the volume
   std::vector<std::vector<int>> pieces_;                   ///< vertices of each
+  std::vector<bool> at_cut_;  ///< #V of the surface: a corner of a triangle that fills a cut
   std::vector<MaterialPoint> binding_;
   std::vector<Eigen::Matrix3d> rest_inverse_;  ///< #T: takes offsets from a tet's first vertex to weights
   Pinhole camera_;
