@@ -25,7 +25,7 @@ struct OutlineSample {
 /// - The camera sees through the prediction to what is clearly farther: the outline is pulled back.
 /// - The body goes on beyond the prediction, with neither a step in depth nor another colour, up to a clear
 ///   step backwards: the outline is pulled out.
-/// An error of a pixel or so says nothing, since depth at edges is no better. Nor does a sample where
+/// An error of up to two pixels says nothing, since depth at edges is no better. Nor does a sample where
 /// something nearer, a foreign colour, much missing depth or the image's border comes in between.
 class OutlineAssociator {
  public:
