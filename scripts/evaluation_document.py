@@ -134,9 +134,10 @@ def absences(reports):
             rows.append([name, f"{absence['begin_s']:.1f} to {absence['end_s']:.1f}",
                          percent(absence["covered_share"], 0), number(absence["covered"]["mean_mm"]),
                          number(absence["normal_mm"]), "never" if recovery is None else number(recovery)])
-    return section("Hidden and back", "More than a quarter of what the camera saw at first is hidden, or out of view.",
+    return section("Hidden and back", "More than a quarter of what the camera saw at first is hidden, or out of view. "
+                   "Normal is, in the scenes `occlude`, how the same motion is followed without the hand.",
                    ["scene", "from, to [s]", "hidden at most [%]", "mean error of the hidden part [mm]",
-                    "normal error before [mm]", "back to normal after [s]"], rows)
+                    "normal error [mm]", "back to normal after [s]"], rows)
 
 
 def cuts(reports):

@@ -128,6 +128,23 @@ TEST_F(FeatureMapTest, CoveredFeaturesAreNotExpected) {
   EXPECT_GT(map_.features().size(), 0.9 * known) << "the covered ones stay";
 }
 
+/// A tool's depth is taken out; that there is none does not say that the features should have been found.
+TEST_F(FeatureMapTest, FeaturesUnderAKnownToolAreNotExpected) {
+  align();
+  const int expected = map_.expected();
+  const cv::Rect tool(0, 0, surface_.image().region.x + surface_.image().region.width / 2, 480);
+  frame_.depth(tool).setTo(0.0f);
+  frame_.color(tool).setTo(cv::Vec3b(90, 90, 90));
+  image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
+  align();
+  EXPECT_EQ(map_.expected(), expected) << "nothing says what a hole in the depth image is";
+  frame_.covered = cv::Mat1b(frame_.depth.size(), 0);
+  frame_.covered(tool).setTo(255);
+  const std::vector<FeatureMatch> found = align();
+  EXPECT_GT(found.size(), 0.8 * map_.expected());
+  EXPECT_LT(map_.expected(), 0.8 * expected);
+}
+
 TEST_F(FeatureMapTest, DescriptorsFindWhatMovedTooFarForThePatches) {
   const Points truth = transformed(box_.volume.rest_vertices, boxPose());
   look(truth, {0.013, 0.0, 0.0});

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "core/feature_match.h"
@@ -101,6 +102,19 @@ TEST_P(FeatureMatches, TheRigidStepDoesNotFollowThem) {
     const Eigen::Vector3d& place = match.association.predicted;
     EXPECT_LT((kept * place - ideal * place).cross(place.normalized()).norm(), 2e-4);
   }
+}
+
+/// A tenth of the features, on a piece between the others, moves by itself.
+TEST_P(FeatureMatches, PiecesAreJudgedByThemselves) {
+  Scene made = makeScene(800, 0.0, Eigen::Vector3d::Zero(), &random_);
+  for (std::size_t m = 0; m < made.matches.size(); m += 10) {
+    made.matches[m].association.body = 1;
+    made.matches[m].association.predicted.x() += 0.005;
+  }
+  markOutliers(kCamera, kMaxDisagreement, &made.matches);
+  const auto kept = std::count_if(made.matches.begin(), made.matches.end(),
+                                  [](const FeatureMatch& match) { return match.inlier; });
+  EXPECT_GT(kept, 0.97 * 800);
 }
 
 TEST_P(FeatureMatches, FewWithoutNeighborsAreJudgedByTheirLengthAlone) {

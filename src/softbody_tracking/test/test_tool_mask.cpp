@@ -23,7 +23,9 @@ TEST(ToolMask, HidesTheBladeAndAMargin) {
   ToolMask mask;
   mask.see(0, blade(0.498));
   const RgbdFrame frame = wall(33'000'000);
-  const cv::Mat1f depth = mask.depthWithout(frame);
+  const RgbdFrame without = mask.without(frame);
+  const cv::Mat1f& depth = without.depth;
+  EXPECT_EQ(cv::countNonZero((depth == 0.0f) != (without.covered != 0)), 0);
   for (int v = 0; v < depth.rows; ++v) {
     for (int u = 0; u < depth.cols; ++u) {
       const Eigen::Vector3d p = frame.camera.unproject(u, v, 0.5);
@@ -44,14 +46,14 @@ TEST(ToolMask, LeavesWhatIsBehindOrBeforeTheBlade) {
   for (const double z : {0.48, 0.52}) {
     ToolMask mask;
     mask.see(0, blade(z));
-    EXPECT_EQ(cv::countNonZero(mask.depthWithout(wall(0)) != 0.5f), 0) << z;
+    EXPECT_EQ(cv::countNonZero(mask.without(wall(0)).depth != 0.5f), 0) << z;
   }
 }
 
 TEST(ToolMask, HidesOnlyWhereABladeOnEdgeMeetsTheBody) {
   ToolMask mask;
   mask.see(0, blade(0.5, M_PI / 2.0));
-  const cv::Mat1f depth = mask.depthWithout(wall(0));
+  const cv::Mat1f depth = mask.without(wall(0)).depth;
   EXPECT_EQ(depth(60, 80), 0.0f);
   EXPECT_EQ(depth(60 + 6, 80), 0.5f);  // 20 mm beside it
 }
@@ -61,7 +63,7 @@ TEST(ToolMask, StaysInTheImageWhereTheCameraClaimsALargerOne) {
   mask.see(0, blade(0.5));
   RgbdFrame frame = wall(0);
   frame.camera = {1600, 1200, 1500.0, 1500.0, 79.5, 59.5};
-  const cv::Mat1f depth = mask.depthWithout(frame);
+  const cv::Mat1f depth = mask.without(frame).depth;
   EXPECT_EQ(depth.size(), frame.depth.size());
   EXPECT_EQ(depth(60, 80), 0.0f);
 }
@@ -69,12 +71,12 @@ TEST(ToolMask, StaysInTheImageWhereTheCameraClaimsALargerOne) {
 TEST(ToolMask, ForgetsABladeThatIsNoLongerSeen) {
   ToolMask mask;
   const RgbdFrame late = wall(300'000'000);
-  EXPECT_EQ(mask.depthWithout(late).data, late.depth.data);
+  EXPECT_EQ(mask.without(late).depth.data, late.depth.data);
   mask.see(0, blade(0.5));
-  EXPECT_EQ(mask.depthWithout(late).data, late.depth.data);
-  EXPECT_GT(cv::countNonZero(mask.depthWithout(wall(100'000'000)) == 0.0f), 100);
+  EXPECT_EQ(mask.without(late).depth.data, late.depth.data);
+  EXPECT_GT(cv::countNonZero(mask.without(wall(100'000'000)).depth == 0.0f), 100);
   mask.see(300'000'000, blade(-0.1));
-  EXPECT_EQ(mask.depthWithout(late).data, late.depth.data) << "a blade behind the camera";
+  EXPECT_EQ(mask.without(late).depth.data, late.depth.data) << "a blade behind the camera";
 }
 
 }  // namespace

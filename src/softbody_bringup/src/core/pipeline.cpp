@@ -27,9 +27,8 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
   const std::optional<Points> blade = seenBlade(frame, output);
   if (blade) tool_mask_.see(frame.stamp, *blade);
-  RgbdFrame body_frame = frame;
-  body_frame.depth = tool_mask_.depthWithout(frame);
-  output.tracking = tracker_.track(body_frame, simulated ? &simulator_.state() : nullptr, &timer_);
+  output.tracking =
+      tracker_.track(tool_mask_.without(frame), simulated ? &simulator_.state() : nullptr, &timer_);
   if (output.tracking.has_targets) {
     simulate(output.tracking.targets, frame.stamp);
     makeWaitingCuts(&output);

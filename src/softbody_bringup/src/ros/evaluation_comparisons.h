@@ -13,8 +13,10 @@ void compareWithRecording(const EvaluatorOptions& options, const std::string& re
                           Pictures* pictures);
 
 /// The result against the truth: frames answered, vertex errors, pieces, jitter.
-/// @param result in the truth's frame.
+/// @param result in the truth's frame. @param unhidden likewise, if nothing had ever hidden the body; may be
+/// null.
 void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
-                      const SurfaceRecord& truth, Report* report, Pictures* pictures);
+                      const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
+                      Pictures* pictures);
 
 }  // namespace softbody::evaluation

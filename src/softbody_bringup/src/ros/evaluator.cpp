@@ -28,6 +28,11 @@ std::string recordingOf(const EvaluatorOptions& options) {
   return options.truth;
 }
 
+SurfaceRecord readResult(const EvaluatorOptions& options, const std::string& bag) {
+  return readSurface(bag, options.result_namespace + "/" + topics::kSurfaceTopology,
+                     options.result_namespace + "/" + topics::kSurfaceState);
+}
+
 SurfaceRecord readTruth(const EvaluatorOptions& options) {
   SurfaceRecord truth = readSurface(options.truth, std::string("/") + virtual_camera::kTruthTopologyTopic,
                                     std::string("/") + virtual_camera::kTruthStateTopic);
@@ -69,6 +74,17 @@ VolumeReport volumeOf(const SurfaceRecord& surface) {
   return volumeDrift(surface.topologies, states);
 }
 
+/// What the error would be if nothing had ever hidden the body.
+std::optional<SurfaceRecord> readUnhidden(const EvaluatorOptions& options, const std::string& recording,
+                                          const SurfaceRecord& truth) {
+  if (options.unhidden.empty()) return std::nullopt;
+  EvaluatorOptions its = options;
+  its.result = options.unhidden;
+  SurfaceRecord result = readResult(its, its.result);
+  expressIn(truth.frame_id, transformBags(its, recording), &result);
+  return result;
+}
+
 void addTool(const EvaluatorOptions& options, const std::string& recording, Report* report) {
   const ToolRecord truth = readPoses(options.truth, kTrueToolPose);
   if (truth.poses.empty()) return;
@@ -78,9 +94,7 @@ void addTool(const EvaluatorOptions& options, const std::string& recording, Repo
 }
 
 Measured measure(const EvaluatorOptions& options) {
-  SurfaceRecord result =
-      readSurface(options.result, options.result_namespace + "/" + topics::kSurfaceTopology,
-                  options.result_namespace + "/" + topics::kSurfaceState);
+  SurfaceRecord result = readResult(options, options.result);
   Measured measured;
   Report& report = measured.report;
   const std::string recording = recordingOf(options);
@@ -95,7 +109,8 @@ Measured measure(const EvaluatorOptions& options) {
   report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
   if (!recording.empty()) compareInCamera(options, recording, result, truth ? &*truth : nullptr, &measured);
   if (truth) {
-    compareWithTruth(options, result, *truth, &report, &measured.pictures);
+    const std::optional<SurfaceRecord> unhidden = readUnhidden(options, recording, *truth);
+    compareWithTruth(options, result, *truth, unhidden ? &*unhidden : nullptr, &report, &measured.pictures);
     addTool(options, recording, &report);
   }
   if (report.frames.answered == 0) {

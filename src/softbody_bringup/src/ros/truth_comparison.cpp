@@ -110,6 +110,20 @@ std::vector<FrameSight> sightsOf(const SurfaceRecord& truth) {
   return sights;
 }
 
+/// What the error of the same frames is where nothing ever hid the body.
+void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden, const SurfaceRecord& truth,
+                 std::vector<FrameSight>* sights) {
+  TopologyPairs pairs(options, unhidden, truth);
+  auto sight = sights->begin();
+  for (const auto& [stamp, expected] : truth.states) {
+    FrameSight& shown = *sight++;
+    const auto answer = unhidden.states.find(stamp);
+    if (answer == unhidden.states.end()) continue;
+    const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
+    shown.unhidden_error = vertexError(answer->second, expected, pair.matches, pair.groups).mean();
+  }
+}
+
 /// Volumes frame by frame, where both surfaces are closed.
 std::optional<Change> volumeError(const SurfaceRecord& result, const SurfaceRecord& truth) {
   std::vector<const MeshState*> answers, truths;
@@ -150,7 +164,8 @@ void plotVertexErrors(const VertexErrorReport& report, const std::vector<FrameVe
 }  // namespace
 
 void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
-                      const SurfaceRecord& truth, Report* report, Pictures* pictures) {
+                      const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
+                      Pictures* pictures) {
   TopologyPairs pairs(options, result, truth);
   std::vector<FrameVertexError> errors;
   std::vector<FrameSight> sights = sightsOf(truth);
@@ -175,6 +190,7 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
     throw std::runtime_error(
         "no vertex of the result has a counterpart in the truth (vertex_parents): another mesh?");
   }
+  if (unhidden != nullptr) addUnhidden(options, *unhidden, truth, &sights);
   report->absences = absences(sights);
   report->jitter = jitterWhereStill(result, truth);
   report->pieces = pieces.report();

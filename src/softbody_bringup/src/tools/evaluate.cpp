@@ -35,6 +35,10 @@ int main(int argc, char** argv) {
   app.add_option("--recording", options.recording,
                  "bag with the camera's topics; default: the truth, if it has them")
       ->check(CLI::ExistingFile);
+  app.add_option(
+         "--unhidden", options.unhidden,
+         "result for the same motion with nothing before the body: what is normal after it was hidden")
+      ->check(CLI::ExistingFile);
   app.add_option("--compare", other, "bag with another result, shown beside the first")
       ->check(CLI::ExistingFile);
   app.add_option("--report", options.report_folder, "folder for report.json, report.html and pictures");

@@ -46,6 +46,7 @@ void declare(CLI::App* app, Arguments* arguments) {
       ->transform(CLI::CheckedTransformer(on_off));
   app->add_option("--without", arguments->without, "parts of the noise to switch off")
       ->check(CLI::IsMember(noiseParts()));
+  app->add_flag("!--no-hands", setup.hands, "the body alone, moved as by the hands of its scene");
   app->add_flag("--small", arguments->small, "compress by bz2: half the size, but slow");
   app->add_option("--duration", arguments->duration_s, "[s]; default: the scene's")
       ->check(CLI::Range(0.001, 36000.0));

@@ -35,6 +35,21 @@ TEST(Absences, TheTimeUntilTheErrorIsBackIsTheRecovery) {
   }
 }
 
+/// A body that bends while it is hidden is followed less well than one at rest before, whoever hides it.
+TEST(Absences, WhereTheErrorOfAnUnhiddenBodyIsKnownItIsTheNormalOne) {
+  std::vector<FrameSight> frames = sequence(6.5);
+  for (FrameSight& frame : frames) {
+    if (frame.time_s >= 6.5) frame.mean_error = 3e-3;
+  }
+  EXPECT_FALSE(absences(frames).front().recovery_s);
+  for (FrameSight& frame : frames) frame.unhidden_error = frame.time_s < 4.0 ? 1e-3 : 2.6e-3;
+  const Absence absence = absences(frames).front();
+  EXPECT_NEAR(*absence.recovery_s, 0.5, 1.0 / 30.0);
+  EXPECT_EQ(absence.normal, 2.6e-3);
+  for (FrameSight& frame : frames) frame.unhidden_error = 2.4e-3;
+  EXPECT_FALSE(absences(frames).front().recovery_s) << "3.0 mm are more than 1.2 times 2.4 mm";
+}
+
 TEST(Absences, WhoNeverRecoversHasNoTimeAndAnUnansweredFrameIsNoRecovery) {
   EXPECT_FALSE(absences(sequence(99.0)).front().recovery_s);
   std::vector<FrameSight> frames = sequence(6.0);

@@ -43,9 +43,10 @@ const std::string& recording() {
 
 /// The truth as if it were a result, after a change. A state whose change returns false is left out.
 std::string resultFromTruth(const std::string& name,
-                            const std::function<bool(softbody_msgs::MeshState*, int)>& change) {
+                            const std::function<bool(softbody_msgs::MeshState*, int)>& change,
+                            const std::string& truth = recording()) {
   const std::string path = testing::TempDir() + name;
-  rosbag::Bag in(recording()), out(path, rosbag::bagmode::Write);
+  rosbag::Bag in(truth), out(path, rosbag::bagmode::Write);
   rosbag::View view(in, rosbag::TopicQuery(std::vector<std::string>{"/ground_truth/surface/topology",
                                                                     "/ground_truth/surface/state"}));
   int frame = 0;
@@ -64,6 +65,20 @@ std::string resultFromTruth(const std::string& name,
 bool shift(softbody_msgs::MeshState* state, float dz) {
   for (geometry_msgs::Point32& p : state->vertices) p.z += dz;
   return true;
+}
+
+/// A hand hides the body for 2 s.
+std::string occludedRecording() {
+  virtual_camera::CameraSetup setup;
+  setup.scene = "occlude";
+  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
+  setup.width = 160;
+  setup.height = 120;
+  setup.noise = virtual_camera::noNoise();
+  virtual_camera::VirtualCamera camera = makeCamera(setup);
+  const std::string file = testing::TempDir() + "evaluator_occluded.bag";
+  writeBag(&camera, {file, 5 * kFrames, 20.0}, [](int) {});
+  return file;
 }
 
 std::string failure(const EvaluatorOptions& options) {
@@ -231,6 +246,22 @@ TEST(Evaluator, TwoResultsSideBySide) {
   EXPECT_EQ(toJson(comparison)["other"]["frames"]["answered"], kFrames);
   for (const char* file : {"report.json", "report.html", "overlay.png", "other_overlay.png"})
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(options.report_folder) / file)) << file;
+}
+
+TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
+  EvaluatorOptions options;
+  options.truth = occludedRecording();
+  const auto off = [](float later_m) {
+    return [=](softbody_msgs::MeshState* s, int frame) { return shift(s, frame < 30 ? 0.001f : later_m); };
+  };
+  options.result = resultFromTruth("hidden.bag", off(0.003f), options.truth);
+  ASSERT_EQ(evaluate(options).absences.size(), 1u);
+  EXPECT_FALSE(evaluate(options).absences[0].recovery_s);
+  options.unhidden = resultFromTruth("unhidden.bag", off(0.0026f), options.truth);
+  EXPECT_EQ(evaluate(options).absences[0].recovery_s, 0.0);
+  EXPECT_NEAR(evaluate(options).absences[0].normal, 0.0026, 1e-6);
+  options.unhidden = resultFromTruth("unhidden.bag", off(0.0024f), options.truth);
+  EXPECT_FALSE(evaluate(options).absences[0].recovery_s);
 }
 
 TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {

@@ -155,6 +155,19 @@ TEST(Scenes, HandCoversFortyPercentForTwoSeconds) {
   }
 }
 
+TEST(Scenes, WithoutHandsTheBodyMovesAsItDoesWithThem) {
+  for (const char* name : {"occlude", "press", "bend"}) {
+    const Scene scene = makeScene(name, spongeBody(), 1), bare = withoutHands(scene);
+    EXPECT_EQ(bare.actors.size(), 3u) << name;
+    EXPECT_EQ(bare.hands, 0u);
+    for (const double t : {0.0, 1.3, 2.5}) {
+      EXPECT_EQ(uncoveredShare(bare, t), 1.0);
+      EXPECT_EQ(bare.state(t).vertices.size(), 3u);
+      EXPECT_TRUE(bare.state(t).vertices[0] == scene.state(t).vertices[0]);
+    }
+  }
+}
+
 TEST(Scenes, FingerTouchesTheBottomOfItsDent) {
   const Scene scene = makeScene("press", spongeBody(), 1);
   const SceneState start = scene.state(0.0), state = scene.state(2.5);

@@ -42,7 +42,7 @@ struct SimulatorConfig {
 /// body's own stiffness is lost in rounding.
 double largestStiffness(const SimulatorConfig& config);
 
-/// @throw std::invalid_argument if the solver does not have the elasticity, or a target of weight 1 is too
+/// @throw std::invalid_argument if the solver does not have the elasticity, or targets may be too
 /// stiff.
 void requireConsistent(const SimulatorConfig& config);
 

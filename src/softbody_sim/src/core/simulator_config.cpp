@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "softbody_common/target_limits.h"
 #include "softbody_sim/simulator.h"
 
 namespace softbody {
@@ -12,10 +13,12 @@ double largestStiffness(const SimulatorConfig& config) {
 }
 
 void requireConsistent(const SimulatorConfig& config) {
-  if (config.target_stiffness > largestStiffness(config)) {
-    throw std::invalid_argument(
-        fmt::format("target_stiffness is {}: in {} precision at most {}", config.target_stiffness,
-                    config.single_precision ? "single" : "double", largestStiffness(config)));
+  const double largest = largestStiffness(config) / kLargestTargetWeight;
+  if (config.target_stiffness > largest) {
+    throw std::invalid_argument(fmt::format(
+        "target_stiffness is {}: in {} precision at most {}, since targets have weights of up to {}",
+        config.target_stiffness, config.single_precision ? "single" : "double", largest,
+        kLargestTargetWeight));
   }
   if (config.solver == SolverKind::kProjectiveDynamics && config.elasticity != Elasticity::kCorotated) {
     throw std::invalid_argument("elasticity is 'neo_hookean' with solver 'pd'; it needs solver 'fem'");

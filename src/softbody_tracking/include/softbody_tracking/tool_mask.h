@@ -5,16 +5,17 @@
 
 namespace softbody {
 
-/// Takes a tracked blade out of the depth image: it stands in the body that it cuts, without a step in depth,
+/// Takes a tracked blade out of a frame: it stands in the body that it cuts, without a step in depth,
 /// and would be taken for the body.
 class ToolMask {
  public:
   /// @param blade planar polygon in the fixed frame, #B by 3 [m].
   void see(Nanoseconds stamp, const Points& blade);
 
-  /// The frame's depth, 0 within 8 mm of the blade where that was seen last. The frame's own image where no
-  /// blade was seen up to 0.2 s before or after, or where it reaches nearer than 1 cm to the camera plane.
-  cv::Mat1f depthWithout(const RgbdFrame& frame) const;
+  /// The frame without depth, and covered, within 8 mm of the blade where that was seen last. The frame as it
+  /// is where no blade was seen up to 0.2 s before or after, or where it reaches nearer than 1 cm to the
+  /// camera plane.
+  RgbdFrame without(const RgbdFrame& frame) const;
 
  private:
   Nanoseconds stamp_ = 0;

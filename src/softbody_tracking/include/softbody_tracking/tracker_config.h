@@ -24,7 +24,8 @@ struct FeatureConfig {
 struct DepthConfig {
   int max_targets = 1500;
   double max_distance_m = 0.04;  ///< between prediction and measurement along the ray
-  double weight = 1.0;           ///< of all depth targets on a patch of one mean tet edge squared
+  double weight = 1.0;           ///< of all depth targets on a patch of one mean tet edge squared;
+                                 ///< of one at most kLargestTargetWeight
 };
 
 /// Where the body ends in the image.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "softbody_common/target_limits.h"
+
 namespace softbody {
 namespace {
 
@@ -191,7 +193,8 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
         frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);
     association.normal = block.normal;
     const double width = surface.block_px * block.position.z() / (frame.camera.fx * volume_edge_m_);
-    association.weight = config_.weight * width * width / cosine;  // per area of surface, not of picture
+    const double weight = config_.weight * width * width / cosine;  // per area of surface, not of picture
+    association.weight = std::min(weight, kLargestTargetWeight);
     found_.associations.push_back(association);
   }
   return found_;

@@ -69,7 +69,9 @@ bool isCovered(const RgbdFrame& frame, const ColorModel& colors, const cv::Point
   const cv::Point center = toPixel(pixel);
   const auto nearest = static_cast<float>(z - reach), farthest = static_cast<float>(z + kVisibleTolerance);
   const auto isForeign = [&](const cv::Point& place) {
-    const float depth = image.contains(place) ? frame.depth(place) : 0.0f;
+    if (!image.contains(place)) return false;
+    if (!frame.covered.empty() && frame.covered(place) != 0) return true;
+    const float depth = frame.depth(place);
     return depth > 0.0f && (depth < nearest || (depth < farthest && !colors.belongs(frame.color(place))));
   };
   if (!isForeign(center)) return false;

@@ -62,21 +62,24 @@ void ToolMask::see(Nanoseconds stamp, const Points& blade) {
   blade_ = blade;
 }
 
-cv::Mat1f ToolMask::depthWithout(const RgbdFrame& frame) const {
-  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kStillThere)
-    return frame.depth;
+RgbdFrame ToolMask::without(const RgbdFrame& frame) const {
+  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kStillThere) return frame;
   const Points corners = transformed(blade_, frame.T_fixed_camera.inverse());
-  if (corners.col(2).minCoeff() < kNearest) return frame.depth;
+  if (corners.col(2).minCoeff() < kNearest) return frame;
   const PlanePolygon blade(corners);
   const cv::Rect region = regionOf(frame.camera, corners) & cv::Rect(cv::Point(), frame.depth.size());
-  cv::Mat1f depth = frame.depth.clone();
+  RgbdFrame result = frame;
+  result.depth = frame.depth.clone();
+  result.covered = cv::Mat1b(frame.depth.size(), 0);
   for (int v = region.y; v < region.br().y; ++v) {
     for (int u = region.x; u < region.br().x; ++u) {
-      float& z = depth(v, u);
-      if (z > 0.0f && blade.isNear(frame.camera.unproject(u, v, z))) z = 0.0f;
+      float& z = result.depth(v, u);
+      if (z <= 0.0f || !blade.isNear(frame.camera.unproject(u, v, z))) continue;
+      z = 0.0f;
+      result.covered(v, u) = 255;
     }
   }
-  return depth;
+  return result;
 }
 
 }  // namespace softbody

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "softbody_common/target_limits.h"
+
 namespace softbody {
 namespace {
 
@@ -28,12 +30,12 @@ TrackerConfig readTrackerConfig(Parameters& parameters) {
       parameters.integer("feature_max_hamming_distance", features.max_hamming_distance, 0, 256);
   features.max_disagreement_m =
       parameters.number("feature_max_disagreement_m", features.max_disagreement_m, 1e-4, 1.0);
-  features.weight = parameters.number("feature_weight", features.weight, 1e-6, 1e6);
+  features.weight = parameters.number("feature_weight", features.weight, 1e-6, kLargestTargetWeight);
 
   DepthConfig& depth = config.depth;
   depth.max_targets = parameters.integer("max_depth_targets", depth.max_targets, 100, 100000);
   depth.max_distance_m = parameters.number("depth_max_distance_m", depth.max_distance_m, 1e-3, 1.0);
-  depth.weight = parameters.number("depth_weight", depth.weight, 1e-6, 1e6);
+  depth.weight = parameters.number("depth_weight", depth.weight, 1e-6, kLargestTargetWeight);
 
   config.outline.weight = parameters.number("outline_weight", config.outline.weight, 0.0, 1e6);
 

@@ -215,7 +215,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
                   mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask),
                   T_output_camera};
-  if (blade_frame_.empty() || blade_frame_ == header.frame_id) frame.depth = tool_mask_.depthWithout(frame);
+  if (blade_frame_.empty() || blade_frame_ == header.frame_id) frame = tool_mask_.without(frame);
   const std::optional<MeshState> state = volume();
   StageTimer timer;
   const TrackingResult result = tracker_->track(frame, state ? &*state : nullptr, &timer);

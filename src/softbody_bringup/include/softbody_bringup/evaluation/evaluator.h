@@ -9,6 +9,7 @@ namespace softbody::evaluation {
 struct EvaluatorOptions {
   std::string result;            ///< bag
   std::string truth, recording;  ///< bags; empty: none
+  std::string unhidden;          ///< bag with the result if nothing ever hid the body; empty: none
   std::string report_folder;     ///< empty: none is written
   std::string result_namespace = "/softbody", camera = "/camera";
   double occluder_m = 0.03;  ///< see depthResidual

@@ -17,6 +17,7 @@ struct CameraSetup {
   std::uint64_t seed = 1;
   int width = 640, height = 480;  ///< [px]
   double rate_hz = 30.0;
+  bool hands = true;  ///< false: neither hand nor finger is seen, though the body moves as if they were there
   NoiseOptions noise;
 };
 

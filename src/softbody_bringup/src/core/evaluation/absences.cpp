@@ -11,7 +11,7 @@ constexpr double kCoveredShare = 0.25, kNormalFactor = 1.2, kHold_s = 0.2;
 bool absent(const FrameSight& frame) { return frame.covered_share > kCoveredShare; }
 
 /// p95 of the frames' mean errors before the first absence.
-double normalError(const std::vector<FrameSight>& frames) {
+double errorBefore(const std::vector<FrameSight>& frames) {
   std::vector<float> errors;
   for (auto frame = frames.begin(); frame != frames.end() && !absent(*frame); ++frame) {
     if (std::isfinite(frame->mean_error)) errors.push_back(static_cast<float>(frame->mean_error));
@@ -20,9 +20,10 @@ double normalError(const std::vector<FrameSight>& frames) {
 }
 
 /// Time from frame `end` on until the error is normal, and stays so.
-std::optional<double> recovery(const std::vector<FrameSight>& frames, std::size_t end, double normal) {
+std::optional<double> recovery(const std::vector<FrameSight>& frames, std::size_t end, double before) {
   std::size_t since = end;
   for (std::size_t i = end; i < frames.size(); ++i) {
+    const double normal = frames[i].unhidden_error.value_or(before);
     if (!(frames[i].mean_error <= kNormalFactor * normal)) since = i + 1;
     if (since <= i && frames[i].time_s - frames[since].time_s >= kHold_s)
       return frames[since].time_s - frames[end].time_s;
@@ -30,30 +31,31 @@ std::optional<double> recovery(const std::vector<FrameSight>& frames, std::size_
   return std::nullopt;
 }
 
-Absence absenceOf(const std::vector<FrameSight>& frames, std::size_t begin, std::size_t end, double normal) {
+Absence absenceOf(const std::vector<FrameSight>& frames, std::size_t begin, std::size_t end, double before) {
+  const FrameSight& back = frames[std::min(end, frames.size() - 1)];
   Absence absence;
   absence.begin_s = frames[begin].time_s;
-  absence.end_s = frames[std::min(end, frames.size() - 1)].time_s;
-  absence.normal = normal;
+  absence.end_s = back.time_s;
+  absence.normal = back.unhidden_error.value_or(before);
   std::vector<float> errors;
   for (std::size_t i = begin; i < end; ++i) {
     absence.covered_share = std::max(absence.covered_share, frames[i].covered_share);
     errors.insert(errors.end(), frames[i].covered_errors.begin(), frames[i].covered_errors.end());
   }
   absence.covered = summarize(std::move(errors));
-  absence.recovery_s = recovery(frames, end, normal);
+  absence.recovery_s = recovery(frames, end, before);
   return absence;
 }
 
 }  // namespace
 
 std::vector<Absence> absences(const std::vector<FrameSight>& frames) {
-  const double normal = normalError(frames);
+  const double before = errorBefore(frames);
   std::vector<Absence> all;
   for (std::size_t begin = 0, end = 0; begin < frames.size(); begin = std::max(end, begin + 1)) {
     for (end = begin; end < frames.size() && absent(frames[end]);) ++end;
     if (end == begin) continue;
-    const Absence absence = absenceOf(frames, begin, end, normal);
+    const Absence absence = absenceOf(frames, begin, end, before);
     if (absence.end_s - absence.begin_s >= kHold_s) all.push_back(absence);
   }
   return all;

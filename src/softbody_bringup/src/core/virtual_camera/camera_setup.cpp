@@ -31,7 +31,8 @@ VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* war
   const Body body =
       readBody(file, setup.body.empty() ? 1.0 : metresPer(setup.unit), warnings ? warnings : &ignored);
   const Scene scene = makeScene(setup.scene, body, setup.seed, setup.config_folder + "/knife.yaml");
-  return VirtualCamera(withCameraMotion(setup.camera_motion, scene), d435(setup.width, setup.height),
+  const Scene shown = setup.hands ? scene : withoutHands(scene);
+  return VirtualCamera(withCameraMotion(setup.camera_motion, shown), d435(setup.width, setup.height),
                        setup.noise, setup.seed);
 }
 

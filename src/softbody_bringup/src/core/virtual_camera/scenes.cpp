@@ -2,6 +2,7 @@
 
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "body_frame.h"
 #include "plays.h"
@@ -32,6 +33,17 @@ const std::map<std::string, CutMaker>& cuts() {
 bool isDoll(const std::string& scene) { return scene.compare(0, kDoll.size(), kDoll) == 0; }
 
 }  // namespace
+
+Scene withoutHands(Scene scene) {
+  const std::size_t kept = scene.actors.size() - std::exchange(scene.hands, 0);
+  scene.actors.resize(kept);
+  scene.state = [kept, with_hands = std::move(scene.state)](double t) {
+    SceneState state = with_hands(t);
+    state.vertices.resize(kept);
+    return state;
+  };
+  return scene;
+}
 
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names;

@@ -58,6 +58,7 @@ Scene perform(const Stage& stage, const Play& play) {
       stage.T_camera_world.linear() * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
   scene.actors = stage.actors;
   for (const Prop& prop : play.props) scene.actors.push_back(prop.actor);
+  scene.hands = play.props.size();
   const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
   const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);
   scene.state = [=, rest = stage.actors.at(0).rest.vertices](double time) {
