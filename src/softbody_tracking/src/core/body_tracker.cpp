@@ -127,6 +127,8 @@ void BodyTracker::Implementation::reset() {
   if (prediction != nullptr) prediction->reset();
   last_stamp = 0;
   lost_frames = frames_to_registration = 0;
+  moving.clear();
+  held_frames.clear();
   knn.reset();
 }
 
@@ -226,7 +228,7 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
   status.inlier_ratio = seen.matches.empty() ? 0.0 : kept / static_cast<double>(seen.matches.size());
   status.residual_rms = rmsResidual(associations);
   const int visible = seen.depth.visible_blocks;
-  const auto explained = static_cast<double>(seen.depth.associations.size());
+  const auto explained = static_cast<double>(seen.agreeing_blocks);
   if (static_cast<int>(explained + kept) < kFewestAssociations) {
     ++lost_frames;
     status.state = TrackingState::kLost;
@@ -275,12 +277,11 @@ void BodyTracker::Implementation::admit(const RgbdFrame& frame, const Observatio
            transformed(observer->surface().volumeVertices(), frame.T_fixed_camera));
 }
 
-/// While others are seen, what hardly shows stays where the simulation had it: nothing tells where else it
+/// What hardly shows stays where the simulation had it: nothing tells where else it
 /// is. What shows loosely goes as a whole where it was found. @param vertices of the simulation, fixed frame.
 void BodyTracker::Implementation::holdUnseen(const Observation& seen, const Points& vertices,
                                              const Eigen::Isometry3d& T_fixed_camera,
                                              std::vector<Target>* targets) const {
-  if (std::count(seen.shown.begin(), seen.shown.end(), Shows::kWell) == 0) return;
   const std::vector<std::vector<int>>& pieces = observer->surface().pieces();
   const Points found = transformed(observer->surface().volumeVertices(), T_fixed_camera);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -335,8 +336,9 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   for (const Association& association : associations)
     result.targets.targets.push_back(toTarget(association, frame.T_fixed_camera));
   self.moving = seen.atLeast(Shows::kWell);
-  if (placed) self.holdUnseen(seen, volume->vertices, frame.T_fixed_camera, &result.targets.targets);
-  if (result.status.state == TrackingState::kLost) self.prediction->reset();
+  const bool lost = result.status.state == TrackingState::kLost;
+  if (placed && !lost) self.holdUnseen(seen, volume->vertices, frame.T_fixed_camera, &result.targets.targets);
+  if (lost) self.prediction->reset();
   if (learns) {
     self.admit(frame, seen);
     result.status.features_total = static_cast<std::uint32_t>(self.observer->map().features().size());

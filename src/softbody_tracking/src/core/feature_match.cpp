@@ -10,14 +10,16 @@ namespace {
 
 constexpr double kLargestMotion = 0.1;  // [m] a frame; 3 m/s at 30 Hz
 constexpr int kNeighborhoodPx = 40;
-constexpr std::size_t kFewestNeighbors = 4;
-constexpr std::size_t kFewestForFit = 20;
-constexpr int kFits = 1;
-constexpr double kRidge = 10.0;               // [px^2]
-constexpr double kSmallestSpread = 1e-4;      // [m]
-constexpr double kPrecisePx = 2.5;            // across the ray, that no match disagrees too much by
-constexpr double kLargestSpread = 3.0;        // times the neighbours' median disagreement
-constexpr std::size_t kEnoughNeighbors = 48;  // for a median; of more every second, third, ...
+constexpr std::size_t kFewest = 4;           // of a piece, below which nothing tells its motion
+constexpr std::size_t kEnoughOfPiece = 128;  // for its motion; of more every second, third, ...
+constexpr std::size_t kEnoughNeighbors = 48;
+constexpr int kFits = 2;
+constexpr double kPieceMatches = 10.0;    // that the piece's motion counts for at any place ...
+constexpr double kPieceReachPx = 40.0;    // ... as if they were spread so far around it
+constexpr double kSmallestSpread = 1e-4;  // [m]
+constexpr double kLargestSpread = 3.0;    // times the neighbours' median disagreement, but
+constexpr double kPrecisePx = 1.5;        // across the ray, that no match disagrees too much by,
+constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
 
 double median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
@@ -25,9 +27,9 @@ double median(std::vector<double>* values) {
   return *middle;
 }
 
-/// How matches around one place move relative to the prediction: linearly in the image, as a part of a body
-/// does that turns and stretches.
-struct Neighborhood {
+/// How matches move relative to the prediction: linearly in the image, as a part of a body does that turns
+/// and stretches.
+struct LinearMotion {
   cv::Point2f center;
   Eigen::Matrix3d motion = Eigen::Matrix3d::Zero();  ///< [m], of (1, right, down) from the centre [px]
   double spread = 0.0;                               ///< median of the disagreements across the ray [m]
@@ -35,7 +37,13 @@ struct Neighborhood {
   Eigen::Vector3d offset(const cv::Point2f& pixel) const {
     return {1.0, pixel.x - center.x, pixel.y - center.y};
   }
-  Eigen::Vector3d typical(const cv::Point2f& pixel) const { return motion * offset(pixel); }
+  Eigen::Vector3d at(const cv::Point2f& pixel) const { return motion * offset(pixel); }
+  LinearMotion about(const cv::Point2f& other) const {
+    LinearMotion same = *this;
+    same.center = other;
+    same.motion.col(0) = at(other);
+    return same;
+  }
 };
 
 class Motions {
@@ -51,11 +59,24 @@ class Motions {
 
   const Eigen::Vector3d& of(int match) const { return motions_[match]; }
   /// Across the ray: the part that the image fixes. Along it depth is less precise.
-  double disagreement(int match, const Neighborhood& around) const {
-    return (motions_[match] - around.typical(matches_[match].pixel)).cross(rays_[match]).norm();
+  double disagreement(int match, const LinearMotion& around) const {
+    return (motions_[match] - around.at(matches_[match].pixel)).cross(rays_[match]).norm();
   }
 
-  Neighborhood neighborhood(const PixelGrid& grid, const cv::Point2f& pixel) {
+  /// Of a piece as a whole, from its medians on.
+  LinearMotion ofPiece(const std::vector<int>& piece) {
+    neighbors_.clear();
+    for (std::size_t i = 0; i < piece.size(); i += 1 + piece.size() / kEnoughOfPiece)
+      neighbors_.push_back(piece[i]);
+    LinearMotion result;
+    result.center = matches_[piece.front()].pixel;
+    for (int k = 0; k < 3; ++k) result.motion(k, 0) = medianOf([&](int other) { return motions_[other][k]; });
+    return fitted(result, 1.0);
+  }
+
+  /// Around a place of it, from the piece's motion on. Few neighbours, or some that disagree among
+  /// themselves, do not lead far from that.
+  LinearMotion around(const PixelGrid& grid, const cv::Point2f& pixel, const LinearMotion& piece) {
     std::size_t count = 0;
     grid.around(pixel.x, pixel.y, [&](int) { ++count; });
     const std::size_t step = 1 + count / kEnoughNeighbors;
@@ -63,31 +84,34 @@ class Motions {
     grid.around(pixel.x, pixel.y, [&](int other) {
       if (count++ % step == 0) neighbors_.push_back(other);
     });
-    Neighborhood result;
-    result.center = pixel;
-    if (neighbors_.size() < kFewestNeighbors) return result;
-    for (int k = 0; k < 3; ++k) result.motion(k, 0) = medianOf([&](int other) { return motions_[other][k]; });
-    for (int i = 0;; ++i) {
-      result.spread = medianOf([&](int other) { return disagreement(other, result); });
-      if (i == kFits || neighbors_.size() < kFewestForFit) return result;
-      fit(&result);
-    }
+    return fitted(piece.about(pixel), kPieceMatches);
   }
 
  private:
-  /// Least squares with Cauchy weights.
-  void fit(Neighborhood* around) const {
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero(), B = Eigen::Matrix3d::Zero();
-    for (int other : neighbors_) {
-      const double ratio = disagreement(other, *around) / (around->spread + kSmallestSpread);
-      const Eigen::Vector3d offset = around->offset(matches_[other].pixel);
-      const Eigen::Vector3d weighted = offset / (1.0 + ratio * ratio);
-      A += weighted * offset.transpose();
-      B += motions_[other] * weighted.transpose();
+  /// Least squares with Cauchy weights; the prior counts for so many matches.
+  LinearMotion fitted(const LinearMotion& prior, double prior_matches) {
+    constexpr double kReach2 = kPieceReachPx * kPieceReachPx;
+    const Eigen::Matrix3d prior_weight =
+        (prior_matches * Eigen::Vector3d(1.0, kReach2, kReach2)).asDiagonal();
+    LinearMotion result = prior;
+    result.spread = spread(result);
+    for (int i = 0; i < kFits; ++i) {
+      Eigen::Matrix3d A = prior_weight, B = prior_weight * prior.motion.transpose();
+      for (int other : neighbors_) {
+        const double ratio = disagreement(other, result) / (result.spread + kSmallestSpread);
+        const Eigen::Vector3d offset = result.offset(matches_[other].pixel);
+        const Eigen::Vector3d weighted = offset / (1.0 + ratio * ratio);
+        A += weighted * offset.transpose();
+        B += weighted * motions_[other].transpose();
+      }
+      result.motion = A.ldlt().solve(B).transpose();
+      result.spread = spread(result);
     }
-    // Neighbours on a line fix nothing across it.
-    A(1, 1) += kRidge * A(0, 0), A(2, 2) += kRidge * A(0, 0);
-    around->motion = A.ldlt().solve(B.transpose()).transpose();
+    return result;
+  }
+
+  double spread(const LinearMotion& motion) {
+    return medianOf([&](int other) { return disagreement(other, motion); });
   }
 
   template <typename Value>
@@ -103,23 +127,23 @@ class Motions {
   std::vector<double> values_;
 };
 
-void markPiece(const Pinhole& camera, double max_disagreement_m, std::uint32_t body, Motions& motions,
-               std::vector<FeatureMatch>* matches) {
+/// @param piece its matches, at least kFewest.
+void markDisagreeing(const Pinhole& camera, double max_disagreement_m, const std::vector<int>& piece,
+                     Motions* motions, std::vector<FeatureMatch>* matches) {
   PixelGrid grid(camera, kNeighborhoodPx);
-  for (std::size_t m = 0; m < matches->size(); ++m) {
-    if ((*matches)[m].association.body == body) grid.insert((*matches)[m].pixel, static_cast<int>(m));
-  }
+  for (int m : piece) grid.insert((*matches)[m].pixel, m);
+  const LinearMotion whole = motions->ofPiece(piece);
   // A cell's matches have the same neighbours.
   for (const std::vector<int>& cell : grid.cells()) {
     if (cell.empty()) continue;
-    const Neighborhood around = motions.neighborhood(grid, (*matches)[cell.front()].pixel);
+    const LinearMotion around = motions->around(grid, (*matches)[cell.front()].pixel, whole);
     for (int m : cell) {
-      const double pixel_m = (*matches)[m].association.measured.z() / camera.fx;
-      const double across = std::max(kPrecisePx * pixel_m, kLargestSpread * around.spread);
-      (*matches)[m].inlier =
-          motions.of(m).norm() < kLargestMotion &&
-          (motions.of(m) - around.typical((*matches)[m].pixel)).norm() < max_disagreement_m &&
-          (around.spread == 0.0 || motions.disagreement(m, around) < across);
+      FeatureMatch& match = (*matches)[m];
+      const double pixel_m = match.association.measured.z() / camera.fx;
+      const double across =
+          std::clamp(kLargestSpread * around.spread, kPrecisePx * pixel_m, kWrongPx * pixel_m);
+      match.inlier = match.inlier && motions->disagreement(m, around) < across &&
+                     (motions->of(m) - around.at(match.pixel)).norm() < max_disagreement_m;
     }
   }
 }
@@ -128,10 +152,23 @@ void markPiece(const Pinhole& camera, double max_disagreement_m, std::uint32_t b
 
 void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches) {
   Motions motions(*matches);
-  std::uint32_t last = 0;
-  for (const FeatureMatch& match : *matches) last = std::max(last, match.association.body);
-  for (std::uint32_t body = 0; body <= last; ++body)
-    markPiece(camera, max_disagreement_m, body, motions, matches);
+  std::vector<std::vector<int>> pieces;
+  for (std::size_t m = 0; m < matches->size(); ++m) {
+    FeatureMatch& match = (*matches)[m];
+    match.inlier = motions.of(static_cast<int>(m)).norm() < kLargestMotion;
+    if (match.association.body >= pieces.size()) pieces.resize(match.association.body + 1);
+    pieces[match.association.body].push_back(static_cast<int>(m));
+  }
+  for (const std::vector<int>& piece : pieces) {
+    if (piece.size() >= kFewest) {
+      markDisagreeing(camera, max_disagreement_m, piece, &motions, matches);
+      continue;
+    }
+    for (int m : piece) {
+      FeatureMatch& match = (*matches)[m];
+      match.inlier = match.inlier && motions.of(m).norm() < max_disagreement_m;
+    }
+  }
 }
 
 }  // namespace softbody

@@ -16,8 +16,10 @@ struct FeatureMatch {
   bool inlier = true;
 };
 
-/// Marks outliers: matches that disagree with the median motion of their neighbourhood by more (local
-/// rigidity) [m], or are further from their prediction than a body moves in a frame.
+/// Marks outliers: matches that move otherwise than the linear motion in the image of their neighbours of the
+/// same piece, which starts from the motion of the whole piece, so that some wrong ones side by side do not
+/// lead it away; and those further from their prediction than a body moves in a frame.
+/// @param max_disagreement_m in any direction; across the ray 1.5 to 4 pixels are allowed.
 void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches);
 
 }  // namespace softbody

@@ -177,6 +177,7 @@ std::vector<bool> Observation::atLeast(Shows least) const {
 /// its rims would bend it.
 void FrameObserver::keepShownPieces(Observation* seen) const {
   const std::vector<Association>& depth = seen->depth.associations;
+  seen->agreeing_blocks = depth.size();
   seen->shown = shownPieces(samples_, depth, seen->matches, surface_.pieceVertices());
   seen->learnable = confirmedPieces(samples_, depth, seen->shown.size());
   const std::vector<bool> well = seen->atLeast(Shows::kWell), loosely = seen->atLeast(Shows::kLoosely);

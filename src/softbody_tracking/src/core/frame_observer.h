@@ -19,7 +19,8 @@ namespace softbody {
 struct Observation {
   std::vector<Keypoint> keypoints;  ///< without a feature; empty in most frames
   std::vector<FeatureMatch> matches;
-  DepthAssociations depth;
+  DepthAssociations depth;          ///< of pieces that show well
+  std::size_t agreeing_blocks = 0;  ///< of depth, of all pieces
   std::vector<Association> outline;
   std::vector<Shows> shown;     ///< of each piece of the body
   std::vector<bool> learnable;  ///< of each, whether what is seen of it is certainly at its place

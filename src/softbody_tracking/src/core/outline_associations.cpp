@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "softbody_common/target_limits.h"
+
 namespace softbody {
 namespace {
 
@@ -205,7 +207,7 @@ const std::vector<Association>& OutlineAssociator::associate(const RgbdFrame& fr
         associateSample(frame, image, sample, motions[sample.body], colors);
     if (!association) continue;
     const double spacing_m = spacing_px_ * association->predicted.z() / frame.camera.fx;
-    association->weight = config_.weight * spacing_m / volume_edge_m_;
+    association->weight = std::min(config_.weight * spacing_m / volume_edge_m_, kLargestTargetWeight);
     found_.push_back(*association);
   }
   return found_;

@@ -37,7 +37,8 @@ TrackerConfig readTrackerConfig(Parameters& parameters) {
   depth.max_distance_m = parameters.number("depth_max_distance_m", depth.max_distance_m, 1e-3, 1.0);
   depth.weight = parameters.number("depth_weight", depth.weight, 1e-6, kLargestTargetWeight);
 
-  config.outline.weight = parameters.number("outline_weight", config.outline.weight, 0.0, 1e6);
+  config.outline.weight =
+      parameters.number("outline_weight", config.outline.weight, 0.0, kLargestTargetWeight);
 
   if (config.knn_targets && features.max_features < kFewestKnnFeatures) {
     throw std::invalid_argument("parameter max_features must be at least " +
