@@ -29,6 +29,17 @@ Eigen::Isometry3d bladeAt(double height, double x = kPlace) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, 0.05, height));
 }
 
+/// The edge falls by `tilt` towards y = 0; shifted along y.
+Eigen::Isometry3d tiltedBladeAt(double height, double tilt, double shift) {
+  return Eigen::Translation3d(kPlace, 0.05 + shift, height) *
+         Eigen::Isometry3d(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()));
+}
+
+/// Where the tilted edge is 0.2 mm below the sponge's upper edge along x: mostly between two samples.
+double heightAtTheCorner(double tilt, double shift) {
+  return 0.0294 + (0.048 + shift) * std::tan(tilt) - 0.0002;
+}
+
 /// A body under a blade: simulator and surface are given the same cuts.
 struct Scene {
   explicit Scene(const Eigen::Isometry3d& body_pose = testing::somePose())
@@ -132,11 +143,37 @@ TEST(CuttableSurface, ATiltedBladeThatJustGetsThroughLeavesNoCornerUncut) {
       Scene scene;
       const double last = -(0.05 + std::abs(shift)) * std::tan(std::abs(tilt)) - 0.002;
       for (double height = 0.07; height > last - 0.001; height -= 0.001) {
-        scene.move(Eigen::Translation3d(kPlace, 0.05 + shift, std::max(last, height)) *
-                   Eigen::Isometry3d(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX())));
+        scene.move(tiltedBladeAt(std::max(last, height), tilt, shift));
       }
       EXPECT_EQ(scene.visualPieces(), 2u) << "tilt " << tilt << ", shift " << shift;
     }
+  }
+}
+
+TEST(CuttableSurface, ABladeLiftedWhileItTouchesACornerCutsFromThere) {
+  for (const double shift : {-0.008, -0.002, 0.006}) {
+    Scene scene;
+    const double corner = heightAtTheCorner(0.4, shift);
+    scene.move(tiltedBladeAt(corner + 0.02, 0.4, shift));
+    scene.surface.lift();
+    for (double height = corner; height > -0.03; height -= 0.001)
+      scene.move(tiltedBladeAt(height, 0.4, shift));
+    EXPECT_EQ(scene.visualPieces(), 2u) << "shift " << shift;
+  }
+}
+
+/// Its way in is down; the way along the edge would make the blade's end the leading edge.
+TEST(CuttableSurface, ABladeDrawnAlongItsEdgeOnACornerCutsWithItsEdge) {
+  for (const double drawn : {-0.01, -0.006, 0.006, 0.01}) {
+    Scene scene;
+    const Eigen::Isometry3d touching = tiltedBladeAt(heightAtTheCorner(0.4, 0.0), 0.4, 0.0);
+    for (int k = 20; k > 0; --k) scene.move(Eigen::Translation3d(0.0, 0.0, 0.001 * k) * touching);
+    for (int k = 0; k <= 10; ++k) scene.move(touching * Eigen::Translation3d(0.0, 0.1 * k * drawn, 0.0));
+    EXPECT_EQ(scene.cuts, 0);
+    for (int k = 1; k < 80; ++k)
+      scene.move(Eigen::Translation3d(0.0, 0.0, -0.001 * k) * touching *
+                 Eigen::Translation3d(0.0, drawn, 0.0));
+    EXPECT_EQ(scene.visualPieces(), 2u) << "drawn " << drawn;
   }
 }
 

@@ -103,7 +103,7 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
   if (static_cast<Eigen::Index>(parts_.size()) != blade.rows()) {  // the first blade, or another one
     parts_ = partsOfSides(blade, spacing_);
     forgetStrokes();
-    outside_.resize(0, 3);
+    lift();
   }
   const BladeOutline outline(map.toRest(sampleOutline(blade, parts_)), parts_);
   const std::vector<bool> inside = containedIn(solid, outline.points());
@@ -111,8 +111,10 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
   std::optional<BladeCut> cut;
   if (active_) cut = advance(outline, solid);
   if (!any(inside) && !any(containedIn(solid, withinOutline(outline.points())))) {
-    // A stroke ends here; one begins before the first corner is met, or that would stay uncut.
-    if (active_ || !meets(outline.points(), solid)) outside_ = outline.points();
+    // A stroke ends here; one begins before the first corner is met, or that would stay uncut, unless the
+    // blade was not seen there.
+    if (active_ || clear_.rows() == 0 || !meets(outline.points(), solid)) clear_ = outline.points();
+    outside_ = outline.points();
     active_ = cut.has_value();
     if (!active_ && !strokes_.empty() && strokes_.back().patches.empty()) strokes_.pop_back();
   }
@@ -151,7 +153,7 @@ bool BladeStroke::enter(const BladeOutline& outline, const std::vector<bool>& in
   Stroke stroke;
   stroke.number = newNumber();
   stroke.edge = outline.leadingEdge(way.normalized());
-  Points start = outside_(stroke.edge, Eigen::all);
+  Points start = clear_(stroke.edge, Eigen::all);
   const Eigen::RowVector3d back = -std::max(config_.min_advance_m, overhang_) * way.normalized().transpose();
   for (Eigen::Index i = 0; i < start.rows(); ++i) start.row(i) = movedOn(start.row(i), back, solid);
   stroke.front = inSinglePrecision(withEnds(start, overhang_, solid));

@@ -35,7 +35,7 @@ class BladeStroke {
   void accept();
 
   /// The blade is nowhere near, or not seen.
-  void lift() { active_ = false, outside_.resize(0, 3); }
+  void lift() { active_ = false, outside_.resize(0, 3), clear_.resize(0, 3); }
   /// Strokes do not go on after cuts that others made, or took back.
   void forgetStrokes();
   /// Numbers that others give to their strokes.
@@ -61,7 +61,8 @@ class BladeStroke {
   CuttingConfig config_;
   double spacing_, overhang_;
   std::vector<int> parts_;  ///< per side of the polygon, as many samples begin on it
-  Points outside_;          ///< outline when it was outside last
+  Points outside_;          ///< outline when none of its samples was inside last: the way in is from there
+  Points clear_;            ///< and when it did not meet the body between two samples either
   std::vector<Stroke> strokes_;
   bool active_ = false;  ///< the last of strokes_
   Points asked_;         ///< front after the cut that was asked for
