@@ -174,6 +174,24 @@ TEST(Tearing, ATetAsksOnceUntilItHasBeenWithinTheLimit) {
   for (int k = 1; k <= 5; ++k) EXPECT_EQ(watch.follow(volume, pulled.vertices).has_value(), k == 5);
 }
 
+TEST(Tearing, ATetAsksAgainOnceItIsStretchedATenthFurther) {
+  Scene scene(0.4);
+  TearWatch watch(0.4);
+  const auto asks = [&](double factor) {
+    int asked = 0;
+    const MeshState state = scene.stateOf(stretchedMiddle(factor));
+    for (int k = 0; k < 5 * scene.surface.volume().tets.rows(); ++k)
+      asked += watch.follow(scene.surface.volume(), state.vertices) ? 1 : 0;
+    return asked;
+  };
+  const int first = asks(1.5);
+  EXPECT_GT(first, 0);
+  EXPECT_EQ(asks(1.64), 0);
+  EXPECT_EQ(asks(1.66), first);
+  EXPECT_EQ(asks(1.82), 0);
+  EXPECT_EQ(asks(1.83), first);
+}
+
 /// Bodies that are pulled apart again and again stay sound.
 TEST(Tearing, RandomStretchLeavesSoundPieces) {
   std::mt19937 random(5);

@@ -12,6 +12,7 @@ namespace {
 
 /// So many states on end: neither one wrong measurement nor the swing after a cut tears.
 constexpr int kStates = 5;
+constexpr double kFurther = 1.1;   // times the stretch at which a tet asked in vain
 constexpr double kOverhang = 0.1;  // of a mean edge
 
 Eigen::Matrix3d edgesOf(const Points& vertices, const Eigen::RowVector4i& tet) {
@@ -39,7 +40,7 @@ std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Point
   const auto count = static_cast<std::size_t>(volume.tets.rows());
   if (revision_ != volume.revision || states_beyond_.size() != count) {
     states_beyond_.assign(count, 0);
-    has_asked_.assign(count, false);
+    asked_at_.assign(count, 0.0);
   }
   revision_ = volume.revision;
   int first = -1;
@@ -49,14 +50,15 @@ std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Point
     const PrincipalStretch now = principalStretch(volume, vertices, static_cast<int>(t));
     beyond[t] = now.stretch > 1.0 + strain_;
     states_beyond_[t] = beyond[t] ? states_beyond_[t] + 1 : 0;
-    has_asked_[t] = has_asked_[t] && beyond[t];
-    if (states_beyond_[t] < kStates || has_asked_[t] || (first >= 0 && now.stretch <= most.stretch)) continue;
+    if (!beyond[t]) asked_at_[t] = 0.0;
+    const bool asks = states_beyond_[t] >= kStates && now.stretch > kFurther * asked_at_[t];
+    if (!asks || (first >= 0 && now.stretch <= most.stretch)) continue;
     first = static_cast<int>(t);
     most = now;
   }
   if (first < 0) return std::nullopt;
   states_beyond_.assign(count, 0);
-  has_asked_[static_cast<std::size_t>(first)] = true;
+  asked_at_[static_cast<std::size_t>(first)] = most.stretch;
   const MaterialPoint middle{first, Eigen::Vector4d::Constant(0.25)};
   return planeSection(volume, positionOf(middle, volume.rest_vertices, volume.tets), most.direction, first,
                       beyond, kOverhang * meanEdgeLength(volume.rest_vertices, volume.tets));

@@ -18,7 +18,7 @@ class TearWatch {
   /// states on end, the section through them, and those beyond the limit that it reaches from tet to tet,
   /// across the principal direction of the most stretched one. At the body's surface it goes on by a tenth of
   /// a mean edge. After a patch the watch begins anew; if it does not become a cut, the same tet asks for
-  /// none until it has been within the limit.
+  /// none until it has been within the limit, or is stretched 1.1 times as far as when it asked.
   /// @param vertices of the volume in the next state [m].
   std::optional<CutPatch> follow(const TetTopology& volume, const Points& vertices);
 
@@ -26,7 +26,7 @@ class TearWatch {
   double strain_;
   std::uint32_t revision_ = 0;
   std::vector<int> states_beyond_;  ///< per tet, on end up to the last one
-  std::vector<bool> has_asked_;     ///< per tet, while it is beyond the limit
+  std::vector<double> asked_at_;    ///< stretch per tet, while it is beyond the limit; 0: has not asked
 };
 
 /// A tet's greatest principal stretch, and its direction at rest.
