@@ -26,6 +26,9 @@ bool endsAt(float depth, float beside) {
   return depth > 0.0f && (beside <= 0.0f || beside - depth > kFarther);
 }
 
+/// Whether a surface ends between neighbouring pixels. Where nothing is rendered depth is 0.
+bool isStep(float a, float b) { return std::abs(a - b) > kFarther; }
+
 /// From the surface's pixels around towards the others; nothing where they balance.
 std::optional<Eigen::Vector2d> outwardAt(const cv::Mat1f& rendered, const cv::Point& pixel) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -169,11 +172,16 @@ void OutlineAssociator::sample(const PredictedSurface& surface) {
   spacing_px_ = std::max(1, 2 * (region.width + region.height) / kWantedSamples);
   // Rows cross the steep parts of the outline, columns the flat ones.
   for (int v = region.y + spacing_px_ / 2; v < region.br().y; v += spacing_px_) {
-    for (int u = region.x; u <= region.br().x; ++u) addEnds(surface, {u - 1, v}, {u, v});
+    const float* row = rendered[v];
+    for (int u = region.x; u <= region.br().x; ++u) {
+      if (isStep(row[u - 1], row[u])) addEnds(surface, {u - 1, v}, {u, v});
+    }
   }
   for (int v = region.y; v <= region.br().y; ++v) {
-    for (int u = region.x + spacing_px_ / 2; u < region.br().x; u += spacing_px_)
-      addEnds(surface, {u, v - 1}, {u, v});
+    const float *above = rendered[v - 1], *row = rendered[v];
+    for (int u = region.x + spacing_px_ / 2; u < region.br().x; u += spacing_px_) {
+      if (isStep(above[u], row[u])) addEnds(surface, {u, v - 1}, {u, v});
+    }
   }
 }
 
