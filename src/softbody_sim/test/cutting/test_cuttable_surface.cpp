@@ -177,6 +177,18 @@ TEST(CuttableSurface, ABladeDrawnAlongItsEdgeOnACornerCutsWithItsEdge) {
   }
 }
 
+TEST(CuttableSurface, ABladeMovedToItsSideOnACornerCutsWhereItGoesIn) {
+  for (const double aside : {-0.02, 0.02}) {
+    Scene scene;
+    const Eigen::Isometry3d touching = tiltedBladeAt(heightAtTheCorner(0.4, 0.0), 0.4, 0.0);
+    for (int k = 20; k > 0; --k) scene.move(Eigen::Translation3d(aside, 0.0, 0.001 * k) * touching);
+    for (int k = 20; k > 0; --k) scene.move(Eigen::Translation3d(0.05 * k * aside, 0.0, 0.0) * touching);
+    for (int k = 0; k < 80; ++k) scene.move(Eigen::Translation3d(0.0, 0.0, -0.001 * k) * touching);
+    EXPECT_EQ(scene.visualPieces(), 2u);
+    EXPECT_LT(scene.cutBounds()[2], 1e-3);
+  }
+}
+
 TEST(CuttableSurface, TremorNeitherCutsBesideNorAgain) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     Scene scene;

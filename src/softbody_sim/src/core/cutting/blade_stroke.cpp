@@ -153,7 +153,8 @@ bool BladeStroke::enter(const BladeOutline& outline, const std::vector<bool>& in
   Stroke stroke;
   stroke.number = newNumber();
   stroke.edge = outline.leadingEdge(way.normalized());
-  Points start = clear_(stroke.edge, Eigen::all);
+  Points start = clear_(stroke.edge, Eigen::all);  // but not aside of where the blade goes in
+  start += (outside_(stroke.edge, Eigen::all) - start) * outline.normal() * outline.normal().transpose();
   const Eigen::RowVector3d back = -std::max(config_.min_advance_m, overhang_) * way.normalized().transpose();
   for (Eigen::Index i = 0; i < start.rows(); ++i) start.row(i) = movedOn(start.row(i), back, solid);
   stroke.front = inSinglePrecision(withEnds(start, overhang_, solid));
