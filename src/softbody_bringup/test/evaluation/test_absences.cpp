@@ -32,6 +32,7 @@ TEST(Absences, TheTimeUntilTheErrorIsBackIsTheRecovery) {
     EXPECT_NEAR(all[0].normal, 1e-3, 1e-9);
     ASSERT_TRUE(all[0].recovery_s);
     EXPECT_NEAR(*all[0].recovery_s, after, 1.0 / 30.0);
+    EXPECT_EQ(all[0].recovery_to_before_s, all[0].recovery_s);
   }
 }
 
@@ -46,6 +47,7 @@ TEST(Absences, WhereTheErrorOfAnUnhiddenBodyIsKnownItIsTheNormalOne) {
   const Absence absence = absences(frames).front();
   EXPECT_NEAR(*absence.recovery_s, 0.5, 1.0 / 30.0);
   EXPECT_EQ(absence.normal, 2.6e-3);
+  EXPECT_FALSE(absence.recovery_to_before_s) << "3 mm were never normal before";
   for (FrameSight& frame : frames) frame.unhidden_error = 2.4e-3;
   EXPECT_FALSE(absences(frames).front().recovery_s) << "3.0 mm are more than 1.2 times 2.4 mm";
 }

@@ -25,6 +25,7 @@ struct Absence {
                                      ///< otherwise p95 of the frames' mean errors before any absence [m]
   Summary covered;                   ///< errors of the hidden part meanwhile [m]
   std::optional<double> recovery_s;  ///< from the end until the mean error is back; nothing: never
+  std::optional<double> recovery_to_before_s;  ///< the same, whatever is known of the body unhidden
 };
 
 /// Absences of at least 0.2 s. The error is back to normal when it is at most 1.2 times the normal one for

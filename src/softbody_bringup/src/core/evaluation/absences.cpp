@@ -20,11 +20,12 @@ double errorBefore(const std::vector<FrameSight>& frames) {
 }
 
 /// Time from frame `end` on until the error is normal, and stays so.
-std::optional<double> recovery(const std::vector<FrameSight>& frames, std::size_t end, double before) {
+/// @param normal_of a frame's normal error.
+template <typename NormalOf>
+std::optional<double> recovery(const std::vector<FrameSight>& frames, std::size_t end, NormalOf normal_of) {
   std::size_t since = end;
   for (std::size_t i = end; i < frames.size(); ++i) {
-    const double normal = frames[i].unhidden_error.value_or(before);
-    if (!(frames[i].mean_error <= kNormalFactor * normal)) since = i + 1;
+    if (!(frames[i].mean_error <= kNormalFactor * normal_of(frames[i]))) since = i + 1;
     if (since <= i && frames[i].time_s - frames[since].time_s >= kHold_s)
       return frames[since].time_s - frames[end].time_s;
   }
@@ -43,7 +44,9 @@ Absence absenceOf(const std::vector<FrameSight>& frames, std::size_t begin, std:
     errors.insert(errors.end(), frames[i].covered_errors.begin(), frames[i].covered_errors.end());
   }
   absence.covered = summarize(std::move(errors));
-  absence.recovery_s = recovery(frames, end, before);
+  absence.recovery_s =
+      recovery(frames, end, [&](const FrameSight& frame) { return frame.unhidden_error.value_or(before); });
+  absence.recovery_to_before_s = recovery(frames, end, [&](const FrameSight&) { return before; });
   return absence;
 }
 

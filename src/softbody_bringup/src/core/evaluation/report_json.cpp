@@ -80,8 +80,10 @@ json toJson(const Absence& absence) {
                    {"covered_share", absence.covered_share},
                    {"normal_mm", mm(absence.normal)},
                    {"covered", inMillimetres(absence.covered)},
-                   {"recovery_s", nullptr}};
+                   {"recovery_s", nullptr},
+                   {"recovery_to_before_s", nullptr}};
   if (absence.recovery_s) document["recovery_s"] = *absence.recovery_s;
+  if (absence.recovery_to_before_s) document["recovery_to_before_s"] = *absence.recovery_to_before_s;
   return document;
 }
 
