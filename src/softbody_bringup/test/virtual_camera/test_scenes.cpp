@@ -168,6 +168,12 @@ TEST(Scenes, WithoutHandsTheBodyMovesAsItDoesWithThem) {
   }
 }
 
+TEST(Scenes, TheKnifeIsNoHand) {
+  const Scene scene = makeScene("cut", spongeBody(), 1, CONFIG_DIR "/knife.yaml");
+  EXPECT_GT(scene.actors.size(), 3u);
+  EXPECT_EQ(withoutHands(scene).actors.size(), scene.actors.size());
+}
+
 TEST(Scenes, FingerTouchesTheBottomOfItsDent) {
   const Scene scene = makeScene("press", spongeBody(), 1);
   const SceneState start = scene.state(0.0), state = scene.state(2.5);

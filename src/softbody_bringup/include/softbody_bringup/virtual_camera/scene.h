@@ -44,7 +44,7 @@ struct Scene {
   std::string name;
   double duration_s = 0.0;  ///< one run; the motion goes on after it
   std::vector<Actor> actors;
-  std::size_t hands = 0;    ///< the last so many actors: a hand, a finger
+  std::size_t hands = 0;    ///< the last so many actors: a hand, a finger; not a tool
   std::vector<Edit> edits;  ///< revision 1 and on, one stroke of a blade each
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< before the camera moves; z is up
   std::function<SceneState(double t)> state;                         ///< t in seconds from 0

@@ -120,6 +120,7 @@ Scene performCuts(const Stage& stage, const Tool& tool, const Cuts& cuts, const 
   };
   for (const Actor& actor : toolActors(tool)) play.props.push_back({actor, T_camera_tool});
   Scene scene = perform(stage, play);
+  scene.hands = 0;  // the props are the tool
   scene.edits = cuts.edits;
   scene.state = [=, whole = scene.state, strokes = cuts.strokes](double t) {
     SceneState state = whole(t);
