@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <std_msgs/Header.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "softbody_bringup/atomic_bag.h"
 #include "softbody_bringup/evaluation/bags.h"
+#include "softbody_bringup/evaluation/vertex_match.h"
 #include "softbody_bringup/virtual_camera/messages.h"
 #include "softbody_common/conversions.h"
 #include "softbody_common/rigid_fit.h"
@@ -32,11 +32,11 @@ evaluation::SurfaceRecord readTruth(const std::string& path) {
 
 void requireSame(const MeshTopology& object, const MeshTopology& truth,
                  const TruthSimulationOptions& options) {
-  const auto inside = [&](int parent) { return parent < object.rest_vertices.rows(); };
-  if (!std::all_of(truth.vertex_parents.begin(), truth.vertex_parents.end(), inside)) {
-    throw std::invalid_argument(fmt::format("{} has {} vertices, fewer than the truth in {} names",
-                                            options.object, object.rest_vertices.rows(), options.truth));
-  }
+  if (evaluation::sameMesh(object, truth)) return;
+  throw std::invalid_argument(fmt::format(
+      "{} is another mesh than that of the truth in {}: at rest, vertices of the same index lie at "
+      "different places",
+      options.object, options.truth));
 }
 
 SimulatorConfig convergedConfig() {
@@ -54,6 +54,7 @@ class TruthSimulation {
         surface_(model.visual, model.volume),
         bag_(options.output) {
     requireSame(surface_.topology(), seen(), options);
+    own_vertex_ = evaluation::matchVertices(seen().vertex_parents, surface_.topology().vertex_parents);
   }
 
   void run(const std::function<void(double)>& progress) {
@@ -74,10 +75,9 @@ class TruthSimulation {
     set.reset = first;
     set.body_pose = fitRigid(seen().rest_vertices, truth.vertices);
     for (std::size_t v = 0; v < truth.confidence.size(); ++v) {
-      const int parent = seen().vertex_parents[v];
-      if (truth.confidence[v] <= 0.5f || parent < 0) continue;
+      if (truth.confidence[v] <= 0.5f || own_vertex_[v] < 0) continue;
       Target target;
-      target.place = surface_.binding().places()[parent];
+      target.place = surface_.binding().places()[static_cast<std::size_t>(own_vertex_[v])];
       target.position = truth.vertices.row(static_cast<Eigen::Index>(v));
       target.weight = kFirm;
       set.targets.push_back(target);
@@ -103,6 +103,7 @@ class TruthSimulation {
   Simulator simulator_;
   VisualSurface surface_;
   AtomicBag bag_;
+  std::vector<int> own_vertex_;  ///< by vertex of the truth; -1: none
 };
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -111,9 +113,15 @@ std::vector<FrameSight> sightsOf(const SurfaceRecord& truth) {
 }
 
 /// What the error of the same frames is where nothing ever hid the body.
+/// @throw std::invalid_argument if it is another mesh, or has none of the frames.
 void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden, const SurfaceRecord& truth,
                  std::vector<FrameSight>* sights) {
+  if (!sameMesh(unhidden.topologies.begin()->second, truth.topologies.begin()->second)) {
+    throw std::invalid_argument(
+        fmt::format("{}: the unhidden body is another mesh than the truth's", options.unhidden));
+  }
   TopologyPairs pairs(options, unhidden, truth);
+  bool answered = false;
   auto sight = sights->begin();
   for (const auto& [stamp, expected] : truth.states) {
     FrameSight& shown = *sight++;
@@ -121,6 +129,12 @@ void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden,
     if (answer == unhidden.states.end()) continue;
     const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
     shown.unhidden_error = vertexError(answer->second, expected, pair.matches, pair.groups).mean();
+    answered = true;
+  }
+  if (!answered) {
+    throw std::invalid_argument(
+        fmt::format("{}: the unhidden body has no state with the stamp of a frame of {}", options.unhidden,
+                    options.truth));
   }
 }
 

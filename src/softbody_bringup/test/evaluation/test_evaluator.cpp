@@ -264,6 +264,29 @@ TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
   EXPECT_FALSE(evaluate(options).absences[0].recovery_s);
 }
 
+TEST(Evaluator, AnUnhiddenResultOfOtherFramesOrAnotherMeshIsRefused) {
+  EvaluatorOptions options;
+  options.truth = recording();
+  options.result = resultFromTruth("seen.bag", [](softbody_msgs::MeshState*, int) { return true; });
+  options.unhidden = resultFromTruth("other_frames.bag", [](softbody_msgs::MeshState* s, int) {
+    s->header.stamp += ros::Duration(0.001);
+    return true;
+  });
+  EXPECT_NE(failure(options).find("other_frames.bag: the unhidden body has no state with the stamp"),
+            std::string::npos);
+  virtual_camera::CameraSetup setup;
+  setup.scene = "doll_still";
+  setup.config_folder = CONFIG_DIR;
+  setup.width = 160;
+  setup.height = 120;
+  virtual_camera::VirtualCamera camera = makeCamera(setup);
+  const std::string doll = testing::TempDir() + "evaluator_doll.bag";
+  writeBag(&camera, {doll, 2, 4.0}, [](int) {});
+  const auto as_it_is = [](softbody_msgs::MeshState*, int) { return true; };
+  options.unhidden = resultFromTruth("other_mesh.bag", as_it_is, doll);
+  EXPECT_NE(failure(options).find("other_mesh.bag: the unhidden body is another mesh"), std::string::npos);
+}
+
 TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {
   EvaluatorOptions options;
   options.result = resultFromTruth("tool.bag", [](softbody_msgs::MeshState*, int) { return true; });

@@ -21,6 +21,15 @@ class SimulateTruthTest : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
+  std::string failure() const {
+    try {
+      simulateTruth(options_, [](double) {});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  }
+
   fs::path folder_;
   TruthSimulationOptions options_;
 };
@@ -38,19 +47,20 @@ TEST_F(SimulateTruthTest, PutsTheVisibleVerticesWhereTheyTrulyAre) {
       << "nothing is told of the hidden ones";
 }
 
+/// More vertices than the truth names, at other places.
+TEST_F(SimulateTruthTest, ALargerMeshThatIsNotTheTruthsIsNamedToo) {
+  options_.object = CONFIG_DIR "/doll.yaml";
+  EXPECT_NE(failure().find("doll.yaml is another mesh than that of the truth"), std::string::npos);
+  EXPECT_FALSE(fs::exists(options_.output));
+}
+
 TEST_F(SimulateTruthTest, NamesAnObjectThatIsNotTheTruths) {
   const fs::path object = folder_ / "tetrahedron.yaml";
   std::ofstream(folder_ / "tetrahedron.obj")
       << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   std::ofstream(object) << "object: {visual_mesh: tetrahedron.obj}\n";
   options_.object = object;
-  try {
-    simulateTruth(options_, [](double) {});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("tetrahedron.yaml has 4 vertices"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_NE(failure().find("tetrahedron.yaml is another mesh"), std::string::npos);
   EXPECT_FALSE(fs::exists(options_.output));
 }
 

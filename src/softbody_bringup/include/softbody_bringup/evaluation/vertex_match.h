@@ -11,6 +11,11 @@ namespace softbody::evaluation {
 /// none, as for vertices made by a cut. @param parents MeshTopology::vertex_parents of both.
 std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
 
+/// Whether vertices of the same index in the input file lie at one place at rest, to a millionth of the
+/// truth's diagonal, and there are such vertices. What a file's welding left out in one of both is not
+/// judged.
+bool sameMesh(const MeshTopology& mesh, const MeshTopology& truth);
+
 /// The same across cuts: a vertex that a cut copied stands for the copy on the same side (of those in the
 /// piece that its own stands for, if there are any, the one whose triangles lie nearer at rest and face the
 /// same way), one that a cut made for the nearest such vertex of the truth, if it is within `largest_m` at

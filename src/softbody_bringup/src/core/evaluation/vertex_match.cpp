@@ -98,6 +98,21 @@ std::vector<int> matchVertices(const std::vector<int>& result_parents,
   return matches;
 }
 
+bool sameMesh(const MeshTopology& mesh, const MeshTopology& truth) {
+  constexpr double kShare = 1e-6;
+  const Points& places = truth.rest_vertices;
+  const double diagonal = (places.colwise().maxCoeff() - places.colwise().minCoeff()).norm();
+  const std::vector<int> matches = matchVertices(mesh.vertex_parents, truth.vertex_parents);
+  bool any = false;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i] < 0) continue;
+    any = true;
+    const auto offset = mesh.rest_vertices.row(static_cast<Eigen::Index>(i)) - places.row(matches[i]);
+    if (offset.norm() > kShare * diagonal) return false;
+  }
+  return any;
+}
+
 std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& truth, double largest_m) {
   const Fans result_fans = fansOf(result), truth_fans = fansOf(truth);
   const auto truth_vertices = verticesByParent(truth.vertex_parents);
