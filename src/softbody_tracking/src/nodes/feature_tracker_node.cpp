@@ -134,14 +134,18 @@ void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& 
 }
 
 /// Waits in wall time: the time of a bag that is held would never run out.
-Eigen::Isometry3d FeatureTrackerNode::poseInOutput(const std_msgs::Header& header) const {
-  if (output_frame_.empty() || output_frame_ == header.frame_id) return Eigen::Isometry3d::Identity();
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(tf_timeout_s_);
-  while (!tf_buffer_.canTransform(output_frame_, header.frame_id, header.stamp) && ros::ok() &&
-         ros::WallTime::now() < deadline) {
+Eigen::Isometry3d FeatureTrackerNode::lookUp(const std::string& target, const std::string& source,
+                                             const ros::Time& stamp, double patience_s) const {
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(patience_s);
+  while (!tf_buffer_.canTransform(target, source, stamp) && ros::ok() && ros::WallTime::now() < deadline) {
     ros::WallDuration(kTfPoll_s).sleep();
   }
-  return tf2::transformToEigen(tf_buffer_.lookupTransform(output_frame_, header.frame_id, header.stamp));
+  return tf2::transformToEigen(tf_buffer_.lookupTransform(target, source, stamp));
+}
+
+Eigen::Isometry3d FeatureTrackerNode::poseInOutput(const std_msgs::Header& header) const {
+  if (output_frame_.empty() || output_frame_ == header.frame_id) return Eigen::Isometry3d::Identity();
+  return lookUp(output_frame_, header.frame_id, header.stamp, tf_timeout_s_);
 }
 
 void FeatureTrackerNode::skip(const std_msgs::Header& header, const std::string& why) {
@@ -170,9 +174,7 @@ Eigen::Isometry3d FeatureTrackerNode::fixedPose(const geometry_msgs::PoseStamped
   const std::string& fixed = output_frame_.empty() ? camera_frame_ : output_frame_;
   const std::string& frame = pose.header.frame_id.empty() ? camera_frame_ : pose.header.frame_id;
   if (frame == fixed) return T_frame_body;
-  return tf2::transformToEigen(
-             tf_buffer_.lookupTransform(fixed, frame, pose.header.stamp, ros::Duration(kSetPosePatience_s))) *
-         T_frame_body;
+  return lookUp(fixed, frame, pose.header.stamp, kSetPosePatience_s) * T_frame_body;
 }
 
 bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,

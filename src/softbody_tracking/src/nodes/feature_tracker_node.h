@@ -43,6 +43,9 @@ class FeatureTrackerNode {
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
   void adoptTopologies();
+  /// @throw tf2::TransformException where tf does not know it within the patience.
+  Eigen::Isometry3d lookUp(const std::string& target, const std::string& source, const ros::Time& stamp,
+                           double patience_s) const;
   /// A header's frame in the one in which targets are published, at its stamp.
   /// @throw tf2::TransformException.
   Eigen::Isometry3d poseInOutput(const std_msgs::Header& header) const;
