@@ -54,6 +54,12 @@ cv::Mat3b drawModels(const Options& options) {
 
 cv::Mat3b drawStrip(const Options& options) {
   const evaluation::SurfaceRecord result = readResult(options, options.results.front());
+  const std::string frame = evaluation::recordingFrame(options.recording, options.camera);
+  if (result.frame_id != frame) {
+    throw std::invalid_argument(fmt::format(
+        "{}: the surface is in frame '{}'; to be drawn into the images it has to be in theirs, '{}'",
+        options.results.front(), result.frame_id, frame));
+  }
   evaluation::CutStrip strip(result, readBlades(options));
   evaluation::readRecording(options.recording, options.camera,
                             [&](const evaluation::RecordedFrame& frame) { strip.add(frame); });
