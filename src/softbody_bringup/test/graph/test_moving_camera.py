@@ -60,18 +60,23 @@ class MovingCamera(unittest.TestCase):
         return self.wait_for_status(what, lambda status: "tf does not say where camera_color_optical_frame is in "
                                                          "output_frame world" in status.reason)
 
-    def errors_from(self, stamp, count):
-        """Mean errors of so many states of images after a stamp."""
+    def errors_from(self, stamp, count, good=False):
+        """Mean errors of so many states of images after a stamp. With good: of so many in a row that are."""
+        def error(pair):
+            return np.linalg.norm(array(pair[0].vertices) - array(pair[1].vertices), axis=1).mean()
+
         def found(seen):
             truths = {truth.header.stamp: truth for truth in seen["ground_truth/surface/state"]}
             pairs = [(state, truths[state.header.stamp]) for state in seen["softbody/surface/state"]
                      if state.header.stamp > stamp and state.header.stamp in truths
                      and state.observed == state.header.stamp]
-            return len(pairs) >= count and pairs
+            if good:
+                pairs = pairs[-count:]
+            return len(pairs) >= count and (not good or max(map(error, pairs)) < MAX_ERROR_M) and pairs
         pairs = self.recorder.wait(found, f"{count} states with their truths")
         for state, truth in pairs:
             self.assertEqual((state.header.frame_id, truth.header.frame_id), (FRAME, FRAME))
-        return [np.linalg.norm(array(state.vertices) - array(truth.vertices), axis=1).mean() for state, truth in pairs]
+        return [error(pair) for pair in pairs]
 
     def wait_until_good(self, what):
         """Tracked again, and well in all later states."""
@@ -122,7 +127,8 @@ class MovingCamera(unittest.TestCase):
         self.wait_for_status("a frame after the jump", lambda status: True)
         # Of two poses of the arm that one lies between, the first may be the last wrong one.
         self.errors_from(rospy.Time.now(), 3)
-        self.wait_until_good("tracking after the jump")
+        # The body has jumped back too, and where frames are dropped the tracker needs some to find it.
+        self.errors_from(rospy.Time.now(), 5, good=True)
 
 
 if __name__ == "__main__":
