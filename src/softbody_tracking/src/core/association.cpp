@@ -14,14 +14,6 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 }  // namespace
 
-Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
-  Eigen::Matrix<double, 3, 6> J;
-  J << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
-      -arm.z(), 0.0, arm.x(), 0.0, 1.0, 0.0,   //
-      arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
-  return J;
-}
-
 Eigen::Isometry3d rigidStep(const std::vector<Association>& associations) {
   if (associations.empty()) return Eigen::Isometry3d::Identity();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();

@@ -26,7 +26,13 @@ struct Association {
 
 /// d(point moved by (rotation, translation)) = J (rotation, translation), about the centre.
 /// @param arm from the centre to the point.
-Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm);
+inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
+      -arm.z(), 0.0, arm.x(), 0.0, 1.0, 0.0,   //
+      arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
+  return J;
+}
 
 /// The small rigid motion that best takes predictions to measurements: one Gauss-Newton step with Cauchy
 /// weights (point-to-plane where there is a normal, point-to-point elsewhere; Chen and Medioni 1992).
