@@ -199,7 +199,9 @@ def stage_times(reports):
 
 def toys(reports):
     report = reports.get(("toys", "toys"))
-    if report is None:
+    if report is None:  # not asked for
+        return []
+    if not report:
         return ["## A recorded plush toy", "", "Skipped: no ../shared/data/toys.", ""]
     rows = []
     for window in [*report["depth_residual"]["windows"], report["depth_residual"]["all"]]:
@@ -286,6 +288,8 @@ def in_words(reports):
     """One line on what has been measured."""
     words = []
     for (kind, name), report in reports.items():
+        if not report:
+            continue
         error = get(report, "vertex_error", "all", "mean_mm")
         what = f"{name}: " if kind == "fault" else ""
         words.append(f"{what}{number(error)} mm" if error is not None else

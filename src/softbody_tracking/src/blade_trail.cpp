@@ -43,10 +43,10 @@ void addOutline(const Points& corners, float alpha, Marker* marker) {
 
 }  // namespace
 
-void BladeTrail::add(Nanoseconds stamp, const Eigen::Isometry3d& T_camera_tool) {
+void BladeTrail::add(Nanoseconds stamp, const Eigen::Isometry3d& T_fixed_tool) {
   if (!outlines_.empty() && (stamp < outlines_.back().stamp || stamp - outlines_.back().stamp > kLongestGap))
     outlines_.clear();
-  outlines_.push_back({stamp, transformed(blade_, T_camera_tool)});
+  outlines_.push_back({stamp, transformed(blade_, T_fixed_tool)});
   while (stamp - outlines_.front().stamp > kLength) outlines_.pop_front();
 }
 

@@ -169,6 +169,67 @@ TEST(ToolTracker, DropoutsAreBridgedWithGrowingCovarianceAndGivenUpInTime) {
   EXPECT_LT(errorOf(*back, moving(15)).position_m, 0.0015);
 }
 
+/// A camera that an arm swings to and fro, by up to 0.4 m/s and 70 degrees a second.
+Eigen::Isometry3d swinging(int i) {
+  const double phase = 2.0 * M_PI * 1e-9 * static_cast<double>(i * kFrame) / 1.2;
+  return Eigen::Translation3d(0.4 + 0.08 * std::sin(phase), 1.0, 0.0) *
+         Eigen::AngleAxisd(0.2 * std::sin(phase + 0.6), Eigen::Vector3d(0.2, 1.0, 0.0).normalized());
+}
+
+RgbdFrame swungFrame(const ToolDescription& shown, const Eigen::Isometry3d& T_fixed_tool, int i) {
+  RgbdFrame frame =
+      renderTool(shown, swinging(i).inverse() * T_fixed_tool, i * kFrame, static_cast<unsigned>(i));
+  frame.T_fixed_camera = swinging(i);
+  return frame;
+}
+
+/// Furthest from where it is while a tool at rest is bridged. @param told where the camera is.
+PoseError worstBridged(bool told) {
+  const ToolDescription tool = oneMarker(), nothing{"DICT_4X4_50", {}, Points(0, 3), {}};
+  const Eigen::Isometry3d resting = swinging(0) * facing({0.0, 0.02, 0.45});
+  ToolTracker tracker(tool);
+  PoseError worst{0.0, 0.0, 0.0};
+  for (int i = 0; i < 17; ++i) {
+    RgbdFrame frame = swungFrame(i < 9 ? tool : nothing, resting, i);
+    if (!told) frame.T_fixed_camera.setIdentity();
+    const auto answer = tracker.track(frame, nullptr);
+    EXPECT_TRUE(answer && answer->bridged == (i >= 9)) << i;
+    if (!answer || !answer->bridged) continue;
+    const PoseError error = errorOf(*answer, swinging(i).inverse() * resting);
+    worst.position_m = std::max(worst.position_m, error.position_m);
+    worst.mahalanobis_squared = std::max(worst.mahalanobis_squared, error.mahalanobis_squared);
+  }
+  return worst;
+}
+
+TEST(ToolTracker, BeforeACameraThatMovesAToolAtRestIsBridgedAtRest) {
+  const PoseError told = worstBridged(true), untold = worstBridged(false);
+  EXPECT_LT(told.position_m, 0.004);
+  EXPECT_LT(told.mahalanobis_squared, 6.0);
+  EXPECT_GT(untold.position_m, 3.0 * told.position_m);
+}
+
+TEST(ToolTracker, WhereTheCameraIsNotPlacedTheToolIsSeenButNotBridged) {
+  const ToolDescription tool = oneMarker(), nothing{"DICT_4X4_50", {}, Points(0, 3), {}};
+  const Eigen::Isometry3d resting = swinging(0) * facing({0.0, 0.02, 0.45});
+  ToolTracker tracker(tool);
+  const auto track = [&](const ToolDescription& shown, int i, bool placed) {
+    RgbdFrame frame = swungFrame(shown, resting, i);
+    frame.placed = placed;
+    if (!placed) frame.T_fixed_camera.setIdentity();
+    return tracker.track(frame, nullptr);
+  };
+  for (int i = 0; i < 6; ++i) ASSERT_TRUE(track(tool, i, true));
+  const auto seen = track(tool, 6, false);
+  ASSERT_TRUE(seen && !seen->bridged);
+  EXPECT_LT(errorOf(*seen, swinging(6).inverse() * resting).position_m, 0.0015);
+  EXPECT_FALSE(track(nothing, 7, false));
+  // What a frame without a place showed has not been taken for motion.
+  const auto guessed = track(nothing, 8, true);
+  ASSERT_TRUE(guessed && guessed->bridged);
+  EXPECT_LT(errorOf(*guessed, swinging(8).inverse() * resting).position_m, 0.005);
+}
+
 TEST(ToolTracker, TimeThatJumpsBackStartsAnew) {
   ToolTracker tracker(oneMarker());
   ASSERT_TRUE(tracker.track(renderTool(oneMarker(), moving(5), 5 * kFrame, 1), nullptr));

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/time.h>
 #include <tf2/buffer_core.h>
 
 #include <Eigen/Geometry>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -20,16 +21,28 @@ class BagTransforms {
   explicit BagTransforms(const std::vector<std::string>& paths);
 
   /// T_target_source at a stamp. @throw tf2::TransformException if the bags do not tell it: frames that are
-  /// not connected, a stamp before the first or after the last of /tf, or in a gap of more than half a
-  /// second.
+  /// not connected, a stamp before the first or after the last of /tf, or in a gap of more than half a second
+  /// in which a frame between the two has moved.
   Eigen::Isometry3d at(const std::string& target, const std::string& source, const ros::Time& stamp) const;
 
  private:
-  void addBag(const std::string& path);
-  bool climbsTo(const std::string& top, std::string frame, const ros::Time& stamp) const;
+  struct Sample {
+    ros::Time stamp;
+    std::size_t parent;  ///< in names_
+    geometry_msgs::Transform transform;
+  };
+  using Samples = std::vector<Sample>;  ///< of one frame, in the order of their stamps
 
-  tf2::BufferCore buffer_;
-  std::map<std::string, std::set<ros::Time>> stamps_;  ///< of the transforms that move a frame
+  void addBag(const std::string& path);
+  void add(const geometry_msgs::TransformStamped& transform);
+  std::size_t indexOf(const std::string& name);
+  std::string parentOf(const std::string& frame, const ros::Time& stamp) const;
+  std::vector<std::string> wayUp(std::string frame, const ros::Time& stamp) const;
+  void tell(const std::string& frame, const ros::Time& stamp, tf2::BufferCore* buffer) const;
+
+  std::vector<std::string> names_;                                ///< of parents
+  std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< /tf_static by child
+  std::map<std::string, Samples> moving_;                         ///< /tf by child
 };
 
 }  // namespace softbody

@@ -47,6 +47,10 @@ class Pipeline {
   /// tracked they wait for the next frame in which it is.
   FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
 
+  /// What a frame without a place in the fixed frame still shows: the tool, in the camera's frame. The body,
+  /// and a blade, need the place.
+  std::optional<ToolObservation> processUnplaced(RgbdFrame frame);
+
   /// Given cuts that still wait for the body.
   std::size_t waitingCuts() const { return waiting_cuts_.size(); }
 

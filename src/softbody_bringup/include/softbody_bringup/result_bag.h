@@ -27,8 +27,9 @@ class ResultBag {
   void setOutputFrame(std::string frame_id) { output_frame_ = std::move(frame_id); }
   /// @param blade of the tool that is tracked, in its frame.
   void setBlade(Points blade) { blade_ = std::move(blade); }
-  /// What there is of a frame that is not tracked. @param header of the colour image, as below.
+  /// What there is of a frame in which the body is not tracked. @param header of the colour image, as below.
   void writeStatus(const TrackingStatus& status, const std_msgs::Header& header);
+  void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
   /// One frame.
   void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
   void finish() { bag_.finish(); }
@@ -39,7 +40,6 @@ class ResultBag {
   void write(const std::string& topic, Message message, const std_msgs::Header& header);
   void writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
                       const std_msgs::Header& header);
-  void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
 
   std::string namespace_, body_frame_, output_frame_;
   Points blade_;

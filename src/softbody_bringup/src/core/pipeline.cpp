@@ -42,6 +42,11 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   return output;
 }
 
+std::optional<ToolObservation> Pipeline::processUnplaced(RgbdFrame frame) {
+  frame.placed = false;
+  return tool_tracker_ ? tool_tracker_->track(frame, nullptr) : std::nullopt;
+}
+
 void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp) {
   const auto scope = timer_.stage("Soft-body Simulation", targets.reset);
   simulator_.step(targets, stamp);

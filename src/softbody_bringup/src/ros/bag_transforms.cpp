@@ -6,6 +6,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "softbody_bringup/input_bag.h"
@@ -16,11 +17,38 @@ namespace {
 constexpr double kWholeBag_s = 1e6;
 constexpr double kLongestGap_s =
     0.5;  // an arm that speeds up leaves a straight way of so long by centimetres
+constexpr double kMoved_m = 1e-4, kTurned_rad = 1e-4;
+
+/// tf2 knows frames without a leading slash.
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+bool differ(const geometry_msgs::Transform& a, const geometry_msgs::Transform& b) {
+  const Eigen::Isometry3d from = tf2::transformToEigen(a), to = tf2::transformToEigen(b);
+  return (to.translation() - from.translation()).norm() > kMoved_m ||
+         Eigen::Quaterniond(from.linear()).angularDistance(Eigen::Quaterniond(to.linear())) > kTurned_rad;
+}
+
+template <typename Samples>
+auto firstFrom(const Samples& samples, const ros::Time& stamp) {
+  return std::lower_bound(samples.begin(), samples.end(), stamp,
+                          [](const auto& sample, const ros::Time& time) { return sample.stamp < time; });
+}
 
 }  // namespace
 
-BagTransforms::BagTransforms(const std::vector<std::string>& paths) : buffer_(ros::Duration(kWholeBag_s)) {
+BagTransforms::BagTransforms(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) addBag(path);
+  for (auto& [child, samples] : moving_) {
+    // Of one stamp the last that came stays, which reversed is the first.
+    std::reverse(samples.begin(), samples.end());
+    std::stable_sort(samples.begin(), samples.end(),
+                     [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; });
+    const auto end = std::unique(samples.begin(), samples.end(),
+                                 [](const Sample& a, const Sample& b) { return a.stamp == b.stamp; });
+    samples.erase(end, samples.end());
+  }
 }
 
 void BagTransforms::addBag(const std::string& path) {
@@ -31,31 +59,85 @@ void BagTransforms::addBag(const std::string& path) {
     if (!message) continue;
     const bool is_static = instance.getTopic() == "/tf_static";
     for (const geometry_msgs::TransformStamped& transform : message->transforms) {
-      buffer_.setTransform(transform, path, is_static);
-      if (!is_static) stamps_[transform.child_frame_id].insert(transform.header.stamp);
+      is_static ? void(fixed_[withoutSlash(transform.child_frame_id)] = transform) : add(transform);
     }
   }
 }
 
-/// Whether the way from a frame up to the root of its tree leads to `top`, without a gap up to there.
-bool BagTransforms::climbsTo(const std::string& top, std::string frame, const ros::Time& stamp) const {
-  for (std::string parent; frame != top && buffer_._getParent(frame, stamp, parent); frame = parent) {
-    const auto moved = stamps_.find(frame);
-    if (moved == stamps_.end()) continue;
-    const auto after = moved->second.lower_bound(stamp);
-    if (after == moved->second.end() || after == moved->second.begin() || *after == stamp) continue;
-    const double gap_s = (*after - *std::prev(after)).toSec();
-    if (gap_s <= kLongestGap_s) continue;
-    throw tf2::ExtrapolationException(fmt::format("/tf says nothing of {} for {:.3f} s", frame, gap_s));
-  }
-  return frame == top;
+void BagTransforms::add(const geometry_msgs::TransformStamped& transform) {
+  moving_[withoutSlash(transform.child_frame_id)].push_back(
+      {transform.header.stamp, indexOf(withoutSlash(transform.header.frame_id)), transform.transform});
 }
 
+std::size_t BagTransforms::indexOf(const std::string& name) {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  const auto index = static_cast<std::size_t>(found - names_.begin());
+  if (found == names_.end()) names_.push_back(name);
+  return index;
+}
+
+/// Empty at the root of a tree.
+std::string BagTransforms::parentOf(const std::string& frame, const ros::Time& stamp) const {
+  if (const auto fixed = fixed_.find(frame); fixed != fixed_.end())
+    return withoutSlash(fixed->second.header.frame_id);
+  const auto moving = moving_.find(frame);
+  if (moving == moving_.end()) return "";
+  const auto after = firstFrom(moving->second, stamp);
+  return names_[(after == moving->second.end() ? moving->second.back() : *after).parent];
+}
+
+/// A frame, its parent and so on.
+std::vector<std::string> BagTransforms::wayUp(std::string frame, const ros::Time& stamp) const {
+  std::vector<std::string> way;
+  // A frame that comes again is a loop, of which tf2 knows what to say.
+  for (; !frame.empty() && std::find(way.begin(), way.end(), frame) == way.end();
+       frame = parentOf(frame, stamp)) {
+    way.push_back(frame);
+  }
+  return way;
+}
+
+/// What there is of a frame's place in its parent around a stamp.
+void BagTransforms::tell(const std::string& frame, const ros::Time& stamp, tf2::BufferCore* buffer) const {
+  if (const auto fixed = fixed_.find(frame); fixed != fixed_.end()) {
+    buffer->setTransform(fixed->second, "bag", true);
+    return;
+  }
+  const auto moving = moving_.find(frame);
+  if (moving == moving_.end()) return;
+  const Samples& samples = moving->second;
+  const auto after = firstFrom(samples, stamp);
+  const bool exact = after != samples.end() && after->stamp == stamp;
+  const auto first = exact || after == samples.begin() ? after : std::prev(after),
+             last = after == samples.end() ? after : std::next(after);
+  for (auto sample = first; sample != last; ++sample) {
+    geometry_msgs::TransformStamped message;
+    message.header.stamp = sample->stamp;
+    message.header.frame_id = names_[sample->parent];
+    message.child_frame_id = frame;
+    message.transform = sample->transform;
+    buffer->setTransform(message, "bag");
+  }
+  if (last - first < 2) return;
+  const double gap_s = (after->stamp - first->stamp).toSec();
+  if (gap_s > kLongestGap_s && differ(first->transform, after->transform))
+    throw tf2::ExtrapolationException(fmt::format("/tf says nothing of {} for {:.3f} s", frame, gap_s));
+}
+
+/// tf2 is told what lies between the two frames around the stamp, and no more: its own search through a whole
+/// bag is linear.
 Eigen::Isometry3d BagTransforms::at(const std::string& target, const std::string& source,
                                     const ros::Time& stamp) const {
-  const auto transform = buffer_.lookupTransform(target, source, stamp);
-  if (!climbsTo(target, source, stamp)) climbsTo(source, target, stamp);
-  return tf2::transformToEigen(transform);
+  if (target == source) return Eigen::Isometry3d::Identity();
+  std::vector<std::string> from = wayUp(source, stamp), to = wayUp(target, stamp);
+  while (!from.empty() && !to.empty() && from.back() == to.back()) {
+    from.pop_back();
+    to.pop_back();
+  }
+  tf2::BufferCore buffer{ros::Duration(kWholeBag_s)};
+  for (const std::string& frame : from) tell(frame, stamp, &buffer);
+  for (const std::string& frame : to) tell(frame, stamp, &buffer);
+  return tf2::transformToEigen(buffer.lookupTransform(target, source, stamp));
 }
 
 }  // namespace softbody

@@ -50,8 +50,12 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
             ((state->vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose()).eval();
       });
   if (surface->states.empty()) {
-    throw std::invalid_argument(fmt::format("the surface is in frame '{}' and /tf does not lead to '{}': {}",
-                                            surface->frame_id, frame_id, transforms.reason()));
+    throw std::invalid_argument(fmt::format(
+        "the surface is in frame '{0}' and /tf of {1} does not lead to '{2}': {3}. If both are names of one "
+        "frame, record beside the images a /tf_static that says so (rosrun tf2_ros "
+        "static_transform_publisher "
+        "0 0 0 0 0 0 {0} {2})",
+        surface->frame_id, fmt::join(paths, " and "), frame_id, transforms.reason()));
   }
   if (left_out > 0) {
     surface->notes.push_back(fmt::format(

@@ -79,7 +79,8 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
   config.pipeline.cutting =
       readSection(file, "surface", {{"body_frame", "object"}, {}}, warnings, readCuttingConfig);
   config.pipeline.tool_tracker =
-      readSection(file, "tool_tracker", {{"tool", "tool_frame"}, {}}, warnings, readToolTrackerConfig);
+      readSection(file, "tool_tracker", {{"tool", "tool_frame", "output_frame", "tf_timeout_s"}, {}},
+                  warnings, readToolTrackerConfig);
   return config;
 }
 

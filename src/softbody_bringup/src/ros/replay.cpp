@@ -86,7 +86,7 @@ class Replay {
     try {
       frame.T_fixed_camera = camera_poses_.of(header);
     } catch (const tf2::TransformException& error) {
-      return skip(header, error.what());
+      return skip(frame, header, error.what());
     }
     const auto start = std::chrono::steady_clock::now();
     const FrameOutput result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
@@ -117,11 +117,14 @@ class Replay {
   const ReplaySummary& summary() const { return summary_; }
 
  private:
-  void skip(const std_msgs::Header& header, const std::string& why) {
+  void skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why) {
     if (summary_.skipped++ == 0)
       warn_(fmt::format("frame at {:.3f} s skipped: {}", header.stamp.toSec(), why));
     count(skippedFrame(last_status_, header.frame_id, camera_poses_.outputFrame(), why));
     output_.writeStatus(last_status_, header);
+    const std::optional<ToolObservation> tool = pipeline_.processUnplaced(frame);
+    summary_.tools += tool ? 1 : 0;
+    if (tool) output_.writeTool(*tool, header);
   }
 
   void count(const TrackingStatus& status) {

@@ -19,6 +19,7 @@
 namespace softbody {
 namespace {
 
+constexpr char kBodyFrame[] = "softbody";
 constexpr double kFirm = 100.0;  // weight of a target: what it holds gives way by hundredths of a millimetre
 
 evaluation::SurfaceRecord readTruth(const std::string& path) {
@@ -61,7 +62,7 @@ class TruthSimulation {
     std::size_t done = 0;
     for (const auto& [stamp, state] : truth_.states) {
       simulator_.step(exactTargets(state, done == 0), stamp);
-      write(stamp, done == 0);
+      write(stamp);
       progress(static_cast<double>(++done) / static_cast<double>(truth_.states.size()));
     }
     bag_.finish();
@@ -85,24 +86,31 @@ class TruthSimulation {
     return set;
   }
 
-  void write(Nanoseconds stamp, bool first) {
+  void write(Nanoseconds stamp) {
     std_msgs::Header header;
     header.stamp.fromNSec(static_cast<std::uint64_t>(stamp));
     header.frame_id = truth_.frame_id;
-    if (first) {
-      softbody_msgs::MeshTopology topology = toMessage(surface_.topology());
-      topology.header = header;
-      bag_.writeLatched(std::string("/softbody/") + topics::kSurfaceTopology, header.stamp, topology);
-    }
+    writeTopology(header.stamp);
     softbody_msgs::MeshState state = toMessage(surface_.apply(simulator_.state()));
     state.header = header;
     bag_.write(std::string("/softbody/") + topics::kSurfaceState, header.stamp, state);
+  }
+
+  /// At first and every second.
+  void writeTopology(const ros::Time& stamp) {
+    if (!topology_written_.isZero() && stamp - topology_written_ < ros::Duration(1.0)) return;
+    topology_written_ = stamp;
+    softbody_msgs::MeshTopology topology = toMessage(surface_.topology());
+    topology.header.frame_id = kBodyFrame;
+    topology.header.stamp.fromNSec(static_cast<std::uint64_t>(truth_.states.begin()->first));
+    bag_.writeLatched(std::string("/softbody/") + topics::kSurfaceTopology, stamp, topology);
   }
 
   evaluation::SurfaceRecord truth_;
   Simulator simulator_;
   VisualSurface surface_;
   AtomicBag bag_;
+  ros::Time topology_written_;
   std::vector<int> own_vertex_;  ///< by vertex of the truth; -1: none
 };
 

@@ -211,6 +211,9 @@ TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
     s->header.frame_id = "world";
     return true;
   });
+  options.truth = recording();
+  const std::string way = "static_transform_publisher 0 0 0 0 0 0 world camera_color_optical_frame";
+  EXPECT_NE(failure(options).find(way), std::string::npos) << failure(options);
   {
     rosbag::Bag bag(options.result, rosbag::bagmode::Append);
     tf2_msgs::TFMessage message;
@@ -225,7 +228,6 @@ TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
     t.transform.rotation.z = t.transform.rotation.w = std::sqrt(0.5);
     bag.write("/tf_static", ros::Time(1.6e9), message);
   }
-  options.truth = recording();
   const Report report = evaluate(options);
   EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
   EXPECT_LT(report.vertex_error->all.max, 1e-6);
@@ -260,6 +262,10 @@ TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
   options.unhidden = resultFromTruth("unhidden.bag", off(0.0026f), options.truth);
   EXPECT_EQ(evaluate(options).absences[0].recovery_s, 0.0);
   EXPECT_NEAR(evaluate(options).absences[0].normal, 0.0026, 1e-6);
+  const std::string words = toText(evaluate(options));
+  EXPECT_NE(words.find("back to normal (2.600 mm) after 0.00 s; not back to the error before"),
+            std::string::npos)
+      << words;
   options.unhidden = resultFromTruth("unhidden.bag", off(0.0024f), options.truth);
   EXPECT_FALSE(evaluate(options).absences[0].recovery_s);
 }

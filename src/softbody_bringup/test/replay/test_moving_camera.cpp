@@ -24,21 +24,25 @@ class MovingCamera : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / ("softbody_moving_camera_" + std::to_string(::getpid()));
     fs::create_directories(folder_);
+    record("still", "moving.bag");
+  }
+  static void record(const std::string& scene, const std::string& name) {
     virtual_camera::CameraSetup setup;
-    setup.scene = "still";
+    setup.scene = scene;
     setup.camera_motion = "orbit";
     setup.config_folder = CONFIG_DIR;
     setup.width = 320;
     setup.height = 240;
     virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
-    virtual_camera::writeBag(&camera, {folder_ / "moving.bag", kFrames, 30.0, false}, [](int) {});
+    virtual_camera::writeBag(&camera, {folder_ / name, kFrames, 30.0, false}, [](int) {});
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
   /// The recording without /tf from frame `first` to before `last`.
-  static std::string withoutTf(const std::string& name, int first, int last) {
+  static std::string withoutTf(const std::string& name, int first, int last,
+                               const std::string& of = "moving.bag") {
     const std::string path = folder_ / name;
-    const rosbag::Bag whole(folder_ / "moving.bag");
+    const rosbag::Bag whole(folder_ / of);
     rosbag::Bag bag(path, rosbag::bagmode::Write);
     int frame = -1;
     for (const rosbag::MessageInstance& message : rosbag::View(whole)) {
@@ -50,11 +54,13 @@ class MovingCamera : public ::testing::Test {
     return path;
   }
 
-  static ReplaySummary run(const std::string& input, const std::string& output) {
+  static ReplaySummary run(const std::string& input, const std::string& output,
+                           const std::string& tool = "") {
     ReplayOptions options;
     options.input = input;
     options.object = CONFIG_DIR "/sponge.yaml";
     options.output = folder_ / output;
+    options.tool = tool;
     options.output_frame = "world";
     return replay(
         options, [](const std::string&) {}, [](double) {});
@@ -99,6 +105,17 @@ TEST_F(MovingCamera, FramesWithoutTfAreLeftOutWithTheReason) {
   EXPECT_NE(reason.find("camera_color_optical_frame is in output_frame world"), std::string::npos) << reason;
   const rosbag::Bag bag(folder_ / "end_result.bag");
   EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("/softbody/status")).size(), static_cast<unsigned>(kFrames));
+}
+
+TEST_F(MovingCamera, TheToolIsSeenWithoutTfToo) {
+  record("cut", "knife.bag");
+  const std::string knife = CONFIG_DIR "/knife.yaml";
+  const int with_tf = run(folder_ / "knife.bag", "knife_result.bag", knife).tools;
+  EXPECT_GT(with_tf, kFrames / 2);
+  const ReplaySummary gap =
+      run(withoutTf("knife_gap.bag", 20, 36, "knife.bag"), "knife_gap_result.bag", knife);
+  EXPECT_EQ(gap.skipped, 16);
+  EXPECT_GE(gap.tools, with_tf - 1);
 }
 
 TEST_F(MovingCamera, TfThatNeverComesIsAnError) {

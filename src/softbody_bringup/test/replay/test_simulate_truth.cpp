@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <softbody_msgs/MeshTopology.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -45,6 +48,28 @@ TEST_F(SimulateTruthTest, PutsTheVisibleVerticesWhereTheyTrulyAre) {
   EXPECT_LT(report.vertex_error->visible.mean, 2e-4);
   EXPECT_GT(report.vertex_error->hidden.mean, report.vertex_error->visible.mean)
       << "nothing is told of the hidden ones";
+}
+
+TEST_F(SimulateTruthTest, SendsTheTopologyAgainAsTheSurfaceDoes) {
+  simulateTruth(options_, [](double) {});
+  const rosbag::Bag bag(options_.output);
+  ros::Time first, last, state;
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag)) {
+    if (const auto topology = instance.instantiate<softbody_msgs::MeshTopology>()) {
+      EXPECT_EQ(topology->header.frame_id, "softbody") << "that of vertices at rest";
+      EXPECT_EQ((*instance.getConnectionHeader())["latching"], "1");
+      if (first.isZero()) first = topology->header.stamp;
+      EXPECT_EQ(topology->header.stamp, first);
+      last = instance.getTime();
+    } else {
+      state = instance.getTime();
+    }
+    if (!last.isZero()) {
+      EXPECT_LE(state - last, ros::Duration(1.0));
+    }
+  }
+  EXPECT_EQ(first, rosbag::View(bag).getBeginTime());
+  EXPECT_GT(last, first);
 }
 
 /// More vertices than the truth names, at other places.

@@ -15,10 +15,10 @@ class BladeTrail {
   explicit BladeTrail(Points blade) : blade_(std::move(blade)) {}
 
   /// The tool is seen. A gap, or time that jumps back, begins a new trail.
-  void add(Nanoseconds stamp, const Eigen::Isometry3d& T_camera_tool);
+  void add(Nanoseconds stamp, const Eigen::Isometry3d& T_fixed_tool);
 
   /// "blade", its outline now, and "trail", its earlier outlines and the paths of its corners, which fade.
-  /// In the camera's frame; `header` is the frame's.
+  /// @param header with the stamp of the frame and the id of the fixed frame.
   visualization_msgs::MarkerArray markers(const std_msgs::Header& header) const;
 
  private:

@@ -16,6 +16,7 @@ struct RgbdFrame {
   cv::Mat1f depth;  ///< z [m]; 0: none
   /// The camera in the frame that stands still, in which the body is simulated; identity: the camera's own.
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
+  bool placed = true;      ///< false: where the camera is in that frame is not known
   cv::Mat1b covered = {};  ///< not 0: something known stands before the body; empty: nothing does
 };
 

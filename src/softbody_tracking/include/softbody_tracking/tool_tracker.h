@@ -48,7 +48,8 @@ class ToolTracker {
   ~ToolTracker();
 
   /// @return nothing where the tool is neither seen nor bridged; reason() says why. Stamps that jump back
-  /// start anew. @param timer may be null.
+  /// start anew. The tool's motion is predicted in the frame that stands still: in a frame whose camera is
+  /// not placed there the tool is seen without a prediction, and not bridged. @param timer may be null.
   std::optional<ToolObservation> track(const RgbdFrame& frame, StageTimer* timer);
 
   const ToolDescription& tool() const;

@@ -48,6 +48,14 @@ double rmsOver(const ToolHypothesis& hypothesis, const Pinhole& camera) {
   return std::sqrt(sum / static_cast<double>(hypothesis.markers.size()));
 }
 
+/// With its axes turned by a rotation.
+PoseCovariance turned(const PoseCovariance& covariance, const Eigen::Matrix3d& R) {
+  PoseCovariance turn = PoseCovariance::Zero();
+  turn.topLeftCorner<3, 3>() = R;
+  turn.bottomRightCorner<3, 3>() = R;
+  return turn * covariance * turn.transpose();
+}
+
 ToolObservation observationOf(const ToolHypothesis& hypothesis, const RgbdFrame& frame) {
   ToolObservation observation;
   observation.stamp = frame.stamp;
@@ -96,7 +104,7 @@ struct ToolTracker::Implementation {
   /// Around the prediction first, then anywhere.
   std::vector<ToolHypothesis> search(const RgbdFrame& frame) {
     const cv::Mat1b gray = grayOf(frame.color);
-    const auto predicted = motion ? std::optional(motion->predict(frame.stamp)) : std::nullopt;
+    const auto predicted = predict(frame);
     const cv::Rect region = predicted ? expectedRegion(tool, frame.camera, predicted->pose) : cv::Rect();
     std::vector<cv::Rect> parts{region};
     if (!region.empty()) parts.emplace_back();
@@ -129,13 +137,33 @@ struct ToolTracker::Implementation {
     if (motion && stamp - motion->stamp() > bridged) motion.reset();
   }
 
-  std::optional<ToolObservation> bridge(Nanoseconds stamp) const {
-    if (!motion) return std::nullopt;
-    const PoseMotion::Prediction predicted = motion->predict(stamp);
+  /// In the camera's frame.
+  std::optional<PoseMotion::Prediction> predict(const RgbdFrame& frame) const {
+    if (!motion || !frame.placed) return std::nullopt;
+    const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
+    const PoseMotion::Prediction predicted = motion->predict(frame.stamp);
+    return PoseMotion::Prediction{T_camera_fixed * predicted.pose,
+                                  turned(predicted.covariance, T_camera_fixed.linear())};
+  }
+
+  void learnMotion(const ToolObservation& seen, const RgbdFrame& frame) {
+    if (!frame.placed) return;
+    const Eigen::Isometry3d pose = frame.T_fixed_camera * seen.T_camera_tool;
+    const PoseCovariance covariance = turned(seen.covariance, frame.T_fixed_camera.linear());
+    if (motion) {
+      motion->update(pose, covariance, frame.stamp);
+    } else {
+      motion.emplace(pose, covariance, frame.stamp);
+    }
+  }
+
+  std::optional<ToolObservation> bridge(const RgbdFrame& frame) const {
+    const auto predicted = predict(frame);
+    if (!predicted) return std::nullopt;
     ToolObservation observation;
-    observation.stamp = stamp;
-    observation.T_camera_tool = predicted.pose;
-    observation.covariance = predicted.covariance;
+    observation.stamp = frame.stamp;
+    observation.T_camera_tool = predicted->pose;
+    observation.covariance = predicted->covariance;
     observation.bridged = true;
     return observation;
   }
@@ -143,7 +171,7 @@ struct ToolTracker::Implementation {
   ToolDescription tool;
   ToolTrackerConfig config;
   MarkerDetector detector;
-  std::optional<PoseMotion> motion;
+  std::optional<PoseMotion> motion;             ///< in the fixed frame
   std::vector<MarkerMeasurement> measurements;  ///< of the present frame; hypotheses point into it
   Nanoseconds last_stamp = 0;
   std::string reason = "no frame yet";
@@ -162,12 +190,8 @@ std::optional<ToolObservation> ToolTracker::track(const RgbdFrame& frame, StageT
   self.last_stamp = frame.stamp;
   self.forgetOldMotion(frame.stamp);
   const std::optional<ToolObservation> observation = self.observe(frame);
-  if (!observation) return self.bridge(frame.stamp);
-  if (self.motion) {
-    self.motion->update(observation->T_camera_tool, observation->covariance, frame.stamp);
-  } else {
-    self.motion.emplace(observation->T_camera_tool, observation->covariance, frame.stamp);
-  }
+  if (!observation) return self.bridge(frame);
+  self.learnMotion(*observation, frame);
   return observation;
 }
 

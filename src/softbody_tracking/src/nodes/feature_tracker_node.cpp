@@ -20,22 +20,17 @@ namespace softbody {
 namespace {
 
 constexpr int kSyncQueue = 4;
-constexpr double kTfPoll_s = 0.002;
 constexpr double kSetPosePatience_s = 0.5;
 constexpr double kSilence_s = 2.0;
 
 }  // namespace
 
 FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
-    : handle_(handle),
-      tf_listener_(tf_buffer_),
-      synchronizer_(kSyncQueue),
-      diagnostics_(handle, private_handle) {
+    : handle_(handle), synchronizer_(kSyncQueue), diagnostics_(handle, private_handle) {
   Parameters parameters = readParameters(private_handle);
   body_frame_ = parameters.text("body_frame", "softbody");
-  output_frame_ = parameters.text("output_frame", "");
+  output_frame_ = std::make_unique<OutputFrame>(parameters);
   tracker_ = std::make_unique<BodyTracker>(readTrackerConfig(parameters));
-  tf_timeout_s_ = parameters.number("tf_timeout_s", 0.05, 0.0, 5.0);
   const bool use_mask = parameters.flag("use_mask", false);
   const double mask_timeout_s = parameters.number("mask_timeout_s", 0.3, 0.0, 5.0);
   warnUnknown(parameters);
@@ -125,31 +120,16 @@ void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr&
 
 void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {
   // Without an output_frame blades in other frames than the camera's are of no use, and known once it shows.
-  blade_frame_ = output_frame_.empty() ? message->header.frame_id : "";
-  const Eigen::Isometry3d T_output_blade = poseInOutput(message->header);
+  blade_frame_ = output_frame_->name().empty() ? message->header.frame_id : "";
+  const Eigen::Isometry3d T_output_blade = output_frame_->poseOf(message->header);
   tool_mask_.see(toNanoseconds(message->header.stamp),
                  transformed(fromMessage(message->polygon), T_output_blade));
 } catch (const tf2::TransformException& error) {
   ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << error.what());
 }
 
-/// Waits in wall time: the time of a bag that is held would never run out.
-Eigen::Isometry3d FeatureTrackerNode::lookUp(const std::string& target, const std::string& source,
-                                             const ros::Time& stamp, double patience_s) const {
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(patience_s);
-  while (!tf_buffer_.canTransform(target, source, stamp) && ros::ok() && ros::WallTime::now() < deadline) {
-    ros::WallDuration(kTfPoll_s).sleep();
-  }
-  return tf2::transformToEigen(tf_buffer_.lookupTransform(target, source, stamp));
-}
-
-Eigen::Isometry3d FeatureTrackerNode::poseInOutput(const std_msgs::Header& header) const {
-  if (output_frame_.empty() || output_frame_ == header.frame_id) return Eigen::Isometry3d::Identity();
-  return lookUp(output_frame_, header.frame_id, header.stamp, tf_timeout_s_);
-}
-
 void FeatureTrackerNode::skip(const std_msgs::Header& header, const std::string& why) {
-  last_status_ = skippedFrame(last_status_, header.frame_id, output_frame_, why);
+  last_status_ = skippedFrame(last_status_, header.frame_id, output_frame_->name(), why);
   ROS_WARN_STREAM_THROTTLE(5.0, last_status_.reason);
   publishStatus(header);
 }
@@ -171,10 +151,10 @@ std::optional<MeshState> FeatureTrackerNode::volume() const try {
 /// Where a pose is in the fixed frame: the output frame, or without one that of the camera.
 Eigen::Isometry3d FeatureTrackerNode::fixedPose(const geometry_msgs::PoseStamped& pose) const {
   const Eigen::Isometry3d T_frame_body = fromMessage(pose.pose);
-  const std::string& fixed = output_frame_.empty() ? camera_frame_ : output_frame_;
+  const std::string& fixed = output_frame_->name().empty() ? camera_frame_ : output_frame_->name();
   const std::string& frame = pose.header.frame_id.empty() ? camera_frame_ : pose.header.frame_id;
   if (frame == fixed) return T_frame_body;
-  return lookUp(fixed, frame, pose.header.stamp, kSetPosePatience_s) * T_frame_body;
+  return output_frame_->lookUp(fixed, frame, pose.header.stamp, kSetPosePatience_s) * T_frame_body;
 }
 
 bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
@@ -207,7 +187,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   last_stamp_ = header.stamp;
   Eigen::Isometry3d T_output_camera;
   try {
-    T_output_camera = poseInOutput(header);
+    T_output_camera = output_frame_->poseOf(header);
   } catch (const tf2::TransformException& error) {
     return skip(header, error.what());
   }
@@ -256,7 +236,7 @@ void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
   }
   const auto targets = boost::make_shared<softbody_msgs::Targets>(toMessage(result.targets));
   targets->header = camera_header;
-  if (!output_frame_.empty()) targets->header.frame_id = output_frame_;
+  if (!output_frame_->name().empty()) targets->header.frame_id = output_frame_->name();
   targets_.publish(targets);
 
   geometry_msgs::TransformStamped body =

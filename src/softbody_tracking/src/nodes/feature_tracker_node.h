@@ -11,15 +11,14 @@
 #include <softbody_msgs/MeshTopology.h>
 #include <softbody_msgs/SetPose.h>
 #include <softbody_msgs/TetTopology.h>
-#include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "nodes/mask_input.h"
+#include "nodes/output_frame.h"
 #include "softbody_common/parameters.h"
 #include "softbody_tracking/body_tracker.h"
 #include "softbody_tracking/tool_mask.h"
@@ -43,12 +42,6 @@ class FeatureTrackerNode {
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
   void adoptTopologies();
-  /// @throw tf2::TransformException where tf does not know it within the patience.
-  Eigen::Isometry3d lookUp(const std::string& target, const std::string& source, const ros::Time& stamp,
-                           double patience_s) const;
-  /// A header's frame in the one in which targets are published, at its stamp.
-  /// @throw tf2::TransformException.
-  Eigen::Isometry3d poseInOutput(const std_msgs::Header& header) const;
   void skip(const std_msgs::Header& header, const std::string& why);
   /// @throw std::invalid_argument, tf2::TransformException.
   Eigen::Isometry3d fixedPose(const geometry_msgs::PoseStamped& pose) const;
@@ -59,8 +52,8 @@ class FeatureTrackerNode {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   ros::NodeHandle handle_;
-  std::string body_frame_, output_frame_;
-  double tf_timeout_s_ = 0.0;
+  std::string body_frame_;
+  std::unique_ptr<OutputFrame> output_frame_;
   std::string camera_frame_;  ///< of the last frame, empty before the first
   std::unique_ptr<BodyTracker> tracker_;
   std::unique_ptr<MaskInput> mask_input_;                           ///< only where masks are used
@@ -73,8 +66,6 @@ class FeatureTrackerNode {
   TrackingStatus last_status_;
   ros::Time last_stamp_;
 
-  tf2_ros::Buffer tf_buffer_;
-  tf2_ros::TransformListener tf_listener_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher features_, features_marker_, targets_, status_, timing_;
   ros::ServiceServer set_pose_;

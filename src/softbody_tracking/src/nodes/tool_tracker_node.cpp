@@ -29,6 +29,7 @@ ToolTrackerNode::ToolTrackerNode(ros::NodeHandle handle, ros::NodeHandle private
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   Parameters parameters = readParameters(private_handle);
   tool_frame_ = parameters.text("tool_frame", "tool");
+  output_frame_ = std::make_unique<OutputFrame>(parameters);
   const ToolDescription tool = loadToolDescription(parameters.requiredText("tool"));
   for (const std::string& warning : tool.warnings) ROS_WARN_STREAM(warning);
   tracker_ = std::make_unique<ToolTracker>(tool, readToolTrackerConfig(parameters));
@@ -59,12 +60,13 @@ void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
                               const sensor_msgs::CameraInfoConstPtr& info) try {
   const auto color_image = cv_bridge::toCvShare(color, sensor_msgs::image_encodings::BGR8);
   const auto depth_image = cv_bridge::toCvShare(depth, sensor_msgs::image_encodings::TYPE_32FC1);
-  const RgbdFrame frame{toNanoseconds(color->header.stamp), pinholeFromMessage(*info), color_image->image,
-                        depth_image->image};
+  RgbdFrame frame{toNanoseconds(color->header.stamp), pinholeFromMessage(*info), color_image->image,
+                  depth_image->image};
+  place(color->header, &frame);
   StageTimer timer;
   last_ = tracker_->track(frame, &timer);
   last_stamp_ = color->header.stamp;
-  if (last_) publish(color->header, *last_);
+  if (last_) publish(color->header, frame);
   softbody_msgs::StageTiming timing = timingMessage("tool_tracker", timer.take());
   timing.header = color->header;
   timing_.publish(timing);
@@ -73,27 +75,39 @@ void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
       5.0, "the tool cannot be looked for in frame " << color->header.stamp << ": " << error.what());
 }
 
-void ToolTrackerNode::publish(const std_msgs::Header& header, const ToolObservation& observation) {
+void ToolTrackerNode::place(const std_msgs::Header& header, RgbdFrame* frame) const try {
+  frame->T_fixed_camera = output_frame_->poseOf(header);
+} catch (const tf2::TransformException& error) {
+  frame->placed = false;
+  ROS_WARN_STREAM_THROTTLE(5.0, "the tool is not predicted: tf does not say where "
+                                    << header.frame_id << " is in output_frame " << output_frame_->name()
+                                    << ": " << error.what());
+}
+
+void ToolTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& frame) {
   const auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   pose->header = header;
-  pose->pose = toMessage(observation);
+  pose->pose = toMessage(*last_);
   pose_.publish(pose);
   // What is only predicted must not cut.
-  if (trail_ && !observation.bridged) publishBlade(header, observation.T_camera_tool);
-  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(observation.T_camera_tool);
+  if (trail_ && !last_->bridged) publishBlade(header, frame);
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(last_->T_camera_tool);
   transform.header = header;
   transform.child_frame_id = tool_frame_;
   tf_broadcaster_.sendTransform(transform);
 }
 
-void ToolTrackerNode::publishBlade(const std_msgs::Header& header, const Eigen::Isometry3d& T_camera_tool) {
+void ToolTrackerNode::publishBlade(const std_msgs::Header& header, const RgbdFrame& frame) {
   const auto blade = boost::make_shared<geometry_msgs::PolygonStamped>();
   blade->header = header;
-  blade->polygon = bladePolygon(tracker_->tool().blade, T_camera_tool);
+  blade->polygon = bladePolygon(tracker_->tool().blade, last_->T_camera_tool);
   blade_.publish(blade);
-  trail_->add(toNanoseconds(header.stamp), T_camera_tool);
-  if (marker_.getNumSubscribers() > 0)
-    marker_.publish(boost::make_shared<visualization_msgs::MarkerArray>(trail_->markers(header)));
+  if (!frame.placed) return;
+  trail_->add(toNanoseconds(header.stamp), frame.T_fixed_camera * last_->T_camera_tool);
+  if (marker_.getNumSubscribers() == 0) return;
+  std_msgs::Header fixed = header;
+  if (!output_frame_->name().empty()) fixed.frame_id = output_frame_->name();
+  marker_.publish(boost::make_shared<visualization_msgs::MarkerArray>(trail_->markers(fixed)));
 }
 
 void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/output_frame.h"
 #include "softbody_tracking/blade_trail.h"
 #include "softbody_tracking/tool_tracker.h"
 
@@ -26,12 +27,14 @@ class ToolTrackerNode {
  private:
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);
-  void publish(const std_msgs::Header& header, const ToolObservation& observation);
-  void publishBlade(const std_msgs::Header& header, const Eigen::Isometry3d& T_camera_tool);
+  void place(const std_msgs::Header& header, RgbdFrame* frame) const;
+  void publish(const std_msgs::Header& header, const RgbdFrame& frame);
+  void publishBlade(const std_msgs::Header& header, const RgbdFrame& frame);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   ros::NodeHandle handle_;
   std::string tool_frame_;
+  std::unique_ptr<OutputFrame> output_frame_;
   std::unique_ptr<ToolTracker> tracker_;
   std::optional<ToolObservation> last_;  ///< of the last frame
   ros::Time last_stamp_;

@@ -56,6 +56,8 @@ void addAbsences(const std::vector<Absence>& absences, std::vector<Figure>* figu
     if (absence.covered.count > 0)
       figures->push_back({name + ", hidden part meanwhile, mean", "mm", 1e3 * absence.covered.mean});
     figures->push_back({name + ", back to normal after", "s", absence.recovery_s.value_or(kNothing)});
+    figures->push_back(
+        {name + ", back to the error before after", "s", absence.recovery_to_before_s.value_or(kNothing)});
   }
 }
 

@@ -79,14 +79,15 @@ std::string cutLines(const Report& report) {
   return text;
 }
 
+std::string backAfter(const std::optional<double>& recovery_s, const std::string& what) {
+  return recovery_s ? fmt::format("back to {} after {:.2f} s", what, *recovery_s) : "not back to " + what;
+}
+
 std::string absenceLine(const Absence& absence) {
-  const std::string recovery =
-      absence.recovery_s
-          ? fmt::format("back to normal ({:.3f} mm) after {:.2f} s", mm(absence.normal), *absence.recovery_s)
-          : fmt::format("not back to normal ({:.3f} mm)", mm(absence.normal));
-  return fmt::format("hidden from {:.2f} to {:.2f} s: {:.0f} % covered, {:.3f} mm mean there; {}\n",
+  return fmt::format("hidden from {:.2f} to {:.2f} s: {:.0f} % covered, {:.3f} mm mean there; {}; {}\n",
                      absence.begin_s, absence.end_s, 100.0 * absence.covered_share, mm(absence.covered.mean),
-                     recovery);
+                     backAfter(absence.recovery_s, fmt::format("normal ({:.3f} mm)", mm(absence.normal))),
+                     backAfter(absence.recovery_to_before_s, "the error before"));
 }
 
 std::string optionalLines(const Report& report) {

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <filesystem>
+#include <random>
+
+#include "softbody_bringup/bag_transforms.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kBegin_s = 1000.0;
+
+ros::Time after(double seconds) { return ros::Time(kBegin_s + seconds); }
+
+/// A bag of transforms, made message by message.
+class TransformBag {
+ public:
+  explicit TransformBag(const std::string& name)
+      : path_(fs::temp_directory_path() / (name + std::to_string(::getpid()) + ".bag")),
+        bag_(path_, rosbag::bagmode::Write) {}
+  ~TransformBag() { fs::remove(path_); }
+
+  void add(const std::string& parent, const std::string& child, double seconds, const Eigen::Isometry3d& pose,
+           const char* topic = "/tf") {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(tf2::eigenToTransform(pose));
+    message.transforms[0].header.stamp = after(seconds);
+    message.transforms[0].header.frame_id = parent;
+    message.transforms[0].child_frame_id = child;
+    bag_.write(topic, after(seconds), message);
+  }
+  /// Every period from the begin for four seconds.
+  void addAll(const std::string& parent, const std::string& child, double period_s, double speed_m_s) {
+    for (double t = 0.0; t < 4.0 + 0.5 * period_s; t += period_s)
+      add(parent, child, t, shifted(speed_m_s * t));
+  }
+  static Eigen::Isometry3d shifted(double x_m) {
+    return Eigen::Isometry3d(Eigen::Translation3d(x_m, 0.0, 0.0));
+  }
+
+  std::string path() const { return path_; }
+  BagTransforms read() {
+    bag_.close();
+    return BagTransforms({path_.string()});
+  }
+
+ private:
+  fs::path path_;
+  rosbag::Bag bag_;
+};
+
+TEST(BagTransforms, AreThoseOfTf2) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const std::vector<std::string> frames{"world", "base", "arm", "hand", "camera", "table"};
+  const std::vector<std::size_t> parents{0, 0, 1, 2, 3, 0};
+  TransformBag bag("bag_transforms_tf2");
+  tf2::BufferCore buffer{ros::Duration(100.0)};
+  const auto add = [&](std::size_t child, double t, bool is_static) {
+    const Eigen::Isometry3d pose =
+        Eigen::Translation3d(any(random), any(random), any(random)) *
+        Eigen::AngleAxisd(0.3 * any(random), Eigen::Vector3d(any(random), any(random), 2.0).normalized());
+    bag.add(frames[parents[child]], frames[child], t, pose, is_static ? "/tf_static" : "/tf");
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(pose);
+    transform.header.stamp = after(t);
+    transform.header.frame_id = frames[parents[child]];
+    transform.child_frame_id = frames[child];
+    buffer.setTransform(transform, "test", is_static);
+  };
+  add(4, 0.0, true);
+  for (const std::size_t child : {1u, 2u, 3u, 5u})
+    for (int i = 0; i <= 40; ++i) add(child, 0.02 * i * static_cast<double>(child), false);
+  const BagTransforms transforms = bag.read();
+  for (int i = 0; i < 200; ++i) {
+    const std::string target = frames[random() % frames.size()], source = frames[random() % frames.size()];
+    const ros::Time stamp = after(0.4 * (1.0 + any(random)));
+    const Eigen::Isometry3d expected = tf2::transformToEigen(buffer.lookupTransform(target, source, stamp));
+    EXPECT_TRUE(transforms.at(target, source, stamp).isApprox(expected, 1e-9)) << target << " " << source;
+  }
+}
+
+TEST(BagTransforms, AGapCountsOnlyWhereTheFrameMovedMeanwhile) {
+  TransformBag bag("bag_transforms_gap");
+  bag.addAll("world", "mount", 1.0, 0.0);
+  bag.addAll("mount", "camera", 0.01, 0.1);
+  bag.addAll("world", "slow", 1.0, 0.01);
+  const BagTransforms transforms = bag.read();
+  EXPECT_NEAR(transforms.at("world", "camera", after(2.6)).translation().x(), 0.26, 1e-9);
+  EXPECT_NEAR(transforms.at("camera", "world", after(2.6)).translation().x(), -0.26, 1e-9);
+  EXPECT_THROW(transforms.at("world", "slow", after(2.6)), tf2::ExtrapolationException);
+  EXPECT_THROW(transforms.at("slow", "camera", after(2.6)), tf2::ExtrapolationException);
+  EXPECT_NEAR(transforms.at("world", "slow", after(2.0)).translation().x(), 0.02, 1e-9)
+      << "at a stamp there is no gap";
+}
+
+TEST(BagTransforms, WhatIsAboveBothFramesDoesNotCount) {
+  TransformBag bag("bag_transforms_above");
+  bag.addAll("map", "base", 1.0, 0.5);  // a robot that drives, and says so once a second
+  bag.addAll("base", "camera", 0.01, 0.1);
+  bag.addAll("base", "table", 0.01, 0.0);
+  const BagTransforms transforms = bag.read();
+  EXPECT_NEAR(transforms.at("base", "camera", after(2.6)).translation().x(), 0.26, 1e-9);
+  EXPECT_NEAR(transforms.at("table", "camera", after(2.6)).translation().x(), 0.26, 1e-9);
+  EXPECT_THROW(transforms.at("map", "camera", after(2.6)), tf2::ExtrapolationException);
+}
+
+TEST(BagTransforms, WhatIsNotThereIsAnException) {
+  TransformBag bag("bag_transforms_none");
+  bag.addAll("world", "camera", 0.1, 0.1);
+  bag.addAll("elsewhere", "tool", 0.1, 0.1);
+  bag.add("chases", "itself", 1.0, TransformBag::shifted(1.0));
+  bag.add("itself", "chases", 1.0, TransformBag::shifted(1.0));
+  const BagTransforms transforms = bag.read();
+  EXPECT_THROW(transforms.at("world", "camera", after(-1.0)), tf2::TransformException);
+  EXPECT_THROW(transforms.at("world", "camera", after(9.0)), tf2::TransformException);
+  EXPECT_THROW(transforms.at("world", "tool", after(1.0)), tf2::TransformException);
+  EXPECT_THROW(transforms.at("nowhere", "camera", after(1.0)), tf2::TransformException);
+  EXPECT_THROW(transforms.at("world", "itself", after(1.0)), tf2::TransformException);
+}
+
+TEST(BagTransforms, OfOneStampTheLaterBagCounts) {
+  TransformBag first("bag_transforms_first"), second("bag_transforms_second");
+  first.add("world", "camera", 1.0, TransformBag::shifted(1.0));
+  second.add("/world", "/camera", 1.0, TransformBag::shifted(2.0));
+  first.add("world", "camera", 0.9, TransformBag::shifted(1.0));
+  first.read();
+  second.read();
+  const auto at = [&](const TransformBag& a, const TransformBag& b) {
+    return BagTransforms({a.path(), b.path()}).at("world", "camera", after(1.0)).translation().x();
+  };
+  EXPECT_EQ(at(first, second), 2.0);
+  EXPECT_EQ(at(second, first), 1.0);
+}
+
+}  // namespace
+}  // namespace softbody
