@@ -12,33 +12,44 @@ constexpr double kSmallestScale = 0.003;  // [m], of the Cauchy weights: below t
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-}  // namespace
-
-Eigen::Isometry3d rigidStep(const std::vector<Association>& associations) {
-  if (associations.empty()) return Eigen::Isometry3d::Identity();
+/// Normal equations of a small motion about a centre.
+struct MotionEquations {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const Association& a : associations) center += a.predicted;
-  center /= static_cast<double>(associations.size());
-
-  const double scale = std::max(kSmallestScale, 2.0 * medianResidual(associations));
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();
   double size = 0.0;
-  for (const Association& a : associations) {
-    const double ratio = a.residual() / scale;
-    const double w = a.weight / (1.0 + ratio * ratio);
+
+  void add(const Association& a, double weight) {
     const Eigen::Matrix<double, 3, 6> J = motionJacobian(a.predicted - center);
     const Eigen::Vector3d difference = a.measured - a.predicted;
     if (a.normal.isZero()) {
-      H += w * J.transpose() * J;
-      g += w * J.transpose() * difference;
+      H += weight * J.transpose() * J;
+      g += weight * J.transpose() * difference;
     } else {
       const Vector6d row = J.transpose() * a.normal;
-      H += w * row * row.transpose();
-      g += w * row * a.normal.dot(difference);
+      H += weight * row * row.transpose();
+      g += weight * row * a.normal.dot(difference);
     }
-    size += w * (a.predicted - center).squaredNorm();
+    size += weight * (a.predicted - center).squaredNorm();
   }
+};
+
+}  // namespace
+
+Eigen::Isometry3d rigidStep(const std::vector<Association>& associations,
+                            const std::vector<Association>& held) {
+  if (associations.empty()) return Eigen::Isometry3d::Identity();
+  MotionEquations equations;
+  for (const Association& a : associations) equations.center += a.predicted;
+  equations.center /= static_cast<double>(associations.size());
+
+  const double scale = std::max(kSmallestScale, 2.0 * medianResidual(associations));
+  for (const Association& a : associations) {
+    const double ratio = a.residual() / scale;
+    equations.add(a, a.weight / (1.0 + ratio * ratio));
+  }
+  for (const Association& a : held) equations.add(a, a.weight);
+  auto& [center, H, g, size] = equations;
   // A little of the mean stiffness in every direction: what the data does not fix does not move.
   H.topLeftCorner<3, 3>().diagonal().array() += 1e-3 * size + 1e-12;
   H.bottomRightCorner<3, 3>().diagonal().array() += 1e-3 * H.bottomRightCorner<3, 3>().trace() / 3.0 + 1e-12;

@@ -36,8 +36,10 @@ inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
 
 /// The small rigid motion that best takes predictions to measurements: one Gauss-Newton step with Cauchy
 /// weights (point-to-plane where there is a normal, point-to-point elsewhere; Chen and Medioni 1992).
+/// @param held draws back by its weights alone: nothing of it is an outlier, nor says what is one.
 /// @return identity where the associations do not fix a motion at all.
-Eigen::Isometry3d rigidStep(const std::vector<Association>& associations);
+Eigen::Isometry3d rigidStep(const std::vector<Association>& associations,
+                            const std::vector<Association>& held = {});
 
 /// Root mean square of the residuals [m]; 0 for none.
 double rmsResidual(const std::vector<Association>& associations);

@@ -1,6 +1,5 @@
 #include "rigid_alignment.h"
 
-#include "piece_hold.h"
 #include "shown_pieces.h"
 
 namespace softbody {
@@ -10,6 +9,7 @@ constexpr int kIterations = 5;
 constexpr std::size_t kEnoughFeatures = 300;
 constexpr int kPixelStep = 2;              // six numbers need no more of the thousands of pixels
 constexpr double kConvergence = 3e-4;      // [m]
+constexpr double kHeldShare = 0.15;        // of what measurements weigh
 constexpr double kLargestRigidStep = 0.1;  // [m] of any vertex; more is no tracking
 
 void addAcrossRay(const Association& feature, std::vector<Association>* associations) {
@@ -41,6 +41,21 @@ std::vector<Association> inliers(const std::vector<FeatureMatch>& matches) {
   return result;
 }
 
+std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
+                                  const std::vector<Association>& measured) {
+  double weight = 0.0;
+  for (const Association& association : measured) weight += association.weight;
+  std::vector<Association> held;
+  for (const auto& vertex : piece.rowwise()) {
+    Association association;
+    association.measured = vertex;
+    association.predicted = motion * association.measured;
+    association.weight = kHeldShare * weight / static_cast<double>(piece.rows());
+    held.push_back(association);
+  }
+  return held;
+}
+
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions) {
   return (surface.movedVolume(motions) - surface.volumeVertices()).rowwise().norm().maxCoeff();
 }
@@ -53,18 +68,6 @@ void RigidAlignment::gather(const DepthAssociations& depth, const RigidMotions& 
     std::vector<Association>& associations = of_body_[feature.body];
     associations.push_back(feature);
     associations.back().predicted = motions[feature.body] * feature.predicted;
-  }
-}
-
-/// Draws a piece back to where it was predicted.
-void RigidAlignment::hold(const Points& piece, const Eigen::Isometry3d& motion,
-                          std::vector<Association>* associations) {
-  for (const auto& vertex : piece.rowwise()) {
-    Association held;
-    held.measured = vertex;
-    held.predicted = motion * held.measured;
-    held.weight = PieceHold::kWeak;
-    associations->push_back(held);
   }
 }
 
@@ -84,8 +87,9 @@ RigidMotions RigidAlignment::align(const RgbdFrame& frame, const PredictedSurfac
     for (std::size_t body = 0; body < motions.size(); ++body) {
       if (shown[body] == Shows::kHardly || static_cast<int>(of_body_[body].size()) < kFewestAssociations)
         continue;
-      if (shown[body] == Shows::kLoosely) hold(pieces[body], motions[body], &of_body_[body]);
-      motions[body] = rigidStep(of_body_[body]) * motions[body];
+      std::vector<Association> held;
+      if (shown[body] == Shows::kLoosely) held = heldBack(pieces[body], motions[body], of_body_[body]);
+      motions[body] = rigidStep(of_body_[body], held) * motions[body];
     }
     const double moved =
         (surface.movedVolume(motions) - surface.movedVolume(before)).rowwise().norm().maxCoeff();

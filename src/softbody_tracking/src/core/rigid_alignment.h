@@ -15,6 +15,11 @@ constexpr int kFewestAssociations = 12;
 /// along it, the depth around says better: two associations each, with normals across the ray.
 std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
 
+/// What draws a piece back to where it was predicted, by a share of what its measurements weigh, however many
+/// vertices it has. @param piece its vertices as predicted. @param motion that they were moved by since.
+std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
+                                  const std::vector<Association>& measured);
+
 /// How far the motions take any vertex of the prediction [m].
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions);
 
@@ -29,8 +34,6 @@ class RigidAlignment {
                      DepthAssociator* depth);
 
  private:
-  static void hold(const Points& piece, const Eigen::Isometry3d& motion,
-                   std::vector<Association>* associations);
   void gather(const DepthAssociations& depth, const RigidMotions& motions);
 
   std::vector<Association> features_;
