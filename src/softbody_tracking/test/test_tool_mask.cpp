@@ -42,6 +42,32 @@ TEST(ToolMask, HidesTheBladeAndAMargin) {
   EXPECT_EQ(frame.depth(60, 80), 0.5f) << "the frame itself was changed";
 }
 
+/// A shiny blade returns no depth, but hides what is behind it all the same.
+TEST(ToolMask, CoversWhatIsUnderABladeWithoutDepth) {
+  for (const double tilt : {0.0, 0.7, M_PI / 2.0}) {
+    const Points corners = blade(0.45, tilt);
+    ToolMask mask;
+    mask.see(0, corners);
+    RgbdFrame frame = wall(0);
+    EXPECT_TRUE(cv::countNonZero(mask.without(frame).covered) == 0) << "the wall behind is measured";
+    frame.depth.setTo(0.0f);
+    const RgbdFrame without = mask.without(frame);
+    for (int v = 0; v < frame.depth.rows; ++v) {
+      for (int u = 0; u < frame.depth.cols; ++u) {
+        // Of the blade's middle, by its width in the image.
+        const double x = std::abs(u - 79.5) * 0.45 / 150.0,
+                     y = std::abs(v - 59.5) * 0.45 / 150.0 - 0.01 * std::cos(tilt);
+        if (x < 0.029 && y < 0.006) {
+          EXPECT_NE(without.covered(v, u), 0) << u << ", " << v << " tilted by " << tilt;
+        }
+        if (x > 0.042 || y > 0.012) {
+          EXPECT_EQ(without.covered(v, u), 0) << u << ", " << v << " tilted by " << tilt;
+        }
+      }
+    }
+  }
+}
+
 TEST(ToolMask, LeavesWhatIsBehindOrBeforeTheBlade) {
   for (const double z : {0.48, 0.52}) {
     ToolMask mask;

@@ -12,7 +12,8 @@ class ToolMask {
   /// @param blade planar polygon in the fixed frame, #B by 3 [m].
   void see(Nanoseconds stamp, const Points& blade);
 
-  /// The frame without depth, and covered, within 8 mm of the blade where that was seen last. The frame as it
+  /// The frame without depth, and covered, within 8 mm of the blade where that was seen last; covered as well
+  /// where it has no depth, which a shiny blade does not return, there in the image. The frame as it
   /// is where no blade was seen up to 0.2 s before or after, or where it reaches nearer than 1 cm to the
   /// camera plane.
   RgbdFrame without(const RgbdFrame& frame) const;

@@ -40,20 +40,28 @@ struct PlanePolygon {
   std::vector<cv::Point2f> outline;
 };
 
-/// Pixels that the polygon and a margin around it fall on.
-cv::Rect regionOf(const Pinhole& camera, const Points& polygon) {
-  std::vector<cv::Point2f> pixels;
-  double margin = 0.0;
-  for (const auto& corner : polygon.rowwise()) {
-    const Eigen::Vector2d pixel = camera.project(corner.transpose());
-    pixels.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
-    margin = std::max(margin, kMargin * camera.fx / corner.z());
+/// The polygon in the image, with the margin around it.
+struct ImagePolygon {
+  ImagePolygon(const Pinhole& camera, const Points& corners) {
+    for (const auto& corner : corners.rowwise()) {
+      const Eigen::Vector2d pixel = camera.project(corner.transpose());
+      outline.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+      margin = std::max(margin, kMargin * camera.fx / corner.z());
+    }
   }
-  const int border = static_cast<int>(std::ceil(margin)) + 1;
-  const cv::Rect box = cv::boundingRect(pixels);
-  return cv::Rect(box.x - border, box.y - border, box.width + 2 * border, box.height + 2 * border) &
-         cv::Rect(0, 0, camera.width, camera.height);
-}
+  bool contains(int u, int v) const {
+    return cv::pointPolygonTest(outline, cv::Point2f(static_cast<float>(u), static_cast<float>(v)), true) >
+           -margin;
+  }
+  cv::Rect region() const {
+    const int border = static_cast<int>(std::ceil(margin)) + 1;
+    const cv::Rect box = cv::boundingRect(outline);
+    return {box.x - border, box.y - border, box.width + 2 * border, box.height + 2 * border};
+  }
+
+  std::vector<cv::Point2f> outline;  ///< [px]
+  double margin = 0.0;               ///< [px]
+};
 
 }  // namespace
 
@@ -67,14 +75,17 @@ RgbdFrame ToolMask::without(const RgbdFrame& frame) const {
   const Points corners = transformed(blade_, frame.T_fixed_camera.inverse());
   if (corners.col(2).minCoeff() < kNearest) return frame;
   const PlanePolygon blade(corners);
-  const cv::Rect region = regionOf(frame.camera, corners) & cv::Rect(cv::Point(), frame.depth.size());
+  const ImagePolygon in_image(frame.camera, corners);
+  const cv::Rect region = in_image.region() & cv::Rect(0, 0, frame.camera.width, frame.camera.height) &
+                          cv::Rect(cv::Point(), frame.depth.size());
   RgbdFrame result = frame;
   result.depth = frame.depth.clone();
   result.covered = cv::Mat1b(frame.depth.size(), 0);
   for (int v = region.y; v < region.br().y; ++v) {
     for (int u = region.x; u < region.br().x; ++u) {
       float& z = result.depth(v, u);
-      if (z <= 0.0f || !blade.isNear(frame.camera.unproject(u, v, z))) continue;
+      const bool covered = z > 0.0f ? blade.isNear(frame.camera.unproject(u, v, z)) : in_image.contains(u, v);
+      if (!covered) continue;
       z = 0.0f;
       result.covered(v, u) = 255;
     }
