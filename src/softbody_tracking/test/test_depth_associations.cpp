@@ -188,11 +188,15 @@ TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
       frame_.depth(v, u) -= static_cast<float>(kHeight * 0.5 * (1.0 + std::cos(M_PI * distance / kRadiusPx)));
     }
   }
-  const DepthAssociations found = associate();
-  EXPECT_EQ(found.occluded_blocks, 0);
-  double highest = 0.0;
-  for (const Association& a : found.associations) highest = std::max(highest, a.residual());
-  EXPECT_GT(highest, 0.02);
+  for (const int targets : {1500, 300, 100, 50}) {
+    DepthConfig config;
+    config.max_targets = targets;
+    const DepthAssociations found = associate(config);
+    EXPECT_EQ(found.occluded_blocks, 0) << targets;
+    double highest = 0.0;
+    for (const Association& a : found.associations) highest = std::max(highest, a.residual());
+    EXPECT_GT(highest, 0.02) << targets;
+  }
 }
 
 TEST_F(DepthAssociationsTest, NoDepthGivesNothing) {

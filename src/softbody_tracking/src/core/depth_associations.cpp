@@ -12,7 +12,8 @@ namespace {
 constexpr double kMostGrazing = 0.1;           // cosine between normal and ray below which depth says little
 constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction that an occluder's end may be
 constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
-constexpr double kStandsOut = 0.01;  // [m] before the surface beside it; no body bends so within two blocks
+constexpr double kStandsOut = 0.01;            // [m] before the surface beside it, and
+constexpr double kSteepest = 1.0;              // times the distance between them: no body bends so
 
 using Block = DepthBlock;
 using BlockKind = DepthBlock::Kind;
@@ -101,7 +102,8 @@ bool continues(const Block* before, const Block& occluder, const Block& next) {
 /// Of two blocks of one smooth surface, whether the first lies in front of what the other shows to be there.
 bool standsBefore(const Block& block, const Block& other) {
   return other.kind == BlockKind::kAgrees && std::abs(other.difference) < kOccluderStep &&
-         block.difference < other.difference - kStandsOut &&
+         block.difference <
+             other.difference - std::max(kStandsOut, kSteepest * (block.position - other.position).norm()) &&
          std::abs(block.predicted - other.predicted) < kOccluderContinuity;
 }
 
