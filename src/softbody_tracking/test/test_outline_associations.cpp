@@ -175,6 +175,32 @@ TEST_F(OutlineAssociationsTest, TellThePieces) {
   for (const Association& a : found) EXPECT_EQ(a.body, 1u);
 }
 
+/// A limb of 10 px before the rim of a trunk is gone from where it was predicted: behind its other side the
+/// trunk ends, which says nothing of the limb.
+TEST_F(OutlineAssociationsTest, WhatIsBeyondALimbIsNotTheLimb) {
+  const BoxBody trunk = box_;
+  const Eigen::Index count = trunk.volume.rest_vertices.rows();
+  Points& vertices = box_.volume.rest_vertices;
+  vertices.conservativeResize(2 * count, 3);
+  vertices.bottomRows(count) = trunk.volume.rest_vertices * Eigen::Vector3d(0.035, 0.6, 0.2).asDiagonal();
+  vertices.bottomRows(count).rowwise() += Eigen::RowVector3d(0.0835, 0.0, -0.1);
+  const auto both = [&](const auto& once) {
+    auto twice = once;
+    twice.conservativeResize(2 * once.rows(), Eigen::NoChange);
+    twice.bottomRows(once.rows()) = once.array() + static_cast<int>(count);
+    return twice;
+  };
+  box_.volume.tets = both(trunk.volume.tets);
+  box_.volume.surface = box_.surface.triangles = both(trunk.volume.surface);
+  box_.surface.rest_vertices = vertices;
+  surface_ = PredictedSurface(box_.volume, box_.surface);
+  ASSERT_EQ(surface_.bodyCount(), 2u);
+  Points moved = boxAt(kFlat);
+  moved.bottomRows(count).rowwise() += Eigen::RowVector3d(0.06, 0.0, 0.0);
+  frame_ = renderFrame(box_, moved, 1);
+  for (const Association& a : associate(boxAt(kFlat))) EXPECT_NE(a.body, 1u) << a.predicted.transpose();
+}
+
 TEST_F(OutlineAssociationsTest, WeighTheLengthOfTheOutline) {
   double sum = 0.0;
   const Points predicted = boxAt(kFlat + Eigen::Vector3d(10.0 * kPixel, 0.0, 0.0));

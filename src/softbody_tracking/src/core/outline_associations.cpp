@@ -65,7 +65,7 @@ class OutlineWalk {
   std::optional<double> bodyEnd() const {
     int body = 0;
     for (Shown shown; (shown = shownAt(body)) != Shown::kBody; --body) {
-      if (shown == Shown::kOther || body == -kReach) return std::nullopt;
+      if (shown == Shown::kOther || body == -kReach || isOtherSide(body - 1)) return std::nullopt;
     }
     for (int step = body + 1; step <= kReach && step - body <= kLongestGap + 1; ++step) {
       if (!isInside(step)) return std::nullopt;
@@ -102,6 +102,11 @@ class OutlineWalk {
                           cvRound(rendered_start_.y() + step * outward_.y()));
     if (!cv::Rect(cv::Point(), rendered_.size()).contains(pixel)) return 0.0;
     return rendered_(pixel) > 0.0f ? rendered_(pixel) + farther_by_ : 0.0;
+  }
+
+  /// Whether the prediction ends there on its other side: a limb narrower than the reach.
+  bool isOtherSide(int step) const {
+    return isStep(static_cast<float>(predictedAt(step)), static_cast<float>(predictedAt(step + 1)));
   }
 
   /// What the frame has where the prediction has the body.
