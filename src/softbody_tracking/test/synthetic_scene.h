@@ -53,6 +53,7 @@ inline BoxBody makeBox(int nx = 10, int ny = 5, int nz = 2) {
   body.volume.surface = boundaryTriangles(body.volume.tets);
   body.surface.rest_vertices = body.volume.rest_vertices;
   body.surface.triangles = body.volume.surface;
+  body.surface.bodies.assign(static_cast<std::size_t>(body.surface.triangles.rows()), 0);
   return body;
 }
 
@@ -76,6 +77,7 @@ inline BoxBody cutBox(const BoxBody& whole) {
   body.volume.surface = boundaryTriangles(body.volume.tets);
   body.surface.rest_vertices = vertices;
   body.surface.triangles = body.volume.surface;
+  body.surface.bodies = triangleBodies(body.surface.triangles, static_cast<int>(vertices.rows()));
   body.surface.cut.clear();
   for (const auto& triangle : body.surface.triangles.rowwise())
     body.surface.cut.push_back(vertices(triangle, 0).cwiseAbs().maxCoeff() < 1e-9);

@@ -7,6 +7,10 @@
 namespace softbody {
 namespace {
 
+RigidPrediction predictionOf(const TetTopology& volume) {
+  return {volume.rest_vertices, verticesOfBodies(volume.tets, volume.rest_vertices.rows())};
+}
+
 /// A screw motion: turns about a fixed axis and shifts along it.
 Points screwed(const Points& rest, double angle) {
   return transformed(rest, Eigen::Translation3d(0.0, 0.0, 0.02 * angle) *
@@ -17,7 +21,7 @@ Points screwed(const Points& rest, double angle) {
 TEST(RigidPrediction, GoesOnAsTheBodyMoved) {
   const TetTopology volume = makeBox().volume;
   const Points& rest = volume.rest_vertices;
-  RigidPrediction prediction(volume);
+  RigidPrediction prediction = predictionOf(volume);
   prediction.observe(screwed(rest, 0.1), 1000);
   EXPECT_EQ(prediction.at(2000), screwed(rest, 0.1)) << "one state is no motion";
   prediction.observe(screwed(rest, 0.2), 2000);
@@ -28,7 +32,7 @@ TEST(RigidPrediction, GoesOnAsTheBodyMoved) {
 TEST(RigidPrediction, SaysNothingAfterAGapOrAJumpBack) {
   const TetTopology volume = makeBox().volume;
   const Points& rest = volume.rest_vertices;
-  RigidPrediction prediction(volume);
+  RigidPrediction prediction = predictionOf(volume);
   prediction.observe(screwed(rest, 0.1), 1000);
   prediction.observe(screwed(rest, 0.2), 2000);
   EXPECT_EQ(prediction.at(20000), screwed(rest, 0.2));
@@ -49,7 +53,7 @@ TEST(RigidPrediction, PiecesGoTheirOwnWay) {
     vertices << screwed(box.rest_vertices, first), screwed(box.rest_vertices, second);
     return vertices;
   };
-  RigidPrediction prediction(both);
+  RigidPrediction prediction = predictionOf(both);
   prediction.observe(placed(0.1, 0.3), 1000);
   prediction.observe(placed(0.2, 0.1), 2000);
   EXPECT_LT((prediction.at(3000) - placed(0.3, -0.1)).norm(), 1e-9);

@@ -13,17 +13,12 @@
 #include "piece_hold.h"
 #include "rigid_prediction.h"
 #include "softbody_common/rigid_fit.h"
+#include "tracking_status.h"
 
 namespace softbody {
 namespace {
 
-constexpr double kDegradedShare = 0.3;  // of the visible surface that must be explained
-constexpr int kFewestExpectedFeatures =
-    30;                                // with so many expected, hardly any found says that they are covered
-constexpr double kFewestFound = 0.05;  // of the expected features
-constexpr double kWorstInlierRatio = 0.2;
 constexpr int kLostFramesBeforeRecovery = 10;
-constexpr int kHeldFrames = 5;                   // that a piece of a cut body is held before the status tells
 constexpr int kFramesBetweenRegistrations = 10;  // it takes about a second
 
 std::string sizeText(const cv::Size& size) {
@@ -47,7 +42,6 @@ struct BodyTracker::Implementation {
   std::vector<TrackedFeature> trackedFeatures(const Observation& seen,
                                               const Eigen::Isometry3d& T_camera_fixed) const;
   TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations);
-  void tellOfHeld(const Observation& seen, TrackingStatus* status);
   void admit(const RgbdFrame& frame, const Observation& seen);
   void holdUnseen(const Observation& seen, const Points& vertices, const Eigen::Isometry3d& T_fixed_camera,
                   std::vector<Target>* targets) const;
@@ -60,8 +54,8 @@ struct BodyTracker::Implementation {
   std::unique_ptr<RigidPrediction> prediction;
   std::unique_ptr<Localizer> localizer;  ///< null until it is needed: no frame waits for it after a cut
   std::unique_ptr<PieceHold> hold;
-  std::vector<int> held_frames;  ///< of each piece: in which it hardly showed, on end
-  std::vector<bool> moving;      ///< pieces whose velocity is known well enough to go on with; none: all
+  HeldPieces held;
+  std::vector<bool> moving;  ///< pieces whose velocity is known well enough to go on with; none: all
 
   bool fresh = true;  ///< no frame since the last reset
   bool registered = false;
@@ -100,11 +94,12 @@ void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& s
   } else {
     self.observer = std::make_unique<FrameObserver>(self.config, volume, surface);
   }
-  self.prediction = std::make_unique<RigidPrediction>(volume);
+  self.prediction =
+      std::make_unique<RigidPrediction>(volume.rest_vertices, self.observer->surface().pieces());
   self.localizer.reset();
   self.hold = std::make_unique<PieceHold>(volume);
   self.moving.clear();
-  self.held_frames.clear();
+  self.held.reset();
   if (!edited) self.reset();
 }
 
@@ -128,7 +123,7 @@ void BodyTracker::Implementation::reset() {
   last_stamp = 0;
   lost_frames = frames_to_registration = 0;
   moving.clear();
-  held_frames.clear();
+  held.reset();
   knn.reset();
 }
 
@@ -220,53 +215,14 @@ TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) c
 
 TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
                                                   const std::vector<Association>& associations) {
-  TrackingStatus status;
-  const auto kept = static_cast<double>(std::count_if(seen.matches.begin(), seen.matches.end(),
-                                                      [](const FeatureMatch& m) { return m.inlier; }));
-  status.features_tracked = static_cast<std::uint32_t>(kept);
+  TrackingStatus status = statusOf(seen, associations);
   status.features_total = static_cast<std::uint32_t>(observer->map().features().size());
-  status.inlier_ratio = seen.matches.empty() ? 0.0 : kept / static_cast<double>(seen.matches.size());
-  status.residual_rms = rmsResidual(associations);
-  const int visible = seen.depth.visible_blocks;
-  const auto explained = static_cast<double>(seen.agreeing_blocks);
-  if (static_cast<int>(explained + kept) < kFewestAssociations) {
-    ++lost_frames;
-    status.state = TrackingState::kLost;
-    status.reason = visible == 0 ? "the body is out of view or nothing is measured there"
-                                 : "neither depth nor features agree with the prediction";
-    return status;
-  }
-  lost_frames = 0;
-  recovering = false;
-  status.state = TrackingState::kTracking;
-  if (explained < kDegradedShare * visible) {
-    status.state = TrackingState::kDegraded;
-    status.reason = seen.depth.occluded_blocks > seen.depth.absent_blocks
-                        ? "most of the body is occluded"
-                        : "most of the body is not where predicted";
-  } else if (observer->map().expected() >= kFewestExpectedFeatures &&
-             kept < kFewestFound * observer->map().expected()) {
-    status.state = TrackingState::kDegraded;
-    status.reason = "hardly any of the expected features are found";
-  } else if (static_cast<int>(seen.matches.size()) >= kFewestExpectedFeatures &&
-             status.inlier_ratio < kWorstInlierRatio) {
-    status.state = TrackingState::kDegraded;
-    status.reason = "most feature matches disagree with their neighbours";
-  } else if (poses_alike > 1) {
+  const bool lost = status.state == TrackingState::kLost;
+  lost_frames = lost ? lost_frames + 1 : 0;
+  recovering = recovering && lost;
+  if (status.state == TrackingState::kTracking && poses_alike > 1)
     status.reason = "tracked in one of " + std::to_string(poses_alike) + " poses that look alike";
-  }
   return status;
-}
-
-void BodyTracker::Implementation::tellOfHeld(const Observation& seen, TrackingStatus* status) {
-  held_frames.resize(seen.shown.size(), 0);
-  for (std::size_t p = 0; p < held_frames.size(); ++p) {
-    held_frames[p] = seen.shown[p] == Shows::kHardly ? held_frames[p] + 1 : 0;
-    if (held_frames[p] < kHeldFrames || status->state != TrackingState::kTracking) continue;
-    status->state = TrackingState::kDegraded;
-    status->reason = "piece " + std::to_string(p + 1) + " of " + std::to_string(held_frames.size()) +
-                     " shows too little to be followed: it is held where it was";
-  }
 }
 
 void BodyTracker::Implementation::admit(const RgbdFrame& frame, const Observation& seen) {
@@ -326,7 +282,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
   const std::vector<Association> associations = self.all(seen, T_camera_fixed.linear());
   result.status = self.judge(seen, associations);
   const bool learns = result.status.state == TrackingState::kTracking;
-  self.tellOfHeld(seen, &result.status);
+  self.held.tell(seen, self.observer->surface().surfaceBodies(), &result.status);
   result.features = self.trackedFeatures(seen, T_camera_fixed);
   result.has_targets = true;
   result.targets.revision = self.observer->surface().volume().revision;

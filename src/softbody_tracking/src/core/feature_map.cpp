@@ -219,6 +219,11 @@ void FeatureMap::credit(const std::vector<FeatureMatch>& matches, const std::vec
     features_[match.feature].matched += match.inlier && shown[match.association.body] ? 1 : 0;
 }
 
+int FeatureMap::expected(const std::vector<bool>& counted) const {
+  return static_cast<int>(std::count_if(predictions_.begin(), predictions_.end(),
+                                        [&](const Prediction& p) { return counted[p.body]; }));
+}
+
 void FeatureMap::eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const {
   for (const FeatureMatch& match : matches) erase(match.pixel, mask);
   for (const Prediction& prediction : missed_) erase(prediction.pixel, mask);

@@ -19,6 +19,9 @@ namespace softbody {
 /// How far from the prediction a descriptor is looked for where patches are not found [px].
 constexpr int kWideSearchPx = 64;
 
+/// With so many expected, hardly any found says something.
+constexpr int kFewestExpectedFeatures = 30;
+
 /// Where a feature lies, and how that changes in the image that its patch is from.
 struct FeaturePlace {
   MaterialPoint place;
@@ -73,6 +76,8 @@ class FeatureMap {
 
   /// How many features the last predict() expected to see.
   int expected() const { return static_cast<int>(predictions_.size()); }
+  /// How many of them on some of the pieces. @param counted of each piece.
+  int expected(const std::vector<bool>& counted) const;
 
   /// Sets a mask of the image to 0 around known features: those found, and those that were not where they
   /// should be.

@@ -150,6 +150,12 @@ void markDisagreeing(const Pinhole& camera, double max_disagreement_m, const std
 
 }  // namespace
 
+int matchesOn(const std::vector<bool>& counted, const std::vector<FeatureMatch>& matches) {
+  return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& match) {
+    return counted[match.association.body];
+  }));
+}
+
 void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches) {
   Motions motions(*matches);
   std::vector<std::vector<int>> pieces;

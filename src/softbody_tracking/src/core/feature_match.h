@@ -16,6 +16,9 @@ struct FeatureMatch {
   bool inlier = true;
 };
 
+/// How many of them lie on some of the pieces. @param counted of each piece.
+int matchesOn(const std::vector<bool>& counted, const std::vector<FeatureMatch>& matches);
+
 /// Marks outliers: matches that move otherwise than the linear motion in the image of their neighbours of the
 /// same piece, which starts from the motion of the whole piece, so that some wrong ones side by side do not
 /// lead it away; and those further from their prediction than a body moves in a frame.

@@ -17,17 +17,14 @@ constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer,
 constexpr int kTiles = 4;               // of the predicted surface
 constexpr double kTileShare = 0.7;      // of the most features: a tile may have more texture than others
 constexpr int kFramesBetweenTiles = 3;  // in which new features are looked for
-constexpr int kFewestExpectedFeatures = 30;  // with so many expected, hardly any found says something
-constexpr int kScouts = 48;                  // features that say whether the prediction is far off
-constexpr double kFarOff = 4.0;              // [px] that full resolution hardly aligns
+constexpr int kScouts = 48;             // features that say whether the prediction is far off
+constexpr double kFarOff = 4.0;         // [px] that full resolution hardly aligns
 
-bool farOff(const std::vector<FeatureMatch>& scouts, const PredictedSurface& surface) {
-  if (static_cast<int>(scouts.size()) < kFewestAssociations) return false;
-  const auto far = std::count_if(scouts.begin(), scouts.end(), [&](const FeatureMatch& match) {
-    const Eigen::Vector2d predicted = surface.camera().project(match.association.predicted);
-    return (predicted - Eigen::Vector2d(match.pixel.x, match.pixel.y)).norm() > kFarOff;
-  });
-  return 2 * far > static_cast<std::ptrdiff_t>(scouts.size());
+/// Outlines that nothing would use are not looked for.
+OutlineConfig usedOutline(const TrackerConfig& config) {
+  OutlineConfig outline = config.outline;
+  if (config.knn_targets || !config.use_depth) outline.weight = 0.0;
+  return outline;
 }
 
 }  // namespace
@@ -37,7 +34,7 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
     : config_(config),
       surface_(volume, surface),
       depth_(config.depth, meanEdgeLength(volume.rest_vertices, volume.tets)),
-      outline_(config.outline, meanEdgeLength(volume.rest_vertices, volume.tets)),
+      outline_(usedOutline(config), meanEdgeLength(volume.rest_vertices, volume.tets)),
       orb_(config.features.max_features),
       map_(config.features) {}
 
@@ -46,12 +43,14 @@ void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology&
   surface_ = PredictedSurface(volume, surface);
   const double volume_edge_m = meanEdgeLength(volume.rest_vertices, volume.tets);
   depth_ = DepthAssociator(config_.depth, volume_edge_m);
-  outline_ = OutlineAssociator(config_.outline, volume_edge_m);
+  outline_ = OutlineAssociator(usedOutline(config_), volume_edge_m);
+  shown_before_.clear();
 }
 
 void FrameObserver::reset() {
   map_.reset();
   colors_.reset();
+  shown_before_.clear();
   frames_to_admission_ = 0;
 }
 
@@ -120,7 +119,7 @@ std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
   expectFeatures(frame);
   std::vector<FeatureMatch> matches;
   map_.align(frame, pyramid_, kScouts, &matches);
-  if (farOff(matches, surface_)) {
+  if (farOff(matches)) {
     map_.shift(frame.camera, alignRigidly(frame, matches));
     matches.clear();
   }
@@ -128,8 +127,27 @@ std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
   return matches;
 }
 
+/// Those whose features say whether the prediction is right: what is held where it was is not expected to be
+/// there. With nothing else, that says it too.
+std::vector<bool> FrameObserver::followedPieces() const {
+  const bool any = std::find(shown_before_.begin(), shown_before_.end(), true) != shown_before_.end();
+  return any ? shown_before_ : std::vector<bool>(surface_.bodyCount(), true);
+}
+
+bool FrameObserver::farOff(const std::vector<FeatureMatch>& scouts) const {
+  const std::vector<bool> followed = followedPieces();
+  const int count = matchesOn(followed, scouts);
+  const auto far = std::count_if(scouts.begin(), scouts.end(), [&](const FeatureMatch& match) {
+    const Eigen::Vector2d predicted = surface_.camera().project(match.association.predicted);
+    return followed[match.association.body] &&
+           (predicted - Eigen::Vector2d(match.pixel.x, match.pixel.y)).norm() > kFarOff;
+  });
+  return count >= kFewestAssociations && 2 * far > count;
+}
+
 bool FrameObserver::few(const std::vector<FeatureMatch>& matches) const {
-  return static_cast<double>(matches.size()) < kEnoughAligned * map_.expected();
+  const std::vector<bool> followed = followedPieces();
+  return matchesOn(followed, matches) < kEnoughAligned * map_.expected(followed);
 }
 
 /// Features around the prediction; where most are not there, the descriptors say, in a wide window, where the
@@ -180,7 +198,10 @@ void FrameObserver::keepShownPieces(Observation* seen) const {
   seen->agreeing_blocks = depth.size();
   seen->shown = shownPieces(samples_, depth, seen->matches, surface_.pieceVertices());
   seen->learnable = confirmedPieces(samples_, depth, seen->shown.size());
+  seen->in_view = predictedPieces(samples_, seen->shown.size());
   const std::vector<bool> well = seen->atLeast(Shows::kWell), loosely = seen->atLeast(Shows::kLoosely);
+  seen->expected_features = map_.expected(loosely);
+  seen->matched_features = matchesOn(loosely, seen->matches);
   for (std::size_t p = 0; p < well.size(); ++p) seen->learnable[p] = seen->learnable[p] || well[p];
   const auto is_loose = [&](const Association& association) { return !well[association.body]; };
   for (std::vector<Association>* found : {&seen->depth.associations, &seen->outline})
@@ -201,7 +222,8 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
   seen.outline = outline_.associate(frame, surface_.image(), motions, colors_);
   keepShownPieces(&seen);
-  map_.credit(seen.matches, seen.atLeast(Shows::kLoosely));
+  shown_before_ = seen.atLeast(Shows::kLoosely);
+  map_.credit(seen.matches, shown_before_);
   surface_.move(motions);
   for (FeatureMatch& match : seen.matches) {
     match.association.predicted = motions[match.association.body] * match.association.predicted;

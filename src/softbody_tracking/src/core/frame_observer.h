@@ -19,10 +19,13 @@ namespace softbody {
 struct Observation {
   std::vector<Keypoint> keypoints;  ///< without a feature; empty in most frames
   std::vector<FeatureMatch> matches;
+  int expected_features = 0;        ///< on pieces that do not hardly show,
+  int matched_features = 0;         ///< and matches of them, outliers too
   DepthAssociations depth;          ///< of pieces that show well
   std::size_t agreeing_blocks = 0;  ///< of depth, of all pieces
   std::vector<Association> outline;
   std::vector<Shows> shown;     ///< of each piece of the body
+  std::vector<bool> in_view;    ///< of each, whether enough of it to follow it should show
   std::vector<bool> learnable;  ///< of each, whether what is seen of it is certainly at its place
 
   /// Of each piece, whether it shows at least so well.
@@ -63,6 +66,8 @@ class FrameObserver {
   cv::Rect nextTile();
   void expectFeatures(const RgbdFrame& frame);
   std::vector<FeatureMatch> alignFeatures(const RgbdFrame& frame);
+  std::vector<bool> followedPieces() const;
+  bool farOff(const std::vector<FeatureMatch>& scouts) const;
   bool few(const std::vector<FeatureMatch>& matches) const;
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
@@ -79,6 +84,8 @@ class FrameObserver {
   GrayPyramid pyramid_;
   FeatureMap map_;
   ColorModel colors_;
+  std::vector<bool>
+      shown_before_;  ///< of each piece, whether the last frame did not hardly show it; none: all
   int frames_to_admission_ = 0;
   int tile_ = 0;  ///< of the surface, where new features are looked for next
 };

@@ -8,6 +8,7 @@
 
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/surface_binding.h"
+#include "vertex_places.h"
 
 namespace softbody {
 namespace {
@@ -16,17 +17,6 @@ constexpr int kRotationNeighbors = 24;
 constexpr Eigen::Index kFewestForRotation = 4;
 
 using KdTree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 3>;
-
-/// The tet and corner weights that name a vertex of the mesh.
-std::vector<MaterialPoint> vertexPlaces(const TetTopology& volume) {
-  std::vector<MaterialPoint> places(static_cast<std::size_t>(volume.rest_vertices.rows()));
-  for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
-    for (int k = 0; k < 4; ++k) {
-      places[volume.tets(t, k)] = {static_cast<int>(t), Eigen::Vector4d::Unit(k)};
-    }
-  }
-  return places;
-}
 
 }  // namespace
 

@@ -1,14 +1,10 @@
 #include "piece_hold.h"
 
+#include "vertex_places.h"
+
 namespace softbody {
 
-PieceHold::PieceHold(const TetTopology& volume)
-    : places_(static_cast<std::size_t>(volume.rest_vertices.rows())) {
-  for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
-    for (int k = 0; k < 4; ++k)
-      places_[static_cast<std::size_t>(volume.tets(t, k))] = {static_cast<int>(t), Eigen::Vector4d::Unit(k)};
-  }
-}
+PieceHold::PieceHold(const TetTopology& volume) : places_(vertexPlaces(volume)) {}
 
 void PieceHold::add(const std::vector<int>& vertices, const Points& positions, double weight,
                     std::vector<Target>* targets) const {

@@ -15,9 +15,14 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
       faces_(isClosed(surface.triangles) ? Faces::kFront : Faces::kAll),
       tet_bodies_(tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
       vertex_bodies_(vertexBodies(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
-      pieces_(verticesOfBodies(volume.tets, volume.rest_vertices.rows())),
       at_cut_(static_cast<std::size_t>(surface.rest_vertices.rows()), false),
       binding_(bindSurface(surface, volume)) {
+  pieces_.resize(1 + *std::max_element(vertex_bodies_.begin(), vertex_bodies_.end()));
+  for (std::size_t v = 0; v < vertex_bodies_.size(); ++v)
+    pieces_[vertex_bodies_[v]].push_back(static_cast<int>(v));
+  surface_bodies_.resize(pieces_.size());
+  for (std::size_t t = 0; t < surface.bodies.size(); ++t)
+    surface_bodies_[tetBodyOf(static_cast<int>(t))].insert(surface.bodies[t]);
   for (std::size_t t = 0; t < surface.cut.size(); ++t) {
     if (!surface.cut[t]) continue;
     for (int k = 0; k < 3; ++k) at_cut_[surface.triangles(static_cast<Eigen::Index>(t), k)] = true;
@@ -71,7 +76,7 @@ Eigen::Matrix3d PredictedSurface::corners(int triangle) const {
   Eigen::Matrix3d corners;
   for (int k = 0; k < 3; ++k) corners.col(k) = vertices_.row(surface_.triangles(triangle, k));
   if (motions_.empty()) return corners;
-  return motions_[tet_bodies_[binding_[surface_.triangles(triangle, 0)].tet]] * corners;
+  return motions_[tetBodyOf(triangle)] * corners;
 }
 
 int PredictedSurface::triangleAt(const Eigen::Vector3d& measured, double tolerance) const {
@@ -84,7 +89,7 @@ int PredictedSurface::triangleAt(const Eigen::Vector3d& measured, double toleran
     const cv::Point nearest(cvRound(pixel.x()), cvRound(pixel.y()));
     const int triangle = image_.triangle(nearest);
     if (triangle < 0 || std::abs(rendered.z() - image_.depth(nearest)) > tolerance) continue;
-    if (tet_bodies_[binding_[surface_.triangles(triangle, 0)].tet] == body) return triangle;
+    if (tetBodyOf(triangle) == body) return triangle;
   }
   return -1;
 }

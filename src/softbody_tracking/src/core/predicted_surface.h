@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "softbody_common/pinhole.h"
@@ -32,6 +33,9 @@ class PredictedSurface {
   std::size_t bodyCount() const { return pieces_.size(); }
   /// The volume's vertices of each.
   const std::vector<std::vector<int>>& pieces() const { return pieces_; }
+  /// What the visual mesh shows of each, by MeshTopology::bodies: one or more, none where it lies inside of
+  /// others' tets.
+  const std::vector<std::set<std::uint32_t>>& surfaceBodies() const { return surface_bodies_; }
   /// Where they are, piece by piece.
   std::vector<Points> pieceVertices() const;
   /// Every piece's vertices moved by its motion.
@@ -63,6 +67,10 @@ class PredictedSurface {
   Eigen::Vector3d position(const MaterialPoint& place) const;
 
  private:
+  /// The piece that a triangle follows.
+  std::uint32_t tetBodyOf(int triangle) const {
+    return tet_bodies_[binding_[surface_.triangles(triangle, 0)].tet];
+  }
   Eigen::Matrix3d corners(int triangle) const;
   Eigen::Vector3d restPoint(int triangle, const cv::Point2f& pixel) const;
   Eigen::Vector4d barycentric(int tet, const Eigen::Vector3d& rest) const;
@@ -72,6 +80,7 @@ class PredictedSurface {
   Faces faces_;
   std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;  ///< connected piece, #T and #V of the volume
   std::vector<std::vector<int>> pieces_;                   ///< vertices of each
+  std::vector<std::set<std::uint32_t>> surface_bodies_;    ///< of each
   std::vector<bool> at_cut_;  ///< #V of the surface: a corner of a triangle that fills a cut
   std::vector<MaterialPoint> binding_;
   std::vector<Eigen::Matrix3d> rest_inverse_;  ///< #T: takes offsets from a tet's first vertex to weights

@@ -1,7 +1,6 @@
 #include "rigid_prediction.h"
 
 #include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
@@ -20,9 +19,6 @@ Eigen::Isometry3d continued(const Eigen::Isometry3d& before, const Eigen::Isomet
 }
 
 }  // namespace
-
-RigidPrediction::RigidPrediction(const TetTopology& volume)
-    : rest_(volume.rest_vertices), pieces_(verticesOfBodies(volume.tets, volume.rest_vertices.rows())) {}
 
 void RigidPrediction::observe(const Points& vertices, Nanoseconds stamp) {
   if (last_ && stamp == last_->stamp) return;

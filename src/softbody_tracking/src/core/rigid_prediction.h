@@ -13,7 +13,9 @@ namespace softbody {
 /// connected pieces.
 class RigidPrediction {
  public:
-  explicit RigidPrediction(const TetTopology& volume);
+  /// @param pieces the vertices of each connected piece.
+  RigidPrediction(const Points& rest_vertices, const std::vector<std::vector<int>>& pieces)
+      : rest_(rest_vertices), pieces_(pieces) {}
 
   /// A state of the volume at a stamp; one not after the last starts anew.
   void observe(const Points& vertices, Nanoseconds stamp);

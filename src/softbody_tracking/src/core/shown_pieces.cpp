@@ -77,6 +77,14 @@ std::vector<Shows> shownPieces(const SurfaceSamples& samples, const std::vector<
   return shown;
 }
 
+std::vector<bool> predictedPieces(const SurfaceSamples& samples, std::size_t piece_count) {
+  std::vector<int> blocks(piece_count, 0);
+  for (const SurfaceSample& sample : samples.samples) ++blocks[sample.body];
+  std::vector<bool> predicted;
+  for (const int count : blocks) predicted.push_back(count >= kFewest);
+  return predicted;
+}
+
 std::vector<bool> confirmedPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,
                                   std::size_t piece_count) {
   std::vector<int> blocks(piece_count, 0), agreeing(piece_count, 0);

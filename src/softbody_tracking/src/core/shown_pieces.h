@@ -19,6 +19,9 @@ enum class Shows {
 std::vector<Shows> shownPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,
                                const std::vector<FeatureMatch>& matches, const std::vector<Points>& pieces);
 
+/// Of each piece, whether the prediction shows enough of it to follow it, if nothing stands before it.
+std::vector<bool> predictedPieces(const SurfaceSamples& samples, std::size_t piece_count);
+
 /// Of each piece, whether the depth confirms nearly all that the prediction shows of it. Features learnt
 /// there are where they seem, even if there are too few so far to follow it.
 std::vector<bool> confirmedPieces(const SurfaceSamples& samples, const std::vector<Association>& depth,

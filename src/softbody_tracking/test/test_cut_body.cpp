@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include "core/frame_observer.h"
+#include "tracked_box.h"
+
+namespace softbody {
+namespace {
+
+TEST(CutBody, FollowsThePiecesOfABodyThatIsCut) {
+  TrackedBox tracked;
+  TrackingResult result;
+  for (int i = 0; i < 5; ++i) result = tracked.show(posedBox(tracked.box()));
+  const auto features_before = result.status.features_tracked;
+  tracked.cut(posedBox(cutBox(tracked.box())));
+  const Eigen::Index whole = makeBox().volume.rest_vertices.rows();
+  for (int i = 1; i <= 10; ++i) {
+    const TetTopology& volume = tracked.box().volume;
+    Points truth = posedBox(tracked.box());
+    for (Eigen::Index v = 0; v < truth.rows(); ++v) {
+      const bool right = v >= whole || volume.rest_vertices(v, 0) > 1e-9;
+      truth.row(v) += (right ? 1.0 : -1.0) * i * 0.002 * Eigen::RowVector3d(1.0, 0.2, -0.5);
+    }
+    result = tracked.show(truth);
+    EXPECT_FALSE(result.targets.reset);
+    EXPECT_EQ(result.targets.revision, 1u);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    EXPECT_GT(result.status.features_tracked, 0.4 * features_before) << "the bound ones are still known";
+    // A block on the rim of the gap may show the other piece.
+    EXPECT_LT(tracked.shareOff(result, truth, 0.002), 0.01);
+  }
+}
+
+TEST(CutBody, HoldsAPieceThatDoesNotShowUntilItDoes) {
+  TrackedBox tracked;
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
+  tracked.cut(posedBox(cutBox(tracked.box())));
+  const Points rest = posedBox(tracked.box());
+  EXPECT_EQ(tracked.show(rest).status.state, TrackingState::kTracking);
+  const TetTopology& volume = tracked.box().volume;
+  const int middle = cvRound(tracked.frame().camera.project(boxPose().translation()).x());
+  const cv::Rect right(middle - 20, 0, 640 - middle + 20, 480);
+  TrackingResult result;
+  for (int i = 0; i < 10; ++i) {
+    result = tracked.show(rest, [&](RgbdFrame* frame) { frame->depth(right).setTo(0.3f); });
+  }
+  EXPECT_EQ(result.status.state, TrackingState::kDegraded);
+  EXPECT_NE(result.status.reason.find("too little shows of piece 1 of 2"), std::string::npos)
+      << result.status.reason;
+  int held = 0;
+  for (const Target& target : result.targets.targets) {
+    if (target.kind != TargetKind::kVertex) continue;
+    EXPECT_LT((target.position - positionOf(target.place, rest, volume.tets)).norm(), 1e-9);
+    ++held;
+  }
+  EXPECT_GT(held, volume.rest_vertices.rows() / 3);
+  result = tracked.show(rest);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_LT(tracked.shareOff(result, rest, 0.002), 0.01);
+}
+
+/// Of each kind.
+int countOf(TargetKind kind, const TrackingResult& result) {
+  const std::vector<Target>& targets = result.targets.targets;
+  return static_cast<int>(std::count_if(targets.begin(), targets.end(),
+                                        [&](const Target& target) { return target.kind == kind; }));
+}
+
+/// Something before all of the frame but a square of so many pixels around the middle of the cut.
+void coverAround(int side, RgbdFrame* frame) {
+  const cv::Mat1f depth = frame->depth.clone();
+  const Eigen::Vector2d middle = frame->camera.project(boxPose().translation());
+  const cv::Rect left_open(cvRound(middle.x()) - side / 2, cvRound(middle.y()) - side / 2, side, side);
+  frame->depth.setTo(0.3f);
+  if (side > 0) depth(left_open).copyTo(frame->depth(left_open));
+}
+
+TEST(CutBody, IsHeldWhereNoPieceOfItShowsWell) {
+  TrackedBox tracked;
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
+  tracked.cut(posedBox(cutBox(tracked.box())));
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  TrackingResult result;
+  for (int i = 0; i < 20; ++i) {
+    result = tracked.show(rest, [](RgbdFrame* frame) { coverAround(24, frame); });
+    EXPECT_EQ(result.status.state, TrackingState::kDegraded) << "some blocks agree: it is not lost";
+    EXPECT_EQ(countOf(TargetKind::kVertex, result), rest.rows());
+    EXPECT_EQ(countOf(TargetKind::kDepth, result) + countOf(TargetKind::kFeature, result), 0);
+    EXPECT_EQ(tracked.worstTarget(result, rest, TargetKind::kVertex), 0.0);
+  }
+  result = tracked.show(rest);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_EQ(countOf(TargetKind::kVertex, result), 0);
+}
+
+TEST(CutBody, IsLostWhereNothingOfItShows) {
+  TrackedBox tracked;
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
+  tracked.cut(posedBox(cutBox(tracked.box())));
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  const TrackingResult result = tracked.show(rest, [](RgbdFrame* frame) { coverAround(0, frame); });
+  EXPECT_EQ(result.status.state, TrackingState::kLost);
+  EXPECT_TRUE(result.targets.targets.empty());
+  EXPECT_TRUE(tracked.tracksWithin(3, rest));
+}
+
+class CutObserver : public ::testing::Test {
+ protected:
+  CutObserver() : observer_({}, box_.volume, box_.surface) {
+    const Observation seen = observer_.observe(frame_, rest_);
+    observer_.admit(frame_, seen);
+  }
+  Points parted(double gap) const {
+    Points vertices = rest_;
+    for (const int v : observer_.surface().pieces()[1]) vertices(v, 0) += gap;
+    return vertices;
+  }
+
+  BoxBody box_ = cutBox(makeBox());
+  Points rest_ = posedBox(box_);
+  RgbdFrame frame_ = renderFrame(box_, rest_, 1);
+  FrameObserver observer_;
+};
+
+TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceThatHardlyShows) {
+  const Observation whole = observer_.observe(frame_, rest_);
+  ASSERT_GT(whole.expected_features, 200);
+  EXPECT_EQ(whole.matched_features, static_cast<int>(whole.matches.size()));
+  const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
+  frame_.depth(cv::Rect(middle - 20, 0, 640 - middle + 20, 480)).setTo(0.0f);
+  for (int i = 0; i < 2; ++i) {
+    const Observation seen = observer_.observe(frame_, rest_);
+    ASSERT_EQ(seen.shown[1], Shows::kHardly);
+    EXPECT_LT(seen.expected_features, 0.7 * whole.expected_features);
+    EXPECT_GT(seen.matched_features, 0.8 * seen.expected_features) << "found wherever expected";
+  }
+}
+
+TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
+  const Points beside = transformed(rest_, Eigen::Isometry3d(Eigen::Translation3d(0.012, 0.0, 0.0)));
+  const auto outlines = [&](bool use_depth, bool knn) {
+    TrackerConfig config;
+    config.use_depth = use_depth;
+    config.knn_targets = knn;
+    const cv::Mat3b plain(frame_.color.size(), cv::Vec3b(90, 90, 90));
+    RgbdFrame frame = frame_;
+    frame.color = plain;
+    return FrameObserver(config, box_.volume, box_.surface).observe(frame, beside).outline.size();
+  };
+  EXPECT_EQ(outlines(false, false), 0u);
+  EXPECT_EQ(outlines(true, true), 0u);
+}
+
+TEST_F(CutObserver, NamesPiecesAsTheVisualMeshDoes) {
+  const auto names = [&](const MeshTopology& surface) {
+    return FrameObserver({}, box_.volume, surface).surface().surfaceBodies();
+  };
+  using Names = std::vector<std::set<std::uint32_t>>;
+  EXPECT_EQ(names(box_.surface), (Names{{0}, {1}}));
+  MeshTopology reversed = box_.surface;
+  reversed.triangles = box_.surface.triangles.colwise().reverse().eval();
+  reversed.bodies = triangleBodies(reversed.triangles, static_cast<int>(reversed.rest_vertices.rows()));
+  EXPECT_EQ(names(reversed), (Names{{1}, {0}}));
+}
+
+}  // namespace
+}  // namespace softbody
