@@ -112,20 +112,35 @@ Corners onEdges(const Corners& contour) {
   return corners;
 }
 
+/// Corners of contours, in whole pixels.
 std::map<int, Corners> goldCorners(const YAML::Node& markers) {
   std::map<int, Corners> gold;
   for (const auto& entry : markers) {
-    Corners corners;
+    Corners& corners = gold[entry.first.as<int>()];
     for (int k = 0; k < 4; ++k)
       corners.col(k) << entry.second[k][0].as<double>(), entry.second[k][1].as<double>();
-    gold[entry.first.as<int>()] = onEdges(corners);
   }
   return gold;
 }
 
+/// Where OpenCV's refinement by gradients, another method than the detector's, takes corners.
+Corners bySubPix(const cv::Mat1b& gray, const Corners& corners) {
+  std::vector<cv::Point2f> points;
+  for (int k = 0; k < 4; ++k)
+    points.emplace_back(static_cast<float>(corners(0, k)), static_cast<float>(corners(1, k)));
+  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 0.01);
+  cv::cornerSubPix(gray, points, cv::Size(2, 2), cv::Size(-1, -1), criteria);
+  Corners refined;
+  for (int k = 0; k < 4; ++k) refined.col(k) << points[k].x, points[k].y;
+  return refined;
+}
+
+/// Within a pixel of the known corner. A contour does not reach the tip of a blurred corner: where the known
+/// one lies inside by more, the photograph must say so by another method too, and that may be rare.
 TEST(MarkerDetector, PhotographedBoardsGiveEveryKnownIdAndNoOther) {
   if (!std::filesystem::exists(kBoards)) GTEST_SKIP() << "skipped: no ../shared/data";
   const YAML::Node gold = YAML::LoadFile((kBoards / "gold_corners.json").string());
+  int all = 0, far = 0;
   for (const auto& entry : gold) {
     const auto image = entry.first.as<std::string>();
     SCOPED_TRACE(image);
@@ -136,23 +151,19 @@ TEST(MarkerDetector, PhotographedBoardsGiveEveryKnownIdAndNoOther) {
     const cv::Mat1b gray = cv::imread((kBoards / image).string(), cv::IMREAD_GRAYSCALE);
     const auto detections = MarkerDetector(dictionary).detect(gray);
     EXPECT_EQ(detections.size(), expected.size());
-    double worst = 0.0;
-    int far = 0;
     for (const MarkerDetection& detection : detections) {
       ASSERT_EQ(expected.count(detection.id), 1u) << "false id " << detection.id;
-      const Corners& corners = expected.at(detection.id);
-      const Eigen::RowVector4d error = (detection.corners - corners).cwiseAbs().colwise().maxCoeff();
-      worst = std::max(worst, error.maxCoeff());
-      far += static_cast<int>((error.array() > 1.0).count());
+      const Corners& contour = expected.at(detection.id);
+      const Corners known = onEdges(contour), refined = bySubPix(gray, contour);
+      for (int k = 0; k < 4; ++k, ++all) {
+        if ((detection.corners.col(k) - known.col(k)).cwiseAbs().maxCoeff() <= 1.0) continue;
+        ++far;
+        EXPECT_LT((detection.corners.col(k) - refined.col(k)).norm(), 0.3)
+            << "id " << detection.id << " corner " << k;
+      }
     }
-    // The known corners are whole pixels of contours; two of gboriginal.png lie more than 1 px beside the
-    // tips of their markers.
-    const bool exact = image != "gboriginal.png";
-    EXPECT_LE(far, exact ? 0 : 2);
-    EXPECT_LE(worst, exact ? 1.0 : 1.15);
-    RecordProperty("far_corners_" + image.substr(0, image.find('.')), far);
-    RecordProperty("worst_corner_px_" + image.substr(0, image.find('.')), std::to_string(worst));
   }
+  EXPECT_LE(far, all / 100) << "of " << all;
 }
 
 }  // namespace
