@@ -26,6 +26,7 @@ class Transforms {
         ++item;
       } catch (const tf2::TransformException& error) {
         reason_ = error.what();
+        reason_.erase(reason_.find_last_not_of(". ") + 1);  // tf2 ends some as a sentence
         item = items->erase(item);
       }
     }
