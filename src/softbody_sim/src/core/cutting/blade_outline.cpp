@@ -63,6 +63,23 @@ BladeOutline::BladeOutline(Points points, std::vector<int> parts)
   }
 }
 
+Points BladeOutline::setBack(double distance) const {
+  Points back = points_;
+  for (int i = 0; i < points_.rows(); ++i) {
+    const Eigen::RowVector3d normal = side_normals_.row(sideTo(i)) + side_normals_.row(sideFrom(i));
+    back.row(i) -= distance * normal.normalized();
+  }
+  return back;
+}
+
+int BladeOutline::sideFrom(int sample) const {
+  const int count = static_cast<int>(points_.rows());
+  const auto next_corner = std::upper_bound(corners_.begin(), corners_.end(), sample % count);
+  return static_cast<int>(next_corner - corners_.begin()) - 1;
+}
+
+int BladeOutline::sideTo(int sample) const { return sideFrom(sample + static_cast<int>(points_.rows()) - 1); }
+
 std::vector<int> BladeOutline::leadingEdge(const Eigen::Vector3d& way) const {
   constexpr double kFacing = 0.6;  // cosine: of a blade that goes along its diagonal two sides lead
   const Eigen::VectorXd facing = side_normals_ * way;
@@ -80,10 +97,6 @@ std::vector<int> BladeOutline::leadingEdge(const Eigen::Vector3d& way) const {
 }
 
 Points BladeOutline::outwardNormals(const std::vector<int>& edge) const {
-  const auto sideFrom = [&](int sample) {
-    return static_cast<int>(std::upper_bound(corners_.begin(), corners_.end(), sample) - corners_.begin()) -
-           1;
-  };
   Points normals(static_cast<Eigen::Index>(edge.size()), 3);
   for (std::size_t i = 0; i < edge.size(); ++i) {
     const int after = sideFrom(edge[std::min(i, edge.size() - 2)]),

@@ -22,6 +22,13 @@ class BladeOutline {
   const Points& points() const { return points_; }
   const Eigen::Vector3d& normal() const { return normal_; }
 
+  /// The outline of a blade smaller by a distance all round, nearly: at a corner by some less [m].
+  Points setBack(double distance) const;
+
+  int sideFrom(int sample) const;  ///< that goes on from the sample
+  int sideTo(int sample) const;    ///< that comes to it: another one at a corner
+  Eigen::Vector3d sideNormal(int side) const { return side_normals_.row(side); }
+
   /// Samples, in order, of the sides that face a way, unit and in the blade's plane.
   std::vector<int> leadingEdge(const Eigen::Vector3d& way) const;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/cutting/blade_outline.h"
 #include "softbody_common/tet_geometry.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kSameDirection = 0.85;  // cosine between normals of a slit and of a blade that is in it
 constexpr double kLeastRest = 0.3;       // of an advance, that is cut when the blade turns back
+constexpr double kTouch = 0.3;           // of an advance: a blade less deep in the body only touches it
 
 /// Whether a patch lies within a distance of a point, and is turned there as a blade with this normal: one
 /// that crosses the slit is in it too, at first.
@@ -55,11 +57,26 @@ std::vector<bool> inMaterial(const Points& row, const RestSolid& solid) {
   return in;
 }
 
-/// Whether an outline passes through the solid, be it between two samples.
-bool meets(const Points& outline, const RestSolid& solid) {
-  Points closed(outline.rows() + 1, 3);
-  closed << outline, outline.row(0);
-  return any(inMaterial(closed, solid));
+/// Where an outline is in a solid: samples, and between two of them the middle of what they enclose. Numbers
+/// of samples; the fraction is a share of the way to the next one.
+std::vector<double> placesIn(const Points& outline, const RestSolid& solid) {
+  std::vector<double> places;
+  for (Eigen::Index i = 0; i < outline.rows(); ++i) {
+    const Eigen::Vector3d from = outline.row(i), to = outline.row((i + 1) % outline.rows());
+    if (solid.contains(from)) {
+      places.push_back(static_cast<double>(i));
+      continue;
+    }
+    const std::vector<PatchHit> hits = solid.crossings(from, to);
+    if (hits.size() >= 2) places.push_back(static_cast<double>(i) + 0.5 * (hits[0].t + hits[1].t));
+  }
+  return places;
+}
+
+Eigen::Vector3d pointAt(const Points& outline, double place) {
+  const auto i = static_cast<Eigen::Index>(place);
+  const double share = place - static_cast<double>(i);
+  return (1.0 - share) * outline.row(i) + share * outline.row((i + 1) % outline.rows());
 }
 
 /// Points of the blade between its outline and its middle: a large blade's outline can enclose the body.
@@ -91,6 +108,12 @@ Points withEnds(const Points& edge, double overhang, const RestSolid& solid) {
 
 }  // namespace
 
+struct BladeStroke::Contact {
+  BladeOutline outline;
+  Points inner;                ///< the outline but for what only touches
+  std::vector<double> places;  ///< where that is in the body, as placesIn gives them
+};
+
 BladeStroke::BladeStroke(const CuttingConfig& config, double spacing, double overhang)
     : config_(config), spacing_(spacing), overhang_(overhang) {}
 
@@ -105,32 +128,27 @@ std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& 
     forgetStrokes();
     lift();
   }
-  const BladeOutline outline(map.toRest(sampleOutline(blade, parts_)), parts_);
-  const std::vector<bool> inside = containedIn(solid, outline.points());
-  if (!active_ && any(inside)) active_ = resume(outline, inside) || enter(outline, inside, solid);
+  Contact now{BladeOutline(map.toRest(sampleOutline(blade, parts_)), parts_), {}, {}};
+  now.inner = now.outline.setBack(kTouch * config_.min_advance_m);
+  now.places = placesIn(now.inner, solid);
+  if (!active_ && !now.places.empty()) active_ = resume(now) || enter(now, solid);
   std::optional<BladeCut> cut;
-  if (active_) cut = advance(outline, solid);
-  if (!any(inside) && !any(containedIn(solid, withinOutline(outline.points())))) {
-    // A stroke ends here; one begins before the first corner is met, or that would stay uncut, unless the
-    // blade was not seen there.
-    if (active_ || clear_.rows() == 0 || !meets(outline.points(), solid)) clear_ = outline.points();
-    outside_ = outline.points();
+  if (active_) cut = advance(now.outline, solid);
+  if (now.places.empty() && !any(containedIn(solid, withinOutline(now.outline.points())))) {
+    clear_ = now.inner;
     active_ = cut.has_value();
     if (!active_ && !strokes_.empty() && strokes_.back().patches.empty()) strokes_.pop_back();
   }
   return cut;
 }
 
-bool BladeStroke::resume(const BladeOutline& outline, const std::vector<bool>& inside) {
+bool BladeStroke::resume(const Contact& now) {
   for (auto stroke = strokes_.rbegin(); stroke != strokes_.rend(); ++stroke) {
-    int near = 0, all = 0;
-    for (std::size_t i = 0; i < inside.size(); ++i) {
-      if (!inside[i]) continue;
-      ++all;
-      const Eigen::Vector3d point = outline.points().row(static_cast<Eigen::Index>(i));
-      if (lieNear(stroke->patches, point, outline.normal(), config_.slit_tolerance_m)) ++near;
-    }
-    if (3 * near < 2 * all) continue;
+    const auto near = std::count_if(now.places.begin(), now.places.end(), [&](double place) {
+      return lieNear(stroke->patches, pointAt(now.inner, place), now.outline.normal(),
+                     config_.slit_tolerance_m);
+    });
+    if (3 * static_cast<std::size_t>(near) < 2 * now.places.size()) continue;
     if (stroke != strokes_.rbegin()) stroke->number = newNumber();
     std::rotate(std::prev(stroke.base()), stroke.base(), strokes_.end());
     return true;
@@ -138,25 +156,43 @@ bool BladeStroke::resume(const BladeOutline& outline, const std::vector<bool>& i
   return false;
 }
 
-bool BladeStroke::enter(const BladeOutline& outline, const std::vector<bool>& inside,
-                        const RestSolid& solid) {
-  if (outside_.rows() != outline.points().rows()) return false;
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (inside[i]) way += (outline.points().row(row) - outside_.row(row)).transpose();
+/// Where the blade has gone since it was clear of the body, along the normals of its sides that are in it:
+/// neither up along a flank nor along an edge. As long as the furthest of these ways.
+Eigen::Vector3d BladeStroke::wayIn(const Contact& now) const {
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  std::set<int> sides;
+  for (const double place : now.places) {
+    moved += pointAt(now.inner, place) - pointAt(clear_, place);
+    sides.insert(now.outline.sideFrom(static_cast<int>(std::floor(place))));
+    sides.insert(now.outline.sideTo(static_cast<int>(std::ceil(place))));
   }
-  way /= static_cast<double>(std::count(inside.begin(), inside.end(), true));
-  way -= way.dot(outline.normal()) * outline.normal();
+  moved /= static_cast<double>(now.places.size());
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  double furthest = 0.0;
+  for (const int side : sides) {
+    const double advance = std::max(0.0, moved.dot(now.outline.sideNormal(side)));
+    furthest = std::max(furthest, advance);
+    way += advance * now.outline.sideNormal(side);
+  }
+  return furthest * way.stableNormalized();
+}
+
+bool BladeStroke::enter(const Contact& now, const RestSolid& solid) {
+  if (clear_.rows() != now.inner.rows()) return false;
+  const Eigen::Vector3d way = wayIn(now);
   if (way.norm() < config_.min_advance_m) return false;
 
   Stroke stroke;
   stroke.number = newNumber();
-  stroke.edge = outline.leadingEdge(way.normalized());
-  Points start = clear_(stroke.edge, Eigen::all);  // but not aside of where the blade goes in
-  start += (outside_(stroke.edge, Eigen::all) - start) * outline.normal() * outline.normal().transpose();
-  const Eigen::RowVector3d back = -std::max(config_.min_advance_m, overhang_) * way.normalized().transpose();
-  for (Eigen::Index i = 0; i < start.rows(); ++i) start.row(i) = movedOn(start.row(i), back, solid);
+  stroke.edge = now.outline.leadingEdge(way.normalized());
+  Points start = now.outline.points()(stroke.edge, Eigen::all);
+  const Eigen::RowVector3d back = -way.normalized().transpose();
+  const double margin = std::max(config_.min_advance_m, overhang_);
+  for (Eigen::Index i = 0; i < start.rows(); ++i) {
+    // Straight back to where it was clear, whatever it did before aside of its way in.
+    start.row(i) += std::max(0.0, (clear_.row(stroke.edge[i]) - start.row(i)).dot(back)) * back;
+    start.row(i) = movedOn(start.row(i), margin * back, solid);
+  }
   stroke.front = inSinglePrecision(withEnds(start, overhang_, solid));
   strokes_.push_back(std::move(stroke));
   startFromFront();

@@ -17,11 +17,13 @@ struct BladeCut {
   CutPatch patch;  ///< in single precision, as it is published
 };
 
-/// From a blade's motion to patches. A stroke begins where the blade enters the body; the sides of the
-/// blade's polygon that face its way are its leading edge, and the edge's furthest advance so far is the
-/// front of the cut. Once some of the edge is far enough beyond the front, the patch ruled between both is to
-/// be cut. What does not advance cuts nothing: withdrawal, tremor, a blade that moves to its side or along
-/// its edge. A blade that comes back into a slit goes on with the stroke that made it.
+/// From a blade's motion to patches. A blade that is in the body by less than a share of an advance only
+/// touches it. A stroke begins where sides of the blade's polygon enter the body, be it between two samples,
+/// and go on in it along their normals; the sides that face this way are its leading edge, and the edge's
+/// furthest advance so far is the front of the cut. Once some of the edge is far enough beyond the front, the
+/// patch ruled between both is to be cut. What does not advance cuts nothing: withdrawal, tremor, a blade
+/// that moves to its side or along its edge. A blade that comes back into a slit goes on with the stroke that
+/// made it.
 class BladeStroke {
  public:
   /// @param spacing of the samples on the blade's outline [m]; @param overhang of the tets over the visual
@@ -35,7 +37,7 @@ class BladeStroke {
   void accept();
 
   /// The blade is nowhere near, or not seen.
-  void lift() { active_ = false, outside_.resize(0, 3), clear_.resize(0, 3); }
+  void lift() { active_ = false, clear_.resize(0, 3); }
   /// Strokes do not go on after cuts that others made, or took back.
   void forgetStrokes();
   /// Numbers that others give to their strokes.
@@ -53,16 +55,17 @@ class BladeStroke {
   };
 
   std::uint32_t newNumber() { return ++last_number_; }
-  bool resume(const BladeOutline& outline, const std::vector<bool>& inside);
-  bool enter(const BladeOutline& outline, const std::vector<bool>& inside, const RestSolid& solid);
+  struct Contact;
+  bool resume(const Contact& now);
+  Eigen::Vector3d wayIn(const Contact& now) const;
+  bool enter(const Contact& now, const RestSolid& solid);
   void startFromFront();
   std::optional<BladeCut> advance(const BladeOutline& outline, const RestSolid& solid);
 
   CuttingConfig config_;
   double spacing_, overhang_;
   std::vector<int> parts_;  ///< per side of the polygon, as many samples begin on it
-  Points outside_;          ///< outline when none of its samples was inside last: the way in is from there
-  Points clear_;            ///< and when it did not meet the body between two samples either
+  Points clear_;            ///< outline but for what only touches, when it was out of the body last
   std::vector<Stroke> strokes_;
   bool active_ = false;  ///< the last of strokes_
   Points asked_;         ///< front after the cut that was asked for

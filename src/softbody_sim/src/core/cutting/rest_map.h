@@ -11,10 +11,12 @@ class RestSolid {
   explicit RestSolid(const MeshTopology& uncut);
 
   bool contains(const Eigen::Vector3d& point) const;
-  /// Whether a segment meets its surface.
-  bool meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
-    return !surface_.hits(a, b).empty();
+  /// Where a segment crosses its surface, in ascending t.
+  std::vector<PatchHit> crossings(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    return surface_.hits(a, b);
   }
+  /// Whether a segment meets its surface.
+  bool meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const { return !crossings(a, b).empty(); }
 
  private:
   PatchIntersector surface_;

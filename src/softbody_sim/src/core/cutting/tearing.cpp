@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/cutting/plane_section.h"
+#include "core/tet_edges.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -14,12 +15,6 @@ namespace {
 constexpr int kStates = 5;
 constexpr double kFurther = 1.1;   // times the stretch at which a tet asked in vain
 constexpr double kOverhang = 0.1;  // of a mean edge
-
-Eigen::Matrix3d edgesOf(const Points& vertices, const Eigen::RowVector4i& tet) {
-  Eigen::Matrix3d edges;
-  for (int k = 0; k < 3; ++k) edges.col(k) = vertices.row(tet[k + 1]) - vertices.row(tet[0]);
-  return edges;
-}
 
 /// Of F^T F = V diag(stretch^2) V^T, F the deformation gradient.
 Eigen::Matrix3d rightCauchyGreen(const TetTopology& volume, const Points& vertices, int tet) {
