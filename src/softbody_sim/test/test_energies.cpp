@@ -85,27 +85,28 @@ TEST(LameParameters, RefuseWhatIsNoMaterial) {
   EXPECT_DOUBLE_EQ(lame.lambda, 8000.0);
 }
 
-class Energies : public ::testing::Test {
+/// @param the share of smoothed strains.
+class Energies : public ::testing::TestWithParam<double> {
  protected:
   TetTopology topology_ = boxTopology({3, 2, 2}, {0.06, 0.04, 0.05});
-  CorotatedElasticity elasticity_{topology_.rest_vertices, topology_.tets, kLame};
+  CorotatedElasticity elasticity_{topology_.rest_vertices, topology_.tets, kLame, GetParam()};
   std::mt19937 random_{7};
   Points deformed_ = topology_.rest_vertices + randomPoints(topology_.rest_vertices.rows(), 0.006, &random_);
   Energy elastic_ = [this](const Points& x, Points* gradient) { return elasticity_.addTo(x, gradient); };
 };
 
-TEST_F(Energies, ElasticGradientMatchesDifferences) {
+TEST_P(Energies, ElasticGradientMatchesDifferences) {
   expectGradientMatchesDifferences(elastic_, deformed_, 1e-8, &random_);
 }
 
-TEST_F(Energies, RigidMotionCostsNothingAndChangesNothing) {
+TEST_P(Energies, RigidMotionCostsNothingAndChangesNothing) {
   EXPECT_NEAR(valueOf(elastic_, transformed(topology_.rest_vertices, testing::somePose())), 0.0, 1e-18);
   const double energy = valueOf(elastic_, deformed_);
   EXPECT_GT(energy, 1e-3);
   EXPECT_NEAR(valueOf(elastic_, transformed(deformed_, testing::somePose())), energy, 1e-10 * energy);
 }
 
-TEST_F(Energies, ElasticForcesHaveNeitherResultantNorMoment) {
+TEST_P(Energies, ElasticForcesHaveNeitherResultantNorMoment) {
   Points gradient = Points::Zero(deformed_.rows(), 3);
   elastic_(deformed_, &gradient);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -116,7 +117,7 @@ TEST_F(Energies, ElasticForcesHaveNeitherResultantNorMoment) {
   EXPECT_LT(moment.norm(), 1e-10 * gradient.norm());
 }
 
-TEST_F(Energies, TargetGradientMatchesDifferences) {
+TEST_P(Energies, TargetGradientMatchesDifferences) {
   for (bool with_normals : {false, true}) {
     TargetEnergy targets;
     targets.set(someTargets(topology_, with_normals, &random_), topology_.tets, 300.0);
@@ -125,7 +126,7 @@ TEST_F(Energies, TargetGradientMatchesDifferences) {
   }
 }
 
-TEST_F(Energies, StepPotentialGradientMatchesDifferences) {
+TEST_P(Energies, StepPotentialGradientMatchesDifferences) {
   StepPotential potential{Eigen::VectorXd::LinSpaced(deformed_.rows(), 1.0, 9.0),
                           topology_.rest_vertices,
                           randomPoints(deformed_.rows(), 3.0, &random_),
@@ -135,7 +136,7 @@ TEST_F(Energies, StepPotentialGradientMatchesDifferences) {
   expectGradientMatchesDifferences(energy, deformed_, 1e-8, &random_);
 }
 
-TEST_F(Energies, MetricOfPointTargetsIsTheirExactCurvature) {
+TEST_P(Energies, MetricOfPointTargetsIsTheirExactCurvature) {
   TargetEnergy targets;
   targets.set(someTargets(topology_, false, &random_), topology_.tets, 300.0);
   TetMatrix matrix(topology_.tets, deformed_.rows());
@@ -148,7 +149,7 @@ TEST_F(Energies, MetricOfPointTargetsIsTheirExactCurvature) {
   EXPECT_LT((after - before - product).norm(), 1e-9 * product.norm());
 }
 
-TEST_F(Energies, MetricOfNormalTargetsBoundsTheirCurvature) {
+TEST_P(Energies, MetricOfNormalTargetsBoundsTheirCurvature) {
   TargetEnergy targets;
   targets.set(someTargets(topology_, true, &random_), topology_.tets, 300.0);
   TetMatrix matrix(topology_.tets, deformed_.rows());
@@ -164,7 +165,7 @@ TEST_F(Energies, MetricOfNormalTargetsBoundsTheirCurvature) {
   }
 }
 
-TEST_F(Energies, ElasticMetricBoundsTheEnergyOfCompressedAndTurnedTets) {
+TEST_P(Energies, ElasticMetricBoundsTheEnergyOfCompressedAndTurnedTets) {
   TetMatrix matrix(topology_.tets, deformed_.rows());
   elasticity_.addMetric(&matrix);
   for (int k = 0; k < 100; ++k) {
@@ -177,10 +178,33 @@ TEST_F(Energies, ElasticMetricBoundsTheEnergyOfCompressedAndTurnedTets) {
   }
 }
 
-TEST_F(Energies, RefuseTetsWithoutVolume) {
+TEST_P(Energies, RefuseTetsWithoutVolume) {
   std::swap(topology_.tets(5, 0), topology_.tets(5, 1));
-  EXPECT_THROW(CorotatedElasticity(topology_.rest_vertices, topology_.tets, kLame), std::invalid_argument);
+  EXPECT_THROW(CorotatedElasticity(topology_.rest_vertices, topology_.tets, kLame, GetParam()),
+               std::invalid_argument);
 }
+
+/// Where the strain is the same everywhere it is its own mean, and only the boundary is pulled at.
+TEST_P(Energies, UniformStrainHasTheEnergyOfTheWholeBodyAndNoForceInside) {
+  const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + 0.2 * randomPoints(3, 1.0, &random_);
+  const Points x = topology_.rest_vertices * F.transpose();
+  Eigen::Matrix3d stress;
+  const double density = corotatedEnergy(F, kLame, &stress);
+  Points gradient = Points::Zero(x.rows(), 3);
+  EXPECT_NEAR(elastic_(x, &gradient), 0.06 * 0.04 * 0.05 * density, 1e-9 * density * 1e-4);
+  const double force = gradient.rowwise().norm().maxCoeff();
+  const Eigen::Array3d size(0.06, 0.04, 0.05);
+  int inside = 0;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const Eigen::Array3d p = topology_.rest_vertices.row(v).transpose().array();
+    if ((p < 1e-9).any() || (p > size - 1e-9).any()) continue;
+    ++inside;
+    EXPECT_LT(gradient.row(v).norm(), 1e-10 * force);
+  }
+  EXPECT_EQ(inside, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Smoothing, Energies, ::testing::Values(0.0, 0.7));
 
 }  // namespace
 }  // namespace softbody

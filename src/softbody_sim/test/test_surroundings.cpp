@@ -19,7 +19,7 @@ class UnderBothSolvers : public ::testing::TestWithParam<SolverKind> {
  protected:
   void SetUp() override {
     config_.solver = GetParam();
-    config_.iterations = 300;
+    config_.iterations = 1000;
     config_.tolerance = 1e-7;
     config_.gravity = {0.0, 0.0, -kGravity};
     material_.damping = 0.5;
@@ -135,11 +135,11 @@ TEST_P(UnderBothSolvers, AToolAtOneMetreASecondDoesNotGetThrough) {
       surroundings.obstacles[0].pose =
           Eigen::Translation3d(0.1, 0.05, height) * Eigen::AngleAxisd(1.57, Eigen::Vector3d::UnitX());
       simulator.step({}, (frame + 1) * kFrame, surroundings);
-      // The free body is pushed ahead: nothing of it stays behind the tool's axis.
       EXPECT_LT(deepest(surroundings.obstacles[0], simulator.state().vertices), 0.002) << frame;
     }
-    const Points& x = simulator.state().vertices;
-    EXPECT_LT(x.col(2).mean(), 0.08 - 0.033 * 12);
+    // The free body is pushed ahead, bent around the tool or tipping off the box's edge: its middle is at
+    // most its thickness behind the tool's axis, of the 0.4 m that the tool has gone.
+    EXPECT_LT(simulator.state().vertices.col(2).mean(), 0.08 - 0.033 * 12 + 0.03);
   }
 }
 

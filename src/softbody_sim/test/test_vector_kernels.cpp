@@ -45,19 +45,23 @@ class VectorKernels : public ::testing::Test {
   Points toPoints(const Rows<T>& rows) const { return rows.topLeftCorner(count_, 3).template cast<double>(); }
 
   void expectElasticityMatches(const Points& x, const std::string& what) {
-    const CorotatedElasticity reference(topology_.rest_vertices, topology_.tets, kLame);
+    for (double smoothing : {0.0, 0.7}) expectElasticityMatches(x, smoothing, what);
+  }
+  void expectElasticityMatches(const Points& x, double smoothing, const std::string& what) {
+    const CorotatedElasticity reference(topology_.rest_vertices, topology_.tets, kLame, smoothing);
     const Rows<T> rows = toRows(x);
     Points expected = Points::Zero(count_, 3);
     const double energy = reference.addTo(toPoints(rows), &expected);
     // Forces of a strain of 1 set the scale of rounding.
     const double scale = kLame.mu * 0.02 * 0.02 + expected.cwiseAbs().maxCoeff();
     for (Simd simd : widths()) {
-      const ElasticBlocks<T> blocks(topology_.rest_vertices, topology_.tets, kLame, simd);
+      ElasticBlocks<T> blocks(topology_.rest_vertices, topology_.tets, kLame, simd, smoothing);
       Rows<T> gradient = Rows<T>::Zero(rows.rows(), 4);
       const double found = blocks.addTo(rows, &gradient);
-      EXPECT_NEAR(found, energy, kRounding * (energy + kLame.mu * 1e-6)) << what << ", " << nameOf(simd);
+      EXPECT_NEAR(found, energy, kRounding * (energy + kLame.mu * 1e-6))
+          << what << ", smoothing " << smoothing << ", " << nameOf(simd);
       EXPECT_LT((toPoints(gradient) - expected).cwiseAbs().maxCoeff(), kRounding * scale)
-          << what << ", " << nameOf(simd);
+          << what << ", smoothing " << smoothing << ", " << nameOf(simd);
       EXPECT_EQ(gradient.col(3).cwiseAbs().maxCoeff(), T{0});
       EXPECT_EQ(gradient.bottomRows(gradient.rows() - count_).cwiseAbs().maxCoeff(), T{0});
     }
@@ -89,7 +93,8 @@ TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeHoweverManyTetsAreLeftO
 
 /// Where the rotation is not unique the energy still is; it is all that can be compared.
 TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodesEnergy) {
-  const CorotatedElasticity reference(this->topology_.rest_vertices, this->topology_.tets, kLame);
+  constexpr double kSmoothing = 0.7;
+  const CorotatedElasticity reference(this->topology_.rest_vertices, this->topology_.tets, kLame, kSmoothing);
   const Points& rest = this->topology_.rest_vertices;
   for (const Eigen::Vector3d& scale :
        {Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 0),
@@ -98,7 +103,7 @@ TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodes
     Points unused = Points::Zero(this->count_, 3);
     const double energy = reference.addTo(this->toPoints(rows), &unused);
     for (Simd simd : widths()) {
-      const ElasticBlocks<TypeParam> blocks(rest, this->topology_.tets, kLame, simd);
+      ElasticBlocks<TypeParam> blocks(rest, this->topology_.tets, kLame, simd, kSmoothing);
       Rows<TypeParam> gradient = Rows<TypeParam>::Zero(rows.rows(), 4);
       EXPECT_NEAR(blocks.addTo(rows, &gradient), energy, 10.0 * this->kRounding * energy)
           << scale.transpose() << ", " << nameOf(simd);

@@ -24,6 +24,9 @@ struct SimulatorConfig {
   int iterations = 20;      ///< local/global, or Newton, iterations a step at most
   double tolerance = 1e-4;  ///< stop when no vertex moves further in an iteration [mean edge lengths]
   int lbfgs_history = 5;    ///< moves that L-BFGS remembers, at most 5; 0: plain projective dynamics
+  /// Share of the energy whose strains are smoothed around the vertices, so that few linear tets bend as many
+  /// would; projective dynamics only. 0: none.
+  double strain_smoothing = 0.7;
   bool single_precision = false;  ///< positions to about 0.1 um, at twice the speed
   std::string simd = "auto";      ///< vector instructions: auto (the widest there are), sse4, avx2 or avx512
   bool normalized_mass =

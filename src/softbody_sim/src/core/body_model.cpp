@@ -47,6 +47,7 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
   options.minimizer.history = config.lbfgs_history;
   options.single_precision = config.single_precision;
   options.simd = simdFromName(config.simd);
+  options.strain_smoothing = config.strain_smoothing;
   return std::make_unique<ProjectiveDynamics>(topology, lame, options);
 }
 

@@ -28,8 +28,13 @@ double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix
   return lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * dilation * dilation;
 }
 
-CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame)
-    : tets_(tets), inverse_edges_(tets.rows(), 9), volumes_(tetVolumes(rest_vertices, tets)), lame_(lame) {
+CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
+                                         double smoothing)
+    : tets_(tets),
+      inverse_edges_(tets.rows(), 9),
+      volumes_(tetVolumes(rest_vertices, tets)),
+      lame_(lame),
+      smoothing_(smoothing) {
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     if (!(volumes_[t] > 0.0))
       throw std::invalid_argument(fmt::format("tet {} has volume {} m^3", t, volumes_[t]));
@@ -39,18 +44,38 @@ CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets
     const Eigen::Matrix3d inverse = edges.inverse();
     inverse_edges_.row(t) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(inverse.data());
   }
+  if (smoothing_ > 0.0) smoothed_ = smoothedGradients(rest_vertices, tets);
 }
 
 double CorotatedElasticity::addTo(const Points& x, Points* gradient) const {
+  return addTets(x, gradient) + addSmoothed(x, gradient);
+}
+
+double CorotatedElasticity::addTets(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
     Eigen::Matrix3d inverse, edges, stress;
     for (int k = 0; k < 9; ++k) inverse(k) = inverse_edges_(t, k);
     for (int k = 0; k < 3; ++k) edges.col(k) = x.row(tets_(t, k + 1)) - x.row(tets_(t, 0));
-    energy += volumes_[t] * corotatedEnergy(edges * inverse, lame_, &stress);
-    const Eigen::Matrix3d forces = volumes_[t] * stress * inverse.transpose();
+    const double volume = (1.0 - smoothing_) * volumes_[t];
+    energy += volume * corotatedEnergy(edges * inverse, lame_, &stress);
+    const Eigen::Matrix3d forces = volume * stress * inverse.transpose();
     for (int k = 0; k < 3; ++k) gradient->row(tets_(t, k + 1)) += forces.col(k).transpose();
     gradient->row(tets_(t, 0)) -= (forces.col(0) + forces.col(1) + forces.col(2)).transpose();
+  }
+  return energy;
+}
+
+double CorotatedElasticity::addSmoothed(const Points& x, Points* gradient) const {
+  double energy = 0.0;
+  for (Eigen::Index v = 0; v < smoothed_.volumes.size(); ++v) {
+    Eigen::Matrix3d F = Eigen::Matrix3d::Zero(), stress;
+    for (int e = smoothed_.first[v]; e < smoothed_.first[v + 1]; ++e)
+      F += x.row(smoothed_.vertices[e]).transpose() * smoothed_.gradients.row(e);
+    const double volume = smoothing_ * smoothed_.volumes[v];
+    energy += volume * corotatedEnergy(F, lame_, &stress);
+    for (int e = smoothed_.first[v]; e < smoothed_.first[v + 1]; ++e)
+      gradient->row(smoothed_.vertices[e]) += volume * smoothed_.gradients.row(e) * stress.transpose();
   }
   return energy;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "core/strain_smoothing.h"
 #include "core/tet_matrix.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/object_model.h"
@@ -22,24 +23,34 @@ Lame lameParameters(double youngs_modulus_pa, double poisson_ratio);
 /// whose singular values sum to 3. Finite for every finite F, inverted ones included.
 double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix3d* stress);
 
-/// The elastic energy of linear tets. Arrays are one contiguous column per quantity and component.
+/// The elastic energy of linear tets, a share of it of strains smoothed around the vertices, which takes away
+/// much of their locking (the alpha finite element method of Liu, Nguyen-Thoi, Lam 2008). Arrays are one
+/// contiguous column per quantity and component.
 class CorotatedElasticity {
  public:
+  /// @param smoothing the share, from 0 to below 1.
   /// @throw std::invalid_argument if a rest tet has no positive volume.
-  CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame);
+  CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
+                      double smoothing = 0.0);
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
 
-  /// Adds the constant metric sum_t k_t G_t^T G_t that bounds the energy's curvature near rest.
+  /// Adds the constant metric sum_t k_t G_t^T G_t that bounds the energy's curvature near rest: smoothed,
+  /// too, since the square of a mean is at most the mean of the squares.
   void addMetric(TetMatrix* matrix) const;
 
  private:
+  double addTets(const Points& x, Points* gradient) const;
+  double addSmoothed(const Points& x, Points* gradient) const;
+
   Eigen::Matrix<int, Eigen::Dynamic, 4> tets_;
   Eigen::Matrix<double, Eigen::Dynamic, 9>
       inverse_edges_;        ///< of the rest edge matrices, column by column [1/m]
   Eigen::VectorXd volumes_;  ///< [m^3]
   Lame lame_;
+  double smoothing_;
+  SmoothedGradients smoothed_;  ///< empty without smoothing
 };
 
 }  // namespace softbody

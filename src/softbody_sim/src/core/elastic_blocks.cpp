@@ -29,7 +29,8 @@ std::size_t blockCount(Eigen::Index tet_count) {
 }  // namespace
 
 template <typename T>
-ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd)
+ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd,
+                                double smoothing)
     : blocks_(blockCount(tets.rows())),
       mu_(static_cast<T>(lame.mu)),
       lambda_(static_cast<T>(lame.lambda)),
@@ -53,8 +54,9 @@ ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, c
         block.inverse_edges[k][lane] = static_cast<T>(inverse(row, column));
     }
     for (int k = 0; k < 4; ++k) block.corners[k][lane] = 4 * tets(t, k);
-    block.volume[lane] = i == t ? static_cast<T>(volumes[t]) : T{0};
+    block.volume[lane] = i == t ? static_cast<T>((1.0 - smoothing) * volumes[t]) : T{0};
   }
+  if (smoothing > 0.0) patches_.emplace(smoothedGradients(rest_vertices, tets), smoothing, lame, simd);
 }
 
 template class ElasticBlocks<float>;

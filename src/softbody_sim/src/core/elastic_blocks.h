@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/corotated_elasticity.h"
+#include "core/elastic_patches.h"
 #include "core/elasticity_kernel.h"
 #include "core/rows.h"
 #include "softbody_common/types.h"
@@ -13,18 +15,22 @@ namespace softbody {
 template <typename T>
 class ElasticBlocks {
  public:
+  /// @param smoothing as in CorotatedElasticity.
   /// @throw std::invalid_argument if a rest tet has no positive volume.
-  ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd);
+  ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd,
+                double smoothing = 0.0);
 
   /// Energy [J]; adds its gradient [N].
-  double addTo(const Rows<T>& x, Rows<T>* gradient) const {
-    return kernel_(blocks_.data(), blocks_.size(), mu_, lambda_, x.data(), gradient->data());
+  double addTo(const Rows<T>& x, Rows<T>* gradient) {
+    const double energy = kernel_(blocks_.data(), blocks_.size(), mu_, lambda_, x.data(), gradient->data());
+    return patches_ ? energy + patches_->addTo(x, gradient) : energy;
   }
 
  private:
   std::vector<TetBlock<T>> blocks_;
   T mu_, lambda_;
   ElasticityKernel<T> kernel_;
+  std::optional<ElasticPatches<T>> patches_;
 };
 
 }  // namespace softbody

@@ -76,7 +76,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
   InPrecision(const TetTopology& topology, const Lame& lame, const CorotatedElasticity& elasticity,
               const ProjectiveDynamicsOptions& options)
       : options_(options.minimizer),
-        elasticity_(topology.rest_vertices, topology.tets, lame, options.simd),
+        elasticity_(topology.rest_vertices, topology.tets, lame, options.simd, options.strain_smoothing),
         step_(topology.rest_vertices.rows(), options.simd),
         metric_(topology, elasticity),
         solver_(metric_.lower(), options.simd),
@@ -111,7 +111,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
 
 ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const Lame& lame,
                                        const ProjectiveDynamicsOptions& options)
-    : elasticity_(topology.rest_vertices, topology.tets, lame) {
+    : elasticity_(topology.rest_vertices, topology.tets, lame, options.strain_smoothing) {
   if (options.single_precision)
     implementation_ = std::make_unique<InPrecision<float>>(topology, lame, elasticity_, options);
   else

@@ -13,6 +13,7 @@ struct ProjectiveDynamicsOptions {
   MinimizerOptions minimizer;
   bool single_precision = false;  ///< positions to about 0.1 um, at twice the speed
   Simd simd = Simd::kAuto;
+  double strain_smoothing = 0.0;  ///< as in CorotatedElasticity
 };
 
 /// Projective dynamics (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz,

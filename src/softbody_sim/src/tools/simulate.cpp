@@ -25,7 +25,7 @@ struct Options {
   double ground = std::numeric_limits<double>::quiet_NaN();
   bool until_rest = false;
   int steps = 100, iterations = 200;
-  double time_step_s = 1.0 / 30.0, tolerance = 1e-6;
+  double time_step_s = 1.0 / 30.0, tolerance = 1e-6, strain_smoothing = 0.0;
 };
 
 void addMaterialOptions(CLI::App& app, Options& o) {
@@ -43,6 +43,10 @@ void addMaterialOptions(CLI::App& app, Options& o) {
       ->capture_default_str();
   app.add_option("--elasticity", o.elasticity, "neo_hookean needs the solver fem")
       ->check(CLI::IsMember({"corotated", "neo_hookean"}))
+      ->capture_default_str();
+  app.add_option("--strain-smoothing", o.strain_smoothing,
+                 "share of the energy with strains smoothed around vertices; solver pd only")
+      ->check(CLI::Range(0.0, 0.95))
       ->capture_default_str();
 }
 
@@ -82,6 +86,7 @@ SimulatorConfig configOf(const Options& o) {
   SimulatorConfig config;
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;
   config.elasticity = o.elasticity == "corotated" ? Elasticity::kCorotated : Elasticity::kNeoHookean;
+  config.strain_smoothing = o.strain_smoothing;
   config.iterations = o.iterations;
   config.tolerance = o.tolerance;
   config.max_time_step_s = o.time_step_s;
