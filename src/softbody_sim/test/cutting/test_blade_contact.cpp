@@ -103,7 +103,10 @@ Body risingBack(double slope) {
         *points * Eigen::AngleAxisd(-slope, Eigen::Vector3d::UnitY()).toRotationMatrix().transpose());
   return {mesh, tets};
 }
-double backHeight(double slope, double x) { return 0.04 / std::cos(slope) + x * std::tan(slope); }
+/// Of a straight edge that rests on it at x, turned about the vertical from across.
+double backHeight(double slope, double x, double turn = 0.0) {
+  return x * std::tan(slope) + 0.04 * std::hypot(std::tan(slope) * std::tan(turn), 1.0 / std::cos(slope));
+}
 
 TEST(BladeContact, ABladeThatSlidesUpARoundBackCutsFromItsTop) {
   constexpr double kSlope = 0.5, kTouch = 0.0008;
@@ -138,26 +141,26 @@ TEST(BladeContact, ABladeTurnedOnABackCutsWhereItIsThen) {
 
 /// What it does before it goes in leaves nothing uncut.
 TEST(BladeContact, ABladeThatFumblesOnABackCutsThroughIt) {
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  for (unsigned seed = 1; seed <= 26; ++seed) {
     std::mt19937 random(seed);
     const auto uniform = [&](double most) {
       return std::uniform_real_distribution<double>(-most, most)(random);
     };
     constexpr double kSlope = 0.3;
     Body body = risingBack(kSlope);
-    double x = uniform(0.02), y = uniform(0.02), turn = uniform(0.6);
+    double x = uniform(0.02), y = uniform(0.02), turn = uniform(0.5);
     const auto touching = [&](double depth) -> Eigen::Isometry3d {
-      return at(x, 0.0, backHeight(kSlope, x) + 0.04 * std::tan(kSlope) * std::abs(std::sin(turn)) - depth) *
+      return at(x, 0.0, backHeight(kSlope, x, turn) - depth) *
              Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * at(0.0, y, 0.0);
     };
     for (double height = 0.02; height > 0.0; height -= 0.001) body.move(touching(-height));
     for (int k = 0; k < 60; ++k) {
       x = std::clamp(x + uniform(0.003), -0.03, 0.03);
-      y = std::clamp(y + uniform(0.003), -0.03, 0.03);
-      turn = std::clamp(turn + uniform(0.1), -0.6, 0.6);
-      body.move(touching(uniform(0.003)));
+      y = std::clamp(y + uniform(0.003), -0.02, 0.02);
+      turn = std::clamp(turn + uniform(0.1), -0.5, 0.5);
+      body.move(touching(uniform(0.0015)));
     }
-    for (double depth = 0.003; depth < 0.14; depth += 0.001) body.move(touching(depth));
+    for (double depth = 0.0; depth < 0.14; depth += 0.001) body.move(touching(depth));
     EXPECT_EQ(body.pieces(), 2u) << "seed " << seed;
   }
 }
