@@ -119,11 +119,10 @@ void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr&
 }
 
 void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {
-  // Without an output_frame blades in other frames than the camera's are of no use, and known once it shows.
-  blade_frame_ = output_frame_->name().empty() ? message->header.frame_id : "";
-  const Eigen::Isometry3d T_output_blade = output_frame_->poseOf(message->header);
+  if (camera_frame_.empty()) return;  // it covers nothing yet
+  const Eigen::Isometry3d T_fixed_blade = fixedPose(message->header, output_frame_->timeout_s());
   tool_mask_.see(toNanoseconds(message->header.stamp),
-                 transformed(fromMessage(message->polygon), T_output_blade));
+                 transformed(fromMessage(message->polygon), T_fixed_blade));
 } catch (const tf2::TransformException& error) {
   ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << error.what());
 }
@@ -148,19 +147,20 @@ std::optional<MeshState> FeatureTrackerNode::volume() const try {
   return std::nullopt;
 }
 
-/// Where a pose is in the fixed frame: the output frame, or without one that of the camera.
-Eigen::Isometry3d FeatureTrackerNode::fixedPose(const geometry_msgs::PoseStamped& pose) const {
-  const Eigen::Isometry3d T_frame_body = fromMessage(pose.pose);
+/// Where a header's frame, empty: the camera's, is in the fixed one: the output frame, or without one the
+/// camera's.
+Eigen::Isometry3d FeatureTrackerNode::fixedPose(const std_msgs::Header& header, double patience_s) const {
   const std::string& fixed = output_frame_->name().empty() ? camera_frame_ : output_frame_->name();
-  const std::string& frame = pose.header.frame_id.empty() ? camera_frame_ : pose.header.frame_id;
-  if (frame == fixed) return T_frame_body;
-  return output_frame_->lookUp(fixed, frame, pose.header.stamp, kSetPosePatience_s) * T_frame_body;
+  const std::string& frame = header.frame_id.empty() ? camera_frame_ : header.frame_id;
+  if (frame == fixed) return Eigen::Isometry3d::Identity();
+  return output_frame_->lookUp(fixed, frame, header.stamp, patience_s);
 }
 
 bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
                                    softbody_msgs::SetPose::Response& response) try {
   if (camera_frame_.empty()) throw std::logic_error("no frame of the camera has come yet");
-  tracker_->restart(fixedPose(request.pose));
+  const Eigen::Isometry3d T_frame_body = fromMessage(request.pose.pose);
+  tracker_->restart(fixedPose(request.pose.header, kSetPosePatience_s) * T_frame_body);
   response.success = 1;
   ROS_INFO("tracking starts anew near the pose set by hand");
   return true;
@@ -197,7 +197,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
                   mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask),
                   T_output_camera};
-  if (blade_frame_.empty() || blade_frame_ == header.frame_id) frame = tool_mask_.without(frame);
+  frame = tool_mask_.without(frame);
   const std::optional<MeshState> state = volume();
   StageTimer timer;
   const TrackingResult result = tracker_->track(frame, state ? &*state : nullptr, &timer);

@@ -43,8 +43,8 @@ class FeatureTrackerNode {
 
   void adoptTopologies();
   void skip(const std_msgs::Header& header, const std::string& why);
-  /// @throw std::invalid_argument, tf2::TransformException.
-  Eigen::Isometry3d fixedPose(const geometry_msgs::PoseStamped& pose) const;
+  /// @throw tf2::TransformException.
+  Eigen::Isometry3d fixedPose(const std_msgs::Header& header, double patience_s) const;
   std::optional<MeshState> volume() const;
   void publishStatus(const std_msgs::Header& header);
   void publish(const std_msgs::Header& camera_header, const Eigen::Isometry3d& T_output_camera,
@@ -62,7 +62,6 @@ class FeatureTrackerNode {
   std::uint32_t adopted_revision_ = 0;                              ///< that the tracker works with
   softbody_msgs::MeshState::ConstPtr newest_state_, volume_state_;  ///< of any, and of the adopted revision
   ToolMask tool_mask_;
-  std::string blade_frame_;  ///< that the blade's place is in; empty: the output frame
   TrackingStatus last_status_;
   ros::Time last_stamp_;
 

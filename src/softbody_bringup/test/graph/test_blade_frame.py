@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""A blade in another frame than the camera's is found by tf, without an output_frame too: nothing is measured on it; where tf
+does not know its frame, that is said and the body is measured as if there were none."""
+import sys
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import Point32, PolygonStamped, TransformStamped
+from recorder import Recorder
+from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import CameraInfo
+from softbody_msgs.msg import Targets
+from tf2_ros import StaticTransformBroadcaster
+
+CAMERA, BENCH = "camera_color_optical_frame", "bench"
+ORIGIN, SIGNS = np.array([0.3, -0.2, 0.9]), np.array([-1.0, -1.0, 1.0])  # of the bench: half a turn about z
+FRAMES = 3
+NEAR_M = 0.004
+
+
+class BladeFrame(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(softbody__targets=Targets, rosout=Log)
+        cls.broadcaster = StaticTransformBroadcaster()
+        bench = TransformStamped()
+        bench.header.frame_id, bench.child_frame_id = CAMERA, BENCH
+        bench.transform.translation.x, bench.transform.translation.y, bench.transform.translation.z = ORIGIN
+        bench.transform.rotation.z = 1.0
+        cls.broadcaster.sendTransform(bench)
+        cls.publisher = rospy.Publisher("/softbody/tool/blade", PolygonStamped, queue_size=1)
+        cls.frame, cls.corners = None, None
+        cls.subscriber = rospy.Subscriber("/camera/color/camera_info", CameraInfo, cls.show, queue_size=1)
+        cls.middle = cls.targets_of(cls.recorder.wait_for("softbody/targets", 5)[-1]).mean(axis=0)
+
+    @classmethod
+    def show(cls, info):
+        """The blade of the frame that comes, and of the next."""
+        if cls.frame is None:
+            return
+        blade = PolygonStamped()
+        blade.header.stamp, blade.header.frame_id = info.header.stamp + rospy.Duration(0.1), cls.frame
+        blade.polygon.points = [Point32(*corner) for corner in cls.corners]
+        cls.publisher.publish(blade)
+
+    @staticmethod
+    def targets_of(message):
+        return np.array([[t.position.x, t.position.y, t.position.z] for t in message.targets])
+
+    def near_the_blade(self, message):
+        return np.abs(self.targets_of(message)[:, 0] - self.middle[0]).min() < NEAR_M
+
+    def wait_for_frames(self, near, what):
+        before = len(self.recorder.messages["softbody/targets"])
+        self.recorder.wait(
+            lambda seen: len(seen["softbody/targets"]) >= before + FRAMES
+            and all(self.near_the_blade(m) == near for m in seen["softbody/targets"][-FRAMES:]), what)
+
+    def hold_blade(self, frame):
+        """Upright along the view, through the body's middle."""
+        corners = self.middle + np.array([[0, -0.1, -0.1], [0, 0.1, -0.1], [0, 0.1, 0.1], [0, -0.1, 0.1]])
+        type(self).corners = (corners - ORIGIN) * SIGNS
+        type(self).frame = frame
+
+    def test_1_a_frame_of_tf(self):
+        self.wait_for_frames(True, "targets where the blade will be")
+        self.hold_blade(BENCH)
+        self.wait_for_frames(False, "frames without a target on the blade")
+
+    def test_2_a_frame_that_tf_does_not_know(self):
+        self.hold_blade("nowhere")
+        self.recorder.wait(lambda seen: any(log.name == "/softbody/feature_tracker" and "nowhere" in log.msg
+                                            for log in seen["rosout"]), "a word on the blade's frame")
+        self.wait_for_frames(True, "targets as without a blade")
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_blade_frame")
+    rostest.rosrun("softbody_bringup", "test_blade_frame", BladeFrame, sys.argv)
