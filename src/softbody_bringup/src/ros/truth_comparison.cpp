@@ -112,30 +112,40 @@ std::vector<FrameSight> sightsOf(const SurfaceRecord& truth) {
   return sights;
 }
 
+/// @throw std::invalid_argument
+void requireSameMesh(const SurfaceRecord& surface, const std::string& whose, const SurfaceRecord& truth,
+                     const std::string& truth_bag) {
+  if (sameMesh(surface.topologies.begin()->second, truth.topologies.begin()->second)) return;
+  throw std::invalid_argument(
+      fmt::format("{} is another mesh than that of the truth in {}: at rest, vertices of the same index in "
+                  "its file (vertex_parents) lie at different places",
+                  whose, truth_bag));
+}
+
 /// What the error of the same frames is where nothing ever hid the body.
-/// @throw std::invalid_argument if it is another mesh, or has none of the frames.
-void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden, const SurfaceRecord& truth,
-                 std::vector<FrameSight>* sights) {
-  if (!sameMesh(unhidden.topologies.begin()->second, truth.topologies.begin()->second)) {
-    throw std::invalid_argument(
-        fmt::format("{}: the unhidden body is another mesh than the truth's", options.unhidden));
-  }
+/// @return how many frames it does not have. @throw std::invalid_argument if it is another mesh, or has none.
+std::size_t addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden,
+                        const SurfaceRecord& truth, std::vector<FrameSight>* sights) {
+  requireSameMesh(unhidden, options.unhidden + ": the unhidden body", truth, options.truth);
   TopologyPairs pairs(options, unhidden, truth);
-  bool answered = false;
+  std::size_t missing = 0;
   auto sight = sights->begin();
   for (const auto& [stamp, expected] : truth.states) {
     FrameSight& shown = *sight++;
     const auto answer = unhidden.states.find(stamp);
-    if (answer == unhidden.states.end()) continue;
+    if (answer == unhidden.states.end()) {
+      ++missing;
+      continue;
+    }
     const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
     shown.unhidden_error = vertexError(answer->second, expected, pair.matches, pair.groups).mean();
-    answered = true;
   }
-  if (!answered) {
+  if (missing == truth.states.size()) {
     throw std::invalid_argument(
         fmt::format("{}: the unhidden body has no state with the stamp of a frame of {}", options.unhidden,
                     options.truth));
   }
+  return missing;
 }
 
 /// Volumes frame by frame, where both surfaces are closed.
@@ -180,6 +190,7 @@ void plotVertexErrors(const VertexErrorReport& report, const std::vector<FrameVe
 void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
                       const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
                       Pictures* pictures) {
+  requireSameMesh(result, options.result + ": the body", truth, options.truth);
   TopologyPairs pairs(options, result, truth);
   std::vector<FrameVertexError> errors;
   std::vector<FrameSight> sights = sightsOf(truth);
@@ -200,11 +211,13 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
   report->frames.answered = errors.size();
   if (errors.empty()) return;
   report->vertex_error = summarize(errors);
-  if (report->vertex_error->all.count == 0) {
-    throw std::runtime_error(
-        "no vertex of the result has a counterpart in the truth (vertex_parents): another mesh?");
+  const std::size_t missing = unhidden ? addUnhidden(options, *unhidden, truth, &sights) : 0;
+  if (missing > 0) {
+    report->notes.push_back(fmt::format(
+        "{} has no state for {} of {} frames; what is normal there is taken from the frames before "
+        "the body was hidden",
+        options.unhidden, missing, truth.states.size()));
   }
-  if (unhidden != nullptr) addUnhidden(options, *unhidden, truth, &sights);
   report->absences = absences(sights);
   report->jitter = jitterWhereStill(result, truth);
   report->pieces = pieces.report();

@@ -44,6 +44,42 @@ MeshTopology shuffled(const MeshTopology& mesh, const std::vector<int>& order) {
   return result;
 }
 
+TEST(SameMesh, WhatCutsCopiedAndWeldingLeftOutIsTheSame) {
+  const MeshTopology whole = strip(false);
+  EXPECT_TRUE(sameMesh(whole, whole));
+  EXPECT_TRUE(sameMesh(strip(true), whole));
+  EXPECT_TRUE(sameMesh(whole, strip(true)));
+  EXPECT_TRUE(sameMesh(shuffled(strip(true), {3, 1, 4, 0, 7, 6, 2, 5}), strip(true)));
+  MeshTopology welded = whole;
+  welded.rest_vertices.row(5).setConstant(9.0);
+  EXPECT_FALSE(sameMesh(welded, whole));
+  welded.vertex_parents[5] = 17;  // another vertex of the file stands for it
+  EXPECT_TRUE(sameMesh(welded, whole));
+}
+
+TEST(SameMesh, NothingInCommonOrAnotherPlaceIsAnother) {
+  const MeshTopology truth = strip(false);
+  MeshTopology mesh = truth;
+  mesh.vertex_parents.assign(6, -1);
+  EXPECT_FALSE(sameMesh(mesh, truth));
+  mesh = truth;
+  mesh.rest_vertices(4, 1) += 1e-4;
+  EXPECT_FALSE(sameMesh(mesh, truth));
+  EXPECT_FALSE(sameMesh(truth, MeshTopology()));
+}
+
+/// Messages carry float: far from its origin a mesh comes back rounded by more than a millionth of its size.
+TEST(SameMesh, WhatMessagesRoundIsTheSame) {
+  MeshTopology mesh = strip(false);
+  mesh.rest_vertices = 0.1 * mesh.rest_vertices.array() + 70.0 / 3.0;
+  MeshTopology truth = mesh;
+  truth.rest_vertices = mesh.rest_vertices.cast<float>().cast<double>();
+  ASSERT_GT((truth.rest_vertices - mesh.rest_vertices).norm(), 1e-6);
+  EXPECT_TRUE(sameMesh(mesh, truth));
+  truth.rest_vertices.col(0).array() += 1e-4;
+  EXPECT_FALSE(sameMesh(mesh, truth));
+}
+
 TEST(VertexMatch, CopiesAreMatchedToTheirOwnSideInAnyOrder) {
   const MeshTopology truth = strip(true);
   std::vector<int> order{0, 1, 2, 3, 4, 5, 6, 7};

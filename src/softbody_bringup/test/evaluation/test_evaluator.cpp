@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "softbody_bringup/virtual_camera/bag_writer.h"
 #include "softbody_bringup/virtual_camera/camera_setup.h"
@@ -266,11 +267,17 @@ TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
   EXPECT_NE(words.find("back to normal (2.600 mm) after 0.00 s; not back to the error before"),
             std::string::npos)
       << words;
+  EXPECT_TRUE(evaluate(options).notes.empty());
   options.unhidden = resultFromTruth("unhidden.bag", off(0.0024f), options.truth);
   EXPECT_FALSE(evaluate(options).absences[0].recovery_s);
+  options.unhidden = resultFromTruth(
+      "gaps.bag", [](softbody_msgs::MeshState*, int frame) { return frame % 10 != 0; }, options.truth);
+  const Report with_gaps = evaluate(options);
+  ASSERT_EQ(with_gaps.notes.size(), 1u);
+  EXPECT_NE(with_gaps.notes[0].find("gaps.bag has no state for 10 of 100 frames"), std::string::npos);
 }
 
-TEST(Evaluator, AnUnhiddenResultOfOtherFramesOrAnotherMeshIsRefused) {
+TEST(Evaluator, OtherFramesOfAnUnhiddenResultAndOtherMeshesAreRefused) {
   EvaluatorOptions options;
   options.truth = recording();
   options.result = resultFromTruth("seen.bag", [](softbody_msgs::MeshState*, int) { return true; });
@@ -291,6 +298,8 @@ TEST(Evaluator, AnUnhiddenResultOfOtherFramesOrAnotherMeshIsRefused) {
   const auto as_it_is = [](softbody_msgs::MeshState*, int) { return true; };
   options.unhidden = resultFromTruth("other_mesh.bag", as_it_is, doll);
   EXPECT_NE(failure(options).find("other_mesh.bag: the unhidden body is another mesh"), std::string::npos);
+  options.result = std::exchange(options.unhidden, "");
+  EXPECT_NE(failure(options).find("other_mesh.bag: the body is another mesh"), std::string::npos);
 }
 
 TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {

@@ -12,8 +12,8 @@ namespace softbody::evaluation {
 std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
 
 /// Whether vertices of the same index in the input file lie at one place at rest, to a millionth of the
-/// truth's diagonal, and there are such vertices. What a file's welding left out in one of both is not
-/// judged.
+/// truth's diagonal and what messages round, and there are such vertices. What a file's welding left out in
+/// one of both is not judged.
 bool sameMesh(const MeshTopology& mesh, const MeshTopology& truth);
 
 /// The same across cuts: a vertex that a cut copied stands for the copy on the same side (of those in the

@@ -99,16 +99,18 @@ std::vector<int> matchVertices(const std::vector<int>& result_parents,
 }
 
 bool sameMesh(const MeshTopology& mesh, const MeshTopology& truth) {
-  constexpr double kShare = 1e-6;
+  constexpr double kShare = 1e-6, kRounding = std::numeric_limits<float>::epsilon();
   const Points& places = truth.rest_vertices;
+  if (places.rows() == 0) return false;
   const double diagonal = (places.colwise().maxCoeff() - places.colwise().minCoeff()).norm();
+  const double tolerance = kShare * diagonal + kRounding * places.cwiseAbs().maxCoeff();
   const std::vector<int> matches = matchVertices(mesh.vertex_parents, truth.vertex_parents);
   bool any = false;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (matches[i] < 0) continue;
     any = true;
     const auto offset = mesh.rest_vertices.row(static_cast<Eigen::Index>(i)) - places.row(matches[i]);
-    if (offset.norm() > kShare * diagonal) return false;
+    if (offset.norm() > tolerance) return false;
   }
   return any;
 }
