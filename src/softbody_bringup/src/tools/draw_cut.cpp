@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Draws bodies that were cut, without a display: models before and after, a column a result, as in Kang "
       "et al. 2022, figure 10; with a recording the course of the cut, as in figure 11");
-  app.add_option("results", options.results, "bags of replay or of the graph, in the camera's frame")
+  app.add_option("results", options.results,
+                 "bags of replay or of the graph; with --recording in the camera's frame")
       ->required()
       ->check(CLI::ExistingFile);
   CLI::Option* recording = app.add_option("--recording", options.recording, "bag with the camera's topics")

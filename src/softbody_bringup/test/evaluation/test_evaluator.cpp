@@ -1,5 +1,6 @@
 #include "softbody_bringup/evaluation/evaluator.h"
 
+#include <fmt/format.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -12,10 +13,13 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
 #include "softbody_bringup/virtual_camera/bag_writer.h"
@@ -323,6 +327,22 @@ TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {
   EXPECT_EQ(report.tool->expected, 5u);
   EXPECT_EQ(report.tool->answered, 4u);
   EXPECT_NEAR(report.tool->position.mean, 0.002, 1e-8);
+}
+
+TEST(DrawCut, AResultInAnotherFrameThanTheImagesIsRefused) {
+  const std::string result = resultFromTruth("drawn.bag", [](softbody_msgs::MeshState* s, int) {
+    s->header.frame_id = "world";
+    return true;
+  });
+  const std::string picture = testing::TempDir() + "refused.png", words = testing::TempDir() + "refused.txt";
+  const int status = std::system(fmt::format("'{}' '{}' --recording '{}' --output '{}' 2> '{}'", DRAW_CUT,
+                                             result, recording(), picture, words)
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  std::stringstream said;
+  said << std::ifstream(words).rdbuf();
+  EXPECT_NE(said.str().find("the surface is in frame 'world'"), std::string::npos) << said.str();
+  EXPECT_FALSE(std::filesystem::exists(picture));
 }
 
 TEST(Evaluator, WhatDoesNotFitIsSaidInASentence) {
