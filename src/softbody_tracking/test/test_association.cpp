@@ -28,7 +28,7 @@ std::vector<Association> randomPoints(std::mt19937* random, int count) {
 Eigen::Isometry3d converge(std::vector<Association> associations) {
   Eigen::Isometry3d total = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Isometry3d step = rigidStep(associations);
+    const Eigen::Isometry3d step = rigidStep(refsTo(associations));
     for (Association& a : associations) a.predicted = step * a.predicted;
     total = step * total;
   }

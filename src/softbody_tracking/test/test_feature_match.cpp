@@ -97,7 +97,8 @@ TEST_P(FeatureMatches, TheRigidStepDoesNotFollowThem) {
   std::vector<FeatureMatch> right;
   for (std::size_t m = 0; m < made.matches.size(); ++m)
     if (!made.wrong[m]) right.push_back(made.matches[m]);
-  const Eigen::Isometry3d kept = rigidStep(inliers(made.matches)), ideal = rigidStep(inliers(right));
+  const Eigen::Isometry3d kept = rigidStep(refsTo(inliers(made.matches))),
+                          ideal = rigidStep(refsTo(inliers(right)));
   for (const FeatureMatch& match : right) {
     const Eigen::Vector3d& place = match.association.predicted;
     EXPECT_LT((kept * place - ideal * place).cross(place.normalized()).norm(), 2e-4);

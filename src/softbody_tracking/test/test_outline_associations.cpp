@@ -90,7 +90,8 @@ TEST_F(OutlineAssociationsTest, LeadBackToTheBody) {
                                     Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ()) *
                                     Eigen::Translation3d(0.0, 0.0, -kDepth);
     Points predicted = transformed(truth, error);
-    for (int step = 0; step < 20; ++step) predicted = transformed(predicted, rigidStep(associate(predicted)));
+    for (int step = 0; step < 20; ++step)
+      predicted = transformed(predicted, rigidStep(refsTo(associate(predicted))));
     const Points offsets = predicted - truth;
     EXPECT_LT(offsets.leftCols<2>().rowwise().norm().mean(), (kDeadZone + kQuantization) * kPixel);
   }

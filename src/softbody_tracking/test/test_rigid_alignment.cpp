@@ -30,9 +30,9 @@ Points piece(int copies) {
 
 double shiftHeldBy(int copies, double weight) {
   const std::vector<Association> measured = shifted(weight);
-  const auto held = heldBack(piece(copies), Eigen::Isometry3d::Identity(), measured);
+  const auto held = heldBack(piece(copies), Eigen::Isometry3d::Identity(), refsTo(measured));
   const Eigen::Vector3d center = measured[13].predicted;
-  return (rigidStep(measured, held) * center - center).x();
+  return (rigidStep(refsTo(measured), held) * center - center).x();
 }
 
 TEST(HeldBack, CountsByWhatTheMeasurementsWeighHoweverFineThePiece) {
@@ -45,17 +45,18 @@ TEST(HeldBack, CountsByWhatTheMeasurementsWeighHoweverFineThePiece) {
 
 /// However many rows of no residual there are, they do not make outliers of the measurements.
 TEST(HeldBack, DoesNotSayWhatAnOutlierIs) {
-  std::vector<Association> held = heldBack(piece(200), Eigen::Isometry3d::Identity(), shifted());
+  std::vector<Association> held = heldBack(piece(200), Eigen::Isometry3d::Identity(), refsTo(shifted()));
   for (Association& a : held) a.weight *= 1e-6;
   std::vector<Association> measured = shifted();
   for (std::size_t i = 0; i < measured.size(); ++i)
     measured[i].measured.x() += 0.001 * static_cast<double>(i);
-  EXPECT_TRUE(rigidStep(measured, held).isApprox(rigidStep(measured), 1e-5));
+  EXPECT_TRUE(rigidStep(refsTo(measured), held).isApprox(rigidStep(refsTo(measured)), 1e-5));
 }
 
 TEST(HeldBack, DrawsBackToWhereThePieceWasPredicted) {
   Eigen::Isometry3d motion(Eigen::Translation3d(0.003, 0.0, 0.0));
-  for (const Association& a : heldBack(piece(1), motion, shifted()))
+  const std::vector<Association> seen = shifted();
+  for (const Association& a : heldBack(piece(1), motion, refsTo(seen)))
     EXPECT_LT((a.predicted - a.measured - motion.translation()).norm(), 1e-12);
 }
 

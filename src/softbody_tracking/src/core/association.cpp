@@ -20,33 +20,40 @@ struct MotionEquations {
   double size = 0.0;
 
   void add(const Association& a, double weight) {
-    const Eigen::Matrix<double, 3, 6> J = motionJacobian(a.predicted - center);
-    const Eigen::Vector3d difference = a.measured - a.predicted;
+    const Eigen::Vector3d arm = a.predicted - center, difference = a.measured - a.predicted;
     if (a.normal.isZero()) {
+      const Eigen::Matrix<double, 3, 6> J = motionJacobian(arm);
       H += weight * J.transpose() * J;
       g += weight * J.transpose() * difference;
     } else {
-      const Vector6d row = J.transpose() * a.normal;
+      Vector6d row;  // of the motion's Jacobian along the normal
+      row << arm.cross(a.normal), a.normal;
       H += weight * row * row.transpose();
       g += weight * row * a.normal.dot(difference);
     }
-    size += weight * (a.predicted - center).squaredNorm();
+    size += weight * arm.squaredNorm();
   }
 };
 
 }  // namespace
 
-Eigen::Isometry3d rigidStep(const std::vector<Association>& associations,
-                            const std::vector<Association>& held) {
+AssociationRefs refsTo(const std::vector<Association>& associations) {
+  AssociationRefs refs;
+  refs.reserve(associations.size());
+  for (const Association& association : associations) refs.push_back(&association);
+  return refs;
+}
+
+Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held) {
   if (associations.empty()) return Eigen::Isometry3d::Identity();
   MotionEquations equations;
-  for (const Association& a : associations) equations.center += a.predicted;
+  for (const Association* a : associations) equations.center += a->predicted;
   equations.center /= static_cast<double>(associations.size());
 
   const double scale = std::max(kSmallestScale, 2.0 * medianResidual(associations));
-  for (const Association& a : associations) {
-    const double ratio = a.residual() / scale;
-    equations.add(a, a.weight / (1.0 + ratio * ratio));
+  for (const Association* a : associations) {
+    const double ratio = a->residual() / scale;
+    equations.add(*a, a->weight / (1.0 + ratio * ratio));
   }
   for (const Association& a : held) equations.add(a, a.weight);
   auto& [center, H, g, size] = equations;
@@ -69,11 +76,11 @@ double rmsResidual(const std::vector<Association>& associations) {
   return associations.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(associations.size()));
 }
 
-double medianResidual(const std::vector<Association>& associations) {
+double medianResidual(const AssociationRefs& associations) {
   if (associations.empty()) return 0.0;
   std::vector<double> residuals;
   residuals.reserve(associations.size());
-  for (const Association& a : associations) residuals.push_back(std::abs(a.residual()));
+  for (const Association* a : associations) residuals.push_back(std::abs(a->residual()));
   const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
   std::nth_element(residuals.begin(), middle, residuals.end());
   return *middle;

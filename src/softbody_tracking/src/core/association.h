@@ -24,6 +24,10 @@ struct Association {
   }
 };
 
+/// Of associations that stay where they are.
+using AssociationRefs = std::vector<const Association*>;
+AssociationRefs refsTo(const std::vector<Association>& associations);
+
 /// d(point moved by (rotation, translation)) = J (rotation, translation), about the centre.
 /// @param arm from the centre to the point.
 inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
@@ -38,13 +42,12 @@ inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
 /// weights (point-to-plane where there is a normal, point-to-point elsewhere; Chen and Medioni 1992).
 /// @param held draws back by its weights alone: nothing of it is an outlier, nor says what is one.
 /// @return identity where the associations do not fix a motion at all.
-Eigen::Isometry3d rigidStep(const std::vector<Association>& associations,
-                            const std::vector<Association>& held = {});
+Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held = {});
 
 /// Root mean square of the residuals [m]; 0 for none.
 double rmsResidual(const std::vector<Association>& associations);
 
 /// Median of the absolute residuals [m]; 0 for none.
-double medianResidual(const std::vector<Association>& associations);
+double medianResidual(const AssociationRefs& associations);
 
 }  // namespace softbody

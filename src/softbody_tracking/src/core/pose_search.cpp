@@ -102,7 +102,7 @@ Eigen::Isometry3d PoseSearch::icp(Eigen::Isometry3d pose, int iterations) {
   double gate = 4.0 * scale_;
   const double narrowing = std::pow(0.25, 1.0 / std::max(1, iterations - 5));
   for (int i = 0; i < iterations; ++i) {
-    pose = rigidStep(associations(pose, gate)) * pose;
+    pose = rigidStep(refsTo(associations(pose, gate))) * pose;
     gate = std::max(scale_, narrowing * gate);
   }
   return pose;

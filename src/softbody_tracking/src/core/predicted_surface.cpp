@@ -119,6 +119,7 @@ MaterialPoint PredictedSurface::materialPoint(int triangle, const cv::Point2f& p
     if (tet == best.tet) continue;
     const Eigen::Vector4d weights = barycentric(tet, rest);
     if (best.tet < 0 || weights.minCoeff() > best.barycentric.minCoeff()) best = {tet, weights};
+    if (best.barycentric.minCoeff() >= 0.0) break;
   }
   return best;
 }

@@ -42,9 +42,9 @@ std::vector<Association> inliers(const std::vector<FeatureMatch>& matches) {
 }
 
 std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
-                                  const std::vector<Association>& measured) {
+                                  const AssociationRefs& measured) {
   double weight = 0.0;
-  for (const Association& association : measured) weight += association.weight;
+  for (const Association* association : measured) weight += association->weight;
   std::vector<Association> held;
   for (const auto& vertex : piece.rowwise()) {
     Association association;
@@ -63,11 +63,11 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
 void RigidAlignment::gather(const DepthAssociations& depth, const RigidMotions& motions) {
   of_body_.resize(motions.size());
   for (auto& associations : of_body_) associations.clear();
-  for (const Association& association : depth.associations) of_body_[association.body].push_back(association);
-  for (const Association& feature : features_) {
-    std::vector<Association>& associations = of_body_[feature.body];
-    associations.push_back(feature);
-    associations.back().predicted = motions[feature.body] * feature.predicted;
+  for (const Association& association : depth.associations)
+    of_body_[association.body].push_back(&association);
+  for (std::size_t f = 0; f < features_.size(); ++f) {
+    moved_[f].predicted = motions[features_[f].body] * features_[f].predicted;
+    of_body_[moved_[f].body].push_back(&moved_[f]);
   }
 }
 
@@ -78,6 +78,7 @@ RigidMotions RigidAlignment::align(const RgbdFrame& frame, const PredictedSurfac
   const std::vector<Points> pieces = surface.pieceVertices();
   features_.clear();
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features_);
+  moved_ = features_;
   for (int i = 0; i < kIterations; ++i) {
     const DepthAssociations& seen =
         depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);

@@ -18,7 +18,7 @@ std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
 /// What draws a piece back to where it was predicted, by a share of what its measurements weigh, however many
 /// vertices it has. @param piece its vertices as predicted. @param motion that they were moved by since.
 std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
-                                  const std::vector<Association>& measured);
+                                  const AssociationRefs& measured);
 
 /// How far the motions take any vertex of the prediction [m].
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions);
@@ -36,8 +36,8 @@ class RigidAlignment {
  private:
   void gather(const DepthAssociations& depth, const RigidMotions& motions);
 
-  std::vector<Association> features_;
-  std::vector<std::vector<Association>> of_body_;  ///< all, as moved so far
+  std::vector<Association> features_, moved_;  ///< as predicted, and as moved so far
+  std::vector<AssociationRefs> of_body_;       ///< all that is seen of a piece
 };
 
 }  // namespace softbody
