@@ -107,6 +107,7 @@ std::vector<ImageFile> numberedFiles(const fs::path& directory, double rate_hz,
   if (numbered.empty()) fail("{}: there is no image in it", directory.string());
   if (const std::string gap = gapWarning(directory, numbered); !gap.empty()) warnings->push_back(gap);
   std::vector<ImageFile> files;
+  files.reserve(numbered.size());
   for (const auto& [number, path] : numbered) {
     files.push_back({kFolderStart + std::llround(static_cast<double>(number) / rate_hz * 1e9), path});
   }
@@ -205,7 +206,7 @@ ImageFolder readImageFolder(const fs::path& directory, const fs::path& camera_fi
 }
 
 cv::Mat3b readColor(const fs::path& file, const Pinhole& camera) {
-  const cv::Mat image = readImage(file, camera);
+  cv::Mat image = readImage(file, camera);
   cv::Mat3b color;
   switch (image.type()) {
     case CV_8UC3:
@@ -222,7 +223,7 @@ cv::Mat3b readColor(const fs::path& file, const Pinhole& camera) {
 }
 
 cv::Mat readDepth(const fs::path& file, const FolderCamera& camera) {
-  const cv::Mat image = readImage(file, camera.camera);
+  cv::Mat image = readImage(file, camera.camera);
   if (image.type() != CV_16UC1) {
     fail("{}: is {}; depth must be one channel of 16 bits (CV_16UC1)", file.string(),
          cv::typeToString(image.type()));

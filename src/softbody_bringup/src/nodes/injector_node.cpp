@@ -27,7 +27,7 @@ ros::Subscriber relay(ros::NodeHandle* handle, const std::string& topic, ros::Pu
 
 }  // namespace
 
-InjectorNode::InjectorNode(ros::NodeHandle handle, ros::NodeHandle private_handle) {
+InjectorNode::InjectorNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle) {
   Parameters parameters = readParameters(private_handle);
   readFaults(&parameters);
   warnUnknown(parameters);

@@ -34,7 +34,7 @@ void requireTopics(const rosbag::Bag& bag, const std::vector<std::string>& topic
 
 template <typename Message>
 boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& instance, const char* type) {
-  const boost::shared_ptr<const Message> message = instance.instantiate<Message>();
+  boost::shared_ptr<const Message> message = instance.instantiate<Message>();
   if (!message) {
     throw std::invalid_argument(
         fmt::format("{} holds {}; it must be {}", instance.getTopic(), instance.getDataType(), type));

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <rosbag/bag.h>
@@ -26,8 +27,9 @@ ToolRecord readPoses(const std::string& path, const std::string& topic) {
     } else if (const auto uncertain = instance.instantiate<geometry_msgs::PoseWithCovarianceStamped>()) {
       add(uncertain->header, uncertain->pose.pose);
     } else {
-      throw std::invalid_argument(path + ": " + topic + " is of type " + instance.getDataType() +
-                                  " instead of geometry_msgs/PoseWithCovarianceStamped");
+      throw std::invalid_argument(
+          fmt::format("{}: {} is of type {} instead of geometry_msgs/PoseWithCovarianceStamped", path, topic,
+                      instance.getDataType()));
     }
   }
   return record;
@@ -54,7 +56,8 @@ std::map<std::string, std::size_t> readTrackingStates(const std::string& path, c
   for (const rosbag::MessageInstance& instance : view) {
     const auto status = instance.instantiate<softbody_msgs::TrackingStatus>();
     if (!status || status->state > softbody_msgs::TrackingStatus::RECOVERING)
-      throw std::invalid_argument(path + ": " + topic + " holds what is no softbody_msgs/TrackingStatus");
+      throw std::invalid_argument(
+          fmt::format("{}: {} holds what is no softbody_msgs/TrackingStatus", path, topic));
     ++frames[nameOf(static_cast<TrackingState>(status->state))];
   }
   return frames;

@@ -147,7 +147,7 @@ Comparison evaluateBoth(const EvaluatorOptions& options, const std::string& othe
   Measured first = measure(options);
   const Measured other = measure(other_options);
   addOther(other, &first.pictures);
-  const Comparison comparison{first.report, other.report};
+  Comparison comparison{first.report, other.report};
   if (!options.report_folder.empty()) {
     const std::vector<ComparedFigure> rows = compare(first.report, other.report);
     const std::string words =

@@ -14,7 +14,7 @@ namespace encodings = sensor_msgs::image_encodings;
 
 /// The message's pixels, to be changed in place. @throw std::invalid_argument if they are not as needed.
 cv::Mat pixels(const std::string& topic, int type, sensor_msgs::Image* image) {
-  const std::size_t row = image->width * CV_ELEM_SIZE(type);
+  const std::size_t row = static_cast<std::size_t>(image->width) * CV_ELEM_SIZE(type);
   if (image->step < row || image->data.size() < static_cast<std::size_t>(image->step) * image->height)
     throw std::invalid_argument(fmt::format("{}: an image's bytes do not fit its size", topic));
   return cv::Mat(static_cast<int>(image->height), static_cast<int>(image->width), type, image->data.data(),

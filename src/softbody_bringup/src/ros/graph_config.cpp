@@ -43,7 +43,7 @@ auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly
                  std::vector<std::string>* warnings, Reader reader) {
   const YAML::Node section = file[name];
   Parameters parameters(section.IsDefined() ? section : YAML::Node(), name + "/");
-  const auto config = reader(parameters);
+  auto config = reader(parameters);
   for (const std::string& full_key : parameters.unknown()) {
     const std::string key = full_key.substr(name.size() + 1);
     if (live.unused.count(key) != 0) continue;

@@ -16,9 +16,9 @@ namespace softbody::injection {
 namespace {
 
 /// One stream: when its images arrive, and how they look.
-class Stream {
+class ImageStream {
  public:
-  Stream(const std::string& topic, bool is_depth, const rosbag::Bag& bag, const InjectorOptions& options)
+  ImageStream(const std::string& topic, bool is_depth, const rosbag::Bag& bag, const InjectorOptions& options)
       : topic_(topic), images_(topic, is_depth, options.images) {
     rosbag::View view(bag, rosbag::TopicQuery(topic_));
     std::vector<Nanoseconds> received;
@@ -61,8 +61,8 @@ InjectionReport inject(const InjectorOptions& options, const std::function<void(
   if (std::filesystem::equivalent(options.input, options.output, ignored))
     throw std::invalid_argument(fmt::format("{} is the input; name another output", options.output));
   const rosbag::Bag input = openBag(options.input);
-  Stream color(options.camera + "/color/image_raw", false, input, options);
-  Stream depth(options.camera + "/aligned_depth_to_color/image_raw", true, input, options);
+  ImageStream color(options.camera + "/color/image_raw", false, input, options);
+  ImageStream depth(options.camera + "/aligned_depth_to_color/image_raw", true, input, options);
   AtomicBag output(options.output);
   rosbag::View view(input);
   InjectionReport report;

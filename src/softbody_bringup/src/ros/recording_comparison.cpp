@@ -22,6 +22,7 @@ const MeshTopology& topologyOf(const SurfaceRecord& surface, const MeshState& st
 /// Stamps of about `count` states, evenly spread.
 std::set<Nanoseconds> spread(const std::map<Nanoseconds, MeshState>& states, int count) {
   std::vector<Nanoseconds> stamps;
+  stamps.reserve(states.size());
   for (const auto& [stamp, state] : states) stamps.push_back(stamp);
   std::set<Nanoseconds> chosen;
   for (int i = 0; i < count && !stamps.empty(); ++i) {

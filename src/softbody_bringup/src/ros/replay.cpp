@@ -22,7 +22,8 @@ constexpr char kBodyFrame[] = "softbody";
 using Warn = std::function<void(const std::string&)>;
 
 void warnAll(const Warn& warn, const std::string& source, const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) warn(source.empty() ? warning : source + ": " + warning);
+  for (const std::string& warning : warnings)
+    warn(source.empty() ? warning : fmt::format("{}: {}", source, warning));
 }
 
 ObjectModel loadModel(const std::string& object, const Warn& warn) {

@@ -24,7 +24,7 @@ class LiveStream;
 class InjectorNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
-  InjectorNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+  InjectorNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle);
   ~InjectorNode();
 
  private:

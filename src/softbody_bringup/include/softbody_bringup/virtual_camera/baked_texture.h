@@ -23,9 +23,9 @@ class BakedTexture {
 
   /// Begins to load a triangle's texels, which are scattered over more memory than the cache holds.
   void prefetch(int triangle) const {
-    constexpr int kLine = 64 / sizeof(cv::Vec4b);
+    constexpr std::size_t kLine = 64 / sizeof(cv::Vec4b);
     const cv::Vec4b* texel = texels_.data() + blocks_[static_cast<std::size_t>(triangle)].first;
-    for (int line = 0; line < 3; ++line) __builtin_prefetch(texel + line * kLine);
+    for (std::size_t line = 0; line < 3; ++line) __builtin_prefetch(texel + line * kLine);
   }
 
   /// Colour (0..255; r, g, b, 0) in a triangle, counted over all meshes.

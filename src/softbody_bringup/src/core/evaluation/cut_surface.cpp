@@ -47,8 +47,9 @@ std::vector<Sample> samples(const std::vector<CutTriangle>& triangles) {
     for (int i = 0; i < n; ++i) {
       for (int k = 0; k < 2 * (n - i) - 1; ++k) {
         // The parts of a row point up and down in turn; their centres lie a third or two thirds into it.
+        const int square = k / 2;
         const double row = (i + (k % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
-        const double column = (k / 2 + (k % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
+        const double column = (square + (k % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
         all.push_back({t.a + row * (t.b - t.a) + column * (t.c - t.a), t.normal, t.area / (n * n)});
       }
     }

@@ -53,6 +53,7 @@ std::vector<Summary> summarizePieces(const std::vector<FrameVertexError>& frames
     for (std::size_t i = 0; i < frame.pieces.size(); ++i) append(frame.pieces[i], &all[i]);
   }
   std::vector<Summary> summaries;
+  summaries.reserve(all.size());
   for (std::vector<float>& piece : all) summaries.push_back(summarize(std::move(piece)));
   return summaries;
 }

@@ -159,6 +159,7 @@ PieceMatch matchPieces(const MeshTopology& result, const MeshTopology& truth,
     ++all;
   }
   std::vector<std::tuple<int, int, int>> by_votes;  // minus votes, so that most come first
+  by_votes.reserve(votes.size());
   for (const auto& [pair, count] : votes) by_votes.emplace_back(-count, pair.first, pair.second);
   std::sort(by_votes.begin(), by_votes.end());
   int right = 0;

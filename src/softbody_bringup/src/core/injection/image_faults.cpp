@@ -29,9 +29,10 @@ void bringNearer(Pixel distance, cv::Mat_<Pixel> region) {
 std::vector<cv::Rect> chosenBlocks(const cv::Size& image, int side, double share, std::uint64_t seed,
                                    std::uint64_t purpose) {
   const int columns = (image.width + side - 1) / side, rows = (image.height + side - 1) / side;
-  const std::vector<bool> chosen = choose(static_cast<std::size_t>(columns * rows), share, seed, purpose);
+  const int count = columns * rows;
+  const std::vector<bool> chosen = choose(static_cast<std::size_t>(count), share, seed, purpose);
   std::vector<cv::Rect> blocks;
-  for (int i = 0; i < columns * rows; ++i) {
+  for (int i = 0; i < count; ++i) {
     const cv::Rect block(i % columns * side, i / columns * side, side, side);
     if (chosen[static_cast<std::size_t>(i)]) blocks.push_back(block & cv::Rect(cv::Point(), image));
   }

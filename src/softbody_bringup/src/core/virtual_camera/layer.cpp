@@ -137,15 +137,15 @@ cv::v_float32x4 Layer::colorAt(const PixelWeights& t, float u, float v) const {
 
 void Layer::prefetch(int u, int v) const {
   if (u >= projection_.box.x + projection_.box.width) return;
-  const int* seen = color_samples_.triangle[2 * v] + 2 * u;
+  const int* seen = &color_samples_.triangle(2 * v, 2 * u);
   if (seen[0] < 0 || seen[0] == seen[-1]) return;
   texture_.prefetch(projection_.weights[static_cast<std::size_t>(seen[0])].index);
 }
 
 cv::Vec3b Layer::pixelColor(const cv::Vec3b& behind, int u, int v) const {
   const VisibilityBuffer& samples = color_samples_;
-  const int* above = samples.triangle[2 * v] + 2 * u;
-  const int* below = samples.triangle[2 * v + 1] + 2 * u;
+  const int* above = &samples.triangle(2 * v, 2 * u);
+  const int* below = &samples.triangle(2 * v + 1, 2 * u);
   const int seen[4] = {above[0], above[1], below[0], below[1]};
   if (seen[1] == seen[0] && seen[2] == seen[0] && seen[3] == seen[0]) {
     if (seen[0] < 0) return behind;

@@ -30,7 +30,7 @@ MeshTopology MeshBuilder::topology() const {
   topology.triangles.resize(static_cast<Eigen::Index>(triangle_parents_.size()), 3);
   topology.texture_coordinates.setZero(textured ? static_cast<Eigen::Index>(corners_.size()) : 0, 3);
   for (std::size_t c = 0; c < corners_.size(); ++c) {
-    const int parent = triangle_parents_[c / 3];
+    const Eigen::Index parent = triangle_parents_[c / 3];
     topology.triangles(static_cast<Eigen::Index>(c / 3), static_cast<Eigen::Index>(c % 3)) =
         corners_[c].vertex;
     if (!textured || parent < 0) continue;

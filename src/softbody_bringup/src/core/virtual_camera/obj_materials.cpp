@@ -37,7 +37,7 @@ void visitLines(const fs::path& path, const Visit& visit) {
 
 /// A file named in another one, if it is there.
 fs::path namedFile(const Line& line, const fs::path& folder) {
-  const fs::path path = folder / line.rest;
+  fs::path path = folder / line.rest;
   if (!fs::is_regular_file(path)) {
     throw std::invalid_argument(fmt::format("{}: {} names '{}', but there is no file {}", line.place,
                                             line.keyword, line.rest, path.string()));

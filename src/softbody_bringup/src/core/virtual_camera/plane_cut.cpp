@@ -149,6 +149,7 @@ class Cutter {
     while (!next_.empty()) {
       const std::vector<int> outline = takeOutline();
       std::vector<Eigen::Vector2d> polygon;
+      polygon.reserve(outline.size());
       for (const int vertex : outline) polygon.push_back(onPlane(vertex));
       for (const auto& [a, b, c] : triangulatePolygon(polygon)) fill(outline[a], outline[b], outline[c]);
     }

@@ -68,8 +68,7 @@ Eigen::Isometry3d toolPose(const std::vector<Stroke>& strokes, const Tool& tool,
   const Stroke& stroke = strokes[i];
   const double time = t - stroke.begin_s;
   const double depth = smoothStep(time / kDown_s) - smoothStep((time - kDown_s) / kUp_s);
-  const Eigen::Isometry3d pose =
-      poseAt(stroke, tool, (1.0 - depth) * raised(stroke) + depth * lowered(stroke));
+  Eigen::Isometry3d pose = poseAt(stroke, tool, (1.0 - depth) * raised(stroke) + depth * lowered(stroke));
   if (i + 1 == strokes.size() && time > kDown_s + kUp_s) {
     const double gone = smoothStep((time - kDown_s - kUp_s) / kLeave_s);
     return Eigen::Translation3d(gone * kWay, 0.0, 0.0) * pose;

@@ -12,6 +12,11 @@ const Picture& pictureOf(const UvTexture& texture, int triangle) {
   return texture.pictures[static_cast<std::size_t>(texture.picture[static_cast<std::size_t>(triangle)])];
 }
 
+/// Texture coordinates of a triangle's corners, one a row.
+Eigen::Matrix3d cornersOf(const UvTexture& texture, Eigen::Index triangle) {
+  return texture.coordinates.middleRows<3>(3 * triangle);
+}
+
 /// A pixel's index on an image that repeats.
 int wrapped(double place, int size) {
   const double turns = std::floor(place / size);
@@ -36,7 +41,7 @@ int pictureLevel(const UvTexture& texture, const TriangleMesh& rest, int triangl
   const auto doubleArea = [](const Eigen::Matrix3d& corners) {
     return (corners.row(1) - corners.row(0)).cross(corners.row(2) - corners.row(0)).norm();
   };
-  const Eigen::Matrix3d pixels = texture.coordinates.middleRows<3>(3 * triangle) * size.asDiagonal();
+  const Eigen::Matrix3d pixels = cornersOf(texture, triangle) * size.asDiagonal();
   const Eigen::Matrix3d places = rest.vertices(rest.triangles.row(triangle).transpose(), Eigen::all);
   const double pixels_a_texel = texel_m * std::sqrt(doubleArea(pixels) / std::max(doubleArea(places), 1e-18));
   const int level = static_cast<int>(std::lround(std::log2(std::max(pixels_a_texel, 1.0))));
@@ -45,8 +50,7 @@ int pictureLevel(const UvTexture& texture, const TriangleMesh& rest, int triangl
 
 Eigen::Vector3f pictureColor(const UvTexture& texture, int triangle, int level, double w1, double w2) {
   const cv::Mat3b& image = pictureOf(texture, triangle)[static_cast<std::size_t>(level)];
-  const Eigen::RowVector3d uv =
-      Eigen::RowVector3d(1.0 - w1 - w2, w1, w2) * texture.coordinates.middleRows<3>(3 * triangle);
+  const Eigen::RowVector3d uv = Eigen::RowVector3d(1.0 - w1 - w2, w1, w2) * cornersOf(texture, triangle);
   const double x = uv.x() * image.cols - 0.5, y = (1.0 - uv.y()) * image.rows - 0.5;
   const double s = x - std::floor(x), t = y - std::floor(y);
   const int left = wrapped(std::floor(x), image.cols), right = wrapped(std::floor(x) + 1.0, image.cols);
