@@ -45,11 +45,9 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
       if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
       ++measured;
       const float difference = depth[i] - rendered[i] - nearer_by;
-      if (difference < -gate) {
-        ++nearer;
-      } else if (difference > gate) {
+      if (difference > gate) {
         ++farther;
-      } else if (!colors.belongs(color[i])) {
+      } else if (difference < -gate || !colors.belongs(color[i])) {
         ++nearer;
       } else {
         ++agreeing;

@@ -151,6 +151,7 @@ std::vector<ObjectCandidate> findObjectCandidates(const RgbdFrame& frame, const 
   std::stable_sort(rated.begin(), rated.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<ObjectCandidate> candidates;
+  candidates.reserve(rated.size());
   for (const auto& [distance, candidate] : rated) candidates.push_back(candidate);
   return candidates;
 }

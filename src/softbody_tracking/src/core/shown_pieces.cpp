@@ -73,6 +73,7 @@ std::vector<Shows> shownPieces(const SurfaceSamples& samples, const std::vector<
     if (match.inlier) evidence[match.association.body].addFeature(match.association);
   }
   std::vector<Shows> shown;
+  shown.reserve(pieces.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) shown.push_back(judge(evidence[p], pieces[p]));
   return shown;
 }

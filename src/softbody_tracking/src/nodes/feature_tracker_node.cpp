@@ -25,7 +25,7 @@ constexpr double kSilence_s = 2.0;
 
 }  // namespace
 
-FeatureTrackerNode::FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
+FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle)
     : handle_(handle), synchronizer_(kSyncQueue), diagnostics_(handle, private_handle) {
   Parameters parameters = readParameters(private_handle);
   body_frame_ = parameters.text("body_frame", "softbody");

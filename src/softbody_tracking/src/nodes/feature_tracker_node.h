@@ -29,7 +29,7 @@ namespace softbody {
 class FeatureTrackerNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
-  FeatureTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+  FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle);
 
  private:
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);

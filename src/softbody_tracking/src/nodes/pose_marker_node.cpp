@@ -20,7 +20,7 @@ bool isGiven(const geometry_msgs::Pose& pose) {
 
 }  // namespace
 
-PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
+PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle)
     : server_(handle.resolveName(kTopics)) {
   Parameters parameters = readParameters(private_handle);
   frame_ = parameters.text("frame", "camera_color_optical_frame");

@@ -15,7 +15,7 @@ namespace softbody {
 class PoseMarkerNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
-  PoseMarkerNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+  PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle);
 
  private:
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);

@@ -23,7 +23,7 @@ constexpr double kSilence_s = 2.0;
 
 }  // namespace
 
-ToolTrackerNode::ToolTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
+ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle),
       synchronizer_(kSyncQueue),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {

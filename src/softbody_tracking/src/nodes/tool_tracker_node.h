@@ -22,7 +22,7 @@ namespace softbody {
 class ToolTrackerNode {
  public:
   /// @throw std::invalid_argument for a bad parameter or tool YAML.
-  ToolTrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+  ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
