@@ -92,6 +92,7 @@ std::vector<MaterialPoint> bindSurface(const MeshTopology& surface, const TetTop
   for (const auto& point : inside.rowwise()) tets.push_back(locator.locate(point).tet);
   keepToPieces(surface, volume, inside, &tets);
   std::vector<MaterialPoint> places;
+  places.reserve(tets.size());
   for (std::size_t v = 0; v < tets.size(); ++v) {
     places.push_back({tets[v], barycentricCoordinates(surface.rest_vertices.row(static_cast<Eigen::Index>(v)),
                                                       volume.rest_vertices, volume.tets.row(tets[v]))});

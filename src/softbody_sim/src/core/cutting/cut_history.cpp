@@ -63,7 +63,7 @@ TetEdit unchanged(const TetTopology& topology, const std::vector<bool>& cut) {
 
 }  // namespace
 
-CutHistory::CutHistory(TetTopology uncut, const SubdivisionSettings& settings) : settings_(settings) {
+CutHistory::CutHistory(const TetTopology& uncut, const SubdivisionSettings& settings) : settings_(settings) {
   const std::vector<bool> none(static_cast<std::size_t>(uncut.surface.rows()), false);
   versions_.push_back(std::make_shared<TetEdit>(unchanged(uncut, none)));
 }

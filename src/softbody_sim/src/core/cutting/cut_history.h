@@ -14,7 +14,7 @@ namespace softbody {
 /// only rises.
 class CutHistory {
  public:
-  explicit CutHistory(TetTopology uncut, const SubdivisionSettings& settings = {});
+  explicit CutHistory(const TetTopology& uncut, const SubdivisionSettings& settings = {});
 
   const TetTopology& topology() const { return versions_[at_]->topology; }
   /// Per triangle of the topology's surface: was inside the uncut body.

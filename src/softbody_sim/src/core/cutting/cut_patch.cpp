@@ -31,15 +31,16 @@ CutPatch ruledPatch(const Points& before, const Points& now) {
         now.rows()));
   }
   CutPatch patch;
-  patch.vertices.resize(2 * count, 3);
+  patch.vertices.resize(before.rows() + now.rows(), 3);
   patch.vertices << before, now;
-  patch.triangles.resize(2 * (count - 1), 3);
+  patch.triangles.resize(2 * (before.rows() - 1), 3);
   for (int k = 0; k + 1 < count; ++k) {
     const Eigen::Vector4i q(k, k + 1, count + k + 1, count + k);
+    auto halves = patch.triangles.middleRows<2>(2 * static_cast<Eigen::Index>(k));
     if (splitAlongFirstDiagonal(patch.vertices, q)) {
-      patch.triangles.middleRows<2>(2 * k) << q[0], q[1], q[2], q[0], q[2], q[3];
+      halves << q[0], q[1], q[2], q[0], q[2], q[3];
     } else {
-      patch.triangles.middleRows<2>(2 * k) << q[0], q[1], q[3], q[1], q[2], q[3];
+      halves << q[0], q[1], q[3], q[1], q[2], q[3];
     }
   }
   return patch;

@@ -110,8 +110,8 @@ bool bendEdgeToApex(int half_edge, double along, SplitSurface* surface) {
     auto& texture = surface->texture;
     const Eigen::Vector2d at_a = texture[g1], at_b = texture[g], at_opposite = texture[g2];
     const Eigen::Vector2d at_apex = (1.0 - along) * at_a + along * at_b;
-    texture[3 * f] = at_a, texture[3 * f + 1] = at_opposite, texture[3 * f + 2] = at_apex;
-    texture[3 * e] = at_b, texture[3 * e + 1] = at_apex, texture[3 * e + 2] = at_opposite;
+    texture[slots[0]] = at_a, texture[slots[0] + 1] = at_opposite, texture[slots[1]] = at_apex;
+    texture[slots[2]] = at_b, texture[slots[2] + 1] = at_apex, texture[slots[3]] = at_opposite;
   }
   surface->triangles[f] = {a, opposite, apex};
   surface->triangles[e] = {b, apex, opposite};

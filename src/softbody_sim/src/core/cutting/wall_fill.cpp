@@ -123,6 +123,7 @@ void Filling::triangulate(int facet) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<Eigen::Vector2d> points;
+  points.reserve(numbers.size());
   for (const int p : numbers) points.push_back(facets_.frames[facet].project(fill_.points[p]));
   std::vector<DirectedEdge> constraints;
   for (const DirectedEdge& edge : part.constraints) {
