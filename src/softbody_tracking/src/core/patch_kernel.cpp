@@ -106,7 +106,8 @@ struct Sum {
   HWY_INLINE void add(int part, hn::Vec<Floats> v) { parts[part] = hn::Add(parts[part], v); }
   HWY_INLINE float total() const {
     alignas(64) float lanes[kLanes];
-    for (int part = 0; part < kParts; ++part) hn::Store(parts[part], Floats(), lanes + part * kWidth);
+    for (int part = 0, first = 0; part < kParts; ++part, first += kWidth)
+      hn::Store(parts[part], Floats(), lanes + first);
     // The same pairs are added whatever the width.
     const hn::CappedTag<float, 4> few;
     constexpr int kFew = static_cast<int>(hn::MaxLanes(few));
@@ -127,7 +128,7 @@ void compare(const float* samples, const float* values, const float* dx, const f
   const Floats df;
   Sum all;
   for (int i = 0; i < PatchSamples::kPadded; i += kLanes) {
-    for (int part = 0; part < kParts; ++part) all.add(part, hn::Load(df, samples + i + part * kWidth));
+    for (int part = 0; part < kParts; ++part) all.add(part, hn::Load(df, samples + (i + part * kWidth)));
   }
   const auto mean = hn::Set(df, all.total() / static_cast<float>(kPatchSize));
   Sum square, product, along_x, along_y;

@@ -22,9 +22,9 @@ constexpr double kStartsAgain_s = 1.0;  // a smaller jump back is a late image
 
 }  // namespace
 
-CameraIngestNode::CameraIngestNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
-    : handle_(std::move(handle)),
-      private_handle_(std::move(private_handle)),
+CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      private_handle_(private_handle),
       start_(ros::WallTime::now()),
       last_diagnosis_(start_),
       transport_(handle_),

@@ -27,7 +27,7 @@ struct CameraIngestNodeConfig {
 class CameraIngestNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
-  CameraIngestNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+  CameraIngestNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
   void readConfig(Parameters& parameters);
