@@ -71,7 +71,7 @@ TetMesh cachedTetMesh(const std::string& name, const std::function<TetMesh()>& m
   if (file) {
     if (std::optional<TetMesh> kept = readKept(*file, warnings)) return *kept;
   }
-  const TetMesh made = make();
+  TetMesh made = make();
   if (file) keep(*file, made, warnings);
   return made;
 }

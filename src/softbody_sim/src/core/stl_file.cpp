@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 #include "mesh_formats.h"
@@ -54,8 +55,8 @@ SurfaceFile readBinary(const std::string& path, const std::string& bytes) {
   for (std::size_t f = 0; f < count; ++f) {
     float numbers[12];  // the normal, then three corners
     std::memcpy(numbers, bytes.data() + kHeaderBytes + f * kFacetBytes, sizeof(numbers));
-    for (int k = 1; k <= 3; ++k) {
-      corners.emplace_back(numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]);
+    for (const float* corner = numbers + 3; corner != std::end(numbers); corner += 3) {
+      corners.emplace_back(corner[0], corner[1], corner[2]);
       if (!corners.back().allFinite()) {
         throw std::invalid_argument(
             fmt::format("{}: facet {}: a coordinate is not a finite number", path, f));

@@ -92,7 +92,7 @@ TetMesh meshInside(const TriangleMesh& surface, double edge_length_m, bool keep_
   const std::optional<std::string> bytes =
       outputOfChild([&] { return toBytes(fill(surface, volume, keep_surface)); });
   if (!bytes) throw std::runtime_error("TetGen cannot fill the surface; does it touch or cross itself?");
-  const TetMesh mesh = fromBytes(*bytes);
+  TetMesh mesh = fromBytes(*bytes);
   if (mesh.tets.rows() == 0) throw std::runtime_error("no tet fits into the surface");
   return mesh;
 }

@@ -59,7 +59,7 @@ Points stacked(const Points& a, const Points& b) {
 TriangleMesh fitAround(const TriangleMesh& hull, const TriangleMesh& wrap, const Points& visual) {
   Points enclosed = wrap.vertices;
   for (int round = 0; round < kFittingRounds; ++round) {
-    const TriangleMesh cage = fitCage(hull, enclosed);
+    TriangleMesh cage = fitCage(hull, enclosed);
     const std::vector<Eigen::Index> beyond = pointsBeyond(visual, cage);
     if (beyond.empty()) return cage;
     enclosed = stacked(enclosed, visual(beyond, Eigen::all));

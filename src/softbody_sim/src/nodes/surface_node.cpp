@@ -36,7 +36,7 @@ bool sameTets(const TetTopology& volume, const softbody_msgs::TetTopology& messa
 
 }  // namespace
 
-SurfaceNode::SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node) : cut_display_(node) {
+SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node) : cut_display_(node) {
   Parameters parameters = readParameters(private_node);
   const std::string object = parameters.requiredText("object");
   body_frame_ = parameters.text("body_frame", "softbody");

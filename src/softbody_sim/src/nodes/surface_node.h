@@ -21,7 +21,7 @@ namespace softbody {
 class SurfaceNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
-  SurfaceNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node);
 
  private:
   /// The visual mesh bound to one topology of the volume.

@@ -84,7 +84,7 @@ RigidMotions RigidAlignment::align(const RgbdFrame& frame, const PredictedSurfac
         depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);
     gather(seen, motions);
     const std::vector<Shows> shown = shownPieces(samples, seen.associations, matches, pieces);
-    const RigidMotions before = motions;
+    RigidMotions before = motions;
     for (std::size_t body = 0; body < motions.size(); ++body) {
       if (shown[body] == Shows::kHardly || static_cast<int>(of_body_[body].size()) < kFewestAssociations)
         continue;

@@ -18,7 +18,7 @@ constexpr double kLargest_m = 2.0;  ///< what is larger was given in mm
 constexpr double kFlatness = 0.02;  ///< of the blade's extent that a corner may lie off its plane
 
 std::string readDictionary(YamlMapReader& tool) {
-  const std::string name = tool.text("dictionary");
+  std::string name = tool.text("dictionary");
   const auto names = dictionaryNames();
   if (std::find(names.begin(), names.end(), name) != names.end()) return name;
   if (name.find('.') == std::string::npos) {

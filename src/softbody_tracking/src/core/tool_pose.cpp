@@ -130,6 +130,7 @@ std::vector<Eigen::Isometry3d> planarPoses(const MarkerMeasurement& measurement,
   const auto h = static_cast<float>(0.5 * measurement.marker->size_m);
   const std::vector<cv::Point3f> square{{-h, h, 0}, {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};
   std::vector<cv::Point2f> pixels;
+  pixels.reserve(4);
   for (int k = 0; k < 4; ++k)
     pixels.emplace_back(static_cast<float>(measurement.corners(0, k)),
                         static_cast<float>(measurement.corners(1, k)));

@@ -110,7 +110,7 @@ struct ToolTracker::Implementation {
     if (!region.empty()) parts.emplace_back();
     for (const cv::Rect& part : parts) {
       measurements = measure(gray, frame, part);
-      const auto hypotheses = toolHypotheses(measurements, frame.camera, predicted, config);
+      auto hypotheses = toolHypotheses(measurements, frame.camera, predicted, config);
       if (!hypotheses.empty()) return hypotheses;
     }
     return {};
@@ -189,7 +189,7 @@ std::optional<ToolObservation> ToolTracker::track(const RgbdFrame& frame, StageT
   if (frame.stamp < self.last_stamp) reset();
   self.last_stamp = frame.stamp;
   self.forgetOldMotion(frame.stamp);
-  const std::optional<ToolObservation> observation = self.observe(frame);
+  std::optional<ToolObservation> observation = self.observe(frame);
   if (!observation) return self.bridge(frame);
   self.learnMotion(*observation, frame);
   return observation;
