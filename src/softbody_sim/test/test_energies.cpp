@@ -204,6 +204,22 @@ TEST_P(Energies, UniformStrainHasTheEnergyOfTheWholeBodyAndNoForceInside) {
   EXPECT_EQ(inside, 2);
 }
 
+/// Two pieces of a cut body: what each does is nothing to the other.
+TEST_P(Energies, PiecesTurnFreelyAgainstEachOther) {
+  const Eigen::Index count = topology_.rest_vertices.rows();
+  Points rest(2 * count, 3);
+  rest << topology_.rest_vertices, topology_.rest_vertices;  // face to face, or one in the other: no matter
+  Tets tets(2 * topology_.tets.rows(), 4);
+  tets << topology_.tets, topology_.tets.array() + static_cast<int>(count);
+  const CorotatedElasticity both(rest, tets, kLame, GetParam());
+  Points x = rest, gradient = Points::Zero(2 * count, 3);
+  x.bottomRows(count) = transformed(topology_.rest_vertices, testing::somePose());
+  EXPECT_NEAR(both.addTo(x, &gradient), 0.0, 1e-18);
+  x.topRows(count) = deformed_;
+  const double one = valueOf(elastic_, deformed_);
+  EXPECT_NEAR(both.addTo(x, &gradient), one, 1e-12 * one);
+}
+
 INSTANTIATE_TEST_SUITE_P(Smoothing, Energies, ::testing::Values(0.0, 0.7));
 
 }  // namespace

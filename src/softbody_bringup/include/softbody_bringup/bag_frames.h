@@ -12,7 +12,7 @@
 namespace softbody {
 
 struct BagFramesConfig {
-  std::string camera = "/camera";           ///< namespace of the contract's camera topics
+  std::string camera = "/camera";           ///< namespace of the camera's topics
   Nanoseconds sync_tolerance = 15'000'000;  ///< between colour and depth
 };
 

@@ -42,7 +42,7 @@ HWY_INLINE double findStresses(const PatchView<T>& patches, T mu, T lambda, cons
                                T* stresses) {
   const hn::CappedTag<T, 16> d;
   std::fill_n(stresses, 12 * patches.padded_count, T{0});
-  auto sum = hn::Zero(d);
+  double energy = 0.0;
   for (std::size_t v = 0; v < patches.padded_count; v += hn::Lanes(d)) {
     const int* columns = patches.columns + v;
     Deformation<hn::Vec<decltype(d)>> one[1] = {deformation(d, loadColumns(d, deformations, columns))};
@@ -51,9 +51,9 @@ HWY_INLINE double findStresses(const PatchView<T>& patches, T mu, T lambda, cons
     addRows(d, response.stress.c0, stresses, columns);
     addRows(d, response.stress.c1, stresses + 4, columns);
     addRows(d, response.stress.c2, stresses + 8, columns);
-    sum = hn::Add(sum, response.energy);
+    energy += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, response.energy)));
   }
-  return static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sum)));
+  return energy;
 }
 
 template <typename T>

@@ -44,8 +44,9 @@ void addMaterialOptions(CLI::App& app, Options& o) {
   app.add_option("--elasticity", o.elasticity, "neo_hookean needs the solver fem")
       ->check(CLI::IsMember({"corotated", "neo_hookean"}))
       ->capture_default_str();
-  app.add_option("--strain-smoothing", o.strain_smoothing,
-                 "share of the energy with strains smoothed around vertices; solver pd only")
+  app.add_option(
+         "--strain-smoothing", o.strain_smoothing,
+         "share of the energy with strains smoothed around vertices; needs the solver pd; the graph's is 0.7")
       ->check(CLI::Range(0.0, 0.95))
       ->capture_default_str();
 }
@@ -105,6 +106,8 @@ double toNumber(const std::string& text) {
 void requireUsable(const Options& o) {
   try {
     requireConsistent(configOf(o));
+    if (o.solver == "fem" && o.strain_smoothing > 0.0)
+      throw std::invalid_argument("--strain-smoothing needs --solver pd");
     for (const std::string& region : o.pins) requireRegion(region);
     if (!o.probe.empty()) requireRegion(o.probe);
     for (const std::vector<std::string>& load : o.region_loads) {

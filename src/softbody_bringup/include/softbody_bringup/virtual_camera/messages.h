@@ -22,7 +22,7 @@ constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
 constexpr char kTruthCutTopic[] = "ground_truth/cut";
 
-/// One frame as the contract's messages, all with one stamp.
+/// One frame as the camera's messages, all with one stamp.
 struct CaptureMessages {
   sensor_msgs::ImagePtr color, depth;  ///< rgb8; 16UC1 [mm], registered to colour
   sensor_msgs::CameraInfoPtr info;     ///< of both

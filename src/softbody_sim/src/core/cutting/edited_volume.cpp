@@ -57,7 +57,7 @@ std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string
   return std::nullopt;
 }
 
-EditedVolume::EditedVolume(TetTopology uncut) : history_(std::move(uncut)) {}
+EditedVolume::EditedVolume(const TetTopology& uncut) : history_(uncut) {}
 
 std::optional<TetEdit> EditedVolume::apply(const Cut& cut, std::string* reason) {
   std::shared_ptr<const TetEdit> before = history_.version();

@@ -18,7 +18,7 @@ std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string
 /// The tets of a body that is being cut, and the way from its recent revisions to the present one.
 class EditedVolume {
  public:
-  explicit EditedVolume(TetTopology uncut);
+  explicit EditedVolume(const TetTopology& uncut);
 
   const TetTopology& topology() const { return history_.topology(); }
   const CutHistory& history() const { return history_; }
