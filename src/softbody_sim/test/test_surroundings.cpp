@@ -137,8 +137,8 @@ TEST_P(UnderBothSolvers, AToolAtOneMetreASecondDoesNotGetThrough) {
       simulator.step({}, (frame + 1) * kFrame, surroundings);
       EXPECT_LT(deepest(surroundings.obstacles[0], simulator.state().vertices), 0.002) << frame;
     }
-    // The free body is pushed ahead, and is before the tool's axis; smoothed, and so softer in bending, it tips
-    // off the box's edge, its middle at most its thickness behind, of the 0.4 m that the tool has gone.
+    // The free body is pushed ahead, and is before the tool's axis; smoothed, and so softer in bending, it
+    // tips off the box's edge, its middle at most its thickness behind, of the 0.4 m that the tool has gone.
     const double behind = GetParam() == SolverKind::kFem ? 0.0 : 0.03;
     EXPECT_LT(simulator.state().vertices.col(2).mean(), 0.08 - 0.033 * 12 + behind);
   }
