@@ -55,9 +55,9 @@ TEST(StatusOf, IsLostWhereNothingAgrees) {
 
 using Names = std::vector<std::set<std::uint32_t>>;
 
-/// Of three pieces, after so many frames.
+/// Of three pieces, after so many frames. @param reason that each frame has already.
 TrackingStatus told(const std::vector<Shows>& shown, const std::vector<bool>& in_view, int frames,
-                    TrackingState state = TrackingState::kTracking) {
+                    TrackingState state = TrackingState::kTracking, const std::string& reason = {}) {
   Observation seen;
   seen.shown = shown;
   seen.in_view = in_view;
@@ -66,6 +66,7 @@ TrackingStatus told(const std::vector<Shows>& shown, const std::vector<bool>& in
   for (int i = 0; i < frames; ++i) {
     status = {};
     status.state = state;
+    status.reason = reason;
     held.tell(seen, Names{{2}, {0, 3}, {1}}, &status);
   }
   return status;
@@ -89,6 +90,15 @@ TEST(HeldPieces, AreOnlyInferredWhereTheyCannotBeSeen) {
   EXPECT_NE(status.reason.find("piece 1 of 4"), std::string::npos) << status.reason;
   EXPECT_EQ(told({kHardly, kWell, kHardly}, {true, true, false}, 20).state, TrackingState::kDegraded)
       << "another is to be seen";
+}
+
+TEST(HeldPieces, AreInferredBesideWhatIsSaidAlready) {
+  const auto reason = [](const std::vector<Shows>& shown, const std::string& before) {
+    return told(shown, {true, true, false}, 20, TrackingState::kTracking, before).reason;
+  };
+  const std::string alike = "tracked in one of 4 poses that look alike";
+  EXPECT_EQ(reason({kWell, kWell, kWell}, alike), alike);
+  EXPECT_EQ(reason({kWell, kWell, kHardly}, alike), alike + "; " + reason({kWell, kWell, kHardly}, ""));
 }
 
 TEST(HeldPieces, DoNotChangeWhatIsWorse) {

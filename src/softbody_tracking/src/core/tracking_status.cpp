@@ -66,8 +66,9 @@ void HeldPieces::tell(const Observation& seen, const std::vector<std::set<std::u
   if (!missing.empty()) {
     status->state = TrackingState::kDegraded;
     status->reason = "too little shows of " + piecesText(missing, all.size()) + ": held where it was";
-  } else if (!hidden.empty() && status->reason.empty()) {
-    status->reason = piecesText(hidden, all.size()) + " out of view: only inferred";
+  } else if (!hidden.empty()) {
+    if (!status->reason.empty()) status->reason += "; ";
+    status->reason += piecesText(hidden, all.size()) + " out of view: only inferred";
   }
 }
 

@@ -18,8 +18,8 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
 /// be followed, does not: where it is is inferred, like the rest of what is hidden.
 class HeldPieces {
  public:
-  /// @param names of each piece: its parts' numbers in the visual mesh. @param status is degraded, or given
-  /// a reason if it has none.
+  /// @param names of each piece: its parts' numbers in the visual mesh. @param status is degraded, or its
+  /// reason says too what is inferred.
   void tell(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
             TrackingStatus* status);
 
