@@ -92,6 +92,29 @@ TEST(HeldPieces, AreOnlyInferredWhereTheyCannotBeSeen) {
       << "another is to be seen";
 }
 
+/// A crumb in plain view is not said to be out of it.
+TEST(HeldPieces, AreInferredOutOfViewOrTooSmall) {
+  for (const std::size_t blocks : {0u, 11u}) {
+    SurfaceSamples samples;
+    samples.samples.resize(100 + blocks);
+    for (std::size_t i = 100; i < samples.samples.size(); ++i) samples.samples[i].body = 1;
+    Observation seen;
+    seen.shown = {kWell, kHardly};
+    seen.in_view = predictedPieces(samples, 2);
+    HeldPieces held;
+    TrackingStatus status;
+    status.state = TrackingState::kTracking;
+    for (int i = 0; i < 20; ++i) {
+      status.reason.clear();
+      held.tell(seen, Names{{0}, {1}}, &status);
+    }
+    EXPECT_EQ(status.state, TrackingState::kTracking);
+    EXPECT_EQ(status.reason,
+              "piece 1 of 2 (triangle_bodies, from 0) out of view or too small to be followed: only inferred")
+        << blocks << " blocks";
+  }
+}
+
 TEST(HeldPieces, AreInferredBesideWhatIsSaidAlready) {
   const auto reason = [](const std::vector<Shows>& shown, const std::string& before) {
     return told(shown, {true, true, false}, 20, TrackingState::kTracking, before).reason;
