@@ -150,6 +150,7 @@ TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
   };
   EXPECT_EQ(outlines(false, false), 0u);
   EXPECT_EQ(outlines(true, true), 0u);
+  EXPECT_GT(outlines(true, false), 10u);
 }
 
 TEST_F(CutObserver, NamesPiecesAsTheVisualMeshDoes) {
