@@ -137,6 +137,25 @@ TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceThatHardlyShows) {
   }
 }
 
+/// The right piece comes back beyond the window of alignment, and some of the left one's texture is lost: of
+/// all features few are found, of the left one's enough.
+TEST_F(CutObserver, SearchesWidelyForTheFeaturesOfPiecesThatShowedOnly) {
+  const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
+  RgbdFrame covered = frame_;
+  covered.depth = frame_.depth.clone();
+  covered.depth(cv::Rect(middle - 20, 0, 640 - middle + 20, 480)).setTo(0.3f);
+  RgbdFrame back = renderFrame(box_, parted(0.035), 2);
+  back.color(cv::Rect(0, 0, middle - 80, 480)).setTo(cv::Vec3b(35, 90, 140));
+  const auto foundOnRight = [&](const RgbdFrame& before) {
+    FrameObserver observer({}, box_.volume, box_.surface);
+    observer.admit(frame_, observer.observe(frame_, rest_));
+    observer.observe(before, rest_);
+    return matchesOn({false, true}, observer.observe(back, rest_).matches);
+  };
+  EXPECT_GT(foundOnRight(frame_), 50);
+  EXPECT_LT(foundOnRight(covered), 10) << "it was held";
+}
+
 TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
   const Points beside = transformed(rest_, Eigen::Isometry3d(Eigen::Translation3d(0.012, 0.0, 0.0)));
   const auto outlines = [&](bool use_depth, bool knn) {
