@@ -235,6 +235,28 @@ TEST(BodyTracker, IgnoresStatesThatDoNotAnswerItsTargets) {
   EXPECT_FALSE(resetsWith({0, 1000, rest, {}}));
 }
 
+TEST(BodyTracker, RefusesVolumesWithoutTetsOrVertices) {
+  const BoxBody box = makeBox();
+  const auto refusal = [&](const TetTopology& volume) -> std::string {
+    BodyTracker tracker{TrackerConfig()};
+    try {
+      tracker.setTopologies(volume, box.surface);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_FALSE(tracker.ready());
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal(box.volume), "");
+  EXPECT_EQ(refusal({}), "the volume's topology has no tet");
+  TetTopology volume = box.volume;
+  volume.rest_vertices.resize(0, 3);
+  EXPECT_EQ(refusal(volume), "a tet of the volume's topology names vertex 0 of 0");
+  volume = box.volume;
+  volume.tets(7, 2) = -1;
+  EXPECT_EQ(refusal(volume), "a tet of the volume's topology names vertex -1 of 198");
+}
+
 TEST(BodyTracker, RefusesImagesOfAnotherSizeThanTheCameras) {
   TrackedBox tracked;
   const Points rest = posedBox(tracked.box());

@@ -25,6 +25,17 @@ std::string sizeText(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
+void requireTets(const TetTopology& volume) {
+  if (volume.tets.rows() == 0) throw std::invalid_argument("the volume's topology has no tet");
+  const Eigen::Index count = volume.rest_vertices.rows();
+  for (const int vertex : {volume.tets.minCoeff(), volume.tets.maxCoeff()}) {
+    if (vertex < 0 || vertex >= count) {
+      throw std::invalid_argument(
+          fmt::format("a tet of the volume's topology names vertex {} of {}", vertex, count));
+    }
+  }
+}
+
 Target toTarget(const Association& a, const Eigen::Isometry3d& T_fixed_camera) {
   return {a.kind, a.place, T_fixed_camera * a.measured, T_fixed_camera.linear() * a.normal, a.weight};
 }
@@ -84,7 +95,7 @@ BodyTracker::BodyTracker(const TrackerConfig& config)
 BodyTracker::~BodyTracker() = default;
 
 void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
-  if (volume.tets.rows() == 0) throw std::invalid_argument("the volume's topology has no tet");
+  requireTets(volume);
   Implementation& self = *implementation_;
   const bool edited =
       self.observer != nullptr && volume.revision > self.observer->surface().volume().revision;

@@ -1,7 +1,6 @@
 #include "predicted_surface.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 
 #include "softbody_common/surface_binding.h"
 #include "softbody_common/tet_geometry.h"
@@ -15,11 +14,9 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
       faces_(isClosed(surface.triangles) ? Faces::kFront : Faces::kAll),
       tet_bodies_(tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
       vertex_bodies_(vertexBodies(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
+      pieces_(verticesOfBodies(volume.tets, volume.rest_vertices.rows())),
       at_cut_(static_cast<std::size_t>(surface.rest_vertices.rows()), false),
       binding_(bindSurface(surface, volume)) {
-  pieces_.resize(1 + *std::max_element(vertex_bodies_.begin(), vertex_bodies_.end()));
-  for (std::size_t v = 0; v < vertex_bodies_.size(); ++v)
-    pieces_[vertex_bodies_[v]].push_back(static_cast<int>(v));
   surface_bodies_.resize(pieces_.size());
   for (std::size_t t = 0; t < surface.bodies.size(); ++t)
     surface_bodies_[tetBodyOf(static_cast<int>(t))].insert(surface.bodies[t]);
