@@ -68,7 +68,8 @@ void HeldPieces::tell(const Observation& seen, const std::vector<std::set<std::u
     status->reason = "too little shows of " + piecesText(missing, all.size()) + ": held where it was";
   } else if (!hidden.empty()) {
     if (!status->reason.empty()) status->reason += "; ";
-    status->reason += piecesText(hidden, all.size()) + " out of view or too small to be followed: only inferred";
+    status->reason +=
+        piecesText(hidden, all.size()) + " out of view or too small to be followed: only inferred";
   }
 }
 
