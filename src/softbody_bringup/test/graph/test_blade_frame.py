@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """A blade in another frame than the camera's is found by tf, without an output_frame too: nothing is measured on it; where tf
-does not know its frame, that is said and the body is measured as if there were none."""
+does not know its frame, that is said and the body is measured as if there were none; where tf comes later than the blade, the
+blade counts from then on."""
 import sys
+import time
 import unittest
 
 import numpy as np
@@ -12,28 +14,33 @@ from recorder import Recorder
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo
 from softbody_msgs.msg import Targets
-from tf2_ros import StaticTransformBroadcaster
+from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
-CAMERA, BENCH = "camera_color_optical_frame", "bench"
+CAMERA, BENCH, LATE = "camera_color_optical_frame", "bench", "late"
 ORIGIN, SIGNS = np.array([0.3, -0.2, 0.9]), np.array([-1.0, -1.0, 1.0])  # of the bench: half a turn about z
 FRAMES = 3
 NEAR_M = 0.004
+LATE_S = 0.08  # longer than tf_timeout_s, shorter than a frame
 
 
 class BladeFrame(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__targets=Targets, rosout=Log)
-        cls.broadcaster = StaticTransformBroadcaster()
-        bench = TransformStamped()
-        bench.header.frame_id, bench.child_frame_id = CAMERA, BENCH
-        bench.transform.translation.x, bench.transform.translation.y, bench.transform.translation.z = ORIGIN
-        bench.transform.rotation.z = 1.0
-        cls.broadcaster.sendTransform(bench)
+        cls.broadcaster, cls.late_broadcaster = StaticTransformBroadcaster(), TransformBroadcaster()
+        cls.broadcaster.sendTransform(cls.bench(BENCH))
         cls.publisher = rospy.Publisher("/softbody/tool/blade", PolygonStamped, queue_size=1)
         cls.frame, cls.corners = None, None
         cls.subscriber = rospy.Subscriber("/camera/color/camera_info", CameraInfo, cls.show, queue_size=1)
         cls.middle = cls.targets_of(cls.recorder.wait_for("softbody/targets", 5)[-1]).mean(axis=0)
+
+    @staticmethod
+    def bench(name, stamp=rospy.Time(0)):
+        bench = TransformStamped()
+        bench.header.stamp, bench.header.frame_id, bench.child_frame_id = stamp, CAMERA, name
+        bench.transform.translation.x, bench.transform.translation.y, bench.transform.translation.z = ORIGIN
+        bench.transform.rotation.z = 1.0
+        return bench
 
     @classmethod
     def show(cls, info):
@@ -44,6 +51,9 @@ class BladeFrame(unittest.TestCase):
         blade.header.stamp, blade.header.frame_id = info.header.stamp + rospy.Duration(0.1), cls.frame
         blade.polygon.points = [Point32(*corner) for corner in cls.corners]
         cls.publisher.publish(blade)
+        if cls.frame == LATE:
+            time.sleep(LATE_S)
+            cls.late_broadcaster.sendTransform(cls.bench(LATE, blade.header.stamp))
 
     @staticmethod
     def targets_of(message):
@@ -74,6 +84,10 @@ class BladeFrame(unittest.TestCase):
         self.recorder.wait(lambda seen: any(log.name == "/softbody/feature_tracker" and "nowhere" in log.msg
                                             for log in seen["rosout"]), "a word on the blade's frame")
         self.wait_for_frames(True, "targets as without a blade")
+
+    def test_3_a_frame_of_which_tf_comes_late(self):
+        self.hold_blade(LATE)
+        self.wait_for_frames(False, "frames without a target on the blade of the late frame")
 
 
 if __name__ == "__main__":

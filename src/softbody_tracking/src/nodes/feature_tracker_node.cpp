@@ -22,6 +22,7 @@ namespace {
 constexpr int kSyncQueue = 4;
 constexpr double kSetPosePatience_s = 0.5;
 constexpr double kSilence_s = 2.0;
+constexpr std::size_t kWaitingBlades = 10;
 
 }  // namespace
 
@@ -118,13 +119,27 @@ void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr&
       5.0, "the topologies of revision " << message->revision << " are unusable: " << error.what());
 }
 
-void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {
-  if (camera_frame_.empty()) return;  // it covers nothing yet
-  const Eigen::Isometry3d T_fixed_blade = fixedPose(message->header, output_frame_->timeout_s());
-  tool_mask_.see(toNanoseconds(message->header.stamp),
-                 transformed(fromMessage(message->polygon), T_fixed_blade));
-} catch (const tf2::TransformException& error) {
-  ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << error.what());
+void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {
+  blades_.push_back(message);
+  if (blades_.size() > kWaitingBlades) blades_.pop_front();
+}
+
+/// The newest blade that tf places now. Those after it are tried again with the next frame: waiting here
+/// would hold up all that comes, blade by blade.
+void FeatureTrackerNode::placeBlade() {
+  std::string reason;
+  for (auto next = blades_.rbegin(); next != blades_.rend(); ++next) {
+    const geometry_msgs::PolygonStamped& blade = **next;
+    try {
+      tool_mask_.see(toNanoseconds(blade.header.stamp),
+                     transformed(fromMessage(blade.polygon), fixedPose(blade.header, 0.0)));
+      blades_.erase(blades_.begin(), next.base());
+      return;
+    } catch (const tf2::TransformException& error) {
+      reason = error.what();
+    }
+  }
+  if (!blades_.empty()) ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << reason);
 }
 
 void FeatureTrackerNode::skip(const std_msgs::Header& header, const std::string& why) {
@@ -182,8 +197,8 @@ void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
 void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& mask) try {
   const std_msgs::Header& header = images.color->header;
   camera_frame_ = header.frame_id;
-  // A bag that loops: what the simulator said of later times is void.
-  if (header.stamp < last_stamp_) volume_state_.reset(), newest_state_.reset();
+  // A bag that loops: what was said of later times is void.
+  if (header.stamp < last_stamp_) volume_state_.reset(), newest_state_.reset(), blades_.clear();
   last_stamp_ = header.stamp;
   Eigen::Isometry3d T_output_camera;
   try {
@@ -197,6 +212,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
                   mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask),
                   T_output_camera};
+  placeBlade();
   frame = tool_mask_.without(frame);
   const std::optional<MeshState> state = volume();
   StageTimer timer;

@@ -13,6 +13,7 @@
 #include <softbody_msgs/TetTopology.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,7 @@ class FeatureTrackerNode {
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
   void adoptTopologies();
+  void placeBlade();
   void skip(const std_msgs::Header& header, const std::string& why);
   /// @throw tf2::TransformException.
   Eigen::Isometry3d fixedPose(const std_msgs::Header& header, double patience_s) const;
@@ -61,6 +63,7 @@ class FeatureTrackerNode {
   std::optional<MeshTopology> surface_topology_;                    ///< the newest
   std::uint32_t adopted_revision_ = 0;                              ///< that the tracker works with
   softbody_msgs::MeshState::ConstPtr newest_state_, volume_state_;  ///< of any, and of the adopted revision
+  std::deque<geometry_msgs::PolygonStamped::ConstPtr> blades_;      ///< not placed by tf yet, the newest last
   ToolMask tool_mask_;
   TrackingStatus last_status_;
   ros::Time last_stamp_;

@@ -21,8 +21,6 @@ class OutputFrame {
 
   /// Empty: the camera's own frame.
   const std::string& name() const { return name_; }
-  /// How long frames and what is seen in them wait for tf.
-  double timeout_s() const { return timeout_s_; }
   /// A header's frame in this one at its stamp; identity where this one is the camera's own.
   /// @throw tf2::TransformException where tf does not tell it in time.
   Eigen::Isometry3d poseOf(const std_msgs::Header& header) const;
