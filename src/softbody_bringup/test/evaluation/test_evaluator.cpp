@@ -219,6 +219,7 @@ TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
   options.truth = recording();
   const std::string way = "static_transform_publisher 0 0 0 0 0 0 world camera_color_optical_frame";
   EXPECT_NE(failure(options).find(way), std::string::npos) << failure(options);
+  EXPECT_EQ(failure(options).find(".."), std::string::npos) << failure(options);
   {
     rosbag::Bag bag(options.result, rosbag::bagmode::Append);
     tf2_msgs::TFMessage message;
