@@ -13,7 +13,7 @@
 namespace softbody {
 
 /// All of /tf and /tf_static in bags, whenever it was recorded: nothing is late, as it may be for a live
-/// graph.
+/// graph. What tf2 refuses, not finite or with a quaternion not of unit length, is left out.
 class BagTransforms {
  public:
   /// @param paths of bags; of two transforms of one stamp that of the later bag counts.
@@ -24,6 +24,9 @@ class BagTransforms {
   /// not connected, a stamp before the first or after the last of /tf, or in a gap of more than half a second
   /// in which a frame between the two has moved.
   Eigen::Isometry3d at(const std::string& target, const std::string& source, const ros::Time& stamp) const;
+
+  /// A sentence for each frame of which transforms were left out.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   struct Sample {
@@ -43,6 +46,7 @@ class BagTransforms {
   std::vector<std::string> names_;                                ///< of parents
   std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< /tf_static by child
   std::map<std::string, Samples> moving_;                         ///< /tf by child
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace softbody

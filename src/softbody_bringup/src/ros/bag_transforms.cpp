@@ -7,6 +7,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "softbody_bringup/input_bag.h"
@@ -17,11 +18,21 @@ namespace {
 constexpr double kWholeBag_s = 1e6;
 constexpr double kLongestGap_s =
     0.5;  // an arm that speeds up leaves a straight way of so long by centimetres
+constexpr double kUnitTolerance = 1e-2;  // tf2's own, of the squared length
 constexpr double kMoved_m = 1e-4, kTurned_rad = 1e-4;
 
 /// tf2 knows frames without a leading slash.
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+/// What tf2 refuses, and infinity: told to it, one sample would hide what its neighbours tell.
+bool isUnusable(const geometry_msgs::Transform& transform) {
+  const geometry_msgs::Vector3& t = transform.translation;
+  const geometry_msgs::Quaternion& q = transform.rotation;
+  const Eigen::Vector4d rotation(q.x, q.y, q.z, q.w);
+  return !Eigen::Vector3d(t.x, t.y, t.z).allFinite() ||
+         !(std::abs(rotation.squaredNorm() - 1.0) < kUnitTolerance);
 }
 
 bool differ(const geometry_msgs::Transform& a, const geometry_msgs::Transform& b) {
@@ -54,13 +65,24 @@ BagTransforms::BagTransforms(const std::vector<std::string>& paths) {
 void BagTransforms::addBag(const std::string& path) {
   const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
+  std::map<std::string, std::size_t> refused;
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<tf2_msgs::TFMessage>();
     if (!message) continue;
     const bool is_static = instance.getTopic() == "/tf_static";
     for (const geometry_msgs::TransformStamped& transform : message->transforms) {
-      is_static ? void(fixed_[withoutSlash(transform.child_frame_id)] = transform) : add(transform);
+      const std::string child = withoutSlash(transform.child_frame_id);
+      if (isUnusable(transform.transform)) {
+        ++refused[child];
+      } else {
+        is_static ? void(fixed_[child] = transform) : add(transform);
+      }
     }
+  }
+  for (const auto& [child, count] : refused) {
+    warnings_.push_back(fmt::format(
+        "{}: {} transforms of frame '{}' are left out, not finite or with a quaternion not of unit length",
+        path, count, child));
   }
 }
 

@@ -34,6 +34,7 @@ class Transforms {
   }
 
   const std::string& reason() const { return reason_; }
+  const std::vector<std::string>& warnings() const { return bags_.warnings(); }
 
  private:
   BagTransforms bags_;
@@ -58,6 +59,7 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
         "0 0 0 0 0 0 {0} {2})",
         surface->frame_id, fmt::join(paths, " and "), frame_id, transforms.reason()));
   }
+  surface->notes.insert(surface->notes.end(), transforms.warnings().begin(), transforms.warnings().end());
   if (left_out > 0) {
     surface->notes.push_back(fmt::format(
         "{} states have no transform to '{}' at their stamp and were left out", left_out, frame_id));

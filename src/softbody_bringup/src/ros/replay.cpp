@@ -62,6 +62,9 @@ class CameraPoses {
   }
 
   const std::string& outputFrame() const { return output_frame_; }
+  std::vector<std::string> warnings() const {
+    return transforms_ ? transforms_->warnings() : std::vector<std::string>();
+  }
 
  private:
   std::string output_frame_;
@@ -79,6 +82,7 @@ class Replay {
         pipeline_(model, config.pipeline, tool),
         journal_(loadJournal(options)),
         output_(options.output, options.topic_namespace, kBodyFrame, options.timing) {
+    for (const std::string& warning : camera_poses_.warnings()) warn_(warning);
     output_.setOutputFrame(camera_poses_.outputFrame());
     if (tool) output_.setBlade(tool->blade);
   }

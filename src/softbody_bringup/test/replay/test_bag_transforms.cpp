@@ -3,7 +3,9 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <random>
 
 #include "softbody_bringup/bag_transforms.h"
@@ -27,12 +29,16 @@ class TransformBag {
 
   void add(const std::string& parent, const std::string& child, double seconds, const Eigen::Isometry3d& pose,
            const char* topic = "/tf") {
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(pose);
+    transform.header.stamp = after(seconds);
+    transform.header.frame_id = parent;
+    transform.child_frame_id = child;
+    add(transform, topic);
+  }
+  void add(const geometry_msgs::TransformStamped& transform, const char* topic = "/tf") {
     tf2_msgs::TFMessage message;
-    message.transforms.push_back(tf2::eigenToTransform(pose));
-    message.transforms[0].header.stamp = after(seconds);
-    message.transforms[0].header.frame_id = parent;
-    message.transforms[0].child_frame_id = child;
-    bag_.write(topic, after(seconds), message);
+    message.transforms.push_back(transform);
+    bag_.write(topic, transform.header.stamp, message);
   }
   /// Every period from the begin for four seconds.
   void addAll(const std::string& parent, const std::string& child, double period_s, double speed_m_s) {
@@ -82,6 +88,46 @@ TEST(BagTransforms, AreThoseOfTf2) {
     const Eigen::Isometry3d expected = tf2::transformToEigen(buffer.lookupTransform(target, source, stamp));
     EXPECT_TRUE(transforms.at(target, source, stamp).isApprox(expected, 1e-9)) << target << " " << source;
   }
+}
+
+TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
+  TransformBag bag("bag_transforms_refused");
+  tf2::BufferCore buffer{ros::Duration(100.0)};
+  const auto add = [&](const char* child, double t, const geometry_msgs::Quaternion& rotation, double x_m) {
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(TransformBag::shifted(x_m));
+    transform.transform.rotation = rotation;
+    transform.header.stamp = after(t);
+    transform.header.frame_id = "world";
+    transform.child_frame_id = child;
+    bag.add(transform);
+    return buffer.setTransform(transform, "test");
+  };
+  geometry_msgs::Quaternion unit, zero, hardly, nearly;
+  unit.w = 1.0;
+  hardly.w = std::sqrt(1.011);
+  nearly.w = std::sqrt(1.009);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const char* child : {"camera", "tool"}) {
+    EXPECT_TRUE(add(child, 0.0, unit, 0.0));
+    EXPECT_FALSE(add(child, 0.1, zero, 0.3));
+    EXPECT_FALSE(add(child, 0.15, unit, nan));
+    EXPECT_FALSE(add(child, 0.2, hardly, 0.3));
+    EXPECT_TRUE(add(child, 0.3, nearly, 0.3));
+    EXPECT_TRUE(add(child, 0.4, unit, 0.4));
+  }
+  const BagTransforms transforms = bag.read();
+  for (double t = 0.01; t < 0.4; t += 0.02) {
+    const Eigen::Isometry3d expected =
+        tf2::transformToEigen(buffer.lookupTransform("tool", "camera", after(t)));
+    EXPECT_TRUE(transforms.at("tool", "camera", after(t)).isApprox(expected, 1e-9)) << t;
+    EXPECT_TRUE(
+        transforms.at("world", "camera", after(t))
+            .isApprox(tf2::transformToEigen(buffer.lookupTransform("world", "camera", after(t))), 1e-9))
+        << t;
+  }
+  ASSERT_EQ(transforms.warnings().size(), 2u);
+  EXPECT_NE(transforms.warnings()[0].find("3 transforms of frame 'camera'"), std::string::npos)
+      << transforms.warnings()[0];
 }
 
 TEST(BagTransforms, AGapCountsOnlyWhereTheFrameMovedMeanwhile) {
