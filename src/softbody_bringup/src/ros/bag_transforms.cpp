@@ -98,14 +98,16 @@ std::size_t BagTransforms::indexOf(const std::string& name) {
   return index;
 }
 
-/// Empty at the root of a tree.
+/// Empty at the root of a tree. A new parent counts from its first transform on, as for tf2.
 std::string BagTransforms::parentOf(const std::string& frame, const ros::Time& stamp) const {
   if (const auto fixed = fixed_.find(frame); fixed != fixed_.end())
     return withoutSlash(fixed->second.header.frame_id);
   const auto moving = moving_.find(frame);
   if (moving == moving_.end()) return "";
-  const auto after = firstFrom(moving->second, stamp);
-  return names_[(after == moving->second.end() ? moving->second.back() : *after).parent];
+  const Samples& samples = moving->second;
+  const auto after = firstFrom(samples, stamp);
+  const bool exact = after != samples.end() && after->stamp == stamp;
+  return names_[(exact || after == samples.begin() ? after : std::prev(after))->parent];
 }
 
 /// A frame, its parent and so on.
@@ -140,7 +142,7 @@ void BagTransforms::tell(const std::string& frame, const ros::Time& stamp, tf2::
     message.transform = sample->transform;
     buffer->setTransform(message, "bag");
   }
-  if (last - first < 2) return;
+  if (last - first < 2 || first->parent != after->parent) return;
   const double gap_s = (after->stamp - first->stamp).toSec();
   if (gap_s > kLongestGap_s && differ(first->transform, after->transform))
     throw tf2::ExtrapolationException(fmt::format("/tf says nothing of {} for {:.3f} s", frame, gap_s));

@@ -90,6 +90,34 @@ TEST(BagTransforms, AreThoseOfTf2) {
   }
 }
 
+TEST(BagTransforms, AParentThatChangesIsThatOfTf2) {
+  TransformBag bag("bag_transforms_parent");
+  tf2::BufferCore buffer{ros::Duration(100.0)};
+  const auto add = [&](const std::string& parent, const std::string& child, double t, double x_m) {
+    bag.add(parent, child, t, TransformBag::shifted(x_m));
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(TransformBag::shifted(x_m));
+    transform.header.stamp = after(t);
+    transform.header.frame_id = parent;
+    transform.child_frame_id = child;
+    buffer.setTransform(transform, "test");
+  };
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i <= 20; ++i) {
+    add("world", "hand", 0.2 * i, any(random));
+    add("world", "table", 0.2 * i, any(random));
+  }
+  // Put down and taken up again, with more than half a second between.
+  for (int i = 0; i <= 5; ++i) add(i % 2 == 0 ? "hand" : "table", "object", 0.8 * i, any(random));
+  const BagTransforms transforms = bag.read();
+  for (int i = 0; i < 200; ++i) {
+    const ros::Time stamp = after(2.0 * (1.0 + any(random)));
+    const Eigen::Isometry3d expected =
+        tf2::transformToEigen(buffer.lookupTransform("world", "object", stamp));
+    EXPECT_TRUE(transforms.at("world", "object", stamp).isApprox(expected, 1e-9)) << stamp;
+  }
+}
+
 TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
   TransformBag bag("bag_transforms_refused");
   tf2::BufferCore buffer{ros::Duration(100.0)};
