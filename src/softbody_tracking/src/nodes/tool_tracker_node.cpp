@@ -51,8 +51,9 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
 
   diagnostics_.setHardwareID("none");
   diagnostics_.add("tool", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
-  diagnostics_timer_ =
-      handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+  // Wall time, and not at update()'s own pace: both would wait for a bag that starts again.
+  diagnostics_timer_ = handle_.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
 void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
@@ -75,13 +76,14 @@ void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
       5.0, "the tool cannot be looked for in frame " << color->header.stamp << ": " << error.what());
 }
 
-void ToolTrackerNode::place(const std_msgs::Header& header, RgbdFrame* frame) const try {
+void ToolTrackerNode::place(const std_msgs::Header& header, RgbdFrame* frame) try {
   frame->T_fixed_camera = output_frame_->poseOf(header);
+  not_placed_.clear();
 } catch (const tf2::TransformException& error) {
   frame->placed = false;
-  ROS_WARN_STREAM_THROTTLE(5.0, "the tool is not predicted: tf does not say where "
-                                    << header.frame_id << " is in output_frame " << output_frame_->name()
-                                    << ": " << error.what());
+  not_placed_ = "tf does not say where " + header.frame_id + " is in output_frame " + output_frame_->name() +
+                ": " + error.what();
+  ROS_WARN_STREAM_THROTTLE(5.0, "the tool is not predicted and has no trail: " << not_placed_);
 }
 
 void ToolTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& frame) {
@@ -122,6 +124,8 @@ void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   }
   if (last_->bridged) {
     status.summary(DiagnosticStatus::WARN, "bridged by its motion: " + tracker_->reason());
+  } else if (!not_placed_.empty()) {
+    status.summary(DiagnosticStatus::WARN, "seen, but not predicted: " + not_placed_);
   } else {
     status.summary(DiagnosticStatus::OK, "seen");
   }

@@ -27,7 +27,7 @@ class ToolTrackerNode {
  private:
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);
-  void place(const std_msgs::Header& header, RgbdFrame* frame) const;
+  void place(const std_msgs::Header& header, RgbdFrame* frame);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame);
   void publishBlade(const std_msgs::Header& header, const RgbdFrame& frame);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
@@ -38,6 +38,7 @@ class ToolTrackerNode {
   std::unique_ptr<ToolTracker> tracker_;
   std::optional<ToolObservation> last_;  ///< of the last frame
   ros::Time last_stamp_;
+  std::string not_placed_;  ///< why tf does not place the last frame's camera; empty: it does
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   std::optional<BladeTrail> trail_;  ///< of a tool with a blade
@@ -47,7 +48,7 @@ class ToolTrackerNode {
   message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>
       synchronizer_;
   diagnostic_updater::Updater diagnostics_;
-  ros::Timer diagnostics_timer_;
+  ros::WallTimer diagnostics_timer_;
 };
 
 }  // namespace softbody

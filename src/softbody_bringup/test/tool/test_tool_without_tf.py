@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""A tool is seen where tf never places the camera in output_frame, too; the log and /diagnostics say what that costs and
+why, until tf places it."""
+import os
+import sys
+import unittest
+
+import rospkg
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
+from rosgraph_msgs.msg import Log
+from tf2_ros import StaticTransformBroadcaster
+from visualization_msgs.msg import MarkerArray
+
+sys.path.append(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "test", "graph"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+REASON = "tf does not say where camera_color_optical_frame is in output_frame bench"
+
+
+class ToolWithoutTf(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(softbody__tool__pose=PoseWithCovarianceStamped, softbody__tool__marker=MarkerArray,
+                                rosout=Log, diagnostics=DiagnosticArray)
+
+    def wait_for_status(self, level, words):
+        self.recorder.wait(lambda seen: any("tool_tracker: tool" in status.name and status.level == level
+                                            and words in status.message
+                                            for message in seen["diagnostics"][-20:] for status in message.status),
+                           f"diagnostics that say {words}")
+
+    def test_1_the_reason_is_told(self):
+        self.recorder.wait(lambda seen: any(log.name == "/softbody/tool_tracker" and log.level == Log.WARN
+                                            and REASON in log.msg for log in seen["rosout"]), "a warning with the reason")
+        self.wait_for_status(DiagnosticStatus.WARN, "not predicted: " + REASON)
+        self.recorder.wait_for("softbody/tool/pose")
+        self.assertFalse(self.recorder.messages["softbody/tool/marker"])
+
+    def test_2_until_tf_places_the_camera(self):
+        bench = TransformStamped()
+        bench.header.frame_id, bench.child_frame_id = "bench", "camera_link"
+        bench.transform.rotation.w = 1.0
+        StaticTransformBroadcaster().sendTransform(bench)
+        self.wait_for_status(DiagnosticStatus.OK, "seen")
+        marker = self.recorder.wait_for("softbody/tool/marker")[0].markers[0]
+        self.assertEqual(marker.header.frame_id, "bench")
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_tool_without_tf")
+    rostest.rosrun("softbody_bringup", "test_tool_without_tf", ToolWithoutTf, sys.argv)
