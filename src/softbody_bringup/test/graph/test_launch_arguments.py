@@ -1,13 +1,21 @@
 #!/usr/bin/env python3
-"""Relative paths given to the launch files start at the caller's directory, not at that of the nodes."""
+"""Relative paths given to the launch files start at the caller's directory, not at that of the nodes; output_frame reaches
+all that need it, through every launch file."""
 import os
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import rospkg
 import rostest
 import yaml
+
+
+RVIZ = os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "rviz")
+# Launch files with the graph, and what they need.
+GRAPHS = {"track.launch": ["object:=/o.yaml"], "rig.launch": ["object:=/o.yaml"], "demo.launch": [],
+          "playback.launch": ["object:=/o.yaml", "bag:=/b.bag"]}
 
 
 def roslaunch(directory, *arguments):
@@ -15,7 +23,7 @@ def roslaunch(directory, *arguments):
                           capture_output=True, text=True, timeout=120, check=True).stdout
 
 
-class LaunchPaths(unittest.TestCase):
+class LaunchArguments(unittest.TestCase):
     def setUp(self):
         self.directory = tempfile.TemporaryDirectory(prefix="launch paths ")
         self.addCleanup(self.directory.cleanup)
@@ -39,6 +47,39 @@ class LaunchPaths(unittest.TestCase):
                                               "object:=/object.yaml", "params:=parameters.yaml"))
         self.assertEqual(parameters["/softbody/simulator/iterations"], 7)
 
+    def parameters(self, launch, *arguments):
+        return yaml.safe_load(roslaunch(self.directory.name, "--dump-params", "softbody_bringup", launch, *GRAPHS[launch],
+                                        "tool:=/t.yaml", *arguments))
+
+    def test_output_frame(self):
+        for launch in GRAPHS:
+            parameters = self.parameters(launch, "output_frame:=base_link")
+            for node in ("feature_tracker", "tool_tracker"):
+                self.assertEqual(parameters.get(f"/softbody/{node}/output_frame"), "base_link", (launch, node))
+        self.assertFalse([key for key in self.parameters("track.launch") if key.endswith("output_frame")])
+
+    def rviz(self, launch, *arguments):
+        return roslaunch(self.directory.name, "--args", "/rviz", "softbody_bringup", launch, *GRAPHS[launch], "rviz:=true",
+                         *arguments).split()
+
+    def test_rviz_stands_in_the_output_frame(self):
+        for launch in GRAPHS:
+            words = self.rviz(launch, "output_frame:=base_link")
+            self.assertEqual(words[words.index("-f") + 1], "base_link", launch)
+            self.assertEqual(words[words.index("-d") + 1], f"{RVIZ}/upright.rviz", launch)
+        words = self.rviz("track.launch")
+        self.assertNotIn("-f", words)
+        self.assertEqual(words[words.index("-d") + 1], f"{RVIZ}/track.rviz")
+
+    def test_both_views_show_the_same(self):
+        shown = []
+        for name in ("track.rviz", "upright.rviz"):
+            with open(f"{RVIZ}/{name}", encoding="utf-8") as file:
+                whole = yaml.safe_load(file)
+            manager = whole.pop("Visualization Manager")
+            shown.append((whole, manager["Displays"], manager["Tools"]))
+        self.assertEqual(*shown)
+
 
 if __name__ == "__main__":
-    rostest.rosrun("softbody_bringup", "test_launch_paths", LaunchPaths, sys.argv)
+    rostest.rosrun("softbody_bringup", "test_launch_arguments", LaunchArguments, sys.argv)
