@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "core/tet_shape.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody::bench {
@@ -22,13 +23,8 @@ PlainProjectiveDynamics::PlainProjectiveDynamics(const TetTopology& topology, co
   };
   for (Eigen::Index v = 0; v < n; ++v) entries.emplace_back(v, v, potential.inertia[v]);
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) {
-      edges.col(k) = topology.rest_vertices.row(tets_(t, k + 1)) - topology.rest_vertices.row(tets_(t, 0));
-    }
-    Eigen::Matrix<double, 3, 4> G;
-    G.rightCols<3>() = edges.inverse().transpose();
-    G.col(0) = -G.rightCols<3>().rowwise().sum();
+    const Eigen::Matrix<double, 3, 4> G =
+        shapeGradients(edgesOf(topology.rest_vertices, tets_.row(t)).inverse()).transpose();
     shape_gradients_.push_back(G);
     const double stiffness = (2.0 * lame_.mu + 3.0 * lame_.lambda) * volumes_[t];
     add(Eigen::Vector4i(tets_.row(t)), stiffness * G.transpose() * G);

@@ -55,7 +55,7 @@ class VectorKernels : public ::testing::Test {
     // Forces of a strain of 1 set the scale of rounding.
     const double scale = kLame.mu * 0.02 * 0.02 + expected.cwiseAbs().maxCoeff();
     for (Simd simd : widths()) {
-      ElasticBlocks<T> blocks(topology_.rest_vertices, topology_.tets, kLame, simd, smoothing);
+      ElasticBlocks<T> blocks(topology_.rest_vertices, reference, simd);
       Rows<T> gradient = Rows<T>::Zero(rows.rows(), 4);
       const double found = blocks.addTo(rows, &gradient);
       EXPECT_NEAR(found, energy, kRounding * (energy + kLame.mu * 1e-6))
@@ -103,7 +103,7 @@ TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodes
     Points unused = Points::Zero(this->count_, 3);
     const double energy = reference.addTo(this->toPoints(rows), &unused);
     for (Simd simd : widths()) {
-      ElasticBlocks<TypeParam> blocks(rest, this->topology_.tets, kLame, simd, kSmoothing);
+      ElasticBlocks<TypeParam> blocks(rest, reference, simd);
       Rows<TypeParam> gradient = Rows<TypeParam>::Zero(rows.rows(), 4);
       EXPECT_NEAR(blocks.addTo(rows, &gradient), energy, 10.0 * this->kRounding * energy)
           << scale.transpose() << ", " << nameOf(simd);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/rotation.h"
-#include "softbody_common/tet_geometry.h"
+#include "core/tet_shape.h"
 
 namespace softbody {
 
@@ -32,19 +32,19 @@ CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets
                                          double smoothing)
     : tets_(tets),
       inverse_edges_(tets.rows(), 9),
-      volumes_(tetVolumes(rest_vertices, tets)),
+      volumes_(positiveVolumes(rest_vertices, tets)),
       lame_(lame),
       smoothing_(smoothing) {
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    if (!(volumes_[t] > 0.0))
-      throw std::invalid_argument(fmt::format("tet {} has volume {} m^3", t, volumes_[t]));
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k)
-      edges.col(k) = rest_vertices.row(tets(t, k + 1)) - rest_vertices.row(tets(t, 0));
-    const Eigen::Matrix3d inverse = edges.inverse();
+    const Eigen::Matrix3d inverse = edgesOf(rest_vertices, tets.row(t)).inverse();
     inverse_edges_.row(t) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(inverse.data());
   }
   if (smoothing_ > 0.0) smoothed_ = smoothedGradients(rest_vertices, tets);
+}
+
+Eigen::Matrix3d CorotatedElasticity::inverseEdges(Eigen::Index t) const {
+  const Eigen::Matrix<double, 1, 9> columns = inverse_edges_.row(t);
+  return Eigen::Map<const Eigen::Matrix3d>(columns.data());
 }
 
 double CorotatedElasticity::addTo(const Points& x, Points* gradient) const {
@@ -54,11 +54,10 @@ double CorotatedElasticity::addTo(const Points& x, Points* gradient) const {
 double CorotatedElasticity::addTets(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
-    Eigen::Matrix3d inverse, edges, stress;
-    for (int k = 0; k < 9; ++k) inverse(k) = inverse_edges_(t, k);
-    for (int k = 0; k < 3; ++k) edges.col(k) = x.row(tets_(t, k + 1)) - x.row(tets_(t, 0));
+    const Eigen::Matrix3d inverse = inverseEdges(t);
+    Eigen::Matrix3d stress;
     const double volume = (1.0 - smoothing_) * volumes_[t];
-    energy += volume * corotatedEnergy(edges * inverse, lame_, &stress);
+    energy += volume * corotatedEnergy(edgesOf(x, tets_.row(t)) * inverse, lame_, &stress);
     const Eigen::Matrix3d forces = volume * stress * inverse.transpose();
     for (int k = 0; k < 3; ++k) gradient->row(tets_(t, k + 1)) += forces.col(k).transpose();
     gradient->row(tets_(t, 0)) -= (forces.col(0) + forces.col(1) + forces.col(2)).transpose();
@@ -84,9 +83,7 @@ void CorotatedElasticity::addMetric(TetMatrix* matrix) const {
   const double stiffness = 2.0 * lame_.mu + 3.0 * lame_.lambda;
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
     Eigen::Matrix<double, 3, 4> G;  // gradients of the shape functions
-    const Eigen::Matrix<double, 1, 9> row = inverse_edges_.row(t);
-    const Eigen::Matrix3d inverse = Eigen::Map<const Eigen::Matrix3d>(row.data());
-    G.rightCols<3>() = inverse.transpose();
+    G.rightCols<3>() = inverseEdges(t).transpose();
     G.col(0) = -G.rightCols<3>().rowwise().sum();
     matrix->addToTet(static_cast<int>(t), stiffness * volumes_[t] * G.transpose() * G);
   }

@@ -40,17 +40,24 @@ class CorotatedElasticity {
   /// too, since the square of a mean is at most the mean of the squares.
   void addMetric(TetMatrix* matrix) const;
 
+  const Eigen::Matrix<int, Eigen::Dynamic, 4>& tets() const { return tets_; }
+  const Eigen::VectorXd& volumes() const { return volumes_; }  ///< [m^3]
+  const Lame& lame() const { return lame_; }
+  double smoothing() const { return smoothing_; }
+  const SmoothedGradients& smoothed() const { return smoothed_; }  ///< empty without smoothing
+
  private:
+  Eigen::Matrix3d inverseEdges(Eigen::Index t) const;
   double addTets(const Points& x, Points* gradient) const;
   double addSmoothed(const Points& x, Points* gradient) const;
 
   Eigen::Matrix<int, Eigen::Dynamic, 4> tets_;
   Eigen::Matrix<double, Eigen::Dynamic, 9>
-      inverse_edges_;        ///< of the rest edge matrices, column by column [1/m]
-  Eigen::VectorXd volumes_;  ///< [m^3]
+      inverse_edges_;  ///< of the rest edge matrices, column by column [1/m]
+  Eigen::VectorXd volumes_;
   Lame lame_;
   double smoothing_;
-  SmoothedGradients smoothed_;  ///< empty without smoothing
+  SmoothedGradients smoothed_;
 };
 
 }  // namespace softbody

@@ -1,13 +1,10 @@
 #include "core/elastic_blocks.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
-#include <stdexcept>
 
-#include "softbody_common/tet_geometry.h"
+#include "core/tet_shape.h"
 
 namespace softbody {
 namespace {
@@ -29,34 +26,29 @@ std::size_t blockCount(Eigen::Index tet_count) {
 }  // namespace
 
 template <typename T>
-ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd,
-                                double smoothing)
-    : blocks_(blockCount(tets.rows())),
-      mu_(static_cast<T>(lame.mu)),
-      lambda_(static_cast<T>(lame.lambda)),
+ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const CorotatedElasticity& elasticity, Simd simd)
+    : blocks_(blockCount(elasticity.tets().rows())),
+      mu_(static_cast<T>(elasticity.lame().mu)),
+      lambda_(static_cast<T>(elasticity.lame().lambda)),
       kernel_(elasticityKernel<T>(simd)) {
-  const Eigen::VectorXd volumes = tetVolumes(rest_vertices, tets);
+  const double smoothing = elasticity.smoothing();
   const auto count = static_cast<Eigen::Index>(blocks_.size());
   for (Eigen::Index i = 0; i < count * TetBlock<T>::kLanes; ++i) {
     // Neighbouring tets go into different blocks: a vertex that occurs twice in a block makes its sums wait
     // for each other. The lanes left over hold the last tet, without volume.
-    const Eigen::Index t = std::min(i, tets.rows() - 1);
-    if (!(volumes[t] > 0.0))
-      throw std::invalid_argument(fmt::format("tet {} has volume {} m^3", t, volumes[t]));
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k)
-      edges.col(k) = rest_vertices.row(tets(t, k + 1)) - rest_vertices.row(tets(t, 0));
-    const Eigen::Matrix3d inverse = inverseTriangle(edges);
+    const Eigen::Index t = std::min(i, elasticity.tets().rows() - 1);
+    const Eigen::RowVector4i tet = elasticity.tets().row(t);
+    const Eigen::Matrix3d inverse = inverseTriangle(edgesOf(rest_vertices, tet));
     TetBlock<T>& block = blocks_[static_cast<std::size_t>(i % count)];
     const Eigen::Index lane = i / count;
     for (int column = 0, k = 0; column < 3; ++column) {
       for (int row = 0; row <= column; ++row, ++k)
         block.inverse_edges[k][lane] = static_cast<T>(inverse(row, column));
     }
-    for (int k = 0; k < 4; ++k) block.corners[k][lane] = 4 * tets(t, k);
-    block.volume[lane] = i == t ? static_cast<T>((1.0 - smoothing) * volumes[t]) : T{0};
+    for (int k = 0; k < 4; ++k) block.corners[k][lane] = 4 * tet[k];
+    block.volume[lane] = i == t ? static_cast<T>((1.0 - smoothing) * elasticity.volumes()[t]) : T{0};
   }
-  if (smoothing > 0.0) patches_.emplace(smoothedGradients(rest_vertices, tets), smoothing, lame, simd);
+  if (smoothing > 0.0) patches_.emplace(elasticity.smoothed(), smoothing, elasticity.lame(), simd);
 }
 
 template class ElasticBlocks<float>;

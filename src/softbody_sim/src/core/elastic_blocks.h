@@ -15,10 +15,8 @@ namespace softbody {
 template <typename T>
 class ElasticBlocks {
  public:
-  /// @param smoothing as in CorotatedElasticity.
-  /// @throw std::invalid_argument if a rest tet has no positive volume.
-  ElasticBlocks(const Points& rest_vertices, const Tets& tets, const Lame& lame, Simd simd,
-                double smoothing = 0.0);
+  /// @param rest_vertices those that the elasticity was made of.
+  ElasticBlocks(const Points& rest_vertices, const CorotatedElasticity& elasticity, Simd simd);
 
   /// Energy [J]; adds its gradient [N].
   double addTo(const Rows<T>& x, Rows<T>* gradient) {

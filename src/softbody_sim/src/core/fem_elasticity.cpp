@@ -1,13 +1,10 @@
 #include "core/fem_elasticity.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#include <stdexcept>
 
-#include "softbody_common/tet_geometry.h"
+#include "core/tet_shape.h"
 
 namespace softbody {
 namespace {
@@ -62,18 +59,10 @@ Matrix9 densityHessian(const PrincipalDensity& density, const PrincipalAxes& axe
 
 FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame)
     : elasticity_(elasticity), lame_(lame) {
-  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
+  const Eigen::VectorXd volumes = positiveVolumes(topology.rest_vertices, topology.tets);
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    if (!(volumes[t] > 0.0))
-      throw std::invalid_argument(fmt::format("tet {} has volume {} m^3", t, volumes[t]));
-    Element element{topology.tets.row(t), {}, volumes[t]};
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k)
-      edges.col(k) = topology.rest_vertices.row(topology.tets(t, k + 1)) -
-                     topology.rest_vertices.row(topology.tets(t, 0));
-    element.shape_gradients.bottomRows<3>() = edges.inverse();
-    element.shape_gradients.row(0) = -element.shape_gradients.bottomRows<3>().colwise().sum();
-    elements_.push_back(element);
+    const Eigen::RowVector4i tet = topology.tets.row(t);
+    elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()), volumes[t]});
   }
 }
 

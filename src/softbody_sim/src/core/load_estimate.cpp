@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "core/tet_edges.h"
 #include "core/tet_matrix.h"
+#include "core/tet_shape.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -17,9 +17,8 @@ TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& ma
   TetMatrix matrix(topology.tets, topology.rest_vertices.rows());
   matrix.addToDiagonal(masses);
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    Eigen::Matrix<double, 4, 3> gradients;  // of the barycentric coordinates
-    gradients.bottomRows<3>() = edgesOf(topology.rest_vertices, topology.tets.row(t)).inverse();
-    gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
+    const Eigen::Matrix<double, 4, 3> gradients =
+        shapeGradients(edgesOf(topology.rest_vertices, topology.tets.row(t)).inverse());
     matrix.addToTet(static_cast<int>(t),
                     length * length * density * volumes[t] * gradients * gradients.transpose());
   }

@@ -73,10 +73,10 @@ class StepMetric {
 template <typename T>
 class InPrecision : public ProjectiveDynamics::Precision {
  public:
-  InPrecision(const TetTopology& topology, const Lame& lame, const CorotatedElasticity& elasticity,
+  InPrecision(const TetTopology& topology, const CorotatedElasticity& elasticity,
               const ProjectiveDynamicsOptions& options)
       : options_(options.minimizer),
-        elasticity_(topology.rest_vertices, topology.tets, lame, options.simd, options.strain_smoothing),
+        elasticity_(topology.rest_vertices, elasticity, options.simd),
         step_(topology.rest_vertices.rows(), options.simd),
         metric_(topology, elasticity),
         solver_(metric_.lower(), options.simd),
@@ -113,9 +113,9 @@ ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const Lame& 
                                        const ProjectiveDynamicsOptions& options)
     : elasticity_(topology.rest_vertices, topology.tets, lame, options.strain_smoothing) {
   if (options.single_precision)
-    implementation_ = std::make_unique<InPrecision<float>>(topology, lame, elasticity_, options);
+    implementation_ = std::make_unique<InPrecision<float>>(topology, elasticity_, options);
   else
-    implementation_ = std::make_unique<InPrecision<double>>(topology, lame, elasticity_, options);
+    implementation_ = std::make_unique<InPrecision<double>>(topology, elasticity_, options);
 }
 
 ProjectiveDynamics::~ProjectiveDynamics() = default;

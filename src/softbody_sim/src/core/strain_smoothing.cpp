@@ -4,23 +4,10 @@
 #include <Eigen/SparseCore>
 #include <array>
 
+#include "core/tet_shape.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
-namespace {
-
-/// Gradients of a tet's shape functions [1/m], one a row.
-Eigen::Matrix<double, 4, 3> shapeGradients(const Points& rest_vertices, const Tets& tets, Eigen::Index t) {
-  Eigen::Matrix3d edges;
-  for (int k = 0; k < 3; ++k)
-    edges.col(k) = rest_vertices.row(tets(t, k + 1)) - rest_vertices.row(tets(t, 0));
-  Eigen::Matrix<double, 4, 3> gradients;
-  gradients.bottomRows<3>() = edges.inverse();
-  gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
-  return gradients;
-}
-
-}  // namespace
 
 SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tets) {
   const Eigen::Index count = rest_vertices.rows();
@@ -30,7 +17,8 @@ SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tet
   std::array<std::vector<Eigen::Triplet<double>>, 3> weighted;  // of row v: the gradients times volumes
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     const double share = 0.25 * tet_volumes[t];
-    const Eigen::Matrix<double, 4, 3> gradients = share * shapeGradients(rest_vertices, tets, t);
+    const Eigen::Matrix<double, 4, 3> gradients =
+        share * shapeGradients(edgesOf(rest_vertices, tets.row(t)).inverse());
     for (int a = 0; a < 4; ++a) {
       smoothed.volumes[tets(t, a)] += share;
       for (int b = 0; b < 4; ++b) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "core/tet_edges.h"
+#include "core/tet_shape.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "core/tet_edges.h"
+#include "core/tet_shape.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/cutting/plane_section.h"
-#include "core/tet_edges.h"
+#include "core/tet_shape.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
