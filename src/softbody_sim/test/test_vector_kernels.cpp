@@ -1,11 +1,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
 #include "core/elastic_blocks.h"
 #include "core/metric_solver.h"
 #include "core/positive_definite_solver.h"
 #include "core/step_rows.h"
 #include "core/tet_matrix.h"
+#include "core/tet_shape.h"
 #include "test_meshes.h"
 
 namespace softbody {
@@ -108,6 +113,88 @@ TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodes
       EXPECT_NEAR(blocks.addTo(rows, &gradient), energy, 10.0 * this->kRounding * energy)
           << scale.transpose() << ", " << nameOf(simd);
       EXPECT_TRUE(gradient.allFinite());
+    }
+  }
+}
+
+/// Standard errors of the energy [J] and of the gradient of all vertices together [N] where every number is
+/// rounded by a share `unit`: to first order, as if each rounding were independent of the others.
+struct Rounding {
+  double unit;
+  double energy = 0.0, gradient = 0.0;
+
+  /// Of an F that is a sum of products of these magnitudes, all added. Forces are stress times `lever`. From
+  /// F to energy and stress it is a closed form of some ten numbers about 1.
+  void add(double volume, const Eigen::Matrix3d& F, double products, double lever) {
+    constexpr double kClosedForm = 10.0;
+    Eigen::Matrix3d stress;
+    corotatedEnergy(F, kLame, &stress);
+    const double error = unit * (products + kClosedForm), stiffness = 2.0 * kLame.mu + 3.0 * kLame.lambda;
+    energy = std::hypot(energy, volume * stress.norm() * error);
+    gradient = std::hypot(gradient, volume * stiffness * error * lever);
+  }
+};
+
+void addTets(const CorotatedElasticity& elasticity, const Points& rest, const Points& x, Rounding* rounding) {
+  for (Eigen::Index t = 0; t < elasticity.tets().rows(); ++t) {
+    const Eigen::RowVector4i tet = elasticity.tets().row(t);
+    const Eigen::Matrix3d edges = edgesOf(x, tet), inverse = edgesOf(rest, tet).inverse();
+    rounding->add((1.0 - elasticity.smoothing()) * elasticity.volumes()[t], edges * inverse,
+                  edges.colwise().norm() * inverse.rowwise().norm(), shapeGradients(inverse).norm());
+  }
+}
+
+void addPatches(const CorotatedElasticity& elasticity, const Points& x, Rounding* rounding) {
+  const SmoothedGradients& smoothed = elasticity.smoothed();
+  for (Eigen::Index v = 0; v < smoothed.volumes.size(); ++v) {
+    const int first = smoothed.first[v], count = smoothed.first[v + 1] - first;
+    const Eigen::MatrixX3d gradients = smoothed.gradients.middleRows(first, count);
+    Eigen::MatrixX3d points(count, 3);
+    for (int e = 0; e < count; ++e) points.row(e) = x.row(smoothed.vertices[first + e]);
+    rounding->add(elasticity.smoothing() * smoothed.volumes[v], points.transpose() * gradients,
+                  points.rowwise().norm().dot(gradients.rowwise().norm()), gradients.norm());
+  }
+}
+
+/// A box whose vertices are out of line, so that the same rounding does not come again all over, and bent.
+struct LargeBody {
+  TetTopology topology;
+  Points x;
+};
+
+LargeBody largeBody(const Eigen::Vector3i& cells, std::mt19937* random) {
+  LargeBody body{boxTopology(cells, {0.2, 0.1, 0.1}), {}};
+  Points& rest = body.topology.rest_vertices;
+  rest += randomPoints(rest.rows(), 1e-3, random);
+  body.x = rest + randomPoints(rest.rows(), 5e-4, random);
+  for (auto v : body.x.rowwise()) v.z() += 3.0 * (v.x() - 0.1) * (v.x() - 0.1);
+  return body;
+}
+
+/// 1,080 and 10,368 tets: long sums, and places that are many edges away from the origin.
+TYPED_TEST(VectorKernels, ElasticityOfLargeBodiesIsThatOfTheScalarCodeWithinRounding) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  for (const Eigen::Vector3i& cells : {Eigen::Vector3i(6, 6, 5), Eigen::Vector3i(12, 12, 12)}) {
+    const LargeBody body = largeBody(cells, &this->random_);
+    const Points& rest = body.topology.rest_vertices;
+    const auto rows = this->toRows(body.x);
+    this->count_ = rest.rows();
+    for (double smoothing : {0.0, 0.7}) {
+      const CorotatedElasticity reference(rest, body.topology.tets, kLame, smoothing);
+      Points expected = Points::Zero(rest.rows(), 3);
+      const double energy = reference.addTo(this->toPoints(rows), &expected);
+      Rounding rounding{0.5 * std::numeric_limits<TypeParam>::epsilon()};
+      addTets(reference, rest, body.x, &rounding);
+      addPatches(reference, body.x, &rounding);
+      const double sum = kEpsilon * energy * std::sqrt(static_cast<double>(body.topology.tets.rows()));
+      for (Simd simd : widths()) {
+        SCOPED_TRACE(
+            fmt::format("{} tets, smoothing {}, {}", body.topology.tets.rows(), smoothing, nameOf(simd)));
+        ElasticBlocks<TypeParam> blocks(rest, reference, simd);
+        auto gradient = this->toRows(Points::Zero(rest.rows(), 3));
+        EXPECT_NEAR(blocks.addTo(rows, &gradient), energy, std::hypot(rounding.energy, sum));
+        EXPECT_LT((this->toPoints(gradient) - expected).norm(), rounding.gradient);
+      }
     }
   }
 }
