@@ -21,6 +21,7 @@ struct BagFramesReport {
   int frames = 0;
   int without_depth =
       0;             ///< colour images that no depth image came near to; they are passed on without depth
+  int repeated = 0;  ///< colour images with the stamp of one before, left out of the frames
   int unusable = 0;  ///< images that could not be converted
   std::string last_error;  ///< of the last unusable one
 };

@@ -12,7 +12,8 @@ namespace softbody {
 
 /// Pairs every colour image of a recording with the depth image nearest in time, in the order of their
 /// stamps: an image that was recorded up to kMostLate others late takes its place. A jump back by a second or
-/// more is a recording that starts again, and keeps its place. Pointer types stand for the images.
+/// more is a recording that starts again, and keeps its place. Of images with one stamp, as a driver or a
+/// bag of two recordings may have them, the first counts. Pointer types stand for the images.
 template <typename ColorPtr, typename DepthPtr>
 class FramePairer {
  public:
@@ -24,7 +25,9 @@ class FramePairer {
 
   explicit FramePairer(Nanoseconds tolerance) : tolerance_(tolerance) {}
 
-  void addColor(Nanoseconds stamp, ColorPtr color) { insert(stamp, std::move(color), &colors_); }
+  void addColor(Nanoseconds stamp, ColorPtr color) {
+    if (!insert(stamp, std::move(color), &colors_)) ++repeated_;
+  }
   void addDepth(Nanoseconds stamp, DepthPtr depth) {
     insert(stamp, std::move(depth), &depths_);
     if (depths_.size() > kMostWaiting) depths_.pop_front();
@@ -53,20 +56,26 @@ class FramePairer {
     return pair;
   }
 
+  /// Colour images left out because one of their stamp had come before.
+  int repeated() const { return repeated_; }
+
  private:
   static constexpr std::size_t kMostWaiting = 30, kMostLate = 10;
   static constexpr Nanoseconds kStartsAgain = 1'000'000'000;
 
-  /// Before those with later stamps, unless they are so much later that the recording started again.
+  /// Before those with later stamps, unless they are so much later that the recording started again. False:
+  /// not at all, beside one of the same stamp.
   template <typename Queue, typename Pointer>
-  static void insert(Nanoseconds stamp, Pointer image, Queue* queue) {
+  static bool insert(Nanoseconds stamp, Pointer image, Queue* queue) {
     auto place = queue->end();
     while (place != queue->begin()) {
       const Nanoseconds later_by = std::prev(place)->first - stamp;
       if (later_by <= 0 || later_by >= kStartsAgain) break;
       --place;
     }
+    if (place != queue->begin() && std::prev(place)->first == stamp) return false;
     queue->emplace(place, stamp, std::move(image));
+    return true;
   }
 
   /// Index of the element nearest in time, the first of equals; the size where there is none.
@@ -82,6 +91,7 @@ class FramePairer {
   }
 
   Nanoseconds tolerance_;
+  int repeated_ = 0;
   std::deque<std::pair<Nanoseconds, ColorPtr>> colors_;
   std::deque<std::pair<Nanoseconds, DepthPtr>> depths_;
 };

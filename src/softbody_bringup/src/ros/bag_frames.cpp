@@ -71,7 +71,11 @@ class Reader {
     while (const auto pair = pairer_.next(finish)) process(*pair, progress);
   }
 
-  const BagFramesReport& report() const { return report_; }
+  BagFramesReport report() const {
+    BagFramesReport report = report_;
+    report.repeated = pairer_.repeated();
+    return report;
+  }
 
  private:
   using Pairer = FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr>;

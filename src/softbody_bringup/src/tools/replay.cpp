@@ -51,6 +51,8 @@ void print(const ReplaySummary& summary, const ReplayOptions& options) {
   };
   fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", summary.read.frames,
              summary.states, summary.read.without_depth, summary.read.unusable, summary.skipped);
+  if (summary.read.repeated > 0)
+    fmt::print("left out: {} images with the stamp of one before\n", summary.read.repeated);
   fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
              count(TrackingState::kTracking), count(TrackingState::kDegraded), count(TrackingState::kLost),
              count(TrackingState::kRecovering), count(TrackingState::kInitializing));

@@ -66,6 +66,29 @@ TEST(FramePairer, PutsLateImagesInTheirPlaceAndARestartWhereItIs) {
   }
 }
 
+TEST(FramePairer, TakesEachStampOnceWithItsDepthWhicheverStreamRepeatsIt) {
+  std::mt19937 random(11);
+  std::bernoulli_distribution twice(0.3);
+  Pairer pairer(kTolerance);
+  std::vector<Pairer::Pair> pairs;
+  int repeated = 0;
+  for (int i = 0; i < 200; ++i) {
+    const bool color_again = twice(random), depth_again = twice(random);
+    repeated += color_again ? 1 : 0;
+    for (int k = 0; k < (color_again ? 2 : 1); ++k) pairer.addColor(i * kFrame, imageAt(i));
+    for (int k = 0; k < (depth_again ? 2 : 1); ++k) pairer.addDepth(i * kFrame, imageAt(i));
+    for (const Pairer::Pair& pair : drain(&pairer, false)) pairs.push_back(pair);
+  }
+  for (const Pairer::Pair& pair : drain(&pairer, true)) pairs.push_back(pair);
+  EXPECT_EQ(pairer.repeated(), repeated);
+  ASSERT_EQ(pairs.size(), 200u);
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_EQ(*pairs[i].color, i);
+    ASSERT_TRUE(pairs[i].depth) << i;
+    EXPECT_EQ(*pairs[i].depth, i);
+  }
+}
+
 TEST(FramePairer, KeepsEveryColorImageInOrderWhateverDepthDoes) {
   std::mt19937 random(10);
   std::uniform_int_distribution<Nanoseconds> jitter(-12'000'000, 12'000'000);
