@@ -83,6 +83,11 @@ bool CameraIngestNode::accept(Stream stream, const ros::Time& stamp, ros::Time* 
         5.0, "an image comes " << (*last - stamp) << " s after a later one of its stream and is dropped");
     return false;
   }
+  // Twice is no time in between, and tf refuses, loudly and in every node, what it has of that stamp.
+  if (stamp == *last) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "a second image with the stamp " << stamp << " is dropped");
+    return false;
+  }
   if (stamp < *last) {
     ROS_INFO_STREAM("time jumped back by " << (*last - stamp)
                                            << " s: the images that wait for a partner are dropped");
@@ -111,7 +116,7 @@ void CameraIngestNode::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
 void CameraIngestNode::onPair(const sensor_msgs::ImageConstPtr& color,
                               const sensor_msgs::ImageConstPtr& depth) {
   if (!info_) return;
-  if (!anySubscriber()) return completeFrame(color->header.stamp);
+  if (!anySubscriber()) return completeFrame(color->header, depth->header);
   try {
     RgbdFrame frame;
     {
@@ -119,7 +124,7 @@ void CameraIngestNode::onPair(const sensor_msgs::ImageConstPtr& color,
       frame = frameFromMessages(*color, depth.get(), *info_, ingest_.get());
     }
     publish(frame, color->header);
-    completeFrame(color->header.stamp);
+    completeFrame(color->header, depth->header);
   } catch (const std::exception& error) {
     timer_.take();
     ++refused_;
@@ -158,11 +163,12 @@ void CameraIngestNode::publish(const RgbdFrame& frame, const std_msgs::Header& h
   }
 }
 
-void CameraIngestNode::completeFrame(const ros::Time& stamp) {
+void CameraIngestNode::completeFrame(const std_msgs::Header& color, const std_msgs::Header& depth) {
   ++frames_;
   last_frame_ = ros::Time::now();
-  // A simulated clock may lag behind the stamps that it is made of.
-  latency_s_ = std::max(0.0, (last_frame_ - stamp).toSec());
+  latency_s_ = (last_frame_ - color.stamp).toSec();
+  color_frame_ = color.frame_id;
+  depth_frame_ = depth.frame_id;
   monitor_->completed();
 }
 

@@ -39,17 +39,19 @@ class CameraIngestNode {
   void onDepth(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onPair(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth);
-  /// False for an image that comes after a later one; one a second or more back starts the stream again.
+  /// False for an image that comes after a later one, or after one of its stamp; one a second or more back
+  /// starts the stream again.
   bool accept(Stream stream, const ros::Time& stamp, ros::Time* last);
 
   bool anySubscriber() const;
   void publish(const RgbdFrame& frame, const std_msgs::Header& header);
-  void completeFrame(const ros::Time& stamp);
+  void completeFrame(const std_msgs::Header& color, const std_msgs::Header& depth);
 
   void watch();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   double secondsWithoutFrame() const;
   std::string complaint() const;
+  std::string remark() const;
   void warn(const std::string& sentence);
 
   ros::NodeHandle handle_, private_handle_;
@@ -63,7 +65,8 @@ class CameraIngestNode {
   ros::Time last_color_, last_depth_, last_frame_;  ///< stamps, stamps, when it was completed
   ros::WallTime start_, last_warning_;
   int frames_ = 0, refused_ = 0;  ///< since the last diagnosis
-  double latency_s_ = 0.0;        ///< camera to here, of the last frame
+  double latency_s_ = 0.0;        ///< camera to here, of the last frame; below 0: its stamp is yet to come
+  std::string color_frame_, depth_frame_;  ///< of the last frame
   ros::WallTime last_diagnosis_;
 
   image_transport::ImageTransport transport_;

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "nodes/camera_ingest_node.h"
 
 /// What the node says about itself: why there are no frames, rates and latency.
 namespace softbody {
 namespace {
 
-constexpr double kDiagnosisPeriod_s = 1.0, kWarningPeriod_s = 5.0;
+constexpr double kDiagnosisPeriod_s = 1.0, kWarningPeriod_s = 5.0, kRemarkPeriod_s = 60.0;
+constexpr double kLongestLatency_s = 2.0, kLongestLead_s = 0.1;  // beyond, clocks differ
 
 }  // namespace
 
@@ -26,6 +30,24 @@ std::string CameraIngestNode::complaint() const {
   return monitor_->complaint({StreamTopic{color_subscriber_.getTopic(), publishers(color_subscriber_)},
                               StreamTopic{info_subscriber_.getTopic(), publishers(info_subscriber_)},
                               StreamTopic{depth_subscriber_.getTopic(), publishers(depth_subscriber_)}});
+}
+
+/// What is odd about frames that come; empty: nothing.
+std::string CameraIngestNode::remark() const {
+  if (color_frame_.empty())
+    return fmt::format("{} has no frame_id, so no result has one: set the driver's optical frame",
+                       color_subscriber_.getTopic());
+  if (depth_frame_ != color_frame_)
+    return fmt::format(
+        "{} is in frame '{}', {} in '{}'; if it is registered to colour, it should say "
+        "colour's frame",
+        depth_subscriber_.getTopic(), depth_frame_, color_subscriber_.getTopic(), color_frame_);
+  // A simulated clock is made of the stamps, and lags behind them.
+  if (ros::Time::isSimTime() || (latency_s_ <= kLongestLatency_s && latency_s_ >= -kLongestLead_s)) return "";
+  return fmt::format(
+      "stamps are {:.1f} s {} this machine's clock, by which tf and timers go: synchronise the camera's "
+      "clock; a bag needs use_sim_time and --clock",
+      std::abs(latency_s_), latency_s_ > 0.0 ? "behind" : "ahead of");
 }
 
 void CameraIngestNode::warn(const std::string& sentence) {
@@ -50,17 +72,21 @@ void CameraIngestNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   const double silence = secondsWithoutFrame();
   const double period = (ros::WallTime::now() - last_diagnosis_).toSec();
   const double rate = frames_ / std::max(period, 1e-3);
+  const std::string odd = frames_ > 0 ? remark() : "";
+  if (!odd.empty()) ROS_WARN_STREAM_THROTTLE(kRemarkPeriod_s, odd);
   if (silence > config_.silence_timeout_s) {
     status.summary(DiagnosticStatus::ERROR, fmt::format("no frame for {:.0f} s: {}", silence, complaint()));
   } else if (refused_ > 0) {
     status.summary(DiagnosticStatus::WARN,
                    fmt::format("{} frames could not be used: {}", refused_, complaint()));
+  } else if (!odd.empty()) {
+    status.summary(DiagnosticStatus::WARN, odd);
   } else {
     status.summary(DiagnosticStatus::OK, fmt::format("{:.1f} frames a second", rate));
   }
   status.add("frames per second", fmt::format("{:.1f}", rate));
   status.add("frames refused", refused_);
-  status.add("latency [ms]", fmt::format("{:.1f}", latency_s_ * 1e3));
+  status.add("latency [ms]", fmt::format("{:.1f}", std::max(0.0, latency_s_) * 1e3));
   status.add("colour", color_subscriber_.getTopic());
   status.add("depth", depth_subscriber_.getTopic());
   frames_ = refused_ = 0;
