@@ -43,6 +43,48 @@ TEST(Registration, ACoarseMeshServesForTheSearch) {
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << found.cost;
 }
 
+/// A flat ring around the z axis, of 96 by 4 quads.
+TriangleMesh makeRing() {
+  constexpr int kSectors = 96, kSides = 4;
+  constexpr double kCorners[kSides][2] = {{0.05, -0.02}, {0.1, -0.02}, {0.1, 0.02}, {0.05, 0.02}};
+  TriangleMesh mesh{Points(kSectors * kSides, 3), Triangles(2 * kSectors * kSides, 3)};
+  for (int i = 0; i < kSectors; ++i) {
+    const double angle = 2.0 * M_PI * i / kSectors;
+    for (int k = 0; k < kSides; ++k) {
+      const auto& [radius, z] = kCorners[k];
+      mesh.vertices.row(i * kSides + k) << radius * std::cos(angle), radius * std::sin(angle), z;
+      const int a = i * kSides + k, b = i * kSides + (k + 1) % kSides,
+                c = (i + 1) % kSectors * kSides + (k + 1) % kSides, d = (i + 1) % kSectors * kSides + k;
+      mesh.triangles.row(2 * a) << a, d, c;
+      mesh.triangles.row(2 * a + 1) << a, c, b;
+    }
+  }
+  return mesh;
+}
+
+TEST(Registration, TurnsABodyOfRevolutionAboutItsAxisOnlyAsTheRoughPoseDoes) {
+  const TriangleMesh mesh = makeRing();
+  BoxBody ring;
+  ring.surface.rest_vertices = mesh.vertices;
+  ring.surface.triangles = mesh.triangles;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::normal_distribution<float> noise(0.0f, 0.0008f);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Eigen::Isometry3d truth = boxPose();
+    RgbdFrame frame = renderFrame(ring, transformed(mesh.vertices, truth), 1);
+    for (float& z : frame.depth) z += noise(random);
+    const double turn = 3.0 * uniform(random);
+    const Eigen::Isometry3d meant = truth * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d shift = 0.01 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+    const Eigen::Isometry3d rough = Eigen::Translation3d(shift) * meant *
+                                    Eigen::AngleAxisd(0.1 * uniform(random), Eigen::Vector3d::UnitX());
+    const RegistrationResult found = registerBody(frame, mesh, mesh, rough, RegistrationConfig());
+    const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, meant);
+    EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.004) << "trial " << trial;
+  }
+}
+
 TEST(Registration, CostIsLowestAtTheTruth) {
   const BoxBody box = makeBox();
   const Eigen::Isometry3d truth = boxPose();

@@ -1,5 +1,6 @@
 #include "pose_search.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +13,7 @@ constexpr double kUnmeasuredCost = 0.3;
 // Less than free space: an occluder is possible, seeing through a body is not.
 constexpr double kNearerCost = 0.7;
 constexpr double kFewestMeasured = 0.25;  // of the covered pixels; with fewer a pose cannot be judged
+constexpr double kPreference = 0.05;      // of the cost, a radian or a radius away from a preferred pose
 constexpr double kImprovement = 1e-6;     // of the cost; less is rounding
 
 double pixelCost(double measured, double predicted, double scale) {
@@ -82,11 +84,23 @@ PoseSearch::PoseSearch(const RgbdFrame& frame, const TriangleMesh& mesh, double 
     : frame_(frame),
       mesh_(mesh),
       scale_(distance_scale_m),
-      center_(mesh.vertices.colwise().mean().transpose()) {}
+      center_(mesh.vertices.colwise().mean().transpose()) {
+  const Points arms = mesh.vertices.rowwise() - center_.transpose();
+  const Eigen::Matrix3d spread = arms.transpose() * arms / static_cast<double>(arms.rows());
+  radius2_ = spread.trace();
+  axes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+}
 
 double PoseSearch::cost(const Eigen::Isometry3d& pose) {
   rasterize(frame_.camera, transformed(mesh_.vertices, pose), mesh_.triangles, &image_);
   return renderedCost(frame_, image_, scale_);
+}
+
+double PoseSearch::rankedCost(const Eigen::Isometry3d& pose) {
+  if (!preferred_) return cost(pose);
+  const double angle = Eigen::AngleAxisd(pose.linear().transpose() * preferred_->linear()).angle();
+  const double shift2 = (pose * center_ - *preferred_ * center_).squaredNorm() / radius2_;
+  return cost(pose) + kPreference * (angle * angle + shift2);
 }
 
 Eigen::Isometry3d PoseSearch::moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,
@@ -109,15 +123,18 @@ Eigen::Isometry3d PoseSearch::icp(Eigen::Isometry3d pose, int iterations) {
 }
 
 RegistrationResult PoseSearch::refine(const Eigen::Isometry3d& start, double turn_step, double shift_step) {
-  RegistrationResult best{start, cost(start)};
+  RegistrationResult best{start, rankedCost(start)};
   while (shift_step > 2e-4) {
     bool improved = false;
     for (int axis = 0; axis < 6; ++axis) {
       for (double sign : {1.0, -1.0}) {
         Eigen::Vector3d turn = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero();
-        (axis < 3 ? turn[axis] : shift[axis - 3]) = sign * (axis < 3 ? turn_step : shift_step);
+        if (axis < 3)
+          turn = sign * turn_step * (best.pose.linear() * axes_.col(axis));
+        else
+          shift[axis - 3] = sign * shift_step;
         const Eigen::Isometry3d pose = moved(best.pose, turn, shift);
-        const double pose_cost = cost(pose);
+        const double pose_cost = rankedCost(pose);
         if (pose_cost < best.cost - kImprovement) {
           best = {pose, pose_cost};
           improved = true;

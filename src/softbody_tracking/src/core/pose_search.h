@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "association.h"
@@ -21,6 +22,13 @@ class PoseSearch {
   /// See poseCost().
   double cost(const Eigen::Isometry3d& pose);
 
+  /// The cost, and a little for the distance from a preferred pose.
+  double rankedCost(const Eigen::Isometry3d& pose);
+
+  /// Of poses that depth does not tell apart, as those of a torus turned about its axis, refine() takes from
+  /// now on the one that is nearer to this.
+  void prefer(const Eigen::Isometry3d& pose) { preferred_ = pose; }
+
   /// Turns by the vector [rad] about the body's centre, then shifts [m].
   Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,
                           const Eigen::Vector3d& shift) const;
@@ -28,7 +36,10 @@ class PoseSearch {
   /// Projective point-to-plane ICP with a gate that narrows from 4 to 1 distance scales.
   Eigen::Isometry3d icp(Eigen::Isometry3d pose, int iterations);
 
-  /// Pattern search along turns and shifts, steps halved until they are below the depth's own precision.
+  /// Pattern search along shifts and turns about the body's principal axes, one of which a symmetric body may
+  /// turn about freely: about any others it would get stuck in that valley. Steps are halved until they are
+  /// below the depth's own precision.
+  /// @return with rankedCost() for its cost.
   RegistrationResult refine(const Eigen::Isometry3d& start, double turn_step_rad, double shift_step_m);
 
  private:
@@ -38,6 +49,9 @@ class PoseSearch {
   const TriangleMesh& mesh_;
   double scale_;
   Eigen::Vector3d center_;
+  double radius2_ = 0.0;  ///< mean square distance of the vertices from there [m^2]
+  Eigen::Matrix3d axes_;  ///< principal axes of their distribution
+  std::optional<Eigen::Isometry3d> preferred_;
   RasterImage image_;
 };
 

@@ -18,6 +18,7 @@ RegistrationResult registerBody(const RgbdFrame& frame, const TriangleMesh& mesh
                                 const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config) {
   const RgbdFrame small = subsampled(frame, 160);
   PoseSearch search(small, coarse, config.distance_scale_m);
+  search.prefer(rough_pose);
   std::vector<RegistrationResult> starts;
   const std::array<double, 3> turns{0.0, 0.2, -0.2};  // [rad]
   for (double x : turns) {
@@ -25,7 +26,7 @@ RegistrationResult registerBody(const RgbdFrame& frame, const TriangleMesh& mesh
       for (double z : turns) {
         const Eigen::Isometry3d pose =
             search.icp(search.moved(rough_pose, {x, y, z}, Eigen::Vector3d::Zero()), kIcpIterations);
-        starts.push_back({pose, search.cost(pose)});
+        starts.push_back({pose, search.rankedCost(pose)});
       }
     }
   }
@@ -38,7 +39,10 @@ RegistrationResult registerBody(const RgbdFrame& frame, const TriangleMesh& mesh
   const RegistrationResult best = *std::min_element(starts.begin(), starts.end(), byCost);
 
   const RgbdFrame fine = subsampled(frame, 320);
-  return PoseSearch(fine, mesh, config.distance_scale_m).refine(best.pose, 0.02, 0.003);
+  PoseSearch last(fine, mesh, config.distance_scale_m);
+  last.prefer(rough_pose);
+  const Eigen::Isometry3d pose = last.refine(best.pose, 0.02, 0.003).pose;
+  return {pose, last.cost(pose)};
 }
 
 }  // namespace softbody
