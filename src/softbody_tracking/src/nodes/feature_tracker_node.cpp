@@ -9,6 +9,7 @@
 
 #include <utility>
 
+#include "nodes/silence.h"
 #include "softbody_common/conversions.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/ros_parameters.h"
@@ -21,7 +22,6 @@ namespace {
 
 constexpr int kSyncQueue = 4;
 constexpr double kSetPosePatience_s = 0.5;
-constexpr double kSilence_s = 2.0;
 constexpr std::size_t kWaitingBlades = 10;
 
 }  // namespace
@@ -200,6 +200,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   // A bag that loops: what was said of later times is void.
   if (header.stamp < last_stamp_) volume_state_.reset(), newest_state_.reset(), blades_.clear();
   last_stamp_ = header.stamp;
+  last_arrival_ = ros::Time::now();
   Eigen::Isometry3d T_output_camera;
   try {
     T_output_camera = output_frame_->poseOf(header);
@@ -263,8 +264,7 @@ void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
 }
 
 void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  const double silence_s = (ros::Time::now() - last_stamp_).toSec();
-  if (last_stamp_.isZero() || silence_s > kSilence_s) {
+  if (isSilent(last_arrival_)) {
     status.summary(
         diagnostic_msgs::DiagnosticStatus::WARN,
         "no frame from camera_ingest for over " + std::to_string(static_cast<int>(kSilence_s)) + " s");

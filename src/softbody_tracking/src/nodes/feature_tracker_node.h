@@ -66,7 +66,7 @@ class FeatureTrackerNode {
   std::deque<geometry_msgs::PolygonStamped::ConstPtr> blades_;      ///< not placed by tf yet, the newest last
   ToolMask tool_mask_;
   TrackingStatus last_status_;
-  ros::Time last_stamp_;
+  ros::Time last_stamp_, last_arrival_;  ///< of the last frame
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher features_, features_marker_, targets_, status_, timing_;

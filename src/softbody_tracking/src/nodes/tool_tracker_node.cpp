@@ -10,6 +10,7 @@
 #include <boost/make_shared.hpp>
 #include <cmath>
 
+#include "nodes/silence.h"
 #include "softbody_common/conversions.h"
 #include "softbody_common/ros_parameters.h"
 #include "softbody_common/topics.h"
@@ -19,7 +20,6 @@ namespace softbody {
 namespace {
 
 constexpr int kSyncQueue = 4;
-constexpr double kSilence_s = 2.0;
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
   place(color->header, &frame);
   StageTimer timer;
   last_ = tracker_->track(frame, &timer);
-  last_stamp_ = color->header.stamp;
+  last_arrival_ = ros::Time::now();
   if (last_) publish(color->header, frame);
   softbody_msgs::StageTiming timing = timingMessage("tool_tracker", timer.take());
   timing.header = color->header;
@@ -114,7 +114,7 @@ void ToolTrackerNode::publishBlade(const std_msgs::Header& header, const RgbdFra
 
 void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   using diagnostic_msgs::DiagnosticStatus;
-  if (last_stamp_.isZero() || (ros::Time::now() - last_stamp_).toSec() > kSilence_s) {
+  if (isSilent(last_arrival_)) {
     status.summary(DiagnosticStatus::WARN, "no frame from camera_ingest for over 2 s");
     return;
   }

@@ -37,8 +37,8 @@ class ToolTrackerNode {
   std::unique_ptr<OutputFrame> output_frame_;
   std::unique_ptr<ToolTracker> tracker_;
   std::optional<ToolObservation> last_;  ///< of the last frame
-  ros::Time last_stamp_;
-  std::string not_placed_;  ///< why tf does not place the last frame's camera; empty: it does
+  ros::Time last_arrival_;               ///< when it came
+  std::string not_placed_;               ///< why tf does not place the last frame's camera; empty: it does
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   std::optional<BladeTrail> trail_;  ///< of a tool with a blade
