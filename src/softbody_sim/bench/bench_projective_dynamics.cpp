@@ -15,11 +15,14 @@
 #include "core/projective_dynamics.h"
 #include "core/tet_matrix.h"
 #include "plain_projective_dynamics.h"
+#include "softbody_sim/simulator.h"
 
 /// Projective dynamics against a plain implementation, one thread, bent bodies: `frame` (ten iterations of
 /// each, with and without the volume term), `converged` (as many as bring every vertex within 1e-6 mean edge
 /// lengths of the minimum), and of the fast one in single precision `local` and `global` (one step of
-/// them), `factor` (a new matrix) and `update` (a matrix that differs by a few targets).
+/// them), `factor` (a new matrix) and `update` (a matrix that differs by a few targets). `smoothed/` before a
+/// name: with the strain smoothing that the simulator has by default, against a plain solver of that energy;
+/// otherwise without. `global`, `factor` and `update` do not depend on it.
 namespace {
 
 using namespace softbody;
@@ -28,6 +31,18 @@ using benchmark::State;
 
 constexpr int kFrameIterations = 10;
 
+/// Of strain smoothing: none, or SimulatorConfig's.
+enum class Strains { kOfTets, kSmoothed };
+
+double smoothingOf(Strains strains) {
+  return strains == Strains::kSmoothed ? SimulatorConfig().strain_smoothing : 0.0;
+}
+
+/// What tells a row or a key of the summary from the one without smoothing.
+std::string prefixOf(Strains strains, const std::string& separator) {
+  return strains == Strains::kSmoothed ? "smoothed" + separator : "";
+}
+
 const BentBody& bodyOf(const std::string& name, bool with_volume) {
   static std::map<std::pair<std::string, bool>, BentBody> made;
   const auto key = std::make_pair(name, with_volume);
@@ -35,11 +50,12 @@ const BentBody& bodyOf(const std::string& name, bool with_volume) {
   return made.at(key);
 }
 
-ProjectiveDynamicsOptions options(bool single, Simd simd, int iterations, int history) {
+ProjectiveDynamicsOptions options(Strains strains, bool single, Simd simd, int iterations, int history) {
   ProjectiveDynamicsOptions chosen;
   chosen.minimizer = {iterations, 0.0, history};
   chosen.single_precision = single;
   chosen.simd = simd;
+  chosen.strain_smoothing = smoothingOf(strains);
   return chosen;
 }
 
@@ -82,8 +98,9 @@ std::vector<double> leastTimes(const std::vector<Run>& runs) {
   return least;
 }
 
-Run plainFrame(const BentBody& body, int iterations) {
-  const auto solver = std::make_shared<PlainProjectiveDynamics>(body.topology, body.lame, body.potential);
+Run plainFrame(const BentBody& body, Strains strains, int iterations) {
+  const auto solver = std::make_shared<PlainProjectiveDynamics>(body.topology, body.lame, body.potential,
+                                                                smoothingOf(strains));
   return [solver, &body, iterations] {
     Points x = body.start;
     for (int k = 0; k < iterations; ++k) solver->iterate(body.potential, &x);
@@ -104,9 +121,9 @@ Run fastFrame(const BentBody& body, const ProjectiveDynamicsOptions& chosen) {
 }
 
 /// Fewest iterations after which `run(iterations)` is within 1e-6 mean edge lengths of the minimum.
-int iterationsToMinimum(const BentBody& body, const std::function<Points(int)>& run) {
+int iterationsToMinimum(const BentBody& body, Strains strains, const std::function<Points(int)>& run) {
   Points minimum = body.start;
-  ProjectiveDynamics(body.topology, body.lame, options(false, Simd::kAuto, 2000, 5))
+  ProjectiveDynamics(body.topology, body.lame, options(strains, false, Simd::kAuto, 2000, 5))
       .minimize(body.potential, &minimum);
   for (int iterations = 1; iterations < 1000; ++iterations) {
     const double distance = (run(iterations) - minimum).rowwise().norm().maxCoeff();
@@ -123,16 +140,16 @@ void report(State& state, const std::vector<std::string>& names, const std::vect
   }
 }
 
-void frames(State& state, const std::string& name, bool with_volume) {
+void frames(State& state, const std::string& name, bool with_volume, Strains strains) {
   const BentBody& body = bodyOf(name, with_volume);
   std::vector<std::string> names{"plain"};
-  std::vector<Run> runs{plainFrame(body, kFrameIterations)};
+  std::vector<Run> runs{plainFrame(body, strains, kFrameIterations)};
   const double before = usedMemory();
   double bytes = 0.0;
   for (bool single : {true, false}) {
     for (Simd simd : widths()) {
       names.push_back(fmt::format("{} {}", single ? "float" : "double", nameOf(simd)));
-      runs.push_back(fastFrame(body, options(single, simd, kFrameIterations, 0)));
+      runs.push_back(fastFrame(body, options(strains, single, simd, kFrameIterations, 0)));
       if (bytes == 0.0) bytes = usedMemory() - before;
     }
   }
@@ -142,27 +159,28 @@ void frames(State& state, const std::string& name, bool with_volume) {
     report(state, names, times);
     state.counters["tets"] = tets;
     if (!with_volume) continue;
-    state.counters["summary/pd_frame_ratio/" + name] = times[0] / times[1];
-    state.counters["summary/pd_bytes_per_tet/" + name] = bytes / tets;
-    state.counters["summary/pd_frame_ns_per_tet/" + name] = 1e9 * times[1] / tets;
+    const std::string key = "summary/pd_" + prefixOf(strains, "_");
+    state.counters[key + "frame_ratio/" + name] = times[0] / times[1];
+    state.counters[key + "bytes_per_tet/" + name] = bytes / tets;
+    state.counters[key + "frame_ns_per_tet/" + name] = 1e9 * times[1] / tets;
   }
 }
 
-void converged(State& state) {
+void converged(State& state, Strains strains) {
   const BentBody& body = bodyOf("sponge", true);
-  const int plain_iterations = iterationsToMinimum(body, [&](int count) {
+  const int plain_iterations = iterationsToMinimum(body, strains, [&](int count) {
     Points x = body.start;
-    PlainProjectiveDynamics solver(body.topology, body.lame, body.potential);
+    PlainProjectiveDynamics solver(body.topology, body.lame, body.potential, smoothingOf(strains));
     for (int k = 0; k < count; ++k) solver.iterate(body.potential, &x);
     return x;
   });
   state.counters["plain iterations"] = plain_iterations;
   std::vector<std::string> names{"plain"};
-  std::vector<Run> runs{plainFrame(body, plain_iterations)};
+  std::vector<Run> runs{plainFrame(body, strains, plain_iterations)};
   for (int history : {5, 0}) {
-    const int iterations = iterationsToMinimum(body, [&](int count) {
+    const int iterations = iterationsToMinimum(body, strains, [&](int count) {
       Points x = body.start;
-      const auto chosen = options(false, Simd::kAuto, count, history);
+      const auto chosen = options(strains, false, Simd::kAuto, count, history);
       ProjectiveDynamics(body.topology, body.lame, chosen).minimize(body.potential, &x);
       return x;
     });
@@ -170,19 +188,20 @@ void converged(State& state) {
     state.counters[kind + "iterations"] = iterations;
     for (Simd simd : widths()) {
       names.push_back(kind + nameOf(simd));
-      runs.push_back(fastFrame(body, options(false, simd, iterations, history)));
+      runs.push_back(fastFrame(body, options(strains, false, simd, iterations, history)));
     }
   }
   for (auto _ : state) {
     const std::vector<double> times = leastTimes(runs);
     report(state, names, times);
-    state.counters["summary/pd_converged_ratio/sponge"] = times[0] / times[1];
+    state.counters["summary/pd_" + prefixOf(strains, "_") + "converged_ratio/sponge"] = times[0] / times[1];
   }
 }
 
-void localStep(State& state, const BentBody& body, Simd simd) {
-  const CorotatedElasticity elasticity(body.topology.rest_vertices, body.topology.tets, body.lame);
-  ElasticBlocks<float> blocks(body.topology.rest_vertices, elasticity, simd);
+void localStep(State& state, const BentBody& body, Strains strains) {
+  const CorotatedElasticity elasticity(body.topology.rest_vertices, body.topology.tets, body.lame,
+                                       smoothingOf(strains));
+  ElasticBlocks<float> blocks(body.topology.rest_vertices, elasticity, Simd::kAuto);
   Rows<float> x = Rows<float>::Zero(paddedRows(body.start.rows()), 4), gradient = x;
   x.topLeftCorner(body.start.rows(), 3) = body.start.cast<float>();
   for (auto _ : state) benchmark::DoNotOptimize(blocks.addTo(x, &gradient));
@@ -251,13 +270,16 @@ auto* add(const std::string& name, Measure measure) {
 
 void addBody(const std::string& name) {
   for (bool with_volume : {true, false}) {
-    add(fmt::format("frame/{}/{}", name, with_volume ? "volume" : "no_volume"), [name,
-                                                                                 with_volume](State& s) {
-      frames(s, name, with_volume);
+    add(fmt::format("frame/{}/{}", name, with_volume ? "volume" : "no_volume"), [=](State& s) {
+      frames(s, name, with_volume, Strains::kOfTets);
     })->Iterations(1);
   }
+  add(fmt::format("smoothed/frame/{}/volume", name), [=](State& s) {
+    frames(s, name, true, Strains::kSmoothed);
+  })->Iterations(1);
   const auto body = [name]() -> const BentBody& { return bodyOf(name, true); };
-  add("local/" + name, [body](State& s) { localStep(s, body(), Simd::kAuto); });
+  for (const Strains strains : {Strains::kOfTets, Strains::kSmoothed})
+    add(prefixOf(strains, "/") + "local/" + name, [=](State& s) { localStep(s, body(), strains); });
   add("global/" + name, [body](State& s) { globalStep(s, body(), Simd::kAuto); });
   add("factor/" + name, [body](State& s) { factorAnew(s, body()); });
   add("update/" + name, [name](State& s) { updates(s, name); })->Iterations(1);
@@ -274,7 +296,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   add("vector_width", vectorWidth)->Iterations(1);
   for (const char* body : {"sponge", "doll", "1k", "10k", "100k"}) addBody(body);
-  add("converged/sponge", converged)->Iterations(1);
+  for (const Strains strains : {Strains::kOfTets, Strains::kSmoothed})
+    add(prefixOf(strains, "/") + "converged/sponge", [=](State& s) { converged(s, strains); })->Iterations(1);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -8,56 +8,108 @@
 
 namespace softbody::bench {
 
+namespace {
+
+/// The sum of the projections of F onto its constraints, each with its weight [Pa].
+class Projector {
+ public:
+  explicit Projector(const Lame& lame) : lame_(lame) {}
+
+  Eigen::Matrix3d operator()(const Eigen::Matrix3d& F) {
+    svd_.compute(F);
+    Eigen::Matrix3d U = svd_.matrixU();
+    Eigen::Vector3d sigma = svd_.singularValues();
+    if (U.determinant() * svd_.matrixV().determinant() < 0.0) {
+      U.col(2) = -U.col(2);
+      sigma[2] = -sigma[2];
+    }
+    const Eigen::Matrix3d R = U * svd_.matrixV().transpose();
+    Eigen::Matrix3d sum = 2.0 * lame_.mu * R;
+    if (lame_.lambda > 0.0) {
+      // The nearest singular values that sum to 3.
+      const Eigen::Vector3d nearest = sigma.array() - (sigma.sum() - 3.0) / 3.0;
+      sum += 3.0 * lame_.lambda * U * nearest.asDiagonal() * svd_.matrixV().transpose();
+    }
+    return sum;
+  }
+
+ private:
+  Lame lame_;
+  Eigen::JacobiSVD<Eigen::Matrix3d> svd_{3, 3, Eigen::ComputeFullU | Eigen::ComputeFullV};
+};
+
+}  // namespace
+
 PlainProjectiveDynamics::PlainProjectiveDynamics(const TetTopology& topology, const Lame& lame,
-                                                 const StepPotential& potential)
+                                                 const StepPotential& potential, double smoothing)
     : tets_(topology.tets),
-      volumes_(tetVolumes(topology.rest_vertices, topology.tets)),
+      volumes_((1.0 - smoothing) * tetVolumes(topology.rest_vertices, topology.tets)),
       lame_(lame),
       projections_(static_cast<std::size_t>(tets_.rows())) {
   const Eigen::Index n = topology.rest_vertices.rows();
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&entries](const auto& vertices, const Eigen::Matrix4d& block) {
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b < 4; ++b) entries.emplace_back(vertices[a], vertices[b], block(a, b));
-    }
-  };
-  for (Eigen::Index v = 0; v < n; ++v) entries.emplace_back(v, v, potential.inertia[v]);
-  for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
-    const Eigen::Matrix<double, 3, 4> G =
-        shapeGradients(edgesOf(topology.rest_vertices, tets_.row(t)).inverse()).transpose();
-    shape_gradients_.push_back(G);
-    const double stiffness = (2.0 * lame_.mu + 3.0 * lame_.lambda) * volumes_[t];
-    add(Eigen::Vector4i(tets_.row(t)), stiffness * G.transpose() * G);
-  }
+  for (Eigen::Index v = 0; v < n; ++v) entries_.emplace_back(v, v, potential.inertia[v]);
+  addTets(topology.rest_vertices);
+  if (smoothing > 0.0) addPatches(topology.rest_vertices, smoothing);
   for (const auto& spring : potential.targets.springs()) {
-    add(spring.vertices, spring.stiffness * spring.barycentric * spring.barycentric.transpose());
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 4; ++b) {
+        entries_.emplace_back(spring.vertices[a], spring.vertices[b],
+                              spring.stiffness * spring.barycentric[a] * spring.barycentric[b]);
+      }
+    }
   }
   Eigen::SparseMatrix<double> A(n, n);
-  A.setFromTriplets(entries.begin(), entries.end());
+  A.setFromTriplets(entries_.begin(), entries_.end());
+  entries_ = {};
   solver_.compute(A);
 }
 
+template <typename Vertices, typename Gradients>
+void PlainProjectiveDynamics::addToMatrix(const Vertices& vertices, double volume,
+                                          const Gradients& gradients) {
+  const double stiffness = (2.0 * lame_.mu + 3.0 * lame_.lambda) * volume;
+  for (Eigen::Index a = 0; a < gradients.cols(); ++a) {
+    for (Eigen::Index b = 0; b < gradients.cols(); ++b)
+      entries_.emplace_back(vertices[a], vertices[b], stiffness * gradients.col(a).dot(gradients.col(b)));
+  }
+}
+
+void PlainProjectiveDynamics::addTets(const Points& rest_vertices) {
+  for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
+    const Eigen::Matrix<double, 3, 4> gradients =
+        shapeGradients(edgesOf(rest_vertices, tets_.row(t)).inverse()).transpose();
+    shape_gradients_.push_back(gradients);
+    addToMatrix(tets_.row(t), volumes_[t], gradients);
+  }
+}
+
+void PlainProjectiveDynamics::addPatches(const Points& rest_vertices, double smoothing) {
+  const SmoothedGradients smoothed = smoothedGradients(rest_vertices, tets_);
+  for (Eigen::Index v = 0; v < smoothed.volumes.size(); ++v) {
+    const int first = smoothed.first[v], last = smoothed.first[v + 1];
+    patches_.push_back({{smoothed.vertices.begin() + first, smoothed.vertices.begin() + last},
+                        smoothed.gradients.middleRows(first, last - first).transpose(),
+                        smoothing * smoothed.volumes[v],
+                        Eigen::Matrix3d::Zero()});
+    addToMatrix(patches_.back().vertices, patches_.back().volume, patches_.back().gradients);
+  }
+}
+
 void PlainProjectiveDynamics::localStep(const Points& x) {
-  Eigen::JacobiSVD<Eigen::Matrix3d> svd(3, 3, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Projector project(lame_);
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
     Eigen::Matrix<double, 3, 4> corners;
     for (int k = 0; k < 4; ++k) corners.col(k) = x.row(tets_(t, k));
     const auto index = static_cast<std::size_t>(t);
-    const Eigen::Matrix3d F = corners * shape_gradients_[index].transpose();
-    svd.compute(F);
-    Eigen::Matrix3d U = svd.matrixU();
-    Eigen::Vector3d sigma = svd.singularValues();
-    if (U.determinant() * svd.matrixV().determinant() < 0.0) {
-      U.col(2) = -U.col(2);
-      sigma[2] = -sigma[2];
+    projections_[index] = project(corners * shape_gradients_[index].transpose());
+  }
+  for (Patch& patch : patches_) {
+    Eigen::Matrix3d F = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+      F += x.row(patch.vertices[i]).transpose() *
+           patch.gradients.col(static_cast<Eigen::Index>(i)).transpose();
     }
-    const Eigen::Matrix3d R = U * svd.matrixV().transpose();
-    projections_[index] = 2.0 * lame_.mu * R;
-    if (lame_.lambda > 0.0) {
-      // The nearest singular values that sum to 3.
-      const Eigen::Vector3d nearest = sigma.array() - (sigma.sum() - 3.0) / 3.0;
-      projections_[index] += 3.0 * lame_.lambda * U * nearest.asDiagonal() * svd.matrixV().transpose();
-    }
+    patch.projection = project(F);
   }
 }
 
@@ -67,6 +119,13 @@ void PlainProjectiveDynamics::globalStep(const StepPotential& potential, Points*
     const auto index = static_cast<std::size_t>(t);
     const Eigen::Matrix<double, 3, 4> pull = volumes_[t] * projections_[index] * shape_gradients_[index];
     for (int k = 0; k < 4; ++k) right_side_.row(tets_(t, k)) += pull.col(k).transpose();
+  }
+  for (const Patch& patch : patches_) {
+    const Eigen::Matrix3d stress = patch.volume * patch.projection;
+    for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+      right_side_.row(patch.vertices[i]) +=
+          (stress * patch.gradients.col(static_cast<Eigen::Index>(i))).transpose();
+    }
   }
   for (const auto& spring : potential.targets.springs()) {
     for (int k = 0; k < 4; ++k) {
