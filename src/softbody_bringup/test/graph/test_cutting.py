@@ -8,6 +8,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point, Point32, PolygonStamped, Pose, Quaternion, TransformStamped, Vector3
 from recorder import Recorder
+from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import Cut, MeshState, MeshTopology, Targets, TetTopology
 from softbody_msgs.srv import CutBody, PreviewCut
 from std_srvs.srv import Trigger
@@ -27,7 +28,7 @@ class Cutting(unittest.TestCase):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState,
                                 softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
                                 softbody__cut=Cut, softbody__cut__marker=Marker,
-                                softbody__preview__marker=MarkerArray)
+                                softbody__preview__marker=MarkerArray, rosout=Log)
         cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.blade = rospy.Publisher("/softbody/tool/blade", PolygonStamped, queue_size=1)
         cls.rest = array(cls.recorder.wait_for("softbody/surface/topology")[-1].rest_vertices)
@@ -187,6 +188,18 @@ class Cutting(unittest.TestCase):
         state = self.step(stamp=rospy.Time(500), reset=True)
         self.assertEqual(state.revision, 0)
         self.assertEqual(len(state.vertices), len(self.rest))
+
+    def test_4_a_blade_that_cannot_cut_is_told(self):
+        self.step()
+        blade = PolygonStamped()
+        blade.header.frame_id = FRAME
+        for stamp, corners, words in ((rospy.Time(), 4, "not that of an image"), (self.stamp, 2, "three corners")):
+            blade.header.stamp, blade.polygon.points = stamp, [Point32(k, k * k, 5) for k in range(corners)]
+            for _ in range(6):
+                self.blade.publish(blade)
+                rospy.sleep(0.05)
+            self.recorder.wait(lambda seen: any(log.name == "/softbody/surface" and words in log.msg
+                                                for log in seen["rosout"]), f"a warning that says {words}")
 
 
 if __name__ == "__main__":

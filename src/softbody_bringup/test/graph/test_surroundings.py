@@ -9,6 +9,7 @@ import rostest
 import tf2_ros
 from geometry_msgs.msg import Point32, Pose, Quaternion, TransformStamped, WrenchStamped
 from recorder import Recorder
+from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, PinRegion, Targets, TetTopology
 
 FRAME = "world"
@@ -29,7 +30,7 @@ class Surroundings(unittest.TestCase):
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState,
                                 softbody__reaction__ground=WrenchStamped, softbody__reaction__finger=WrenchStamped,
-                                softbody__reaction__gripper=WrenchStamped)
+                                softbody__reaction__gripper=WrenchStamped, rosout=Log)
         cls.broadcaster = tf2_ros.TransformBroadcaster()
         cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.pins = rospy.Publisher("/softbody/pin", PinRegion, queue_size=1)
@@ -130,6 +131,11 @@ class Surroundings(unittest.TestCase):
         wrench = self.reaction("finger")
         self.assertEqual(wrench.header.frame_id, "finger")
         self.assertGreater(wrench.wrench.force.z, 0.0)
+
+    def test_a_pin_that_is_not_there_is_told(self):
+        self.pins.publish(PinRegion(name="griper", release=True))
+        self.recorder.wait(lambda seen: any(log.name == "/softbody/simulator" and "'griper'" in log.msg
+                                            for log in seen["rosout"]), "a warning that names the pin")
 
     def test_finger_dents_the_body_and_feels_it(self):
         self.grip("")  # held where it is

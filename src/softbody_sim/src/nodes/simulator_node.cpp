@@ -149,8 +149,11 @@ void SimulatorNode::onCut(const softbody_msgs::CutConstPtr& message) {
 }
 
 void SimulatorNode::onPin(const softbody_msgs::PinRegionConstPtr& message) {
-  surroundings_->release(message->name);
-  if (message->release) return;
+  const bool was_held = surroundings_->release(message->name);
+  if (message->release) {
+    if (!was_held) ROS_WARN_STREAM("nothing is let go: no pin has the name '" << message->name << "'");
+    return;
+  }
   const PinRegion region{message->name, message->header.frame_id,
                          Eigen::Vector3d(message->min.x, message->min.y, message->min.z),
                          Eigen::Vector3d(message->max.x, message->max.y, message->max.z)};

@@ -18,6 +18,8 @@ namespace {
 /// Further apart in time the blade and the body's state say nothing of each other.
 constexpr double kSameInstant = 0.1;  // [s]
 constexpr std::size_t kMostWaiting = 30;
+/// As many blades without a state are no bag that starts again.
+constexpr int kMostLeftOut = 5;
 /// A simulator that goes on for so long without a cut will not make it.
 constexpr double kLongestBehind = 3.0;  // [s]
 
@@ -77,15 +79,28 @@ void SurfaceEditor::onBlade(const geometry_msgs::PolygonStampedConstPtr& message
   if (state_ && stamp <= state_header_.stamp) return follow(*message);
   // A body is simulated later than a blade is found, by more than a frame where the machine is slow.
   waiting_blades_.push_back(message);
-  if (waiting_blades_.size() > kMostWaiting) waiting_blades_.pop_front();
+  if (waiting_blades_.size() <= kMostWaiting) return;
+  leaveOut(*waiting_blades_.front());
+  waiting_blades_.pop_front();
+}
+
+void SurfaceEditor::leaveOut(const geometry_msgs::PolygonStamped& blade) {
+  if (!state_ || ++left_out_ < kMostLeftOut) return;
+  ROS_WARN_STREAM_THROTTLE(5.0, "the blade cannot cut: its stamp, "
+                                    << blade.header.stamp
+                                    << ", is not that of an image; the body's state is of "
+                                    << state_header_.stamp);
 }
 
 void SurfaceEditor::follow(const geometry_msgs::PolygonStamped& blade) {
-  if (!body_ || !state_ || std::abs((state_header_.stamp - blade.header.stamp).toSec()) > kSameInstant)
-    return;
+  if (!body_ || !state_) return;
+  if (std::abs((state_header_.stamp - blade.header.stamp).toSec()) > kSameInstant) return leaveOut(blade);
+  left_out_ = 0;
   const std::optional<Points> polygon = inStatesFrame(blade);
-  if (!polygon || polygon->rows() < 3 || !polygon->allFinite()) return;
+  if (!polygon) return;
   try {
+    if (polygon->rows() < 3 || !polygon->allFinite())
+      throw std::invalid_argument("it needs three corners or more, all finite");
     const std::optional<Cut> cut = body_->follow(*polygon, *state_, toNanoseconds(blade.header.stamp));
     if (cut) publish(*cut, blade.header.stamp);
   } catch (const std::exception& error) {

@@ -51,6 +51,7 @@ class SurfaceEditor {
   bool onEdit(CutKind kind, std_srvs::Trigger::Response& response);
 
   void follow(const geometry_msgs::PolygonStamped& blade);
+  void leaveOut(const geometry_msgs::PolygonStamped& blade);
   void tear();
   std::optional<Points> inStatesFrame(const geometry_msgs::PolygonStamped& blade);
   bool apply(const Cut& cut, std::string* reason);
@@ -72,6 +73,7 @@ class SurfaceEditor {
   std::optional<MeshState> state_;  ///< the last one
   std_msgs::Header state_header_;
   std::deque<geometry_msgs::PolygonStampedConstPtr> waiting_blades_;  ///< their states have not come yet
+  int left_out_ = 0;                ///< blades in a row that came with no state of their time
   softbody_msgs::CutPtr last_cut_;  ///< null: there is none, or the simulator has it
   /// Since when, and at which revision, the simulator sends topologies from before a cut.
   std::optional<std::pair<ros::WallTime, std::uint32_t>> behind_;

@@ -76,7 +76,7 @@ void SurroundingsTracker::regionsChanged(const Points& rest_vertices, const Poin
   }
 }
 
-void SurroundingsTracker::release(const std::string& name) { held_.erase(name); }
+bool SurroundingsTracker::release(const std::string& name) { return held_.erase(name) > 0; }
 
 void SurroundingsTracker::forgetPlaces() {
   for (auto& entry : held_) entry.second.places.reset();

@@ -24,7 +24,8 @@ class SurroundingsTracker {
 
   /// Holds the vertices of a region from the next at() on. @throw std::invalid_argument if it has none.
   void hold(const PinRegion& region, const Points& rest_vertices);
-  void release(const std::string& name);
+  /// False where no region has the name.
+  bool release(const std::string& name);
   /// The volume was cut: held regions hold their new vertices too, where those are now.
   /// @param vertices none: the body has no place.
   void regionsChanged(const Points& rest_vertices, const Points& vertices);
