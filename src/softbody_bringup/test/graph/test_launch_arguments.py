@@ -67,9 +67,12 @@ class LaunchArguments(unittest.TestCase):
             words = self.rviz(launch, "output_frame:=base_link")
             self.assertEqual(words[words.index("-f") + 1], "base_link", launch)
             self.assertEqual(words[words.index("-d") + 1], f"{RVIZ}/upright.rviz", launch)
-        words = self.rviz("track.launch")
-        self.assertNotIn("-f", words)
-        self.assertEqual(words[words.index("-d") + 1], f"{RVIZ}/track.rviz")
+
+    def test_or_in_the_cameras(self):
+        for launch in ("track.launch", "rig.launch", "playback.launch"):
+            words = self.rviz(launch, "camera_frame:=left_optical_frame")
+            self.assertEqual(words[words.index("-f") + 1], "left_optical_frame", launch)
+            self.assertEqual(words[words.index("-d") + 1], f"{RVIZ}/track.rviz", launch)
 
     def test_both_views_show_the_same(self):
         shown = []

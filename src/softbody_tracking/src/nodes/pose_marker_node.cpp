@@ -23,7 +23,7 @@ bool isGiven(const geometry_msgs::Pose& pose) {
 PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle)
     : server_(handle.resolveName(kTopics)) {
   Parameters parameters = readParameters(private_handle);
-  frame_ = parameters.text("frame", "camera_color_optical_frame");
+  frame_ = parameters.text("frame", "");
   warnUnknown(parameters);
   start_.position.z = kAhead_m;
   start_.orientation.w = 1.0;
@@ -34,6 +34,12 @@ PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& pr
       handle.subscribe(topics::kVolumeTopology, 1, &PoseMarkerNode::onVolumeTopology, this);
   surface_topology_subscriber_ =
       handle.subscribe(topics::kSurfaceTopology, 1, &PoseMarkerNode::onSurfaceTopology, this);
+  if (frame_.empty()) info_subscriber_ = handle.subscribe(topics::kRgbInfo, 1, &PoseMarkerNode::onInfo, this);
+}
+
+void PoseMarkerNode::onInfo(const sensor_msgs::CameraInfo::ConstPtr& message) {
+  info_subscriber_.shutdown();  // a camera keeps its frame
+  frame_ = message->header.frame_id;
 }
 
 void PoseMarkerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) {
@@ -46,7 +52,8 @@ void PoseMarkerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr
 }
 
 void PoseMarkerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
-  // The topology is sent again every second; only a new one counts.
+  // The topology is sent again every second: then the camera's frame may be known, and only a new one counts.
+  if (frame_.empty()) return;
   if (mesh_ && mesh_->revision == message->revision && mesh_->rest_vertices == message->rest_vertices &&
       mesh_->triangles == message->triangles)
     return;

@@ -3,6 +3,7 @@
 #include <interactive_markers/interactive_marker_server.h>
 #include <interactive_markers/menu_handler.h>
 #include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <softbody_msgs/MeshTopology.h>
 #include <softbody_msgs/TetTopology.h>
 
@@ -20,15 +21,16 @@ class PoseMarkerNode {
  private:
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
+  void onInfo(const sensor_msgs::CameraInfo::ConstPtr& message);
   void track(const visualization_msgs::InteractiveMarkerFeedback& feedback);
 
-  std::string frame_;
+  std::string frame_;                           ///< empty until the camera's is known
   softbody_msgs::MeshTopology::ConstPtr mesh_;  ///< that is shown
   geometry_msgs::Pose start_;                   ///< where it stands first
   interactive_markers::InteractiveMarkerServer server_;
   interactive_markers::MenuHandler menu_;
   ros::ServiceClient set_pose_;
-  ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_;
+  ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, info_subscriber_;
 };
 
 }  // namespace softbody
