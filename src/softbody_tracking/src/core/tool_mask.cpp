@@ -10,9 +10,8 @@
 namespace softbody {
 namespace {
 
-constexpr double kMargin = 0.008;                 // [m] for the blade's thickness and its way since
-constexpr Nanoseconds kStillThere = 200'000'000;  // [ns]
-constexpr double kNearest = 0.01;                 // [m]
+constexpr double kMargin = 0.008;  // [m] for the blade's thickness and its way since
+constexpr double kNearest = 0.01;  // [m]
 
 /// The plane of a polygon, and the polygon in it.
 struct PlanePolygon {

@@ -11,7 +11,6 @@
 
 #include "nodes/silence.h"
 #include "softbody_common/conversions.h"
-#include "softbody_common/rigid_fit.h"
 #include "softbody_common/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_common/tracking_state.h"
@@ -22,7 +21,6 @@ namespace {
 
 constexpr int kSyncQueue = 4;
 constexpr double kSetPosePatience_s = 0.5;
-constexpr std::size_t kWaitingBlades = 10;
 
 }  // namespace
 
@@ -120,26 +118,26 @@ void FeatureTrackerNode::onVolumeState(const softbody_msgs::MeshState::ConstPtr&
 }
 
 void FeatureTrackerNode::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {
-  blades_.push_back(message);
-  if (blades_.size() > kWaitingBlades) blades_.pop_front();
+  blades_.add(
+      {toNanoseconds(message->header.stamp), message->header.frame_id, fromMessage(message->polygon)});
 }
 
-/// The newest blade that tf places now. Those after it are tried again with the next frame: waiting here
-/// would hold up all that comes, blade by blade.
-void FeatureTrackerNode::placeBlade() {
+/// Without patience: waiting for tf here would hold up all that comes, blade by blade.
+void FeatureTrackerNode::placeBlade(const ros::Time& stamp) {
   std::string reason;
-  for (auto next = blades_.rbegin(); next != blades_.rend(); ++next) {
-    const geometry_msgs::PolygonStamped& blade = **next;
+  const auto place = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
+    std_msgs::Header header;
+    header.stamp = toTime(blade.stamp);
+    header.frame_id = blade.frame_id;
     try {
-      tool_mask_.see(toNanoseconds(blade.header.stamp),
-                     transformed(fromMessage(blade.polygon), fixedPose(blade.header, 0.0)));
-      blades_.erase(blades_.begin(), next.base());
-      return;
+      return fixedPose(header, 0.0);
     } catch (const tf2::TransformException& error) {
       reason = error.what();
+      return std::nullopt;
     }
-  }
-  if (!blades_.empty()) ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << reason);
+  };
+  if (blades_.show(toNanoseconds(stamp), place, &tool_mask_) > 0)
+    ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << reason);
 }
 
 void FeatureTrackerNode::skip(const std_msgs::Header& header, const std::string& why) {
@@ -213,7 +211,7 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
                   mask.empty() ? cv::Mat1f(depth_image->image) : masked(depth_image->image, mask),
                   T_output_camera};
-  placeBlade();
+  placeBlade(header.stamp);
   frame = tool_mask_.without(frame);
   const std::optional<MeshState> state = volume();
   StageTimer timer;

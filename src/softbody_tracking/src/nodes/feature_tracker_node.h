@@ -13,11 +13,11 @@
 #include <softbody_msgs/TetTopology.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "core/blade_queue.h"
 #include "nodes/mask_input.h"
 #include "nodes/output_frame.h"
 #include "softbody_common/parameters.h"
@@ -43,7 +43,7 @@ class FeatureTrackerNode {
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
   void adoptTopologies();
-  void placeBlade();
+  void placeBlade(const ros::Time& stamp);
   void skip(const std_msgs::Header& header, const std::string& why);
   /// @throw tf2::TransformException.
   Eigen::Isometry3d fixedPose(const std_msgs::Header& header, double patience_s) const;
@@ -63,7 +63,7 @@ class FeatureTrackerNode {
   std::optional<MeshTopology> surface_topology_;                    ///< the newest
   std::uint32_t adopted_revision_ = 0;                              ///< that the tracker works with
   softbody_msgs::MeshState::ConstPtr newest_state_, volume_state_;  ///< of any, and of the adopted revision
-  std::deque<geometry_msgs::PolygonStamped::ConstPtr> blades_;      ///< not placed by tf yet, the newest last
+  BladeQueue blades_;                                               ///< not placed by tf yet
   ToolMask tool_mask_;
   TrackingStatus last_status_;
   ros::Time last_stamp_, last_arrival_;  ///< of the last frame

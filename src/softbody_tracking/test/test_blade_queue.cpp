@@ -1,0 +1,64 @@
+#include "core/blade_queue.h"
+
+#include <gtest/gtest.h>
+
+namespace softbody {
+namespace {
+
+constexpr Nanoseconds kMillisecond = 1'000'000;
+constexpr Nanoseconds kFrame = 33 * kMillisecond;
+
+/// A tool whose blades and tf come while frames are taken.
+struct Tool {
+  std::size_t frame(Nanoseconds now) {
+    const auto place = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
+      if (blade.stamp > tf) return std::nullopt;
+      newest = std::max(newest, blade.stamp);
+      return Eigen::Isometry3d::Identity();
+    };
+    return queue.show(now, place, &mask);
+  }
+  void blade(Nanoseconds stamp) { queue.add({stamp, "tool", Points::Zero(3, 3)}); }
+
+  BladeQueue queue;
+  ToolMask mask;
+  Nanoseconds tf = 0;       ///< known up to here
+  Nanoseconds newest = -1;  ///< that had a place
+};
+
+TEST(BladeQueue, ABladeThatNeverGetsAPlaceIsCountedOnce) {
+  Tool tool;
+  tool.blade(1);
+  std::size_t lost = 0;
+  for (Nanoseconds now = 1; now < 10'000 * kMillisecond; now += kFrame) {
+    lost += tool.frame(now);
+    EXPECT_EQ(lost, now > ToolMask::kStillThere + 1 ? 1u : 0u) << now;
+  }
+}
+
+TEST(BladeQueue, ABladeThatIsPlacedAFrameLaterIsNotCounted) {
+  Tool tool;
+  for (Nanoseconds k = 0; k < 300; ++k) {
+    if (k % 2 == 0) tool.blade(k * kFrame);
+    EXPECT_EQ(tool.frame(k * kFrame), 0u) << k;
+    tool.tf = k * kFrame;
+  }
+  EXPECT_EQ(tool.newest, 298 * kFrame);
+}
+
+TEST(BladeQueue, BladesOfAFastToolWaitUntilTheyArePlaced) {
+  constexpr Nanoseconds kBlade = 5 * kMillisecond, kLate = 150 * kMillisecond;
+  Tool tool;
+  for (Nanoseconds now = 0; now < 3000 * kMillisecond; now += kBlade) {
+    tool.blade(now);
+    tool.tf = now - kLate;
+    if (now % (6 * kBlade) != 0) continue;
+    EXPECT_EQ(tool.frame(now), 0u) << now;
+    if (now >= kLate) {
+      EXPECT_EQ(tool.newest, now - kLate);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace softbody
