@@ -13,7 +13,8 @@
 namespace softbody {
 
 /// All of /tf and /tf_static in bags, whenever it was recorded: nothing is late, as it may be for a live
-/// graph. What tf2 refuses, not finite or with a quaternion not of unit length, is left out.
+/// graph. What tf2 refuses, not finite, with a quaternion not of unit length, without a name
+/// or from a frame to itself, is left out.
 class BagTransforms {
  public:
   /// @param paths of bags; of two transforms of one stamp that of the later bag counts.

@@ -27,11 +27,13 @@ std::string withoutSlash(const std::string& frame) {
 }
 
 /// What tf2 refuses, and infinity: told to it, one sample would hide what its neighbours tell.
-bool isUnusable(const geometry_msgs::Transform& transform) {
-  const geometry_msgs::Vector3& t = transform.translation;
-  const geometry_msgs::Quaternion& q = transform.rotation;
+bool isUnusable(const geometry_msgs::TransformStamped& transform) {
+  const std::string parent = withoutSlash(transform.header.frame_id),
+                    child = withoutSlash(transform.child_frame_id);
+  const geometry_msgs::Vector3& t = transform.transform.translation;
+  const geometry_msgs::Quaternion& q = transform.transform.rotation;
   const Eigen::Vector4d rotation(q.x, q.y, q.z, q.w);
-  return !Eigen::Vector3d(t.x, t.y, t.z).allFinite() ||
+  return parent.empty() || child.empty() || parent == child || !Eigen::Vector3d(t.x, t.y, t.z).allFinite() ||
          !(std::abs(rotation.squaredNorm() - 1.0) < kUnitTolerance);
 }
 
@@ -72,7 +74,7 @@ void BagTransforms::addBag(const std::string& path) {
     const bool is_static = instance.getTopic() == "/tf_static";
     for (const geometry_msgs::TransformStamped& transform : message->transforms) {
       const std::string child = withoutSlash(transform.child_frame_id);
-      if (isUnusable(transform.transform)) {
+      if (isUnusable(transform)) {
         ++refused[child];
       } else {
         is_static ? void(fixed_[child] = transform) : add(transform);
@@ -81,8 +83,9 @@ void BagTransforms::addBag(const std::string& path) {
   }
   for (const auto& [child, count] : refused) {
     warnings_.push_back(fmt::format(
-        "{}: {} transforms of frame '{}' are left out, not finite or with a quaternion not of unit length",
-        path, count, child));
+        "{}: {} of frame '{}' left out: not finite, with a quaternion not of unit length, without a name, or "
+        "from a frame to itself",
+        path, count == 1 ? "1 transform" : fmt::format("{} transforms", count), child));
   }
 }
 

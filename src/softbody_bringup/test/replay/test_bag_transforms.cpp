@@ -121,22 +121,30 @@ TEST(BagTransforms, AParentThatChangesIsThatOfTf2) {
 TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
   TransformBag bag("bag_transforms_refused");
   tf2::BufferCore buffer{ros::Duration(100.0)};
-  const auto add = [&](const char* child, double t, const geometry_msgs::Quaternion& rotation, double x_m) {
+  const auto addNamed = [&](const std::string& parent, const std::string& child, double t,
+                            const geometry_msgs::Quaternion& rotation, double x_m, bool is_static = false) {
     geometry_msgs::TransformStamped transform = tf2::eigenToTransform(TransformBag::shifted(x_m));
     transform.transform.rotation = rotation;
     transform.header.stamp = after(t);
-    transform.header.frame_id = "world";
+    transform.header.frame_id = parent;
     transform.child_frame_id = child;
-    bag.add(transform);
-    return buffer.setTransform(transform, "test");
+    bag.add(transform, is_static ? "/tf_static" : "/tf");
+    return buffer.setTransform(transform, "test", is_static);
   };
+  const auto add = [&](const std::string& child, double t, const geometry_msgs::Quaternion& rotation,
+                       double x_m) { return addNamed("world", child, t, rotation, x_m); };
   geometry_msgs::Quaternion unit, zero, hardly, nearly;
   unit.w = 1.0;
   hardly.w = std::sqrt(1.011);
   nearly.w = std::sqrt(1.009);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const char* child : {"camera", "tool"}) {
+  EXPECT_FALSE(addNamed("world", "", 0.1, unit, 0.3));
+  for (const std::string child : {"camera", "tool"}) {
     EXPECT_TRUE(add(child, 0.0, unit, 0.0));
+    for (const bool is_static : {false, true}) {
+      for (const std::string& parent : {child, "/" + child, std::string()})
+        EXPECT_FALSE(addNamed(parent, child, 0.05, unit, 0.3, is_static)) << parent;
+    }
     EXPECT_FALSE(add(child, 0.1, zero, 0.3));
     EXPECT_FALSE(add(child, 0.15, unit, nan));
     EXPECT_FALSE(add(child, 0.2, hardly, 0.3));
@@ -153,9 +161,11 @@ TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
             .isApprox(tf2::transformToEigen(buffer.lookupTransform("world", "camera", after(t))), 1e-9))
         << t;
   }
-  ASSERT_EQ(transforms.warnings().size(), 2u);
-  EXPECT_NE(transforms.warnings()[0].find("3 transforms of frame 'camera'"), std::string::npos)
+  ASSERT_EQ(transforms.warnings().size(), 3u);
+  EXPECT_NE(transforms.warnings()[0].find("1 transform of frame ''"), std::string::npos)
       << transforms.warnings()[0];
+  EXPECT_NE(transforms.warnings()[1].find("9 transforms of frame 'camera'"), std::string::npos)
+      << transforms.warnings()[1];
 }
 
 TEST(BagTransforms, AGapCountsOnlyWhereTheFrameMovedMeanwhile) {
