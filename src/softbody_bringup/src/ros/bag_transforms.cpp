@@ -145,9 +145,10 @@ void BagTransforms::tell(const std::string& frame, const ros::Time& stamp, tf2::
     message.transform = sample->transform;
     buffer->setTransform(message, "bag");
   }
-  if (last - first < 2 || first->parent != after->parent) return;
+  if (last - first < 2) return;
   const double gap_s = (after->stamp - first->stamp).toSec();
-  if (gap_s > kLongestGap_s && differ(first->transform, after->transform))
+  const bool moved = first->parent != after->parent || differ(first->transform, after->transform);
+  if (gap_s > kLongestGap_s && moved)
     throw tf2::ExtrapolationException(fmt::format("/tf says nothing of {} for {:.3f} s", frame, gap_s));
 }
 

@@ -107,8 +107,8 @@ TEST(BagTransforms, AParentThatChangesIsThatOfTf2) {
     add("world", "hand", 0.2 * i, any(random));
     add("world", "table", 0.2 * i, any(random));
   }
-  // Put down and taken up again, with more than half a second between.
-  for (int i = 0; i <= 5; ++i) add(i % 2 == 0 ? "hand" : "table", "object", 0.8 * i, any(random));
+  // Put down and taken up again.
+  for (int i = 0; i <= 10; ++i) add(i % 2 == 0 ? "hand" : "table", "object", 0.4 * i, any(random));
   const BagTransforms transforms = bag.read();
   for (int i = 0; i < 200; ++i) {
     const ros::Time stamp = after(2.0 * (1.0 + any(random)));
@@ -180,6 +180,19 @@ TEST(BagTransforms, AGapCountsOnlyWhereTheFrameMovedMeanwhile) {
   EXPECT_THROW(transforms.at("slow", "camera", after(2.6)), tf2::ExtrapolationException);
   EXPECT_NEAR(transforms.at("world", "slow", after(2.0)).translation().x(), 0.02, 1e-9)
       << "at a stamp there is no gap";
+}
+
+TEST(BagTransforms, AGapCountsWhereTheParentIsAnotherAfterIt) {
+  TransformBag bag("bag_transforms_gap_parent");
+  for (const char* parent : {"a", "b"}) bag.addAll("world", parent, 0.1, 0.0);
+  bag.add("a", "camera", 0.0, TransformBag::shifted(0.3));
+  bag.add("a", "camera", 1.0, TransformBag::shifted(0.3));
+  bag.add("b", "camera", 3.0, TransformBag::shifted(0.3));
+  const BagTransforms transforms = bag.read();
+  for (const double t : {1.01, 2.0, 2.99})
+    EXPECT_THROW(transforms.at("world", "camera", after(t)), tf2::ExtrapolationException) << t;
+  for (const double t : {0.5, 1.0, 3.0})
+    EXPECT_NEAR(transforms.at("world", "camera", after(t)).translation().x(), 0.3, 1e-9) << t;
 }
 
 TEST(BagTransforms, WhatIsAboveBothFramesDoesNotCount) {
