@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
+#include <utility>
 
 #include "cutting/surface_meshes.h"
 #include "cutting/visual_sponge.h"
@@ -55,6 +57,9 @@ struct Body {
   std::size_t move(const Eigen::Isometry3d& T_rest_blade) {
     Points blade(4, 3);
     blade << 0.0, -0.075, 0.0, 0.0, 0.075, 0.0, 0.0, 0.075, 0.04, 0.0, -0.075, 0.04;
+    return move(blade, T_rest_blade);
+  }
+  std::size_t move(const Points& blade, const Eigen::Isometry3d& T_rest_blade) {
     if (surface.follow(transformed(blade, T_rest_blade), state(), stamp += 33'000'000)) ++cuts;
     return cuts;
   }
@@ -79,6 +84,19 @@ struct Body {
       for (const int v : mesh.triangles.row(t)) most = std::max(most, std::abs(mesh.rest_vertices(v, 0)));
     }
     return most;
+  }
+  /// Of the cut along y.
+  std::pair<double, double> span() const {
+    const MeshTopology& mesh = surface.surface().topology();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+      if (!mesh.cut[static_cast<std::size_t>(t)]) continue;
+      for (const int v : mesh.triangles.row(t)) {
+        low = std::min(low, mesh.rest_vertices(v, 1));
+        high = std::max(high, mesh.rest_vertices(v, 1));
+      }
+    }
+    return {low, high};
   }
   std::size_t pieces() const { return testing::bodyVolumes(surface.surface().topology()).size(); }
 
@@ -240,6 +258,39 @@ TEST(BladeContact, ABladeLiftedWhileItOnlyTouchesCutsOn) {
       body.move(pose);
       body.go(&pose, {0.0, 0.0, -0.09});
       EXPECT_EQ(body.pieces(), 2u) << "tilt " << tilt << ", y " << y;
+    }
+  }
+}
+
+/// A triangle whose tip is at the origin, 80 mm high, in the plane x = 0. @param slope half its width by its
+/// height.
+Points pointedBlade(double slope) {
+  constexpr double kHeight = 0.08;
+  const double half_width = kHeight * slope;
+  Points blade(3, 3);
+  blade << 0.0, 0.0, 0.0, 0.0, half_width, kHeight, 0.0, -half_width, kHeight;
+  return blade;
+}
+
+TEST(BladeContact, APointedBladeCutsAsWideAsItIs) {
+  constexpr double kTop = 0.0294, kLow = 0.002, kHigh = 0.098;  // the sponge's faces
+  constexpr double kDeepest = 0.05, kBehind = 0.0051;           // the cut stays less than an advance behind
+  for (double degrees = 30.0; degrees <= 120.0; degrees += 15.0) {
+    for (const double y : {0.05, 0.053}) {
+      Body body = sponge();
+      const double slope = std::tan(0.5 * degrees * M_PI / 180.0);
+      double first = 0.0;
+      for (int step = -20; step <= 50; ++step) {
+        const double depth = 0.001 * step;
+        if (body.move(pointedBlade(slope), at(0.103, y, kTop - depth)) == 1 && first == 0.0) first = depth;
+      }
+      const auto [low, high] = body.span();
+      const double widest = kDeepest * slope, narrowest = (kDeepest - kBehind) * slope;
+      EXPECT_GT(low, std::max(kLow, y - widest) - 1e-4) << degrees << " degrees, y " << y;
+      EXPECT_LT(low, std::max(kLow, y - narrowest) + 1e-4) << degrees << " degrees, y " << y;
+      EXPECT_GT(high, std::min(kHigh, y + narrowest) - 1e-4) << degrees << " degrees, y " << y;
+      EXPECT_LT(high, std::min(kHigh, y + widest) + 1e-4) << degrees << " degrees, y " << y;
+      EXPECT_LT(first, 0.0085) << degrees << " degrees, y " << y;
     }
   }
 }

@@ -81,11 +81,13 @@ int BladeOutline::sideFrom(int sample) const {
 int BladeOutline::sideTo(int sample) const { return sideFrom(sample + static_cast<int>(points_.rows()) - 1); }
 
 std::vector<int> BladeOutline::leadingEdge(const Eigen::Vector3d& way) const {
-  constexpr double kFacing = 0.6;  // cosine: of a blade that goes along its diagonal two sides lead
+  constexpr double kFacing = 0.6;  // of the foremost side's cosine: two sides of a tip or a diagonal lead
   const Eigen::VectorXd facing = side_normals_ * way;
   Eigen::Index foremost = 0;
   facing.maxCoeff(&foremost);
-  const auto leads = [&](int side) { return facing[(side + sides()) % sides()] > kFacing; };
+  const auto leads = [&](int side) {
+    return facing[(side + sides()) % sides()] > kFacing * facing[foremost];
+  };
   int first = static_cast<int>(foremost), last = first;
   while (last - first + 1 < sides() && leads(first - 1)) --first;
   while (last - first + 1 < sides() && leads(last + 1)) ++last;

@@ -157,7 +157,8 @@ bool BladeStroke::resume(const Contact& now) {
 }
 
 /// Where the blade has gone since it was clear of the body, along the normals of its sides that are in it:
-/// neither up along a flank nor along an edge. As long as the furthest of these ways.
+/// neither up along a flank nor along an edge. As long as the furthest of these ways, or as the way went that
+/// they make together: a tip goes in further than its flanks do.
 Eigen::Vector3d BladeStroke::wayIn(const Contact& now) const {
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
   std::set<int> sides;
@@ -174,7 +175,8 @@ Eigen::Vector3d BladeStroke::wayIn(const Contact& now) const {
     furthest = std::max(furthest, advance);
     way += advance * now.outline.sideNormal(side);
   }
-  return furthest * way.stableNormalized();
+  way.stableNormalize();
+  return std::max(furthest, moved.dot(way)) * way;
 }
 
 bool BladeStroke::enter(const Contact& now, const RestSolid& solid) {
