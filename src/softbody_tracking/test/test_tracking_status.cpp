@@ -115,13 +115,15 @@ TEST(HeldPieces, AreInferredOutOfViewOrTooSmall) {
   }
 }
 
-TEST(HeldPieces, AreInferredBesideWhatIsSaidAlready) {
+TEST(HeldPieces, AreSaidBesideWhatIsSaidAlready) {
   const auto reason = [](const std::vector<Shows>& shown, const std::string& before) {
     return told(shown, {true, true, false}, 20, TrackingState::kTracking, before).reason;
   };
   const std::string alike = "tracked in one of 4 poses that look alike";
   EXPECT_EQ(reason({kWell, kWell, kWell}, alike), alike);
   EXPECT_EQ(reason({kWell, kWell, kHardly}, alike), alike + "; " + reason({kWell, kWell, kHardly}, ""));
+  EXPECT_EQ(reason({kHardly, kWell, kHardly}, alike),
+            alike + "; " + reason({kHardly, kWell, kWell}, "") + "; " + reason({kWell, kWell, kHardly}, ""));
 }
 
 TEST(HeldPieces, DoNotChangeWhatIsWorse) {

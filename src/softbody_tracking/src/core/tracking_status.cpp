@@ -32,6 +32,11 @@ std::string piecesText(const std::set<std::uint32_t>& numbers, std::size_t count
                      fmt::join(numbers, ", "), count);
 }
 
+void append(const std::string& text, std::string* reason) {
+  if (!reason->empty()) *reason += "; ";
+  *reason += text;
+}
+
 }  // namespace
 
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations) {
@@ -65,11 +70,11 @@ void HeldPieces::tell(const Observation& seen, const std::vector<std::set<std::u
   if (status->state != TrackingState::kTracking) return;
   if (!missing.empty()) {
     status->state = TrackingState::kDegraded;
-    status->reason = "too little shows of " + piecesText(missing, all.size()) + ": held where it was";
-  } else if (!hidden.empty()) {
-    if (!status->reason.empty()) status->reason += "; ";
-    status->reason +=
-        piecesText(hidden, all.size()) + " out of view or too small to be followed: only inferred";
+    append("too little shows of " + piecesText(missing, all.size()) + ": held where it was", &status->reason);
+  }
+  if (!hidden.empty()) {
+    append(piecesText(hidden, all.size()) + " out of view or too small to be followed: only inferred",
+           &status->reason);
   }
 }
 
