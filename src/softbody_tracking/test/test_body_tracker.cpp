@@ -147,6 +147,29 @@ TEST(BodyTracker, FindsABodyThatComesBackElsewhereAndTurned) {
             0.003);
 }
 
+TEST(BodyTracker, FindsACubeThatComesBackTurned) {
+  BoxBody cube = makeBox(6, 6, 6);
+  for (Points* vertices : {&cube.volume.rest_vertices, &cube.surface.rest_vertices})
+    *vertices *= Eigen::Vector3d(0.5, 1.0, 2.5).asDiagonal();
+  TrackedBox tracked(TrackerConfig(), cube);
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(cube));
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(posedBox(cube), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  // In depth it looks the same in 24 poses.
+  const Points elsewhere = posedBox(cube, 0.06, 0.4);
+  EXPECT_EQ(tracked.show(elsewhere).status.state, TrackingState::kTracking) << "in the very first frame";
+  const TrackingResult result = tracked.show(elsewhere);
+  EXPECT_LT((transformed(cube.volume.rest_vertices, result.targets.body_pose) - elsewhere)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.003);
+}
+
 /// Largest distance of a vertex between the pose found and another.
 double distanceTo(const BoxBody& box, const TrackingResult& result, const Eigen::Isometry3d& pose) {
   return (transformed(box.volume.rest_vertices, result.targets.body_pose) -
@@ -212,6 +235,17 @@ TEST(BodyTracker, FollowsAJumpOfMoreThanTheSearchWindow) {
   const Points truth = posedBox(tracked.box(), 0.025);
   const TrackingResult result = tracked.show(truth);
   EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.003);
+}
+
+TEST(BodyTracker, FollowsAJumpAcrossTheImage) {
+  TrackedBox tracked;
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
+  // Half of its length away and turned by 29 degrees in one frame.
+  const Points truth = posedBox(tracked.box(), 0.1, 0.5);
+  const TrackingResult result = tracked.show(truth);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_FALSE(result.targets.reset) << "its deformation is not forgotten";
   EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.003);
 }
 

@@ -11,7 +11,8 @@ namespace softbody {
 /// Drives a tracker with rendered frames; the "simulator" answers every frame with the truth.
 class TrackedBox {
  public:
-  explicit TrackedBox(const TrackerConfig& config = TrackerConfig()) : tracker_(config) {
+  explicit TrackedBox(const TrackerConfig& config = TrackerConfig(), const BoxBody& box = makeBox())
+      : box_(box), tracker_(config) {
     box_.volume.has_initial_pose = true;
     box_.volume.initial_pose = Eigen::Translation3d(0.01, -0.008, 0.01) * boxPose() *
                                Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ());
@@ -82,7 +83,7 @@ class TrackedBox {
     return positionOf(target.place, vertices, box_.volume.tets);
   }
 
-  BoxBody box_ = makeBox();
+  BoxBody box_;
   BodyTracker tracker_;
   RgbdFrame frame_;
   MeshState state_;

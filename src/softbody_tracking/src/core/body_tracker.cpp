@@ -47,6 +47,9 @@ struct BodyTracker::Implementation {
 
   void takeInitialPose(const RgbdFrame& frame);
   bool start(const RgbdFrame& frame, StageTimer* timer);
+  bool recognize(const RgbdFrame& frame, StageTimer* timer);
+  const Localizer& findingLocalizer();
+  void place(const RgbdFrame& frame, const Localization& found);
   /// Whether a state of the volume answers the targets sent since the body was placed.
   bool answers(const MeshState* volume, Nanoseconds stamp) const;
   std::vector<Association> all(const Observation& seen, const Eigen::Matrix3d& R_camera_fixed) const;
@@ -146,34 +149,53 @@ void BodyTracker::Implementation::takeInitialPose(const RgbdFrame& frame) {
   fresh = false;
 }
 
-/// Finds the body where nothing predicts it: near the pose that the user gave, or anywhere.
-bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* timer) {
-  if (frames_to_registration-- > 0) return false;
-  frames_to_registration = kFramesBetweenRegistrations;
-  const auto scope = timer->stage("Model Registration", true);
+const Localizer& BodyTracker::Implementation::findingLocalizer() {
   if (localizer == nullptr) {
     const MeshTopology& surface = observer->surface().topology();
     localizer = std::make_unique<Localizer>(TriangleMesh{surface.rest_vertices, surface.triangles},
                                             config.registration);
   }
+  return *localizer;
+}
+
+void BodyTracker::Implementation::place(const RgbdFrame& frame, const Localization& found) {
+  body_pose = frame.T_fixed_camera * found.pose;
+  poses_alike = found.alike;
+  registered = true;
+  prediction->reset();
+  lost_frames = frames_to_registration = 0;
+  placed_since = frame.stamp;
+}
+
+/// Finds a body that was lost by its features, as soon as they are seen again.
+bool BodyTracker::Implementation::recognize(const RgbdFrame& frame, StageTimer* timer) {
+  const std::optional<Eigen::Isometry3d> rough = observer->recognize(frame);
+  if (!rough) return false;
+  const auto scope = timer->stage("Model Registration", true);
+  const std::optional<Localization> found = findingLocalizer().recognized(
+      frame, *rough, [&](const Eigen::Isometry3d& pose) { return observer->featureShare(frame, pose); });
+  if (found) place(frame, *found);
+  return found.has_value();
+}
+
+/// Finds the body where nothing predicts it: near the pose that the user gave, or anywhere.
+bool BodyTracker::Implementation::start(const RgbdFrame& frame, StageTimer* timer) {
+  if (frames_to_registration-- > 0) return false;
+  frames_to_registration = kFramesBetweenRegistrations;
+  const auto scope = timer->stage("Model Registration", true);
+  const Localizer& finder = findingLocalizer();
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   std::optional<Localization> found;
-  if (given_pose && !recovering) found = localizer->near(frame, T_camera_fixed * *given_pose);
+  if (given_pose && !recovering) found = finder.near(frame, T_camera_fixed * *given_pose);
   if (!found) {
     std::vector<Eigen::Isometry3d> guesses;
     if (recovering || given_pose) guesses.push_back(T_camera_fixed * body_pose);
-    found = localizer->anywhere(frame, observer->colors(), guesses, [&](const Eigen::Isometry3d& pose) {
+    found = finder.anywhere(frame, observer->colors(), guesses, [&](const Eigen::Isometry3d& pose) {
       return observer->featureShare(frame, pose);
     });
   }
-  if (!found) return false;
-  body_pose = frame.T_fixed_camera * found->pose;
-  poses_alike = found->alike;
-  registered = true;
-  prediction->reset();
-  frames_to_registration = 0;
-  placed_since = frame.stamp;
-  return true;
+  if (found) place(frame, *found);
+  return found.has_value();
 }
 
 bool BodyTracker::Implementation::answers(const MeshState* volume, Nanoseconds stamp) const {
@@ -275,7 +297,8 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
     self.lost_frames = 0;
   }
   const bool first = !self.registered;
-  if (first && !self.start(frame, timer))
+  const bool recognized = (self.recovering || self.lost_frames > 0) && self.recognize(frame, timer);
+  if (first && !recognized && !self.start(frame, timer))
     return self.waiting(
         "the body was not found: nothing of its size and shape stands free in the depth image");
 

@@ -12,13 +12,24 @@ namespace {
 
 constexpr int kPatchMargin = 32;           // [px] around features for their descriptors and patches
 constexpr double kLearnTolerance = 0.008;  // [m], depth agrees well enough to learn the body's colours
+constexpr double kDeformation = 0.03;      // of the body's diameter, at which it still is recognised
 constexpr double kLookAgain = 0.004;       // [m] of any vertex; a rough step beyond it is rendered again
 constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer, descriptors are matched too
+constexpr double kHardlyAny = 0.2;      // of the expected features; with fewer they are looked for anywhere
 constexpr int kTiles = 4;               // of the predicted surface
 constexpr double kTileShare = 0.7;      // of the most features: a tile may have more texture than others
 constexpr int kFramesBetweenTiles = 3;  // in which new features are looked for
 constexpr int kScouts = 48;             // features that say whether the prediction is far off
 constexpr double kFarOff = 4.0;         // [px] that full resolution hardly aligns
+
+double diameter(const Points& vertices) {
+  return (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+}
+
+std::ptrdiff_t inlierCount(const std::vector<FeatureMatch>& matches) {
+  return std::count_if(matches.begin(), matches.end(),
+                       [](const FeatureMatch& match) { return match.inlier; });
+}
 
 /// Outlines that nothing would use are not looked for.
 OutlineConfig usedOutline(const TrackerConfig& config) {
@@ -52,6 +63,20 @@ void FrameObserver::reset() {
   colors_.reset();
   shown_before_.clear();
   frames_to_admission_ = 0;
+}
+
+/// Features recognised anywhere in the frame. @param vertices of the volume as they are expected.
+std::vector<PointPair> FrameObserver::recognizeFeatures(const RgbdFrame& frame, const Points& vertices) {
+  const cv::Rect image(cv::Point(), frame.color.size());
+  return recognizedFeatures(frame, map_.features(),
+                            orb_.extract(frame.color, colors_.mask(frame.color, image), image), surface_,
+                            vertices, config_.features.max_hamming_distance);
+}
+
+std::optional<Eigen::Isometry3d> FrameObserver::recognize(const RgbdFrame& frame) {
+  if (map_.features().empty()) return std::nullopt;
+  const Points& rest = surface_.volume().rest_vertices;
+  return recognizedMotion(recognizeFeatures(frame, rest), kDeformation * diameter(rest));
 }
 
 /// Share of the known features that show at a pose of the undeformed body; -1 where too few should.
@@ -161,9 +186,35 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
     if (largestMotion(surface_, rough) > kLookAgain) {
       look(frame, surface_.movedVolume(rough));
       seen->matches = alignFeatures(frame);
+      markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     }
+    if (inlierCount(seen->matches) < kHardlyAny * map_.expected(followedPieces()))
+      lookWhereRecognized(frame, seen);
   }
   markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
+}
+
+/// Where hardly any feature is where it was predicted, those that are recognised anywhere say where the
+/// pieces went, if then more are found.
+void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, Observation* seen) {
+  const Points before = surface_.volumeVertices();
+  std::vector<std::vector<PointPair>> pairs(surface_.bodyCount());
+  for (const PointPair& pair : recognizeFeatures(frame, before)) pairs[pair.body].push_back(pair);
+  RigidMotions motions;
+  for (const std::vector<PointPair>& piece : pairs) {
+    motions.push_back(
+        recognizedMotion(piece, kDeformation * diameter(before)).value_or(Eigen::Isometry3d::Identity()));
+  }
+  if (largestMotion(surface_, motions) < kLookAgain) return;
+  look(frame, surface_.movedVolume(motions));
+  std::vector<FeatureMatch> matches = alignFeatures(frame);
+  markOutliers(frame.camera, config_.features.max_disagreement_m, &matches);
+  if (inlierCount(matches) > inlierCount(seen->matches)) {
+    seen->matches = std::move(matches);
+  } else {
+    look(frame, before);
+    alignFeatures(frame);  // what is missed is known by it
+  }
 }
 
 /// Wherever the body may be.

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "color_model.h"
 #include "depth_associations.h"
 #include "feature_map.h"
+#include "feature_recognition.h"
 #include "gray_pyramid.h"
 #include "orb_extractor.h"
 #include "outline_associations.h"
@@ -48,6 +50,9 @@ class FrameObserver {
   /// Binds new features where the observation has keypoints on surface without any.
   void admit(const RgbdFrame& frame, const Observation& seen);
 
+  /// Where the undeformed body is by the features that are recognised anywhere in the frame.
+  std::optional<Eigen::Isometry3d> recognize(const RgbdFrame& frame);
+
   /// Share of the known features that show at a pose of the undeformed body; -1 where too few should.
   double featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose);
 
@@ -69,6 +74,8 @@ class FrameObserver {
   std::vector<bool> followedPieces() const;
   bool farOff(const std::vector<FeatureMatch>& scouts) const;
   bool few(const std::vector<FeatureMatch>& matches) const;
+  std::vector<PointPair> recognizeFeatures(const RgbdFrame& frame, const Points& vertices);
+  void lookWhereRecognized(const RgbdFrame& frame, Observation* seen);
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
   void keepShownPieces(Observation* seen) const;

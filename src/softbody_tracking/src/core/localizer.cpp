@@ -37,6 +37,13 @@ std::optional<Localization> Localizer::near(const RgbdFrame& frame,
   return Localization{found.pose, 1};
 }
 
+std::optional<Localization> Localizer::recognized(const RgbdFrame& frame, const Eigen::Isometry3d& pose,
+                                                  const FeatureShare& feature_share) const {
+  std::optional<Localization> found = near(frame, pose);
+  if (!found || feature_share(found->pose) < kSmallestFeatureShare) return std::nullopt;
+  return found;
+}
+
 /// Share of the pixels covered at a pose whose colour is none of the body's.
 double Localizer::foreignShare(const RgbdFrame& frame, const ColorModel& colors,
                                const Eigen::Isometry3d& pose) const {

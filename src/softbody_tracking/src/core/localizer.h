@@ -26,6 +26,10 @@ class Localizer {
   /// Near a rough pose that somebody gave.
   std::optional<Localization> near(const RgbdFrame& frame, const Eigen::Isometry3d& rough_pose) const;
 
+  /// Near a pose at which its features were recognised, which tell poses apart that look alike in depth.
+  std::optional<Localization> recognized(const RgbdFrame& frame, const Eigen::Isometry3d& pose,
+                                         const FeatureShare& feature_share) const;
+
   /// Anywhere. Among poses alike in depth the one with most features; if they are expected and hardly found
   /// anywhere, it is not the body.
   std::optional<Localization> anywhere(const RgbdFrame& frame, const ColorModel& colors,

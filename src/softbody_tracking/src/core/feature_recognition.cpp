@@ -1,0 +1,108 @@
+#include "feature_recognition.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <random>
+
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+constexpr float kRatio = 0.85f;        // best to second-best distance
+constexpr float kSamePlacePx = 3.0f;   // two keypoints nearer than this are no rivals
+constexpr int kTrials = 3000;          // most end at the first edge that has another length
+constexpr int kFits = 3;               // of the best, to those that agree
+constexpr double kShortestEdge = 4.0;  // tolerances, of the triangle that a trial fits
+constexpr std::size_t kFewestAgreeing = 15;
+
+/// The keypoint that looks most like a descriptor, -1 where none does clearly.
+int mostAlike(const Descriptor& descriptor, const std::vector<Keypoint>& keypoints, int max_distance,
+              std::vector<int>* distances) {
+  distances->resize(keypoints.size());
+  for (std::size_t k = 0; k < keypoints.size(); ++k)
+    (*distances)[k] = hammingDistance(descriptor, keypoints[k].descriptor);
+  const auto least = std::min_element(distances->begin(), distances->end());
+  if (least == distances->end() || *least > max_distance) return -1;
+  const auto best = static_cast<std::size_t>(least - distances->begin());
+  for (std::size_t k = 0; k < keypoints.size(); ++k) {
+    if (static_cast<float>(*least) <= kRatio * static_cast<float>((*distances)[k])) continue;
+    const cv::Point2f d = keypoints[k].pixel - keypoints[best].pixel;
+    if (d.dot(d) > kSamePlacePx * kSamePlacePx) return -1;
+  }
+  return static_cast<int>(best);
+}
+
+using Triple = std::array<const PointPair*, 3>;
+
+/// Whether three pairs can be one rigid triangle, and one large enough to tell its pose.
+bool isTriangle(const Triple& triple, double tolerance) {
+  for (int k = 0; k < 3; ++k) {
+    const PointPair &a = *triple[k], &b = *triple[(k + 1) % 3];
+    const double expected = (a.expected - b.expected).norm(), measured = (a.measured - b.measured).norm();
+    if (expected < kShortestEdge * tolerance || std::abs(expected - measured) > tolerance) return false;
+  }
+  return true;
+}
+
+template <typename Pairs>
+Eigen::Isometry3d fit(const Pairs& pairs) {
+  Points expected(static_cast<Eigen::Index>(pairs.size()), 3), measured(expected.rows(), 3);
+  Eigen::Index row = 0;
+  for (const PointPair* pair : pairs) {
+    expected.row(row) = pair->expected;
+    measured.row(row++) = pair->measured;
+  }
+  return fitRigid(expected, measured);
+}
+
+std::vector<const PointPair*> agreeing(const std::vector<PointPair>& pairs, const Eigen::Isometry3d& motion,
+                                       double tolerance) {
+  std::vector<const PointPair*> result;
+  for (const PointPair& pair : pairs) {
+    if ((motion * pair.expected - pair.measured).squaredNorm() < tolerance * tolerance)
+      result.push_back(&pair);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vector<MapFeature>& features,
+                                          const std::vector<Keypoint>& keypoints,
+                                          const PredictedSurface& surface, const Points& vertices,
+                                          int max_hamming_distance) {
+  std::vector<PointPair> pairs;
+  std::vector<int> distances;
+  for (const MapFeature& feature : features) {
+    const int k = mostAlike(feature.descriptor, keypoints, max_hamming_distance, &distances);
+    if (k < 0) continue;
+    const cv::Point2f& pixel = keypoints[k].pixel;
+    const double z = featureDepth(frame.depth, pixel);
+    if (z <= 0.0) continue;
+    pairs.push_back({positionOf(feature.place, vertices, surface.volume().tets),
+                     frame.camera.unproject(pixel.x, pixel.y, z), surface.bodyOf(feature.place)});
+  }
+  return pairs;
+}
+
+std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& pairs, double tolerance_m) {
+  if (pairs.size() < kFewestAgreeing) return std::nullopt;
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::size_t> pick(0, pairs.size() - 1);
+  std::vector<const PointPair*> most;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Triple triple{&pairs[pick(random)], &pairs[pick(random)], &pairs[pick(random)]};
+    if (!isTriangle(triple, tolerance_m)) continue;
+    std::vector<const PointPair*> others = agreeing(pairs, fit(triple), tolerance_m);
+    if (others.size() > most.size()) most = std::move(others);
+  }
+  for (int i = 0; i < kFits && most.size() >= kFewestAgreeing; ++i)
+    most = agreeing(pairs, fit(most), tolerance_m);
+  if (most.size() < kFewestAgreeing) return std::nullopt;
+  return fit(most);
+}
+
+}  // namespace softbody

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "feature_map.h"
+#include "orb_extractor.h"
+#include "softbody_tracking/rgbd_frame.h"
+
+namespace softbody {
+
+/// Where a feature lies in the body as it is expected, and where it may have been measured.
+struct PointPair {
+  Eigen::Vector3d expected, measured;
+  std::uint32_t body = 0;  ///< the piece that it lies on
+};
+
+/// The keypoints, wherever they are, that look clearly most like known features.
+/// @param vertices of the surface's volume, as they are expected. @param max_hamming_distance between
+/// descriptors, of 256 bits.
+std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vector<MapFeature>& features,
+                                          const std::vector<Keypoint>& keypoints,
+                                          const PredictedSurface& surface, const Points& vertices,
+                                          int max_hamming_distance);
+
+/// The rigid motion that most pairs agree with (RANSAC, Fischler and Bolles 1981), if they are enough for it
+/// not to be chance.
+/// @param tolerance_m by which they may be off, deformation included.
+std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& pairs, double tolerance_m);
+
+}  // namespace softbody
