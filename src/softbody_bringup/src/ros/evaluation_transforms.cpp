@@ -41,6 +41,17 @@ class Transforms {
   std::string reason_;
 };
 
+/// What a reader of the figures should know. @param items of which some were left out, by name.
+std::vector<std::string> notesOf(const Transforms& transforms, std::size_t left_out, std::size_t left,
+                                 const std::string& items, const std::string& frame_id) {
+  std::vector<std::string> notes = transforms.warnings();
+  if (left_out > 0) {
+    notes.push_back(fmt::format("{} of {} {} have no transform to '{}' at their stamp and were left out: {}",
+                                left_out, left_out + left, items, frame_id, transforms.reason()));
+  }
+  return notes;
+}
+
 }  // namespace
 
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface) {
@@ -52,26 +63,28 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
             ((state->vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose()).eval();
       });
   if (surface->states.empty()) {
+    std::vector<std::string> reasons = transforms.warnings();
+    reasons.insert(reasons.begin(), transforms.reason());
     throw std::invalid_argument(fmt::format(
         "the surface is in frame '{0}' and /tf of {1} does not lead to '{2}': {3}. If both are names of one "
         "frame, record beside the images a /tf_static that says so (rosrun tf2_ros "
         "static_transform_publisher "
         "0 0 0 0 0 0 {0} {2})",
-        surface->frame_id, fmt::join(paths, " and "), frame_id, transforms.reason()));
+        surface->frame_id, fmt::join(paths, " and "), frame_id, fmt::join(reasons, ". ")));
   }
-  surface->notes.insert(surface->notes.end(), transforms.warnings().begin(), transforms.warnings().end());
-  if (left_out > 0) {
-    surface->notes.push_back(fmt::format(
-        "{} states have no transform to '{}' at their stamp and were left out", left_out, frame_id));
-  }
+  const std::vector<std::string> notes =
+      notesOf(transforms, left_out, surface->states.size(), "states", frame_id);
+  surface->notes.insert(surface->notes.end(), notes.begin(), notes.end());
   surface->frame_id = frame_id;
 }
 
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool) {
   if (tool->poses.empty() || tool->frame_id == frame_id) return;
-  Transforms(paths).apply(
-      frame_id, tool->frame_id, &tool->poses,
-      [](const Eigen::Isometry3d& pose, Eigen::Isometry3d* item) { *item = pose * *item; });
+  Transforms transforms(paths);
+  const std::size_t left_out =
+      transforms.apply(frame_id, tool->frame_id, &tool->poses,
+                       [](const Eigen::Isometry3d& pose, Eigen::Isometry3d* item) { *item = pose * *item; });
+  tool->notes = notesOf(transforms, left_out, tool->poses.size(), "poses of the tool", frame_id);
   tool->frame_id = frame_id;
 }
 

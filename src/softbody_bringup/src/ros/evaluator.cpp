@@ -90,6 +90,7 @@ void addTool(const EvaluatorOptions& options, const std::string& recording, Repo
   if (truth.poses.empty()) return;
   ToolRecord result = readPoses(options.result, options.result_namespace + kToolPose);
   expressIn(truth.frame_id, transformBags(options, recording), &result);
+  report->notes.insert(report->notes.end(), result.notes.begin(), result.notes.end());
   report->tool = poseError(result.poses, truth.poses);
 }
 

@@ -328,6 +328,27 @@ TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {
   EXPECT_EQ(report.tool->expected, 5u);
   EXPECT_EQ(report.tool->answered, 4u);
   EXPECT_NEAR(report.tool->position.mean, 0.002, 1e-8);
+  EXPECT_TRUE(report.notes.empty());
+}
+
+TEST(Evaluator, PosesOfTheToolThatTfDoesNotPlaceAreSaid) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("lost_tool.bag", [](softbody_msgs::MeshState*, int) { return true; });
+  options.truth = testing::TempDir() + "lost_tool_truth.bag";
+  std::filesystem::copy_file(recording(), options.truth, std::filesystem::copy_options::overwrite_existing);
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.header.stamp = ros::Time(1.6e9);
+  pose.pose.pose.orientation.w = 1.0;
+  for (const std::string& path : {options.truth, options.result}) {
+    pose.header.frame_id = path == options.truth ? "camera_color_optical_frame" : "nowhere";
+    rosbag::Bag(path, rosbag::bagmode::Append)
+        .write(path == options.truth ? "/ground_truth/tool/pose" : "/softbody/tool/pose", pose.header.stamp,
+               pose);
+  }
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.tool->answered, 0u);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_NE(report.notes[0].find("1 of 1 poses of the tool"), std::string::npos) << report.notes[0];
 }
 
 TEST(DrawCut, AResultInAnotherFrameThanTheImagesIsRefused) {

@@ -32,7 +32,7 @@ SurfaceRecord readSurface(const std::string& path, const std::string& topology_t
 /// @throw std::invalid_argument if no state has a transform.
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface);
 
-/// The same for a tool's poses; those without a transform are left out.
+/// The same for a tool's poses, but none may be left.
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool);
 
 /// PoseStamped or PoseWithCovarianceStamped; empty if the topic is not there.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "softbody_bringup/evaluation/statistics.h"
 #include "softbody_common/types.h"
@@ -15,6 +16,7 @@ using PoseRecord = std::map<Nanoseconds, Eigen::Isometry3d>;  ///< by stamp
 struct ToolRecord {
   std::string frame_id;  ///< of the poses
   PoseRecord poses;
+  std::vector<std::string> notes;  ///< what was left out, in sentences
 };
 
 /// A tool's pose against the truth.
