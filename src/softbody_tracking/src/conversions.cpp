@@ -100,6 +100,10 @@ RgbdFrame frameFromMessages(const sensor_msgs::Image& color, const sensor_msgs::
                          toNanoseconds(color.header.stamp));
 }
 
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
 sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const std_msgs::Header& header) {
   return cv_bridge::CvImage(header, image.type() == CV_32FC1 ? enc::TYPE_32FC1 : enc::BGR8, image)
       .toImageMsg();

@@ -24,7 +24,8 @@ class BagTransforms {
   /// T_target_source at a stamp. @throw tf2::TransformException if the bags do not tell it: frames that are
   /// not connected, a stamp before the first or after the last of /tf, or in a gap of more than half a second
   /// in which a frame between the two has moved or got another parent.
-  Eigen::Isometry3d at(const std::string& target, const std::string& source, const ros::Time& stamp) const;
+  Eigen::Isometry3d at(const std::string& target_frame, const std::string& source_frame,
+                       const ros::Time& stamp) const;
 
   /// A sentence for each frame of which transforms were left out.
   const std::vector<std::string>& warnings() const { return warnings_; }

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "softbody_bringup/input_bag.h"
+#include "softbody_tracking/conversions.h"
 
 namespace softbody {
 namespace {
@@ -20,11 +21,6 @@ constexpr double kLongestGap_s =
     0.5;  // an arm that speeds up leaves a straight way of so long by centimetres
 constexpr double kUnitTolerance = 1e-2;  // tf2's own, of the squared length
 constexpr double kMoved_m = 1e-4, kTurned_rad = 1e-4;
-
-/// tf2 knows frames without a leading slash.
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
 
 /// What tf2 refuses, and infinity: told to it, one sample would hide what its neighbours tell.
 bool isUnusable(const geometry_msgs::TransformStamped& transform) {
@@ -154,8 +150,9 @@ void BagTransforms::tell(const std::string& frame, const ros::Time& stamp, tf2::
 
 /// tf2 is told what lies between the two frames around the stamp, and no more: its own search through a whole
 /// bag is linear.
-Eigen::Isometry3d BagTransforms::at(const std::string& target, const std::string& source,
+Eigen::Isometry3d BagTransforms::at(const std::string& target_frame, const std::string& source_frame,
                                     const ros::Time& stamp) const {
+  const std::string target = withoutSlash(target_frame), source = withoutSlash(source_frame);
   if (target == source) return Eigen::Isometry3d::Identity();
   std::vector<std::string> from = wayUp(source, stamp), to = wayUp(target, stamp);
   while (!from.empty() && !to.empty() && from.back() == to.back()) {

@@ -57,7 +57,7 @@ class CameraPoses {
 
   /// @throw tf2::TransformException where the bag does not tell it.
   Eigen::Isometry3d of(const std_msgs::Header& header) const {
-    if (!transforms_ || header.frame_id == output_frame_) return Eigen::Isometry3d::Identity();
+    if (!transforms_) return Eigen::Isometry3d::Identity();
     return transforms_->at(output_frame_, header.frame_id, header.stamp);
   }
 

@@ -87,6 +87,13 @@ class CameraIngest(unittest.TestCase):
         self.camera.be(depth_frame="camera_depth_optical_frame")
         self.wait_for_status(DiagnosticStatus.WARN, "camera_depth_optical_frame")
 
+    def test_a_slash_before_the_frame_is_left_out(self):
+        """Old drivers and bags have one, and tf2 refuses it."""
+        topic = "softbody/rgb/image_rect_color"
+        self.camera.be(color_frame="/left_optical_frame", depth_frame="/left_optical_frame")
+        self.recorder.wait(lambda seen: seen[topic] and seen[topic][-1].header.frame_id == "left_optical_frame",
+                           "an image whose frame has no slash")
+
     def test_images_without_a_frame_are_named(self):
         self.camera.be(color_frame="", depth_frame="")
         self.wait_for_status(DiagnosticStatus.WARN, "no frame_id")

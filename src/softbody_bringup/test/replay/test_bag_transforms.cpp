@@ -220,6 +220,14 @@ TEST(BagTransforms, WhatIsNotThereIsAnException) {
   EXPECT_THROW(transforms.at("world", "itself", after(1.0)), tf2::TransformException);
 }
 
+TEST(BagTransforms, ASlashBeforeAFrameIsNoOtherFrame) {
+  TransformBag bag("bag_transforms_slash");
+  bag.add("/world", "camera", 0.0, TransformBag::shifted(3.0));
+  const BagTransforms transforms = bag.read();
+  EXPECT_EQ(transforms.at("world", "/camera", after(0.0)).translation().x(), 3.0);
+  EXPECT_EQ(transforms.at("/world", "world", after(0.0)).translation().x(), 0.0);
+}
+
 TEST(BagTransforms, OfOneStampTheLaterBagCounts) {
   TransformBag first("bag_transforms_first"), second("bag_transforms_second");
   first.add("world", "camera", 1.0, TransformBag::shifted(1.0));

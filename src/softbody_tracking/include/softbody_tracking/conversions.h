@@ -4,6 +4,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <string>
 #include <vector>
 
 #include "softbody_tracking/camera_ingest.h"
@@ -25,6 +26,9 @@ Distortion distortionFromMessage(const sensor_msgs::CameraInfo& info);
 /// the colour's.
 RgbdFrame frameFromMessages(const sensor_msgs::Image& color, const sensor_msgs::Image* depth,
                             const sensor_msgs::CameraInfo& info, CameraIngest* ingest);
+
+/// A frame's name for tf2, which refuses the leading slash of old drivers and bags.
+std::string withoutSlash(const std::string& frame);
 
 /// CV_8UC3 becomes bgr8, CV_32FC1 32FC1.
 sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const std_msgs::Header& header);

@@ -123,7 +123,9 @@ void CameraIngestNode::onPair(const sensor_msgs::ImageConstPtr& color,
       const auto stage = timer_.stage("camera ingest");
       frame = frameFromMessages(*color, depth.get(), *info_, ingest_.get());
     }
-    publish(frame, color->header);
+    std_msgs::Header header = color->header;
+    header.frame_id = withoutSlash(header.frame_id);
+    publish(frame, header);
     completeFrame(color->header, depth->header);
   } catch (const std::exception& error) {
     timer_.take();
@@ -167,8 +169,8 @@ void CameraIngestNode::completeFrame(const std_msgs::Header& color, const std_ms
   ++frames_;
   last_frame_ = ros::Time::now();
   latency_s_ = (last_frame_ - color.stamp).toSec();
-  color_frame_ = color.frame_id;
-  depth_frame_ = depth.frame_id;
+  color_frame_ = withoutSlash(color.frame_id);
+  depth_frame_ = withoutSlash(depth.frame_id);
   monitor_->completed();
 }
 
