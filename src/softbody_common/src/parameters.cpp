@@ -21,8 +21,7 @@ Number inRange(const std::string& name, Number value, Number min, Number max) {
 
 }  // namespace
 
-Parameters::Parameters(YAML::Node values, std::string prefix)
-    : values_(std::move(values)), prefix_(std::move(prefix)) {
+Parameters::Parameters(YAML::Node values, std::string prefix) : values_(values), prefix_(std::move(prefix)) {
   if (values_.IsDefined() && !values_.IsNull() && !values_.IsMap()) {
     throw std::invalid_argument(fmt::format("parameters {} must be a map of keys and values", prefix_));
   }

@@ -110,7 +110,7 @@ Run plainFrame(const BentBody& body, Strains strains, int iterations) {
 
 Run fastFrame(const BentBody& body, const ProjectiveDynamicsOptions& chosen) {
   const auto solver = std::make_shared<ProjectiveDynamics>(body.topology, body.lame, chosen);
-  const Run frame = [solver, &body] {
+  Run frame = [solver, &body] {
     Points x = body.start;
     solver->minimize(body.potential, &x);
     benchmark::DoNotOptimize(x.data());
@@ -159,10 +159,10 @@ void frames(State& state, const std::string& name, bool with_volume, Strains str
     report(state, names, times);
     state.counters["tets"] = tets;
     if (!with_volume) continue;
-    const std::string key = "summary/pd_" + prefixOf(strains, "_");
-    state.counters[key + "frame_ratio/" + name] = times[0] / times[1];
-    state.counters[key + "bytes_per_tet/" + name] = bytes / tets;
-    state.counters[key + "frame_ns_per_tet/" + name] = 1e9 * times[1] / tets;
+    const std::string prefix = prefixOf(strains, "_");
+    state.counters[fmt::format("summary/pd_{}frame_ratio/{}", prefix, name)] = times[0] / times[1];
+    state.counters[fmt::format("summary/pd_{}bytes_per_tet/{}", prefix, name)] = bytes / tets;
+    state.counters[fmt::format("summary/pd_{}frame_ns_per_tet/{}", prefix, name)] = 1e9 * times[1] / tets;
   }
 }
 
@@ -194,7 +194,8 @@ void converged(State& state, Strains strains) {
   for (auto _ : state) {
     const std::vector<double> times = leastTimes(runs);
     report(state, names, times);
-    state.counters["summary/pd_" + prefixOf(strains, "_") + "converged_ratio/sponge"] = times[0] / times[1];
+    state.counters[fmt::format("summary/pd_{}converged_ratio/sponge", prefixOf(strains, "_"))] =
+        times[0] / times[1];
   }
 }
 

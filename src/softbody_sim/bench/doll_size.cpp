@@ -49,9 +49,10 @@ DollSize makeDollSize() {
   DollSize doll{makeCage(), Points(kPointRings * kRingPoints, 3)};
   // Ring by ring, as neighbours mostly follow each other in a mesh's file; below the cage's facets.
   for (Eigen::Index p = 0; p < doll.points.rows(); ++p) {
-    const double ring = static_cast<double>(p / kRingPoints), k = static_cast<double>(p % kRingPoints);
+    const Eigen::Index ring = p / kRingPoints, k = p % kRingPoints;
     const double depth = 0.78 + 0.12 * uniform(random);
-    doll.points.row(p) = depth * bumpyBall(kPi * (ring + 0.5) / kPointRings, 2.0 * kPi * k / kRingPoints);
+    doll.points.row(p) = depth * bumpyBall(kPi * (static_cast<double>(ring) + 0.5) / kPointRings,
+                                           2.0 * kPi * static_cast<double>(k) / kRingPoints);
   }
   return doll;
 }

@@ -267,7 +267,8 @@ void meanValueKernel(const CageMesh& cage, const double* points, int count, doub
   HWY_ALIGN double coordinates[3][HWY_MAX_BYTES / sizeof(double)];
   for (int first = 0; first < count; first += lanes) {
     for (int p = 0; p < lanes; ++p) {
-      const double* point = points + 3 * std::min(first + p, count - 1);
+      const std::ptrdiff_t place = std::min(first + p, count - 1);
+      const double* point = points + 3 * place;
       for (int k = 0; k < 3; ++k) coordinates[k][p] = point[k];
     }
     batch.compute(hn::Load(kLanes, coordinates[0]), hn::Load(kLanes, coordinates[1]),

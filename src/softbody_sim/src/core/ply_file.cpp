@@ -194,6 +194,7 @@ class PlyReader {
       fail(where_, fmt::format("a list of {} entries, which the rest of the file cannot hold", count));
     }
     std::vector<double> list;
+    list.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < static_cast<int>(count); ++k) list.push_back(readValue(property.type));
     return list;
   }

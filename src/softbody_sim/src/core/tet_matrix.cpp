@@ -15,6 +15,7 @@ int slotOf(const Eigen::SparseMatrix<double>& lower, int row, int column) {
 
 TetMatrix::TetMatrix(const Tets& tets, Eigen::Index vertex_count) : lower_(vertex_count, vertex_count) {
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(vertex_count + 6 * tets.rows()));
   for (int v = 0; v < vertex_count; ++v) entries.emplace_back(v, v, 0.0);
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     for (int a = 0; a < 4; ++a) {

@@ -31,7 +31,7 @@ HWY_INLINE hn::Vec<D> loadBlocks(D d, const T* base, const int* rows, int stride
     return hn::LoadU(d, base + rows[0] + offset);
   } else {
     const hn::Half<D> half;
-    constexpr int blocks = static_cast<int>(bytesOf<D>() / 32);
+    constexpr auto blocks = static_cast<std::ptrdiff_t>(bytesOf<D>() / 32);
     return hn::Combine(d, loadBlocks(half, base, rows + blocks * stride, stride, offset),
                        loadBlocks(half, base, rows, stride, offset));
   }
@@ -44,7 +44,7 @@ HWY_INLINE void addBlocks(D d, V v, T* base, const int* rows, int stride, int of
     hn::StoreU(hn::Add(hn::LoadU(d, row), v), d, row);
   } else {
     const hn::Half<D> half;
-    constexpr int blocks = static_cast<int>(bytesOf<D>() / 32);
+    constexpr auto blocks = static_cast<std::ptrdiff_t>(bytesOf<D>() / 32);
     addBlocks(half, hn::LowerHalf(half, v), base, rows, stride, offset);
     addBlocks(half, hn::UpperHalf(half, v), base, rows + blocks * stride, stride, offset);
   }
