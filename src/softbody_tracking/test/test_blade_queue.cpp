@@ -60,5 +60,30 @@ TEST(BladeQueue, BladesOfAFastToolWaitUntilTheyArePlaced) {
   }
 }
 
+/// A frame that waits for the user's mask comes when later blades have come.
+TEST(BladeQueue, TheBladeNearestToTheFrameIsTakenOut) {
+  constexpr Nanoseconds kWaited = 100 * kMillisecond;
+  Points blade(4, 3);
+  blade << -0.03, -0.01, 0.5, 0.03, -0.01, 0.5, 0.03, 0.01, 0.5, -0.03, 0.01, 0.5;
+  BladeQueue queue;
+  ToolMask mask;
+  const auto place = [](const ReportedBlade&) { return Eigen::Isometry3d::Identity(); };
+  const auto covered = [&](Nanoseconds stamp, int u) {
+    const RgbdFrame frame{stamp, Pinhole{160, 120, 150.0, 150.0, 79.5, 59.5},
+                          cv::Mat3b(120, 160, cv::Vec3b(90, 90, 90)), cv::Mat1f(120, 160, 0.5f)};
+    EXPECT_EQ(queue.show(stamp, place, &mask), 0u);
+    return mask.without(frame).depth(60, u) == 0.0f;
+  };
+  const Points beside = blade.rowwise() + Eigen::RowVector3d(0.1, 0.0, 0.0);
+  for (Nanoseconds k = 0; k < 30; ++k) {
+    queue.add({k * kFrame, "tool", k < 15 ? blade : beside});
+    const Nanoseconds frame = k * kFrame - kWaited;
+    if (frame < 0) continue;
+    const bool right = frame + kFrame / 2 >= 15 * kFrame;
+    EXPECT_EQ(covered(frame, 80), !right) << k;
+    EXPECT_EQ(covered(frame, 110), right) << k;
+  }
+}
+
 }  // namespace
 }  // namespace softbody

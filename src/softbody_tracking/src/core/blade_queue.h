@@ -27,13 +27,17 @@ class BladeQueue {
   void add(ReportedBlade blade);
   void clear() { blades_.clear(); }
 
-  /// Shows the mask the newest blade that has a place. Those after it wait for the next frame, until they are
-  /// too old to count.
-  /// @return how many became so without ever having had a place; each is counted once.
+  /// Shows the mask the blade nearest in time to a frame of those that have a place. A frame that waits for
+  /// the user's mask comes after later blades.
+  /// @return how many became too old to count without ever having had a place; each is counted once.
   std::size_t show(Nanoseconds frame, const Place& place, ToolMask* mask);
 
  private:
-  std::deque<ReportedBlade> blades_;  ///< the newest last
+  struct Waiting {
+    ReportedBlade blade;
+    std::optional<Points> placed;  ///< the outline in the fixed frame
+  };
+  std::deque<Waiting> blades_;
 };
 
 }  // namespace softbody

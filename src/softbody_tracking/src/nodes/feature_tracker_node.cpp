@@ -19,7 +19,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kSyncQueue = 4;
+constexpr int kSyncQueue = 4, kBladeQueue = 10;
 constexpr double kSetPosePatience_s = 0.5;
 
 }  // namespace
@@ -47,7 +47,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       handle_.subscribe(topics::kSurfaceTopology, 1, &FeatureTrackerNode::onSurfaceTopology, this);
   volume_state_subscriber_ =
       handle_.subscribe(topics::kVolumeState, 1, &FeatureTrackerNode::onVolumeState, this);
-  blade_subscriber_ = handle_.subscribe(topics::kToolBlade, 1, &FeatureTrackerNode::onBlade, this);
+  blade_subscriber_ = handle_.subscribe(topics::kToolBlade, kBladeQueue, &FeatureTrackerNode::onBlade, this);
   color_subscriber_.subscribe(handle_, topics::kRgbRect, 1);
   depth_subscriber_.subscribe(handle_, topics::kDepthRect, 1);
   info_subscriber_.subscribe(handle_, topics::kRgbInfo, 1);
@@ -132,7 +132,7 @@ void FeatureTrackerNode::placeBlade(const ros::Time& stamp) {
     try {
       return fixedPose(header, 0.0);
     } catch (const tf2::TransformException& error) {
-      reason = error.what();
+      if (reason.empty()) reason = error.what();  // of the oldest
       return std::nullopt;
     }
   };
