@@ -82,6 +82,7 @@ std::vector<bool> predictedPieces(const SurfaceSamples& samples, std::size_t pie
   std::vector<int> blocks(piece_count, 0);
   for (const SurfaceSample& sample : samples.samples) ++blocks[sample.body];
   std::vector<bool> predicted;
+  predicted.reserve(piece_count);
   for (const int count : blocks) predicted.push_back(count >= kFewest);
   return predicted;
 }
