@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,9 @@ class BagTransforms {
                        const ros::Time& stamp) const;
 
   /// A sentence for each frame of which transforms were left out.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  std::vector<std::string> warnings() const;
+  /// Only for frames that may be between the two: either, and what they ever hung on.
+  std::vector<std::string> warnings(const std::string& target, const std::string& source) const;
 
  private:
   struct Sample {
@@ -36,19 +39,23 @@ class BagTransforms {
     std::size_t parent;  ///< in names_
     geometry_msgs::Transform transform;
   };
+  struct Refusal {
+    std::string frame, sentence;
+  };
   using Samples = std::vector<Sample>;  ///< of one frame, in the order of their stamps
 
   void addBag(const std::string& path);
   void add(const geometry_msgs::TransformStamped& transform);
   std::size_t indexOf(const std::string& name);
   std::string parentOf(const std::string& frame, const ros::Time& stamp) const;
+  void addAbove(const std::string& frame, std::set<std::string>* frames) const;
   std::vector<std::string> wayUp(std::string frame, const ros::Time& stamp) const;
   void tell(const std::string& frame, const ros::Time& stamp, tf2::BufferCore* buffer) const;
 
   std::vector<std::string> names_;                                ///< of parents
   std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< /tf_static by child
   std::map<std::string, Samples> moving_;                         ///< /tf by child
-  std::vector<std::string> warnings_;
+  std::vector<Refusal> refusals_;
 };
 
 }  // namespace softbody

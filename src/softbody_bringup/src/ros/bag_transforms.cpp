@@ -78,10 +78,11 @@ void BagTransforms::addBag(const std::string& path) {
     }
   }
   for (const auto& [child, count] : refused) {
-    warnings_.push_back(fmt::format(
+    const std::string sentence = fmt::format(
         "{}: {} of frame '{}' left out: not finite, with a quaternion not of unit length, without a name, or "
         "from a frame to itself",
-        path, count == 1 ? "1 transform" : fmt::format("{} transforms", count), child));
+        path, count == 1 ? "1 transform" : fmt::format("{} transforms", count), child);
+    refusals_.push_back({child, sentence});
   }
 }
 
@@ -118,6 +119,35 @@ std::vector<std::string> BagTransforms::wayUp(std::string frame, const ros::Time
     way.push_back(frame);
   }
   return way;
+}
+
+/// A frame, and all that it hangs on at any time.
+void BagTransforms::addAbove(const std::string& frame, std::set<std::string>* frames) const {
+  if (!frames->insert(frame).second) return;
+  if (const auto fixed = fixed_.find(frame); fixed != fixed_.end())
+    return addAbove(withoutSlash(fixed->second.header.frame_id), frames);
+  const auto moving = moving_.find(frame);
+  if (moving == moving_.end()) return;
+  std::set<std::size_t> parents;
+  for (const Sample& sample : moving->second) parents.insert(sample.parent);
+  for (const std::size_t parent : parents) addAbove(names_[parent], frames);
+}
+
+std::vector<std::string> BagTransforms::warnings() const {
+  std::vector<std::string> sentences;
+  for (const Refusal& refusal : refusals_) sentences.push_back(refusal.sentence);
+  return sentences;
+}
+
+std::vector<std::string> BagTransforms::warnings(const std::string& target, const std::string& source) const {
+  std::set<std::string> frames;
+  addAbove(target, &frames);
+  addAbove(source, &frames);
+  std::vector<std::string> sentences;
+  for (const Refusal& refusal : refusals_) {
+    if (frames.count(refusal.frame) > 0) sentences.push_back(refusal.sentence);
+  }
+  return sentences;
 }
 
 /// What there is of a frame's place in its parent around a stamp.

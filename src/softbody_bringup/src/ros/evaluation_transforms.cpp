@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "softbody_bringup/bag_transforms.h"
 #include "softbody_bringup/evaluation/bags.h"
@@ -13,16 +15,17 @@ namespace {
 /// Items by stamp with their transforms into another frame.
 class Transforms {
  public:
-  explicit Transforms(const std::vector<std::string>& bags) : bags_(bags) {}
+  /// @param target, source frames of every item that is moved.
+  Transforms(const std::vector<std::string>& bags, std::string target, std::string source)
+      : bags_(bags), target_(std::move(target)), source_(std::move(source)) {}
 
   /// Replaces every item by `move(transform, item)`, and drops those without a transform.
   template <typename Item, typename Move>
-  std::size_t apply(const std::string& target, const std::string& source, std::map<Nanoseconds, Item>* items,
-                    Move move) {
+  std::size_t apply(std::map<Nanoseconds, Item>* items, Move move) {
     const std::size_t before = items->size();
     for (auto item = items->begin(); item != items->end();) {
       try {
-        move(bags_.at(target, source, toTime(item->first)), &item->second);
+        move(bags_.at(target_, source_, toTime(item->first)), &item->second);
         ++item;
       } catch (const tf2::TransformException& error) {
         reason_ = error.what();
@@ -34,11 +37,11 @@ class Transforms {
   }
 
   const std::string& reason() const { return reason_; }
-  const std::vector<std::string>& warnings() const { return bags_.warnings(); }
+  std::vector<std::string> warnings() const { return bags_.warnings(target_, source_); }
 
  private:
   BagTransforms bags_;
-  std::string reason_;
+  std::string target_, source_, reason_;
 };
 
 /// What a reader of the figures should know. @param items of which some were left out, by name.
@@ -54,11 +57,17 @@ std::vector<std::string> notesOf(const Transforms& transforms, std::size_t left_
 
 }  // namespace
 
+void addNotes(const std::vector<std::string>& more, std::vector<std::string>* notes) {
+  for (const std::string& note : more) {
+    if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
+  }
+}
+
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface) {
   if (surface->frame_id == frame_id) return;
-  Transforms transforms(paths);
-  const std::size_t left_out = transforms.apply(
-      frame_id, surface->frame_id, &surface->states, [](const Eigen::Isometry3d& pose, MeshState* state) {
+  Transforms transforms(paths, frame_id, surface->frame_id);
+  const std::size_t left_out =
+      transforms.apply(&surface->states, [](const Eigen::Isometry3d& pose, MeshState* state) {
         state->vertices =
             ((state->vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose()).eval();
       });
@@ -72,18 +81,15 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
         "0 0 0 0 0 0 {0} {2})",
         surface->frame_id, fmt::join(paths, " and "), frame_id, fmt::join(reasons, ". ")));
   }
-  const std::vector<std::string> notes =
-      notesOf(transforms, left_out, surface->states.size(), "states", frame_id);
-  surface->notes.insert(surface->notes.end(), notes.begin(), notes.end());
+  addNotes(notesOf(transforms, left_out, surface->states.size(), "states", frame_id), &surface->notes);
   surface->frame_id = frame_id;
 }
 
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool) {
   if (tool->poses.empty() || tool->frame_id == frame_id) return;
-  Transforms transforms(paths);
-  const std::size_t left_out =
-      transforms.apply(frame_id, tool->frame_id, &tool->poses,
-                       [](const Eigen::Isometry3d& pose, Eigen::Isometry3d* item) { *item = pose * *item; });
+  Transforms transforms(paths, frame_id, tool->frame_id);
+  const std::size_t left_out = transforms.apply(
+      &tool->poses, [](const Eigen::Isometry3d& pose, Eigen::Isometry3d* item) { *item = pose * *item; });
   tool->notes = notesOf(transforms, left_out, tool->poses.size(), "poses of the tool", frame_id);
   tool->frame_id = frame_id;
 }

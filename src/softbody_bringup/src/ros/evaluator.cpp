@@ -63,7 +63,7 @@ void compareInCamera(const EvaluatorOptions& options, const std::string& recordi
   const std::vector<std::string> bags = transformBags(options, recording);
   std::optional<SurfaceRecord> moved_result, moved_truth;
   const SurfaceRecord* seen = inFrame(camera, bags, &result, &moved_result);
-  if (seen != &result) measured->report.notes = seen->notes;
+  addNotes(seen->notes, &measured->report.notes);
   compareWithRecording(options, recording, *seen, inFrame(camera, bags, truth, &moved_truth),
                        &measured->report, &measured->pictures);
 }
@@ -90,7 +90,7 @@ void addTool(const EvaluatorOptions& options, const std::string& recording, Repo
   if (truth.poses.empty()) return;
   ToolRecord result = readPoses(options.result, options.result_namespace + kToolPose);
   expressIn(truth.frame_id, transformBags(options, recording), &result);
-  report->notes.insert(report->notes.end(), result.notes.begin(), result.notes.end());
+  addNotes(result.notes, &report->notes);
   report->tool = poseError(result.poses, truth.poses);
 }
 

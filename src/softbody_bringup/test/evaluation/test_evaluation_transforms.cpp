@@ -89,5 +89,16 @@ TEST(ExpressIn, WhatHasNoTransformIsCounted) {
   EXPECT_TRUE(say(poses.notes, {"1 of 3 poses of the tool have no transform to 'camera'"}));
 }
 
+TEST(ExpressIn, NotesComeOnceAndOfFramesOnTheWay) {
+  const std::string bag =
+      bagOf("express_twice.bag", {transform("world", "camera", 1), transform("world", "camera", 3)},
+            {transform("room", "world", 1), transform("room", "world", 1, 0.0),
+             transform("world", "camera", 1, 0.5), transform("world", "other", 1, 0.0)});
+  SurfaceRecord states = surface("camera");
+  for (const char* frame : {"world", "camera", "room"}) expressIn(frame, {bag}, &states);
+  EXPECT_TRUE(say(states.notes, {"1 transform of frame 'camera'", "1 transform of frame 'world'"}));
+  EXPECT_EQ(states.states.size(), 3u);
+}
+
 }  // namespace
 }  // namespace softbody::evaluation

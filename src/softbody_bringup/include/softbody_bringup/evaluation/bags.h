@@ -27,6 +27,9 @@ struct SurfaceRecord {
 SurfaceRecord readSurface(const std::string& path, const std::string& topology_topic,
                           const std::string& state_topic);
 
+/// Each once.
+void addNotes(const std::vector<std::string>& more, std::vector<std::string>* notes);
+
 /// Moves the surface's states into another frame by the /tf and /tf_static of these bags, at each state's
 /// stamp. States without a transform are left out, with a note.
 /// @throw std::invalid_argument if no state has a transform.
