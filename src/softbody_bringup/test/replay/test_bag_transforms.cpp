@@ -147,6 +147,12 @@ TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
     }
     EXPECT_FALSE(add(child, 0.1, zero, 0.3));
     EXPECT_FALSE(add(child, 0.15, unit, nan));
+    geometry_msgs::TransformStamped infinite =  // which tf2 takes
+        tf2::eigenToTransform(TransformBag::shifted(std::numeric_limits<double>::infinity()));
+    infinite.header.stamp = after(0.17);
+    infinite.header.frame_id = "world";
+    infinite.child_frame_id = child;
+    bag.add(infinite);
     EXPECT_FALSE(add(child, 0.2, hardly, 0.3));
     EXPECT_TRUE(add(child, 0.3, nearly, 0.3));
     EXPECT_TRUE(add(child, 0.4, unit, 0.4));
@@ -164,7 +170,7 @@ TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
   ASSERT_EQ(transforms.warnings().size(), 3u);
   EXPECT_NE(transforms.warnings()[0].find("1 transform of frame ''"), std::string::npos)
       << transforms.warnings()[0];
-  EXPECT_NE(transforms.warnings()[1].find("9 transforms of frame 'camera'"), std::string::npos)
+  EXPECT_NE(transforms.warnings()[1].find("10 transforms of frame 'camera'"), std::string::npos)
       << transforms.warnings()[1];
 }
 

@@ -4,7 +4,10 @@
 #include <softbody_msgs/TrackingStatus.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "softbody_bringup/evaluation/evaluator.h"
 #include "softbody_bringup/replay.h"
@@ -62,8 +65,9 @@ class MovingCamera : public ::testing::Test {
     options.output = folder_ / output;
     options.tool = tool;
     options.output_frame = "world";
+    warnings_.clear();
     return replay(
-        options, [](const std::string&) {}, [](double) {});
+        options, [](const std::string& warning) { warnings_.push_back(warning); }, [](double) {});
   }
 
   static evaluation::Report measure(const std::string& result) {
@@ -74,9 +78,11 @@ class MovingCamera : public ::testing::Test {
   }
 
   static fs::path folder_;
+  static std::vector<std::string> warnings_;  ///< of the last run
 };
 
 fs::path MovingCamera::folder_;
+std::vector<std::string> MovingCamera::warnings_;
 
 TEST_F(MovingCamera, ABodyAtRestIsAtRestInTheWorld) {
   const ReplaySummary summary = run(folder_ / "moving.bag", "world.bag");
@@ -120,6 +126,11 @@ TEST_F(MovingCamera, TheToolIsSeenWithoutTfToo) {
 
 TEST_F(MovingCamera, TfThatNeverComesIsAnError) {
   const std::string input = withoutTf("none.bag", 0, kFrames);
+  tf2_msgs::TFMessage unusable;
+  unusable.transforms.resize(1);
+  unusable.transforms[0].header.frame_id = "world";
+  unusable.transforms[0].child_frame_id = "camera_color_optical_frame";
+  rosbag::Bag(input, rosbag::bagmode::Append).write("/tf_static", ros::Time(1.6e9), unusable);
   try {
     run(input, "none_result.bag");
     FAIL();
@@ -127,6 +138,10 @@ TEST_F(MovingCamera, TfThatNeverComesIsAnError) {
     EXPECT_NE(std::string(error.what()).find("tf does not say where"), std::string::npos) << error.what();
   }
   EXPECT_FALSE(fs::exists(folder_ / "none_result.bag"));
+  const auto said = std::find_if(warnings_.begin(), warnings_.end(), [](const std::string& warning) {
+    return warning.find("1 transform of frame 'camera_color_optical_frame' left out") != std::string::npos;
+  });
+  EXPECT_NE(said, warnings_.end());
 }
 
 }  // namespace
