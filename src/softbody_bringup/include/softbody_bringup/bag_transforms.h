@@ -18,7 +18,8 @@ namespace softbody {
 /// or from a frame to itself, is left out.
 class BagTransforms {
  public:
-  /// @param paths of bags; of two transforms of one stamp that of the later bag counts.
+  /// @param paths of bags; of two transforms of one stamp that of the later bag counts, in one bag the
+  /// first, as for tf2, but of /tf_static the last.
   /// @throw std::exception with the path if a bag cannot be read.
   explicit BagTransforms(const std::vector<std::string>& paths);
 

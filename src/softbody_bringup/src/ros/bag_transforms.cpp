@@ -48,10 +48,9 @@ auto firstFrom(const Samples& samples, const ros::Time& stamp) {
 }  // namespace
 
 BagTransforms::BagTransforms(const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) addBag(path);
+  // The last bag first: of one stamp the first transform that came stays, as for tf2.
+  for (auto path = paths.rbegin(); path != paths.rend(); ++path) addBag(*path);
   for (auto& [child, samples] : moving_) {
-    // Of one stamp the last that came stays, which reversed is the first.
-    std::reverse(samples.begin(), samples.end());
     std::stable_sort(samples.begin(), samples.end(),
                      [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; });
     const auto end = std::unique(samples.begin(), samples.end(),
@@ -64,6 +63,7 @@ void BagTransforms::addBag(const std::string& path) {
   const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
   std::map<std::string, std::size_t> refused;
+  std::map<std::string, geometry_msgs::TransformStamped> fixed;
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<tf2_msgs::TFMessage>();
     if (!message) continue;
@@ -73,10 +73,11 @@ void BagTransforms::addBag(const std::string& path) {
       if (isUnusable(transform)) {
         ++refused[child];
       } else {
-        is_static ? void(fixed_[child] = transform) : add(transform);
+        is_static ? void(fixed[child] = transform) : add(transform);
       }
     }
   }
+  fixed_.merge(fixed);  // those of the bags before, which are later ones, stay
   for (const auto& [child, count] : refused) {
     const std::string sentence = fmt::format(
         "{}: {} of frame '{}' left out: not finite, with a quaternion not of unit length, without a name, or "

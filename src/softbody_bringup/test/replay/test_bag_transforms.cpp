@@ -239,13 +239,44 @@ TEST(BagTransforms, OfOneStampTheLaterBagCounts) {
   first.add("world", "camera", 1.0, TransformBag::shifted(1.0));
   second.add("/world", "/camera", 1.0, TransformBag::shifted(2.0));
   first.add("world", "camera", 0.9, TransformBag::shifted(1.0));
+  first.add("world", "table", 0.0, TransformBag::shifted(1.0), "/tf_static");
+  second.add("world", "table", 0.0, TransformBag::shifted(2.0), "/tf_static");
   first.read();
   second.read();
-  const auto at = [&](const TransformBag& a, const TransformBag& b) {
-    return BagTransforms({a.path(), b.path()}).at("world", "camera", after(1.0)).translation().x();
+  for (const char* frame : {"camera", "table"}) {
+    const auto at = [&](const TransformBag& a, const TransformBag& b) {
+      return BagTransforms({a.path(), b.path()}).at("world", frame, after(1.0)).translation().x();
+    };
+    EXPECT_EQ(at(first, second), 2.0) << frame;
+    EXPECT_EQ(at(second, first), 1.0) << frame;
+  }
+}
+
+TEST(BagTransforms, OfOneStampInOneBagTheOneThatTf2KeepsCounts) {
+  TransformBag bag("bag_transforms_repeated");
+  tf2::BufferCore buffer{ros::Duration(100.0)};
+  const auto add = [&](const std::string& parent, const std::string& child, double t, double x_m,
+                       bool is_static = false) {
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(TransformBag::shifted(x_m));
+    transform.header.stamp = after(t);
+    transform.header.frame_id = parent;
+    transform.child_frame_id = child;
+    bag.add(transform, is_static ? "/tf_static" : "/tf");
+    buffer.setTransform(transform, "test", is_static);
   };
-  EXPECT_EQ(at(first, second), 2.0);
-  EXPECT_EQ(at(second, first), 1.0);
+  for (int i = 0; i <= 10; ++i) add("world", "camera", 0.1 * i, 0.1 * i);
+  add("world", "camera", 0.3, 7.0);
+  add("other", "camera", 0.5, 8.0);
+  add("world", "other", 0.0, 2.0, true);
+  add("world", "other", 0.0, 3.0, true);
+  const BagTransforms transforms = bag.read();
+  for (const double t : {0.25, 0.3, 0.35, 0.45, 0.5, 0.55}) {
+    for (const char* target : {"world", "other"}) {
+      const Eigen::Isometry3d expected =
+          tf2::transformToEigen(buffer.lookupTransform(target, "camera", after(t)));
+      EXPECT_TRUE(transforms.at(target, "camera", after(t)).isApprox(expected, 1e-9)) << target << " " << t;
+    }
+  }
 }
 
 }  // namespace
