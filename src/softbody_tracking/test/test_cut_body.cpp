@@ -156,6 +156,22 @@ TEST_F(CutObserver, SearchesWidelyForTheFeaturesOfPiecesThatShowedOnly) {
   EXPECT_LT(foundOnRight(covered), 10) << "it was held";
 }
 
+/// The prediction keeps it where it was: nobody knows better.
+TEST_F(CutObserver, FindsAPieceAgainThatMovedUnseen) {
+  const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
+  RgbdFrame covered = frame_;
+  covered.depth = frame_.depth.clone();
+  covered.depth(cv::Rect(middle - 20, 0, 640 - middle + 20, 480)).setTo(0.3f);
+  for (int i = 0; i < 5; ++i) observer_.observe(covered, rest_);
+  const Points truth = parted(0.08);
+  const RgbdFrame back = renderFrame(box_, truth, 2);
+  int frames = 1;
+  while (matchesOn({false, true}, observer_.observe(back, rest_).matches) < 50 && frames < 20) ++frames;
+  EXPECT_LE(frames, 10);
+  const Points found = observer_.surface().volumeVertices();
+  EXPECT_LT((found - truth).rowwise().norm().maxCoeff(), 0.003);
+}
+
 TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
   const Points beside = transformed(rest_, Eigen::Isometry3d(Eigen::Translation3d(0.012, 0.0, 0.0)));
   const auto outlines = [&](bool use_depth, bool knn) {

@@ -16,19 +16,22 @@ constexpr double kDeformation = 0.03;      // of the body's diameter, at which i
 constexpr double kLookAgain = 0.004;       // [m] of any vertex; a rough step beyond it is rendered again
 constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer, descriptors are matched too
 constexpr double kHardlyAny = 0.2;      // of the expected features; with fewer they are looked for anywhere
-constexpr int kTiles = 4;               // of the predicted surface
-constexpr double kTileShare = 0.7;      // of the most features: a tile may have more texture than others
-constexpr int kFramesBetweenTiles = 3;  // in which new features are looked for
-constexpr int kScouts = 48;             // features that say whether the prediction is far off
-constexpr double kFarOff = 4.0;         // [px] that full resolution hardly aligns
+constexpr int kFramesBetweenSearches = 10;  // for a piece that is held
+constexpr int kTiles = 4;                   // of the predicted surface
+constexpr double kTileShare = 0.7;          // of the most features: a tile may have more texture than others
+constexpr int kFramesBetweenTiles = 3;      // in which new features are looked for
+constexpr int kScouts = 48;                 // features that say whether the prediction is far off
+constexpr double kFarOff = 4.0;             // [px] that full resolution hardly aligns
 
 double diameter(const Points& vertices) {
   return (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
 }
 
-std::ptrdiff_t inlierCount(const std::vector<FeatureMatch>& matches) {
-  return std::count_if(matches.begin(), matches.end(),
-                       [](const FeatureMatch& match) { return match.inlier; });
+/// @param counted of each piece.
+std::ptrdiff_t inlierCount(const std::vector<bool>& counted, const std::vector<FeatureMatch>& matches) {
+  return std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& match) {
+    return match.inlier && counted[match.association.body];
+  });
 }
 
 /// Outlines that nothing would use are not looked for.
@@ -62,7 +65,7 @@ void FrameObserver::reset() {
   map_.reset();
   colors_.reset();
   shown_before_.clear();
-  frames_to_admission_ = 0;
+  frames_to_admission_ = frames_to_search_ = 0;
 }
 
 /// Features recognised anywhere in the frame. @param vertices of the volume as they are expected.
@@ -188,18 +191,36 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
       seen->matches = alignFeatures(frame);
       markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     }
-    if (inlierCount(seen->matches) < kHardlyAny * map_.expected(followedPieces()))
-      lookWhereRecognized(frame, seen);
   }
+  const std::vector<bool> gone = gonePieces(seen->matches);
+  if (std::find(gone.begin(), gone.end(), true) != gone.end()) lookWhereRecognized(frame, gone, seen);
   markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
 }
 
-/// Where hardly any feature is where it was predicted, those that are recognised anywhere say where the
-/// pieces went, if then more are found.
-void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, Observation* seen) {
+/// Pieces of which hardly any feature is where it was predicted. What is held where it was is seldom asked
+/// for: it may be covered for long.
+std::vector<bool> FrameObserver::gonePieces(const std::vector<FeatureMatch>& matches) {
+  frames_to_search_ = frames_to_search_ > 0 ? frames_to_search_ - 1 : kFramesBetweenSearches - 1;
+  const std::vector<bool> followed = followedPieces();
+  std::vector<bool> gone(surface_.bodyCount());
+  for (std::size_t piece = 0; piece < gone.size(); ++piece) {
+    std::vector<bool> counted(gone.size());
+    counted[piece] = true;
+    const int expected = map_.expected(counted);
+    gone[piece] = (followed[piece] || frames_to_search_ == 0) && expected >= kFewestExpectedFeatures &&
+                  inlierCount(counted, matches) < kHardlyAny * expected;
+  }
+  return gone;
+}
+
+/// Features that are recognised anywhere say where pieces went, if then more are found.
+void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, const std::vector<bool>& gone,
+                                        Observation* seen) {
   const Points before = surface_.volumeVertices();
-  std::vector<std::vector<PointPair>> pairs(surface_.bodyCount());
-  for (const PointPair& pair : recognizeFeatures(frame, before)) pairs[pair.body].push_back(pair);
+  std::vector<std::vector<PointPair>> pairs(gone.size());
+  for (const PointPair& pair : recognizeFeatures(frame, before)) {
+    if (gone[pair.body]) pairs[pair.body].push_back(pair);
+  }
   RigidMotions motions;
   for (const std::vector<PointPair>& piece : pairs) {
     motions.push_back(
@@ -209,7 +230,7 @@ void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, Observation* see
   look(frame, surface_.movedVolume(motions));
   std::vector<FeatureMatch> matches = alignFeatures(frame);
   markOutliers(frame.camera, config_.features.max_disagreement_m, &matches);
-  if (inlierCount(matches) > inlierCount(seen->matches)) {
+  if (inlierCount(gone, matches) > inlierCount(gone, seen->matches)) {
     seen->matches = std::move(matches);
   } else {
     look(frame, before);

@@ -75,7 +75,8 @@ class FrameObserver {
   bool farOff(const std::vector<FeatureMatch>& scouts) const;
   bool few(const std::vector<FeatureMatch>& matches) const;
   std::vector<PointPair> recognizeFeatures(const RgbdFrame& frame, const Points& vertices);
-  void lookWhereRecognized(const RgbdFrame& frame, Observation* seen);
+  std::vector<bool> gonePieces(const std::vector<FeatureMatch>& matches);
+  void lookWhereRecognized(const RgbdFrame& frame, const std::vector<bool>& gone, Observation* seen);
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
   void keepShownPieces(Observation* seen) const;
@@ -94,7 +95,8 @@ class FrameObserver {
   std::vector<bool>
       shown_before_;  ///< of each piece, whether the last frame did not hardly show it; none: all
   int frames_to_admission_ = 0;
-  int tile_ = 0;  ///< of the surface, where new features are looked for next
+  int frames_to_search_ = 0;  ///< for pieces that are held
+  int tile_ = 0;              ///< of the surface, where new features are looked for next
 };
 
 }  // namespace softbody
