@@ -85,6 +85,28 @@ TEST(Registration, TurnsABodyOfRevolutionAboutItsAxisOnlyAsTheRoughPoseDoes) {
   }
 }
 
+/// As a stereo camera sees it, whose noise grows with the square of the distance.
+TEST(Registration, FindsALargeBodyFarAway) {
+  BoxBody box = makeBox();
+  box.surface.rest_vertices *= 5.0;
+  const TriangleMesh mesh{box.surface.rest_vertices, box.surface.triangles};
+  Eigen::Isometry3d truth = boxPose();
+  truth.translation() *= 5.0;
+  RgbdFrame frame = renderFrame(box, transformed(mesh.vertices, truth), 1);
+  std::mt19937 random(4);
+  std::normal_distribution<float> noise(0.0f, 0.0025f);
+  for (float& z : frame.depth) {
+    if (z == 1.2f) z = 5.0f;  // the wall stands behind
+    z += z * z * noise(random);
+  }
+  const Eigen::Isometry3d rough =
+      Eigen::Translation3d(0.05, -0.04, 0.05) * truth * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
+  const RegistrationResult found = registerBody(frame, mesh, mesh, rough, RegistrationConfig());
+  EXPECT_LT(found.cost, 0.25);
+  const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
+  EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.02);
+}
+
 TEST(Registration, CostIsLowestAtTheTruth) {
   const BoxBody box = makeBox();
   const Eigen::Isometry3d truth = boxPose();

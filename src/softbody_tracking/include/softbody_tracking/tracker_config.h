@@ -6,8 +6,10 @@ namespace softbody {
 
 /// First alignment of the rest shape with the depth image.
 struct RegistrationConfig {
-  double distance_scale_m = 0.02;  ///< depth differences beyond this count as free space or occlusion
-  double max_cost = 0.5;           ///< mean cost a pixel, 0..1, above which the registration is refused
+  /// Depth differences beyond this count as free space or occlusion, at up to 1 m; further away, where depth
+  /// is noisier, beyond this times the distance.
+  double distance_scale_m = 0.02;
+  double max_cost = 0.5;  ///< mean cost a pixel, 0..1, above which the registration is refused
 };
 
 /// ORB features, bound to the body where they lie.

@@ -16,9 +16,12 @@ constexpr double kFewestMeasured = 0.25;  // of the covered pixels; with fewer a
 constexpr double kPreference = 0.05;      // of the cost, a radian or a radius away from a preferred pose
 constexpr double kImprovement = 1e-6;     // of the cost; less is rounding
 
+/// Far away depth is noisier. @param scale up to 1 m.
+double scaleAt(double z, double scale) { return scale * std::max(1.0, z); }
+
 double pixelCost(double measured, double predicted, double scale) {
   if (measured <= 0.0) return kUnmeasuredCost;
-  const double ratio = (measured - predicted) / scale;
+  const double ratio = (measured - predicted) / scaleAt(predicted, scale);
   if (ratio < -1.0) return kNearerCost;
   return std::min(1.0, ratio * ratio);
 }
@@ -37,7 +40,7 @@ int continuingOutlinePixels(const RgbdFrame& frame, const RasterImage& image, do
                   beyond_v = v + 2 * step[1];
         if (image.triangle(next_v, next_u) >= 0 || image.triangle(beyond_v, beyond_u) >= 0) continue;
         const float z = frame.depth(beyond_v, beyond_u);
-        if (z > 0.0f && std::abs(z - image.depth(v, u)) < 0.5 * scale) ++count;
+        if (z > 0.0f && std::abs(z - image.depth(v, u)) < 0.5 * scaleAt(z, scale)) ++count;
       }
     }
   }
@@ -113,11 +116,12 @@ Eigen::Isometry3d PoseSearch::moved(const Eigen::Isometry3d& pose, const Eigen::
 }
 
 Eigen::Isometry3d PoseSearch::icp(Eigen::Isometry3d pose, int iterations) {
-  double gate = 4.0 * scale_;
+  const double scale = scaleAt((pose * center_).z(), scale_);
+  double gate = 4.0 * scale;
   const double narrowing = std::pow(0.25, 1.0 / std::max(1, iterations - 5));
   for (int i = 0; i < iterations; ++i) {
     pose = rigidStep(refsTo(associations(pose, gate))) * pose;
-    gate = std::max(scale_, narrowing * gate);
+    gate = std::max(scale, narrowing * gate);
   }
   return pose;
 }

@@ -14,8 +14,9 @@ struct RegistrationResult {
 };
 
 /// How badly a posed mesh explains a depth image, 0..1: the mean over the pixels it covers of the squared
-/// depth difference in units of `distance_scale_m`, capped at 1 (free space seen through it, or hidden behind
-/// something), plus the share of its outline beyond which the depth goes on as if the body were larger.
+/// depth difference in units of `distance_scale_m` (beyond 1 m times the distance), capped at 1 (free space
+/// seen through it, or hidden behind something), plus the share of its outline beyond which the depth goes on
+/// as if the body were larger.
 double poseCost(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
                 double distance_scale_m);
 
