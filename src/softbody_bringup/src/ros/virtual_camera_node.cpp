@@ -32,7 +32,7 @@ CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
 
 }  // namespace
 
-VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle private_node,
+VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle& private_node,
                                      const CameraSetup& setup) {
   Parameters parameters = readParameters(private_node);
   setup_ = readSetup(setup, &parameters);

@@ -16,7 +16,7 @@ namespace softbody::virtual_camera {
 class VirtualCameraNode {
  public:
   /// @param setup where the parameters are silent.
-  VirtualCameraNode(ros::NodeHandle node, ros::NodeHandle private_node, const CameraSetup& setup);
+  VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const CameraSetup& setup);
 
  private:
   bool watched() const;
