@@ -142,5 +142,40 @@ TEST(FeatureMatchesOfPieces, AreJudgedByTheirOwnPiece) {
   EXPECT_GT(kept, 35);
 }
 
+std::vector<double> weightsOf(const std::vector<double>& unexplained) {
+  std::vector<FeatureMatch> matches(unexplained.size());
+  for (std::size_t m = 0; m < matches.size(); ++m) matches[m].unexplained = unexplained[m];
+  weighByAgreement(&matches);
+  std::vector<double> weights;
+  for (const FeatureMatch& match : matches) weights.push_back(match.association.weight);
+  return weights;
+}
+
+/// Patches half of which are covered, among others in an image of some noise.
+TEST_P(FeatureMatches, WhatLooksUnlikeItsPatchWeighsLittle) {
+  std::uniform_real_distribution<double> usual(0.005, 0.02), odd(0.2, 0.45);
+  std::vector<double> unexplained;
+  for (int i = 0; i < 500; ++i) unexplained.push_back(i % 5 == 0 ? odd(random_) : usual(random_));
+  const std::vector<double> weights = weightsOf(unexplained);
+  for (std::size_t m = 0; m < weights.size(); ++m) {
+    const bool is_odd = m % 5 == 0;
+    EXPECT_TRUE(is_odd ? weights[m] < 0.05 : weights[m] > 0.5) << unexplained[m] << " " << weights[m];
+  }
+}
+
+/// Noise and blur make all patches fit worse.
+TEST_P(FeatureMatches, WeightsGoByWhatIsUsualInTheFrame) {
+  std::uniform_real_distribution<double> uniform(0.001, 0.1);
+  std::vector<double> sharp(100), blurred(100);
+  for (std::size_t m = 0; m < sharp.size(); ++m) blurred[m] = 4.0 * (sharp[m] = uniform(random_));
+  const std::vector<double> weights = weightsOf(sharp), same = weightsOf(blurred);
+  for (std::size_t m = 0; m < weights.size(); ++m) EXPECT_NEAR(weights[m], same[m], 1e-12);
+}
+
+TEST(FeatureMatchWeights, AreWholeWherePatchesFitExactly) {
+  EXPECT_TRUE(weightsOf({}).empty());
+  EXPECT_EQ(weightsOf({0.0, 0.0, 0.0}), std::vector<double>(3, 1.0));
+}
+
 }  // namespace
 }  // namespace softbody

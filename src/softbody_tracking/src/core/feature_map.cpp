@@ -147,33 +147,36 @@ void FeatureMap::shift(const Pinhole& camera, const RigidMotions& motions) {
 }
 
 /// Where the patch is, if it is anywhere around.
-std::optional<cv::Point2f> FeatureMap::locate(const GrayPyramid& image, const Prediction& prediction,
-                                              const cv::Point2f& start, int coarsest_level,
-                                              int radius_px) const {
+std::optional<FeaturePatch::Alignment> FeatureMap::locate(const GrayPyramid& image,
+                                                          const Prediction& prediction,
+                                                          const cv::Point2f& start, int coarsest_level,
+                                                          int radius_px) const {
   const FeaturePatch::Alignment found =
       features_[prediction.feature].patch.align(image, prediction.warp, start, coarsest_level);
   const cv::Point2f moved = found.pixel - prediction.pixel;
   const auto radius = static_cast<float>(radius_px);
   if (found.correlation < kSmallestCorrelation || moved.dot(moved) > radius * radius) return std::nullopt;
-  return found.pixel;
+  return found;
 }
 
 /// Tries full resolution first: that is enough where the prediction is good.
 bool FeatureMap::addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
                           const cv::Point2f& start, int radius_px, std::vector<FeatureMatch>* matches) const {
-  std::optional<cv::Point2f> pixel = locate(image, prediction, start, 0, radius_px);
-  if (!pixel) pixel = locate(image, prediction, start, GrayPyramid::kLevels - 1, radius_px);
-  if (!pixel) return false;
-  const double z = featureDepth(frame.depth, *pixel);
+  auto found = locate(image, prediction, start, 0, radius_px);
+  if (!found) found = locate(image, prediction, start, GrayPyramid::kLevels - 1, radius_px);
+  if (!found) return false;
+  const cv::Point2f& pixel = found->pixel;
+  const double z = featureDepth(frame.depth, pixel);
   if (z <= 0.0) return false;
   FeatureMatch match;
   match.feature = prediction.feature;
-  match.pixel = *pixel;
+  match.pixel = pixel;
+  match.unexplained = 1.0 - found->correlation * found->correlation;
   match.association.kind = TargetKind::kFeature;
   match.association.place = features_[prediction.feature].place;
   match.association.body = prediction.body;
   match.association.predicted = prediction.position;
-  match.association.measured = frame.camera.unproject(pixel->x, pixel->y, z);
+  match.association.measured = frame.camera.unproject(pixel.x, pixel.y, z);
   match.association.weight = config_.weight;
   matches->push_back(match);
   return true;

@@ -106,8 +106,9 @@ class FeatureMap {
     bool tried = false;
   };
 
-  std::optional<cv::Point2f> locate(const GrayPyramid& image, const Prediction& prediction,
-                                    const cv::Point2f& start, int coarsest_level, int radius_px) const;
+  std::optional<FeaturePatch::Alignment> locate(const GrayPyramid& image, const Prediction& prediction,
+                                                const cv::Point2f& start, int coarsest_level,
+                                                int radius_px) const;
   bool addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
                 const cv::Point2f& start, int radius_px, std::vector<FeatureMatch>* matches) const;
   void retire();

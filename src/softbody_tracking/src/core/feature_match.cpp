@@ -20,6 +20,8 @@ constexpr double kSmallestSpread = 1e-4;  // [m]
 constexpr double kLargestSpread = 3.0;    // times the neighbours' median disagreement, but
 constexpr double kPrecisePx = 1.5;        // across the ray, that no match disagrees too much by,
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
+constexpr double kSmallestShare = 1e-4;   // unexplained: rounding
+constexpr double kUnusual = 2.0;          // times the median unexplained share: half the weight
 
 double median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
@@ -174,6 +176,17 @@ void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<
       FeatureMatch& match = (*matches)[m];
       match.inlier = match.inlier && motions.of(m).norm() < max_disagreement_m;
     }
+  }
+}
+
+void weighByAgreement(std::vector<FeatureMatch>* matches) {
+  if (matches->empty()) return;
+  std::vector<double> shares;
+  for (const FeatureMatch& match : *matches) shares.push_back(match.unexplained);
+  const double usual = std::max(median(&shares), kSmallestShare);
+  for (FeatureMatch& match : *matches) {
+    const double ratio = match.unexplained / (kUnusual * usual);
+    match.association.weight /= 1.0 + ratio * ratio;
   }
 }
 

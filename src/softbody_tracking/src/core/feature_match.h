@@ -12,7 +12,8 @@ namespace softbody {
 struct FeatureMatch {
   int feature = 0;  ///< index into FeatureMap::features()
   cv::Point2f pixel;
-  Association association;  ///< to the measured 3-D position, all three directions
+  Association association;   ///< to the measured 3-D position, all three directions
+  double unexplained = 0.0;  ///< share of the patch's variance that the image there does not have, 0..1
   bool inlier = true;
 };
 
@@ -24,5 +25,9 @@ int matchesOn(const std::vector<bool>& counted, const std::vector<FeatureMatch>&
 /// lead it away; and those further from their prediction than a body moves in a frame.
 /// @param max_disagreement_m in any direction; across the ray 1.5 to 4 pixels are allowed.
 void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches);
+
+/// Weighs matches by how well the image agrees with their patches, measured by what is usual among them:
+/// noise and blur are the same for all, but a patch half of which is covered is found beside its place.
+void weighByAgreement(std::vector<FeatureMatch>* matches);
 
 }  // namespace softbody

@@ -72,8 +72,8 @@ void FrameObserver::reset() {
 std::vector<PointPair> FrameObserver::recognizeFeatures(const RgbdFrame& frame, const Points& vertices) {
   const cv::Rect image(cv::Point(), frame.color.size());
   return recognizedFeatures(frame, map_.features(),
-                            orb_.extract(frame.color, colors_.mask(frame.color, image), image), surface_,
-                            vertices, config_.features.max_hamming_distance);
+                            orb_.extractStrongest(frame.color, colors_.mask(frame.color, image), image),
+                            surface_, vertices, config_.features.max_hamming_distance);
 }
 
 std::optional<Eigen::Isometry3d> FrameObserver::recognize(const RgbdFrame& frame) {
@@ -195,6 +195,7 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   const std::vector<bool> gone = gonePieces(seen->matches);
   if (std::find(gone.begin(), gone.end(), true) != gone.end()) lookWhereRecognized(frame, gone, seen);
   markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
+  weighByAgreement(&seen->matches);
 }
 
 /// Pieces of which hardly any feature is where it was predicted. What is held where it was is seldom asked
@@ -241,7 +242,7 @@ void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, const std::vecto
 /// Wherever the body may be.
 std::vector<Keypoint> FrameObserver::extract(const RgbdFrame& frame) {
   const cv::Rect region = searchRegion(frame.color.size());
-  return orb_.extract(frame.color, colors_.mask(frame.color, region), region);
+  return orb_.extractStrongest(frame.color, colors_.mask(frame.color, region), region);
 }
 
 /// The first features at once; later only in gaps between the known ones, tile by tile, so that no frame

@@ -24,15 +24,26 @@ class OrbExtractor {
  public:
   explicit OrbExtractor(int max_features);
 
+  /// So many as are wanted: the strongest ones, spread over the mask.
   /// @param region only this part of the image is looked at. @param mask size of the image, 0: nowhere.
   std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
-  /// Of the strongest keypoints those that are new. @param taken like the mask, 0: known already.
+  /// The same of those that are new. @param taken like the mask, 0: known already.
   /// @param share of the most features, for a part of the body.
   std::vector<Keypoint> extractNew(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Mat1b& taken,
                                    const cv::Rect& region, double share);
 
+  /// The strongest ones, in which known features are found again wherever these lie.
+  std::vector<Keypoint> extractStrongest(const cv::Mat3b& color, const cv::Mat1b& mask,
+                                         const cv::Rect& region);
+
  private:
+  std::vector<cv::KeyPoint> detect(const cv::Mat1b& gray, const cv::Mat1b& mask, int most);
+  /// @param find keypoints in the region with its border, and that region -> keypoints.
+  template <typename Find>
+  std::vector<Keypoint> describe(const cv::Mat3b& color, const cv::Rect& region, int wanted,
+                                 const Find& find);
+
   int max_features_;
   cv::Ptr<cv::ORB> orb_;
 };
