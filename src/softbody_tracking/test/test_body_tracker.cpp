@@ -89,6 +89,20 @@ TEST(BodyTracker, SurvivesFramesWithoutAnyMeasurement) {
   EXPECT_TRUE(tracked.tracksWithin(15, rest));
 }
 
+TEST(BodyTracker, ABlankFrameDoesNotForgetTheBodysShape) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  for (int i = 0; i < 3; ++i) tracked.show(rest);
+  const TrackingResult blank = tracked.show(rest, [](RgbdFrame* frame) {
+    frame->depth.setTo(0.0f);
+    frame->color.setTo(cv::Vec3b());
+  });
+  EXPECT_EQ(blank.status.state, TrackingState::kLost);
+  const TrackingResult next = tracked.show(rest);
+  EXPECT_EQ(next.status.state, TrackingState::kTracking) << next.status.reason;
+  EXPECT_FALSE(next.targets.reset);
+}
+
 TEST(BodyTracker, WrongDepthDoesNotCarryTheBodyAway) {
   TrackedBox tracked;
   const Points rest = posedBox(tracked.box());

@@ -81,6 +81,7 @@ struct BodyTracker::Implementation {
   Nanoseconds last_stamp = 0;
   int lost_frames = 0;
   int frames_to_registration = 0;
+  int frames_to_recognition = 0;  ///< after one that registration refused
 };
 
 TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
@@ -135,7 +136,7 @@ void BodyTracker::Implementation::reset() {
   if (observer != nullptr) observer->reset();
   if (prediction != nullptr) prediction->reset();
   last_stamp = 0;
-  lost_frames = frames_to_registration = 0;
+  lost_frames = frames_to_registration = frames_to_recognition = 0;
   moving.clear();
   held.reset();
   knn.reset();
@@ -163,13 +164,15 @@ void BodyTracker::Implementation::place(const RgbdFrame& frame, const Localizati
   poses_alike = found.alike;
   registered = true;
   prediction->reset();
-  lost_frames = frames_to_registration = 0;
+  lost_frames = frames_to_registration = frames_to_recognition = 0;
   placed_since = frame.stamp;
 }
 
 /// Finds a body that was lost by its features, as soon as they are seen again.
 bool BodyTracker::Implementation::recognize(const RgbdFrame& frame, StageTimer* timer) {
+  if (frames_to_recognition-- > 0) return false;
   const std::optional<Eigen::Isometry3d> rough = observer->recognize(frame);
+  frames_to_recognition = rough ? kFramesBetweenRegistrations : 0;
   if (!rough) return false;
   const auto scope = timer->stage("Model Registration", true);
   const std::optional<Localization> found = findingLocalizer().recognized(
@@ -297,7 +300,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
     self.lost_frames = 0;
   }
   const bool first = !self.registered;
-  const bool recognized = (self.recovering || self.lost_frames > 0) && self.recognize(frame, timer);
+  const bool recognized = self.recovering && self.recognize(frame, timer);
   if (first && !recognized && !self.start(frame, timer))
     return self.waiting(
         "the body was not found: nothing of its size and shape stands free in the depth image");

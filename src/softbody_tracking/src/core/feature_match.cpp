@@ -20,7 +20,7 @@ constexpr double kSmallestSpread = 1e-4;  // [m]
 constexpr double kLargestSpread = 3.0;    // times the neighbours' median disagreement, but
 constexpr double kPrecisePx = 1.5;        // across the ray, that no match disagrees too much by,
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
-constexpr double kSmallestShare = 1e-4;   // unexplained: rounding
+constexpr double kSmallestShare = 0.01;   // unexplained by any image
 constexpr double kUnusual = 2.0;          // times the median unexplained share: half the weight
 
 double median(std::vector<double>* values) {

@@ -255,7 +255,8 @@ std::vector<Keypoint> FrameObserver::extractNew(const RgbdFrame& frame,
   if (first) return orb_.extract(frame.color, mask, region);
   cv::Mat1b taken = mask.clone();
   map_.eraseTaken(matches, &taken);
-  return orb_.extractNew(frame.color, mask, taken, region, kTileShare);
+  const int most = config_.features.max_features, known = static_cast<int>(map_.features().size());
+  return orb_.extractNew(frame.color, mask, taken, region, std::min(cvCeil(kTileShare * most), most - known));
 }
 
 std::vector<bool> Observation::atLeast(Shows least) const {
@@ -305,7 +306,7 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
 }
 
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
-  if (!seen.keypoints.empty()) map_.admit(frame, pyramid_, seen.keypoints, surface_, seen.learnable);
+  map_.admit(frame, pyramid_, seen.keypoints, surface_, seen.learnable);
 }
 
 }  // namespace softbody

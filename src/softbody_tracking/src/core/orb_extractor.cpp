@@ -81,12 +81,11 @@ OrbExtractor::OrbExtractor(int max_features)
 
 std::vector<Keypoint> OrbExtractor::extract(const cv::Mat3b& color, const cv::Mat1b& mask,
                                             const cv::Rect& region) {
-  return extractNew(color, mask, mask, region, 1.0);
+  return extractNew(color, mask, mask, region, max_features_);
 }
 
 std::vector<Keypoint> OrbExtractor::extractNew(const cv::Mat3b& color, const cv::Mat1b& mask,
-                                               const cv::Mat1b& taken, const cv::Rect& region, double share) {
-  const int wanted = cvCeil(share * max_features_);
+                                               const cv::Mat1b& taken, const cv::Rect& region, int wanted) {
   return describe(color, region, wanted, [&](const cv::Mat1b& gray, const cv::Rect& wide) {
     std::vector<cv::KeyPoint> found =
         detect(gray, mask(wide), std::max(kFewestCandidates, kCandidates * wanted));
@@ -113,7 +112,7 @@ template <typename Find>
 std::vector<Keypoint> OrbExtractor::describe(const cv::Mat3b& color, const cv::Rect& region, int wanted,
                                              const Find& find) {
   const cv::Rect wide = padded(region, color.size());
-  if (wanted == 0 || wide.width <= 2 * kPatchSize || wide.height <= 2 * kPatchSize) return {};
+  if (wanted <= 0 || wide.width <= 2 * kPatchSize || wide.height <= 2 * kPatchSize) return {};
   cv::Mat1b gray;
   cv::cvtColor(color(wide), gray, cv::COLOR_BGR2GRAY);
   std::vector<cv::KeyPoint> found = find(gray, wide);

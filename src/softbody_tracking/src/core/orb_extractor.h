@@ -29,9 +29,9 @@ class OrbExtractor {
   std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
   /// The same of those that are new. @param taken like the mask, 0: known already.
-  /// @param share of the most features, for a part of the body.
+  /// @param wanted so many at most.
   std::vector<Keypoint> extractNew(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Mat1b& taken,
-                                   const cv::Rect& region, double share);
+                                   const cv::Rect& region, int wanted);
 
   /// The strongest ones, in which known features are found again wherever these lie.
   std::vector<Keypoint> extractStrongest(const cv::Mat3b& color, const cv::Mat1b& mask,

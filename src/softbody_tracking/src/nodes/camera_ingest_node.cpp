@@ -78,6 +78,10 @@ void CameraIngestNode::resetPairer() {
 }
 
 bool CameraIngestNode::accept(Stream stream, const ros::Time& stamp, ros::Time* last) {
+  if (stamp.isZero()) {
+    ROS_WARN_THROTTLE(5.0, "an image without a stamp is dropped: nothing can be placed in time by it");
+    return false;
+  }
   if (stamp < *last && *last - stamp < ros::Duration(kStartsAgain_s)) {
     ROS_WARN_STREAM_THROTTLE(
         5.0, "an image comes " << (*last - stamp) << " s after a later one of its stream and is dropped");
