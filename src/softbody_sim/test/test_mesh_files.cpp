@@ -193,8 +193,13 @@ INSTANTIATE_TEST_SUITE_P(
                    "ply\nformat ascii 1.0\nelement face 1\nproperty list uint int "
                    "vertex_indices\nend_header\n4000000000 1\n",
                    "face 0 of 1: a list of"},
-        BrokenFile{"end.ply", binaryPly(false).substr(0, binaryPly(false).size() - 1),
-                   "face 0 of 1: the file ends"},
+        BrokenFile{"end.ply", binaryPly(false).substr(0, binaryPly(false).size() - 18),
+                   "vertex 3 of 4: the file ends"},
+        BrokenFile{"doubles.ply",
+                   "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar double "
+                   "vertex_indices\nend_header\n\x40" +
+                       std::string(511, '\0'),
+                   "face 0 of 1: a list of 64 entries, which the rest of the file cannot hold"},
         BrokenFile{"type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n",
                    "line 4"},
         BrokenFile{"end.stl", binaryStl().substr(0, 120), "announces 1 facets and ends after 0"},

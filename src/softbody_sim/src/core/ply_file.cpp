@@ -189,8 +189,9 @@ class PlyReader {
 
   std::vector<double> readList(const Property& property) {
     const double count = readValue(property.count_type);
-    // Each entry takes at least a byte.
-    if (!(count >= 0.0 && count <= static_cast<double>(text_.size() - position_))) {
+    // An entry in words takes a space and a digit; no more is reserved than the file can hold.
+    const double bytes = format_ == "ascii" ? 2.0 : kBytes[static_cast<int>(property.type)];
+    if (!(count >= 0.0 && bytes * count <= static_cast<double>(text_.size() - position_))) {
       fail(where_, fmt::format("a list of {} entries, which the rest of the file cannot hold", count));
     }
     std::vector<double> list;
