@@ -43,8 +43,8 @@ class BodyTracker {
 
   /// The body's models. With a greater revision than before they are the same body, cut: it is tracked on,
   /// and the next state must be of that revision. Otherwise tracking starts anew.
-  /// @throw std::invalid_argument if the volume has no tet, or one without volume or of vertices that
-  /// are not there.
+  /// @throw std::invalid_argument if the volume has no tet, or a tet or a triangle of either names a vertex
+  /// that is not there.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   bool ready() const;
 
