@@ -283,18 +283,19 @@ TEST(BodyTracker, IgnoresStatesThatDoNotAnswerItsTargets) {
   EXPECT_FALSE(resetsWith({0, 1000, rest, {}}));
 }
 
-TEST(BodyTracker, RefusesVolumesWithoutTetsOrVertices) {
+TEST(BodyTracker, RefusesTopologiesWithoutTetsOrVertices) {
   const BoxBody box = makeBox();
-  const auto refusal = [&](const TetTopology& volume) -> std::string {
+  const auto refusalOf = [](const TetTopology& volume, const MeshTopology& surface) -> std::string {
     BodyTracker tracker{TrackerConfig()};
     try {
-      tracker.setTopologies(volume, box.surface);
+      tracker.setTopologies(volume, surface);
     } catch (const std::invalid_argument& error) {
       EXPECT_FALSE(tracker.ready());
       return error.what();
     }
     return {};
   };
+  const auto refusal = [&](const TetTopology& volume) { return refusalOf(volume, box.surface); };
   EXPECT_EQ(refusal(box.volume), "");
   EXPECT_EQ(refusal({}), "the volume's topology has no tet");
   TetTopology volume = box.volume;
@@ -303,6 +304,15 @@ TEST(BodyTracker, RefusesVolumesWithoutTetsOrVertices) {
   volume = box.volume;
   volume.tets(7, 2) = -1;
   EXPECT_EQ(refusal(volume), "a tet of the volume's topology names vertex -1 of 198");
+  volume = box.volume;
+  volume.surface(3, 1) = 198;
+  EXPECT_EQ(refusal(volume), "a triangle of the volume's topology names vertex 198 of 198");
+  MeshTopology surface = box.surface;
+  surface.triangles(5, 0) = 198;
+  EXPECT_EQ(refusalOf(box.volume, surface), "a triangle of the surface's topology names vertex 198 of 198");
+  surface = box.surface;
+  surface.bodies.push_back(0);
+  EXPECT_EQ(refusalOf(box.volume, surface), "the surface's topology has 321 bodies for 320 triangles");
 }
 
 TEST(BodyTracker, RefusesImagesOfAnotherSizeThanTheCameras) {
