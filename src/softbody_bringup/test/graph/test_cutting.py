@@ -142,21 +142,30 @@ class Cutting(unittest.TestCase):
         bent = [Point32(0, 0, 0), Point32(0, 1, 0), Point32(0, 1, 1), Point32(0, 0.9, 0.1)]
         self.assertIn("convex", self.service("preview", PreviewCut)(polygon=bent).message)
 
-    def stroke(self, frame=FRAME, offset=np.zeros(3)):
-        """A blade from above, through the body and beyond. @param offset of the frame in that of the states."""
-        self.step(reset=True)
+    def blades(self, frame=FRAME, offset=np.zeros(3)):
+        """From above, through the body and beyond. @param offset of the frame in that of the states."""
         low, high = self.rest.min(axis=0), self.rest.max(axis=0)
-        x, first = 0.55 * low[0] + 0.45 * high[0], self.revision
+        x = 0.55 * low[0] + 0.45 * high[0]
         for z in np.arange(high[2] + 0.02, low[2] - 0.01, -0.002):
             corners = [(x, y, h) for y, h in ((low[1] - 0.02, z), (high[1] + 0.02, z),
                                               (high[1] + 0.02, z + 0.06), (low[1] - 0.02, z + 0.06))]
             blade = PolygonStamped()
+            blade.header.frame_id = frame
             blade.polygon.points = [Point32(*(np.array(corner) - offset)) for corner in corners]
+            yield blade
+
+    def publish(self, blade, stamp):
+        blade.header.stamp = stamp
+        self.blade.publish(blade)
+        rospy.sleep(0.05)
+
+    def stroke(self, frame=FRAME, offset=np.zeros(3)):
+        self.step(reset=True)
+        first = self.revision
+        for blade in self.blades(frame, offset):
             state = self.step()
-            blade.header.stamp, blade.header.frame_id = self.stamp, frame
             cuts = len(self.recorder.messages["softbody/cut"])
-            self.blade.publish(blade)
-            rospy.sleep(0.05)
+            self.publish(blade, self.stamp)
             if len(self.recorder.messages["softbody/cut"]) > cuts:
                 type(self).revision += 1
                 self.recorder.wait(lambda seen: seen["softbody/volume/topology"][-1].revision == self.revision,
@@ -183,17 +192,32 @@ class Cutting(unittest.TestCase):
         np.testing.assert_allclose(again.min(axis=0), patches.min(axis=0), atol=2e-3)
         np.testing.assert_allclose(again.max(axis=0), patches.max(axis=0), atol=2e-3)
 
-    def test_3_time_that_jumps_back_makes_it_whole(self):
+    def test_3_a_fast_blade_waits_for_its_states(self):
+        """A body is simulated later than a blade is found: the whole stroke, and more, before its first state."""
+        self.assertTrue(self.service("reset", Trigger)().success)
+        self.expect_revision(self.revision + 1, 1)
+        period = rospy.Duration(0.005)
+        blades = list(self.blades())
+        stamps = [self.stamp + (k + 1) * period for k in range(2 * len(blades))]
+        for k, stamp in enumerate(stamps):
+            self.publish(blades[min(k, len(blades) - 1)], stamp)
+        cuts = len(self.recorder.messages["softbody/cut"])
+        for stamp in stamps:
+            type(self).revision = self.step(stamp).revision
+        self.assertGreater(len(self.recorder.messages["softbody/cut"]), cuts, "the blade has not cut")
+        self.expect_revision(self.revision, 2)
+
+    def test_4_time_that_jumps_back_makes_it_whole(self):
         type(self).revision = 0
         state = self.step(stamp=rospy.Time(500), reset=True)
         self.assertEqual(state.revision, 0)
         self.assertEqual(len(state.vertices), len(self.rest))
 
-    def test_4_a_blade_that_cannot_cut_is_told(self):
+    def test_5_a_blade_that_cannot_cut_is_told(self):
         self.step()
         blade = PolygonStamped()
         blade.header.frame_id = FRAME
-        for stamp, corners, words in ((rospy.Time(), 4, "not that of an image"), (self.stamp, 2, "three corners")):
+        for stamp, corners, words in ((rospy.Time(), 4, "behind the body's last state"), (self.stamp, 2, "three corners")):
             blade.header.stamp, blade.polygon.points = stamp, [Point32(k, k * k, 5) for k in range(corners)]
             for _ in range(6):
                 self.blade.publish(blade)

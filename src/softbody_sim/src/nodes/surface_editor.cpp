@@ -17,7 +17,9 @@ namespace {
 
 /// Further apart in time the blade and the body's state say nothing of each other.
 constexpr double kSameInstant = 0.1;  // [s]
-constexpr std::size_t kMostWaiting = 30;
+/// The body's states come later than blades, on a slow machine by many frames; later than this they will not.
+constexpr double kLongestWait = 5.0;        // [s]
+constexpr std::size_t kMostWaiting = 5000;  // bounds memory, whatever the stamps are
 /// As many blades without a state are no bag that starts again.
 constexpr int kMostLeftOut = 5;
 /// A simulator that goes on for so long without a cut will not make it.
@@ -77,19 +79,21 @@ void SurfaceEditor::onBlade(const geometry_msgs::PolygonStampedConstPtr& message
   const ros::Time& stamp = message->header.stamp;
   if (!waiting_blades_.empty() && stamp < waiting_blades_.back()->header.stamp) waiting_blades_.clear();
   if (state_ && stamp <= state_header_.stamp) return follow(*message);
-  // A body is simulated later than a blade is found, by more than a frame where the machine is slow.
   waiting_blades_.push_back(message);
-  if (waiting_blades_.size() <= kMostWaiting) return;
-  leaveOut(*waiting_blades_.front());
-  waiting_blades_.pop_front();
+  while ((stamp - waiting_blades_.front()->header.stamp).toSec() > kLongestWait ||
+         waiting_blades_.size() > kMostWaiting) {
+    leaveOut(*waiting_blades_.front());
+    waiting_blades_.pop_front();
+  }
 }
 
 void SurfaceEditor::leaveOut(const geometry_msgs::PolygonStamped& blade) {
   if (!state_ || ++left_out_ < kMostLeftOut) return;
-  ROS_WARN_STREAM_THROTTLE(5.0, "the blade cannot cut: its stamp, "
-                                    << blade.header.stamp
-                                    << ", is not that of an image; the body's state is of "
-                                    << state_header_.stamp);
+  const double ahead = (blade.header.stamp - state_header_.stamp).toSec();
+  ROS_WARN_STREAM_THROTTLE(
+      5.0, fmt::format("the blade cannot cut: it is of {:.3f} s, {:.3f} s {} the body's last state; a blade "
+                       "needs the stamp of an image that the body is followed in",
+                       blade.header.stamp.toSec(), std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind"));
 }
 
 void SurfaceEditor::follow(const geometry_msgs::PolygonStamped& blade) {
