@@ -10,8 +10,10 @@ constexpr Nanoseconds kFrame = 33 * kMillisecond;
 
 /// A tool whose blades and tf come while frames are taken.
 struct Tool {
-  std::size_t frame(Nanoseconds now) {
+  std::size_t frame(Nanoseconds now) { return show(now).lost; }
+  BladeQueue::Unused show(Nanoseconds now) {
     const auto place = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
+      ++asked;
       if (blade.stamp > tf) return std::nullopt;
       newest = std::max(newest, blade.stamp);
       return Eigen::Isometry3d::Identity();
@@ -24,6 +26,7 @@ struct Tool {
   ToolMask mask;
   Nanoseconds tf = 0;       ///< known up to here
   Nanoseconds newest = -1;  ///< that had a place
+  int asked = 0;            ///< for places
 };
 
 TEST(BladeQueue, ABladeThatNeverGetsAPlaceIsCountedOnce) {
@@ -60,6 +63,46 @@ TEST(BladeQueue, BladesOfAFastToolWaitUntilTheyArePlaced) {
   }
 }
 
+TEST(BladeQueue, OfBladesThatNoFrameComesForTheNewestThousandAreKept) {
+  Tool tool;
+  tool.tf = -1;
+  for (Nanoseconds k = 0; k < 1500; ++k) tool.blade(k * kMillisecond);
+  EXPECT_EQ(tool.frame(499 * kMillisecond - ToolMask::kStillThere), 0u);
+  EXPECT_EQ(tool.asked, 0) << "the blades up to 499 ms should be gone";
+  EXPECT_EQ(tool.frame(10'000 * kMillisecond), 1000u);
+}
+
+TEST(BladeQueue, NothingIsLeftOfBladesFromBeforeItWasCleared) {
+  Tool tool;
+  tool.tf = 100 * kFrame;
+  for (Nanoseconds k = 0; k < 100; ++k) tool.blade(k * kFrame);
+  tool.queue.clear();
+  for (Nanoseconds k = 0; k < 100; ++k) EXPECT_EQ(tool.frame(k * kFrame), 0u);
+  EXPECT_EQ(tool.asked, 0);
+}
+
+TEST(BladeQueue, BladesOfAClockThatIsAheadAreTold) {
+  for (Nanoseconds lead : {0 * kFrame, 3 * kFrame, 40 * kFrame, 5000 * kFrame}) {
+    Tool tool;
+    for (Nanoseconds frame = 0; frame < 3000 * kFrame; frame += kFrame) {
+      tool.blade(frame + lead);
+      // From when the frames have come up with the first blade, one counts, though it is a late one.
+      const bool none_counts = lead - frame > ToolMask::kStillThere;
+      const Nanoseconds told = none_counts && frame > 1000 * kMillisecond ? lead : 0;
+      ASSERT_EQ(tool.show(frame).ahead, told) << "lead " << lead << ", frame " << frame;
+    }
+  }
+}
+
+TEST(BladeQueue, HowLongBladesWereAheadIsForgottenWhenTheQueueIsCleared) {
+  Tool tool;
+  for (Nanoseconds k = 0; k < 300; ++k) {
+    tool.blade(3000 * kFrame);
+    EXPECT_EQ(tool.show(k * kFrame).ahead, 0);
+    if (k % 15 == 0) tool.queue.clear();
+  }
+}
+
 /// A frame that waits for the user's mask comes when later blades have come.
 TEST(BladeQueue, TheBladeNearestToTheFrameIsTakenOut) {
   constexpr Nanoseconds kWaited = 100 * kMillisecond;
@@ -71,7 +114,7 @@ TEST(BladeQueue, TheBladeNearestToTheFrameIsTakenOut) {
   const auto covered = [&](Nanoseconds stamp, int u) {
     const RgbdFrame frame{stamp, Pinhole{160, 120, 150.0, 150.0, 79.5, 59.5},
                           cv::Mat3b(120, 160, cv::Vec3b(90, 90, 90)), cv::Mat1f(120, 160, 0.5f)};
-    EXPECT_EQ(queue.show(stamp, place, &mask), 0u);
+    EXPECT_EQ(queue.show(stamp, place, &mask).lost, 0u);
     return mask.without(frame).depth(60, u) == 0.0f;
   };
   const Points beside = blade.rowwise() + Eigen::RowVector3d(0.1, 0.0, 0.0);

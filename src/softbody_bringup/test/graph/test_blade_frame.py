@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A blade in another frame than the camera's is found by tf, without an output_frame too: nothing is measured on it; where tf
 does not know its frame, that is said and the body is measured as if there were none; where tf comes later than the blade, the
-blade counts from then on."""
+blade counts from then on; a blade of another clock is told of."""
 import sys
 import time
 import unittest
@@ -16,10 +16,12 @@ from sensor_msgs.msg import CameraInfo
 from softbody_msgs.msg import Targets
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
-CAMERA, BENCH, LATE = "camera_color_optical_frame", "bench", "late"
+CAMERA, BENCH, LATE, NOWHERE = "camera_color_optical_frame", "bench", "late", "nowhere"
 ORIGIN, SIGNS = np.array([0.3, -0.2, 0.9]), np.array([-1.0, -1.0, 1.0])  # of the bench: half a turn about z
 FRAMES = 3
-MANY_FRAMES = 30  # waiting tf_timeout_s in each would take longer than the recorder's patience
+# Waiting in each frame, however shortly for each blade, would take longer than the recorder's patience.
+MANY_FRAMES, MANY_BLADES = 60, 100
+PERIOD_S = 0.2  # of frames
 NEAR_M = 0.004
 LATE_S = 0.08  # shorter than a frame
 
@@ -30,9 +32,10 @@ class BladeFrame(unittest.TestCase):
         cls.recorder = Recorder(softbody__targets=Targets, rosout=Log)
         cls.broadcaster, cls.late_broadcaster = StaticTransformBroadcaster(), TransformBroadcaster()
         cls.broadcaster.sendTransform(cls.bench(BENCH))
-        cls.publisher = rospy.Publisher("/softbody/tool/blade", PolygonStamped, queue_size=1)
-        cls.frame, cls.corners = None, None
-        cls.subscriber = rospy.Subscriber("/camera/color/camera_info", CameraInfo, cls.show, queue_size=1)
+        cls.publisher = rospy.Publisher("/softbody/tool/blade", PolygonStamped, queue_size=MANY_BLADES)
+        cls.frame, cls.corners, cls.ahead_s = None, None, 0.5 * PERIOD_S
+        cls.subscribers = [rospy.Subscriber("/camera/color/camera_info", CameraInfo, cls.show, queue_size=1),
+                           rospy.Subscriber("/softbody/targets", Targets, cls.show_many, queue_size=1)]
         cls.middle = cls.targets_of(cls.recorder.wait_for("softbody/targets", 5)[-1]).mean(axis=0)
 
     @staticmethod
@@ -44,17 +47,30 @@ class BladeFrame(unittest.TestCase):
         return bench
 
     @classmethod
+    def publish(cls, stamp):
+        blade = PolygonStamped()
+        blade.header.stamp, blade.header.frame_id = stamp, cls.frame
+        blade.polygon.points = [Point32(*corner) for corner in cls.corners]
+        cls.publisher.publish(blade)
+
+    @classmethod
     def show(cls, info):
         """The blade of the frame that comes, and of the next."""
         if cls.frame is None:
             return
-        blade = PolygonStamped()
-        blade.header.stamp, blade.header.frame_id = info.header.stamp + rospy.Duration(0.1), cls.frame
-        blade.polygon.points = [Point32(*corner) for corner in cls.corners]
-        cls.publisher.publish(blade)
+        stamp = info.header.stamp + rospy.Duration(cls.ahead_s)
+        cls.publish(stamp)
         if cls.frame == LATE:
             time.sleep(LATE_S)
-            cls.late_broadcaster.sendTransform(cls.bench(LATE, blade.header.stamp))
+            cls.late_broadcaster.sendTransform(cls.bench(LATE, stamp))
+
+    @classmethod
+    def show_many(cls, targets):
+        """More blades of the next frame while the tracker is idle, as many at a time as it takes."""
+        for k in range(MANY_BLADES if cls.frame == NOWHERE else 0):
+            cls.publish(targets.header.stamp + rospy.Duration(PERIOD_S))
+            if k % 5 == 0:
+                time.sleep(0.005)
 
     @staticmethod
     def targets_of(message):
@@ -69,6 +85,10 @@ class BladeFrame(unittest.TestCase):
             lambda seen: len(seen["softbody/targets"]) >= before + frames
             and all(self.near_the_blade(m) == near for m in seen["softbody/targets"][-FRAMES:]), what)
 
+    def wait_for_log(self, words):
+        self.recorder.wait(lambda seen: any(log.name == "/softbody/feature_tracker" and words in log.msg
+                                            for log in seen["rosout"]), "a warning that says " + words)
+
     def hold_blade(self, frame):
         """Upright along the view, through the body's middle."""
         corners = self.middle + np.array([[0, -0.1, -0.1], [0, 0.1, -0.1], [0, 0.1, 0.1], [0, -0.1, 0.1]])
@@ -81,14 +101,17 @@ class BladeFrame(unittest.TestCase):
         self.wait_for_frames(False, "frames without a target on the blade")
 
     def test_2_a_frame_that_tf_does_not_know(self):
-        self.hold_blade("nowhere")
-        self.recorder.wait(lambda seen: any(log.name == "/softbody/feature_tracker" and "nowhere" in log.msg
-                                            for log in seen["rosout"]), "a word on the blade's frame")
+        self.hold_blade(NOWHERE)
+        self.wait_for_log(NOWHERE)
         self.wait_for_frames(True, "targets as without a blade, in frames that wait for nothing", MANY_FRAMES)
 
     def test_3_a_frame_of_which_tf_comes_late(self):
         self.hold_blade(LATE)
         self.wait_for_frames(False, "frames without a target on the blade of the late frame")
+
+    def test_4_a_clock_that_is_ahead(self):
+        type(self).ahead_s = 50.0
+        self.wait_for_log("50.0 s ahead of the frame's")
 
 
 if __name__ == "__main__":

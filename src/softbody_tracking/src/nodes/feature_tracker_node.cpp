@@ -1,6 +1,7 @@
 #include "nodes/feature_tracker_node.h"
 
 #include <cv_bridge/cv_bridge.h>
+#include <fmt/format.h>
 #include <sensor_msgs/image_encodings.h>
 #include <softbody_msgs/StageTiming.h>
 #include <softbody_msgs/Targets.h>
@@ -136,8 +137,13 @@ void FeatureTrackerNode::placeBlade(const ros::Time& stamp) {
       return std::nullopt;
     }
   };
-  if (blades_.show(toNanoseconds(stamp), place, &tool_mask_) > 0)
-    ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << reason);
+  const BladeQueue::Unused unused = blades_.show(toNanoseconds(stamp), place, &tool_mask_);
+  if (unused.lost > 0) ROS_WARN_STREAM_THROTTLE(5.0, "the blade's place is not known: " << reason);
+  if (unused.ahead > 0)
+    ROS_WARN_STREAM_THROTTLE(
+        5.0, fmt::format("the blade does not cover the body: its stamp is {:.1f} s ahead of the "
+                         "frame's; both must be of one clock",
+                         1e-9 * static_cast<double>(unused.ahead)));
 }
 
 void FeatureTrackerNode::skip(const std_msgs::Header& header, const std::string& why) {
