@@ -20,6 +20,7 @@ constexpr double kSameInstant = 0.1;  // [s]
 /// The body's states come later than blades, on a slow machine by many frames; later than this they will not.
 constexpr double kLongestWait = 5.0;        // [s]
 constexpr std::size_t kMostWaiting = 5000;  // bounds memory, whatever the stamps are
+constexpr int kBladeQueue = 100;            // of a fast tool, while a cut is made
 /// As many blades without a state are no bag that starts again.
 constexpr int kMostLeftOut = 5;
 /// A simulator that goes on for so long without a cut will not make it.
@@ -37,7 +38,7 @@ SurfaceEditor::SurfaceEditor(const ros::NodeHandle& node, ros::NodeHandle privat
       on_preview_(std::move(on_preview)) {
   cut_publisher_ = node_.advertise<softbody_msgs::Cut>(topics::kCut, 20);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  blade_subscriber_ = node_.subscribe(topics::kToolBlade, 1, &SurfaceEditor::onBlade, this, hints);
+  blade_subscriber_ = node_.subscribe(topics::kToolBlade, kBladeQueue, &SurfaceEditor::onBlade, this, hints);
   cut_subscriber_ = node_.subscribe(topics::kCut, 20, &SurfaceEditor::onCut, this, hints);
   cut_service_ = private_node.advertiseService("cut", &SurfaceEditor::onCutService, this);
   preview_service_ = private_node.advertiseService("preview", &SurfaceEditor::onPreview, this);

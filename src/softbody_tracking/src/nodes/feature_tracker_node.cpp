@@ -20,7 +20,8 @@
 namespace softbody {
 namespace {
 
-constexpr int kSyncQueue = 4, kBladeQueue = 10;
+constexpr int kSyncQueue = 4;
+constexpr int kBladeQueue = 100;  // of a fast tool, while a frame is tracked
 constexpr double kSetPosePatience_s = 0.5;
 
 }  // namespace
