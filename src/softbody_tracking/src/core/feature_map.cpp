@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "descriptor_match.h"
 #include "pixel_grid.h"
 #include "softbody_common/surface_binding.h"
 
@@ -12,8 +13,6 @@ namespace softbody {
 namespace {
 
 constexpr double kVisibleTolerance = 0.01;     // [m], feature behind the rendered surface by more: hidden
-constexpr float kRatio = 0.85f;                // best to second-best distance
-constexpr float kSamePlacePx = 3.0f;           // two keypoints nearer than this are no rivals
 constexpr int kFreeRadiusPx = 7;               // around a known feature no other is admitted
 constexpr double kBindTolerance = 0.01;        // [m], surface and depth must agree where a feature is bound
 constexpr double kMostGrazing = 0.35;          // cosine of normal and ray where a feature is bound
@@ -39,16 +38,10 @@ int bestKeypoint(const Descriptor& descriptor, const cv::Point2f& predicted,
     if (d.dot(d) <= kRadius2)
       candidates.emplace_back(hammingDistance(descriptor, keypoints[k].descriptor), k);
   });
-  if (candidates.empty()) return -1;
-  const auto best = *std::min_element(candidates.begin(), candidates.end());
-  if (best.first > max_hamming_distance) return -1;
-  for (const auto& [other_distance, k] : candidates) {
-    const cv::Point2f d = keypoints[k].pixel - keypoints[best.second].pixel;
-    const bool rival = d.dot(d) > kSamePlacePx * kSamePlacePx;
-    if (rival && static_cast<float>(best.first) > kRatio * static_cast<float>(other_distance)) return -1;
-  }
-  *distance = best.first;
-  return best.second;
+  const int best = clearlyNearest(candidates, keypoints, max_hamming_distance);
+  if (best < 0) return -1;
+  *distance = candidates[best].first;
+  return candidates[best].second;
 }
 
 bool predictedVisible(const PredictedSurface& surface, const Eigen::Vector3d& position, cv::Point2f* pixel) {

@@ -2,38 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <random>
 
+#include "descriptor_match.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
-constexpr float kRatio = 0.85f;        // best to second-best distance
-constexpr float kSamePlacePx = 3.0f;   // two keypoints nearer than this are no rivals
 constexpr int kTrials = 3000;          // most end at the first edge that has another length
 constexpr int kFits = 3;               // of the best, to those that agree
 constexpr double kShortestEdge = 4.0;  // tolerances, of the triangle that a trial fits
 constexpr std::size_t kFewestAgreeing = 15;
-
-/// The keypoint that looks most like a descriptor, -1 where none does clearly.
-int mostAlike(const Descriptor& descriptor, const std::vector<Keypoint>& keypoints, int max_distance,
-              std::vector<int>* distances) {
-  distances->resize(keypoints.size());
-  for (std::size_t k = 0; k < keypoints.size(); ++k)
-    (*distances)[k] = hammingDistance(descriptor, keypoints[k].descriptor);
-  const auto least = std::min_element(distances->begin(), distances->end());
-  if (least == distances->end() || *least > max_distance) return -1;
-  const auto best = static_cast<std::size_t>(least - distances->begin());
-  for (std::size_t k = 0; k < keypoints.size(); ++k) {
-    if (static_cast<float>(*least) <= kRatio * static_cast<float>((*distances)[k])) continue;
-    const cv::Point2f d = keypoints[k].pixel - keypoints[best].pixel;
-    if (d.dot(d) > kSamePlacePx * kSamePlacePx) return -1;
-  }
-  return static_cast<int>(best);
-}
 
 using Triple = std::array<const PointPair*, 3>;
 
@@ -75,9 +56,11 @@ std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vec
                                           const PredictedSurface& surface, const Points& vertices,
                                           int max_hamming_distance) {
   std::vector<PointPair> pairs;
-  std::vector<int> distances;
+  std::vector<std::pair<int, int>> distances(keypoints.size());
   for (const MapFeature& feature : features) {
-    const int k = mostAlike(feature.descriptor, keypoints, max_hamming_distance, &distances);
+    for (std::size_t i = 0; i < keypoints.size(); ++i)
+      distances[i] = {hammingDistance(feature.descriptor, keypoints[i].descriptor), static_cast<int>(i)};
+    const int k = clearlyNearest(distances, keypoints, max_hamming_distance);
     if (k < 0) continue;
     const cv::Point2f& pixel = keypoints[k].pixel;
     const double z = featureDepth(frame.depth, pixel);
