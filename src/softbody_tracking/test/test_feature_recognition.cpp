@@ -3,6 +3,8 @@
 #include <random>
 
 #include "core/feature_recognition.h"
+#include "softbody_common/rigid_fit.h"
+#include "synthetic_scene.h"
 
 namespace softbody {
 namespace {
@@ -63,6 +65,27 @@ TEST(FeatureRecognition, TakesNoChanceForAMotion) {
 TEST(FeatureRecognition, TakesNoPairsOfOnePlaceForAMotion) {
   const std::vector<PointPair> same(40, {Eigen::Vector3d(0.01, 0.02, 0.03), Eigen::Vector3d(0.1, 0.0, 0.5)});
   EXPECT_FALSE(recognizedMotion(same, kTolerance));
+}
+
+/// Bits set, so many: that far from the descriptor without any.
+Descriptor descriptorOf(int bits) { return {(1ull << bits) - 1, 0, 0, 0}; }
+
+TEST(FeatureRecognition, PairsAKeypointWithTheFeatureMostLikeIt) {
+  const BoxBody box = makeBox();
+  PredictedSurface surface(box.volume, box.surface);
+  const Points vertices = transformed(box.volume.rest_vertices, boxPose());
+  const RgbdFrame frame = renderFrame(box, vertices, 1);
+  surface.update(frame.camera, vertices);
+  Keypoint keypoint;
+  keypoint.pixel = {320.0f, 240.0f};
+  std::vector<MapFeature> features(3);
+  for (int f = 0; f < 3; ++f) {
+    features[f].place = {40 * f, Eigen::Vector4d::Constant(0.25)};
+    features[f].descriptor = descriptorOf(f == 1 ? 2 : 5);
+  }
+  const auto pairs = recognizedFeatures(frame, features, {keypoint}, surface, vertices, 64);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].expected, positionOf(features[1].place, vertices, box.volume.tets));
 }
 
 }  // namespace

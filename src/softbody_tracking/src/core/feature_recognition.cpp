@@ -1,8 +1,8 @@
 #include "feature_recognition.h"
 
-#include <algorithm>
 #include <array>
 #include <random>
+#include <utility>
 
 #include "descriptor_match.h"
 #include "softbody_common/rigid_fit.h"
@@ -15,6 +15,24 @@ constexpr int kTrials = 3000;          // most end at the first edge that has an
 constexpr int kFits = 3;               // of the best, to those that agree
 constexpr double kShortestEdge = 4.0;  // tolerances, of the triangle that a trial fits
 constexpr std::size_t kFewestAgreeing = 15;
+
+/// Of each keypoint the feature that looks most like it, of those that look clearly most like it; null where
+/// none does.
+std::vector<const MapFeature*> ownersOf(const std::vector<Keypoint>& keypoints,
+                                        const std::vector<MapFeature>& features, int max_hamming_distance) {
+  std::vector<const MapFeature*> owners(keypoints.size(), nullptr);
+  std::vector<int> owner_distances(keypoints.size());
+  std::vector<std::pair<int, int>> candidates(keypoints.size());
+  for (const MapFeature& feature : features) {
+    for (std::size_t k = 0; k < keypoints.size(); ++k)
+      candidates[k] = {hammingDistance(feature.descriptor, keypoints[k].descriptor), static_cast<int>(k)};
+    const int k = clearlyNearest(candidates, keypoints, max_hamming_distance);
+    if (k < 0 || (owners[k] != nullptr && owner_distances[k] <= candidates[k].first)) continue;
+    owners[k] = &feature;
+    owner_distances[k] = candidates[k].first;
+  }
+  return owners;
+}
 
 using Triple = std::array<const PointPair*, 3>;
 
@@ -56,17 +74,15 @@ std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vec
                                           const PredictedSurface& surface, const Points& vertices,
                                           int max_hamming_distance) {
   std::vector<PointPair> pairs;
-  std::vector<std::pair<int, int>> distances(keypoints.size());
-  for (const MapFeature& feature : features) {
-    for (std::size_t i = 0; i < keypoints.size(); ++i)
-      distances[i] = {hammingDistance(feature.descriptor, keypoints[i].descriptor), static_cast<int>(i)};
-    const int k = clearlyNearest(distances, keypoints, max_hamming_distance);
-    if (k < 0) continue;
+  const std::vector<const MapFeature*> owners = ownersOf(keypoints, features, max_hamming_distance);
+  for (std::size_t k = 0; k < keypoints.size(); ++k) {
+    if (owners[k] == nullptr) continue;
     const cv::Point2f& pixel = keypoints[k].pixel;
     const double z = featureDepth(frame.depth, pixel);
     if (z <= 0.0) continue;
-    pairs.push_back({positionOf(feature.place, vertices, surface.volume().tets),
-                     frame.camera.unproject(pixel.x, pixel.y, z), surface.bodyOf(feature.place)});
+    const MaterialPoint& place = owners[k]->place;
+    pairs.push_back({positionOf(place, vertices, surface.volume().tets),
+                     frame.camera.unproject(pixel.x, pixel.y, z), surface.bodyOf(place)});
   }
   return pairs;
 }
