@@ -1,5 +1,6 @@
 #include "feature_recognition.h"
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <utility>
@@ -15,6 +16,8 @@ constexpr int kTrials = 3000;          // most end at the first edge that has an
 constexpr int kFits = 3;               // of the best, to those that agree
 constexpr double kShortestEdge = 4.0;  // tolerances, of the triangle that a trial fits
 constexpr std::size_t kFewestAgreeing = 15;
+constexpr double kDeformation = 0.03;      // of a piece's diameter, at which it still is recognised
+constexpr double kDepthPrecision = 0.002;  // [m]
 
 /// Of each keypoint the feature that looks most like it, of those that look clearly most like it; null where
 /// none does.
@@ -85,6 +88,11 @@ std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vec
                      frame.camera.unproject(pixel.x, pixel.y, z), surface.bodyOf(place)});
   }
   return pairs;
+}
+
+double recognitionTolerance(const Points& rest_vertices) {
+  const Eigen::Vector3d size = rest_vertices.colwise().maxCoeff() - rest_vertices.colwise().minCoeff();
+  return std::max(kDeformation * size.norm(), kDepthPrecision);
 }
 
 std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& pairs, double tolerance_m) {

@@ -23,9 +23,13 @@ std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vec
                                           const PredictedSurface& surface, const Points& vertices,
                                           int max_hamming_distance);
 
+/// By how much the places of recognised features may be off [m]: the piece has been deformed, and depth is
+/// noisy. @param rest_vertices of the piece.
+double recognitionTolerance(const Points& rest_vertices);
+
 /// The rigid motion that most pairs agree with (RANSAC, Fischler and Bolles 1981), if they are enough for it
 /// not to be chance.
-/// @param tolerance_m by which they may be off, deformation included.
+/// @param tolerance_m by which they may be off: see recognitionTolerance().
 std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& pairs, double tolerance_m);
 
 }  // namespace softbody

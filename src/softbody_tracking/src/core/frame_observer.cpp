@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kPatchMargin = 32;           // [px] around features for their descriptors and patches
 constexpr double kLearnTolerance = 0.008;  // [m], depth agrees well enough to learn the body's colours
-constexpr double kDeformation = 0.03;      // of the body's diameter, at which it still is recognised
 constexpr double kLookAgain = 0.004;       // [m] of any vertex; a rough step beyond it is rendered again
 constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer, descriptors are matched too
 constexpr double kHardlyAny = 0.2;      // of the expected features; with fewer they are looked for anywhere
@@ -22,10 +21,6 @@ constexpr double kTileShare = 0.7;          // of the most features: a tile may 
 constexpr int kFramesBetweenTiles = 3;      // in which new features are looked for
 constexpr int kScouts = 48;                 // features that say whether the prediction is far off
 constexpr double kFarOff = 4.0;             // [px] that full resolution hardly aligns
-
-double diameter(const Points& vertices) {
-  return (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
-}
 
 /// @param counted of each piece.
 std::ptrdiff_t inlierCount(const std::vector<bool>& counted, const std::vector<FeatureMatch>& matches) {
@@ -79,7 +74,7 @@ std::vector<PointPair> FrameObserver::recognizeFeatures(const RgbdFrame& frame, 
 std::optional<Eigen::Isometry3d> FrameObserver::recognize(const RgbdFrame& frame) {
   if (map_.features().empty()) return std::nullopt;
   const Points& rest = surface_.volume().rest_vertices;
-  return recognizedMotion(recognizeFeatures(frame, rest), kDeformation * diameter(rest));
+  return recognizedMotion(recognizeFeatures(frame, rest), recognitionTolerance(rest));
 }
 
 /// Share of the known features that show at a pose of the undeformed body; -1 where too few should.
@@ -223,9 +218,10 @@ void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, const std::vecto
     if (gone[pair.body]) pairs[pair.body].push_back(pair);
   }
   RigidMotions motions;
-  for (const std::vector<PointPair>& piece : pairs) {
+  for (std::size_t piece = 0; piece < pairs.size(); ++piece) {
+    const Points rest = surface_.volume().rest_vertices(surface_.pieces()[piece], Eigen::all);
     motions.push_back(
-        recognizedMotion(piece, kDeformation * diameter(before)).value_or(Eigen::Isometry3d::Identity()));
+        recognizedMotion(pairs[piece], recognitionTolerance(rest)).value_or(Eigen::Isometry3d::Identity()));
   }
   if (largestMotion(surface_, motions) < kLookAgain) return;
   look(frame, surface_.movedVolume(motions));
