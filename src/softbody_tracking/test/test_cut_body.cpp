@@ -183,6 +183,26 @@ TEST_F(CutObserver, FindsAPieceAgainHoweverFarOffTheOtherIs) {
   findsAgain(&observer_, box_, far, 0.08);
 }
 
+/// The right piece jumps. A scrap of what the left one looked like does, too, and says where that went, but
+/// hardly any of its other features are there.
+TEST_F(CutObserver, MovesAPieceOnlyToWhereItsOwnFeaturesAre) {
+  const Points truth = parted(0.08);
+  RgbdFrame frame = renderFrame(box_, truth, 2);
+  const int middle = cvRound(frame.camera.project(boxPose().translation()).x());
+  const cv::Rect scrap(middle - 110, 180, 56, 56), shown_at = scrap + cv::Point(-60, 160);
+  const cv::Mat3b color = frame.color(scrap).clone();
+  const cv::Mat1f depth = frame.depth(scrap).clone();
+  frame.color(cv::Rect(0, 0, middle, 480)).setTo(cv::Vec3b(35, 90, 140));
+  color.copyTo(frame.color(shown_at));
+  depth.copyTo(frame.depth(shown_at));
+  observer_.observe(frame, rest_);
+  const Points found = observer_.surface().volumeVertices();
+  for (int piece = 0; piece < 2; ++piece) {
+    for (const int v : observer_.surface().pieces()[piece])
+      ASSERT_LT((found.row(v) - truth.row(v)).norm(), 0.01) << "vertex " << v << " of piece " << piece;
+  }
+}
+
 TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
   const Points beside = transformed(rest_, Eigen::Isometry3d(Eigen::Translation3d(0.012, 0.0, 0.0)));
   const auto outlines = [&](bool use_depth, bool knn) {

@@ -112,4 +112,22 @@ std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& 
   return fit(most);
 }
 
+std::vector<Points> recognizedPieces(const std::vector<PointPair>& pairs, const PredictedSurface& surface,
+                                     const std::vector<bool>& wanted, double min_motion_m) {
+  std::vector<std::vector<PointPair>> of_piece(wanted.size());
+  for (const PointPair& pair : pairs) of_piece[pair.body].push_back(pair);
+  std::vector<Points> found(wanted.size());
+  for (std::size_t piece = 0; piece < wanted.size(); ++piece) {
+    if (!wanted[piece]) continue;
+    const std::vector<int>& vertices = surface.pieces()[piece];
+    const Points rest = surface.volume().rest_vertices(vertices, Eigen::all);
+    const auto motion = recognizedMotion(of_piece[piece], recognitionTolerance(rest));
+    if (!motion) continue;
+    const Points expected = surface.volumeVertices()(vertices, Eigen::all),
+                 there = transformed(expected, *motion);
+    if ((there - expected).rowwise().norm().maxCoeff() > min_motion_m) found[piece] = there;
+  }
+  return found;
+}
+
 }  // namespace softbody

@@ -32,4 +32,10 @@ double recognitionTolerance(const Points& rest_vertices);
 /// @param tolerance_m by which they may be off: see recognitionTolerance().
 std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& pairs, double tolerance_m);
 
+/// The volume's vertices of pieces where their pairs say that they are.
+/// @param wanted of each piece. @return of each; none where it is not wanted, not recognised, or nowhere
+/// further than min_motion_m from where it is expected.
+std::vector<Points> recognizedPieces(const std::vector<PointPair>& pairs, const PredictedSurface& surface,
+                                     const std::vector<bool>& wanted, double min_motion_m);
+
 }  // namespace softbody

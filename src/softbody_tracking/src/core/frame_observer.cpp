@@ -14,7 +14,6 @@ constexpr int kPatchMargin = 32;           // [px] around features for their des
 constexpr double kLearnTolerance = 0.008;  // [m], depth agrees well enough to learn the body's colours
 constexpr double kLookAgain = 0.004;       // [m] of any vertex; a rough step beyond it is rendered again
 constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer, descriptors are matched too
-constexpr double kHardlyAny = 0.2;      // of the expected features; with fewer they are looked for anywhere
 constexpr int kFramesBetweenSearches = 10;  // for a piece that is held
 constexpr int kTiles = 4;                   // of the predicted surface
 constexpr double kTileShare = 0.7;          // of the most features: a tile may have more texture than others
@@ -22,11 +21,8 @@ constexpr int kFramesBetweenTiles = 3;      // in which new features are looked 
 constexpr int kScouts = 48;                 // features that say whether the prediction is far off
 constexpr double kFarOff = 4.0;             // [px] that full resolution hardly aligns
 
-/// @param counted of each piece.
-std::ptrdiff_t inlierCount(const std::vector<bool>& counted, const std::vector<FeatureMatch>& matches) {
-  return std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& match) {
-    return match.inlier && counted[match.association.body];
-  });
+bool any(const std::vector<bool>& pieces) {
+  return std::find(pieces.begin(), pieces.end(), true) != pieces.end();
 }
 
 /// Outlines that nothing would use are not looked for.
@@ -137,7 +133,7 @@ void FrameObserver::expectFeatures(const RgbdFrame& frame) {
 }
 
 /// Some features first, from coarse to fine: where they say that the prediction is far off, all are looked
-/// for where it moves rigidly to.
+/// for where it moves rigidly to. Outliers are marked.
 std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
   expectFeatures(frame);
   std::vector<FeatureMatch> matches;
@@ -147,14 +143,14 @@ std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
     matches.clear();
   }
   map_.align(frame, pyramid_, FeatureMap::kAll, &matches);
+  markOutliers(frame.camera, config_.features.max_disagreement_m, &matches);
   return matches;
 }
 
 /// Those whose features say whether the prediction is right: what is held where it was is not expected to be
 /// there. With nothing else, that says it too.
 std::vector<bool> FrameObserver::followedPieces() const {
-  const bool any = std::find(shown_before_.begin(), shown_before_.end(), true) != shown_before_.end();
-  return any ? shown_before_ : std::vector<bool>(surface_.bodyCount(), true);
+  return any(shown_before_) ? shown_before_ : std::vector<bool>(surface_.bodyCount(), true);
 }
 
 bool FrameObserver::farOff(const std::vector<FeatureMatch>& scouts) const {
@@ -184,13 +180,21 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
     if (largestMotion(surface_, rough) > kLookAgain) {
       look(frame, surface_.movedVolume(rough));
       seen->matches = alignFeatures(frame);
-      markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     }
   }
   const std::vector<bool> gone = gonePieces(seen->matches);
-  if (std::find(gone.begin(), gone.end(), true) != gone.end()) lookWhereRecognized(frame, gone, seen);
-  markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
+  if (any(gone)) lookWhereRecognized(frame, gone, seen);
   weighByAgreement(&seen->matches);
+}
+
+FrameObserver::FeatureCount FrameObserver::countOn(std::size_t piece,
+                                                   const std::vector<FeatureMatch>& matches) const {
+  std::vector<bool> counted(surface_.bodyCount());
+  counted[piece] = true;
+  const auto inliers = std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& match) {
+    return match.inlier && match.association.body == piece;
+  });
+  return {map_.expected(counted), static_cast<int>(inliers)};
 }
 
 /// Pieces of which hardly any feature is where it was predicted. What is held where it was is seldom asked
@@ -200,39 +204,46 @@ std::vector<bool> FrameObserver::gonePieces(const std::vector<FeatureMatch>& mat
   const std::vector<bool> followed = followedPieces();
   std::vector<bool> gone(surface_.bodyCount());
   for (std::size_t piece = 0; piece < gone.size(); ++piece) {
-    std::vector<bool> counted(gone.size());
-    counted[piece] = true;
-    const int expected = map_.expected(counted);
-    gone[piece] = (followed[piece] || frames_to_search_ == 0) && expected >= kFewestExpectedFeatures &&
-                  inlierCount(counted, matches) < kHardlyAny * expected;
+    const FeatureCount count = countOn(piece, matches);
+    gone[piece] = (followed[piece] || frames_to_search_ == 0) && count.expected >= kFewestExpectedFeatures &&
+                  count.hardlyAny();
   }
   return gone;
 }
 
-/// Features that are recognised anywhere say where pieces went, if then more are found.
+/// Pieces go where they are recognised, each if enough of its features are then found there, and more than
+/// were.
 void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, const std::vector<bool>& gone,
                                         Observation* seen) {
   const Points before = surface_.volumeVertices();
-  std::vector<std::vector<PointPair>> pairs(gone.size());
-  for (const PointPair& pair : recognizeFeatures(frame, before)) {
-    if (gone[pair.body]) pairs[pair.body].push_back(pair);
+  const std::vector<Points> there =
+      recognizedPieces(recognizeFeatures(frame, before), surface_, gone, kLookAgain);
+  std::vector<bool> moved;
+  std::vector<int> found_before;
+  for (std::size_t piece = 0; piece < there.size(); ++piece) {
+    moved.push_back(there[piece].rows() > 0);
+    found_before.push_back(countOn(piece, seen->matches).found);
   }
-  RigidMotions motions;
-  for (std::size_t piece = 0; piece < pairs.size(); ++piece) {
-    const Points rest = surface_.volume().rest_vertices(surface_.pieces()[piece], Eigen::all);
-    motions.push_back(
-        recognizedMotion(pairs[piece], recognitionTolerance(rest)).value_or(Eigen::Isometry3d::Identity()));
+  if (!any(moved)) return;
+  while (any(moved)) {
+    Points vertices = before;
+    for (std::size_t piece = 0; piece < moved.size(); ++piece)
+      if (moved[piece]) vertices(surface_.pieces()[piece], Eigen::all) = there[piece];
+    look(frame, vertices);
+    std::vector<FeatureMatch> matches = alignFeatures(frame);
+    std::vector<bool> confirmed = moved;
+    for (std::size_t piece = 0; piece < moved.size(); ++piece) {
+      const FeatureCount count = countOn(piece, matches);
+      confirmed[piece] = moved[piece] && count.found > found_before[piece] && !count.hardlyAny();
+    }
+    if (confirmed == moved) {
+      seen->matches = std::move(matches);
+      return;
+    }
+    moved = std::move(confirmed);
   }
-  if (largestMotion(surface_, motions) < kLookAgain) return;
-  look(frame, surface_.movedVolume(motions));
-  std::vector<FeatureMatch> matches = alignFeatures(frame);
-  markOutliers(frame.camera, config_.features.max_disagreement_m, &matches);
-  if (inlierCount(gone, matches) > inlierCount(gone, seen->matches)) {
-    seen->matches = std::move(matches);
-  } else {
-    look(frame, before);
-    alignFeatures(frame);  // what is missed is known by it
-  }
+  look(frame, before);
+  alignFeatures(frame);  // what is missed is known by it
 }
 
 /// Wherever the body may be.

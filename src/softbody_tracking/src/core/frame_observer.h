@@ -64,6 +64,12 @@ class FrameObserver {
   void reset();
 
  private:
+  /// Of a piece: features expected where it was predicted, and inliers found there.
+  struct FeatureCount {
+    int expected = 0, found = 0;
+    bool hardlyAny() const { return found < 0.2 * expected; }
+  };
+
   void look(const RgbdFrame& frame, const Points& vertices);
   RigidMotions alignRigidly(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches);
   void learnColors(const RgbdFrame& frame);
@@ -75,6 +81,7 @@ class FrameObserver {
   bool farOff(const std::vector<FeatureMatch>& scouts) const;
   bool few(const std::vector<FeatureMatch>& matches) const;
   std::vector<PointPair> recognizeFeatures(const RgbdFrame& frame, const Points& vertices);
+  FeatureCount countOn(std::size_t piece, const std::vector<FeatureMatch>& matches) const;
   std::vector<bool> gonePieces(const std::vector<FeatureMatch>& matches);
   void lookWhereRecognized(const RgbdFrame& frame, const std::vector<bool>& gone, Observation* seen);
   void followFeatures(const RgbdFrame& frame, Observation* seen);
