@@ -183,6 +183,25 @@ TEST_F(CutObserver, FindsAPieceAgainHoweverFarOffTheOtherIs) {
   findsAgain(&observer_, box_, far, 0.08);
 }
 
+/// As in another light: nothing is gained by searching all of the image in every frame.
+TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
+  const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
+  RgbdFrame dull = frame_;
+  dull.color = frame_.color.clone();
+  dull.color(cv::Rect(middle, 0, 640 - middle, 480)).setTo(cv::Vec3b(35, 90, 140));
+  const RgbdFrame back = renderFrame(box_, parted(0.08), 2);
+  const auto framesToFind = [&](int dull_frames) {
+    FrameObserver observer({}, box_.volume, box_.surface);
+    observer.admit(frame_, observer.observe(frame_, rest_));
+    for (int i = 0; i < dull_frames; ++i) observer.observe(dull, rest_);
+    int frames = 1;
+    while (matchesOn({false, true}, observer.observe(back, rest_).matches) < 50 && frames < 20) ++frames;
+    return frames;
+  };
+  EXPECT_EQ(framesToFind(0), 1);
+  EXPECT_EQ(framesToFind(15), 10);
+}
+
 /// The right piece jumps. A scrap of what the left one looked like does, too, and says where that went, but
 /// hardly any of its other features are there.
 TEST_F(CutObserver, MovesAPieceOnlyToWhereItsOwnFeaturesAre) {

@@ -50,12 +50,14 @@ void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology&
   depth_ = DepthAssociator(config_.depth, volume_edge_m);
   outline_ = OutlineAssociator(usedOutline(config_), volume_edge_m);
   shown_before_.clear();
+  searches_.clear();
 }
 
 void FrameObserver::reset() {
   map_.reset();
   colors_.reset();
   shown_before_.clear();
+  searches_.clear();
   frames_to_admission_ = frames_to_search_ = 0;
 }
 
@@ -197,16 +199,20 @@ FrameObserver::FeatureCount FrameObserver::countOn(std::size_t piece,
   return {map_.expected(counted), static_cast<int>(inliers)};
 }
 
-/// Pieces of which hardly any feature is where it was predicted. What is held where it was is seldom asked
-/// for: it may be covered for long.
+/// Pieces to be searched for: hardly any feature is where it was predicted. What is held where it was is
+/// seldom asked for: it may be covered for long.
 std::vector<bool> FrameObserver::gonePieces(const std::vector<FeatureMatch>& matches) {
   frames_to_search_ = frames_to_search_ > 0 ? frames_to_search_ - 1 : kFramesBetweenSearches - 1;
   const std::vector<bool> followed = followedPieces();
   std::vector<bool> gone(surface_.bodyCount());
+  searches_.resize(gone.size());
   for (std::size_t piece = 0; piece < gone.size(); ++piece) {
     const FeatureCount count = countOn(piece, matches);
-    gone[piece] = (followed[piece] || frames_to_search_ == 0) && count.expected >= kFewestExpectedFeatures &&
-                  count.hardlyAny();
+    if (count.expected < kFewestExpectedFeatures) continue;
+    if (!count.hardlyAny())
+      searches_[piece].reset();
+    else
+      gone[piece] = followed[piece] ? searches_[piece].isDue() : frames_to_search_ == 0;
   }
   return gone;
 }
@@ -237,6 +243,8 @@ void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, const std::vecto
       confirmed[piece] = moved[piece] && count.found > found_before[piece] && !count.hardlyAny();
     }
     if (confirmed == moved) {
+      for (std::size_t piece = 0; piece < moved.size(); ++piece)
+        if (moved[piece]) searches_[piece].reset();
       seen->matches = std::move(matches);
       return;
     }

@@ -12,6 +12,7 @@
 #include "outline_associations.h"
 #include "predicted_surface.h"
 #include "rigid_alignment.h"
+#include "search_pace.h"
 #include "shown_pieces.h"
 #include "surface_samples.h"
 
@@ -102,8 +103,9 @@ class FrameObserver {
   std::vector<bool>
       shown_before_;  ///< of each piece, whether the last frame did not hardly show it; none: all
   int frames_to_admission_ = 0;
-  int frames_to_search_ = 0;  ///< for pieces that are held
-  int tile_ = 0;              ///< of the surface, where new features are looked for next
+  int frames_to_search_ = 0;          ///< for pieces that are held
+  std::vector<SearchPace> searches_;  ///< for each that is followed
+  int tile_ = 0;                      ///< of the surface, where new features are looked for next
 };
 
 }  // namespace softbody
