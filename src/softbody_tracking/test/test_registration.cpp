@@ -43,13 +43,14 @@ TEST(Registration, ACoarseMeshServesForTheSearch) {
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << found.cost;
 }
 
-/// A flat ring around the z axis, of 96 by 4 quads.
-TriangleMesh makeRing() {
+/// A flat ring around the z axis, of 96 by 4 quads. @param crowding of its sectors on one side: 0 none,
+/// below 1.
+TriangleMesh makeRing(double crowding = 0.0) {
   constexpr int kSectors = 96, kSides = 4;
   constexpr double kCorners[kSides][2] = {{0.05, -0.02}, {0.1, -0.02}, {0.1, 0.02}, {0.05, 0.02}};
   TriangleMesh mesh{Points(kSectors * kSides, 3), Triangles(2 * kSectors * kSides, 3)};
   for (int i = 0; i < kSectors; ++i) {
-    const double angle = 2.0 * M_PI * i / kSectors;
+    const double even = 2.0 * M_PI * i / kSectors, angle = even + crowding * std::sin(even);
     for (int k = 0; k < kSides; ++k) {
       const auto& [radius, z] = kCorners[k];
       mesh.vertices.row(i * kSides + k) << radius * std::cos(angle), radius * std::sin(angle), z;
@@ -62,8 +63,7 @@ TriangleMesh makeRing() {
   return mesh;
 }
 
-TEST(Registration, TurnsABodyOfRevolutionAboutItsAxisOnlyAsTheRoughPoseDoes) {
-  const TriangleMesh mesh = makeRing();
+void turnsAboutItsAxisOnlyAsTheRoughPoseDoes(const TriangleMesh& mesh) {
   BoxBody ring;
   ring.surface.rest_vertices = mesh.vertices;
   ring.surface.triangles = mesh.triangles;
@@ -82,6 +82,29 @@ TEST(Registration, TurnsABodyOfRevolutionAboutItsAxisOnlyAsTheRoughPoseDoes) {
     const RegistrationResult found = registerBody(frame, mesh, mesh, rough, RegistrationConfig());
     const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, meant);
     EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.004) << "trial " << trial;
+  }
+}
+
+TEST(Registration, TurnsABodyOfRevolutionAboutItsAxisOnlyAsTheRoughPoseDoes) {
+  turnsAboutItsAxisOnlyAsTheRoughPoseDoes(makeRing());
+}
+
+TEST(Registration, FindsTheAxisOfABodyWhoseVerticesLieUnevenly) {
+  turnsAboutItsAxisOnlyAsTheRoughPoseDoes(makeRing(0.9));
+}
+
+/// Some millimetres of a small body's place are a small share of the search's scale of depth.
+TEST(Registration, DoesNotDrawASmallBodyTowardsARoughPose) {
+  BoxBody box = makeBox();
+  box.surface.rest_vertices *= 0.15;
+  const TriangleMesh mesh{box.surface.rest_vertices, box.surface.triangles};
+  Eigen::Isometry3d truth = boxPose();
+  truth.translation().z() = 0.35;
+  const RgbdFrame frame = renderFrame(box, transformed(mesh.vertices, truth), 1);
+  for (const double along : {-0.02, -0.01, 0.01, 0.02}) {
+    const Eigen::Isometry3d rough = Eigen::Translation3d(0.0, 0.0, along) * truth;
+    const RegistrationResult found = registerBody(frame, mesh, mesh, rough, RegistrationConfig());
+    EXPECT_LT((found.pose.translation() - truth.translation()).norm(), 5e-4) << along;
   }
 }
 

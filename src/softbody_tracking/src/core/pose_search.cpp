@@ -13,7 +13,8 @@ constexpr double kUnmeasuredCost = 0.3;
 // Less than free space: an occluder is possible, seeing through a body is not.
 constexpr double kNearerCost = 0.7;
 constexpr double kFewestMeasured = 0.25;  // of the covered pixels; with fewer a pose cannot be judged
-constexpr double kPreference = 0.05;      // of the cost, a radian or a radius away from a preferred pose
+constexpr double kPreferredTurn = 0.05;   // of the cost, a radian away from a preferred pose,
+constexpr double kPreferredPlace = 0.02;  // and at most so much for the distance from it
 constexpr double kImprovement = 1e-6;     // of the cost; less is rounding
 
 /// Far away depth is noisier. @param scale up to 1 m.
@@ -47,6 +48,9 @@ int continuingOutlinePixels(const RgbdFrame& frame, const RasterImage& image, do
   return count;
 }
 
+/// Like the square, and not above 1: a rough pose that is far off must not draw the body along the ray.
+double saturated(double ratio2) { return ratio2 / (1.0 + ratio2); }
+
 double renderedCost(const RgbdFrame& frame, const RasterImage& image, double scale) {
   double sum = 0.0;
   int covered = 0, measured = 0;
@@ -60,6 +64,36 @@ double renderedCost(const RgbdFrame& frame, const RasterImage& image, double sca
   }
   if (measured <= kFewestMeasured * covered) return 1.0;
   return (sum + 0.5 * continuingOutlinePixels(frame, image, scale)) / covered;
+}
+
+struct AreaMoments {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< about the centre [m^4]
+};
+
+/// Of a mesh's surface: its vertices may lie closer in some places than in others.
+AreaMoments areaMoments(const TriangleMesh& mesh) {
+  const auto overTriangles = [&](const auto& add) {
+    for (const auto& triangle : mesh.triangles.rowwise()) {
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k) corners.col(k) = mesh.vertices.row(triangle[k]);
+      const Eigen::Vector3d a = corners.col(1) - corners.col(0), b = corners.col(2) - corners.col(0);
+      add(corners, 0.5 * a.cross(b).norm());
+    }
+  };
+  AreaMoments moments;
+  double sum = 0.0;
+  overTriangles([&](const Eigen::Matrix3d& corners, double area) {
+    moments.center += area * corners.rowwise().mean();
+    sum += area;
+  });
+  if (sum > 0.0) moments.center /= sum;
+  overTriangles([&](const Eigen::Matrix3d& corners, double area) {
+    const Eigen::Matrix3d arms = corners.colwise() - moments.center;
+    const Eigen::Vector3d middle = arms.rowwise().sum();
+    moments.spread += area / 12.0 * (arms * arms.transpose() + middle * middle.transpose());
+  });
+  return moments;
 }
 
 }  // namespace
@@ -84,14 +118,10 @@ RgbdFrame subsampled(const RgbdFrame& frame, int columns) {
 }
 
 PoseSearch::PoseSearch(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m)
-    : frame_(frame),
-      mesh_(mesh),
-      scale_(distance_scale_m),
-      center_(mesh.vertices.colwise().mean().transpose()) {
-  const Points arms = mesh.vertices.rowwise() - center_.transpose();
-  const Eigen::Matrix3d spread = arms.transpose() * arms / static_cast<double>(arms.rows());
-  radius2_ = spread.trace();
-  axes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+    : frame_(frame), mesh_(mesh), scale_(distance_scale_m) {
+  const AreaMoments moments = areaMoments(mesh);
+  center_ = moments.center;
+  axes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.spread).eigenvectors();
 }
 
 double PoseSearch::cost(const Eigen::Isometry3d& pose) {
@@ -102,8 +132,9 @@ double PoseSearch::cost(const Eigen::Isometry3d& pose) {
 double PoseSearch::rankedCost(const Eigen::Isometry3d& pose) {
   if (!preferred_) return cost(pose);
   const double angle = Eigen::AngleAxisd(pose.linear().transpose() * preferred_->linear()).angle();
-  const double shift2 = (pose * center_ - *preferred_ * center_).squaredNorm() / radius2_;
-  return cost(pose) + kPreference * (angle * angle + shift2);
+  const Eigen::Vector3d center = pose * center_;
+  const double shift = (center - *preferred_ * center_).norm() / scaleAt(center.z(), scale_);
+  return cost(pose) + kPreferredTurn * angle * angle + kPreferredPlace * saturated(shift * shift);
 }
 
 Eigen::Isometry3d PoseSearch::moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,

@@ -22,7 +22,7 @@ class PoseSearch {
   /// See poseCost().
   double cost(const Eigen::Isometry3d& pose);
 
-  /// The cost, and a little for the distance from a preferred pose.
+  /// The cost, and a little for the turn and the distance from a preferred pose.
   double rankedCost(const Eigen::Isometry3d& pose);
 
   /// Of poses that depth does not tell apart, as those of a torus turned about its axis, refine() takes from
@@ -49,8 +49,7 @@ class PoseSearch {
   const TriangleMesh& mesh_;
   double scale_;
   Eigen::Vector3d center_;
-  double radius2_ = 0.0;  ///< mean square distance of the vertices from there [m^2]
-  Eigen::Matrix3d axes_;  ///< principal axes of their distribution
+  Eigen::Matrix3d axes_;  ///< principal axes of its surface
   std::optional<Eigen::Isometry3d> preferred_;
   RasterImage image_;
 };
