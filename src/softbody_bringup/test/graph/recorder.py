@@ -3,6 +3,7 @@ import threading
 import time
 
 import rospy
+from rosgraph_msgs.msg import Log
 
 PATIENCE_S = 120.0
 
@@ -39,6 +40,20 @@ class Recorder:
         """At least `count` messages of a topic."""
         self.wait(lambda messages: len(messages[name]) >= count, f"{count} messages on /{name}")
         return list(self.messages[name])
+
+    def wait_for_log(self, node, words, level=Log.WARN):
+        """A message of a node that contains the words, of a level or worse. Needs rosout=Log."""
+        return self.wait(lambda messages: next((log for log in messages["rosout"] if log.level >= level
+                                                and log.name == node and words in log.msg), None),
+                         f"{node} to say: {words}")
+
+    def wait_for_status(self, name, level, words):
+        """Diagnostics from now on whose names end so, with the words. Needs diagnostics=DiagnosticArray."""
+        before = len(self.messages["diagnostics"])
+        return self.wait(lambda messages: next((status for message in messages["diagnostics"][before:]
+                                                for status in message.status if status.name.endswith(name)
+                                                and status.level == level and words in status.message), None),
+                         f"diagnostics of {name} that say: {words}")
 
     def latched(self, name):
         """Whether the last message of a topic came from a latching publisher."""

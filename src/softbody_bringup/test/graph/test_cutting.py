@@ -222,8 +222,7 @@ class Cutting(unittest.TestCase):
             for _ in range(6):
                 self.blade.publish(blade)
                 rospy.sleep(0.05)
-            self.recorder.wait(lambda seen: any(log.name == "/softbody/surface" and words in log.msg
-                                                for log in seen["rosout"]), f"a warning that says {words}")
+            self.recorder.wait_for_log("/softbody/surface", words)
 
 
 if __name__ == "__main__":

@@ -94,20 +94,15 @@ class Mask(unittest.TestCase):
         self.frames(self.camera.width)
         for targets in self.frames(None)[0]:
             self.assertGreater(self.columns_of(targets).max(), self.camera.width // 2 + 20)
-        self.recorder.wait(
-            lambda seen: [log for log in seen["rosout"] if log.level == Log.WARN and "feature_tracker" in log.name
-                          and "no mask on /softbody/mask" in log.msg], "a warning of the feature tracker")
+        self.recorder.wait_for_log("/softbody/feature_tracker", "no mask on /softbody/mask")
 
     def test_a_mask_of_another_size_is_refused_by_name(self):
         self.frames(self.camera.width)
         self.segmentation.send(None)
-        image = self.recorder.wait(lambda _: self.segmentation.since, "a frame")
+        self.recorder.wait(lambda _: self.segmentation.since, "a frame")
         small = Image(height=2, width=3, encoding="mono8", step=3, data=bytes(6))
-
-        def refused(seen):
-            return [log for log in seen["rosout"] if log.level == Log.ERROR and "the mask is 3x2" in log.msg]
         subscriber = rospy.Subscriber("/softbody/rgb/image_rect_color", Image, lambda message: self.answer(small, message))
-        self.recorder.wait(refused, f"an error after {image}")
+        self.recorder.wait_for_log("/softbody/feature_tracker", "the mask is 3x2", Log.ERROR)
         subscriber.unregister()
 
     def answer(self, mask, image):

@@ -151,9 +151,7 @@ class SurfaceAlone(unittest.TestCase):
         open_topology = copy.deepcopy(self.topology)
         open_topology.surface_triangles.pop()
         self.topology_publisher.publish(open_topology)
-        self.recorder.wait(
-            lambda seen: [log for log in seen["rosout"] if log.level >= Log.ERROR and "surface" in log.name
-                          and "topology" in log.msg], "an error of the surface node")
+        self.recorder.wait_for_log("/softbody/surface", "topology", Log.ERROR)
         state = self.surface_for(self.corners, 30)
         np.testing.assert_allclose(array(state.vertices), array(self.surface.rest_vertices), atol=2e-6)
         self.topology_publisher.publish(self.topology)

@@ -134,8 +134,7 @@ class Surroundings(unittest.TestCase):
 
     def test_a_pin_that_is_not_there_is_told(self):
         self.pins.publish(PinRegion(name="griper", release=True))
-        self.recorder.wait(lambda seen: any(log.name == "/softbody/simulator" and "'griper'" in log.msg
-                                            for log in seen["rosout"]), "a warning that names the pin")
+        self.recorder.wait_for_log("/softbody/simulator", "'griper'")
 
     def test_finger_dents_the_body_and_feels_it(self):
         self.grip("")  # held where it is

@@ -26,16 +26,9 @@ class ToolWithoutTf(unittest.TestCase):
         cls.recorder = Recorder(softbody__tool__pose=PoseWithCovarianceStamped, softbody__tool__marker=MarkerArray,
                                 rosout=Log, diagnostics=DiagnosticArray)
 
-    def wait_for_status(self, level, words):
-        self.recorder.wait(lambda seen: any("tool_tracker: tool" in status.name and status.level == level
-                                            and words in status.message
-                                            for message in seen["diagnostics"][-20:] for status in message.status),
-                           f"diagnostics that say {words}")
-
     def test_1_the_reason_is_told(self):
-        self.recorder.wait(lambda seen: any(log.name == "/softbody/tool_tracker" and log.level == Log.WARN
-                                            and REASON in log.msg for log in seen["rosout"]), "a warning with the reason")
-        self.wait_for_status(DiagnosticStatus.WARN, "not predicted: " + REASON)
+        self.recorder.wait_for_log("/softbody/tool_tracker", REASON)
+        self.recorder.wait_for_status("tool_tracker: tool", DiagnosticStatus.WARN, "not predicted: " + REASON)
         self.recorder.wait_for("softbody/tool/pose")
         self.assertFalse(self.recorder.messages["softbody/tool/marker"])
 
@@ -44,7 +37,7 @@ class ToolWithoutTf(unittest.TestCase):
         bench.header.frame_id, bench.child_frame_id = "bench", "camera_link"
         bench.transform.rotation.w = 1.0
         StaticTransformBroadcaster().sendTransform(bench)
-        self.wait_for_status(DiagnosticStatus.OK, "seen")
+        self.recorder.wait_for_status("tool_tracker: tool", DiagnosticStatus.OK, "seen")
         marker = self.recorder.wait_for("softbody/tool/marker")[0].markers[0]
         self.assertEqual(marker.header.frame_id, "bench")
 
