@@ -31,6 +31,15 @@ TEST(StreamMonitor, TellsAbsentPublishersFromSilentOnes) {
   EXPECT_TRUE(says(monitor, "/cam/color (publishers: 1, but silent)"));
 }
 
+TEST(StreamMonitor, TellsImagesWithoutAStampFromNone) {
+  StreamMonitor monitor(kTolerance);
+  monitor.unstamped(Stream::kColor);
+  EXPECT_TRUE(says(monitor, "/cam/color (its images have no stamp)"));
+  EXPECT_TRUE(says(monitor, "/cam/info (publishers: 1, but silent)"));
+  monitor.completed();
+  EXPECT_TRUE(says(monitor, "/cam/color (publishers: 1, but silent)"));
+}
+
 TEST(StreamMonitor, MeasuresHowFarStampsAreApart) {
   StreamMonitor monitor(kTolerance);
   for (int k = 0; k < 100; ++k) {

@@ -24,6 +24,8 @@ class StreamMonitor {
   explicit StreamMonitor(Nanoseconds tolerance) : tolerance_(tolerance) {}
 
   void arrived(Stream stream, Nanoseconds stamp);
+  /// A message without a stamp, which cannot be used.
+  void unstamped(Stream stream) { unstamped_[static_cast<std::size_t>(stream)] = true; }
   /// A synchronised set that could not be used, and why.
   void refused(const std::string& why) { refusal_ = why; }
   /// A complete frame: everything before it is forgotten.
@@ -34,6 +36,7 @@ class StreamMonitor {
 
  private:
   std::array<std::deque<Nanoseconds>, 3> stamps_;
+  std::array<bool, 3> unstamped_{};
   std::string refusal_;
   Nanoseconds tolerance_;
 };

@@ -20,7 +20,8 @@ Nanoseconds nearestDifference(const std::deque<Nanoseconds>& a, const std::deque
   return nearest;
 }
 
-std::string silence(const StreamTopic& topic) {
+std::string silence(const StreamTopic& topic, bool unstamped) {
+  if (unstamped) return fmt::format("{} (its images have no stamp)", topic.name);
   return topic.publishers == 0 ? fmt::format("{} (nobody publishes it)", topic.name)
                                : fmt::format("{} (publishers: {}, but silent)", topic.name, topic.publishers);
 }
@@ -35,15 +36,16 @@ void StreamMonitor::arrived(Stream stream, Nanoseconds stamp) {
 
 void StreamMonitor::completed() {
   for (auto& stamps : stamps_) stamps.clear();
+  unstamped_ = {};
   refusal_.clear();
 }
 
 std::string StreamMonitor::complaint(const StreamTopics& topics) const {
   std::vector<std::string> silent;
   for (std::size_t s = 0; s < topics.size(); ++s) {
-    if (stamps_[s].empty()) silent.push_back(silence(topics[s]));
+    if (stamps_[s].empty()) silent.push_back(silence(topics[s], unstamped_[s]));
   }
-  if (!silent.empty()) return fmt::format("no message on {}", fmt::join(silent, ", "));
+  if (!silent.empty()) return fmt::format("no usable message on {}", fmt::join(silent, ", "));
   if (!refusal_.empty()) return refusal_;
   const auto& color = stamps_[static_cast<std::size_t>(Stream::kColor)];
   const auto& depth = stamps_[static_cast<std::size_t>(Stream::kDepth)];

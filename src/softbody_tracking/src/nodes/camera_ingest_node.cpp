@@ -79,19 +79,15 @@ void CameraIngestNode::resetPairer() {
 
 bool CameraIngestNode::accept(Stream stream, const ros::Time& stamp, ros::Time* last) {
   if (stamp.isZero()) {
-    ROS_WARN_THROTTLE(5.0, "an image without a stamp is dropped: nothing can be placed in time by it");
-    return false;
+    monitor_->unstamped(stream);
+    return drop(stream, "an image without a stamp", "is dropped: nothing can be placed in time by it");
   }
-  if (stamp < *last && *last - stamp < ros::Duration(kStartsAgain_s)) {
-    ROS_WARN_STREAM_THROTTLE(
-        5.0, "an image comes " << (*last - stamp) << " s after a later one of its stream and is dropped");
-    return false;
-  }
+  if (stamp < *last && *last - stamp < ros::Duration(kStartsAgain_s))
+    return drop(stream, "a late image",
+                fmt::format("is dropped: it comes {:.3f} s after a later one", (*last - stamp).toSec()));
   // Twice is no time in between, and tf refuses, loudly and in every node, what it has of that stamp.
-  if (stamp == *last) {
-    ROS_WARN_STREAM_THROTTLE(5.0, "a second image with the stamp " << stamp << " is dropped");
-    return false;
-  }
+  if (stamp == *last)
+    return drop(stream, "a second image", fmt::format("with the stamp {:.6f} is dropped", stamp.toSec()));
   if (stamp < *last) {
     ROS_INFO_STREAM("time jumped back by " << (*last - stamp)
                                            << " s: the images that wait for a partner are dropped");
@@ -102,6 +98,13 @@ bool CameraIngestNode::accept(Stream stream, const ros::Time& stamp, ros::Time* 
   *last = stamp;
   monitor_->arrived(stream, toNanoseconds(stamp));
   return true;
+}
+
+/// @return false.
+bool CameraIngestNode::drop(Stream stream, const std::string& what, const std::string& why) {
+  const std::string topic = (stream == Stream::kColor ? color_subscriber_ : depth_subscriber_).getTopic();
+  throttle_.warn(topic + what, fmt::format("{}: {} {}", topic, what, why));
+  return false;
 }
 
 void CameraIngestNode::onColor(const sensor_msgs::ImageConstPtr& image) {
@@ -135,7 +138,7 @@ void CameraIngestNode::onPair(const sensor_msgs::ImageConstPtr& color,
     timer_.take();
     ++refused_;
     monitor_->refused(error.what());
-    warn(error.what());
+    throttle_.warn("refused", error.what());
   }
 }
 

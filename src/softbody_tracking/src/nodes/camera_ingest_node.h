@@ -7,8 +7,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "nodes/image_pairer.h"
+#include "nodes/wall_throttle.h"
 #include "softbody_common/parameters.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_tracking/camera_ingest.h"
@@ -42,17 +44,20 @@ class CameraIngestNode {
   /// False for an image that comes after a later one, or after one of its stamp; one a second or more back
   /// starts the stream again.
   bool accept(Stream stream, const ros::Time& stamp, ros::Time* last);
+  bool drop(Stream stream, const std::string& what, const std::string& why);
 
   bool anySubscriber() const;
   void publish(const RgbdFrame& frame, const std_msgs::Header& header);
   void completeFrame(const std_msgs::Header& color, const std_msgs::Header& depth);
 
+  struct Remark {
+    std::string about, sentence;
+  };
   void watch();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   double secondsWithoutFrame() const;
   std::string complaint() const;
-  std::string remark() const;
-  void warn(const std::string& sentence);
+  std::vector<Remark> remarks() const;
 
   ros::NodeHandle handle_, private_handle_;
   CameraIngestNodeConfig config_;
@@ -63,11 +68,12 @@ class CameraIngestNode {
   StageTimer timer_;
 
   ros::Time last_color_, last_depth_, last_frame_;  ///< stamps, stamps, when it was completed
-  ros::WallTime start_, last_warning_;
+  ros::WallTime start_;
   int frames_ = 0, refused_ = 0;  ///< since the last diagnosis
   double latency_s_ = 0.0;        ///< camera to here, of the last frame; below 0: its stamp is yet to come
   std::string color_frame_, depth_frame_;  ///< of the last frame
   ros::WallTime last_diagnosis_;
+  WallThrottle throttle_;
 
   image_transport::ImageTransport transport_;
   image_transport::Subscriber color_subscriber_, depth_subscriber_;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kDiagnosisPeriod_s = 1.0, kWarningPeriod_s = 5.0, kRemarkPeriod_s = 60.0;
+constexpr double kDiagnosisPeriod_s = 1.0, kRemarkPeriod_s = 60.0;
 constexpr double kLongestLatency_s = 2.0, kLongestLead_s = 0.1;  // beyond, clocks differ
 
 }  // namespace
@@ -32,30 +33,29 @@ std::string CameraIngestNode::complaint() const {
                               StreamTopic{depth_subscriber_.getTopic(), publishers(depth_subscriber_)}});
 }
 
-/// What is odd about frames that come; empty: nothing.
-std::string CameraIngestNode::remark() const {
+/// What is odd about frames that come.
+std::vector<CameraIngestNode::Remark> CameraIngestNode::remarks() const {
+  std::vector<Remark> remarks;
   if (color_frame_.empty())
-    return fmt::format("{} has no frame_id, so no result has one: set the driver's optical frame",
-                       color_subscriber_.getTopic());
+    remarks.push_back(
+        {"no frame", fmt::format("{} has no frame_id, so no result has one: set the driver's optical frame",
+                                 color_subscriber_.getTopic())});
   if (depth_frame_ != color_frame_)
-    return fmt::format(
-        "{} is in frame '{}', {} in '{}'; if it is registered to colour, it should say "
-        "colour's frame",
-        depth_subscriber_.getTopic(), depth_frame_, color_subscriber_.getTopic(), color_frame_);
+    remarks.push_back(
+        {"two frames",
+         fmt::format("{} is in frame '{}', {} in '{}'; if it is registered to colour, it should say "
+                     "colour's frame",
+                     depth_subscriber_.getTopic(), depth_frame_, color_subscriber_.getTopic(),
+                     color_frame_)});
   // A simulated clock is made of the stamps, and lags behind them.
-  if (ros::Time::isSimTime() || (latency_s_ <= kLongestLatency_s && latency_s_ >= -kLongestLead_s)) return "";
-  return fmt::format(
-      "stamps are {:.1f} s {} this machine's clock, by which tf and timers go: synchronise the camera's "
-      "clock; a bag needs use_sim_time and --clock",
-      std::abs(latency_s_), latency_s_ > 0.0 ? "behind" : "ahead of");
-}
-
-void CameraIngestNode::warn(const std::string& sentence) {
-  // ROS_WARN_THROTTLE counts ROS time, which may stand still.
-  const ros::WallTime now = ros::WallTime::now();
-  if (!last_warning_.isZero() && (now - last_warning_).toSec() < kWarningPeriod_s) return;
-  last_warning_ = now;
-  ROS_WARN_STREAM(sentence);
+  if (!ros::Time::isSimTime() && (latency_s_ > kLongestLatency_s || latency_s_ < -kLongestLead_s))
+    remarks.push_back(
+        {"clock",
+         fmt::format(
+             "stamps are {:.1f} s {} this machine's clock, by which tf and timers go: synchronise the "
+             "camera's clock; a bag needs use_sim_time and --clock",
+             std::abs(latency_s_), latency_s_ > 0.0 ? "behind" : "ahead of")});
+  return remarks;
 }
 
 void CameraIngestNode::watch() {
@@ -63,7 +63,7 @@ void CameraIngestNode::watch() {
   if (ros::Time::now() < last_frame_) last_frame_ = ros::Time::now();
   const double silence = secondsWithoutFrame();
   if (silence > config_.silence_timeout_s)
-    warn(fmt::format("no frame for {:.0f} s: {}", silence, complaint()));
+    throttle_.warn("silence", fmt::format("no frame for {:.0f} s: {}", silence, complaint()));
   if ((ros::WallTime::now() - last_diagnosis_).toSec() >= kDiagnosisPeriod_s) diagnostics_.force_update();
 }
 
@@ -72,15 +72,18 @@ void CameraIngestNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   const double silence = secondsWithoutFrame();
   const double period = (ros::WallTime::now() - last_diagnosis_).toSec();
   const double rate = frames_ / std::max(period, 1e-3);
-  const std::string odd = frames_ > 0 ? remark() : "";
-  if (!odd.empty()) ROS_WARN_STREAM_THROTTLE(kRemarkPeriod_s, odd);
+  std::vector<std::string> odd;
+  for (const Remark& remark : frames_ > 0 ? remarks() : std::vector<Remark>()) {
+    throttle_.warn(remark.about, remark.sentence, kRemarkPeriod_s);
+    odd.push_back(remark.sentence);
+  }
   if (silence > config_.silence_timeout_s) {
     status.summary(DiagnosticStatus::ERROR, fmt::format("no frame for {:.0f} s: {}", silence, complaint()));
   } else if (refused_ > 0) {
     status.summary(DiagnosticStatus::WARN,
                    fmt::format("{} frames could not be used: {}", refused_, complaint()));
   } else if (!odd.empty()) {
-    status.summary(DiagnosticStatus::WARN, odd);
+    status.summary(DiagnosticStatus::WARN, fmt::format("{}", fmt::join(odd, "; ")));
   } else {
     status.summary(DiagnosticStatus::OK, fmt::format("{:.1f} frames a second", rate));
   }
