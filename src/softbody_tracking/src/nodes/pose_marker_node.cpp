@@ -11,6 +11,7 @@ namespace {
 
 constexpr char kTopics[] = "pose_marker";
 constexpr char kService[] = "feature_tracker/set_pose";
+constexpr double kPatience_s = 5.0;
 constexpr double kAhead_m = 0.5;  // of the camera, where no pose is known
 
 bool isGiven(const geometry_msgs::Pose& pose) {
@@ -35,6 +36,18 @@ PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& pr
   surface_topology_subscriber_ =
       handle.subscribe(topics::kSurfaceTopology, 1, &PoseMarkerNode::onSurfaceTopology, this);
   if (frame_.empty()) info_subscriber_ = handle.subscribe(topics::kRgbInfo, 1, &PoseMarkerNode::onInfo, this);
+  // Wall time: the time of a bag that is held stands still.
+  watch_timer_ = handle.createWallTimer(ros::WallDuration(kPatience_s), [this](const auto&) { watch(); });
+}
+
+/// The marker needs the body's shape and a frame to stand in.
+void PoseMarkerNode::watch() {
+  if (mesh_) return watch_timer_.stop();
+  const bool framed = !frame_.empty();
+  const ros::Subscriber& missing = framed ? surface_topology_subscriber_ : info_subscriber_;
+  ROS_WARN_STREAM("the marker waits for " << (framed ? "the body's shape, " : "the images' frame, ")
+                                          << missing.getTopic()
+                                          << " (publishers: " << missing.getNumPublishers() << ")");
 }
 
 void PoseMarkerNode::onInfo(const sensor_msgs::CameraInfo::ConstPtr& message) {

@@ -22,6 +22,7 @@ class PoseMarkerNode {
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
   void onInfo(const sensor_msgs::CameraInfo::ConstPtr& message);
+  void watch();
   void track(const visualization_msgs::InteractiveMarkerFeedback& feedback);
 
   std::string frame_;                           ///< empty until the camera's is known
@@ -31,6 +32,7 @@ class PoseMarkerNode {
   interactive_markers::MenuHandler menu_;
   ros::ServiceClient set_pose_;
   ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, info_subscriber_;
+  ros::WallTimer watch_timer_;
 };
 
 }  // namespace softbody
