@@ -270,9 +270,7 @@ void FeatureTrackerNode::publish(const std_msgs::Header& camera_header,
 
 void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   if (isSilent(last_arrival_)) {
-    status.summary(
-        diagnostic_msgs::DiagnosticStatus::WARN,
-        "no frame from camera_ingest for over " + std::to_string(static_cast<int>(kSilence_s)) + " s");
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, silenceInWords());
     return;
   }
   const bool good = last_status_.state == TrackingState::kTracking;

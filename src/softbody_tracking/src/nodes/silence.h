@@ -3,6 +3,8 @@
 #include <ros/time.h>
 
 #include <cmath>
+#include <sstream>
+#include <string>
 
 namespace softbody {
 
@@ -12,6 +14,12 @@ constexpr double kSilence_s = 2.0;
 /// is held holds too. By when frames came, not by their stamps: the camera's clock may be another.
 inline bool isSilent(const ros::Time& last_arrival) {
   return last_arrival.isZero() || std::abs((ros::Time::now() - last_arrival).toSec()) > kSilence_s;
+}
+
+inline std::string silenceInWords() {
+  std::ostringstream words;
+  words << "no frame from camera_ingest for over " << kSilence_s << " s";
+  return words.str();
 }
 
 }  // namespace softbody

@@ -59,6 +59,7 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
 void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
                               const sensor_msgs::ImageConstPtr& depth,
                               const sensor_msgs::CameraInfoConstPtr& info) try {
+  last_arrival_ = ros::Time::now();
   const auto color_image = cv_bridge::toCvShare(color, sensor_msgs::image_encodings::BGR8);
   const auto depth_image = cv_bridge::toCvShare(depth, sensor_msgs::image_encodings::TYPE_32FC1);
   RgbdFrame frame{toNanoseconds(color->header.stamp), pinholeFromMessage(*info), color_image->image,
@@ -66,12 +67,13 @@ void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
   place(color->header, &frame);
   StageTimer timer;
   last_ = tracker_->track(frame, &timer);
-  last_arrival_ = ros::Time::now();
+  unusable_.clear();
   if (last_) publish(color->header, frame);
   softbody_msgs::StageTiming timing = timingMessage("tool_tracker", timer.take());
   timing.header = color->header;
   timing_.publish(timing);
 } catch (const std::exception& error) {
+  unusable_ = error.what();
   ROS_ERROR_STREAM_THROTTLE(
       5.0, "the tool cannot be looked for in frame " << color->header.stamp << ": " << error.what());
 }
@@ -115,7 +117,11 @@ void ToolTrackerNode::publishBlade(const std_msgs::Header& header, const RgbdFra
 void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   using diagnostic_msgs::DiagnosticStatus;
   if (isSilent(last_arrival_)) {
-    status.summary(DiagnosticStatus::WARN, "no frame from camera_ingest for over 2 s");
+    status.summary(DiagnosticStatus::WARN, silenceInWords());
+    return;
+  }
+  if (!unusable_.empty()) {
+    status.summary(DiagnosticStatus::ERROR, "frames come, but cannot be used: " + unusable_);
     return;
   }
   if (!last_) {

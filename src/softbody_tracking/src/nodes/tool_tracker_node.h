@@ -38,6 +38,7 @@ class ToolTrackerNode {
   std::unique_ptr<ToolTracker> tracker_;
   std::optional<ToolObservation> last_;  ///< of the last frame
   ros::Time last_arrival_;               ///< when it came
+  std::string unusable_;                 ///< why the last frame could not be used; empty: it could
   std::string not_placed_;               ///< why tf does not place the last frame's camera; empty: it does
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
