@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "softbody_bringup/frame_pairer.h"
 #include "softbody_tracking/camera_ingest.h"
 
 namespace softbody {
@@ -19,10 +20,9 @@ struct BagFramesConfig {
 /// What was read.
 struct BagFramesReport {
   int frames = 0;
-  int without_depth =
-      0;             ///< colour images that no depth image came near to; they are passed on without depth
-  int repeated = 0;  ///< colour images with the stamp of one before, left out of the frames
-  int unusable = 0;  ///< images that could not be converted
+  int without_depth = 0;  ///< colour images that no depth image came near to, passed on without
+  LeftOutImages left_out;
+  int unusable = 0;        ///< images that could not be converted
   std::string last_error;  ///< of the last unusable one
 };
 

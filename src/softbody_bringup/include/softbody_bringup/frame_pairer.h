@@ -10,6 +10,12 @@
 
 namespace softbody {
 
+/// Images of a recording that are in no frame.
+struct LeftOutImages {
+  int colors_again = 0, depths_again = 0;  ///< one of their stamp had come before
+  int depths_alone = 0;                    ///< no colour image came near to them, or none has come yet
+};
+
 /// Pairs every colour image of a recording with the depth image nearest in time, in the order of their
 /// stamps: an image that was recorded up to kMostLate others late takes its place. A jump back by a second or
 /// more is a recording that starts again, and keeps its place. Of images with one stamp, as a driver or a
@@ -26,11 +32,13 @@ class FramePairer {
   explicit FramePairer(Nanoseconds tolerance) : tolerance_(tolerance) {}
 
   void addColor(Nanoseconds stamp, ColorPtr color) {
-    if (!insert(stamp, std::move(color), &colors_)) ++repeated_;
+    if (!insert(stamp, std::move(color), &colors_)) ++left_out_.colors_again;
   }
   void addDepth(Nanoseconds stamp, DepthPtr depth) {
-    insert(stamp, std::move(depth), &depths_);
-    if (depths_.size() > kMostWaiting) depths_.pop_front();
+    if (!insert(stamp, std::move(depth), &depths_)) ++left_out_.depths_again;
+    if (depths_.size() <= kMostWaiting) return;
+    depths_.pop_front();
+    ++left_out_.depths_alone;
   }
 
   /// The next colour image once its depth is certain; with `finish` even if more might have come.
@@ -50,14 +58,18 @@ class FramePairer {
     const bool near = nearest < depths_.size() && std::llabs(depths_[nearest].first - stamp) <= tolerance_;
     if (near && nearestTo(colors_, depths_[nearest].first) == 0) {
       pair.depth = depths_[nearest].second;
+      left_out_.depths_alone += static_cast<int>(nearest);
       depths_.erase(depths_.begin(), depths_.begin() + static_cast<std::ptrdiff_t>(nearest) + 1);
     }
     colors_.pop_front();
     return pair;
   }
 
-  /// Colour images left out because one of their stamp had come before.
-  int repeated() const { return repeated_; }
+  LeftOutImages leftOut() const {
+    LeftOutImages left_out = left_out_;
+    left_out.depths_alone += static_cast<int>(depths_.size());
+    return left_out;
+  }
 
  private:
   static constexpr std::size_t kMostWaiting = 30, kMostLate = 10;
@@ -91,7 +103,7 @@ class FramePairer {
   }
 
   Nanoseconds tolerance_;
-  int repeated_ = 0;
+  LeftOutImages left_out_;
   std::deque<std::pair<Nanoseconds, ColorPtr>> colors_;
   std::deque<std::pair<Nanoseconds, DepthPtr>> depths_;
 };

@@ -73,7 +73,7 @@ class Reader {
 
   BagFramesReport report() const {
     BagFramesReport report = report_;
-    report.repeated = pairer_.repeated();
+    report.left_out = pairer_.leftOut();
     return report;
   }
 

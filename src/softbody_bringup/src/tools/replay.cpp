@@ -51,8 +51,12 @@ void print(const ReplaySummary& summary, const ReplayOptions& options) {
   };
   fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", summary.read.frames,
              summary.states, summary.read.without_depth, summary.read.unusable, summary.skipped);
-  if (summary.read.repeated > 0)
-    fmt::print("left out: {} images with the stamp of one before\n", summary.read.repeated);
+  const auto& [colors_again, depths_again, depths_alone] = summary.read.left_out;
+  if (colors_again + depths_again > 0)
+    fmt::print("left out: {} colour and {} depth images with the stamp of one before\n", colors_again,
+               depths_again);
+  if (depths_alone > 0)
+    fmt::print("left out: {} depth images that no colour image came near to\n", depths_alone);
   fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
              count(TrackingState::kTracking), count(TrackingState::kDegraded), count(TrackingState::kLost),
              count(TrackingState::kRecovering), count(TrackingState::kInitializing));

@@ -71,21 +71,47 @@ TEST(FramePairer, TakesEachStampOnceWithItsDepthWhicheverStreamRepeatsIt) {
   std::bernoulli_distribution twice(0.3);
   Pairer pairer(kTolerance);
   std::vector<Pairer::Pair> pairs;
-  int repeated = 0;
+  int colors_again = 0, depths_again = 0;
   for (int i = 0; i < 200; ++i) {
     const bool color_again = twice(random), depth_again = twice(random);
-    repeated += color_again ? 1 : 0;
+    colors_again += color_again ? 1 : 0;
+    depths_again += depth_again ? 1 : 0;
     for (int k = 0; k < (color_again ? 2 : 1); ++k) pairer.addColor(i * kFrame, imageAt(i));
     for (int k = 0; k < (depth_again ? 2 : 1); ++k) pairer.addDepth(i * kFrame, imageAt(i));
     for (const Pairer::Pair& pair : drain(&pairer, false)) pairs.push_back(pair);
   }
   for (const Pairer::Pair& pair : drain(&pairer, true)) pairs.push_back(pair);
-  EXPECT_EQ(pairer.repeated(), repeated);
+  EXPECT_EQ(pairer.leftOut().colors_again, colors_again);
+  EXPECT_EQ(pairer.leftOut().depths_again, depths_again);
+  EXPECT_EQ(pairer.leftOut().depths_alone, 0);
   ASSERT_EQ(pairs.size(), 200u);
   for (int i = 0; i < 200; ++i) {
     EXPECT_EQ(*pairs[i].color, i);
     ASSERT_TRUE(pairs[i].depth) << i;
     EXPECT_EQ(*pairs[i].depth, i);
+  }
+}
+
+TEST(FramePairer, CountsEveryDepthImageThatIsInNoPair) {
+  std::mt19937 random(12);
+  std::bernoulli_distribution lost(0.2);
+  for (Nanoseconds offset : {0, 5'000'000, 16'000'000}) {  // the last beyond the tolerance
+    Pairer pairer(kTolerance);
+    int depths = 0, pairs = 0, paired = 0;
+    const auto count = [&](bool finish) {
+      for (const Pairer::Pair& pair : drain(&pairer, finish)) {
+        ++pairs;
+        paired += pair.depth ? 1 : 0;
+      }
+    };
+    for (int i = 0; i < 200; ++i) {
+      if (!lost(random)) pairer.addColor(i * kFrame, imageAt(i));
+      pairer.addDepth(i * kFrame + offset, imageAt(i)), ++depths;
+      count(false);
+    }
+    count(true);
+    EXPECT_EQ(pairer.leftOut().depths_alone, depths - paired) << offset;
+    EXPECT_EQ(paired, offset > kTolerance ? 0 : pairs) << offset;
   }
 }
 
