@@ -51,6 +51,9 @@ class Pipeline {
   /// and a blade, need the place.
   std::optional<ToolObservation> processUnplaced(RgbdFrame frame);
 
+  /// Nothing without a tool.
+  const std::optional<ToolTracker>& toolTracker() const { return tool_tracker_; }
+
   /// Given cuts that still wait for the body.
   std::size_t waitingCuts() const { return waiting_cuts_.size(); }
 

@@ -13,6 +13,8 @@
 #include "softbody_bringup/input_bag.h"
 #include "softbody_bringup/pipeline.h"
 #include "softbody_bringup/result_bag.h"
+#include "softbody_common/conversions.h"
+#include "softbody_tracking/tool_watch.h"
 
 namespace softbody {
 namespace {
@@ -99,6 +101,7 @@ class Replay {
     summary_.milliseconds += elapsed.count();
     for (const std::string& warning : result.warnings)
       warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
+    heedTool(result.tool, header);
     count(result);
     const bool due =
         header.stamp < topologies_written_ || header.stamp - topologies_written_ >= ros::Duration(1.0);
@@ -115,6 +118,7 @@ class Replay {
       warn_(fmt::format("{} cuts of the journal are not made: the body is not tracked after them", left));
     output_.finish();
     const std::vector<std::uint32_t>& bodies = pipeline_.surfaceTopology().bodies;
+    summary_.tool_missed = tool_watch_.missed();
     summary_.pieces = bodies.empty() ? 0 : 1 + *std::max_element(bodies.begin(), bodies.end());
     return summary_;
   }
@@ -128,8 +132,16 @@ class Replay {
     count(skippedFrame(last_status_, header.frame_id, camera_poses_.outputFrame(), why));
     output_.writeStatus(last_status_, header);
     const std::optional<ToolObservation> tool = pipeline_.processUnplaced(frame);
-    summary_.tools += tool ? 1 : 0;
+    heedTool(tool, header);
     if (tool) output_.writeTool(*tool, header);
+  }
+
+  void heedTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header) {
+    if (!pipeline_.toolTracker()) return;
+    summary_.tools += tool ? 1 : 0;
+    const auto missing =
+        tool_watch_.heed(toNanoseconds(header.stamp), tool, pipeline_.toolTracker()->reason());
+    if (missing) warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), *missing));
   }
 
   void count(const TrackingStatus& status) {
@@ -140,7 +152,6 @@ class Replay {
 
   void count(const FrameOutput& result) {
     summary_.states += result.surface ? 1 : 0;
-    summary_.tools += result.tool ? 1 : 0;
     summary_.cuts += static_cast<int>(result.cuts.size());
     count(result.tracking.status);
   }
@@ -149,6 +160,7 @@ class Replay {
   CameraPoses camera_poses_;
   TrackingStatus last_status_;
   Pipeline pipeline_;
+  ToolWatch tool_watch_;
   CutJournal journal_;
   ResultBag output_;
   ReplaySummary summary_;

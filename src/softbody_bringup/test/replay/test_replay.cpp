@@ -6,6 +6,7 @@
 
 #include "softbody_bringup/bag_frames.h"
 #include "softbody_bringup/pipeline.h"
+#include "softbody_bringup/replay.h"
 #include "softbody_bringup/result_bag.h"
 #include "softbody_common/conversions.h"
 
@@ -72,6 +73,19 @@ TEST_F(ReplayTest, LeavesAnEarlierResultAloneWhenItDoesNotFinish) {
   { const ResultBag unfinished(output, "/softbody", "softbody", false); }
   EXPECT_EQ(bytes(output), "an earlier result");
   EXPECT_FALSE(fs::exists(folder_ / "result.bag.part"));
+}
+
+TEST_F(ReplayTest, SaysInWhichFramesTheToolIsNotSeen) {
+  ReplayOptions options;
+  options.input = kBag;
+  options.object = kObject;
+  options.tool = CONFIG_DIR "/knife.yaml";
+  options.output = folder_ / "result.bag";
+  const auto quiet = [](const auto&) {};
+  EXPECT_EQ(softbody::replay(options, quiet, quiet).tool_missed,
+            "45 frames: none of the tool's markers is seen");
+  options.tool.clear();
+  EXPECT_EQ(softbody::replay(options, quiet, quiet).tool_missed, "");
 }
 
 TEST_F(ReplayTest, NamesTheMissingTopicAndWhatIsThere) {

@@ -68,6 +68,8 @@ void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
   StageTimer timer;
   last_ = tracker_->track(frame, &timer);
   unusable_.clear();
+  const auto missing = watch_.heed(frame.stamp, last_, tracker_->reason());
+  if (missing) ROS_WARN_STREAM(*missing);
   if (last_) publish(color->header, frame);
   softbody_msgs::StageTiming timing = timingMessage("tool_tracker", timer.take());
   timing.header = color->header;
@@ -124,6 +126,7 @@ void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.summary(DiagnosticStatus::ERROR, "frames come, but cannot be used: " + unusable_);
     return;
   }
+  if (!watch_.missed().empty()) status.add("not seen in", watch_.missed());
   if (!last_) {
     status.summary(DiagnosticStatus::WARN, "not seen: " + tracker_->reason());
     return;

@@ -15,6 +15,7 @@
 #include "nodes/output_frame.h"
 #include "softbody_tracking/blade_trail.h"
 #include "softbody_tracking/tool_tracker.h"
+#include "softbody_tracking/tool_watch.h"
 
 namespace softbody {
 
@@ -36,6 +37,7 @@ class ToolTrackerNode {
   std::string tool_frame_;
   std::unique_ptr<OutputFrame> output_frame_;
   std::unique_ptr<ToolTracker> tracker_;
+  ToolWatch watch_;
   std::optional<ToolObservation> last_;  ///< of the last frame
   ros::Time last_arrival_;               ///< when it came
   std::string unusable_;                 ///< why the last frame could not be used; empty: it could
