@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <gtest/gtest.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "evaluator_bags.h"
+
+namespace softbody::evaluation {
+namespace {
+
+TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
+  EvaluatorOptions options;
+  const Eigen::Vector3d offset(0.5, -0.25, 2.0);
+  // world = camera turned by a quarter about z, then moved.
+  options.result = resultFromTruth("in_world.bag", [&](softbody_msgs::MeshState* s, int) {
+    for (geometry_msgs::Point32& p : s->vertices) {
+      const geometry_msgs::Point32 camera = p;
+      p.x = static_cast<float>(offset.x() - camera.y);
+      p.y = static_cast<float>(offset.y() + camera.x);
+      p.z = static_cast<float>(offset.z() + camera.z);
+    }
+    s->header.frame_id = "world";
+    return true;
+  });
+  options.truth = recording();
+  const std::string way = "static_transform_publisher 0 0 0 0 0 0 world camera_color_optical_frame";
+  EXPECT_NE(failure(options).find(way), std::string::npos) << failure(options);
+  EXPECT_EQ(failure(options).find(".."), std::string::npos) << failure(options);
+  {
+    rosbag::Bag bag(options.result, rosbag::bagmode::Append);
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    geometry_msgs::TransformStamped& t = message.transforms[0];
+    t.header.frame_id = "world";
+    t.header.stamp = ros::Time(1.0);
+    t.child_frame_id = "camera_color_optical_frame";
+    t.transform.translation.x = offset.x();
+    t.transform.translation.y = offset.y();
+    t.transform.translation.z = offset.z();
+    t.transform.rotation.z = t.transform.rotation.w = std::sqrt(0.5);
+    bag.write("/tf_static", ros::Time(1.6e9), message);
+  }
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
+  EXPECT_LT(report.vertex_error->all.max, 1e-6);
+  EXPECT_TRUE(report.notes.empty());
+}
+
+TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("tool.bag", asItIs);
+  options.truth = testing::TempDir() + "tool_truth.bag";
+  std::filesystem::copy_file(recording(), options.truth, std::filesystem::copy_options::overwrite_existing);
+  rosbag::Bag result(options.result, rosbag::bagmode::Append), truth(options.truth, rosbag::bagmode::Append);
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.pose.pose.orientation.w = 1.0;
+  for (int k = 0; k < 5; ++k) {
+    pose.header.stamp = ros::Time(1.6e9 + k);
+    pose.pose.pose.position.x = 0.0;
+    truth.write("/ground_truth/tool/pose", pose.header.stamp, pose);
+    pose.pose.pose.position.x = 0.002;
+    if (k > 0) result.write("/softbody/tool/pose", pose.header.stamp, pose);
+  }
+  result.close();
+  truth.close();
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.tool->expected, 5u);
+  EXPECT_EQ(report.tool->answered, 4u);
+  EXPECT_NEAR(report.tool->position.mean, 0.002, 1e-8);
+  EXPECT_TRUE(report.notes.empty());
+}
+
+TEST(Evaluator, PosesOfTheToolThatTfDoesNotPlaceAreSaid) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("lost_tool.bag", asItIs);
+  options.truth = testing::TempDir() + "lost_tool_truth.bag";
+  std::filesystem::copy_file(recording(), options.truth, std::filesystem::copy_options::overwrite_existing);
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.header.stamp = ros::Time(1.6e9);
+  pose.pose.pose.orientation.w = 1.0;
+  for (const std::string& path : {options.truth, options.result}) {
+    pose.header.frame_id = path == options.truth ? "camera_color_optical_frame" : "nowhere";
+    rosbag::Bag(path, rosbag::bagmode::Append)
+        .write(path == options.truth ? "/ground_truth/tool/pose" : "/softbody/tool/pose", pose.header.stamp,
+               pose);
+  }
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.tool->answered, 0u);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_NE(report.notes[0].find("1 of 1 poses of the tool"), std::string::npos) << report.notes[0];
+}
+
+TEST(DrawCut, AResultInAnotherFrameThanTheImagesIsRefused) {
+  const std::string result = resultFromTruth("drawn.bag", [](softbody_msgs::MeshState* s, int) {
+    s->header.frame_id = "world";
+    return true;
+  });
+  const std::string picture = testing::TempDir() + "refused.png", words = testing::TempDir() + "refused.txt";
+  const int status = std::system(fmt::format("'{}' '{}' --recording '{}' --output '{}' 2> '{}'", DRAW_CUT,
+                                             result, recording(), picture, words)
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  std::stringstream said;
+  said << std::ifstream(words).rdbuf();
+  EXPECT_NE(said.str().find("the surface is in frame 'world'"), std::string::npos) << said.str();
+  EXPECT_FALSE(std::filesystem::exists(picture));
+}
+
+}  // namespace
+}  // namespace softbody::evaluation
