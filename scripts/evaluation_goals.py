@@ -1,0 +1,77 @@
+"""The goals, and whether they are reached."""
+import math
+
+from evaluation_figures import (DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, fault_times, get,
+                                moving_times, number, worst, wrong_matches)
+from evaluation_tables import table
+
+
+def goals(reports):
+    """(figure, goal, unit, value): reached if the value is at most, or for a goal with >= at least, the goal."""
+    def scene(name, *keys):
+        return get(reports.get(("scene", name)), *keys)
+
+    def of(kind, *keys):
+        return worst(get(reports.get((kind, name)), "vertex_error", *keys) for name in NOISE_FREE)
+
+    def fault(name):
+        return worst(fault_times(reports, scene_name, name) for scene_name in WRONG_MATCH_SEEDS)
+
+    def absence(name, *keys):
+        found = scene(name, "absences")
+        return get(found[0], *keys) if found else None
+
+    def recovery(name):
+        """Seconds; infinite: never."""
+        if absence(name, "end_s") is None:
+            return None
+        seconds = absence(name, "recovery_s")
+        return math.inf if seconds is None else seconds
+
+    toy = get(reports.get(("toys", "toys")), "depth_residual", "all")
+    pieces = [piece["mean_mm"] for piece in scene("cut", "vertex_error", "pieces") or []]
+    sponge, faulty = ", ".join(NOISE_FREE), ", ".join(WRONG_MATCH_SEEDS)
+    seeds = ", ".join(f"{name} ({len(drawn)} seeds)" for name, drawn in WRONG_MATCH_SEEDS.items())
+    return [
+        (f"{sponge}: visible vertices, worst mean, noise off", "<= 0.5", "mm", of("noise off", "visible", "mean_mm")),
+        ("the same, noise on", "<= 1.0", "mm", of("scene", "visible", "mean_mm")),
+        (f"{sponge}: hidden vertices, worst mean", "<= 2.0", "mm", of("scene", "hidden", "mean_mm")),
+        *((f"{name}: all vertices, p95", "<= 3.0", "mm", scene(name, "vertex_error", "all", "p95_mm"))
+          for name in NOISE_FREE),
+        ("bend for 60 s: last against first five seconds", "<= 1.1", "times",
+         get(reports.get(("long", "bend")), "vertex_error", "drift_ratio")),
+        ("still: jitter, RMS", "<= 0.2", "mm", scene("still", "jitter", "per_vertex", "rms_mm")),
+        ("occlude: hidden part meanwhile", "<= 4.0", "mm", absence("occlude", "covered", "mean_mm")),
+        ("occlude: back to 1.2 times the error of the same motion unhidden after", "<= 0.3", "s", recovery("occlude")),
+        ("leave: back to 1.2 times the error before after", "<= 1.0", "s", recovery("leave")),
+        ("shake: frames followed, mean error up to 10 mm", ">= 100", "%", followed(reports.get(("scene", "shake")))),
+        (f"{DEPTH_HOLES}, worst of {faulty}: error", "<= 1.2", "times", fault(DEPTH_HOLES)),
+        (f"20 % wrong matches, worst of {seeds}: error", "<= 1.2", "times",
+         worst(fault_times(reports, name, wrong_matches(seed))
+               for name, drawn in WRONG_MATCH_SEEDS.items() for seed in drawn)),
+        (f"{FEW_FEATURES}, worst of {faulty}: error", "<= 1.2", "times", fault(FEW_FEATURES)),
+        (f"a camera that moves, worst of {', '.join(MOVING)}: error", "<= 1.2", "times",
+         worst(moving_times(reports).get(name) for name in MOVING)),
+        ("cut: surface from the true one and back, at most", "<= 2.0", "mm",
+         worst(scene("cut", "cut_surface", way, "max_mm") for way in ("distance", "missed"))),
+        ("cut: tilt of the surface", "<= 2.0", "deg", scene("cut", "cut_surface", "tilt_deg")),
+        ("cut: worse piece, mean", "<= 2.5", "mm", worst(pieces)),
+        ("recorded toy: depth residual, median", "<= 4.0", "mm", get(toy, "residual", "median_mm")),
+        ("recorded toy: within 10 mm", ">= 90", "%", None if toy is None else 100.0 * toy["within_10mm"]),
+    ]
+
+
+def followed(report):
+    """Share of the frames, unanswered ones among them; whatever the tracker says of itself."""
+    means = get(report, "vertex_error", "frame_mean_mm")
+    return None if means is None else 100.0 * sum(mean <= 10.0 for mean in means) / report["frames"]["expected"]
+
+
+def goal_table(reports):
+    rows = []
+    for figure, goal, unit, value in goals(reports):
+        relation, limit = goal.split()
+        reached = value is not None and (value <= float(limit) if relation == "<=" else value >= float(limit))
+        measured = "never" if value == math.inf else number(value)
+        rows.append([figure, f"{goal} {unit}", measured, "-" if value is None else "yes" if reached else "no"])
+    return table(["figure", "goal", "measured", "reached"], rows)
