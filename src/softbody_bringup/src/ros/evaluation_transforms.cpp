@@ -63,7 +63,8 @@ void addNotes(const std::vector<std::string>& more, std::vector<std::string>* no
   }
 }
 
-void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface) {
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface,
+               const std::string& states) {
   if (surface->frame_id == frame_id) return;
   Transforms transforms(paths, frame_id, surface->frame_id);
   const std::size_t left_out =
@@ -81,7 +82,7 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
         "0 0 0 0 0 0 {0} {2})",
         surface->frame_id, fmt::join(paths, " and "), frame_id, fmt::join(reasons, ". ")));
   }
-  addNotes(notesOf(transforms, left_out, surface->states.size(), "states", frame_id), &surface->notes);
+  addNotes(notesOf(transforms, left_out, surface->states.size(), states, frame_id), &surface->notes);
   surface->frame_id = frame_id;
 }
 

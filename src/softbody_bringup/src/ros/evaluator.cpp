@@ -49,10 +49,11 @@ std::vector<std::string> transformBags(const EvaluatorOptions& options, const st
 
 /// The surface in another frame: itself, or a copy in `moved`.
 const SurfaceRecord* inFrame(const std::string& frame_id, const std::vector<std::string>& bags,
-                             const SurfaceRecord* surface, std::optional<SurfaceRecord>* moved) {
+                             const SurfaceRecord* surface, const std::string& states,
+                             std::optional<SurfaceRecord>* moved) {
   if (surface == nullptr || surface->frame_id == frame_id) return surface;
   *moved = *surface;
-  expressIn(frame_id, bags, &**moved);
+  expressIn(frame_id, bags, &**moved, states);
   return &**moved;
 }
 
@@ -62,10 +63,11 @@ void compareInCamera(const EvaluatorOptions& options, const std::string& recordi
   const std::string camera = recordingFrame(recording, options.camera);
   const std::vector<std::string> bags = transformBags(options, recording);
   std::optional<SurfaceRecord> moved_result, moved_truth;
-  const SurfaceRecord* seen = inFrame(camera, bags, &result, &moved_result);
+  const SurfaceRecord* seen = inFrame(camera, bags, &result, "states", &moved_result);
+  const SurfaceRecord* seen_truth = inFrame(camera, bags, truth, "states of the truth", &moved_truth);
   addNotes(seen->notes, &measured->report.notes);
-  compareWithRecording(options, recording, *seen, inFrame(camera, bags, truth, &moved_truth),
-                       &measured->report, &measured->pictures);
+  if (seen_truth != nullptr) addNotes(seen_truth->notes, &measured->report.notes);
+  compareWithRecording(options, recording, *seen, seen_truth, &measured->report, &measured->pictures);
 }
 
 VolumeReport volumeOf(const SurfaceRecord& surface) {
@@ -81,7 +83,7 @@ std::optional<SurfaceRecord> readUnhidden(const EvaluatorOptions& options, const
   EvaluatorOptions its = options;
   its.result = options.unhidden;
   SurfaceRecord result = readResult(its, its.result);
-  expressIn(truth.frame_id, transformBags(its, recording), &result);
+  expressIn(truth.frame_id, transformBags(its, recording), &result, "states of the unhidden body");
   return result;
 }
 
@@ -111,6 +113,7 @@ Measured measure(const EvaluatorOptions& options) {
   if (!recording.empty()) compareInCamera(options, recording, result, truth ? &*truth : nullptr, &measured);
   if (truth) {
     const std::optional<SurfaceRecord> unhidden = readUnhidden(options, recording, *truth);
+    if (unhidden) addNotes(unhidden->notes, &report.notes);
     compareWithTruth(options, result, *truth, unhidden ? &*unhidden : nullptr, &report, &measured.pictures);
     addTool(options, recording, &report);
   }

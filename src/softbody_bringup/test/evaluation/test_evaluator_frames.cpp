@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -51,6 +53,48 @@ TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
   EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
   EXPECT_LT(report.vertex_error->all.max, 1e-6);
   EXPECT_TRUE(report.notes.empty());
+}
+
+/// Before a camera that moves, whose place is only known up to the middle.
+std::string halfPlacedRecording() {
+  virtual_camera::CameraSetup setup;
+  setup.camera_motion = "orbit";
+  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
+  setup.width = 160;
+  setup.height = 120;
+  virtual_camera::VirtualCamera camera = makeCamera(setup);
+  const std::string whole = testing::TempDir() + "evaluator_moving.bag", half = whole + "_half.bag";
+  writeBag(&camera, {whole, kFrames, 4.0}, [](int) {});
+  const rosbag::Bag in(whole);
+  rosbag::Bag out(half, rosbag::bagmode::Write);
+  int transforms = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(in)) {
+    if (message.getTopic() == "/tf" && ++transforms > kFrames / 2) continue;
+    out.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+  }
+  return half;
+}
+
+TEST(Evaluator, StatesThatTfDoesNotPlaceAreSaidOfTruthAndUnhiddenBodyToo) {
+  EvaluatorOptions options;
+  options.truth = halfPlacedRecording();
+  options.result = resultFromTruth("moving.bag", asItIs, options.truth);
+  options.unhidden = resultFromTruth(
+      "moving_unhidden.bag",
+      [](softbody_msgs::MeshState* s, int) {
+        s->header.frame_id = "camera_color_optical_frame";
+        return true;
+      },
+      options.truth);
+  const std::vector<std::string> notes = evaluate(options).notes;
+  for (const char* words :
+       {"10 of 20 states have no transform", "10 of 20 states of the truth have no transform",
+        "10 of 20 states of the unhidden body have no transform"}) {
+    const auto says = [&](const std::string& note) { return note.find(words) != std::string::npos; };
+    EXPECT_EQ(std::count_if(notes.begin(), notes.end(), says), 1)
+        << words << "\n"
+        << fmt::format("{}", fmt::join(notes, "\n"));
+  }
 }
 
 TEST(Evaluator, ThePoseOfTheToolIsComparedWhereTheTruthHasOne) {

@@ -32,8 +32,9 @@ void addNotes(const std::vector<std::string>& more, std::vector<std::string>* no
 
 /// Moves the surface's states into another frame by the /tf and /tf_static of these bags, at each state's
 /// stamp. States without a transform are left out, with a note.
-/// @throw std::invalid_argument if no state has a transform.
-void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface);
+/// @param states what the note calls them. @throw std::invalid_argument if no state has a transform.
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface,
+               const std::string& states = "states");
 
 /// The same for a tool's poses, but none may be left.
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool);
