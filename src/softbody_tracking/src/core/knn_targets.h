@@ -12,7 +12,8 @@ namespace softbody {
 
 /// The paper's targets: every low-resolution surface vertex follows its nearest features with
 /// inverse-distance weights (Kang et al. 2022, eq. 3-4), displacements measured from the reference frame. A
-/// vertex without any feature within the radius gets no target.
+/// vertex without any feature within the radius gets no target. What a match weighs does not count, as in the
+/// paper.
 class KnnTargets {
  public:
   explicit KnnTargets(const KnnConfig& config) : config_(config) {}
