@@ -188,9 +188,10 @@ TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
   const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
   RgbdFrame dull = frame_;
   dull.color = frame_.color.clone();
-  dull.color(cv::Rect(middle, 0, 640 - middle, 480)).setTo(cv::Vec3b(35, 90, 140));
-  const RgbdFrame back = renderFrame(box_, parted(0.08), 2);
-  const auto framesToFind = [&](int dull_frames) {
+  const cv::Rect right(middle, 0, 640 - middle, 480), all(0, 0, 640, 480);
+  const auto framesToFind = [&](int dull_frames, const cv::Rect& part, double moved) {
+    const RgbdFrame back = renderFrame(box_, parted(moved), 2);
+    dull.color(part).setTo(cv::Vec3b(35, 90, 140));
     FrameObserver observer({}, box_.volume, box_.surface);
     observer.admit(frame_, observer.observe(frame_, rest_));
     for (int i = 0; i < dull_frames; ++i) observer.observe(dull, rest_);
@@ -198,8 +199,10 @@ TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
     while (matchesOn({false, true}, observer.observe(back, rest_).matches) < 50 && frames < 20) ++frames;
     return frames;
   };
-  EXPECT_EQ(framesToFind(0), 1);
-  EXPECT_EQ(framesToFind(15), 10);
+  EXPECT_EQ(framesToFind(0, right, 0.08), 1);
+  EXPECT_EQ(framesToFind(15, right, 0.08), 10);
+  EXPECT_EQ(framesToFind(0, all, 0.035), 1);
+  EXPECT_EQ(framesToFind(15, all, 0.035), 2) << "once the left piece is found where it was";
 }
 
 /// The right piece jumps. A scrap of what the left one looked like does, too, and says where that went, but

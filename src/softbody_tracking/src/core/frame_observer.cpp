@@ -58,6 +58,7 @@ void FrameObserver::reset() {
   colors_.reset();
   shown_before_.clear();
   searches_.clear();
+  wide_search_.reset();
   frames_to_admission_ = frames_to_search_ = 0;
 }
 
@@ -171,12 +172,20 @@ bool FrameObserver::few(const std::vector<FeatureMatch>& matches) const {
   return matchesOn(followed, matches) < kEnoughAligned * map_.expected(followed);
 }
 
+bool FrameObserver::hardlyAny(const std::vector<FeatureMatch>& matches) const {
+  const std::vector<bool> followed = followedPieces();
+  FeatureCount sum{map_.expected(followed), 0};
+  for (const FeatureMatch& match : matches)
+    sum.found += match.inlier && followed[match.association.body] ? 1 : 0;
+  return sum.hardlyAny();
+}
+
 /// Features around the prediction; where most are not there, the descriptors say, in a wide window, where the
 /// body went, and the depth if they do not.
 void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   seen->matches = alignFeatures(frame);
   if (few(seen->matches)) {
-    map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
+    if (wide_search_.isDue()) map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
     markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     const RigidMotions rough = alignRigidly(frame, seen->matches);
     if (largestMotion(surface_, rough) > kLookAgain) {
@@ -184,6 +193,7 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
       seen->matches = alignFeatures(frame);
     }
   }
+  if (!hardlyAny(seen->matches)) wide_search_.reset();
   const std::vector<bool> gone = gonePieces(seen->matches);
   if (any(gone)) lookWhereRecognized(frame, gone, seen);
   weighByAgreement(&seen->matches);

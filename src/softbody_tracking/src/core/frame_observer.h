@@ -80,6 +80,7 @@ class FrameObserver {
   std::vector<FeatureMatch> alignFeatures(const RgbdFrame& frame);
   std::vector<bool> followedPieces() const;
   bool farOff(const std::vector<FeatureMatch>& scouts) const;
+  bool hardlyAny(const std::vector<FeatureMatch>& matches) const;
   bool few(const std::vector<FeatureMatch>& matches) const;
   std::vector<PointPair> recognizeFeatures(const RgbdFrame& frame, const Points& vertices);
   FeatureCount countOn(std::size_t piece, const std::vector<FeatureMatch>& matches) const;
@@ -103,7 +104,8 @@ class FrameObserver {
   std::vector<bool>
       shown_before_;  ///< of each piece, whether the last frame did not hardly show it; none: all
   int frames_to_admission_ = 0;
-  int frames_to_search_ = 0;          ///< for pieces that are held
+  int frames_to_search_ = 0;  ///< for pieces that are held
+  SearchPace wide_search_;
   std::vector<SearchPace> searches_;  ///< for each that is followed
   int tile_ = 0;                      ///< of the surface, where new features are looked for next
 };
