@@ -20,14 +20,13 @@
 namespace softbody {
 namespace {
 
-constexpr int kSyncQueue = 4;
 constexpr int kBladeQueue = 100;  // of a fast tool, while a frame is tracked
 constexpr double kSetPosePatience_s = 0.5;
 
 }  // namespace
 
 FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle)
-    : handle_(handle), synchronizer_(kSyncQueue), diagnostics_(handle, private_handle) {
+    : handle_(handle), diagnostics_(handle, private_handle) {
   Parameters parameters = readParameters(private_handle);
   body_frame_ = parameters.text("body_frame", "softbody");
   output_frame_ = std::make_unique<OutputFrame>(parameters);
@@ -50,11 +49,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
   volume_state_subscriber_ =
       handle_.subscribe(topics::kVolumeState, 1, &FeatureTrackerNode::onVolumeState, this);
   blade_subscriber_ = handle_.subscribe(topics::kToolBlade, kBladeQueue, &FeatureTrackerNode::onBlade, this);
-  color_subscriber_.subscribe(handle_, topics::kRgbRect, 1);
-  depth_subscriber_.subscribe(handle_, topics::kDepthRect, 1);
-  info_subscriber_.subscribe(handle_, topics::kRgbInfo, 1);
-  synchronizer_.connectInput(color_subscriber_, depth_subscriber_, info_subscriber_);
-  synchronizer_.registerCallback(&FeatureTrackerNode::onFrame, this);
+  images_.emplace(handle_, [this](const RectifiedImages& images) { onFrame(images); });
   if (use_mask) {
     mask_input_ = std::make_unique<MaskInput>(
         handle_, mask_timeout_s,
@@ -191,11 +186,9 @@ bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
   return true;
 }
 
-void FeatureTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
-                                 const sensor_msgs::ImageConstPtr& depth,
-                                 const sensor_msgs::CameraInfoConstPtr& info) {
-  if (mask_input_) return mask_input_->add({color, depth, info});
-  track({color, depth, info}, cv::Mat1b());
+void FeatureTrackerNode::onFrame(const RectifiedImages& images) {
+  if (mask_input_) return mask_input_->add(images);
+  track(images, cv::Mat1b());
 }
 
 /// @param mask empty: none.

@@ -2,11 +2,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/PolygonStamped.h>
-#include <message_filters/subscriber.h>
-#include <message_filters/time_synchronizer.h>
 #include <ros/ros.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 #include <softbody_msgs/SetPose.h>
@@ -20,6 +16,7 @@
 #include "core/blade_queue.h"
 #include "nodes/mask_input.h"
 #include "nodes/output_frame.h"
+#include "nodes/rectified_input.h"
 #include "softbody_common/parameters.h"
 #include "softbody_tracking/body_tracker.h"
 #include "softbody_tracking/tool_mask.h"
@@ -37,8 +34,7 @@ class FeatureTrackerNode {
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
   void onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message);
   void onVolumeState(const softbody_msgs::MeshState::ConstPtr& message);
-  void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
-               const sensor_msgs::CameraInfoConstPtr& info);
+  void onFrame(const RectifiedImages& images);
   void track(const RectifiedImages& images, const cv::Mat1b& mask);
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
@@ -73,10 +69,7 @@ class FeatureTrackerNode {
   ros::ServiceServer set_pose_;
   ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, volume_state_subscriber_,
       blade_subscriber_;
-  message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
-  message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
-  message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>
-      synchronizer_;
+  std::optional<RectifiedInput> images_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer diagnostics_timer_;
 };

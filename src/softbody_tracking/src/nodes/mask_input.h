@@ -1,21 +1,15 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
 #include <functional>
 #include <opencv2/core.hpp>
 
 #include "core/mask_queue.h"
+#include "nodes/rectified_input.h"
 
 namespace softbody {
-
-/// One frame of camera_ingest.
-struct RectifiedImages {
-  sensor_msgs::ImageConstPtr color, depth;
-  sensor_msgs::CameraInfoConstPtr info;
-};
 
 /// Depth where the mask is not zero, 0 elsewhere. @throw std::invalid_argument if the sizes differ.
 cv::Mat1f masked(const cv::Mat1f& depth, const cv::Mat1b& mask);

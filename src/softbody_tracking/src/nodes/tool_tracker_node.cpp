@@ -17,16 +17,9 @@
 #include "softbody_tracking/tool_messages.h"
 
 namespace softbody {
-namespace {
-
-constexpr int kSyncQueue = 4;
-
-}  // namespace
 
 ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : handle_(handle),
-      synchronizer_(kSyncQueue),
-      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
+    : handle_(handle), diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   Parameters parameters = readParameters(private_handle);
   tool_frame_ = parameters.text("tool_frame", "tool");
   output_frame_ = std::make_unique<OutputFrame>(parameters);
@@ -43,11 +36,7 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
   }
   timing_ = handle_.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
 
-  color_subscriber_.subscribe(handle_, topics::kRgbRect, 1);
-  depth_subscriber_.subscribe(handle_, topics::kDepthRect, 1);
-  info_subscriber_.subscribe(handle_, topics::kRgbInfo, 1);
-  synchronizer_.connectInput(color_subscriber_, depth_subscriber_, info_subscriber_);
-  synchronizer_.registerCallback(&ToolTrackerNode::onFrame, this);
+  images_.emplace(handle_, [this](const RectifiedImages& images) { onFrame(images); });
 
   diagnostics_.setHardwareID("none");
   diagnostics_.add("tool", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
@@ -56,28 +45,27 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
-void ToolTrackerNode::onFrame(const sensor_msgs::ImageConstPtr& color,
-                              const sensor_msgs::ImageConstPtr& depth,
-                              const sensor_msgs::CameraInfoConstPtr& info) try {
+void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
   last_arrival_ = ros::Time::now();
-  const auto color_image = cv_bridge::toCvShare(color, sensor_msgs::image_encodings::BGR8);
-  const auto depth_image = cv_bridge::toCvShare(depth, sensor_msgs::image_encodings::TYPE_32FC1);
-  RgbdFrame frame{toNanoseconds(color->header.stamp), pinholeFromMessage(*info), color_image->image,
+  const std_msgs::Header& header = images.color->header;
+  const auto color_image = cv_bridge::toCvShare(images.color, sensor_msgs::image_encodings::BGR8);
+  const auto depth_image = cv_bridge::toCvShare(images.depth, sensor_msgs::image_encodings::TYPE_32FC1);
+  RgbdFrame frame{toNanoseconds(header.stamp), pinholeFromMessage(*images.info), color_image->image,
                   depth_image->image};
-  place(color->header, &frame);
+  place(header, &frame);
   StageTimer timer;
   last_ = tracker_->track(frame, &timer);
   unusable_.clear();
   const auto missing = watch_.heed(frame.stamp, last_, tracker_->reason());
   if (missing) ROS_WARN_STREAM(*missing);
-  if (last_) publish(color->header, frame);
+  if (last_) publish(header, frame);
   softbody_msgs::StageTiming timing = timingMessage("tool_tracker", timer.take());
-  timing.header = color->header;
+  timing.header = header;
   timing_.publish(timing);
 } catch (const std::exception& error) {
   unusable_ = error.what();
   ROS_ERROR_STREAM_THROTTLE(
-      5.0, "the tool cannot be looked for in frame " << color->header.stamp << ": " << error.what());
+      5.0, "the tool cannot be looked for in frame " << images.color->header.stamp << ": " << error.what());
 }
 
 void ToolTrackerNode::place(const std_msgs::Header& header, RgbdFrame* frame) try {

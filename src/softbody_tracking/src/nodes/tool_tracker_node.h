@@ -1,11 +1,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <message_filters/subscriber.h>
-#include <message_filters/time_synchronizer.h>
 #include <ros/ros.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <memory>
@@ -13,6 +9,7 @@
 #include <string>
 
 #include "nodes/output_frame.h"
+#include "nodes/rectified_input.h"
 #include "softbody_tracking/blade_trail.h"
 #include "softbody_tracking/tool_tracker.h"
 #include "softbody_tracking/tool_watch.h"
@@ -26,8 +23,7 @@ class ToolTrackerNode {
   ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
-  void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
-               const sensor_msgs::CameraInfoConstPtr& info);
+  void onFrame(const RectifiedImages& images);
   void place(const std_msgs::Header& header, RgbdFrame* frame);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame);
   void publishBlade(const std_msgs::Header& header, const RgbdFrame& frame);
@@ -46,10 +42,7 @@ class ToolTrackerNode {
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   std::optional<BladeTrail> trail_;  ///< of a tool with a blade
   ros::Publisher pose_, blade_, marker_, timing_;
-  message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
-  message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
-  message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>
-      synchronizer_;
+  std::optional<RectifiedInput> images_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer diagnostics_timer_;
 };
