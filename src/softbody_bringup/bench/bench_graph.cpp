@@ -90,10 +90,3 @@ void trackRecording(benchmark::State& state) {
 BENCHMARK(trackRecording)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  cv::setNumThreads(1);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}

@@ -76,10 +76,3 @@ BENCHMARK(addDepthNoise)->Apply(sizes);
 BENCHMARK(captureFrame)->Apply(sizes);
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  cv::setNumThreads(1);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}

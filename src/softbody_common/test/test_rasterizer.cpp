@@ -51,6 +51,24 @@ TriangleMesh triangleSoup(int count, std::mt19937* random) {
   return mesh;
 }
 
+/// Two triangles a cell. @param corner gives the vertex of a column and a row.
+template <typename Corner>
+TriangleMesh gridMesh(int columns, int rows, Corner corner) {
+  TriangleMesh mesh;
+  mesh.vertices.resize((columns + 1) * (rows + 1), 3);
+  mesh.triangles.resize(2 * columns * rows, 3);
+  for (int r = 0, f = 0; r <= rows; ++r) {
+    for (int c = 0; c <= columns; ++c) {
+      const int i = r * (columns + 1) + c;
+      mesh.vertices.row(i) = corner(c, r);
+      if (r == rows || c == columns) continue;
+      mesh.triangles.row(f++) << i, i + 1, i + columns + 1;
+      mesh.triangles.row(f++) << i + 1, i + columns + 2, i + columns + 1;
+    }
+  }
+  return mesh;
+}
+
 class Rasterizer : public testing::TestWithParam<unsigned> {
  protected:
   std::mt19937 random_{GetParam()};
@@ -98,19 +116,9 @@ TEST_P(Rasterizer, PlanesAreExactAndWithoutHoles) {
   const Eigen::Vector3d normal =
       (Eigen::Vector3d(0, 0, -1) + 0.4 * randomPoint(-1, 1, &random_)).normalized();
   const auto depth_at = [&](double u, double v) { return -0.5 / normal.dot(kCamera.unproject(u, v, 1.0)); };
-  const int columns = 16, rows = 12;
-  TriangleMesh mesh;
-  mesh.vertices.resize((columns + 1) * (rows + 1), 3);
-  mesh.triangles.resize(2 * columns * rows, 3);
-  for (int r = 0, f = 0; r <= rows; ++r) {
-    for (int c = 0; c <= columns; ++c) {
-      const int i = r * (columns + 1) + c;
-      mesh.vertices.row(i) = kCamera.unproject(4 * c, 4 * r, depth_at(4 * c, 4 * r));
-      if (r == rows || c == columns) continue;
-      mesh.triangles.row(f++) << i, i + 1, i + columns + 1;
-      mesh.triangles.row(f++) << i + 1, i + columns + 2, i + columns + 1;
-    }
-  }
+  const TriangleMesh mesh = gridMesh(16, 12, [&](int c, int r) -> Eigen::Vector3d {
+    return kCamera.unproject(4 * c, 4 * r, depth_at(4 * c, 4 * r));
+  });
   RasterImage image;
   rasterize(kCamera, mesh.vertices, mesh.triangles, &image);
   for (int v = 0; v < kCamera.height; ++v) {
@@ -125,20 +133,10 @@ TEST_P(Rasterizer, TrianglesSmallerThanAPixelAgreeWithTheSurfaceThatTheyDivide) 
       (Eigen::Vector3d(0, 0, -1) + 0.4 * randomPoint(-1, 1, &random_)).normalized();
   const auto depth_at = [&](double u, double v) { return -0.5 / normal.dot(kCamera.unproject(u, v, 1.0)); };
   std::uniform_real_distribution<double> shake(-0.3, 0.3);
-  const int columns = 60, rows = 44;
-  TriangleMesh mesh;
-  mesh.vertices.resize((columns + 1) * (rows + 1), 3);
-  mesh.triangles.resize(2 * columns * rows, 3);
-  for (int r = 0, f = 0; r <= rows; ++r) {
-    for (int c = 0; c <= columns; ++c) {
-      const int i = r * (columns + 1) + c;
-      const double u = 3.0 + 0.9 * c + shake(random_), v = 3.0 + 0.9 * r + shake(random_);
-      mesh.vertices.row(i) = kCamera.unproject(u, v, depth_at(u, v));
-      if (r == rows || c == columns) continue;
-      mesh.triangles.row(f++) << i, i + 1, i + columns + 1;
-      mesh.triangles.row(f++) << i + 1, i + columns + 2, i + columns + 1;
-    }
-  }
+  const TriangleMesh mesh = gridMesh(60, 44, [&](int c, int r) -> Eigen::Vector3d {
+    const double u = 3.0 + 0.9 * c + shake(random_), v = 3.0 + 0.9 * r + shake(random_);
+    return kCamera.unproject(u, v, depth_at(u, v));
+  });
   RasterImage image;
   rasterize(kCamera, mesh.vertices, mesh.triangles, &image);
   for (int v = 4; v < 42; ++v) {

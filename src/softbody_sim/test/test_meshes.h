@@ -72,6 +72,18 @@ inline Eigen::Isometry3d somePose() {
          Eigen::AngleAxisd(2.0, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
 }
 
+/// The body placed anew, without a target.
+inline TargetSet placing(const Eigen::Isometry3d& pose) {
+  TargetSet targets;
+  targets.reset = true;
+  targets.body_pose = pose;
+  return targets;
+}
+
+inline double largestDistance(const Points& a, const Points& b) {
+  return (a - b).rowwise().norm().maxCoeff();
+}
+
 /// Every vertex held by a target of its own at the given positions.
 inline std::vector<Target> vertexTargets(const TetTopology& topology, const Points& positions) {
   std::vector<Target> targets(static_cast<std::size_t>(positions.rows()));

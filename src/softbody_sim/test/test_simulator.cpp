@@ -8,6 +8,8 @@
 namespace softbody {
 namespace {
 
+using testing::largestDistance;
+using testing::placing;
 using testing::somePose;
 using testing::sponge;
 using testing::vertexTargets;
@@ -26,15 +28,6 @@ SimulatorConfig accurate() {
   config.tolerance = 1e-7;
   return config;
 }
-
-TargetSet placing(const Eigen::Isometry3d& pose) {
-  TargetSet targets;
-  targets.reset = true;
-  targets.body_pose = pose;
-  return targets;
-}
-
-double largestDistance(const Points& a, const Points& b) { return (a - b).rowwise().norm().maxCoeff(); }
 
 Eigen::VectorXd massesOf(const TetTopology& topology, double density) {
   const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);

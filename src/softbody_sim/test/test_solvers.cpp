@@ -9,6 +9,8 @@
 namespace softbody {
 namespace {
 
+using testing::largestDistance;
+using testing::placing;
 using testing::somePose;
 using testing::sponge;
 using testing::vertexTargets;
@@ -35,15 +37,6 @@ Material withDamping(double damping) {
   material.damping = damping;
   return material;
 }
-
-TargetSet placing(const Eigen::Isometry3d& pose) {
-  TargetSet targets;
-  targets.reset = true;
-  targets.body_pose = pose;
-  return targets;
-}
-
-double largestDistance(const Points& a, const Points& b) { return (a - b).rowwise().norm().maxCoeff(); }
 
 /// What every solver owes.
 class Solvers : public ::testing::TestWithParam<Solver> {
