@@ -15,9 +15,9 @@ constexpr double kReach = 0.04;  // [m]
 /// A map bound to the box in its first pose.
 class FeatureMapTest : public ::testing::Test {
  protected:
-  FeatureMapTest() : surface_(box_.volume, box_.surface), orb_(1000), map_(FeatureConfig()) {
+  FeatureMapTest() : surface_(box_.volume, box_.surface), map_(FeatureConfig()) {
     look(transformed(box_.volume.rest_vertices, boxPose()));
-    map_.admit(frame_, image_, keypoints_, surface_, {true});
+    map_.admit(frame_, image_, chosen(map_), surface_, {true});
   }
 
   /// Renders the box at the vertices and predicts it there, moved by an error.
@@ -26,7 +26,21 @@ class FeatureMapTest : public ::testing::Test {
     surface_.update(frame_.camera,
                     transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))));
     image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
-    keypoints_ = orb_.extract(frame_.color, cv::Mat1b(frame_.color.size(), 255), surface_.image().region);
+  }
+
+  /// All of the image.
+  std::vector<Keypoint> keypoints() {
+    return orb_.extract(frame_.color, cv::Mat1b(frame_.color.size(), 255), surface_.image().region);
+  }
+
+  /// Those that a map would take.
+  std::vector<Keypoint> chosen(const FeatureMap& map, const cv::Mat1b& free) {
+    const cv::Rect& region = surface_.image().region;
+    const std::vector<cv::KeyPoint> corners = orb_.detect(frame_.color, free, region);
+    return orb_.describe(frame_.color, region, map.choose(frame_, corners, surface_, {true}, map.room()));
+  }
+  std::vector<Keypoint> chosen(const FeatureMap& map) {
+    return chosen(map, cv::Mat1b(frame_.color.size(), 255));
   }
 
   std::vector<FeatureMatch> some(int wanted) {
@@ -50,7 +64,6 @@ class FeatureMapTest : public ::testing::Test {
   OrbExtractor orb_;
   FeatureMap map_;
   RgbdFrame frame_;
-  std::vector<Keypoint> keypoints_;
 };
 
 TEST_F(FeatureMapTest, BindsFeaturesWhereTheirPixelsSeeTheBody) {
@@ -124,7 +137,7 @@ TEST_F(FeatureMapTest, CoveredFeaturesAreNotExpected) {
   }
   EXPECT_LT(map_.expected(), 0.8 * expected);
   const std::size_t known = map_.features().size();
-  map_.admit(frame_, image_, {}, surface_, {true});
+  map_.retire();
   EXPECT_GT(map_.features().size(), 0.9 * known) << "the covered ones stay";
 }
 
@@ -150,7 +163,7 @@ TEST_F(FeatureMapTest, DescriptorsFindWhatMovedTooFarForThePatches) {
   look(truth, {0.013, 0.0, 0.0});
   std::vector<FeatureMatch> matches = align();
   const std::size_t aligned = matches.size();
-  map_.search(frame_, image_, keypoints_, surface_, &matches);
+  map_.search(frame_, image_, keypoints(), surface_, &matches);
   EXPECT_GT(matches.size(), aligned + 50);
   std::set<int> found;
   for (const FeatureMatch& match : matches)
@@ -161,10 +174,10 @@ TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
   const cv::Mat1f true_depth = frame_.depth.clone();
   std::mt19937 random(8);
   std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
-  // Wrong depth around every tenth keypoint.
-  for (const Keypoint& keypoint : keypoints_) {
+  // Wrong depth around every tenth feature.
+  for (const FeatureMatch& match : align()) {
     if (uniform(random) > 0.1f) continue;
-    const cv::Rect spot = cv::Rect(cvRound(keypoint.pixel.x) - 2, cvRound(keypoint.pixel.y) - 2, 5, 5) &
+    const cv::Rect spot = cv::Rect(cvRound(match.pixel.x) - 2, cvRound(match.pixel.y) - 2, 5, 5) &
                           cv::Rect(cv::Point(), frame_.depth.size());
     frame_.depth(spot) = true_depth(spot) + 0.02f;
   }
@@ -184,18 +197,18 @@ TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
   const std::size_t bound = map_.features().size();
   cv::Mat1b free(frame_.color.size(), 255);
   map_.eraseTaken(align(), &free);
-  map_.admit(frame_, image_, orb_.extract(frame_.color, free, surface_.image().region), surface_, {true});
+  map_.admit(frame_, image_, chosen(map_, free), surface_, {true});
   EXPECT_LT(map_.features().size(), bound + bound / 5) << "the surface was covered with features already";
   frame_.color.setTo(cv::Vec3b(90, 90, 90));
   image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
   for (int i = 0; i < 400; ++i) EXPECT_TRUE(align().empty());
-  map_.admit(frame_, image_, {}, surface_, {true});
+  map_.retire();
   EXPECT_TRUE(map_.features().empty());
 }
 
 TEST_F(FeatureMapTest, LearnsNothingOfAPieceThatHardlyShows) {
   FeatureMap none{FeatureConfig()};
-  none.admit(frame_, image_, keypoints_, surface_, {false});
+  none.admit(frame_, image_, keypoints(), surface_, {false});
   EXPECT_TRUE(none.features().empty());
   const std::vector<FeatureMatch> matches = align();
   const std::vector<MapFeature> before = map_.features();
@@ -210,8 +223,50 @@ TEST_F(FeatureMapTest, HoldsNoMoreThanAsked) {
   FeatureConfig config;
   config.max_features = 50;
   FeatureMap small(config);
-  small.admit(frame_, image_, keypoints_, surface_, {true});
+  small.admit(frame_, image_, keypoints(), surface_, {true});
   EXPECT_EQ(small.features().size(), 50u);
+}
+
+/// Another side that comes into view gets as many as the first; how many are kept is bounded.
+TEST_F(FeatureMapTest, HoldsSoManyInEveryView) {
+  FeatureConfig config;
+  config.max_features = 40;
+  FeatureMap small(config);
+  std::size_t known = 0;
+  for (int view = 0; view < 6; ++view) {
+    const Eigen::Vector3d axis = view < 4 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+    look(
+        transformed(box_.volume.rest_vertices, boxPose() * Eigen::AngleAxisd(0.5 * M_PI * view + 0.1, axis)));
+    small.predict(frame_, colors_, kReach, surface_);
+    const int before = small.expected(), room = small.room();
+    small.admit(frame_, image_, chosen(small), surface_, {true});
+    EXPECT_LE(small.features().size(), known + room);
+    if (view == 2) {
+      EXPECT_GT(small.features().size(), 75u) << "the first views' features are out of view";
+    }
+    known = small.features().size();
+    small.predict(frame_, colors_, kReach, surface_);
+    EXPECT_LE(small.expected(), std::max(40, before));
+  }
+  EXPECT_LE(known, 160u);
+}
+
+TEST_F(FeatureMapTest, ChoosesCornersOnTheBodyWhereFeaturesAreFew) {
+  const cv::Rect& region = surface_.image().region;
+  const std::vector<cv::KeyPoint> corners =
+      orb_.detect(frame_.color, cv::Mat1b(frame_.color.size(), 255), region);
+  FeatureMap half{FeatureConfig()};
+  const auto is_left = [&](const cv::KeyPoint& corner) { return corner.pt.x < region.x + region.width / 2; };
+  std::vector<cv::KeyPoint> left;
+  std::copy_if(corners.begin(), corners.end(), std::back_inserter(left), is_left);
+  half.admit(frame_, image_, orb_.describe(frame_.color, region, left), surface_, {true});
+  half.predict(frame_, colors_, kReach, surface_);
+  const std::vector<cv::KeyPoint> chosen = half.choose(frame_, corners, surface_, {true}, 50);
+  ASSERT_EQ(chosen.size(), 50u);
+  EXPECT_LT(std::count_if(chosen.begin(), chosen.end(), is_left), 5);
+  for (const cv::KeyPoint& corner : chosen)
+    EXPECT_GT(surface_.image().depth(cv::Point(cvRound(corner.pt.x), cvRound(corner.pt.y))), 0.0f);
+  EXPECT_TRUE(half.choose(frame_, corners, surface_, {false}, 50).empty());
 }
 
 TEST(FeatureDepth, AveragesSurfacesAndRefusesEdgesAndHoles) {
@@ -221,16 +276,6 @@ TEST(FeatureDepth, AveragesSurfacesAndRefusesEdgesAndHoles) {
   EXPECT_EQ(featureDepth(depth, {10.0f, 10.0f}), 0.0);
   EXPECT_EQ(featureDepth(cv::Mat1f(20, 20, 0.0f), {10.0f, 10.0f}), 0.0);
   EXPECT_EQ(featureDepth(depth, {-5.0f, 300.0f}), 0.0);
-}
-
-TEST(OrbExtractor, FindsNothingWhereNothingIs) {
-  OrbExtractor orb(100);
-  EXPECT_TRUE(
-      orb.extract(cv::Mat3b(200, 200, cv::Vec3b(50, 50, 50)), cv::Mat1b(200, 200, 255), {0, 0, 200, 200})
-          .empty());
-  EXPECT_TRUE(orb.extract(cv::Mat3b(40, 40, cv::Vec3b()), cv::Mat1b(40, 40, 255), {0, 0, 10, 10}).empty());
-  EXPECT_TRUE(
-      OrbExtractor(0).extract(cv::Mat3b(200, 200), cv::Mat1b(200, 200, 255), {0, 0, 200, 200}).empty());
 }
 
 TEST(HammingDistance, CountsDifferingBits) {

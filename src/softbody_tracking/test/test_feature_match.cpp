@@ -172,6 +172,26 @@ TEST_P(FeatureMatches, WeightsGoByWhatIsUsualInTheFrame) {
   for (std::size_t m = 0; m < weights.size(); ++m) EXPECT_NEAR(weights[m], same[m], 1e-12);
 }
 
+/// Of so many matches that count, a tenth of all being outliers.
+double weightAmong(int vertices, int inliers) {
+  std::vector<FeatureMatch> matches(static_cast<std::size_t>(inliers + inliers / 9 + 1));
+  for (std::size_t m = static_cast<std::size_t>(inliers); m < matches.size(); ++m) matches[m].inlier = false;
+  weighByDensity(vertices, &matches);
+  return matches[0].association.weight;
+}
+
+TEST(FeatureMatchWeights, GrowWhereMatchesAreFewForTheVerticesThatShow) {
+  EXPECT_EQ(weightAmong(100, 1000), 1.0);
+  EXPECT_GT(weightAmong(100, 60), 2.0);
+  // Half of the matches weigh together as much as all of them, in a volume of any fineness.
+  EXPECT_NEAR(weightAmong(100, 80), 2.0 * weightAmong(100, 160), 1e-9);
+  EXPECT_NEAR(weightAmong(50, 40), weightAmong(100, 80), 1e-9);
+  EXPECT_EQ(weightAmong(100, 2), weightAmong(100, 1)) << "few are not trusted without bound";
+  EXPECT_EQ(weightAmong(0, 10), 1.0) << "nothing shows";
+  std::vector<FeatureMatch> none;
+  EXPECT_NO_THROW(weighByDensity(100, &none));
+}
+
 TEST(FeatureMatchWeights, AreWholeWherePatchesFitExactly) {
   EXPECT_TRUE(weightsOf({}).empty());
   EXPECT_EQ(weightsOf({0.0, 0.0, 0.0}), std::vector<double>(3, 1.0));

@@ -62,6 +62,16 @@ TEST(FeatureRecognition, TakesNoChanceForAMotion) {
   EXPECT_FALSE(recognizedMotion({}, kTolerance));
 }
 
+/// The more pairs, the more agree by chance, on a flat body's face above all.
+TEST(FeatureRecognition, TakesNoChanceOfManyPairsOnAFaceForAMotion) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    Pairs pairs(seed);
+    std::vector<PointPair> all = pairs.make(pairs.motion(), 0, 1500);
+    for (PointPair& pair : all) pair.expected.z() = pair.measured.z() = 0.0;
+    EXPECT_FALSE(recognizedMotion(all, kTolerance)) << "seed " << seed;
+  }
+}
+
 TEST(FeatureRecognition, TakesNoPairsOfOnePlaceForAMotion) {
   const std::vector<PointPair> same(40, {Eigen::Vector3d(0.01, 0.02, 0.03), Eigen::Vector3d(0.1, 0.0, 0.5)});
   EXPECT_FALSE(recognizedMotion(same, kTolerance));

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <array>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "core/orb_extractor.h"
@@ -11,15 +11,12 @@ namespace {
 constexpr int kSide = 240, kMargin = 60;  // [px]; ORB finds nothing near the image's border
 const cv::Rect kBody(kMargin, kMargin, kSide, kSide);
 
-/// Spots all over a body; those of its upper left quarter stand out most.
 cv::Mat3b spottedImage(unsigned seed) {
   cv::Mat3b image(kSide + 2 * kMargin, kSide + 2 * kMargin, cv::Vec3b(60, 60, 60));
   cv::RNG random(seed);
   for (int i = 0; i < 900; ++i) {
     const cv::Point place(kMargin + random.uniform(0, kSide), kMargin + random.uniform(0, kSide));
-    const bool strong = place.x < kMargin + kSide / 2 && place.y < kMargin + kSide / 2;
-    cv::circle(image, place, 2, cv::Scalar::all(60 + random.uniform(20, 40) + (strong ? 140 : 0)),
-               cv::FILLED);
+    cv::circle(image, place, 2, cv::Scalar::all(60 + random.uniform(20, 180)), cv::FILLED);
   }
   return image;
 }
@@ -30,39 +27,62 @@ cv::Mat1b bodyMask(const cv::Size& size) {
   return mask;
 }
 
-class OrbExtractorSpread : public testing::TestWithParam<unsigned> {};
+class OrbCorners : public testing::TestWithParam<unsigned> {};
 
-TEST_P(OrbExtractorSpread, FewFeaturesLieAllOverTheBody) {
+TEST_P(OrbCorners, LieInTheMask) {
   const cv::Mat3b image = spottedImage(GetParam());
-  const auto keypoints = OrbExtractor(40).extract(image, bodyMask(image.size()), kBody);
-  ASSERT_EQ(keypoints.size(), 40u);
-  std::array<int, 4> quarters{};
-  for (const Keypoint& keypoint : keypoints) {
-    const cv::Point quarter = (cv::Point(keypoint.pixel) - kBody.tl()) / (kSide / 2);
-    ++quarters.at(static_cast<std::size_t>(2 * quarter.y + quarter.x));
+  cv::Mat1b mask = bodyMask(image.size());
+  const cv::Rect hole(kMargin + 50, kMargin + 80, 60, 40);
+  mask(hole) = 0;
+  const std::vector<cv::KeyPoint> corners = OrbExtractor().detect(image, mask, kBody);
+  EXPECT_GT(corners.size(), 200u);
+  for (const cv::KeyPoint& corner : corners) {
+    // Those of coarser scales lie between pixels.
+    const cv::Point2f inside = corner.pt - cv::Point2f(hole.tl());
+    EXPECT_TRUE(kBody.contains(corner.pt));
+    EXPECT_FALSE(inside.x > 1 && inside.y > 1 && inside.x < hole.width - 2 && inside.y < hole.height - 2);
   }
-  for (const int count : quarters) EXPECT_GE(count, 3);
 }
 
-TEST_P(OrbExtractorSpread, AllAreTakenWhereNoMoreAreThanWanted) {
+/// The first half of all holds half of every scale's.
+TEST_P(OrbCorners, OfEveryScaleTheStrongestComeFirst) {
   const cv::Mat3b image = spottedImage(GetParam());
-  const cv::Mat1b mask = bodyMask(image.size());
-  const auto many = OrbExtractor(3000).extract(image, mask, kBody),
-             more = OrbExtractor(3500).extract(image, mask, kBody);
-  EXPECT_GT(many.size(), 200u);
-  EXPECT_EQ(many.size(), more.size());
+  const std::vector<cv::KeyPoint> corners = OrbExtractor().detect(image, bodyMask(image.size()), kBody);
+  std::map<int, int> all, early;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    ++all[corners[i].octave];
+    early[corners[i].octave] += i < corners.size() / 2 ? 1 : 0;
+  }
+  ASSERT_EQ(all.size(), 4u);
+  for (const auto& [octave, count] : all) EXPECT_NEAR(early[octave], 0.5 * count, 1.5) << octave;
 }
 
-/// Where a body shows few features at more than one scale, all that are wanted come nevertheless.
-TEST_P(OrbExtractorSpread, AsManyAreTakenAsAreWanted) {
+/// Where a corner is described does not depend on the others that are.
+TEST_P(OrbCorners, AreDescribedAlikeAloneAndTogether) {
   const cv::Mat3b image = spottedImage(GetParam());
-  const cv::Mat1b mask = bodyMask(image.size());
-  const std::size_t all = OrbExtractor(3000).extract(image, mask, kBody).size();
-  const int most = static_cast<int>(all) - 1;
-  EXPECT_EQ(OrbExtractor(most).extract(image, mask, kBody).size(), all - 1);
+  OrbExtractor orb;
+  const std::vector<cv::KeyPoint> corners = orb.detect(image, bodyMask(image.size()), kBody);
+  const std::vector<Keypoint> all = orb.describe(image, kBody, corners);
+  ASSERT_EQ(all.size(), corners.size());
+  for (std::size_t i = 0; i < corners.size(); i += 37) {
+    const std::vector<Keypoint> alone = orb.describe(image, kBody, {corners[i]});
+    ASSERT_EQ(alone.size(), 1u);
+    const auto same = [&](const Keypoint& keypoint) {
+      return keypoint.pixel == alone[0].pixel && keypoint.descriptor == alone[0].descriptor;
+    };
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), same));
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, OrbExtractorSpread, testing::Range(1u, 6u));
+INSTANTIATE_TEST_SUITE_P(Seeds, OrbCorners, testing::Range(1u, 6u));
+
+TEST(OrbExtractor, FindsNothingWhereNothingIs) {
+  OrbExtractor orb;
+  const cv::Mat3b plain(200, 200, cv::Vec3b(50, 50, 50));
+  EXPECT_TRUE(orb.extract(plain, cv::Mat1b(plain.size(), 255), {0, 0, 200, 200}).empty());
+  EXPECT_TRUE(orb.extract(cv::Mat3b(40, 40, cv::Vec3b()), cv::Mat1b(40, 40, 255), {0, 0, 10, 10}).empty());
+  EXPECT_TRUE(orb.describe(plain, {0, 0, 200, 200}, {}).empty());
+}
 
 }  // namespace
 }  // namespace softbody

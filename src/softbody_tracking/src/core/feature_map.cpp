@@ -7,19 +7,13 @@
 
 #include "descriptor_match.h"
 #include "pixel_grid.h"
-#include "softbody_common/surface_binding.h"
 
 namespace softbody {
 namespace {
 
 constexpr double kVisibleTolerance = 0.01;     // [m], feature behind the rendered surface by more: hidden
-constexpr int kFreeRadiusPx = 7;               // around a known feature no other is admitted
-constexpr double kBindTolerance = 0.01;        // [m], surface and depth must agree where a feature is bound
-constexpr double kMostGrazing = 0.35;          // cosine of normal and ray where a feature is bound
 constexpr int kFewestDepths = 20;              // of the 25 pixels around a feature: fewer is a depth edge
 constexpr float kSmallestCorrelation = 0.75f;  // of a patch that is found again
-constexpr int kTrialFrames = 20;
-constexpr double kWorstHitRate = 0.2;
 
 cv::Point2f toPoint2f(const Eigen::Vector2d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y())};
@@ -74,24 +68,6 @@ bool isCovered(const RgbdFrame& frame, const ColorModel& colors, const cv::Point
     foreign += isForeign(center + offset) ? 1 : 0;
   }
   return foreign >= 3;
-}
-
-/// No other feature is admitted so near.
-void erase(const cv::Point2f& pixel, cv::Mat1b* mask) {
-  const cv::Point center = toPixel(pixel);
-  const int left = std::max(0, center.x - kFreeRadiusPx),
-            right = std::min(mask->cols, center.x + kFreeRadiusPx + 1);
-  const int bottom = std::min(mask->rows, center.y + kFreeRadiusPx + 1);
-  if (left >= right) return;
-  for (int v = std::max(0, center.y - kFreeRadiusPx); v < bottom; ++v)
-    std::fill((*mask)[v] + left, (*mask)[v] + right, 0);
-}
-
-/// Takes barycentric coordinates in a tet to the rest shape.
-Eigen::Matrix4d homogeneousCorners(const TetTopology& volume, int tet) {
-  Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
-  for (int k = 0; k < 4; ++k) corners.col(k).head<3>() = volume.rest_vertices.row(volume.tets(tet, k));
-  return corners;
 }
 
 }  // namespace
@@ -218,75 +194,6 @@ void FeatureMap::credit(const std::vector<FeatureMatch>& matches, const std::vec
 int FeatureMap::expected(const std::vector<bool>& counted) const {
   return static_cast<int>(std::count_if(predictions_.begin(), predictions_.end(),
                                         [&](const Prediction& p) { return counted[p.body]; }));
-}
-
-void FeatureMap::eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const {
-  for (const FeatureMatch& match : matches) erase(match.pixel, mask);
-  for (const Prediction& prediction : missed_) erase(prediction.pixel, mask);
-}
-
-void FeatureMap::retire() {
-  const auto hopeless = [](const MapFeature& f) {
-    return f.predicted >= kTrialFrames && f.matched < kWorstHitRate * f.predicted;
-  };
-  features_.erase(std::remove_if(features_.begin(), features_.end(), hopeless), features_.end());
-  predictions_.clear();
-  missed_.clear();
-}
-
-void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
-                       const std::vector<Keypoint>& keypoints, const PredictedSurface& surface,
-                       const std::vector<bool>& shown) {
-  std::vector<cv::Point2f> taken;
-  const auto isFree = [&](const cv::Point2f& pixel) {
-    return std::none_of(taken.begin(), taken.end(), [&](const cv::Point2f& other) {
-      const cv::Point2f d = other - pixel;
-      return d.dot(d) <= kFreeRadiusPx * kFreeRadiusPx;
-    });
-  };
-  const bool first = features_.empty();
-  for (const Keypoint& keypoint : keypoints) {
-    if (static_cast<int>(features_.size()) >= config_.max_features) break;
-    // The reference frame takes every keypoint, like the paper; later ones fill gaps.
-    if (!first && !isFree(keypoint.pixel)) continue;
-    const double z = featureDepth(frame.depth, keypoint.pixel);
-    if (z <= 0.0) continue;
-    const Eigen::Vector3d measured = frame.camera.unproject(keypoint.pixel.x, keypoint.pixel.y, z);
-    const int triangle = surface.triangleAt(measured, kBindTolerance);
-    if (triangle < 0 || -surface.normal(triangle).dot(measured.normalized()) < kMostGrazing) continue;
-    MapFeature feature;
-    feature.place = surface.materialPoint(triangle, keypoint.pixel);
-    if (!shown[surface.bodyOf(feature.place)] || !feature.patch.learn(image, keypoint.pixel)) continue;
-    feature.id = next_id_++;
-    feature.gradient = surface.placeGradient(feature.place, triangle, keypoint.pixel);
-    feature.first = feature;
-    feature.first_tet = homogeneousCorners(surface.volume(), feature.place.tet);
-    feature.first_vertices = surface.volume().rest_vertices.rows();
-    feature.descriptor = keypoint.descriptor;
-    feature.reference = frame.T_fixed_camera * measured;
-    features_.push_back(feature);
-    if (!first) taken.push_back(keypoint.pixel);
-  }
-  retire();
-}
-
-void FeatureMap::rebind(const TetTopology& before, const TetTopology& after) {
-  std::vector<MaterialPoint> places;
-  for (const MapFeature& feature : features_) places.push_back(feature.place);
-  const std::vector<MaterialPoint> moved = transferPlaces(places, before, after);
-  for (std::size_t f = 0; f < features_.size(); ++f) {
-    MapFeature& feature = features_[f];
-    const int first = feature.first.place.tet;
-    if (after.rest_vertices.rows() == feature.first_vertices && first < after.tets.rows() &&
-        homogeneousCorners(after, first) == feature.first_tet) {
-      static_cast<FeaturePlace&>(feature) = feature.first;
-      continue;
-    }
-    const Eigen::Matrix4d from = homogeneousCorners(before, feature.place.tet),
-                          to = homogeneousCorners(after, moved[f].tet);
-    if (from != to) feature.gradient = to.inverse() * from * feature.gradient;
-    feature.place = moved[f];
-  }
 }
 
 void FeatureMap::reset() {

@@ -83,10 +83,22 @@ class FeatureMap {
   /// should be.
   void eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const;
 
-  /// Binds keypoints on visible surface of pieces that show, and drops features that are hardly ever found
-  /// again. @param keypoints away from known features: see eraseTaken().
+  /// How many more features may be admitted in this view.
+  int room() const;
+
+  /// Of corners those that can be bound and lie where features are few.
+  /// @param ranked away from known features: see eraseTaken(); the best first. @param shown of each piece:
+  /// nothing is learned of others.
+  std::vector<cv::KeyPoint> choose(const RgbdFrame& frame, const std::vector<cv::KeyPoint>& ranked,
+                                   const PredictedSurface& surface, const std::vector<bool>& shown,
+                                   int wanted) const;
+
+  /// Binds keypoints on visible surface of pieces that show, as many as there is room for.
   void admit(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,
              const PredictedSurface& surface, const std::vector<bool>& shown);
+
+  /// Drops features that are hardly ever found again.
+  void retire();
 
   /// Takes the features to an edited body. Those on the wall of a cut stay on their side; where an edit
   /// brings back the body in which a feature was admitted, the feature's place is what it was then, bit by
@@ -111,7 +123,6 @@ class FeatureMap {
                                                 int radius_px) const;
   bool addMatch(const RgbdFrame& frame, const GrayPyramid& image, const Prediction& prediction,
                 const cv::Point2f& start, int radius_px, std::vector<FeatureMatch>* matches) const;
-  void retire();
 
   FeatureConfig config_;
   std::vector<MapFeature> features_;

@@ -22,6 +22,8 @@ constexpr double kPrecisePx = 1.5;        // across the ray, that no match disag
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
 constexpr double kSmallestShare = 0.01;   // unexplained by any image
 constexpr double kUnusual = 2.0;          // times the median unexplained share: half the weight
+constexpr double kDense = 2.5;       // matches for each vertex that shows, of which none weighs more, ...
+constexpr double kMostWeight = 4.0;  // ... and times its weight that no match weighs more where they are few
 
 double median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
@@ -188,6 +190,14 @@ void weighByAgreement(std::vector<FeatureMatch>* matches) {
     const double ratio = match.unexplained / (kUnusual * usual);
     match.association.weight /= 1.0 + ratio * ratio;
   }
+}
+
+void weighByDensity(int vertices, std::vector<FeatureMatch>* matches) {
+  const auto inliers = static_cast<double>(std::count_if(
+      matches->begin(), matches->end(), [](const FeatureMatch& match) { return match.inlier; }));
+  if (inliers == 0.0) return;
+  const double scale = std::clamp(kDense * vertices / inliers, 1.0, kMostWeight);
+  for (FeatureMatch& match : *matches) match.association.weight *= scale;
 }
 
 }  // namespace softbody

@@ -5,22 +5,23 @@
 #include <random>
 #include <utility>
 
-#include "descriptor_match.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
-constexpr int kTrials = 3000;          // most end at the first edge that has another length
-constexpr int kFits = 3;               // of the best, to those that agree
-constexpr double kShortestEdge = 4.0;  // tolerances, of the triangle that a trial fits
-constexpr std::size_t kFewestAgreeing = 15;
-constexpr double kDeformation = 0.03;      // of a piece's diameter, at which it still is recognised
-constexpr double kDepthPrecision = 0.002;  // [m]
+constexpr int kTrials = 3000;                // most end at the first edge that has another length
+constexpr int kFits = 3;                     // of the best, to those that agree
+constexpr double kShortestEdge = 4.0;        // tolerances, of the triangle that a trial fits
+constexpr std::size_t kFewestAgreeing = 15;  // and one in so many pairs: more agree by chance where
+constexpr std::size_t kPairsPerChance = 50;  // there are more
+constexpr double kDeformation = 0.03;        // of a piece's diameter, at which it still is recognised
+constexpr double kDepthPrecision = 0.002;    // [m]
 
-/// Of each keypoint the feature that looks most like it, of those that look clearly most like it; null where
-/// none does.
+/// Of each keypoint the feature that looks most like it, of those that look like no other keypoint more; null
+/// where there is none. That others look nearly as much alike is not asked: what is wrong agrees on no
+/// motion.
 std::vector<const MapFeature*> ownersOf(const std::vector<Keypoint>& keypoints,
                                         const std::vector<MapFeature>& features, int max_hamming_distance) {
   std::vector<const MapFeature*> owners(keypoints.size(), nullptr);
@@ -29,10 +30,12 @@ std::vector<const MapFeature*> ownersOf(const std::vector<Keypoint>& keypoints,
   for (const MapFeature& feature : features) {
     for (std::size_t k = 0; k < keypoints.size(); ++k)
       candidates[k] = {hammingDistance(feature.descriptor, keypoints[k].descriptor), static_cast<int>(k)};
-    const int k = clearlyNearest(candidates, keypoints, max_hamming_distance);
-    if (k < 0 || (owners[k] != nullptr && owner_distances[k] <= candidates[k].first)) continue;
+    const auto nearest = std::min_element(candidates.begin(), candidates.end());
+    if (nearest == candidates.end() || nearest->first > max_hamming_distance) continue;
+    const auto [distance, k] = *nearest;
+    if (owners[k] != nullptr && owner_distances[k] <= distance) continue;
     owners[k] = &feature;
-    owner_distances[k] = candidates[k].first;
+    owner_distances[k] = distance;
   }
   return owners;
 }
@@ -96,7 +99,8 @@ double recognitionTolerance(const Points& rest_vertices) {
 }
 
 std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& pairs, double tolerance_m) {
-  if (pairs.size() < kFewestAgreeing) return std::nullopt;
+  const std::size_t fewest = kFewestAgreeing + pairs.size() / kPairsPerChance;
+  if (pairs.size() < fewest) return std::nullopt;
   std::mt19937 random(1);
   std::uniform_int_distribution<std::size_t> pick(0, pairs.size() - 1);
   std::vector<const PointPair*> most;
@@ -106,9 +110,8 @@ std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& 
     std::vector<const PointPair*> others = agreeing(pairs, fit(triple), tolerance_m);
     if (others.size() > most.size()) most = std::move(others);
   }
-  for (int i = 0; i < kFits && most.size() >= kFewestAgreeing; ++i)
-    most = agreeing(pairs, fit(most), tolerance_m);
-  if (most.size() < kFewestAgreeing) return std::nullopt;
+  for (int i = 0; i < kFits && most.size() >= fewest; ++i) most = agreeing(pairs, fit(most), tolerance_m);
+  if (most.size() < fewest) return std::nullopt;
   return fit(most);
 }
 

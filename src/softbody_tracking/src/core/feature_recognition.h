@@ -15,7 +15,7 @@ struct PointPair {
   std::uint32_t body = 0;  ///< the piece that it lies on
 };
 
-/// The keypoints, wherever they are, that look clearly most like known features, one to one.
+/// The keypoints, wherever they are, that look most like known features, one to one; many of them are wrong.
 /// @param vertices of the surface's volume, as they are expected. @param max_hamming_distance between
 /// descriptors, of 256 bits.
 std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vector<MapFeature>& features,

@@ -40,7 +40,6 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
       surface_(volume, surface),
       depth_(config.depth, meanEdgeLength(volume.rest_vertices, volume.tets)),
       outline_(usedOutline(config), meanEdgeLength(volume.rest_vertices, volume.tets)),
-      orb_(config.features.max_features),
       map_(config.features) {}
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
@@ -66,8 +65,8 @@ void FrameObserver::reset() {
 std::vector<PointPair> FrameObserver::recognizeFeatures(const RgbdFrame& frame, const Points& vertices) {
   const cv::Rect image(cv::Point(), frame.color.size());
   return recognizedFeatures(frame, map_.features(),
-                            orb_.extractStrongest(frame.color, colors_.mask(frame.color, image), image),
-                            surface_, vertices, config_.features.max_hamming_distance);
+                            orb_.extract(frame.color, colors_.mask(frame.color, image), image), surface_,
+                            vertices, config_.features.max_hamming_distance);
 }
 
 std::optional<Eigen::Isometry3d> FrameObserver::recognize(const RgbdFrame& frame) {
@@ -197,6 +196,7 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   const std::vector<bool> gone = gonePieces(seen->matches);
   if (any(gone)) lookWhereRecognized(frame, gone, seen);
   weighByAgreement(&seen->matches);
+  weighByDensity(shownVertices(samples_, surface_.volume()), &seen->matches);
 }
 
 FrameObserver::FeatureCount FrameObserver::countOn(std::size_t piece,
@@ -267,21 +267,7 @@ void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, const std::vecto
 /// Wherever the body may be.
 std::vector<Keypoint> FrameObserver::extract(const RgbdFrame& frame) {
   const cv::Rect region = searchRegion(frame.color.size());
-  return orb_.extractStrongest(frame.color, colors_.mask(frame.color, region), region);
-}
-
-/// The first features at once; later only in gaps between the known ones, tile by tile, so that no frame
-/// takes much longer than others.
-std::vector<Keypoint> FrameObserver::extractNew(const RgbdFrame& frame,
-                                                const std::vector<FeatureMatch>& matches) {
-  const bool first = map_.features().empty();
-  const cv::Rect region = first ? surface_.image().region : nextTile();
-  const cv::Mat1b mask = colors_.mask(frame.color, region);
-  if (first) return orb_.extract(frame.color, mask, region);
-  cv::Mat1b taken = mask.clone();
-  map_.eraseTaken(matches, &taken);
-  const int most = config_.features.max_features, known = static_cast<int>(map_.features().size());
-  return orb_.extractNew(frame.color, mask, taken, region, std::min(cvCeil(kTileShare * most), most - known));
+  return orb_.extract(frame.color, colors_.mask(frame.color, region), region);
 }
 
 std::vector<bool> Observation::atLeast(Shows least) const {
@@ -313,10 +299,6 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   look(frame, vertices);
   if (!colors_.learned()) learnColors(frame);
   followFeatures(frame, &seen);
-  if (--frames_to_admission_ < 0) {
-    frames_to_admission_ = kFramesBetweenTiles - 1;
-    seen.keypoints = extractNew(frame, seen.matches);
-  }
   const RigidMotions motions = alignRigidly(frame, seen.matches);
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
   seen.outline = outline_.associate(frame, surface_.image(), motions, colors_);
@@ -330,8 +312,27 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   return seen;
 }
 
+/// The first features at once; later only in gaps between the known ones, tile by tile, so that no frame
+/// takes much longer than others.
+void FrameObserver::admitNew(const RgbdFrame& frame, const Observation& seen) {
+  const bool first = map_.features().empty();
+  const int most = first ? FeatureMap::kAll : cvCeil(kTileShare * config_.features.max_features);
+  const int wanted = std::min(most, map_.room());
+  if (wanted <= 0) return;
+  const cv::Rect region = first ? surface_.image().region : nextTile();
+  cv::Mat1b free = colors_.mask(frame.color, region);
+  map_.eraseTaken(seen.matches, &free);
+  const std::vector<cv::KeyPoint> corners =
+      map_.choose(frame, orb_.detect(frame.color, free, region), surface_, seen.learnable, wanted);
+  map_.admit(frame, pyramid_, orb_.describe(frame.color, region, corners), surface_, seen.learnable);
+}
+
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
-  map_.admit(frame, pyramid_, seen.keypoints, surface_, seen.learnable);
+  if (--frames_to_admission_ < 0) {
+    frames_to_admission_ = kFramesBetweenTiles - 1;
+    admitNew(frame, seen);
+  }
+  map_.retire();
 }
 
 }  // namespace softbody

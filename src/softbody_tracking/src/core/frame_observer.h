@@ -20,7 +20,6 @@ namespace softbody {
 
 /// What a frame's images give against a prediction.
 struct Observation {
-  std::vector<Keypoint> keypoints;  ///< without a feature; empty in most frames
   std::vector<FeatureMatch> matches;
   int expected_features = 0;        ///< on pieces that do not hardly show,
   int matched_features = 0;         ///< and matches of them, outliers too
@@ -48,7 +47,7 @@ class FrameObserver {
   /// rigidly to what was observed.
   Observation observe(const RgbdFrame& frame, const Points& vertices);
 
-  /// Binds new features where the observation has keypoints on surface without any.
+  /// Binds new features on surface with few, and drops those that are hardly ever found again.
   void admit(const RgbdFrame& frame, const Observation& seen);
 
   /// Where the undeformed body is by the features that are recognised anywhere in the frame.
@@ -89,7 +88,7 @@ class FrameObserver {
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
   void keepShownPieces(Observation* seen) const;
-  std::vector<Keypoint> extractNew(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches);
+  void admitNew(const RgbdFrame& frame, const Observation& seen);
 
   TrackerConfig config_;
   PredictedSurface surface_;

@@ -19,32 +19,23 @@ struct Keypoint {
   Descriptor descriptor{};
 };
 
-/// ORB keypoints with descriptors inside a mask.
+/// ORB keypoints in a region of an image.
 class OrbExtractor {
  public:
-  explicit OrbExtractor(int max_features);
+  OrbExtractor();
 
-  /// So many as are wanted: the strongest ones, spread over the mask.
-  /// @param region only this part of the image is looked at. @param mask size of the image, 0: nowhere.
+  /// The strongest of every scale first: responses of different scales do not compare.
+  /// @param mask size of the image, 0: nothing is looked for.
+  std::vector<cv::KeyPoint> detect(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
+
+  /// With descriptors. @param corners some of those that detect() found in the region.
+  std::vector<Keypoint> describe(const cv::Mat3b& color, const cv::Rect& region,
+                                 std::vector<cv::KeyPoint> corners);
+
+  /// All with descriptors.
   std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
-  /// The same of those that are new. @param taken like the mask, 0: known already.
-  /// @param wanted so many at most.
-  std::vector<Keypoint> extractNew(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Mat1b& taken,
-                                   const cv::Rect& region, int wanted);
-
-  /// The strongest ones, in which known features are found again wherever these lie.
-  std::vector<Keypoint> extractStrongest(const cv::Mat3b& color, const cv::Mat1b& mask,
-                                         const cv::Rect& region);
-
  private:
-  std::vector<cv::KeyPoint> detect(const cv::Mat1b& gray, const cv::Mat1b& mask, int most);
-  /// @param find keypoints in the region with its border, and that region -> keypoints.
-  template <typename Find>
-  std::vector<Keypoint> describe(const cv::Mat3b& color, const cv::Rect& region, int wanted,
-                                 const Find& find);
-
-  int max_features_;
   cv::Ptr<cv::ORB> orb_;
 };
 

@@ -39,4 +39,12 @@ SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, Surfac
   return result;
 }
 
+int shownVertices(const SurfaceSamples& samples, const TetTopology& volume) {
+  std::vector<bool> shown(static_cast<std::size_t>(volume.rest_vertices.rows()));
+  for (const SurfaceSample& sample : samples.samples) {
+    for (int k = 0; k < 4; ++k) shown[volume.tets(sample.place.tet, k)] = true;
+  }
+  return static_cast<int>(std::count(shown.begin(), shown.end(), true));
+}
+
 }  // namespace softbody

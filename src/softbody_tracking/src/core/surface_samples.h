@@ -25,4 +25,7 @@ struct SurfaceSamples {
 /// About as many samples as wanted. @param memory what an earlier call gave, for its memory.
 SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, SurfaceSamples memory = {});
 
+/// How many of the volume's vertices have a sample in one of their tets.
+int shownVertices(const SurfaceSamples& samples, const TetTopology& volume);
+
 }  // namespace softbody

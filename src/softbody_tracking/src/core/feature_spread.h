@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace softbody {
+
+/// Of ranked places those that lie spread: every one further than some distance from what is known and from
+/// those before it that are taken, the largest distance at which as many are taken as are wanted (after Bailo
+/// et al. 2018, suppression via square covering).
+/// @param ranked 3 by #candidates [m], the best first. @param known 3 by #known [m].
+/// @return indices of candidates, ascending; all where no more are there than wanted.
+std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted);
+
+/// The same with most of them among the strongest: the weak, which are found again less surely, fill the gaps
+/// that those leave.
+/// @return indices of candidates, the strong ones first.
+std::vector<int> spreadStrong(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted);
+
+}  // namespace softbody
