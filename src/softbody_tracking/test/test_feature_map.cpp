@@ -11,6 +11,7 @@ namespace softbody {
 namespace {
 
 constexpr double kReach = 0.04;  // [m]
+constexpr double kGap = 0.005;   // [m]
 
 /// A map bound to the box in its first pose.
 class FeatureMapTest : public ::testing::Test {
@@ -37,7 +38,8 @@ class FeatureMapTest : public ::testing::Test {
   std::vector<Keypoint> chosen(const FeatureMap& map, const cv::Mat1b& free) {
     const cv::Rect& region = surface_.image().region;
     const std::vector<cv::KeyPoint> corners = orb_.detect(frame_.color, free, region);
-    return orb_.describe(frame_.color, region, map.choose(frame_, corners, surface_, {true}, map.room()));
+    return orb_.describe(frame_.color, region,
+                         map.choose(frame_, corners, surface_, {true}, map.room(), kGap));
   }
   std::vector<Keypoint> chosen(const FeatureMap& map) {
     return chosen(map, cv::Mat1b(frame_.color.size(), 255));
@@ -261,12 +263,12 @@ TEST_F(FeatureMapTest, ChoosesCornersOnTheBodyWhereFeaturesAreFew) {
   std::copy_if(corners.begin(), corners.end(), std::back_inserter(left), is_left);
   half.admit(frame_, image_, orb_.describe(frame_.color, region, left), surface_, {true});
   half.predict(frame_, colors_, kReach, surface_);
-  const std::vector<cv::KeyPoint> chosen = half.choose(frame_, corners, surface_, {true}, 50);
+  const std::vector<cv::KeyPoint> chosen = half.choose(frame_, corners, surface_, {true}, 50, kGap);
   ASSERT_EQ(chosen.size(), 50u);
   EXPECT_LT(std::count_if(chosen.begin(), chosen.end(), is_left), 5);
   for (const cv::KeyPoint& corner : chosen)
     EXPECT_GT(surface_.image().depth(cv::Point(cvRound(corner.pt.x), cvRound(corner.pt.y))), 0.0f);
-  EXPECT_TRUE(half.choose(frame_, corners, surface_, {false}, 50).empty());
+  EXPECT_TRUE(half.choose(frame_, corners, surface_, {false}, 50, kGap).empty());
 }
 
 TEST(FeatureDepth, AveragesSurfacesAndRefusesEdgesAndHoles) {

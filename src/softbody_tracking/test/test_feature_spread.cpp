@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -63,7 +64,7 @@ TEST_P(FeatureSpread, TakesAsManyAsAreWantedAndAllWhereNoMoreAreThere) {
 TEST_P(FeatureSpread, TheWeakFillTheGapsThatTheStrongLeave) {
   const Eigen::Matrix3Xf places = plate(4000);
   for (const int wanted : {50, 1000}) {
-    const std::vector<int> taken = spreadStrong(places, {}, wanted);
+    const std::vector<int> taken = spreadStrong(places, {}, wanted, 0.0);
     ASSERT_EQ(taken.size(), static_cast<std::size_t>(wanted));
     std::set<int> different(taken.begin(), taken.end());
     EXPECT_EQ(different.size(), taken.size());
@@ -82,9 +83,25 @@ TEST_P(FeatureSpread, TheWeakFillTheGapsThatTheStrongLeave) {
       }
     }
   }
-  EXPECT_EQ(spreadStrong(places, {}, 1).size(), 1u);
-  EXPECT_TRUE(spreadStrong(places, {}, 0).empty());
-  EXPECT_EQ(spreadStrong(places.leftCols(30), places.rightCols(7), 100).size(), 30u);
+  EXPECT_EQ(spreadStrong(places, {}, 1, 0.0).size(), 1u);
+  EXPECT_TRUE(spreadStrong(places, {}, 0, 0.0).empty());
+  EXPECT_EQ(spreadStrong(places.leftCols(30), places.rightCols(7), 100, 0.0).size(), 30u);
+}
+
+TEST_P(FeatureSpread, TheWeakAreTakenInGapsOnly) {
+  const Eigen::Matrix3Xf places = plate(4000), known = plate(200);
+  const double gap = 0.02;
+  const std::vector<int> taken = spreadStrong(places, known, 1000, gap);
+  ASSERT_GT(taken.size(), 700u);
+  const std::vector<int> strong(taken.begin(), taken.begin() + 700);
+  std::vector<int> all_known(200);
+  std::iota(all_known.begin(), all_known.end(), 0);
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    EXPECT_GT(nearest(known, all_known, places.col(taken[i])), gap) << i;
+    if (i < strong.size()) continue;
+    EXPECT_GT(nearest(places, strong, places.col(taken[i])), gap) << i;
+  }
+  EXPECT_TRUE(spreadStrong(places, known, 1000, 2.0).empty()) << "nowhere is so large a gap";
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FeatureSpread, testing::Range(1u, 6u));

@@ -7,6 +7,7 @@
 namespace softbody {
 namespace {
 
+constexpr std::size_t kEnoughForMedian = 500;  // of more every second, third, ...
 constexpr double kSmallestScale = 0.003;  // [m], of the Cauchy weights: below the noise nothing is an outlier
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -79,8 +80,10 @@ double rmsResidual(const std::vector<Association>& associations) {
 double medianResidual(const AssociationRefs& associations) {
   if (associations.empty()) return 0.0;
   std::vector<double> residuals;
-  residuals.reserve(associations.size());
-  for (const Association* a : associations) residuals.push_back(std::abs(a->residual()));
+  const std::size_t step = 1 + associations.size() / kEnoughForMedian;
+  residuals.reserve(associations.size() / step + 1);
+  for (std::size_t i = 0; i < associations.size(); i += step)
+    residuals.push_back(std::abs(associations[i]->residual()));
   const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
   std::nth_element(residuals.begin(), middle, residuals.end());
   return *middle;

@@ -80,7 +80,7 @@ int FeatureMap::room() const {
 
 std::vector<cv::KeyPoint> FeatureMap::choose(const RgbdFrame& frame, const std::vector<cv::KeyPoint>& ranked,
                                              const PredictedSurface& surface, const std::vector<bool>& shown,
-                                             int wanted) const {
+                                             int wanted, double gap_m) const {
   std::vector<cv::KeyPoint> corners;
   std::vector<MaterialPoint> places, known;
   for (const cv::KeyPoint& corner : ranked) {
@@ -93,7 +93,8 @@ std::vector<cv::KeyPoint> FeatureMap::choose(const RgbdFrame& frame, const std::
   std::vector<cv::KeyPoint> chosen;
   const TetTopology& volume = surface.volume();
   const Eigen::Matrix3Xf there = restPositions(places, volume);
-  for (const int i : spreadStrong(there, restPositions(known, volume), wanted)) chosen.push_back(corners[i]);
+  for (const int i : spreadStrong(there, restPositions(known, volume), wanted, gap_m))
+    chosen.push_back(corners[i]);
   return chosen;
 }
 

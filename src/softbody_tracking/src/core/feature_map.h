@@ -86,12 +86,12 @@ class FeatureMap {
   /// How many more features may be admitted in this view.
   int room() const;
 
-  /// Of corners those that can be bound and lie where features are few.
+  /// Of corners those that can be bound, most of them among the strongest, the others where features are few.
   /// @param ranked away from known features: see eraseTaken(); the best first. @param shown of each piece:
-  /// nothing is learned of others.
+  /// nothing is learned of others. @param gap_m see spreadStrong().
   std::vector<cv::KeyPoint> choose(const RgbdFrame& frame, const std::vector<cv::KeyPoint>& ranked,
                                    const PredictedSurface& surface, const std::vector<bool>& shown,
-                                   int wanted) const;
+                                   int wanted, double gap_m) const;
 
   /// Binds keypoints on visible surface of pieces that show, as many as there is room for.
   void admit(const RgbdFrame& frame, const GrayPyramid& image, const std::vector<Keypoint>& keypoints,

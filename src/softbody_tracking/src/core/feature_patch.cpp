@@ -10,7 +10,7 @@ namespace {
 constexpr int kIterations = 8;
 constexpr int kHopelessAfter = 3;    // iterations; what is found after all looks alike by then
 constexpr float kHopeless = 0.4f;    // correlation
-constexpr float kConverged = 0.03f;  // [px of the level], of the last step, which is more than what remains
+constexpr float kConverged = 0.06f;  // [px of the level], of the last step, which is more than what remains
 constexpr float kSmallestSpread = 4.0f;     // grey values: standard deviation below which there is only noise
 constexpr float kWeakestDirection = 0.02f;  // eigenvalue of the Hessian of a patch of norm 1 [1/px^2]
 

@@ -31,6 +31,16 @@ std::vector<int> apart(const Eigen::Matrix3Xf& ranked, const std::vector<float>&
   return result;
 }
 
+/// Those further than that from all others.
+std::vector<int> inGaps(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& others, double gap_m) {
+  const auto least = static_cast<float>(gap_m * gap_m);
+  std::vector<int> result;
+  for (int i = 0; i < ranked.cols(); ++i) {
+    if (squaredDistance(others, ranked.col(i)) > least) result.push_back(i);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted) {
@@ -52,18 +62,21 @@ std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3X
   return best;
 }
 
-std::vector<int> spreadStrong(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted) {
-  const Eigen::Index strong = std::min<Eigen::Index>(ranked.cols(), std::max(kFewestStrong, wanted));
-  std::vector<int> result =
-      spreadOut(ranked.leftCols(strong), known, wanted - std::min(wanted / 2, kMostWeak));
-  std::vector<int> others;
-  for (int i = 0; i < ranked.cols(); ++i) {
-    if (!std::binary_search(result.begin(), result.end(), i)) others.push_back(i);
-  }
-  Eigen::Matrix3Xf all_known(3, known.cols() + static_cast<Eigen::Index>(result.size()));
-  all_known << known, ranked(Eigen::all, result);
+std::vector<int> spreadStrong(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted,
+                              double gap_m) {
+  const std::vector<int> candidates = inGaps(ranked, known, gap_m);
+  const auto strong = std::min(candidates.size(), static_cast<std::size_t>(std::max(kFewestStrong, wanted)));
+  const std::vector<int> strongest(candidates.begin(),
+                                   candidates.begin() + static_cast<std::ptrdiff_t>(strong));
+  std::vector<int> result;
+  for (const int i :
+       spreadOut(ranked(Eigen::all, strongest), known, wanted - std::min(wanted / 2, kMostWeak)))
+    result.push_back(strongest[i]);
+  Eigen::Matrix3Xf others(3, known.cols() + static_cast<Eigen::Index>(result.size()));
+  others << known, ranked(Eigen::all, result);
+  const std::vector<int> weak = inGaps(ranked, others, gap_m);
   const int left = wanted - static_cast<int>(result.size());
-  for (const int i : spreadOut(ranked(Eigen::all, others), all_known, left)) result.push_back(others[i]);
+  for (const int i : spreadOut(ranked(Eigen::all, weak), others, left)) result.push_back(weak[i]);
   return result;
 }
 

@@ -14,7 +14,9 @@ std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3X
 
 /// The same with most of them among the strongest: the weak, which are found again less surely, fill the gaps
 /// that those leave.
+/// @param gap_m none is taken nearer to a known one than this, nor a weak one nearer to a strong one.
 /// @return indices of candidates, the strong ones first.
-std::vector<int> spreadStrong(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted);
+std::vector<int> spreadStrong(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted,
+                              double gap_m);
 
 }  // namespace softbody

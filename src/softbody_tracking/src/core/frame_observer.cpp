@@ -17,9 +17,11 @@ constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer,
 constexpr int kFramesBetweenSearches = 10;  // for a piece that is held
 constexpr int kTiles = 4;                   // of the predicted surface
 constexpr double kTileShare = 0.7;          // of the most features: a tile may have more texture than others
-constexpr int kFramesBetweenTiles = 3;      // in which new features are looked for
-constexpr int kScouts = 48;                 // features that say whether the prediction is far off
-constexpr double kFarOff = 4.0;             // [px] that full resolution hardly aligns
+constexpr int kFramesBetweenTiles = 3;  // in which new features are looked for, and so many times that ...
+constexpr int kSlowTiles = 3;           // ... where all of them were looked through in vain
+constexpr double kGap = 0.35;           // of the volume's edges, between features
+constexpr int kScouts = 48;             // features that say whether the prediction is far off
+constexpr double kFarOff = 4.0;         // [px] that full resolution hardly aligns
 
 bool any(const std::vector<bool>& pieces) {
   return std::find(pieces.begin(), pieces.end(), true) != pieces.end();
@@ -37,17 +39,18 @@ OutlineConfig usedOutline(const TrackerConfig& config) {
 FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& volume,
                              const MeshTopology& surface)
     : config_(config),
+      volume_edge_m_(meanEdgeLength(volume.rest_vertices, volume.tets)),
       surface_(volume, surface),
-      depth_(config.depth, meanEdgeLength(volume.rest_vertices, volume.tets)),
-      outline_(usedOutline(config), meanEdgeLength(volume.rest_vertices, volume.tets)),
+      depth_(config.depth, volume_edge_m_),
+      outline_(usedOutline(config), volume_edge_m_),
       map_(config.features) {}
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   map_.rebind(surface_.volume(), volume);
   surface_ = PredictedSurface(volume, surface);
-  const double volume_edge_m = meanEdgeLength(volume.rest_vertices, volume.tets);
-  depth_ = DepthAssociator(config_.depth, volume_edge_m);
-  outline_ = OutlineAssociator(usedOutline(config_), volume_edge_m);
+  volume_edge_m_ = meanEdgeLength(volume.rest_vertices, volume.tets);
+  depth_ = DepthAssociator(config_.depth, volume_edge_m_);
+  outline_ = OutlineAssociator(usedOutline(config_), volume_edge_m_);
   shown_before_.clear();
   searches_.clear();
 }
@@ -58,7 +61,7 @@ void FrameObserver::reset() {
   shown_before_.clear();
   searches_.clear();
   wide_search_.reset();
-  frames_to_admission_ = frames_to_search_ = 0;
+  frames_to_admission_ = frames_to_search_ = tiles_in_vain_ = 0;
 }
 
 /// Features recognised anywhere in the frame. @param vertices of the volume as they are expected.
@@ -322,15 +325,17 @@ void FrameObserver::admitNew(const RgbdFrame& frame, const Observation& seen) {
   const cv::Rect region = first ? surface_.image().region : nextTile();
   cv::Mat1b free = colors_.mask(frame.color, region);
   map_.eraseTaken(seen.matches, &free);
-  const std::vector<cv::KeyPoint> corners =
-      map_.choose(frame, orb_.detect(frame.color, free, region), surface_, seen.learnable, wanted);
+  const std::vector<cv::KeyPoint> corners = map_.choose(
+      frame, orb_.detect(frame.color, free, region), surface_, seen.learnable, wanted, kGap * volume_edge_m_);
   map_.admit(frame, pyramid_, orb_.describe(frame.color, region, corners), surface_, seen.learnable);
 }
 
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
   if (--frames_to_admission_ < 0) {
-    frames_to_admission_ = kFramesBetweenTiles - 1;
+    const std::size_t known = map_.features().size();
     admitNew(frame, seen);
+    tiles_in_vain_ = map_.features().size() > known ? 0 : tiles_in_vain_ + 1;
+    frames_to_admission_ = kFramesBetweenTiles * (tiles_in_vain_ < kTiles ? 1 : kSlowTiles) - 1;
   }
   map_.retire();
 }

@@ -91,6 +91,7 @@ class FrameObserver {
   void admitNew(const RgbdFrame& frame, const Observation& seen);
 
   TrackerConfig config_;
+  double volume_edge_m_ = 0.0;  ///< mean length of the volume's edges
   PredictedSurface surface_;
   DepthAssociator depth_;
   OutlineAssociator outline_;
@@ -103,6 +104,7 @@ class FrameObserver {
   std::vector<bool>
       shown_before_;  ///< of each piece, whether the last frame did not hardly show it; none: all
   int frames_to_admission_ = 0;
+  int tiles_in_vain_ = 0;     ///< looked through since the last new feature
   int frames_to_search_ = 0;  ///< for pieces that are held
   SearchPace wide_search_;
   std::vector<SearchPace> searches_;  ///< for each that is followed
