@@ -5,6 +5,7 @@
 
 #include "core/feature_match.h"
 #include "core/rigid_alignment.h"
+#include "softbody_common/target_limits.h"
 
 namespace softbody {
 namespace {
@@ -190,6 +191,14 @@ TEST(FeatureMatchWeights, GrowWhereMatchesAreFewForTheVerticesThatShow) {
   EXPECT_EQ(weightAmong(0, 10), 1.0) << "nothing shows";
   std::vector<FeatureMatch> none;
   EXPECT_NO_THROW(weighByDensity(100, &none));
+}
+
+TEST(FeatureMatchWeights, StayBelowWhatSimulatorsTake) {
+  std::vector<FeatureMatch> matches(3);
+  for (FeatureMatch& match : matches) match.association.weight = kLargestTargetWeight;
+  matches[0].association.weight = 0.4 * kLargestTargetWeight;
+  weighByDensity(1000, &matches);
+  for (const FeatureMatch& match : matches) EXPECT_EQ(match.association.weight, kLargestTargetWeight);
 }
 
 TEST(FeatureMatchWeights, AreWholeWherePatchesFitExactly) {

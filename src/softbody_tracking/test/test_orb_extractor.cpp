@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <opencv2/imgproc.hpp>
 
@@ -57,7 +58,20 @@ TEST_P(OrbCorners, OfEveryScaleTheStrongestComeFirst) {
   for (const auto& [octave, count] : all) EXPECT_NEAR(early[octave], 0.5 * count, 1.5) << octave;
 }
 
-/// Where a corner is described does not depend on the others that are.
+/// Weak spots on the left half, strong ones on the right.
+TEST_P(OrbCorners, TheStrongComeBeforeTheWeak) {
+  const cv::Mat3b spots = spottedImage(GetParam());
+  cv::Mat3b image = spots.clone();
+  const cv::Rect left(0, 0, image.cols / 2, image.rows);
+  image(left) = 0.25 * spots(left) + cv::Scalar::all(45);
+  const std::vector<cv::KeyPoint> corners = OrbExtractor().detect(image, bodyMask(image.size()), kBody);
+  const auto weak = [&](const cv::KeyPoint& corner) { return corner.pt.x < left.width - 10; };
+  const auto quarter = static_cast<std::ptrdiff_t>(corners.size() / 4);
+  EXPECT_GT(std::count_if(corners.begin(), corners.end(), weak), quarter);
+  EXPECT_EQ(std::count_if(corners.begin(), corners.begin() + quarter, weak), 0);
+}
+
+/// How a corner is described does not depend on the others that are.
 TEST_P(OrbCorners, AreDescribedAlikeAloneAndTogether) {
   const cv::Mat3b image = spottedImage(GetParam());
   OrbExtractor orb;

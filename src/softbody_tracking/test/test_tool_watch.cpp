@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <map>
+#include <optional>
+#include <string>
+
 #include "softbody_tracking/tool_watch.h"
 
 namespace softbody {
@@ -64,6 +68,16 @@ TEST(ToolWatch, SaysNothingOfShortAbsences) {
     EXPECT_TRUE(session.watch(40, std::nullopt, kNone).empty());
     EXPECT_TRUE(session.watch(1, ToolObservation(), "").empty());
   }
+}
+
+/// As where the camera stops for a while.
+TEST(ToolWatch, TellsOnceOfALongGapBetweenFrames) {
+  constexpr Nanoseconds kSecond = 1'000'000'000;
+  ToolWatch watch;
+  watch.heed(kSecond, std::nullopt, kNone);
+  EXPECT_TRUE(watch.heed(101 * kSecond, std::nullopt, kNone));
+  EXPECT_FALSE(watch.heed(102 * kSecond, std::nullopt, kNone));
+  EXPECT_TRUE(watch.heed(161 * kSecond, std::nullopt, kNone));
 }
 
 TEST(ToolWatch, StartsAnewWithABagThatLoops) {

@@ -19,7 +19,7 @@ struct FeatureConfig {
   int max_hamming_distance = 64;  ///< of 256 bits
   double max_disagreement_m =
       0.006;            ///< residual against the neighbours' median residual; more is an outlier
-  double weight = 0.5;  ///< of a feature target, at most
+  double weight = 0.5;  ///< of a feature target, at most; up to four times that where features are few
 };
 
 /// Depth pixels as targets on the visible surface.

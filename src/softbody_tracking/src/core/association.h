@@ -47,7 +47,7 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
 /// Root mean square of the residuals [m]; 0 for none.
 double rmsResidual(const std::vector<Association>& associations);
 
-/// Median of the absolute residuals [m], of more than some 500 of every second, third, ...; 0 for none.
+/// Median of the absolute residuals [m]; 0 for none. Of 500 or more every second, third, ... counts.
 double medianResidual(const AssociationRefs& associations);
 
 }  // namespace softbody

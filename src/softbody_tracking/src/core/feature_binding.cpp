@@ -14,7 +14,7 @@ namespace {
 constexpr int kFreeRadiusPx = 7;         // around a known feature no other is admitted
 constexpr double kBindTolerance = 0.01;  // [m], surface and depth must agree where a feature is bound
 constexpr double kMostGrazing = 0.35;    // cosine of normal and ray where a feature is bound
-constexpr int kMostHidden = 4;           // times those in view are kept
+constexpr int kMostKnown = 4;            // times max_features, with those that are out of view
 constexpr int kTrialFrames = 20;
 constexpr double kWorstHitRate = 0.2;
 
@@ -75,7 +75,7 @@ void FeatureMap::eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b*
 
 int FeatureMap::room() const {
   const int known = static_cast<int>(features_.size());
-  return std::max(0, std::min(config_.max_features - expected(), kMostHidden * config_.max_features - known));
+  return std::max(0, std::min(config_.max_features - expected(), kMostKnown * config_.max_features - known));
 }
 
 std::vector<cv::KeyPoint> FeatureMap::choose(const RgbdFrame& frame, const std::vector<cv::KeyPoint>& ranked,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pixel_grid.h"
+#include "softbody_common/target_limits.h"
 
 namespace softbody {
 namespace {
@@ -197,7 +198,8 @@ void weighByDensity(int vertices, std::vector<FeatureMatch>* matches) {
       matches->begin(), matches->end(), [](const FeatureMatch& match) { return match.inlier; }));
   if (inliers == 0.0) return;
   const double scale = std::clamp(kDense * vertices / inliers, 1.0, kMostWeight);
-  for (FeatureMatch& match : *matches) match.association.weight *= scale;
+  for (FeatureMatch& match : *matches)
+    match.association.weight = std::min(scale * match.association.weight, kLargestTargetWeight);
 }
 
 }  // namespace softbody

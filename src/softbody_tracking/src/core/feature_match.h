@@ -30,7 +30,8 @@ void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<
 /// noise and blur are the same for all, but a patch half of which is covered is found beside its place.
 void weighByAgreement(std::vector<FeatureMatch>* matches);
 
-/// Weighs matches the more the fewer there are: one says alone where much of the body is.
+/// Weighs matches the more the fewer inliers there are, each then says alone where much of the body is; none
+/// beyond kLargestTargetWeight.
 /// @param vertices of the volume that show: see shownVertices().
 void weighByDensity(int vertices, std::vector<FeatureMatch>* matches);
 

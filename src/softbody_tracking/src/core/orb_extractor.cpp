@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
@@ -85,7 +84,6 @@ std::vector<Keypoint> OrbExtractor::describe(const cv::Mat3b& color, const cv::R
   std::vector<Keypoint> keypoints(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     keypoints[i].pixel = corners[i].pt;
-    keypoints[i].octave = corners[i].octave;
     std::memcpy(keypoints[i].descriptor.data(), descriptors.ptr(static_cast<int>(i)), sizeof(Descriptor));
   }
   return keypoints;

@@ -15,7 +15,6 @@ int hammingDistance(const Descriptor& a, const Descriptor& b);
 
 struct Keypoint {
   cv::Point2f pixel;
-  int octave = 0;
   Descriptor descriptor{};
 };
 
@@ -28,11 +27,12 @@ class OrbExtractor {
   /// @param mask size of the image, 0: nothing is looked for.
   std::vector<cv::KeyPoint> detect(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
-  /// With descriptors. @param corners some of those that detect() found in the region.
+  /// With descriptors, those of the finest scale first. @param corners some of those that detect() found in
+  /// the region.
   std::vector<Keypoint> describe(const cv::Mat3b& color, const cv::Rect& region,
                                  std::vector<cv::KeyPoint> corners);
 
-  /// All with descriptors.
+  /// All of detect() with descriptors.
   std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
  private:

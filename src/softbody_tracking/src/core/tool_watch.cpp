@@ -28,7 +28,7 @@ std::optional<std::string> ToolWatch::heed(Nanoseconds stamp,
   ++on_end_[reason];
   const double missing_s = 1e-9 * static_cast<double>(stamp - *since_);
   if (missing_s < next_s_) return std::nullopt;
-  next_s_ *= 2.0;
+  while (next_s_ <= missing_s) next_s_ *= 2.0;
   return fmt::format("the tool has not been seen {} {:.1f} s, nor cut anything: {}",
                      ever_seen_ ? "for" : "once in", missing_s, text(on_end_));
 }
