@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bitset>
 #include <random>
 #include <set>
 
@@ -300,6 +301,11 @@ TEST(HammingDistance, CountsDifferingBits) {
     b[trial % 4] ^= (1ULL << (trial % 64)) | (1ULL << ((trial + 1) % 64));
     EXPECT_EQ(hammingDistance(a, b), 2);
     EXPECT_EQ(hammingDistance(b, a), 2);
+    const Descriptor c{random(), random(), random(), random()}, none{};
+    int bits = 0;
+    for (int k = 0; k < 4; ++k) bits += static_cast<int>(std::bitset<64>(a[k] ^ c[k]).count());
+    EXPECT_EQ(hammingDistance(a, c), bits);
+    EXPECT_EQ(hammingDistance(none, {~0ull, ~0ull, ~0ull, ~0ull}), 256);
   }
 }
 

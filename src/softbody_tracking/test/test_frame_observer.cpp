@@ -22,7 +22,7 @@ class TurnedBox : public ::testing::Test {
   Observation show(const Eigen::Isometry3d& pose) {
     const Points vertices = transformed(box_.volume.rest_vertices, pose);
     const RgbdFrame frame = renderFrame(box_, vertices, 1);
-    const Observation seen = observer_->observe(frame, vertices);
+    Observation seen = observer_->observe(frame, vertices);
     observer_->admit(frame, seen);
     return seen;
   }

@@ -27,16 +27,19 @@ std::vector<const MapFeature*> ownersOf(const std::vector<Keypoint>& keypoints,
                                         const std::vector<MapFeature>& features, int max_hamming_distance) {
   std::vector<const MapFeature*> owners(keypoints.size(), nullptr);
   std::vector<int> owner_distances(keypoints.size());
-  std::vector<std::pair<int, int>> candidates(keypoints.size());
   for (const MapFeature& feature : features) {
-    for (std::size_t k = 0; k < keypoints.size(); ++k)
-      candidates[k] = {hammingDistance(feature.descriptor, keypoints[k].descriptor), static_cast<int>(k)};
-    const auto nearest = std::min_element(candidates.begin(), candidates.end());
-    if (nearest == candidates.end() || nearest->first > max_hamming_distance) continue;
-    const auto [distance, k] = *nearest;
-    if (owners[k] != nullptr && owner_distances[k] <= distance) continue;
-    owners[k] = &feature;
-    owner_distances[k] = distance;
+    std::size_t nearest = 0;
+    int least = max_hamming_distance + 1;
+    for (std::size_t k = 0; k < keypoints.size(); ++k) {
+      const int distance = hammingDistance(feature.descriptor, keypoints[k].descriptor);
+      if (distance >= least) continue;
+      nearest = k;
+      least = distance;
+    }
+    if (least > max_hamming_distance) continue;
+    if (owners[nearest] != nullptr && owner_distances[nearest] <= least) continue;
+    owners[nearest] = &feature;
+    owner_distances[nearest] = least;
   }
   return owners;
 }
