@@ -128,6 +128,7 @@ std::vector<Association> BodyTracker::Implementation::all(const Observation& see
     return knn.associations(observer->map().features(), seen.matches, observer->surface(), R_camera_fixed);
   std::vector<Association> associations = inliers(seen.matches);
   if (config.use_depth) {
+    associations.reserve(associations.size() + seen.depth.associations.size() + seen.outline.size());
     associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
     associations.insert(associations.end(), seen.outline.begin(), seen.outline.end());
   }
