@@ -57,6 +57,15 @@ class BoxOfFewFeatures : public TurnedBox {
   BoxOfFewFeatures() : TurnedBox(40) {}
 };
 
+/// As many as are wanted, so nothing was looked through in vain.
+TEST_F(BoxOfFewFeatures, GetsFeaturesOfANewSideAtOnce) {
+  for (int i = 0; i < 60; ++i) show(front_);
+  const int before = known();
+  ASSERT_GE(before, 40);
+  for (int i = 0; i < 3; ++i) show(back_);
+  EXPECT_GT(known(), before);
+}
+
 TEST_F(BoxOfFewFeatures, TrustsEachMore) {
   show(front_);
   const std::vector<FeatureMatch> matches = show(front_).matches;

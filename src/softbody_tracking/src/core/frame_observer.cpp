@@ -53,6 +53,7 @@ void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology&
   outline_ = OutlineAssociator(usedOutline(config_), volume_edge_m_);
   shown_before_.clear();
   searches_.clear();
+  tiles_in_vain_ = 0;
 }
 
 void FrameObserver::reset() {
@@ -321,7 +322,6 @@ void FrameObserver::admitNew(const RgbdFrame& frame, const Observation& seen) {
   const bool first = map_.features().empty();
   const int most = first ? FeatureMap::kAll : cvCeil(kTileShare * config_.features.max_features);
   const int wanted = std::min(most, map_.room());
-  if (wanted <= 0) return;
   const cv::Rect region = first ? surface_.image().region : nextTile();
   cv::Mat1b free = colors_.mask(frame.color, region);
   map_.eraseTaken(seen.matches, &free);
@@ -333,8 +333,9 @@ void FrameObserver::admitNew(const RgbdFrame& frame, const Observation& seen) {
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
   if (--frames_to_admission_ < 0) {
     const std::size_t known = map_.features().size();
-    admitNew(frame, seen);
-    tiles_in_vain_ = map_.features().size() > known ? 0 : tiles_in_vain_ + 1;
+    const bool full = map_.room() == 0;
+    if (!full) admitNew(frame, seen);
+    tiles_in_vain_ = full || map_.features().size() > known ? 0 : tiles_in_vain_ + 1;
     frames_to_admission_ = kFramesBetweenTiles * (tiles_in_vain_ < kTiles ? 1 : kSlowTiles) - 1;
   }
   map_.retire();
