@@ -18,15 +18,20 @@ namespace softbody::evaluation {
 
 constexpr int kFrames = 20;
 
+/// The sponge in a small image without noise.
+inline virtual_camera::CameraSetup smallSetup() {
+  virtual_camera::CameraSetup setup;
+  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
+  setup.width = 160;
+  setup.height = 120;
+  setup.noise = virtual_camera::noNoise();
+  return setup;
+}
+
 /// A clean recording with its truth, made once.
 inline const std::string& recording() {
   static const std::string path = [] {
-    virtual_camera::CameraSetup setup;
-    setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
-    setup.width = 160;
-    setup.height = 120;
-    setup.noise = virtual_camera::noNoise();
-    virtual_camera::VirtualCamera camera = makeCamera(setup);
+    virtual_camera::VirtualCamera camera = makeCamera(smallSetup());
     const std::string file = testing::TempDir() + "evaluator_recording.bag";
     writeBag(&camera, {file, kFrames, 4.0}, [](int) {});
     return file;

@@ -57,11 +57,8 @@ TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
 
 /// Before a camera that moves, whose place is only known up to the middle.
 std::string halfPlacedRecording() {
-  virtual_camera::CameraSetup setup;
+  virtual_camera::CameraSetup setup = smallSetup();
   setup.camera_motion = "orbit";
-  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
-  setup.width = 160;
-  setup.height = 120;
   virtual_camera::VirtualCamera camera = makeCamera(setup);
   const std::string whole = testing::TempDir() + "evaluator_moving.bag", half = whole + "_half.bag";
   writeBag(&camera, {whole, kFrames, 4.0}, [](int) {});

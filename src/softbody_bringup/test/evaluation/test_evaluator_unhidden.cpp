@@ -9,12 +9,8 @@ namespace {
 
 /// A hand hides the body for 2 s.
 std::string occludedRecording() {
-  virtual_camera::CameraSetup setup;
+  virtual_camera::CameraSetup setup = smallSetup();
   setup.scene = "occlude";
-  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
-  setup.width = 160;
-  setup.height = 120;
-  setup.noise = virtual_camera::noNoise();
   virtual_camera::VirtualCamera camera = makeCamera(setup);
   const std::string file = testing::TempDir() + "evaluator_occluded.bag";
   writeBag(&camera, {file, 5 * kFrames, 20.0}, [](int) {});

@@ -18,8 +18,9 @@ struct FeatureConfig {
   int search_radius_px = 20;      ///< around the predicted position
   int max_hamming_distance = 64;  ///< of 256 bits
   double max_disagreement_m =
-      0.006;            ///< residual against the neighbours' median residual; more is an outlier
-  double weight = 0.5;  ///< of a feature target, at most; up to four times that where features are few
+      0.006;  ///< residual against the neighbours' median residual; more is an outlier
+  double weight =
+      0.5;  ///< of a feature target where its patch fits; up to four times that where they are few
 };
 
 /// Depth pixels as targets on the visible surface.
