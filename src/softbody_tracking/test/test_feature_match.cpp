@@ -119,6 +119,49 @@ TEST_P(FeatureMatches, PiecesAreJudgedByThemselves) {
   EXPECT_GT(kept, 0.97 * 800);
 }
 
+/// Some features at the body's side, moved by some pixels more than those around them.
+std::vector<FeatureMatch> limb(int count, double shift_px, const Eigen::Vector3d& shift,
+                               std::mt19937* random) {
+  std::vector<FeatureMatch> matches = makeScene(count, 0.0, shift, random).matches;
+  for (FeatureMatch& match : matches) {
+    Association& seen = match.association;
+    const Eigen::Vector3d place(0.11 + 0.1 * seen.predicted.x(), 0.1 * seen.predicted.y(), 0.5);
+    seen.measured += truth(place, shift) - truth(seen.predicted, shift);
+    seen.measured.y() += shift_px * seen.measured.z() / kCamera.fy;
+    seen.predicted = place;
+    const Eigen::Vector2d pixel = kCamera.project(seen.measured);
+    match.pixel = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
+  }
+  return matches;
+}
+
+/// As when it bends, far from what the prediction knows.
+TEST_P(FeatureMatches, ALimbThatMovesOtherwiseThanTheBodyBesideItStays) {
+  for (const double wrong_share : {0.0, 0.2}) {
+    Scene made = makeScene(800, wrong_share, Eigen::Vector3d::Zero(), &random_);
+    const std::vector<FeatureMatch> its = limb(40, 2.5, Eigen::Vector3d::Zero(), &random_);
+    made.matches.insert(made.matches.end(), its.begin(), its.end());
+    markOutliers(kCamera, kMaxDisagreement, &made.matches);
+    const auto kept =
+        std::count_if(made.matches.begin() + 800, made.matches.end(), [](const auto& m) { return m.inlier; });
+    EXPECT_GT(kept, 34) << wrong_share;
+    int wrong_kept = 0;
+    for (int m = 0; m < 800; ++m) wrong_kept += made.wrong[m] && made.matches[m].inlier ? 1 : 0;
+    EXPECT_LE(wrong_kept, 3);
+  }
+}
+
+/// A piece of the picture that something else put there.
+TEST_P(FeatureMatches, AGroupThatIsFarOffDoesNotStay) {
+  Scene made = makeScene(800, 0.0, Eigen::Vector3d::Zero(), &random_);
+  const std::vector<FeatureMatch> its = limb(12, 6.0, Eigen::Vector3d::Zero(), &random_);
+  made.matches.insert(made.matches.end(), its.begin(), its.end());
+  markOutliers(kCamera, kMaxDisagreement, &made.matches);
+  EXPECT_EQ(
+      std::count_if(made.matches.begin() + 800, made.matches.end(), [](const auto& m) { return m.inlier; }),
+      0);
+}
+
 TEST_P(FeatureMatches, FewWithoutNeighborsAreJudgedByTheirLengthAlone) {
   Scene made = makeScene(3, 0.0, Eigen::Vector3d::Zero(), &random_);
   for (FeatureMatch& match : made.matches)

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <iterator>
 
 #include "pixel_grid.h"
 #include "softbody_common/target_limits.h"
@@ -21,9 +22,12 @@ constexpr double kSmallestSpread = 1e-4;  // [m]
 constexpr double kLargestSpread = 3.0;    // times the neighbours' median disagreement, but
 constexpr double kPrecisePx = 1.5;        // across the ray, that no match disagrees too much by,
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
-constexpr double kSmallestShare = 0.01;   // unexplained by any image
-constexpr double kUnusual = 2.0;          // times the median unexplained share: half the weight
-constexpr double kDense = 2.5;       // matches for each vertex that shows, of which none weighs more, ...
+// Matches that disagree with their surroundings alike are a limb's: what is wrong in one place is fewer.
+constexpr std::size_t kFewestTogether = 20;
+constexpr double kLimbMatches = 4.0;     // that its surroundings' turn and stretch count for there
+constexpr double kSmallestShare = 0.01;  // unexplained by any image
+constexpr double kUnusual = 2.0;         // times the median unexplained share: half the weight
+constexpr double kDense = 2.5;           // matches for each vertex that shows, of which none weighs more, ...
 constexpr double kMostWeight = 4.0;  // ... and times its weight that no match weighs more where they are few
 
 double median(std::vector<double>* values) {
@@ -92,6 +96,18 @@ class Motions {
     return fitted(piece.about(pixel), kPieceMatches);
   }
 
+  /// Of some matches that are not where their surroundings would have them: like those, but for a motion as a
+  /// whole.
+  LinearMotion ofLimb(const std::vector<int>& limb, const LinearMotion& around) {
+    neighbors_ = limb;
+    LinearMotion result = around;
+    for (int k = 0; k < 3; ++k) {
+      result.motion(k, 0) +=
+          medianOf([&](int other) { return (motions_[other] - around.at(matches_[other].pixel))[k]; });
+    }
+    return fitted(result, kLimbMatches);
+  }
+
  private:
   /// Least squares with Cauchy weights; the prior counts for so many matches.
   LinearMotion fitted(const LinearMotion& prior, double prior_matches) {
@@ -132,26 +148,76 @@ class Motions {
   std::vector<double> values_;
 };
 
-/// @param piece its matches, at least kFewest.
-void markDisagreeing(const Pinhole& camera, double max_disagreement_m, const std::vector<int>& piece,
-                     Motions* motions, std::vector<FeatureMatch>* matches) {
-  PixelGrid grid(camera, kNeighborhoodPx);
-  for (int m : piece) grid.insert((*matches)[m].pixel, m);
-  const LinearMotion whole = motions->ofPiece(piece);
-  // A cell's matches have the same neighbours.
-  for (const std::vector<int>& cell : grid.cells()) {
-    if (cell.empty()) continue;
-    const LinearMotion around = motions->around(grid, (*matches)[cell.front()].pixel, whole);
-    for (int m : cell) {
-      FeatureMatch& match = (*matches)[m];
-      const double pixel_m = match.association.measured.z() / camera.fx;
-      const double across =
-          std::clamp(kLargestSpread * around.spread, kPrecisePx * pixel_m, kWrongPx * pixel_m);
-      match.inlier = match.inlier && motions->disagreement(m, around) < across &&
-                     (motions->of(m) - around.at(match.pixel)).norm() < max_disagreement_m;
-    }
+/// Which of a piece's matches move as what is around them does.
+class PieceJudge {
+ public:
+  /// @param piece its matches, at least kFewest.
+  PieceJudge(const Pinhole& camera, double max_disagreement_m, const std::vector<int>& piece,
+             Motions* motions, std::vector<FeatureMatch>* matches)
+      : fx_(camera.fx),
+        max_disagreement_m_(max_disagreement_m),
+        motions_(*motions),
+        matches_(*matches),
+        grid_(camera, kNeighborhoodPx),
+        whole_(motions->ofPiece(piece)) {
+    for (int m : piece) grid_.insert(matches_[m].pixel, m);
   }
-}
+
+  void mark() {
+    std::vector<int> kept;
+    for (const std::vector<int>& cell : grid_.cells()) {
+      if (cell.empty()) continue;
+      // A cell's matches have the same neighbours.
+      const cv::Point2f& pixel = matches_[cell.front()].pixel;
+      const LinearMotion around = motions_.around(grid_, pixel, whole_);
+      bool all = true;
+      for (int m : cell) {
+        const double across =
+            std::clamp(kLargestSpread * around.spread, kPrecisePx * pixelSize(m), kWrongPx * pixelSize(m));
+        if (agrees(m, around, across))
+          kept.push_back(m);
+        else
+          all = false;
+      }
+      if (!all) keepLimb(pixel, around, cell, &kept);
+    }
+    for (const std::vector<int>& cell : grid_.cells())
+      for (int m : cell) matches_[m].inlier = false;
+    for (int m : kept) matches_[m].inlier = true;
+  }
+
+ private:
+  double pixelSize(int m) const { return matches_[m].association.measured.z() / fx_; }
+
+  bool agrees(int m, const LinearMotion& around, double across) const {
+    const FeatureMatch& match = matches_[m];
+    return match.inlier && motions_.disagreement(m, around) < across &&
+           (motions_.of(m) - around.at(match.pixel)).norm() < max_disagreement_m_;
+  }
+
+  /// A limb that bends, beside a body of many more features, moves otherwise than these, but as one.
+  void keepLimb(const cv::Point2f& pixel, const LinearMotion& around, const std::vector<int>& cell,
+                std::vector<int>* kept) {
+    std::vector<int> limb;
+    grid_.around(pixel.x, pixel.y, [&](int m) {
+      const double off = motions_.disagreement(m, around) / pixelSize(m);
+      if (matches_[m].inlier && off >= kPrecisePx && off < kWrongPx) limb.push_back(m);
+    });
+    if (limb.size() < kFewestTogether) return;
+    const LinearMotion its = motions_.ofLimb(limb, around);
+    const auto belongs = [&](int m) { return agrees(m, its, kPrecisePx * pixelSize(m)); };
+    const auto together = std::count_if(limb.begin(), limb.end(), belongs);
+    if (together < static_cast<std::ptrdiff_t>(std::max(kFewestTogether, limb.size() / 2))) return;
+    std::copy_if(cell.begin(), cell.end(), std::back_inserter(*kept), belongs);
+  }
+
+  double fx_;
+  double max_disagreement_m_;
+  Motions& motions_;
+  std::vector<FeatureMatch>& matches_;
+  PixelGrid grid_;
+  LinearMotion whole_;
+};
 
 }  // namespace
 
@@ -172,7 +238,7 @@ void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<
   }
   for (const std::vector<int>& piece : pieces) {
     if (piece.size() >= kFewest) {
-      markDisagreeing(camera, max_disagreement_m, piece, &motions, matches);
+      PieceJudge(camera, max_disagreement_m, piece, &motions, matches).mark();
       continue;
     }
     for (int m : piece) {
