@@ -86,6 +86,7 @@ TEST(ToolWatch, StartsAnewWithABagThatLoops) {
     EXPECT_TRUE(session.watch(40, std::nullopt, kNone).empty());
     session.restart();
   }
+  EXPECT_EQ(session.missed(), "200 frames: none of the tool's markers is seen") << "in all rounds";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "softbody_common/types.h"
 
@@ -21,9 +22,11 @@ using StreamTopics = std::array<StreamTopic, 3>;  ///< in the order of Stream
 class StreamMonitor {
  public:
   /// @param tolerance largest difference of the stamps of colour and depth; 0: they must be equal.
-  explicit StreamMonitor(Nanoseconds tolerance) : tolerance_(tolerance) {}
+  /// @param silence in which a stream that goes on has a message.
+  StreamMonitor(Nanoseconds tolerance, Nanoseconds silence) : tolerance_(tolerance), silence_(silence) {}
 
-  void arrived(Stream stream, Nanoseconds stamp);
+  /// @param now by the clock that complaint() goes by.
+  void arrived(Stream stream, Nanoseconds stamp, Nanoseconds now);
   /// A message without a stamp, which cannot be used.
   void unstamped(Stream stream) { unstamped_[static_cast<std::size_t>(stream)] = true; }
   /// A synchronised set that could not be used, and why.
@@ -32,13 +35,20 @@ class StreamMonitor {
   void completed();
 
   /// Why there was no frame since the last one, in a sentence.
-  std::string complaint(const StreamTopics& topics) const;
+  std::string complaint(const StreamTopics& topics, Nanoseconds now) const;
 
  private:
-  std::array<std::deque<Nanoseconds>, 3> stamps_;
+  struct Arrival {
+    Nanoseconds stamp, time;
+  };
+  std::vector<Nanoseconds> lately(Stream stream, Nanoseconds now) const;
+  bool isSilent(Stream stream, Nanoseconds now) const;
+
+  std::array<std::deque<Arrival>, 3> arrivals_;
   std::array<bool, 3> unstamped_{};
+  bool has_info_ = false;
   std::string refusal_;
-  Nanoseconds tolerance_;
+  Nanoseconds tolerance_, silence_;
 };
 
 }  // namespace softbody

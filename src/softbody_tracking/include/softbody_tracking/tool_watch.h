@@ -11,13 +11,13 @@ namespace softbody {
 /// Notices that a tool has long not been seen: it cuts nothing, and whoever holds it may not know.
 class ToolWatch {
  public:
-  /// A frame and what the tracker gave for it. Stamps that jump back start anew.
+  /// A frame and what the tracker gave for it. Where stamps jump back, the time without the tool starts anew.
   /// @param reason ToolTracker::reason().
   /// @return a sentence with counts when the tool has not been seen for 5 s, and again after 10, 20, ...
   std::optional<std::string> heed(Nanoseconds stamp, const std::optional<ToolObservation>& observation,
                                   const std::string& reason);
 
-  /// The frames in which the tool was not seen, by reason: "12 frames: ...; 3 frames: ..."; empty without
+  /// All frames in which the tool was not seen, by reason: "12 frames: ...; 3 frames: ..."; empty without
   /// any.
   std::string missed() const { return text(missed_); }
 

@@ -5,14 +5,13 @@
 
 #include <cstdlib>
 #include <limits>
-#include <vector>
 
 namespace softbody {
 namespace {
 
 constexpr std::size_t kRemembered = 30;
 
-Nanoseconds nearestDifference(const std::deque<Nanoseconds>& a, const std::deque<Nanoseconds>& b) {
+Nanoseconds nearestDifference(const std::vector<Nanoseconds>& a, const std::vector<Nanoseconds>& b) {
   Nanoseconds nearest = std::numeric_limits<Nanoseconds>::max();
   for (Nanoseconds x : a) {
     for (Nanoseconds y : b) nearest = std::min(nearest, std::abs(x - y));
@@ -28,28 +27,40 @@ std::string silence(const StreamTopic& topic, bool unstamped) {
 
 }  // namespace
 
-void StreamMonitor::arrived(Stream stream, Nanoseconds stamp) {
-  std::deque<Nanoseconds>& stamps = stamps_[static_cast<std::size_t>(stream)];
-  stamps.push_back(stamp);
-  if (stamps.size() > kRemembered) stamps.pop_front();
+void StreamMonitor::arrived(Stream stream, Nanoseconds stamp, Nanoseconds now) {
+  std::deque<Arrival>& arrivals = arrivals_[static_cast<std::size_t>(stream)];
+  arrivals.push_back({stamp, now});
+  if (arrivals.size() > kRemembered) arrivals.pop_front();
+  has_info_ = has_info_ || stream == Stream::kColorInfo;
 }
 
 void StreamMonitor::completed() {
-  for (auto& stamps : stamps_) stamps.clear();
+  for (auto& arrivals : arrivals_) arrivals.clear();
   unstamped_ = {};
   refusal_.clear();
 }
 
-std::string StreamMonitor::complaint(const StreamTopics& topics) const {
+/// Stamps of what arrived as long ago as a stream that goes on is silent at most.
+std::vector<Nanoseconds> StreamMonitor::lately(Stream stream, Nanoseconds now) const {
+  std::vector<Nanoseconds> stamps;
+  for (const Arrival& arrival : arrivals_[static_cast<std::size_t>(stream)])
+    if (now - arrival.time <= silence_) stamps.push_back(arrival.stamp);
+  return stamps;
+}
+
+/// One CameraInfo is enough: some drivers latch it.
+bool StreamMonitor::isSilent(Stream stream, Nanoseconds now) const {
+  return stream == Stream::kColorInfo ? !has_info_ : lately(stream, now).empty();
+}
+
+std::string StreamMonitor::complaint(const StreamTopics& topics, Nanoseconds now) const {
   std::vector<std::string> silent;
   for (std::size_t s = 0; s < topics.size(); ++s) {
-    if (stamps_[s].empty()) silent.push_back(silence(topics[s], unstamped_[s]));
+    if (isSilent(static_cast<Stream>(s), now)) silent.push_back(silence(topics[s], unstamped_[s]));
   }
   if (!silent.empty()) return fmt::format("no usable message on {}", fmt::join(silent, ", "));
   if (!refusal_.empty()) return refusal_;
-  const auto& color = stamps_[static_cast<std::size_t>(Stream::kColor)];
-  const auto& depth = stamps_[static_cast<std::size_t>(Stream::kDepth)];
-  const Nanoseconds difference = nearestDifference(color, depth);
+  const Nanoseconds difference = nearestDifference(lately(Stream::kColor, now), lately(Stream::kDepth, now));
   if (difference > tolerance_) {
     return fmt::format("stamps of {} and {} differ by {:.1f} ms at least; the tolerance is {:.1f} ms",
                        topics[static_cast<std::size_t>(Stream::kColor)].name,

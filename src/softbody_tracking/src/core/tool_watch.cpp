@@ -12,7 +12,11 @@ constexpr double kLong_s = 5.0;
 std::optional<std::string> ToolWatch::heed(Nanoseconds stamp,
                                            const std::optional<ToolObservation>& observation,
                                            const std::string& reason) {
-  if (stamp < last_stamp_) *this = ToolWatch();
+  if (stamp < last_stamp_) {
+    since_.reset();
+    on_end_.clear();
+    ever_seen_ = false;
+  }
   last_stamp_ = stamp;
   const bool seen = observation && !observation->bridged;
   if (seen || !since_) {

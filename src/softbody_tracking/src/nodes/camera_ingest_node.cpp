@@ -36,7 +36,8 @@ CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::Nod
   parameters.text("image_transport", "raw");
   warnUnknown(parameters);
   monitor_ = std::make_unique<StreamMonitor>(
-      config_.sync.exact ? 0 : toNanoseconds(ros::Time(config_.sync.tolerance_s)));
+      config_.sync.exact ? 0 : toNanoseconds(ros::Time(config_.sync.tolerance_s)),
+      toNanoseconds(ros::Time(config_.silence_timeout_s)));
   resetPairer();
   advertise();
   subscribe();
@@ -96,7 +97,7 @@ bool CameraIngestNode::accept(Stream stream, const ros::Time& stamp, ros::Time* 
     last_color_ = last_depth_ = ros::Time();
   }
   *last = stamp;
-  monitor_->arrived(stream, toNanoseconds(stamp));
+  monitor_->arrived(stream, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
   return true;
 }
 
@@ -117,7 +118,7 @@ void CameraIngestNode::onDepth(const sensor_msgs::ImageConstPtr& image) {
 
 void CameraIngestNode::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
   info_ = info;
-  monitor_->arrived(Stream::kColorInfo, toNanoseconds(info->header.stamp));
+  monitor_->arrived(Stream::kColorInfo, toNanoseconds(info->header.stamp), toNanoseconds(ros::Time::now()));
 }
 
 void CameraIngestNode::onPair(const sensor_msgs::ImageConstPtr& color,

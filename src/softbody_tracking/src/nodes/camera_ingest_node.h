@@ -56,6 +56,8 @@ class CameraIngestNode {
   void watch();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   double secondsWithoutFrame() const;
+  bool isStarting() const;
+  std::string silence() const;
   std::string complaint() const;
   std::vector<Remark> remarks() const;
 

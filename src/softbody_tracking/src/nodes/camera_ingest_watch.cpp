@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nodes/camera_ingest_node.h"
+#include "softbody_common/conversions.h"
 
 /// What the node says about itself: why there are no frames, rates and latency.
 namespace softbody {
@@ -12,6 +13,8 @@ namespace {
 
 constexpr double kDiagnosisPeriod_s = 1.0, kRemarkPeriod_s = 60.0;
 constexpr double kLongestLatency_s = 2.0, kLongestLead_s = 0.1;  // beyond, clocks differ
+constexpr double kStartTimeouts =
+    5.0;  // a camera may be so many times as long in starting as it may be silent
 
 }  // namespace
 
@@ -19,6 +22,15 @@ double CameraIngestNode::secondsWithoutFrame() const {
   // Before the first frame the clock itself may be missing; later a paused bag is no silence.
   if (last_frame_.isZero()) return (ros::WallTime::now() - start_).toSec();
   return (ros::Time::now() - last_frame_).toSec();
+}
+
+bool CameraIngestNode::isStarting() const {
+  return last_frame_.isZero() && secondsWithoutFrame() < kStartTimeouts * config_.silence_timeout_s;
+}
+
+std::string CameraIngestNode::silence() const {
+  return fmt::format("{} {:.0f} s: {}", isStarting() ? "waiting for the first frame for" : "no frame for",
+                     secondsWithoutFrame(), complaint());
 }
 
 std::string CameraIngestNode::complaint() const {
@@ -30,7 +42,8 @@ std::string CameraIngestNode::complaint() const {
   };
   return monitor_->complaint({StreamTopic{color_subscriber_.getTopic(), publishers(color_subscriber_)},
                               StreamTopic{info_subscriber_.getTopic(), publishers(info_subscriber_)},
-                              StreamTopic{depth_subscriber_.getTopic(), publishers(depth_subscriber_)}});
+                              StreamTopic{depth_subscriber_.getTopic(), publishers(depth_subscriber_)}},
+                             toNanoseconds(ros::Time::now()));
 }
 
 /// What is odd about frames that come.
@@ -61,15 +74,13 @@ std::vector<CameraIngestNode::Remark> CameraIngestNode::remarks() const {
 void CameraIngestNode::watch() {
   // A bag that starts again: the silence is counted from there.
   if (ros::Time::now() < last_frame_) last_frame_ = ros::Time::now();
-  const double silence = secondsWithoutFrame();
-  if (silence > config_.silence_timeout_s)
-    throttle_.warn("silence", fmt::format("no frame for {:.0f} s: {}", silence, complaint()));
+  if (secondsWithoutFrame() > config_.silence_timeout_s)
+    isStarting() ? throttle_.info("silence", silence()) : throttle_.warn("silence", silence());
   if ((ros::WallTime::now() - last_diagnosis_).toSec() >= kDiagnosisPeriod_s) diagnostics_.force_update();
 }
 
 void CameraIngestNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  const double silence = secondsWithoutFrame();
   const double period = (ros::WallTime::now() - last_diagnosis_).toSec();
   const double rate = frames_ / std::max(period, 1e-3);
   std::vector<std::string> odd;
@@ -77,8 +88,8 @@ void CameraIngestNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
     throttle_.warn(remark.about, remark.sentence, kRemarkPeriod_s);
     odd.push_back(remark.sentence);
   }
-  if (silence > config_.silence_timeout_s) {
-    status.summary(DiagnosticStatus::ERROR, fmt::format("no frame for {:.0f} s: {}", silence, complaint()));
+  if (secondsWithoutFrame() > config_.silence_timeout_s) {
+    status.summary(isStarting() ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR, silence());
   } else if (refused_ > 0) {
     status.summary(DiagnosticStatus::WARN,
                    fmt::format("{} frames could not be used: {}", refused_, complaint()));
