@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "core/association.h"
@@ -83,6 +84,24 @@ TEST(RigidStep, OnePlaneMovesOnlyAlongItsNormal) {
   }
   const Eigen::Isometry3d found = converge(associations);
   EXPECT_NEAR((found * Eigen::Vector3d(0.0, 0.0, 0.5) - Eigen::Vector3d(0.0, 0.0, 0.502)).norm(), 0.0, 1e-4);
+}
+
+/// It is the scale of what is an outlier: some tens would miss it by a quarter.
+TEST(MedianResidual, OfManyIsThatOfEnoughOfThem) {
+  constexpr double kMedianOfNormal = 0.6745;  // of the absolute values
+  double sum = 0.0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> gauss;
+    std::vector<Association> associations(5000);
+    for (Association& a : associations) {
+      a.normal = Eigen::Vector3d::UnitZ();
+      a.measured.z() = 0.01 * gauss(random);
+    }
+    const double off = medianResidual(refsTo(associations)) / (0.01 * kMedianOfNormal) - 1.0;
+    sum += off * off;
+  }
+  EXPECT_LT(std::sqrt(sum / 20.0), 0.1);
 }
 
 TEST(RigidStep, NothingGivesIdentity) {

@@ -106,6 +106,27 @@ TEST_P(FeatureMatches, TheRigidStepDoesNotFollowThem) {
   }
 }
 
+/// As of a pattern that repeats, or of what else moves before the body.
+TEST_P(FeatureMatches, AThirdThatAgreesOnAnotherMotionDoesNotLeadThePiece) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Scene made = makeScene(800, 0.0, Eigen::Vector3d::Zero(), &random_);
+  for (std::size_t m = 0; m < made.matches.size(); ++m) {
+    FeatureMatch& match = made.matches[m];
+    made.wrong[m] = uniform(random_) < 0.33;
+    if (!made.wrong[m]) continue;
+    match.pixel.x += 8.0f;
+    match.association.measured.x() += 8.0 / kCamera.fx * match.association.measured.z();
+  }
+  markOutliers(kCamera, kMaxDisagreement, &made.matches);
+  int wrong_kept = 0, right_lost = 0;
+  for (std::size_t m = 0; m < made.matches.size(); ++m) {
+    wrong_kept += made.wrong[m] && made.matches[m].inlier ? 1 : 0;
+    right_lost += !made.wrong[m] && !made.matches[m].inlier ? 1 : 0;
+  }
+  EXPECT_LT(wrong_kept, 40);
+  EXPECT_LT(right_lost, 40);
+}
+
 /// A tenth of the features, on a piece between the others, moves by itself.
 TEST_P(FeatureMatches, PiecesAreJudgedByThemselves) {
   Scene made = makeScene(800, 0.0, Eigen::Vector3d::Zero(), &random_);

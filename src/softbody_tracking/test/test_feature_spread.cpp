@@ -33,7 +33,7 @@ class FeatureSpread : public testing::TestWithParam<unsigned> {
 
 TEST_P(FeatureSpread, NoPlaceIsFarFromOneTakenAndNoTwoAreNear) {
   const Eigen::Matrix3Xf places = plate(2000);
-  const std::vector<int> taken = spreadOut(places, {}, 60);
+  const std::vector<int> taken = spreadOut(places, {}, 60, 0.0);
   ASSERT_EQ(taken.size(), 60u);
   EXPECT_TRUE(std::is_sorted(taken.begin(), taken.end()));
   float closest = 1.0f, farthest = 0.0f;
@@ -50,21 +50,21 @@ TEST_P(FeatureSpread, NoPlaceIsFarFromOneTakenAndNoTwoAreNear) {
 TEST_P(FeatureSpread, WhatIsKnownNeedsNoOther) {
   const Eigen::Matrix3Xf places = plate(1000), known = plate(2000).leftCols(1000);
   ASSERT_LE(known.row(0).maxCoeff(), 0.25f);
-  for (const int i : spreadOut(places, known, 40)) EXPECT_GT(places(0, i), 0.25f);
+  for (const int i : spreadOut(places, known, 40, 0.0)) EXPECT_GT(places(0, i), 0.25f);
 }
 
 TEST_P(FeatureSpread, TakesAsManyAsAreWantedAndAllWhereNoMoreAreThere) {
   Eigen::Matrix3Xf places = plate(100);
   places.rightCols(50) = places.leftCols(50);  // corners of two scales at the same place
   for (const int wanted : {0, 1, 10, 49, 50, 51, 99, 100, 1000})
-    EXPECT_EQ(spreadOut(places, places.leftCols(10), wanted).size(), std::min<std::size_t>(wanted, 100));
-  EXPECT_TRUE(spreadOut(Eigen::Matrix3Xf(3, 0), places, 5).empty());
+    EXPECT_EQ(spreadOut(places, places.leftCols(10), wanted, 0.0).size(), std::min<std::size_t>(wanted, 100));
+  EXPECT_TRUE(spreadOut(Eigen::Matrix3Xf(3, 0), places, 5, 0.0).empty());
 }
 
 TEST_P(FeatureSpread, TheWeakFillTheGapsThatTheStrongLeave) {
   const Eigen::Matrix3Xf places = plate(4000);
   for (const int wanted : {50, 1000}) {
-    const std::vector<int> taken = spreadStrong(places, {}, wanted, 0.0);
+    const std::vector<int> taken = spreadStrong(places, wanted, 0.0);
     ASSERT_EQ(taken.size(), static_cast<std::size_t>(wanted));
     std::set<int> different(taken.begin(), taken.end());
     EXPECT_EQ(different.size(), taken.size());
@@ -83,25 +83,35 @@ TEST_P(FeatureSpread, TheWeakFillTheGapsThatTheStrongLeave) {
       }
     }
   }
-  EXPECT_EQ(spreadStrong(places, {}, 1, 0.0).size(), 1u);
-  EXPECT_TRUE(spreadStrong(places, {}, 0, 0.0).empty());
-  EXPECT_EQ(spreadStrong(places.leftCols(30), places.rightCols(7), 100, 0.0).size(), 30u);
+  EXPECT_EQ(spreadStrong(places, 1, 0.0).size(), 1u);
+  EXPECT_TRUE(spreadStrong(places, 0, 0.0).empty());
+  EXPECT_EQ(spreadStrong(places.leftCols(30), 100, 0.0).size(), 30u);
 }
 
 TEST_P(FeatureSpread, TheWeakAreTakenInGapsOnly) {
-  const Eigen::Matrix3Xf places = plate(4000), known = plate(200);
+  const Eigen::Matrix3Xf places = plate(4000);
   const double gap = 0.02;
-  const std::vector<int> taken = spreadStrong(places, known, 1000, gap);
+  const std::vector<int> taken = spreadStrong(places, 1000, gap);
   ASSERT_GT(taken.size(), 700u);
   const std::vector<int> strong(taken.begin(), taken.begin() + 700);
-  std::vector<int> all_known(200);
-  std::iota(all_known.begin(), all_known.end(), 0);
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    EXPECT_GT(nearest(known, all_known, places.col(taken[i])), gap) << i;
-    if (i < strong.size()) continue;
+  for (std::size_t i = strong.size(); i < taken.size(); ++i)
     EXPECT_GT(nearest(places, strong, places.col(taken[i])), gap) << i;
+  EXPECT_EQ(spreadStrong(places, 1000, 2.0).size(), 700u) << "nowhere is so large a gap";
+}
+
+TEST_P(FeatureSpread, NoneIsTakenNearerThanTheGap) {
+  const Eigen::Matrix3Xf places = plate(4000), known = plate(200);
+  const float gap = 0.05f;
+  const std::vector<int> taken = spreadOut(places, known, 1000, gap);
+  ASSERT_GT(taken.size(), 50u);
+  std::vector<int> all_known(200), before;
+  std::iota(all_known.begin(), all_known.end(), 0);
+  for (const int i : taken) {
+    EXPECT_GE(nearest(known, all_known, places.col(i)), gap) << i;
+    EXPECT_GE(nearest(places, before, places.col(i)), gap) << i;
+    before.push_back(i);
   }
-  EXPECT_TRUE(spreadStrong(places, known, 1000, 2.0).empty()) << "nowhere is so large a gap";
+  EXPECT_TRUE(spreadOut(places, known, 1000, 2.0).empty()) << "nowhere is so large a gap";
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FeatureSpread, testing::Range(1u, 6u));

@@ -93,7 +93,9 @@ std::vector<cv::KeyPoint> FeatureMap::choose(const RgbdFrame& frame, const std::
   std::vector<cv::KeyPoint> chosen;
   const TetTopology& volume = surface.volume();
   const Eigen::Matrix3Xf there = restPositions(places, volume);
-  for (const int i : spreadStrong(there, restPositions(known, volume), wanted, gap_m))
+  // The reference frame takes every keypoint, like the paper; later ones fill gaps.
+  for (const int i : features_.empty() ? spreadStrong(there, wanted, gap_m)
+                                       : spreadOut(there, restPositions(known, volume), wanted, gap_m))
     chosen.push_back(corners[i]);
   return chosen;
 }
@@ -101,19 +103,9 @@ std::vector<cv::KeyPoint> FeatureMap::choose(const RgbdFrame& frame, const std::
 void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
                        const std::vector<Keypoint>& keypoints, const PredictedSurface& surface,
                        const std::vector<bool>& shown) {
-  std::vector<cv::Point2f> taken;
-  const auto isFree = [&](const cv::Point2f& pixel) {
-    return std::none_of(taken.begin(), taken.end(), [&](const cv::Point2f& other) {
-      const cv::Point2f d = other - pixel;
-      return d.dot(d) <= kFreeRadiusPx * kFreeRadiusPx;
-    });
-  };
-  const bool first = features_.empty();
   int left = room();
   for (const Keypoint& keypoint : keypoints) {
     if (left == 0) break;
-    // The reference frame takes every keypoint, like the paper; later ones fill gaps.
-    if (!first && !isFree(keypoint.pixel)) continue;
     const auto point = surfacePoint(frame, keypoint.pixel, surface, shown);
     MapFeature feature;
     if (!point || !feature.patch.learn(image, keypoint.pixel)) continue;
@@ -127,7 +119,6 @@ void FeatureMap::admit(const RgbdFrame& frame, const GrayPyramid& image,
     feature.reference = frame.T_fixed_camera * point->measured;
     features_.push_back(feature);
     --left;
-    if (!first) taken.push_back(keypoint.pixel);
   }
 }
 

@@ -79,16 +79,17 @@ class FeatureMap {
   /// How many of them on some of the pieces. @param counted of each piece.
   int expected(const std::vector<bool>& counted) const;
 
-  /// Sets a mask of the image to 0 around known features: those found, and those that were not where they
-  /// should be.
+  /// Sets a mask of the image to 0 around known features, those found and those that were not where they
+  /// should be: no corners need be ranked there.
   void eraseTaken(const std::vector<FeatureMatch>& matches, cv::Mat1b* mask) const;
 
   /// How many more features may be admitted in this view.
   int room() const;
 
-  /// Of corners those that can be bound, most of them among the strongest, the others where features are few.
+  /// Of corners those that can be bound: of the first view most of them among the strongest, later those
+  /// where features are few.
   /// @param ranked away from known features: see eraseTaken(); the best first. @param shown of each piece:
-  /// nothing is learned of others. @param gap_m see spreadStrong().
+  /// nothing is learned of others. @param gap_m see spreadStrong() and spreadOut().
   std::vector<cv::KeyPoint> choose(const RgbdFrame& frame, const std::vector<cv::KeyPoint>& ranked,
                                    const PredictedSurface& surface, const std::vector<bool>& shown,
                                    int wanted, double gap_m) const;

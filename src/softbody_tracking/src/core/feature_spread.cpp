@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace softbody {
 namespace {
@@ -16,7 +15,7 @@ float squaredDistance(const Eigen::Ref<const Eigen::Matrix3Xf>& places, const Ei
   return (places.colwise() - place).colwise().squaredNorm().minCoeff();
 }
 
-/// Those further apart than a distance, but hardly more than wanted.
+/// Those at least so far apart, but hardly more than wanted.
 std::vector<int> apart(const Eigen::Matrix3Xf& ranked, const std::vector<float>& to_known, float distance,
                        int wanted) {
   const float least = distance * distance;
@@ -24,7 +23,7 @@ std::vector<int> apart(const Eigen::Matrix3Xf& ranked, const std::vector<float>&
   std::vector<int> result;
   for (int i = 0; i < ranked.cols() && static_cast<int>(result.size()) <= wanted; ++i) {
     const auto count = static_cast<Eigen::Index>(result.size());
-    if (to_known[i] <= least || squaredDistance(taken.leftCols(count), ranked.col(i)) <= least) continue;
+    if (to_known[i] < least || squaredDistance(taken.leftCols(count), ranked.col(i)) < least) continue;
     taken.col(count) = ranked.col(i);
     result.push_back(i);
   }
@@ -43,14 +42,15 @@ std::vector<int> inGaps(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& 
 
 }  // namespace
 
-std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted) {
-  std::vector<int> best(ranked.cols());
-  std::iota(best.begin(), best.end(), 0);
-  const auto enough = static_cast<std::size_t>(std::max(0, wanted));
-  if (best.size() <= enough) return best;
+std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted,
+                           double gap_m) {
   std::vector<float> to_known(ranked.cols());
   for (int i = 0; i < ranked.cols(); ++i) to_known[i] = squaredDistance(known, ranked.col(i));
-  float near = 0.0f, far = (ranked.rowwise().maxCoeff() - ranked.rowwise().minCoeff()).norm();
+  auto near = static_cast<float>(gap_m);
+  std::vector<int> best = apart(ranked, to_known, near, wanted);
+  const auto enough = static_cast<std::size_t>(std::max(0, wanted));
+  if (best.size() <= enough) return best;
+  float far = (ranked.rowwise().maxCoeff() - ranked.rowwise().minCoeff()).norm();
   for (int k = 0; k < kSearches && best.size() != enough; ++k) {
     const float distance = 0.5f * (near + far);
     std::vector<int> found = apart(ranked, to_known, distance, wanted);
@@ -62,21 +62,14 @@ std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3X
   return best;
 }
 
-std::vector<int> spreadStrong(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted,
-                              double gap_m) {
-  const std::vector<int> candidates = inGaps(ranked, known, gap_m);
-  const auto strong = std::min(candidates.size(), static_cast<std::size_t>(std::max(kFewestStrong, wanted)));
-  const std::vector<int> strongest(candidates.begin(),
-                                   candidates.begin() + static_cast<std::ptrdiff_t>(strong));
-  std::vector<int> result;
-  for (const int i :
-       spreadOut(ranked(Eigen::all, strongest), known, wanted - std::min(wanted / 2, kMostWeak)))
-    result.push_back(strongest[i]);
-  Eigen::Matrix3Xf others(3, known.cols() + static_cast<Eigen::Index>(result.size()));
-  others << known, ranked(Eigen::all, result);
-  const std::vector<int> weak = inGaps(ranked, others, gap_m);
+std::vector<int> spreadStrong(const Eigen::Matrix3Xf& ranked, int wanted, double gap_m) {
+  const Eigen::Index strong = std::min<Eigen::Index>(ranked.cols(), std::max(kFewestStrong, wanted));
+  std::vector<int> result =
+      spreadOut(ranked.leftCols(strong), {}, wanted - std::min(wanted / 2, kMostWeak), 0.0);
+  const Eigen::Matrix3Xf taken = ranked(Eigen::all, result);
+  const std::vector<int> weak = inGaps(ranked, taken, gap_m);
   const int left = wanted - static_cast<int>(result.size());
-  for (const int i : spreadOut(ranked(Eigen::all, weak), others, left)) result.push_back(weak[i]);
+  for (const int i : spreadOut(ranked(Eigen::all, weak), taken, left, 0.0)) result.push_back(weak[i]);
   return result;
 }
 

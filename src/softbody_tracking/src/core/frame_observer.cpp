@@ -14,6 +14,7 @@ constexpr int kPatchMargin = 32;           // [px] around features for their des
 constexpr double kLearnTolerance = 0.008;  // [m], depth agrees well enough to learn the body's colours
 constexpr double kLookAgain = 0.004;       // [m] of any vertex; a rough step beyond it is rendered again
 constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer, descriptors are matched too
+constexpr double kHardlyAny = 0.2;      // of the expected features: the piece is not there
 constexpr int kFramesBetweenSearches = 10;  // for a piece that is held
 constexpr int kTiles = 4;                   // of the predicted surface
 constexpr double kTileShare = 0.7;          // of the most features: a tile may have more texture than others
@@ -62,7 +63,7 @@ void FrameObserver::reset() {
   shown_before_.clear();
   searches_.clear();
   wide_search_.reset();
-  frames_to_admission_ = frames_to_search_ = tiles_in_vain_ = 0;
+  frames_to_admission_ = frames_to_search_ = tiles_in_vain_ = tile_ = 0;
 }
 
 /// Features recognised anywhere in the frame. @param vertices of the volume as they are expected.
@@ -174,6 +175,8 @@ bool FrameObserver::few(const std::vector<FeatureMatch>& matches) const {
   const std::vector<bool> followed = followedPieces();
   return matchesOn(followed, matches) < kEnoughAligned * map_.expected(followed);
 }
+
+bool FrameObserver::FeatureCount::hardlyAny() const { return found < kHardlyAny * expected; }
 
 bool FrameObserver::hardlyAny(const std::vector<FeatureMatch>& matches) const {
   const std::vector<bool> followed = followedPieces();

@@ -67,7 +67,7 @@ class FrameObserver {
   /// Of a piece: features expected where it was predicted, and inliers found there.
   struct FeatureCount {
     int expected = 0, found = 0;
-    bool hardlyAny() const { return found < 0.2 * expected; }
+    bool hardlyAny() const;
   };
 
   void look(const RgbdFrame& frame, const Points& vertices);
