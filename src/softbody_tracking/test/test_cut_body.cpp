@@ -105,6 +105,37 @@ TEST(CutBody, IsLostWhereNothingOfItShows) {
   EXPECT_TRUE(tracked.tracksWithin(3, rest));
 }
 
+/// Each where it came to lie, though the body is recognised as it was before the cut.
+TEST(CutBody, IsFoundAgainPieceByPieceAfterItWasLost) {
+  TrackedBox tracked;
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
+  tracked.cut(posedBox(cutBox(tracked.box())));
+  const Eigen::Index whole = makeBox().volume.rest_vertices.rows();
+  const auto parted = [&](double by) {
+    const Points rest = posedBox(tracked.box());
+    const Eigen::Isometry3d turn = Eigen::Translation3d(by, 0.0, 0.0) *
+                                   Eigen::Translation3d(boxPose().translation()) *
+                                   Eigen::AngleAxisd(5.0 * by, Eigen::Vector3d::UnitZ()) *
+                                   Eigen::Translation3d(-boxPose().translation());
+    Points vertices = rest;
+    const Points turned = transformed(rest, turn);
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+      if (v >= whole || tracked.box().volume.rest_vertices(v, 0) > 1e-9) vertices.row(v) = turned.row(v);
+    return vertices;
+  };
+  for (int i = 0; i < 10; ++i) tracked.show(parted(0.005 * i));
+  const Points truth = parted(0.05);
+  EXPECT_EQ(tracked.show(truth).status.state, TrackingState::kTracking);
+  TrackingResult result;
+  for (int i = 0; i < 12; ++i) result = tracked.show(truth, [](RgbdFrame* frame) { coverAround(0, frame); });
+  ASSERT_EQ(result.status.state, TrackingState::kRecovering);
+  result = tracked.show(truth);
+  EXPECT_TRUE(result.targets.reset);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_GT(result.targets.targets.size(), 1000u);
+  EXPECT_LT(tracked.shareOff(result, truth, 0.002), 0.01);
+}
+
 class CutObserver : public ::testing::Test {
  protected:
   CutObserver() : observer_({}, box_.volume, box_.surface) {
