@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "core/depth_associations.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
@@ -109,6 +111,46 @@ TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlock
   DepthConfig few;
   few.max_targets = 300;
   EXPECT_NEAR(totalWeight(associate(few)) / totalWeight(associate()), 1.0, 0.1);
+}
+
+/// As far away from a stereo camera: a thin body would shake with it.
+TEST_F(DepthAssociationsTest, WeighLessWhereDepthIsNoisierThanUsual) {
+  const auto meanWeight = [&](double noise_m) {
+    std::mt19937 random(2);
+    std::normal_distribution<float> gauss(0.0f, static_cast<float>(noise_m));
+    frame_ = renderFrame(box_, truth_, 1);
+    for (float& z : frame_.depth) z += gauss(random);
+    DepthAssociator depth(DepthConfig(), meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+    const SurfaceSamples samples = sampleSurface(surface_, DepthConfig().max_targets);
+    std::vector<Association> found =
+        depth.associate(frame_, surface_.image(), samples, {Eigen::Isometry3d::Identity()}, colors_)
+            .associations;
+    depth.weighByNoise(samples, &found);
+    double sum = 0.0;
+    for (const Association& a : found) sum += a.weight;
+    return sum / static_cast<double>(found.size());
+  };
+  const double usual = meanWeight(0.0);
+  EXPECT_NEAR(meanWeight(0.002), usual, 0.02 * usual) << "blocks average over their pixels";
+  const double noisy = meanWeight(0.01), noisier = meanWeight(0.014);
+  EXPECT_LT(noisy, 0.6 * usual);
+  EXPECT_NEAR(noisier / noisy, 0.5, 0.1) << "by the square";
+}
+
+TEST_F(DepthAssociationsTest, AShapeOtherThanPredictedIsNoNoise) {
+  surface_.update(frame_.camera,
+                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.25) *
+                                                        Eigen::AngleAxisd(0.04, Eigen::Vector3d::UnitY()) *
+                                                        Eigen::Translation3d(0.0, 0.0, -0.25))));
+  DepthAssociator depth(DepthConfig(), meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+  const SurfaceSamples samples = sampleSurface(surface_, DepthConfig().max_targets);
+  const std::vector<Association> found =
+      depth.associate(frame_, surface_.image(), samples, {Eigen::Isometry3d::Identity()}, colors_)
+          .associations;
+  std::vector<Association> weighed = found;
+  depth.weighByNoise(samples, &weighed);
+  ASSERT_GT(rmsResidual(found), 0.001);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(weighed[i].weight, found[i].weight);
 }
 
 TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <random>
 
 #include "core/frame_observer.h"
 #include "softbody_common/rigid_fit.h"
@@ -159,6 +160,21 @@ TEST_F(ResetBox, IsAsAtFirst) {
     EXPECT_EQ(features[f].place.barycentric, other.place.barycentric);
     EXPECT_EQ(features[f].matched, other.matched);
   }
+}
+
+TEST_F(TurnedBox, TrustsNoisyDepthLess) {
+  const auto meanWeight = [&](float noise_m) {
+    const Points vertices = transformed(box_.volume.rest_vertices, front_);
+    RgbdFrame frame = renderFrame(box_, vertices, 1);
+    std::mt19937 random(2);
+    std::normal_distribution<float> gauss(0.0f, noise_m);
+    for (float& z : frame.depth) z += gauss(random);
+    double sum = 0.0;
+    const std::vector<Association> found = observer_->observe(frame, vertices).depth.associations;
+    for (const Association& association : found) sum += association.weight;
+    return sum / static_cast<double>(found.size());
+  };
+  EXPECT_LT(meanWeight(0.01f), 0.7 * meanWeight(0.001f));
 }
 
 class BoxOfFewFeatures : public TurnedBox {

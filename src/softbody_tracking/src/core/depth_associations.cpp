@@ -14,6 +14,9 @@ constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction
 constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
 constexpr double kStandsOut = 0.01;            // [m] before the surface beside it, and
 constexpr double kSteepest = 1.0;              // times the distance between them: no body bends so
+constexpr double kUsualNoise = 0.001;          // [m] of a block's depth; with more it weighs less
+constexpr std::size_t kFewestSteps = 30;       // between blocks, that tell the noise
+constexpr double kMedianOfNormal = 0.6745;     // of its absolute value, in standard deviations
 
 using Block = DepthBlock;
 using BlockKind = DepthBlock::Kind;
@@ -158,7 +161,33 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   }
 }
 
+/// Median of the differences between blocks side by side, as a standard deviation: the body's shape hardly
+/// changes from one to the next. 0 where few blocks are measured.
+double noiseOf(const cv::Mat1i& grid, const std::vector<Block>& blocks) {
+  std::vector<double> steps;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 1; column < grid.cols; ++column) {
+      const int left = grid(row, column - 1), right = grid(row, column);
+      if (left < 0 || right < 0) continue;
+      const Block &a = blocks[left], &b = blocks[right];
+      if (a.kind != BlockKind::kAgrees || b.kind != BlockKind::kAgrees) continue;
+      steps.push_back(std::abs(a.difference - b.difference));
+    }
+  }
+  if (steps.size() < kFewestSteps) return 0.0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle / (kMedianOfNormal * std::sqrt(2.0));
+}
+
 }  // namespace
+
+void DepthAssociator::weighByNoise(const SurfaceSamples& surface, std::vector<Association>* found) const {
+  const double noise = noiseOf(surface.grid, blocks_);
+  if (noise <= kUsualNoise) return;
+  const double scale = (kUsualNoise / noise) * (kUsualNoise / noise);
+  for (Association& association : *found) association.weight *= scale;
+}
 
 const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, const RasterImage& image,
                                                     const SurfaceSamples& surface,

@@ -46,6 +46,10 @@ class DepthAssociator {
                                      const SurfaceSamples& surface, const RigidMotions& motions,
                                      const ColorModel& colors, int pixel_step = 1);
 
+  /// Where the depth that was last associated is noisier than usual, all of it weighs less.
+  /// @param found the associations with the samples.
+  void weighByNoise(const SurfaceSamples& surface, std::vector<Association>* found) const;
+
  private:
   DepthConfig config_;
   double volume_edge_m_;
