@@ -77,17 +77,20 @@ double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
   if (!cv::Rect(cv::Point(), depth.size()).contains(center)) return 0.0;
   const float middle = depth(center);
   if (middle <= 0.0f) return 0.0;
-  double sum = 0.0;
-  int count = 0;
   const cv::Rect window = cv::Rect(center.x - 2, center.y - 2, 5, 5) & cv::Rect(cv::Point(), depth.size());
+  const float most = 0.02f * middle;
+  float sum = 0.0f;  // of differences from the middle
+  int count = 0;
   for (int v = window.y; v < window.br().y; ++v) {
+    const float* row = depth[v];
     for (int u = window.x; u < window.br().x; ++u) {
-      if (std::abs(depth(v, u) - middle) > 0.02f * middle) continue;
-      sum += depth(v, u);
-      ++count;
+      const float difference = row[u] - middle;
+      const bool agrees = std::abs(difference) <= most;
+      sum += agrees ? difference : 0.0f;
+      count += agrees ? 1 : 0;
     }
   }
-  return count >= kFewestDepths ? sum / count : 0.0;
+  return count >= kFewestDepths ? middle + static_cast<double>(sum) / count : 0.0;
 }
 
 void FeatureMap::predict(const RgbdFrame& frame, const ColorModel& colors, double reach_m,
@@ -159,6 +162,7 @@ void FeatureMap::align(const RgbdFrame& frame, const GrayPyramid& image, int wan
     Prediction& p = predictions_[i];
     if (p.tried) continue;
     p.tried = true;
+    if (i + step < predictions_.size()) features_[predictions_[i + step].feature].patch.prefetch();
     if (!addMatch(frame, image, p, p.pixel, config_.search_radius_px, matches)) missed_.push_back(p);
   }
 }

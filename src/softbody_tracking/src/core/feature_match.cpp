@@ -118,8 +118,9 @@ class Motions {
     result.spread = spread(result);
     for (int i = 0; i < kFits; ++i) {
       Eigen::Matrix3d A = prior_weight, B = prior_weight * prior.motion.transpose();
-      for (int other : neighbors_) {
-        const double ratio = disagreement(other, result) / (result.spread + kSmallestSpread);
+      for (std::size_t n = 0; n < neighbors_.size(); ++n) {
+        const int other = neighbors_[n];
+        const double ratio = disagreements_[n] / (result.spread + kSmallestSpread);
         const Eigen::Vector3d offset = result.offset(matches_[other].pixel);
         const Eigen::Vector3d weighted = offset / (1.0 + ratio * ratio);
         A += weighted * offset.transpose();
@@ -131,8 +132,12 @@ class Motions {
     return result;
   }
 
+  /// Keeps the neighbours' disagreements.
   double spread(const LinearMotion& motion) {
-    return medianOf([&](int other) { return disagreement(other, motion); });
+    disagreements_.clear();
+    for (int other : neighbors_) disagreements_.push_back(disagreement(other, motion));
+    values_ = disagreements_;
+    return median(&values_);
   }
 
   template <typename Value>
@@ -145,7 +150,7 @@ class Motions {
   const std::vector<FeatureMatch>& matches_;
   std::vector<Eigen::Vector3d> motions_, rays_;
   std::vector<int> neighbors_;
-  std::vector<double> values_;
+  std::vector<double> disagreements_, values_;
 };
 
 /// Which of a piece's matches move as what is around them does.

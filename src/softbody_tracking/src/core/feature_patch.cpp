@@ -7,10 +7,11 @@
 namespace softbody {
 namespace {
 
+constexpr std::size_t kCacheLine = 64;  // [bytes]
 constexpr int kIterations = 8;
-constexpr int kHopelessAfter = 3;    // iterations; what is found after all looks alike by then
-constexpr float kHopeless = 0.4f;    // correlation
-constexpr float kConverged = 0.06f;  // [px of the level], of the last step, which is more than what remains
+constexpr int kHopelessAfter = 3;   // iterations; what is found after all looks alike by then
+constexpr float kHopeless = 0.4f;   // correlation
+constexpr float kConverged = 0.1f;  // [px of the level], of the last step, which is more than what remains
 constexpr float kSmallestSpread = 4.0f;     // grey values: standard deviation below which there is only noise
 constexpr float kWeakestDirection = 0.02f;  // eigenvalue of the Hessian of a patch of norm 1 [1/px^2]
 
@@ -35,18 +36,18 @@ bool invertHessian(const PatchTemplate& pattern, Eigen::Matrix2f* inverse) {
 }
 
 /// Whether the warped grid lies in the image.
-bool fits(const cv::Mat1b& image, const cv::Point2f& center, const Eigen::Matrix2f& warp) {
+bool fits(const RowPairs& image, const cv::Point2f& center, const Eigen::Matrix2f& warp) {
   constexpr int kHalf = kPatchSide / 2;
   const float reach_u = kHalf * (std::abs(warp(0, 0)) + std::abs(warp(0, 1)));
   const float reach_v = kHalf * (std::abs(warp(1, 0)) + std::abs(warp(1, 1)));
   return center.x - reach_u >= 0.0f && center.y - reach_v >= 0.0f &&
          center.x + reach_u < static_cast<float>(image.cols - 1) &&
-         center.y + reach_v < static_cast<float>(image.rows - 1);
+         center.y + reach_v < static_cast<float>(image.rows);
 }
 
 }  // namespace
 
-bool FeaturePatch::learnLevel(const cv::Mat1b& image, const cv::Point2f& center, Level* level) {
+bool FeaturePatch::learnLevel(const RowPairs& image, const cv::Point2f& center, Level* level) {
   const Eigen::Matrix2f upright = Eigen::Matrix2f::Identity();
   const cv::Point2f right(1, 0), down(0, 1);
   for (const cv::Point2f& place : {center - right, center + right, center - down, center + down}) {
@@ -63,6 +64,7 @@ bool FeaturePatch::learnLevel(const cv::Mat1b& image, const cv::Point2f& center,
     samplePatch(image, center - step, upright, &before);
     samplePatch(image, center + step, upright, derivative);
     of(derivative) = (of(*derivative) - of(before)) / (2.0f * norm);
+    of(derivative) -= of(*derivative).mean();
   };
   derive(right, &pattern.dx);
   derive(down, &pattern.dy);
@@ -83,14 +85,12 @@ bool FeaturePatch::learn(const GrayPyramid& image, const cv::Point2f& pixel) {
 }
 
 /// Moves the centre until the image there looks like the patch. @return the correlation there.
-float FeaturePatch::alignLevel(const Level& level, const cv::Mat1b& image, const Eigen::Matrix2f& warp,
+float FeaturePatch::alignLevel(const Level& level, const RowPairs& image, const Eigen::Matrix2f& warp,
                                cv::Point2f* center) {
-  PatchSamples samples;
   float correlation = -1.0f;
   for (int i = 0; i < kIterations; ++i) {
     if (!fits(image, *center, warp)) return -1.0f;
-    samplePatch(image, *center, warp, &samples);
-    const PatchSums sums = comparePatch(samples, level.pattern);
+    const PatchSums sums = comparePatch(image, *center, warp, level.pattern);
     if (sums.spread < kSmallestSpread * kPatchSide) return -1.0f;
     correlation = sums.product / sums.spread;
     if (i >= kHopelessAfter && correlation < kHopeless) return -1.0f;
@@ -103,6 +103,12 @@ float FeaturePatch::alignLevel(const Level& level, const cv::Mat1b& image, const
     if (moved.squaredNorm() < kConverged * kConverged) break;
   }
   return correlation;
+}
+
+void FeaturePatch::prefetch() const {
+  if (levels_.empty()) return;
+  const char* level = reinterpret_cast<const char*>(levels_.data());
+  for (std::size_t line = 0; line < sizeof(Level); line += kCacheLine) __builtin_prefetch(level + line);
 }
 
 FeaturePatch::Alignment FeaturePatch::align(const GrayPyramid& image, const Eigen::Matrix2f& warp,

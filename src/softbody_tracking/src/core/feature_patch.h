@@ -28,6 +28,9 @@ class FeaturePatch {
   Alignment align(const GrayPyramid& image, const Eigen::Matrix2f& warp, const cv::Point2f& start,
                   int coarsest_level) const;
 
+  /// Has what align() reads at full resolution brought into the cache: other patches have driven it out.
+  void prefetch() const;
+
  private:
   struct Level {
     PatchTemplate pattern;
@@ -35,8 +38,8 @@ class FeaturePatch {
     Eigen::Matrix2f inverse_hessian;
   };
 
-  static bool learnLevel(const cv::Mat1b& image, const cv::Point2f& center, Level* level);
-  static float alignLevel(const Level& level, const cv::Mat1b& image, const Eigen::Matrix2f& warp,
+  static bool learnLevel(const RowPairs& image, const cv::Point2f& center, Level* level);
+  static float alignLevel(const Level& level, const RowPairs& image, const Eigen::Matrix2f& warp,
                           cv::Point2f* center);
 
   std::vector<Level> levels_;  ///< full resolution first; coarser ones as far as they fix a position

@@ -115,8 +115,9 @@ RigidMotions FrameObserver::alignRigidly(const RgbdFrame& frame, const std::vect
   return rigid_.align(frame, surface_, samples_, colors_, matches, &depth_);
 }
 
-cv::Rect FrameObserver::searchRegion(const cv::Size& size) const {
-  const int margin = kWideSearchPx + kPatchMargin;
+/// Where features may be, so far from their predictions, and what surrounds them.
+cv::Rect FrameObserver::searchRegion(const cv::Size& size, int reach_px) const {
+  const int margin = reach_px + kPatchMargin;
   const cv::Rect& covered = surface_.image().region;
   if (covered.empty()) return {};
   return cv::Rect(covered.x - margin, covered.y - margin, covered.width + 2 * margin,
@@ -134,8 +135,12 @@ cv::Rect FrameObserver::nextTile() {
   return cv::Rect(middle, corners[tile_]);
 }
 
+void FrameObserver::buildPyramid(const RgbdFrame& frame, int reach_px) {
+  pyramid_.build(frame.color, searchRegion(frame.color.size(), reach_px));
+}
+
 void FrameObserver::expectFeatures(const RgbdFrame& frame) {
-  pyramid_.build(frame.color, searchRegion(frame.color.size()));
+  buildPyramid(frame, config_.features.search_radius_px);
   map_.predict(frame, colors_, config_.depth.max_distance_m, surface_);
 }
 
@@ -191,7 +196,10 @@ bool FrameObserver::hardlyAny(const std::vector<FeatureMatch>& matches) const {
 void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   seen->matches = alignFeatures(frame);
   if (few(seen->matches)) {
-    if (wide_search_.isDue()) map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
+    if (wide_search_.isDue()) {
+      buildPyramid(frame, kWideSearchPx);
+      map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
+    }
     markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     const RigidMotions rough = alignRigidly(frame, seen->matches);
     if (largestMotion(surface_, rough) > kLookAgain) {
@@ -273,7 +281,7 @@ void FrameObserver::lookWhereRecognized(const RgbdFrame& frame, const std::vecto
 
 /// Wherever the body may be.
 std::vector<Keypoint> FrameObserver::extract(const RgbdFrame& frame) {
-  const cv::Rect region = searchRegion(frame.color.size());
+  const cv::Rect region = searchRegion(frame.color.size(), kWideSearchPx);
   return orb_.extract(frame.color, colors_.mask(frame.color, region), region);
 }
 

@@ -73,7 +73,8 @@ class FrameObserver {
   void look(const RgbdFrame& frame, const Points& vertices);
   RigidMotions alignRigidly(const RgbdFrame& frame, const std::vector<FeatureMatch>& matches);
   void learnColors(const RgbdFrame& frame);
-  cv::Rect searchRegion(const cv::Size& size) const;
+  cv::Rect searchRegion(const cv::Size& size, int reach_px) const;
+  void buildPyramid(const RgbdFrame& frame, int reach_px);
   cv::Rect nextTile();
   void expectFeatures(const RgbdFrame& frame);
   std::vector<FeatureMatch> alignFeatures(const RgbdFrame& frame);

@@ -7,6 +7,17 @@ namespace {
 
 cv::Size halved(const cv::Size& size) { return {(size.width + 1) / 2, (size.height + 1) / 2}; }
 
+void pairRows(const cv::Mat1b& gray, RowPairs* pairs) {
+  for (int v = 0; v < pairs->rows; ++v) {
+    const uchar *row = gray[v], *below = gray[v + 1];
+    uchar* pair = pairs->ptr(v);
+    for (int u = 0; u < pairs->cols; ++u) {
+      pair[2 * u] = row[u];
+      pair[2 * u + 1] = below[u];
+    }
+  }
+}
+
 }  // namespace
 
 void GrayPyramid::build(const cv::Mat3b& color, const cv::Rect& region) {
@@ -14,20 +25,29 @@ void GrayPyramid::build(const cv::Mat3b& color, const cv::Rect& region) {
   const cv::Point first(region.x / kStep * kStep, region.y / kStep * kStep);
   const cv::Rect wide = cv::Rect(first, region.br()) & cv::Rect(cv::Point(), color.size());
   origin_ = cv::Point2f(static_cast<float>(wide.x), static_cast<float>(wide.y));
+  built_ = kLevels;
+  levels_ = {};
+  if (wide.height < 2 * kStep) return;  // no patch fits
   cv::Size size = wide.size(), whole = color.size();
   for (int l = 0; l < kLevels; ++l) {
-    memory_[l].create(whole);
-    levels_[l] = memory_[l](cv::Rect(cv::Point(), size));
+    memory_[l].gray.create(whole);
+    memory_[l].pairs.create(whole);
+    levels_[l] = {memory_[l].gray(cv::Rect(cv::Point(), size)),
+                  memory_[l].pairs(cv::Rect(0, 0, size.width, size.height - 1))};
     size = halved(size);
     whole = halved(whole);
   }
-  if (!wide.empty()) cv::cvtColor(color(wide), levels_[0], cv::COLOR_BGR2GRAY);
-  built_ = wide.empty() ? kLevels : 1;
+  cv::cvtColor(color(wide), levels_[0].gray, cv::COLOR_BGR2GRAY);
+  pairRows(levels_[0].gray, &levels_[0].pairs);
+  built_ = 1;
 }
 
-const cv::Mat1b& GrayPyramid::level(int l) const {
-  for (; built_ <= l; ++built_) cv::pyrDown(levels_[built_ - 1], levels_[built_]);
-  return levels_[l];
+const RowPairs& GrayPyramid::level(int l) const {
+  for (; built_ <= l; ++built_) {
+    cv::pyrDown(levels_[built_ - 1].gray, levels_[built_].gray);
+    pairRows(levels_[built_].gray, &levels_[built_].pairs);
+  }
+  return levels_[l].pairs;
 }
 
 }  // namespace softbody

@@ -3,6 +3,8 @@
 #include <array>
 #include <opencv2/core.hpp>
 
+#include "patch_kernel.h"
+
 namespace softbody {
 
 /// Grey images of a region at full, half and quarter resolution. Pixel (u, v) of the frame lies at
@@ -15,7 +17,7 @@ class GrayPyramid {
   void build(const cv::Mat3b& color, const cv::Rect& region);
 
   /// Halved only when first asked for: most frames need nothing but full resolution.
-  const cv::Mat1b& level(int l) const;
+  const RowPairs& level(int l) const;
   cv::Point2f toLevel(const cv::Point2f& pixel, int l) const {
     return (pixel - origin_) * (1.0f / static_cast<float>(1 << l));
   }
@@ -24,10 +26,15 @@ class GrayPyramid {
   }
 
  private:
+  struct Level {
+    cv::Mat1b gray;
+    RowPairs pairs;
+  };
+
   cv::Point2f origin_;
-  mutable std::array<cv::Mat1b, kLevels> levels_;
-  std::array<cv::Mat1b, kLevels> memory_;  ///< for a whole image, so that a frame allocates none
-  mutable int built_ = kLevels;            ///< levels of this frame
+  mutable std::array<Level, kLevels> levels_;
+  std::array<Level, kLevels> memory_;  ///< for a whole image, so that a frame allocates none
+  mutable int built_ = kLevels;        ///< levels of this frame
 };
 
 }  // namespace softbody

@@ -16,7 +16,7 @@ struct alignas(64) PatchSamples {
 };
 
 /// What a patch looked like, with mean 0 and norm 1, and its derivatives per pixel to the right and
-/// downwards.
+/// downwards, with mean 0.
 struct PatchTemplate {
   PatchSamples values, dx, dy;
 };
@@ -29,12 +29,17 @@ struct PatchSums {
   float along_y = 0.0f;  ///< c . dy
 };
 
+/// A grey image of which every element holds a pixel and the one below it: a single read yields the four that
+/// a bilinear sample is made of. It has a row less than the image.
+using RowPairs = cv::Mat2b;
+
 /// Bilinear samples on a grid of pixels about the centre, warped. Vectors of any width give the same bits.
 /// @param center, warp such that the grid lies inside the image.
-void samplePatch(const cv::Mat1b& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
+void samplePatch(const RowPairs& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
                  PatchSamples* samples);
 
-/// Vectors of any width give the same bits.
-PatchSums comparePatch(const PatchSamples& samples, const PatchTemplate& pattern);
+/// Such samples beside a template. Vectors of any width give the same bits.
+PatchSums comparePatch(const RowPairs& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
+                       const PatchTemplate& pattern);
 
 }  // namespace softbody
