@@ -29,6 +29,25 @@ TEST(ObjectCandidates, AreNoneOnABareWallOrWithoutDepth) {
   EXPECT_TRUE(findObjectCandidates(frame, ColorModel(), kDiameter).empty());
 }
 
+/// A wall, and before it three squares side by side, 8 cm wide, the middle one further away by a step.
+RgbdFrame threeSquares(double step_m) {
+  RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1);
+  frame.depth.setTo(1.2f);
+  constexpr double kWidth = 0.08, kNear = 0.6;
+  for (int part = 0; part < 3; ++part) {
+    const double z = part == 1 ? kNear + step_m : kNear;
+    const int side = cvRound(kWidth * frame.camera.fx / kNear);
+    frame.depth(cv::Rect(200 + part * side, 200, side, side)).setTo(static_cast<float>(z));
+  }
+  return frame;
+}
+
+TEST(ObjectCandidates, HoldTogetherABodyThatHidesPartsOfItself) {
+  constexpr double kLargeDiameter = 0.4;  // each square alone is too small for it
+  EXPECT_EQ(findObjectCandidates(threeSquares(0.04), ColorModel(), kLargeDiameter).size(), 1u);
+  EXPECT_TRUE(findObjectCandidates(threeSquares(0.1), ColorModel(), kLargeDiameter).empty());
+}
+
 TEST(ClusteredMesh, KeepsTheShapeWithinACell) {
   const TriangleMesh coarse = clustered(kMesh, 0.03);
   EXPECT_LT(coarse.vertices.rows(), kMesh.vertices.rows());
@@ -52,6 +71,23 @@ TEST(BodyFinder, FindsTheBodyInAnyOrientation) {
     const Points vertices = transformed(kMesh.vertices, found.front().pose);
     EXPECT_LT((vertices.colwise().mean() - truth.colwise().mean()).norm(), 0.02) << "trial " << trial;
   }
+}
+
+TEST(BodyFinder, BelievesManyPixelsRatherThanFew) {
+  Eigen::Isometry3d near = boxPose(), far = boxPose();
+  near.translation().x() -= 0.1;
+  far.translation() += Eigen::Vector3d(0.2, 0.1, 0.45);
+  RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, near), 1);
+  const RgbdFrame other = renderFrame(kBox, transformed(kMesh.vertices, far), 1);
+  cv::Mat1f noise(frame.depth.size());
+  cv::theRNG().state = 1;
+  cv::randn(noise, 0.0, 0.005);
+  cv::add(frame.depth, noise, frame.depth, frame.depth < 1.0f);
+  frame.depth = cv::min(frame.depth, other.depth);
+  const auto found = BodyFinder(kMesh, RegistrationConfig()).find(frame, ColorModel(), {});
+  ASSERT_GE(found.size(), 2u);
+  EXPECT_LT((found.front().pose.translation() - near.translation()).norm(), 0.03);
+  EXPECT_GT(found.front().cost, found[1].cost) << "the far one fits better";
 }
 
 }  // namespace

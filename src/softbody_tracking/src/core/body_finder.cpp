@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCoarseColumns = 80, kFineColumns = 160, kFinestColumns = 320;
 constexpr int kCoarseIcp = 10;
-constexpr std::size_t kMostCandidates = 4, kRefined = 8, kKept = 4;
+constexpr std::size_t kMostCandidates = 4, kRefined = 3, kKept = 4;
 constexpr double kOtherTurn = 0.35;  // [rad]
 constexpr double kOtherPlace = 0.2;  // diameters
 
@@ -35,7 +35,19 @@ std::vector<Eigen::Matrix3d> orientations() {
   return result;
 }
 
-bool byCost(const RegistrationResult& a, const RegistrationResult& b) { return a.cost < b.cost; }
+void sortByCost(std::vector<RegistrationResult>* poses) {
+  std::stable_sort(poses->begin(), poses->end(),
+                   [](const RegistrationResult& a, const RegistrationResult& b) { return a.cost < b.cost; });
+}
+
+/// Those first that most of the depth speaks for.
+void sortBySupport(PoseSearch* search, std::vector<RegistrationResult>* poses) {
+  std::vector<std::pair<double, RegistrationResult>> rated;
+  for (const RegistrationResult& pose : *poses) rated.emplace_back(search->support(pose.pose), pose);
+  std::stable_sort(rated.begin(), rated.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t i = 0; i < rated.size(); ++i) (*poses)[i] = rated[i].second;
+}
 
 }  // namespace
 
@@ -91,48 +103,51 @@ std::vector<Eigen::Isometry3d> BodyFinder::startsAt(const Eigen::Vector3d& cente
   return starts;
 }
 
-std::vector<RegistrationResult> BodyFinder::find(const RgbdFrame& frame, const ColorModel& colors,
-                                                 const std::vector<Eigen::Isometry3d>& guesses) const {
-  const RgbdFrame coarse = subsampled(frame, kCoarseColumns), fine = subsampled(frame, kFineColumns);
-  std::vector<Eigen::Isometry3d> starts = guesses;
-  std::vector<ObjectCandidate> candidates = findObjectCandidates(fine, colors, diameter_);
-  candidates.resize(std::min(candidates.size(), kMostCandidates));
-  for (const ObjectCandidate& candidate : candidates) {
-    const std::vector<Eigen::Isometry3d> here = startsAt(candidate.center);
-    starts.insert(starts.end(), here.begin(), here.end());
-  }
-  PoseSearch search(coarse, coarse_, config_.distance_scale_m);
-  std::vector<RegistrationResult> found;
-  for (const Eigen::Isometry3d& start : starts) {
-    const Eigen::Isometry3d pose = search.icp(start, kCoarseIcp);
-    found.push_back({pose, search.cost(pose)});
-  }
-  std::stable_sort(found.begin(), found.end(), byCost);
-
+/// The first ones that are unlike those before.
+std::vector<RegistrationResult> BodyFinder::distinct(const std::vector<RegistrationResult>& poses,
+                                                     std::size_t most) const {
+  const Eigen::Vector3d center = mesh_.vertices.colwise().mean().transpose();
   const auto differs = [&](const RegistrationResult& a, const RegistrationResult& b) {
     const Eigen::Isometry3d between = a.pose.inverse() * b.pose;
-    const Eigen::Vector3d center = mesh_.vertices.colwise().mean().transpose();
     return Eigen::AngleAxisd(between.linear()).angle() > kOtherTurn ||
            (a.pose * center - b.pose * center).norm() > kOtherPlace * diameter_;
   };
-  const auto distinct = [&](const std::vector<RegistrationResult>& poses, std::size_t most) {
-    std::vector<RegistrationResult> kept;
-    for (const RegistrationResult& pose : poses) {
-      const bool is_new = std::all_of(kept.begin(), kept.end(),
-                                      [&](const RegistrationResult& other) { return differs(pose, other); });
-      if (is_new && kept.size() < most) kept.push_back(pose);
+  std::vector<RegistrationResult> kept;
+  for (const RegistrationResult& pose : poses) {
+    const bool is_new = std::all_of(kept.begin(), kept.end(),
+                                    [&](const RegistrationResult& other) { return differs(pose, other); });
+    if (is_new && kept.size() < most) kept.push_back(pose);
+  }
+  return kept;
+}
+
+std::vector<RegistrationResult> BodyFinder::find(const RgbdFrame& frame, const ColorModel& colors,
+                                                 const std::vector<Eigen::Isometry3d>& guesses) const {
+  const RgbdFrame coarse = subsampled(frame, kCoarseColumns), fine = subsampled(frame, kFineColumns);
+  std::vector<ObjectCandidate> candidates = findObjectCandidates(fine, colors, diameter_);
+  candidates.resize(std::min(candidates.size(), kMostCandidates));
+  std::vector<std::vector<Eigen::Isometry3d>> places{guesses};
+  for (const ObjectCandidate& candidate : candidates) places.push_back(startsAt(candidate.center));
+
+  PoseSearch search(coarse, coarse_, config_.distance_scale_m),
+      finer(fine, coarse_, config_.distance_scale_m);
+  std::vector<RegistrationResult> found;
+  for (const std::vector<Eigen::Isometry3d>& starts : places) {
+    std::vector<RegistrationResult> here;
+    for (const Eigen::Isometry3d& start : starts) {
+      const Eigen::Isometry3d pose = search.icp(start, kCoarseIcp);
+      here.push_back({pose, search.cost(pose)});
     }
-    return kept;
-  };
-  found = distinct(found, kRefined);
-  PoseSearch finer(fine, coarse_, config_.distance_scale_m);
-  for (RegistrationResult& pose : found) pose = finer.refine(pose.pose, 0.1, 0.02);
-  std::stable_sort(found.begin(), found.end(), byCost);
+    sortByCost(&here);
+    for (const RegistrationResult& pose : distinct(here, kRefined))
+      found.push_back(finer.refine(pose.pose, 0.1, 0.02));
+  }
+  sortBySupport(&finer, &found);
   found = distinct(found, kKept);
   const RgbdFrame finest = subsampled(frame, kFinestColumns);
   PoseSearch last(finest, mesh_, config_.distance_scale_m);
   for (RegistrationResult& pose : found) pose = last.refine(pose.pose, 0.02, 0.003);
-  std::stable_sort(found.begin(), found.end(), byCost);
+  sortBySupport(&last, &found);
   return found;
 }
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "pose_search.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {
 namespace {
 
-constexpr double kWorstCost = 0.22;  // of a pose that nobody vouches for
 constexpr double kAlikeCost = 0.02;  // poses whose costs differ by less look alike
 constexpr double kLargestForeignShare = 0.5;
 constexpr double kSmallestFeatureShare = 0.15;

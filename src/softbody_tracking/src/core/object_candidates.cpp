@@ -13,11 +13,13 @@ namespace {
 
 constexpr int kPlaneTrials = 150;
 constexpr int kMostPlanes = 3;
-constexpr double kPlaneThickness = 0.008;    // [m] at 1 m; grows with the square of the distance
-constexpr double kSmallestPlaneShare = 0.1;  // of the measured pixels
-constexpr double kPlaneBeyondBody = 1.3;     // diameters that a background plane spans
-constexpr double kStep = 0.02;               // [m] between neighbouring pixels of one piece
-constexpr double kLikelyShare = 0.8;         // of a body's diameter that one view shows
+constexpr double kPlaneThickness = 0.008;       // [m] at 1 m; grows with the square of the distance
+constexpr double kSmallestPlaneShare = 0.1;     // of the measured pixels
+constexpr double kPlaneBeyondBody = 1.3;        // diameters that a background plane spans
+constexpr double kSteps[] = {0.05, 0.1, 0.15};  // of the body's diameter, between neighbours of one piece
+constexpr double kSmallestStep = 0.02;          // [m]
+constexpr double kSamePlace = 0.1;              // of the body's diameter
+constexpr double kLikelyShare = 0.8;            // of a body's diameter that one view shows
 constexpr int kFewestPixels = 25;
 constexpr double kSmallestShare = 0.3, kLargestShare = 1.6;  // of the body's diameter
 
@@ -104,7 +106,7 @@ bool removePlane(double diameter_m, std::mt19937* random, Cloud* cloud) {
 }
 
 /// The free points connected with one of them, taken out of the cloud.
-std::vector<Eigen::Vector3d> takePiece(int seed, Cloud* cloud) {
+std::vector<Eigen::Vector3d> takePiece(int seed, double step_m, Cloud* cloud) {
   const cv::Rect inside(cv::Point(), cloud->index.size());
   std::vector<Eigen::Vector3d> piece;
   std::vector<int> open{seed};
@@ -117,7 +119,7 @@ std::vector<Eigen::Vector3d> takePiece(int seed, Cloud* cloud) {
       for (int du = -1; du <= 1; ++du) {
         const cv::Point next = cloud->pixels[i] + cv::Point(du, dv);
         const int j = inside.contains(next) ? cloud->index(next) : -1;
-        if (j < 0 || !cloud->free[j] || std::abs(cloud->points[j].z() - cloud->points[i].z()) > kStep)
+        if (j < 0 || !cloud->free[j] || std::abs(cloud->points[j].z() - cloud->points[i].z()) > step_m)
           continue;
         cloud->free[j] = false;
         open.push_back(j);
@@ -125,6 +127,23 @@ std::vector<Eigen::Vector3d> takePiece(int seed, Cloud* cloud) {
     }
   }
   return piece;
+}
+
+/// Pieces of about the body's size, the likelier the lower rated.
+void addPieces(Cloud cloud, double step_m, double diameter_m,
+               std::vector<std::pair<double, ObjectCandidate>>* rated) {
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (!cloud.free[i]) continue;
+    const std::vector<Eigen::Vector3d> piece = takePiece(static_cast<int>(i), step_m, &cloud);
+    const double share = spread(piece) / diameter_m;
+    if (static_cast<int>(piece.size()) < kFewestPixels || share < kSmallestShare || share > kLargestShare)
+      continue;
+    ObjectCandidate candidate{Eigen::Vector3d::Zero(), static_cast<int>(piece.size())};
+    for (const Eigen::Vector3d& p : piece) candidate.center += p / static_cast<double>(piece.size());
+    // A body that somebody wants tracked is rather near than far.
+    rated->emplace_back(2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(candidate.pixels),
+                        candidate);
+  }
 }
 
 }  // namespace
@@ -136,23 +155,21 @@ std::vector<ObjectCandidate> findObjectCandidates(const RgbdFrame& frame, const 
   for (int k = 0; k < kMostPlanes && removePlane(diameter_m, &random, &cloud); ++k) {
   }
   std::vector<std::pair<double, ObjectCandidate>> rated;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!cloud.free[i]) continue;
-    const std::vector<Eigen::Vector3d> piece = takePiece(static_cast<int>(i), &cloud);
-    const double share = spread(piece) / diameter_m;
-    if (static_cast<int>(piece.size()) < kFewestPixels || share < kSmallestShare || share > kLargestShare)
-      continue;
-    ObjectCandidate candidate{Eigen::Vector3d::Zero(), static_cast<int>(piece.size())};
-    for (const Eigen::Vector3d& p : piece) candidate.center += p / static_cast<double>(piece.size());
-    // A body that somebody wants tracked is rather near than far.
-    rated.emplace_back(2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(candidate.pixels),
-                       candidate);
+  double last_step_m = 0.0;
+  for (const double step : kSteps) {
+    const double step_m = std::max(kSmallestStep, step * diameter_m);
+    if (step_m > last_step_m) addPieces(cloud, step_m, diameter_m, &rated);
+    last_step_m = step_m;
   }
   std::stable_sort(rated.begin(), rated.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<ObjectCandidate> candidates;
-  candidates.reserve(rated.size());
-  for (const auto& [distance, candidate] : rated) candidates.push_back(candidate);
+  for (const auto& [distance, candidate] : rated) {
+    const bool is_new = std::none_of(candidates.begin(), candidates.end(), [&](const ObjectCandidate& other) {
+      return (other.center - candidate.center).norm() < kSamePlace * diameter_m;
+    });
+    if (is_new) candidates.push_back(candidate);
+  }
   return candidates;
 }
 

@@ -129,6 +129,11 @@ double PoseSearch::cost(const Eigen::Isometry3d& pose) {
   return renderedCost(frame_, image_, scale_);
 }
 
+double PoseSearch::support(const Eigen::Isometry3d& pose) {
+  const double saved = kWorstCost - cost(pose);
+  return image_.region.empty() ? 0.0 : saved * cv::countNonZero(image_.depth(image_.region));
+}
+
 double PoseSearch::rankedCost(const Eigen::Isometry3d& pose) {
   if (!preferred_) return cost(pose);
   const double angle = Eigen::AngleAxisd(pose.linear().transpose() * preferred_->linear()).angle();

@@ -11,6 +11,9 @@
 
 namespace softbody {
 
+/// Mean cost a pixel above which nothing but depth makes a pose plausible.
+constexpr double kWorstCost = 0.22;
+
 /// Depth of every k-th pixel, with the camera that belongs to it; k so that about so many columns remain.
 RgbdFrame subsampled(const RgbdFrame& frame, int columns);
 
@@ -21,6 +24,10 @@ class PoseSearch {
 
   /// See poseCost().
   double cost(const Eigen::Isometry3d& pose);
+
+  /// How much the depth speaks for a pose: what its pixels cost less, all together, than the worst pose that
+  /// is taken. A few pixels far off resemble any body.
+  double support(const Eigen::Isometry3d& pose);
 
   /// The cost, and a little for the turn and the distance from a preferred pose.
   double rankedCost(const Eigen::Isometry3d& pose);
