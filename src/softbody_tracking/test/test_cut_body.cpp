@@ -105,8 +105,11 @@ TEST(CutBody, IsLostWhereNothingOfItShows) {
   EXPECT_TRUE(tracked.tracksWithin(3, rest));
 }
 
+/// By so many metres.
+class PartedCutBody : public ::testing::TestWithParam<double> {};
+
 /// Each where it came to lie, though the body is recognised as it was before the cut.
-TEST(CutBody, IsFoundAgainPieceByPieceAfterItWasLost) {
+TEST_P(PartedCutBody, IsFoundAgainPieceByPieceAfterItWasLost) {
   TrackedBox tracked;
   for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
   tracked.cut(posedBox(cutBox(tracked.box())));
@@ -123,8 +126,8 @@ TEST(CutBody, IsFoundAgainPieceByPieceAfterItWasLost) {
       if (v >= whole || tracked.box().volume.rest_vertices(v, 0) > 1e-9) vertices.row(v) = turned.row(v);
     return vertices;
   };
-  for (int i = 0; i < 10; ++i) tracked.show(parted(0.005 * i));
-  const Points truth = parted(0.05);
+  for (int i = 0; 0.005 * i < GetParam(); ++i) tracked.show(parted(0.005 * i));
+  const Points truth = parted(GetParam());
   EXPECT_EQ(tracked.show(truth).status.state, TrackingState::kTracking);
   TrackingResult result;
   for (int i = 0; i < 12; ++i) result = tracked.show(truth, [](RgbdFrame* frame) { coverAround(0, frame); });
@@ -135,6 +138,8 @@ TEST(CutBody, IsFoundAgainPieceByPieceAfterItWasLost) {
   EXPECT_GT(result.targets.targets.size(), 1000u);
   EXPECT_LT(tracked.shareOff(result, truth, 0.002), 0.01);
 }
+
+INSTANTIATE_TEST_SUITE_P(Gaps, PartedCutBody, ::testing::Values(0.05, 0.08));
 
 class CutObserver : public ::testing::Test {
  protected:

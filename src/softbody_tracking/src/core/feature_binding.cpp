@@ -93,7 +93,7 @@ std::vector<cv::KeyPoint> FeatureMap::choose(const RgbdFrame& frame, const std::
   std::vector<cv::KeyPoint> chosen;
   const TetTopology& volume = surface.volume();
   const Eigen::Matrix3Xf there = restPositions(places, volume);
-  // The reference frame takes every keypoint, like the paper; later ones fill gaps.
+  // The first view takes the strong ones first; later ones fill gaps.
   for (const int i : features_.empty() ? spreadStrong(there, wanted, gap_m)
                                        : spreadOut(there, restPositions(known, volume), wanted, gap_m))
     chosen.push_back(corners[i]);
