@@ -44,11 +44,12 @@ std::vector<int> inGaps(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& 
 
 std::vector<int> spreadOut(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& known, int wanted,
                            double gap_m) {
+  if (wanted <= 0) return {};
   std::vector<float> to_known(ranked.cols());
   for (int i = 0; i < ranked.cols(); ++i) to_known[i] = squaredDistance(known, ranked.col(i));
   auto near = static_cast<float>(gap_m);
   std::vector<int> best = apart(ranked, to_known, near, wanted);
-  const auto enough = static_cast<std::size_t>(std::max(0, wanted));
+  const auto enough = static_cast<std::size_t>(wanted);
   if (best.size() <= enough) return best;
   float far = (ranked.rowwise().maxCoeff() - ranked.rowwise().minCoeff()).norm();
   for (int k = 0; k < kSearches && best.size() != enough; ++k) {

@@ -197,7 +197,7 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   seen->matches = alignFeatures(frame);
   if (few(seen->matches)) {
     if (wide_search_.isDue()) {
-      buildPyramid(frame, kWideSearchPx);
+      buildPyramid(frame, std::max(kWideSearchPx, config_.features.search_radius_px));
       map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
     }
     markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
