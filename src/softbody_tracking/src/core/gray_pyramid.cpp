@@ -8,10 +8,11 @@ namespace {
 cv::Size halved(const cv::Size& size) { return {(size.width + 1) / 2, (size.height + 1) / 2}; }
 
 void pairRows(const cv::Mat1b& gray, RowPairs* pairs) {
+  const int columns = pairs->cols;  // which the pixels written might be, for all the compiler knows
   for (int v = 0; v < pairs->rows; ++v) {
     const uchar *row = gray[v], *below = gray[v + 1];
     uchar* pair = pairs->ptr(v);
-    for (int u = 0; u < pairs->cols; ++u) {
+    for (int u = 0; u < columns; ++u) {
       pair[2 * u] = row[u];
       pair[2 * u + 1] = below[u];
     }
@@ -27,7 +28,7 @@ void GrayPyramid::build(const cv::Mat3b& color, const cv::Rect& region) {
   origin_ = cv::Point2f(static_cast<float>(wide.x), static_cast<float>(wide.y));
   built_ = kLevels;
   levels_ = {};
-  if (wide.height < 2 * kStep) return;  // no patch fits
+  if (wide.empty()) return;
   cv::Size size = wide.size(), whole = color.size();
   for (int l = 0; l < kLevels; ++l) {
     memory_[l].gray.create(whole);
