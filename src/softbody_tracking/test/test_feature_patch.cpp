@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <random>
+#include <vector>
 
 #include "core/feature_patch.h"
 
@@ -58,6 +60,31 @@ TEST(FeaturePatch, FindsItselfToAFractionOfAPixelUnderAnyWarpAndLight) {
   }
   ASSERT_GT(tried, 100);
   EXPECT_GT(found, 0.9 * tried);
+}
+
+/// The warp is never quite as predicted, so that steps become smaller but slowly.
+TEST(FeaturePatch, StopsWhereItHardlyMovesOn) {
+  const GrayPyramid image = pyramidOf(texture());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+  std::vector<double> left;
+  for (int trial = 0; trial < 400; ++trial) {
+    const cv::Point2f pixel(100.0f + 60.0f * uniform(random), 100.0f + 60.0f * uniform(random));
+    FeaturePatch patch;
+    if (!patch.learn(image, pixel)) continue;
+    Eigen::Matrix2f warp;
+    warp << 1.0f + 0.1f * uniform(random), 0.1f * uniform(random), 0.1f * uniform(random),
+        1.0f + 0.1f * uniform(random);
+    const cv::Point2f start = pixel + cv::Point2f(uniform(random), uniform(random));
+    const FeaturePatch::Alignment once = patch.align(image, warp, start, 0);
+    cv::Point2f last = once.pixel;
+    for (int i = 0; i < 20; ++i) last = patch.align(image, warp, last, 0).pixel;
+    left.push_back(cv::norm(last - once.pixel));
+  }
+  ASSERT_GT(left.size(), 200u);
+  const auto median = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
+  std::nth_element(left.begin(), median, left.end());
+  EXPECT_LT(*median, 0.008);
 }
 
 TEST(FeaturePatch, LearnsNothingFromBlankPixelsEdgesOrTheBorder) {
