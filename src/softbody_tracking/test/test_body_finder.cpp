@@ -29,10 +29,24 @@ TEST(ObjectCandidates, AreNoneOnABareWallOrWithoutDepth) {
   EXPECT_TRUE(findObjectCandidates(frame, ColorModel(), kDiameter).empty());
 }
 
-/// A wall, and before it three squares side by side, 8 cm wide, the middle one further away by a step.
-RgbdFrame threeSquares(double step_m) {
+RgbdFrame bareWall() {
   RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1);
   frame.depth.setTo(1.2f);
+  return frame;
+}
+
+TEST(ObjectCandidates, HoldAFlatBodyAlthoughOtherThingsLieInItsPlane) {
+  RgbdFrame frame = bareWall();
+  for (const cv::Rect& square : {cv::Rect(300, 140, 200, 200), cv::Rect(10, 10, 80, 80)})
+    frame.depth(square).setTo(0.6f);
+  const auto candidates = findObjectCandidates(frame, ColorModel(), 0.25);
+  ASSERT_FALSE(candidates.empty());
+  EXPECT_LT((candidates.front().center - frame.camera.unproject(400, 240, 0.6)).norm(), 0.02);
+}
+
+/// A wall, and before it three squares side by side, 8 cm wide, the middle one further away by a step.
+RgbdFrame threeSquares(double step_m) {
+  RgbdFrame frame = bareWall();
   constexpr double kWidth = 0.08, kNear = 0.6;
   for (int part = 0; part < 3; ++part) {
     const double z = part == 1 ? kNear + step_m : kNear;

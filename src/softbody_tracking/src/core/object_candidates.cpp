@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <random>
 
@@ -73,36 +75,57 @@ double spread(const std::vector<Eigen::Vector3d>& points) {
   return std::sqrt(6.0 * sum / static_cast<double>(points.size()));
 }
 
-/// Takes the largest plane among the free points off them, if it spans more than the body could (RANSAC,
-/// Fischler and Bolles 1981).
-bool removePlane(double diameter_m, std::mt19937* random, Cloud* cloud) {
-  std::vector<int> open;
-  for (std::size_t i = 0; i < cloud->points.size(); ++i) {
-    if (cloud->free[i]) open.push_back(static_cast<int>(i));
-  }
-  if (open.size() < 3) return false;
+/// The largest plane among some points (RANSAC, Fischler and Bolles 1981); nothing where it holds too few.
+/// @return those that lie on it.
+std::vector<int> largestPlane(const Cloud& cloud, const std::vector<int>& open, std::mt19937* random) {
+  if (open.size() < 3) return {};
   std::uniform_int_distribution<std::size_t> pick(0, open.size() - 1);
   std::optional<Plane> best;
   std::size_t most = 0;
   for (int trial = 0; trial < kPlaneTrials; ++trial) {
     const std::size_t a = pick(*random), b = pick(*random), c = pick(*random);
-    const auto plane = planeThrough(cloud->points[open[a]], cloud->points[open[b]], cloud->points[open[c]]);
+    const auto plane = planeThrough(cloud.points[open[a]], cloud.points[open[b]], cloud.points[open[c]]);
     if (!plane) continue;
     const auto on_it = static_cast<std::size_t>(
-        std::count_if(open.begin(), open.end(), [&](int i) { return plane->holds(cloud->points[i]); }));
+        std::count_if(open.begin(), open.end(), [&](int i) { return plane->holds(cloud.points[i]); }));
     if (on_it > most) most = on_it, best = plane;
   }
-  if (!best || static_cast<double>(most) < kSmallestPlaneShare * static_cast<double>(cloud->points.size()))
-    return false;
-  std::vector<Eigen::Vector3d> on_it;
-  for (int i : open) {
-    if (best->holds(cloud->points[i])) on_it.push_back(cloud->points[i]);
+  if (!best || static_cast<double>(most) < kSmallestPlaneShare * static_cast<double>(cloud.points.size()))
+    return {};
+  std::vector<int> on_it;
+  for (int i : open)
+    if (best->holds(cloud.points[i])) on_it.push_back(i);
+  return on_it;
+}
+
+/// Of some points the most that are connected in the image.
+std::vector<Eigen::Vector3d> largestPart(const Cloud& cloud, const std::vector<int>& points) {
+  cv::Mat1b mask(cloud.index.size(), 0);
+  for (int i : points) mask(cloud.pixels[i]) = 1;
+  cv::Mat1i labels;
+  const int count = cv::connectedComponents(mask, labels);
+  std::vector<std::vector<Eigen::Vector3d>> parts(static_cast<std::size_t>(count));
+  for (int i : points) parts[labels(cloud.pixels[i])].push_back(cloud.points[i]);
+  return *std::max_element(parts.begin(), parts.end(),
+                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
+}
+
+/// Takes planes out that span more than the body could; what else happens to lie on the plane of a flat body
+/// does not make that a background.
+void removePlanes(double diameter_m, Cloud* cloud) {
+  std::vector<int> open;
+  for (std::size_t i = 0; i < cloud->points.size(); ++i)
+    if (cloud->free[i]) open.push_back(static_cast<int>(i));
+  std::mt19937 random(1);
+  for (int k = 0; k < kMostPlanes; ++k) {
+    const std::vector<int> plane = largestPlane(*cloud, open, &random);
+    if (plane.empty()) return;
+    const bool background = spread(largestPart(*cloud, plane)) >= kPlaneBeyondBody * diameter_m;
+    for (int i : plane) cloud->free[i] = !background;
+    std::vector<int> rest;
+    std::set_difference(open.begin(), open.end(), plane.begin(), plane.end(), std::back_inserter(rest));
+    open = std::move(rest);
   }
-  if (spread(on_it) < kPlaneBeyondBody * diameter_m) return false;
-  for (int i : open) {
-    if (best->holds(cloud->points[i])) cloud->free[i] = false;
-  }
-  return true;
 }
 
 /// The free points connected with one of them, taken out of the cloud.
@@ -151,9 +174,7 @@ void addPieces(Cloud cloud, double step_m, double diameter_m,
 std::vector<ObjectCandidate> findObjectCandidates(const RgbdFrame& frame, const ColorModel& colors,
                                                   double diameter_m) {
   Cloud cloud = makeCloud(frame, colors);
-  std::mt19937 random(1);
-  for (int k = 0; k < kMostPlanes && removePlane(diameter_m, &random, &cloud); ++k) {
-  }
+  removePlanes(diameter_m, &cloud);
   std::vector<std::pair<double, ObjectCandidate>> rated;
   double last_step_m = 0.0;
   for (const double step : kSteps) {
