@@ -8,7 +8,7 @@ namespace {
 cv::Size halved(const cv::Size& size) { return {(size.width + 1) / 2, (size.height + 1) / 2}; }
 
 void pairRows(const cv::Mat1b& gray, RowPairs* pairs) {
-  const int columns = pairs->cols;  // which the pixels written might be, for all the compiler knows
+  const int columns = pairs->cols;  // a copy: bytes written might alias the member, which bars vectors
   for (int v = 0; v < pairs->rows; ++v) {
     const uchar *row = gray[v], *below = gray[v + 1];
     uchar* pair = pairs->ptr(v);
