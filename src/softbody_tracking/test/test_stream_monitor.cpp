@@ -70,6 +70,16 @@ TEST(StreamMonitor, OneCameraInfoIsEnough) {
   EXPECT_TRUE(says(monitor, "/cam/color", 10 * kSilence));
 }
 
+TEST(StreamMonitor, KnowsWhatEverCame) {
+  StreamMonitor monitor(kTolerance, kSilence);
+  monitor.arrived(Stream::kColor, 0, 0);
+  monitor.unstamped(Stream::kDepth);
+  monitor.completed();
+  EXPECT_TRUE(monitor.hasCome(Stream::kColor));
+  EXPECT_TRUE(monitor.hasCome(Stream::kDepth));
+  EXPECT_FALSE(monitor.hasCome(Stream::kColorInfo));
+}
+
 TEST(StreamMonitor, ARefusalIsGivenUntilAFrameIsComplete) {
   StreamMonitor monitor(kTolerance, kSilence);
   for (const Stream stream : {Stream::kColor, Stream::kColorInfo, Stream::kDepth})

@@ -14,19 +14,21 @@ TOPICS = {"color": "/camera/color/image_raw", "info": "/camera/color/camera_info
 class Camera:
     """Images of nothing at 10 Hz, in wall time."""
 
-    def __init__(self):
+    def __init__(self, **state):
+        """@param state as in be()."""
         self.publishers = {name: rospy.Publisher(topic, CameraInfo if name == "info" else Image, queue_size=10)
                            for name, topic in TOPICS.items()}
         self.lock, self.on = threading.Lock(), True
-        self.be()
+        self.be(**state)
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
 
-    def be(self, copies=None, unstamped=(), frames=None, late_by_s=0.0):
-        """@param copies of messages, by stream; 1 where nothing is said. @param frames by stream, likewise."""
+    def be(self, copies=None, unstamped=(), frames=None, late_by_s=0.0, apart_s=0.0):
+        """@param copies of messages, by stream; 1 where nothing is said. @param frames by stream, likewise.
+        @param apart_s by which depth's stamps are before colour's."""
         with self.lock:
             self.copies, self.unstamped, self.late_by_s = copies or {}, unstamped, late_by_s
-            self.frames = frames or {}
+            self.frames, self.apart_s = frames or {}, apart_s
 
     def run(self):
         while self.on:
@@ -44,8 +46,9 @@ class Camera:
             "color": Image(height=HEIGHT, width=WIDTH, encoding="rgb8", step=3 * WIDTH, data=bytes(3 * WIDTH * HEIGHT)),
             "depth": Image(height=HEIGHT, width=WIDTH, encoding="16UC1", step=2 * WIDTH, data=bytes(2 * WIDTH * HEIGHT))}
         with self.lock:
-            stamp = rospy.Time.from_sec(time.time() - self.late_by_s)
+            now = time.time() - self.late_by_s
             for name, message in messages.items():
+                stamp = rospy.Time.from_sec(now - (self.apart_s if name == "depth" else 0.0))
                 message.header.stamp = rospy.Time() if name in self.unstamped else stamp
                 message.header.frame_id = self.frames.get(name, OPTICAL_FRAME)
                 for _ in range(self.copies.get(name, 1)):

@@ -28,12 +28,14 @@ class StreamMonitor {
   /// @param now by the clock that complaint() goes by.
   void arrived(Stream stream, Nanoseconds stamp, Nanoseconds now);
   /// A message without a stamp, which cannot be used.
-  void unstamped(Stream stream) { unstamped_[static_cast<std::size_t>(stream)] = true; }
+  void unstamped(Stream stream);
   /// A synchronised set that could not be used, and why.
   void refused(const std::string& why) { refusal_ = why; }
   /// A complete frame: everything before it is forgotten.
   void completed();
 
+  /// Whether it ever sent a message, with a stamp or without.
+  bool hasCome(Stream stream) const { return came_[static_cast<std::size_t>(stream)]; }
   /// Why there was no frame since the last one, in a sentence.
   std::string complaint(const StreamTopics& topics, Nanoseconds now) const;
 
@@ -45,8 +47,7 @@ class StreamMonitor {
   bool isSilent(Stream stream, Nanoseconds now) const;
 
   std::array<std::deque<Arrival>, 3> arrivals_;
-  std::array<bool, 3> unstamped_{};
-  bool has_info_ = false;
+  std::array<bool, 3> unstamped_{}, came_{};
   std::string refusal_;
   Nanoseconds tolerance_, silence_;
 };

@@ -31,7 +31,11 @@ void StreamMonitor::arrived(Stream stream, Nanoseconds stamp, Nanoseconds now) {
   std::deque<Arrival>& arrivals = arrivals_[static_cast<std::size_t>(stream)];
   arrivals.push_back({stamp, now});
   if (arrivals.size() > kRemembered) arrivals.pop_front();
-  has_info_ = has_info_ || stream == Stream::kColorInfo;
+  came_[static_cast<std::size_t>(stream)] = true;
+}
+
+void StreamMonitor::unstamped(Stream stream) {
+  unstamped_[static_cast<std::size_t>(stream)] = came_[static_cast<std::size_t>(stream)] = true;
 }
 
 void StreamMonitor::completed() {
@@ -50,7 +54,7 @@ std::vector<Nanoseconds> StreamMonitor::lately(Stream stream, Nanoseconds now) c
 
 /// One CameraInfo is enough: some drivers latch it.
 bool StreamMonitor::isSilent(Stream stream, Nanoseconds now) const {
-  return stream == Stream::kColorInfo ? !has_info_ : lately(stream, now).empty();
+  return stream == Stream::kColorInfo ? !hasCome(stream) : lately(stream, now).empty();
 }
 
 std::string StreamMonitor::complaint(const StreamTopics& topics, Nanoseconds now) const {

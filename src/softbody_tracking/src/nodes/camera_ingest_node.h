@@ -70,9 +70,9 @@ class CameraIngestNode {
   StageTimer timer_;
 
   ros::Time last_color_, last_depth_, last_frame_;  ///< stamps, stamps, when it was completed
-  ros::WallTime start_;
-  int frames_ = 0, refused_ = 0;  ///< since the last diagnosis
-  double latency_s_ = 0.0;        ///< camera to here, of the last frame; below 0: its stamp is yet to come
+  ros::WallTime start_, both_came_;                 ///< the latter: when colour and depth had, usable or not
+  int frames_ = 0, refused_ = 0;                    ///< since the last diagnosis
+  double latency_s_ = 0.0;  ///< camera to here, of the last frame; below 0: its stamp is yet to come
   std::string color_frame_, depth_frame_;  ///< of the last frame
   ros::WallTime last_diagnosis_;
   WallThrottle throttle_;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kDiagnosisPeriod_s = 1.0, kRemarkPeriod_s = 60.0;
 constexpr double kLongestLatency_s = 2.0, kLongestLead_s = 0.1;  // beyond, clocks differ
-constexpr double kStartTimeouts =
-    5.0;  // a camera may be so many times as long in starting as it may be silent
+// A camera may be so many times as long in starting as it may be silent.
+constexpr double kStartTimeouts = 5.0;
 
 }  // namespace
 
@@ -25,7 +25,10 @@ double CameraIngestNode::secondsWithoutFrame() const {
 }
 
 bool CameraIngestNode::isStarting() const {
-  return last_frame_.isZero() && secondsWithoutFrame() < kStartTimeouts * config_.silence_timeout_s;
+  if (!last_frame_.isZero()) return false;
+  // Images that come and make no frame are a fault, once there was time for one.
+  if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < config_.silence_timeout_s;
+  return secondsWithoutFrame() < kStartTimeouts * config_.silence_timeout_s;
 }
 
 std::string CameraIngestNode::silence() const {
@@ -74,8 +77,14 @@ std::vector<CameraIngestNode::Remark> CameraIngestNode::remarks() const {
 void CameraIngestNode::watch() {
   // A bag that starts again: the silence is counted from there.
   if (ros::Time::now() < last_frame_) last_frame_ = ros::Time::now();
-  if (secondsWithoutFrame() > config_.silence_timeout_s)
-    isStarting() ? throttle_.info("silence", silence()) : throttle_.warn("silence", silence());
+  if (both_came_.isZero() && monitor_->hasCome(Stream::kColor) && monitor_->hasCome(Stream::kDepth))
+    both_came_ = ros::WallTime::now();
+  if (secondsWithoutFrame() > config_.silence_timeout_s) {
+    if (isStarting())
+      throttle_.info("start", silence());
+    else
+      throttle_.warn("silence", silence());
+  }
   if ((ros::WallTime::now() - last_diagnosis_).toSec() >= kDiagnosisPeriod_s) diagnostics_.force_update();
 }
 
