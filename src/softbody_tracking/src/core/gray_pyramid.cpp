@@ -1,5 +1,6 @@
 #include "gray_pyramid.h"
 
+#include <cstddef>
 #include <opencv2/imgproc.hpp>
 
 namespace softbody {
@@ -8,11 +9,12 @@ namespace {
 cv::Size halved(const cv::Size& size) { return {(size.width + 1) / 2, (size.height + 1) / 2}; }
 
 void pairRows(const cv::Mat1b& gray, RowPairs* pairs) {
-  const int columns = pairs->cols;  // a copy: bytes written might alias the member, which bars vectors
+  // A copy: bytes written might alias the member, which bars vectors.
+  const std::ptrdiff_t columns = pairs->cols;
   for (int v = 0; v < pairs->rows; ++v) {
     const uchar *row = gray[v], *below = gray[v + 1];
     uchar* pair = pairs->ptr(v);
-    for (int u = 0; u < columns; ++u) {
+    for (std::ptrdiff_t u = 0; u < columns; ++u) {
       pair[2 * u] = row[u];
       pair[2 * u + 1] = below[u];
     }

@@ -185,7 +185,8 @@ std::vector<ObjectCandidate> findObjectCandidates(const RgbdFrame& frame, const 
   std::stable_sort(rated.begin(), rated.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<ObjectCandidate> candidates;
-  for (const auto& [distance, candidate] : rated) {
+  for (const auto& entry : rated) {
+    const ObjectCandidate& candidate = entry.second;
     const bool is_new = std::none_of(candidates.begin(), candidates.end(), [&](const ObjectCandidate& other) {
       return (other.center - candidate.center).norm() < kSamePlace * diameter_m;
     });
