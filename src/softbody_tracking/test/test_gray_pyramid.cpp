@@ -21,7 +21,9 @@ void expectPairs(const GrayPyramid& pyramid, const cv::Mat3b& image, const cv::R
   for (int l = 0; l < GrayPyramid::kLevels; ++l) {
     const RowPairs& pairs = pyramid.level(l);
     ASSERT_EQ(pairs.empty(), gray.rows == 1) << region << l;
-    if (!pairs.empty()) ASSERT_EQ(pairs.size(), cv::Size(gray.cols, gray.rows - 1)) << region << l;
+    if (!pairs.empty()) {
+      ASSERT_EQ(pairs.size(), cv::Size(gray.cols, gray.rows - 1)) << region << l;
+    }
     for (int v = 0; v < pairs.rows; ++v) {
       for (int u = 0; u < pairs.cols; ++u)
         ASSERT_EQ(pairs(v, u), cv::Vec2b(gray(v, u), gray(v + 1, u))) << region << l << " " << u << " " << v;
