@@ -27,6 +27,13 @@ class DepthAssociationsTest : public ::testing::Test {
                            colors_, pixel_step);
   }
 
+  /// To every pixel's depth.
+  void addNoise(double sigma_m) {
+    std::mt19937 random(2);
+    std::normal_distribution<float> gauss(0.0f, static_cast<float>(sigma_m));
+    for (float& z : frame_.depth) z += gauss(random);
+  }
+
   BoxBody box_ = makeBox();
   Points truth_;
   RgbdFrame frame_;
@@ -116,41 +123,58 @@ TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlock
 /// As far away from a stereo camera: a thin body would shake with it.
 TEST_F(DepthAssociationsTest, WeighLessWhereDepthIsNoisierThanUsual) {
   const auto meanWeight = [&](double noise_m) {
-    std::mt19937 random(2);
-    std::normal_distribution<float> gauss(0.0f, static_cast<float>(noise_m));
     frame_ = renderFrame(box_, truth_, 1);
-    for (float& z : frame_.depth) z += gauss(random);
-    DepthAssociator depth(DepthConfig(), meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
-    const SurfaceSamples samples = sampleSurface(surface_, DepthConfig().max_targets);
-    std::vector<Association> found =
-        depth.associate(frame_, surface_.image(), samples, {Eigen::Isometry3d::Identity()}, colors_)
-            .associations;
-    depth.weighByNoise(samples, &found);
+    addNoise(noise_m);
+    DepthAssociations found = associate();
+    weighByNoise(&found);
     double sum = 0.0;
-    for (const Association& a : found) sum += a.weight;
-    return sum / static_cast<double>(found.size());
+    for (const Association& a : found.associations) sum += a.weight;
+    return sum / static_cast<double>(found.associations.size());
   };
   const double usual = meanWeight(0.0);
   EXPECT_NEAR(meanWeight(0.002), usual, 0.02 * usual) << "blocks average over their pixels";
   const double noisy = meanWeight(0.01), noisier = meanWeight(0.014);
   EXPECT_LT(noisy, 0.6 * usual);
   EXPECT_NEAR(noisier / noisy, 0.5, 0.1) << "by the square";
+  EXPECT_EQ(associate({}, Eigen::Isometry3d::Identity(), 2).noise, 0.0) << "known of whole blocks alone";
 }
 
+/// Such as a bend that the prediction has wrong, and that depth is to mend.
 TEST_F(DepthAssociationsTest, AShapeOtherThanPredictedIsNoNoise) {
-  surface_.update(frame_.camera,
-                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.25) *
-                                                        Eigen::AngleAxisd(0.04, Eigen::Vector3d::UnitY()) *
-                                                        Eigen::Translation3d(0.0, 0.0, -0.25))));
+  const Eigen::Vector3d middle = boxPose().translation();
+  for (const Eigen::Vector3d axis : {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()}) {
+    for (const double angle : {0.1, 0.3}) {
+      surface_.update(frame_.camera, transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(middle) *
+                                                                           Eigen::AngleAxisd(angle, axis) *
+                                                                           Eigen::Translation3d(-middle))));
+      for (const int targets : {100, 300, 1500}) {
+        DepthConfig config;
+        config.max_targets = targets;
+        const DepthAssociations found = associate(config);
+        DepthAssociations weighed = found;
+        weighByNoise(&weighed);
+        ASSERT_GT(rmsResidual(found.associations), 0.001);
+        for (std::size_t i = 0; i < found.associations.size(); ++i)
+          ASSERT_EQ(weighed.associations[i].weight, found.associations[i].weight) << angle << " " << targets;
+      }
+    }
+  }
+}
+
+/// Pieces in stripes of six blocks, every second one nearer.
+TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
+  addNoise(0.001);
+  SurfaceSamples samples = sampleSurface(surface_, 1500);
+  for (int row = 0; row < samples.grid.rows; ++row)
+    for (int column = 0; column < samples.grid.cols; ++column)
+      if (samples.grid(row, column) >= 0) samples.samples[samples.grid(row, column)].body = column / 6 % 2;
+  const RigidMotions motions = {Eigen::Isometry3d::Identity(),
+                                Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.006))};
   DepthAssociator depth(DepthConfig(), meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
-  const SurfaceSamples samples = sampleSurface(surface_, DepthConfig().max_targets);
-  const std::vector<Association> found =
-      depth.associate(frame_, surface_.image(), samples, {Eigen::Isometry3d::Identity()}, colors_)
-          .associations;
-  std::vector<Association> weighed = found;
-  depth.weighByNoise(samples, &weighed);
-  ASSERT_GT(rmsResidual(found), 0.001);
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(weighed[i].weight, found[i].weight);
+  const DepthAssociations& found = depth.associate(frame_, surface_.image(), samples, motions, colors_);
+  ASSERT_GT(rmsResidual(found.associations), 0.002);
+  const double noise = associate().noise;
+  EXPECT_NEAR(found.noise, noise, 0.2 * noise);
 }
 
 TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {

@@ -15,7 +15,8 @@ constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring block
 constexpr double kStandsOut = 0.01;            // [m] before the surface beside it, and
 constexpr double kSteepest = 1.0;              // times the distance between them: no body bends so
 constexpr double kUsualNoise = 0.001;          // [m] of a block's depth; with more it weighs less
-constexpr std::size_t kFewestSteps = 30;       // between blocks, that tell the noise
+constexpr int kApart = 2;                      // blocks; side by side a stereo camera errs alike in them
+constexpr std::size_t kFewestBends = 30;       // of three blocks in a row, that tell the noise
 constexpr double kMedianOfNormal = 0.6745;     // of its absolute value, in standard deviations
 
 using Block = DepthBlock;
@@ -161,32 +162,37 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   }
 }
 
-/// Median of the differences between blocks side by side, as a standard deviation: the body's shape hardly
-/// changes from one to the next. 0 where few blocks are measured.
-double noiseOf(const cv::Mat1i& grid, const std::vector<Block>& blocks) {
-  std::vector<double> steps;
+/// From the median of how far blocks lie off the middle of those beside them, as a standard deviation: what
+/// the prediction has wrong goes on evenly from one to the next. 0 where few blocks are measured.
+/// @param bends for its memory.
+double noiseOf(const SurfaceSamples& surface, const std::vector<Block>& blocks, std::vector<double>* bends) {
+  const auto one_piece = [&](int a, int b) { return surface.samples[a].body == surface.samples[b].body; };
+  const auto agrees = [&](int b) { return b >= 0 && blocks[b].kind == BlockKind::kAgrees; };
+  const cv::Mat1i& grid = surface.grid;
+  bends->clear();
   for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 1; column < grid.cols; ++column) {
-      const int left = grid(row, column - 1), right = grid(row, column);
-      if (left < 0 || right < 0) continue;
-      const Block &a = blocks[left], &b = blocks[right];
-      if (a.kind != BlockKind::kAgrees || b.kind != BlockKind::kAgrees) continue;
-      steps.push_back(std::abs(a.difference - b.difference));
+    const int* const samples = grid[row];
+    for (int column = 2 * kApart; column < grid.cols; ++column) {
+      const int left = samples[column - 2 * kApart], middle = samples[column - kApart],
+                right = samples[column];
+      if (!agrees(left) || !agrees(middle) || !agrees(right)) continue;
+      if (!one_piece(left, middle) || !one_piece(middle, right)) continue;
+      bends->push_back(
+          std::abs(blocks[left].difference - 2.0 * blocks[middle].difference + blocks[right].difference));
     }
   }
-  if (steps.size() < kFewestSteps) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle / (kMedianOfNormal * std::sqrt(2.0));
+  if (bends->size() < kFewestBends) return 0.0;
+  const auto median = bends->begin() + static_cast<std::ptrdiff_t>(bends->size() / 2);
+  std::nth_element(bends->begin(), median, bends->end());
+  return *median / (kMedianOfNormal * std::sqrt(6.0));
 }
 
 }  // namespace
 
-void DepthAssociator::weighByNoise(const SurfaceSamples& surface, std::vector<Association>* found) const {
-  const double noise = noiseOf(surface.grid, blocks_);
-  if (noise <= kUsualNoise) return;
-  const double scale = (kUsualNoise / noise) * (kUsualNoise / noise);
-  for (Association& association : *found) association.weight *= scale;
+void weighByNoise(DepthAssociations* depth) {
+  if (depth->noise <= kUsualNoise) return;
+  const double scale = (kUsualNoise / depth->noise) * (kUsualNoise / depth->noise);
+  for (Association& association : depth->associations) association.weight *= scale;
 }
 
 const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, const RasterImage& image,
@@ -201,6 +207,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
   }
   markSteps(surface, &blocks_);
   growOccluders(surface.grid, &blocks_);
+  found_.noise = step == 1 ? noiseOf(surface, blocks_, &bends_) : 0.0;
 
   found_.associations.clear();
   found_.visible_blocks = found_.occluded_blocks = found_.absent_blocks = 0;

@@ -16,6 +16,7 @@ struct DepthAssociations {
   int visible_blocks = 0;   ///< blocks of pixels that the prediction covers and the camera measured
   int occluded_blocks = 0;  ///< something nearer, or of another colour, stands there
   int absent_blocks = 0;    ///< the camera looks through: the body is not where it was predicted
+  double noise = 0.0;       ///< of a block of which every pixel counts, one sigma [m]; 0: not known
 };
 
 /// What a block of pixels shows.
@@ -46,15 +47,15 @@ class DepthAssociator {
                                      const SurfaceSamples& surface, const RigidMotions& motions,
                                      const ColorModel& colors, int pixel_step = 1);
 
-  /// Where the depth that was last associated is noisier than usual, all of it weighs less.
-  /// @param found the associations with the samples.
-  void weighByNoise(const SurfaceSamples& surface, std::vector<Association>* found) const;
-
  private:
   DepthConfig config_;
   double volume_edge_m_;
   std::vector<DepthBlock> blocks_;
+  std::vector<double> bends_;
   DepthAssociations found_;
 };
+
+/// Where depth is noisier than usual, all of it weighs less.
+void weighByNoise(DepthAssociations* depth);
 
 }  // namespace softbody

@@ -316,7 +316,7 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   followFeatures(frame, &seen);
   const RigidMotions motions = alignRigidly(frame, seen.matches);
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
-  depth_.weighByNoise(samples_, &seen.depth.associations);
+  weighByNoise(&seen.depth);
   seen.outline = outline_.associate(frame, surface_.image(), motions, colors_);
   keepShownPieces(&seen);
   shown_before_ = seen.atLeast(Shows::kLoosely);
