@@ -23,7 +23,7 @@ constexpr double kLargestSpread = 3.0;    // times the neighbours' median disagr
 constexpr double kPrecisePx = 1.5;        // across the ray, that no match disagrees too much by,
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
 // Matches that disagree with their surroundings alike are a limb's: what is wrong in one place is fewer.
-constexpr std::size_t kFewestTogether = 20;
+constexpr int kFewestTogether = 20;
 constexpr double kLimbMatches = 4.0;     // that its surroundings' turn and stretch count for there
 constexpr double kSmallestShare = 0.01;  // unexplained by any image
 constexpr double kUnusual = 2.0;         // times the median unexplained share: half the weight
@@ -74,9 +74,7 @@ class Motions {
 
   /// Of a piece as a whole, from its medians on.
   LinearMotion ofPiece(const std::vector<int>& piece) {
-    neighbors_.clear();
-    for (std::size_t i = 0; i < piece.size(); i += 1 + piece.size() / kEnoughOfPiece)
-      neighbors_.push_back(piece[i]);
+    take(piece, kEnoughOfPiece);
     LinearMotion result;
     result.center = matches_[piece.front()].pixel;
     for (int k = 0; k < 3; ++k) result.motion(k, 0) = medianOf([&](int other) { return motions_[other][k]; });
@@ -96,19 +94,36 @@ class Motions {
     return fitted(piece.about(pixel), kPieceMatches);
   }
 
-  /// Of some matches that are not where their surroundings would have them: like those, but for a motion as a
-  /// whole.
-  LinearMotion ofLimb(const std::vector<int>& limb, const LinearMotion& around) {
-    neighbors_ = limb;
+  /// What is around some matches, moved by the median of how far they are from where it would have them.
+  LinearMotion shifted(const std::vector<int>& limb, const LinearMotion& around) {
+    take(limb, kEnoughNeighbors);
     LinearMotion result = around;
     for (int k = 0; k < 3; ++k) {
       result.motion(k, 0) +=
           medianOf([&](int other) { return (motions_[other] - around.at(matches_[other].pixel))[k]; });
     }
-    return fitted(result, kLimbMatches);
+    return result;
+  }
+
+  /// Of these matches, from there on.
+  LinearMotion ofLimb(const std::vector<int>& limb, const LinearMotion& shifted) {
+    take(limb, kEnoughNeighbors);
+    return fitted(shifted, kLimbMatches);
+  }
+
+  /// How far apart two motions are at a match, across the ray.
+  double apart(int match, const LinearMotion& a, const LinearMotion& b) const {
+    const cv::Point2f& pixel = matches_[match].pixel;
+    return (a.at(pixel) - b.at(pixel)).cross(rays_[match]).norm();
   }
 
  private:
+  /// As neighbours, of more than enough every second, third, ...
+  void take(const std::vector<int>& from, std::size_t enough) {
+    neighbors_.clear();
+    for (std::size_t i = 0; i < from.size(); i += 1 + from.size() / enough) neighbors_.push_back(from[i]);
+  }
+
   /// Least squares with Cauchy weights; the prior counts for so many matches.
   LinearMotion fitted(const LinearMotion& prior, double prior_matches) {
     constexpr double kReach2 = kPieceReachPx * kPieceReachPx;
@@ -208,11 +223,13 @@ class PieceJudge {
       const double off = motions_.disagreement(m, around) / pixelSize(m);
       if (matches_[m].inlier && off >= kPrecisePx && off < kWrongPx) limb.push_back(m);
     });
-    if (limb.size() < kFewestTogether) return;
-    const LinearMotion its = motions_.ofLimb(limb, around);
+    if (limb.size() < std::size_t{kFewestTogether}) return;
+    const LinearMotion shifted = motions_.shifted(limb, around);
+    // What is off to all sides is noise, and not worth a fit.
+    if (motions_.apart(cell.front(), shifted, around) < kPrecisePx * pixelSize(cell.front())) return;
+    const LinearMotion its = motions_.ofLimb(limb, shifted);
     const auto belongs = [&](int m) { return agrees(m, its, kPrecisePx * pixelSize(m)); };
-    const auto together = std::count_if(limb.begin(), limb.end(), belongs);
-    if (together < static_cast<std::ptrdiff_t>(std::max(kFewestTogether, limb.size() / 2))) return;
+    if (std::count_if(limb.begin(), limb.end(), belongs) < kFewestTogether) return;
     std::copy_if(cell.begin(), cell.end(), std::back_inserter(*kept), belongs);
   }
 
