@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "core/body_finder.h"
 #include "core/object_candidates.h"
+#include "core/pose_search.h"
 #include "softbody_common/rigid_fit.h"
 #include "synthetic_scene.h"
 
@@ -42,6 +44,60 @@ TEST(ObjectCandidates, HoldAFlatBodyAlthoughOtherThingsLieInItsPlane) {
   const auto candidates = findObjectCandidates(frame, ColorModel(), 0.25);
   ASSERT_FALSE(candidates.empty());
   EXPECT_LT((candidates.front().center - frame.camera.unproject(400, 240, 0.6)).norm(), 0.02);
+}
+
+TEST(ObjectCandidates, AreNoPartsOfATableThatAnArmParts) {
+  RgbdFrame frame = bareWall();
+  frame.depth.colRange(288, 352).setTo(0.0f);  // at its edges depth is missing
+  frame.depth.colRange(290, 350).setTo(0.6f);
+  constexpr double kLargeDiameter = 0.65;  // a half of the wall alone is not too large for it
+  const auto candidates = findObjectCandidates(frame, ColorModel(), kLargeDiameter);
+  ASSERT_EQ(candidates.size(), 1u);
+  EXPECT_NEAR(candidates.front().center.z(), 0.6, 0.01) << "the arm";
+}
+
+const cv::Vec3b kBodyColor(40, 60, 220), kTableColor(200, 190, 60);
+
+ColorModel bodyColors() {
+  ColorModel colors;
+  colors.learn(cv::Mat3b(100, 100, kBodyColor), cv::Mat1b(100, 100, 255));
+  return colors;
+}
+
+TEST(ObjectCandidates, AreNoSpecklesOfATable) {
+  RgbdFrame frame = bareWall();
+  frame.color.setTo(kTableColor);
+  for (int v = 0; v < 480; v += 80)
+    for (int u = 0; u < 640; u += 80) frame.color(cv::Rect(u, v, 60, 60)).setTo(kBodyColor);
+  EXPECT_TRUE(findObjectCandidates(frame, bodyColors(), kDiameter).empty());
+}
+
+TEST(ObjectCandidates, HoldAThinBodyOnATableByItsColors) {
+  RgbdFrame frame = bareWall();
+  frame.color.setTo(kTableColor);
+  const cv::Rect body(250, 150, 130, 110);
+  frame.color(body).setTo(kBodyColor);
+  frame.depth(body).setTo(1.198f);
+  EXPECT_EQ(findObjectCandidates(frame, bodyColors(), kDiameter).size(), 1u);
+}
+
+/// Two squares side by side, one further away by a step that only large pieces have.
+void addSteppedThing(int left_px, cv::Mat1f* depth) {
+  (*depth)(cv::Rect(left_px, 20, 150, 150)).setTo(0.5f);
+  (*depth)(cv::Rect(left_px + 150, 20, 150, 150)).setTo(0.53f);
+}
+
+TEST(ObjectCandidates, HoldEveryThingBeforeOtherPartsOfOne) {
+  Eigen::Isometry3d pose = boxPose();
+  pose.translation() = Eigen::Vector3d(0.0, 0.15, 1.0);
+  RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, pose), 1);
+  for (int left_px : {10, 330}) addSteppedThing(left_px, &frame.depth);
+  const auto candidates = findObjectCandidates(frame, ColorModel(), kDiameter);
+  ASSERT_GT(candidates.size(), 3u);
+  const auto is_body = [&](const ObjectCandidate& candidate) {
+    return (candidate.center - pose.translation()).norm() < 0.05;
+  };
+  EXPECT_TRUE(std::any_of(candidates.begin(), candidates.begin() + 3, is_body));
 }
 
 /// A wall, and before it three squares side by side, 8 cm wide, the middle one further away by a step.

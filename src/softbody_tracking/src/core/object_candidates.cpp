@@ -18,8 +18,10 @@ constexpr int kMostPlanes = 3;
 constexpr double kPlaneThickness = 0.008;       // [m] at 1 m; grows with the square of the distance
 constexpr double kSmallestPlaneShare = 0.1;     // of the measured pixels
 constexpr double kPlaneBeyondBody = 1.3;        // diameters that a background plane spans
+constexpr int kUnmeasuredEdge = 2;              // [px] without depth that may part what hides from the hidden
 constexpr double kSteps[] = {0.05, 0.1, 0.15};  // of the body's diameter, between neighbours of one piece
 constexpr double kSmallestStep = 0.02;          // [m]
+constexpr double kNextStep = 1.01;              // times the last one; less is the same
 constexpr double kSamePlace = 0.1;              // of the body's diameter
 constexpr double kLikelyShare = 0.8;            // of a body's diameter that one view shows
 constexpr int kFewestPixels = 25;
@@ -30,8 +32,11 @@ struct Plane {
   Eigen::Vector3d normal;
   double offset = 0.0;
 
-  bool holds(const Eigen::Vector3d& p) const {
-    return std::abs(normal.dot(p) - offset) < kPlaneThickness * std::max(0.5, p.z() * p.z());
+  static double thickness(const Eigen::Vector3d& p) { return kPlaneThickness * std::max(0.5, p.z() * p.z()); }
+  bool holds(const Eigen::Vector3d& p) const { return std::abs(normal.dot(p) - offset) < thickness(p); }
+  /// Whether a point lies on it or on the camera's side of it.
+  bool reaches(const Eigen::Vector3d& p) const {
+    return (offset > 0.0 ? normal.dot(p) - offset : offset - normal.dot(p)) < thickness(p);
   }
 };
 
@@ -76,9 +81,8 @@ double spread(const std::vector<Eigen::Vector3d>& points) {
 }
 
 /// The largest plane among some points (RANSAC, Fischler and Bolles 1981); nothing where it holds too few.
-/// @return those that lie on it.
-std::vector<int> largestPlane(const Cloud& cloud, const std::vector<int>& open, std::mt19937* random) {
-  if (open.size() < 3) return {};
+std::optional<Plane> largestPlane(const Cloud& cloud, const std::vector<int>& open, std::mt19937* random) {
+  if (open.size() < 3) return std::nullopt;
   std::uniform_int_distribution<std::size_t> pick(0, open.size() - 1);
   std::optional<Plane> best;
   std::size_t most = 0;
@@ -90,20 +94,26 @@ std::vector<int> largestPlane(const Cloud& cloud, const std::vector<int>& open, 
         std::count_if(open.begin(), open.end(), [&](int i) { return plane->holds(cloud.points[i]); }));
     if (on_it > most) most = on_it, best = plane;
   }
-  if (!best || static_cast<double>(most) < kSmallestPlaneShare * static_cast<double>(cloud.points.size()))
-    return {};
-  std::vector<int> on_it;
-  for (int i : open)
-    if (best->holds(cloud.points[i])) on_it.push_back(i);
-  return on_it;
+  if (static_cast<double>(most) < kSmallestPlaneShare * static_cast<double>(cloud.points.size()))
+    return std::nullopt;
+  return best;
 }
 
-/// Of some points the most that are connected in the image.
-std::vector<Eigen::Vector3d> largestPart(const Cloud& cloud, const std::vector<int>& points) {
-  cv::Mat1b mask(cloud.index.size(), 0);
-  for (int i : points) mask(cloud.pixels[i]) = 1;
+/// Pixels in which a plane shows or may go on behind what is nearer, with the gaps in depth at its edges.
+cv::Mat1b extent(const Cloud& cloud, const Plane& plane) {
+  cv::Mat1b reached(cloud.index.size(), 0), grown;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (plane.reaches(cloud.points[i])) reached(cloud.pixels[i]) = 1;
+  cv::dilate(reached, grown, cv::Mat(), cv::Point(-1, -1), kUnmeasuredEdge);
+  grown.copyTo(reached, cloud.index < 0);
+  return reached;
+}
+
+/// Of a plane's points the most that hang together in the image, be it behind what hides the plane.
+std::vector<Eigen::Vector3d> largestPart(const Cloud& cloud, const Plane& plane,
+                                         const std::vector<int>& points) {
   cv::Mat1i labels;
-  const int count = cv::connectedComponents(mask, labels);
+  const int count = cv::connectedComponents(extent(cloud, plane), labels);
   std::vector<std::vector<Eigen::Vector3d>> parts(static_cast<std::size_t>(count));
   for (int i : points) parts[labels(cloud.pixels[i])].push_back(cloud.points[i]);
   return *std::max_element(parts.begin(), parts.end(),
@@ -118,33 +128,39 @@ void removePlanes(double diameter_m, Cloud* cloud) {
     if (cloud->free[i]) open.push_back(static_cast<int>(i));
   std::mt19937 random(1);
   for (int k = 0; k < kMostPlanes; ++k) {
-    const std::vector<int> plane = largestPlane(*cloud, open, &random);
-    if (plane.empty()) return;
-    const bool background = spread(largestPart(*cloud, plane)) >= kPlaneBeyondBody * diameter_m;
-    for (int i : plane) cloud->free[i] = !background;
-    std::vector<int> rest;
-    std::set_difference(open.begin(), open.end(), plane.begin(), plane.end(), std::back_inserter(rest));
-    open = std::move(rest);
+    const std::optional<Plane> plane = largestPlane(*cloud, open, &random);
+    if (!plane) return;
+    const auto rest = std::stable_partition(open.begin(), open.end(),
+                                            [&](int i) { return plane->holds(cloud->points[i]); });
+    const std::vector<int> on_it(open.begin(), rest);
+    const bool background = spread(largestPart(*cloud, *plane, on_it)) >= kPlaneBeyondBody * diameter_m;
+    for (int i : on_it) cloud->free[i] = !background;
+    open.erase(open.begin(), rest);
   }
 }
 
-/// The free points connected with one of them, taken out of the cloud.
-std::vector<Eigen::Vector3d> takePiece(int seed, double step_m, Cloud* cloud) {
-  const cv::Rect inside(cv::Point(), cloud->index.size());
-  std::vector<Eigen::Vector3d> piece;
-  std::vector<int> open{seed};
-  cloud->free[seed] = false;
+/// A connected piece of about the body's size.
+struct Piece {
+  ObjectCandidate candidate;
+  double rating = 0.0;      ///< the lower the likelier
+  std::vector<int> points;  ///< in the cloud
+};
+
+/// The free points connected with one of them, which are free no longer.
+std::vector<int> takePiece(const Cloud& cloud, int seed, double step_m, std::vector<bool>* free) {
+  const cv::Rect inside(cv::Point(), cloud.index.size());
+  std::vector<int> piece, open{seed};
+  (*free)[seed] = false;
   while (!open.empty()) {
     const int i = open.back();
     open.pop_back();
-    piece.push_back(cloud->points[i]);
+    piece.push_back(i);
     for (int dv = -1; dv <= 1; ++dv) {
       for (int du = -1; du <= 1; ++du) {
-        const cv::Point next = cloud->pixels[i] + cv::Point(du, dv);
-        const int j = inside.contains(next) ? cloud->index(next) : -1;
-        if (j < 0 || !cloud->free[j] || std::abs(cloud->points[j].z() - cloud->points[i].z()) > step_m)
-          continue;
-        cloud->free[j] = false;
+        const cv::Point next = cloud.pixels[i] + cv::Point(du, dv);
+        const int j = inside.contains(next) ? cloud.index(next) : -1;
+        if (j < 0 || !(*free)[j] || std::abs(cloud.points[j].z() - cloud.points[i].z()) > step_m) continue;
+        (*free)[j] = false;
         open.push_back(j);
       }
     }
@@ -152,21 +168,46 @@ std::vector<Eigen::Vector3d> takePiece(int seed, double step_m, Cloud* cloud) {
   return piece;
 }
 
-/// Pieces of about the body's size, the likelier the lower rated.
-void addPieces(Cloud cloud, double step_m, double diameter_m,
-               std::vector<std::pair<double, ObjectCandidate>>* rated) {
+/// Pieces of about the body's size.
+void addPieces(const Cloud& cloud, double step_m, double diameter_m, std::vector<Piece>* pieces) {
+  std::vector<bool> free = cloud.free;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!cloud.free[i]) continue;
-    const std::vector<Eigen::Vector3d> piece = takePiece(static_cast<int>(i), step_m, &cloud);
-    const double share = spread(piece) / diameter_m;
-    if (static_cast<int>(piece.size()) < kFewestPixels || share < kSmallestShare || share > kLargestShare)
-      continue;
-    ObjectCandidate candidate{Eigen::Vector3d::Zero(), static_cast<int>(piece.size())};
-    for (const Eigen::Vector3d& p : piece) candidate.center += p / static_cast<double>(piece.size());
+    if (!free[i]) continue;
+    Piece piece;
+    piece.points = takePiece(cloud, static_cast<int>(i), step_m, &free);
+    std::vector<Eigen::Vector3d> places;
+    for (int k : piece.points) places.push_back(cloud.points[k]);
+    const double share = spread(places) / diameter_m;
+    const int pixels = static_cast<int>(places.size());
+    if (pixels < kFewestPixels || share < kSmallestShare || share > kLargestShare) continue;
+    piece.candidate = {Eigen::Vector3d::Zero(), pixels};
+    for (const Eigen::Vector3d& p : places) piece.candidate.center += p / pixels;
     // A body that somebody wants tracked is rather near than far.
-    rated->emplace_back(2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(candidate.pixels),
-                        candidate);
+    piece.rating = 2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(pixels);
+    pieces->push_back(std::move(piece));
   }
+}
+
+/// Whether one holds the other: pieces that end at steps of different sizes are nested or apart.
+bool nested(const Piece& a, const Piece& b) {
+  const bool a_is_smaller = a.points.size() < b.points.size();
+  const std::vector<int>& smaller = (a_is_smaller ? a : b).points;
+  const std::vector<int>& larger = (a_is_smaller ? b : a).points;
+  return std::find(larger.begin(), larger.end(), smaller.front()) != larger.end();
+}
+
+/// One piece of everything that stands apart before a second one of anything, each time the likelier first.
+std::vector<Piece> inTurn(std::vector<Piece> pieces) {
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.rating < b.rating; });
+  std::vector<Piece> firsts, others;
+  for (Piece& piece : pieces) {
+    const bool is_first =
+        std::none_of(firsts.begin(), firsts.end(), [&](const Piece& other) { return nested(piece, other); });
+    (is_first ? firsts : others).push_back(std::move(piece));
+  }
+  std::move(others.begin(), others.end(), std::back_inserter(firsts));
+  return firsts;
 }
 
 }  // namespace
@@ -175,22 +216,19 @@ std::vector<ObjectCandidate> findObjectCandidates(const RgbdFrame& frame, const 
                                                   double diameter_m) {
   Cloud cloud = makeCloud(frame, colors);
   removePlanes(diameter_m, &cloud);
-  std::vector<std::pair<double, ObjectCandidate>> rated;
+  std::vector<Piece> pieces;
   double last_step_m = 0.0;
   for (const double step : kSteps) {
     const double step_m = std::max(kSmallestStep, step * diameter_m);
-    if (step_m > last_step_m) addPieces(cloud, step_m, diameter_m, &rated);
+    if (step_m > kNextStep * last_step_m) addPieces(cloud, step_m, diameter_m, &pieces);
     last_step_m = step_m;
   }
-  std::stable_sort(rated.begin(), rated.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<ObjectCandidate> candidates;
-  for (const auto& entry : rated) {
-    const ObjectCandidate& candidate = entry.second;
+  for (const Piece& piece : inTurn(std::move(pieces))) {
     const bool is_new = std::none_of(candidates.begin(), candidates.end(), [&](const ObjectCandidate& other) {
-      return (other.center - candidate.center).norm() < kSamePlace * diameter_m;
+      return (other.center - piece.candidate.center).norm() < kSamePlace * diameter_m;
     });
-    if (is_new) candidates.push_back(candidate);
+    if (is_new) candidates.push_back(piece.candidate);
   }
   return candidates;
 }

@@ -14,8 +14,8 @@ struct ObjectCandidate {
 };
 
 /// Pieces of about the body's size: connected in depth, of the body's colours where they are known, and not
-/// on a plane that reaches far beyond the body (a table, a wall). Those of a likely size and near the camera
-/// come first.
+/// on a plane that reaches far beyond the body (a table, a wall), be it behind what stands before it. Those
+/// of a likely size and near the camera come first, and one of each thing before other parts of the same.
 /// @param diameter_m of the body.
 std::vector<ObjectCandidate> findObjectCandidates(const RgbdFrame& frame, const ColorModel& colors,
                                                   double diameter_m);
