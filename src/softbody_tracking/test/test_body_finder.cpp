@@ -143,6 +143,29 @@ TEST(BodyFinder, FindsTheBodyInAnyOrientation) {
   }
 }
 
+TEST(PoseSearch, NothingSpeaksForWhatIsImplausible) {
+  const RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1);
+  PoseSearch search(frame, kMesh, RegistrationConfig().distance_scale_m);
+  EXPECT_GT(search.support(boxPose()), 1000.0);
+  for (double aside_m : {0.05, 0.2, 5.0})
+    EXPECT_EQ(search.support(Eigen::Translation3d(aside_m, 0.0, 0.0) * boxPose()), 0.0) << aside_m;
+}
+
+TEST(BodyFinder, LooksCloselyAtEveryPlaceThoughOthersFitInManyWays) {
+  Points bent = kMesh.vertices;
+  for (auto vertex : bent.rowwise()) vertex.z() += 5.0 * vertex.x() * vertex.x();
+  const Eigen::Isometry3d near = Eigen::Translation3d(-0.1, 0.0, 0.0) * boxPose();
+  RgbdFrame frame = renderFrame(kBox, transformed(bent, near), 1);
+  for (double y : {-0.15, 0.15}) {
+    const Points far = transformed(kMesh.vertices, Eigen::Translation3d(0.25, y, 0.3) * boxPose());
+    frame.depth = cv::min(frame.depth, renderFrame(kBox, far, 1).depth);
+  }
+  const auto found = BodyFinder(kMesh, RegistrationConfig()).find(frame, ColorModel(), {});
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const RegistrationResult& pose) {
+    return (pose.pose.translation() - near.translation()).norm() < 0.05;
+  }));
+}
+
 TEST(BodyFinder, BelievesManyPixelsRatherThanFew) {
   Eigen::Isometry3d near = boxPose(), far = boxPose();
   near.translation().x() -= 0.1;

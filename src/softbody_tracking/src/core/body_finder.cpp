@@ -13,9 +13,11 @@ namespace {
 
 constexpr int kCoarseColumns = 80, kFineColumns = 160, kFinestColumns = 320;
 constexpr int kCoarseIcp = 10;
-constexpr std::size_t kMostCandidates = 4, kRefined = 3, kKept = 4;
-constexpr double kOtherTurn = 0.35;  // [rad]
-constexpr double kOtherPlace = 0.2;  // diameters
+constexpr std::size_t kMostCandidates = 4, kKept = 4;
+constexpr std::size_t kRefined = 8;        // shared by the places,
+constexpr std::size_t kFewestRefined = 4;  // of each at least: a box has four poses that look alike
+constexpr double kOtherTurn = 0.35;        // [rad]
+constexpr double kOtherPlace = 0.2;        // diameters
 
 /// Every orientation is within some 35 degrees of one of these: views from the directions of a Fibonacci
 /// sphere, with turns about the viewing axis.
@@ -40,12 +42,13 @@ void sortByCost(std::vector<RegistrationResult>* poses) {
                    [](const RegistrationResult& a, const RegistrationResult& b) { return a.cost < b.cost; });
 }
 
-/// Those first that most of the depth speaks for.
+/// Those first that most of the depth speaks for, then those of the least cost.
 void sortBySupport(PoseSearch* search, std::vector<RegistrationResult>* poses) {
   std::vector<std::pair<double, RegistrationResult>> rated;
-  for (const RegistrationResult& pose : *poses) rated.emplace_back(search->support(pose.pose), pose);
-  std::stable_sort(rated.begin(), rated.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const RegistrationResult& pose : *poses) rated.emplace_back(-search->support(pose.pose), pose);
+  std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first, a.second.cost) < std::tie(b.first, b.second.cost);
+  });
   for (std::size_t i = 0; i < rated.size(); ++i) (*poses)[i] = rated[i].second;
 }
 
@@ -121,34 +124,46 @@ std::vector<RegistrationResult> BodyFinder::distinct(const std::vector<Registrat
   return kept;
 }
 
+/// The starts of each place to look at.
+std::vector<std::vector<Eigen::Isometry3d>> BodyFinder::places(
+    const RgbdFrame& frame, const ColorModel& colors, const std::vector<Eigen::Isometry3d>& guesses) const {
+  std::vector<ObjectCandidate> candidates = findObjectCandidates(frame, colors, diameter_);
+  candidates.resize(std::min(candidates.size(), kMostCandidates));
+  std::vector<std::vector<Eigen::Isometry3d>> result;
+  if (!guesses.empty()) result.push_back(guesses);
+  for (const ObjectCandidate& candidate : candidates) result.push_back(startsAt(candidate.center));
+  return result;
+}
+
 std::vector<RegistrationResult> BodyFinder::find(const RgbdFrame& frame, const ColorModel& colors,
                                                  const std::vector<Eigen::Isometry3d>& guesses) const {
-  const RgbdFrame coarse = subsampled(frame, kCoarseColumns), fine = subsampled(frame, kFineColumns);
-  std::vector<ObjectCandidate> candidates = findObjectCandidates(fine, colors, diameter_);
-  candidates.resize(std::min(candidates.size(), kMostCandidates));
-  std::vector<std::vector<Eigen::Isometry3d>> places{guesses};
-  for (const ObjectCandidate& candidate : candidates) places.push_back(startsAt(candidate.center));
-
+  const RgbdFrame coarse = subsampled(frame, kCoarseColumns), fine = subsampled(frame, kFineColumns),
+                  finest = subsampled(frame, kFinestColumns);
   PoseSearch search(coarse, coarse_, config_.distance_scale_m),
-      finer(fine, coarse_, config_.distance_scale_m);
-  std::vector<RegistrationResult> found;
-  for (const std::vector<Eigen::Isometry3d>& starts : places) {
+      finer(fine, coarse_, config_.distance_scale_m), last(finest, mesh_, config_.distance_scale_m);
+  const auto starts_by_place = places(fine, colors, guesses);
+  std::vector<RegistrationResult> found, firsts;
+  for (const std::vector<Eigen::Isometry3d>& starts : starts_by_place) {
     std::vector<RegistrationResult> here;
     for (const Eigen::Isometry3d& start : starts) {
       const Eigen::Isometry3d pose = search.icp(start, kCoarseIcp);
       here.push_back({pose, search.cost(pose)});
     }
     sortByCost(&here);
-    for (const RegistrationResult& pose : distinct(here, kRefined))
-      found.push_back(finer.refine(pose.pose, 0.1, 0.02));
+    here = distinct(here, std::max(kFewestRefined, kRefined / starts_by_place.size()));
+    for (RegistrationResult& pose : here) pose = finer.refine(pose.pose, 0.1, 0.02);
+    sortBySupport(&finer, &here);
+    firsts.push_back(here.front());
+    found.insert(found.end(), here.begin(), here.end());
   }
   sortBySupport(&finer, &found);
   found = distinct(found, kKept);
-  const RgbdFrame finest = subsampled(frame, kFinestColumns);
-  PoseSearch last(finest, mesh_, config_.distance_scale_m);
+  // Of every place the best is looked at closely: the coarse mesh suits some things better than the body.
+  found.insert(found.end(), firsts.begin(), firsts.end());
+  found = distinct(found, found.size());
   for (RegistrationResult& pose : found) pose = last.refine(pose.pose, 0.02, 0.003);
   sortBySupport(&last, &found);
-  return found;
+  return distinct(found, found.size());
 }
 
 }  // namespace softbody

@@ -1,6 +1,7 @@
 #include "localizer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pose_search.h"
 #include "softbody_common/rasterizer.h"
@@ -9,7 +10,8 @@
 namespace softbody {
 namespace {
 
-constexpr double kAlikeCost = 0.02;  // poses whose costs differ by less look alike
+constexpr double kAlikeCost = 0.02;  // poses in one place whose costs differ by less look alike
+constexpr double kSamePlace = 0.5;   // of the pixels that either of two poses covers, covered by both
 constexpr double kLargestForeignShare = 0.5;
 constexpr double kSmallestFeatureShare = 0.15;
 constexpr Eigen::Index kManyVertices = 3000;  // more than a small picture shows
@@ -20,6 +22,28 @@ TriangleMesh simplified(const TriangleMesh& mesh) {
   if (mesh.vertices.rows() <= kManyVertices) return mesh;
   const Eigen::Vector3d size = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
   return clustered(mesh, size.norm() / kCoarseCells);
+}
+
+/// Poses that look alike, and how well the body's features are found at each.
+struct AlikePoses {
+  std::vector<Eigen::Isometry3d> poses;
+  std::vector<double> shares;
+};
+
+/// The pose at which most features are found; none where they are hardly found at any.
+std::optional<Localization> confirmed(const AlikePoses& alike) {
+  const auto most = std::max_element(alike.shares.begin(), alike.shares.end());
+  if (*most < kSmallestFeatureShare) return std::nullopt;
+  return Localization{alike.poses[static_cast<std::size_t>(most - alike.shares.begin())], 1};
+}
+
+/// The first pose that too few features are expected at to tell.
+std::optional<Localization> undecided(const AlikePoses& alike) {
+  const auto unknown = [](double share) { return share < 0.0; };
+  const auto first = std::find_if(alike.shares.begin(), alike.shares.end(), unknown);
+  if (first == alike.shares.end()) return std::nullopt;
+  return Localization{alike.poses[static_cast<std::size_t>(first - alike.shares.begin())],
+                      static_cast<int>(std::count_if(first, alike.shares.end(), unknown))};
 }
 
 }  // namespace
@@ -60,6 +84,16 @@ double Localizer::foreignShare(const RgbdFrame& frame, const ColorModel& colors,
   return covered == 0 ? 1.0 : static_cast<double>(foreign) / covered;
 }
 
+/// Whether the body at two poses covers mostly the same pixels.
+bool Localizer::inSamePlace(const Pinhole& camera, const Eigen::Isometry3d& a,
+                            const Eigen::Isometry3d& b) const {
+  RasterImage at_a, at_b;
+  rasterize(camera, transformed(coarse_.vertices, a), coarse_.triangles, &at_a);
+  rasterize(camera, transformed(coarse_.vertices, b), coarse_.triangles, &at_b);
+  const cv::Mat1b covered_a = at_a.depth > 0.0f, covered_b = at_b.depth > 0.0f;
+  return cv::countNonZero(covered_a & covered_b) > kSamePlace * cv::countNonZero(covered_a | covered_b);
+}
+
 std::optional<Localization> Localizer::anywhere(const RgbdFrame& frame, const ColorModel& colors,
                                                 const std::vector<Eigen::Isometry3d>& guesses,
                                                 const FeatureShare& feature_share) const {
@@ -69,23 +103,24 @@ std::optional<Localization> Localizer::anywhere(const RgbdFrame& frame, const Co
            foreignShare(frame, colors, pose.pose) > kLargestForeignShare;
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
-  if (found.empty()) return std::nullopt;
-  const double best_cost = found.front().cost;
-  found.erase(
-      std::remove_if(found.begin(), found.end(),
-                     [&](const RegistrationResult& pose) { return pose.cost > best_cost + kAlikeCost; }),
-      found.end());
-  Localization best{found.front().pose, static_cast<int>(found.size())};
-  double best_share = feature_share(best.pose);
-  for (std::size_t i = 1; i < found.size(); ++i) {
-    const double share = feature_share(found[i].pose);
-    if (share <= best_share) continue;
-    best_share = share;
-    best.pose = found[i].pose;
+  std::optional<Localization> likeliest;
+  for (bool first = true; !found.empty(); first = false) {
+    const RegistrationResult best = found.front();
+    const auto others =
+        std::stable_partition(found.begin(), found.end(), [&](const RegistrationResult& pose) {
+          return std::abs(pose.cost - best.cost) <= kAlikeCost &&
+                 inSamePlace(frame.camera, pose.pose, best.pose);
+        });
+    AlikePoses alike;
+    for (auto pose = found.begin(); pose != others; ++pose) {
+      alike.poses.push_back(pose->pose);
+      alike.shares.push_back(feature_share(pose->pose));
+    }
+    if (std::optional<Localization> body = confirmed(alike)) return body;
+    if (first) likeliest = undecided(alike);
+    found.erase(found.begin(), others);
   }
-  if (best_share >= 0.0 && best_share < kSmallestFeatureShare) return std::nullopt;
-  if (best_share >= kSmallestFeatureShare) best.alike = 1;
-  return best;
+  return likeliest;
 }
 
 }  // namespace softbody

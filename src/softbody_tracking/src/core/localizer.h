@@ -11,7 +11,8 @@ namespace softbody {
 /// A pose in which the body explains a frame.
 struct Localization {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  int alike = 1;  ///< poses that explain it as well, this one included: above 1 for a symmetric body
+  /// Poses in the same place that explain it as well, this one included: above 1 for a symmetric body.
+  int alike = 1;
 };
 
 /// Where the body is in a frame that no prediction helps with.
@@ -30,13 +31,14 @@ class Localizer {
   std::optional<Localization> recognized(const RgbdFrame& frame, const Eigen::Isometry3d& pose,
                                          const FeatureShare& feature_share) const;
 
-  /// Anywhere. Among poses alike in depth the one with most features; if they are expected and hardly found
-  /// anywhere, it is not the body.
+  /// Anywhere. Among poses alike in depth the one with most features; where they are expected and hardly
+  /// found, it is not the body, and the next place is looked at, which only features can make the body's.
   std::optional<Localization> anywhere(const RgbdFrame& frame, const ColorModel& colors,
                                        const std::vector<Eigen::Isometry3d>& guesses,
                                        const FeatureShare& feature_share) const;
 
  private:
+  bool inSamePlace(const Pinhole& camera, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
   double foreignShare(const RgbdFrame& frame, const ColorModel& colors, const Eigen::Isometry3d& pose) const;
 
   RegistrationConfig config_;

@@ -131,7 +131,7 @@ double PoseSearch::cost(const Eigen::Isometry3d& pose) {
 
 double PoseSearch::support(const Eigen::Isometry3d& pose) {
   const double saved = kWorstCost - cost(pose);
-  return image_.region.empty() ? 0.0 : saved * cv::countNonZero(image_.depth(image_.region));
+  return saved <= 0.0 ? 0.0 : saved * cv::countNonZero(image_.depth(image_.region));
 }
 
 double PoseSearch::rankedCost(const Eigen::Isometry3d& pose) {

@@ -11,7 +11,7 @@
 
 namespace softbody {
 
-/// Mean cost a pixel above which nothing but depth makes a pose plausible.
+/// Mean cost a pixel above which depth alone, without a rough pose, makes no pose plausible.
 constexpr double kWorstCost = 0.22;
 
 /// Depth of every k-th pixel, with the camera that belongs to it; k so that about so many columns remain.
@@ -26,7 +26,7 @@ class PoseSearch {
   double cost(const Eigen::Isometry3d& pose);
 
   /// How much the depth speaks for a pose: what its pixels cost less, all together, than the worst pose that
-  /// is taken. A few pixels far off resemble any body.
+  /// is taken, 0 for a worse one. A few pixels far off resemble any body.
   double support(const Eigen::Isometry3d& pose);
 
   /// The cost, and a little for the turn and the distance from a preferred pose.
