@@ -22,7 +22,7 @@ class DepthAssociationsTest : public ::testing::Test {
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                               int pixel_step = 1) {
-    DepthAssociator depth(config, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+    DepthAssociator depth(config, edge_);
     return depth.associate(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
                            colors_, pixel_step);
   }
@@ -35,6 +35,7 @@ class DepthAssociationsTest : public ::testing::Test {
   }
 
   BoxBody box_ = makeBox();
+  double edge_ = meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
   Points truth_;
   RgbdFrame frame_;
   PredictedSurface surface_;
@@ -76,7 +77,7 @@ TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
 }
 
 TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
-  DepthAssociator depth(DepthConfig(), meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+  DepthAssociator depth(DepthConfig(), edge_);
   const RigidMotions still = {Eigen::Isometry3d::Identity()};
   SurfaceSamples samples = sampleSurface(surface_, 1500);
   const DepthAssociations fresh = depth.associate(frame_, surface_.image(), samples, still, colors_);
@@ -91,14 +92,13 @@ TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
 }
 
 TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
-  const double edge = meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
   for (const double angle : {0.0, 0.6, 1.1}) {
     const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
     truth_ = transformed(box_.volume.rest_vertices, turned);
     frame_ = renderFrame(box_, truth_, 1);
     surface_.update(frame_.camera, truth_);
     double weights = 0.0, area = 0.0;
-    for (const Association& a : associate().associations) weights += a.weight * edge * edge;
+    for (const Association& a : associate().associations) weights += a.weight * edge_ * edge_;
     for (const auto& triangle : box_.volume.surface.rowwise()) {
       const Eigen::Vector3d a = truth_.row(triangle[0]), b = truth_.row(triangle[1]),
                             c = truth_.row(triangle[2]);
@@ -109,53 +109,96 @@ TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
   }
 }
 
-TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlocks) {
-  const auto totalWeight = [](const DepthAssociations& found) {
-    double sum = 0.0;
-    for (const Association& a : found.associations) sum += a.weight;
-    return sum;
-  };
-  DepthConfig few;
-  few.max_targets = 300;
-  EXPECT_NEAR(totalWeight(associate(few)) / totalWeight(associate()), 1.0, 0.1);
+/// Weights by its own noise alone.
+double totalWeight(DepthAssociations found, double volume_edge_m) {
+  DepthNoise noise;
+  noise.learn(found.noise);
+  weighByNoise(noise.over(volume_edge_m) / volume_edge_m, &found);
+  double sum = 0.0;
+  for (const Association& a : found.associations) sum += a.weight;
+  return sum;
 }
 
-/// As far away from a stereo camera: a thin body would shake with it.
-TEST_F(DepthAssociationsTest, WeighLessWhereDepthIsNoisierThanUsual) {
-  const auto meanWeight = [&](double noise_m) {
+TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlocks) {
+  const double fine = 0.25 * edge_;
+  for (const double noise_m : {0.0, 0.0005, 0.0013}) {
     frame_ = renderFrame(box_, truth_, 1);
     addNoise(noise_m);
-    DepthAssociations found = associate();
-    weighByNoise(&found);
-    double sum = 0.0;
-    for (const Association& a : found.associations) sum += a.weight;
-    return sum / static_cast<double>(found.associations.size());
-  };
-  const double usual = meanWeight(0.0);
-  EXPECT_NEAR(meanWeight(0.002), usual, 0.02 * usual) << "blocks average over their pixels";
-  const double noisy = meanWeight(0.01), noisier = meanWeight(0.014);
-  EXPECT_LT(noisy, 0.6 * usual);
-  EXPECT_NEAR(noisier / noisy, 0.5, 0.1) << "by the square";
-  EXPECT_EQ(associate({}, Eigen::Isometry3d::Identity(), 2).noise, 0.0) << "known of whole blocks alone";
+    const double usual = totalWeight(associate(), fine);
+    for (const int targets : {300, 3000, 100000}) {
+      DepthConfig other;
+      other.max_targets = targets;
+      EXPECT_NEAR(totalWeight(associate(other), fine) / usual, 1.0, 0.15) << noise_m << " " << targets;
+    }
+  }
 }
 
-/// Such as a bend that the prediction has wrong, and that depth is to mend.
-TEST_F(DepthAssociationsTest, AShapeOtherThanPredictedIsNoNoise) {
-  const Eigen::Vector3d middle = boxPose().translation();
-  for (const Eigen::Vector3d axis : {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()}) {
-    for (const double angle : {0.1, 0.3}) {
-      surface_.update(frame_.camera, transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(middle) *
-                                                                           Eigen::AngleAxisd(angle, axis) *
-                                                                           Eigen::Translation3d(-middle))));
+TEST_F(DepthAssociationsTest, AreAsNoisyWhateverTheNumberOfBlocks) {
+  constexpr double kNoise = 0.002;
+  addNoise(kNoise);
+  const double density = kNoise * boxPose().translation().z() / frame_.camera.fx;  // of single pixels
+  for (const int targets : {100, 300, 1500, 3000, 100000}) {
+    DepthConfig config;
+    config.max_targets = targets;
+    EXPECT_NEAR(associate(config).noise.density, density, 0.13 * density) << targets;
+  }
+}
+
+/// As of a thin body far away from a stereo camera, which would shake with it.
+TEST_F(DepthAssociationsTest, WeighLessWhereDepthIsNoisierThanUsual) {
+  const auto weight = [&](double noise_m) {
+    frame_ = renderFrame(box_, truth_, 1);
+    addNoise(noise_m);
+    return totalWeight(associate(), 0.25 * edge_);
+  };
+  const double usual = weight(0.0);
+  EXPECT_NEAR(weight(0.0005), usual, 0.02 * usual) << "patches average over their pixels";
+  const double noisy = weight(0.0012), noisier = weight(0.0015);
+  EXPECT_LT(noisy, 0.9 * usual);
+  EXPECT_NEAR(noisier / noisy, 0.64, 0.06) << "by the square";
+}
+
+TEST(WeighByNoise, NeverLeavesAFastBodyWithoutDepth) {
+  for (const double relative_noise : {0.05, 0.5, 5.0}) {
+    DepthAssociations depth;
+    depth.associations.resize(1);
+    weighByNoise(relative_noise, &depth);
+    EXPECT_DOUBLE_EQ(depth.associations[0].weight, 1.0 / 6.0);
+  }
+}
+
+/// The rigid step leaves out pixels, and does not ask.
+TEST_F(DepthAssociationsTest, TellTheNoiseOfWholeBlocksAlone) {
+  for (const int targets : {1500, 100000}) {
+    DepthConfig config;
+    config.max_targets = targets;
+    EXPECT_GT(associate(config).noise.bends, 500u) << targets;
+    EXPECT_EQ(associate(config, Eigen::Isometry3d::Identity(), 2).noise.bends, 0u) << targets;
+  }
+}
+
+/// Such as a bend that the prediction does not have, and that depth is to mend.
+TEST_F(DepthAssociationsTest, ABendOtherThanPredictedIsHardlyNoise) {
+  constexpr double kRadius = 0.24;
+  const double straight = totalWeight(associate(), edge_);
+  for (const int axis : {0, 1}) {
+    for (const double way : {-1.0, 1.0}) {
+      Points bent = box_.volume.rest_vertices;
+      for (auto vertex : bent.rowwise()) {
+        const double angle = vertex[axis] / kRadius;
+        vertex[axis] = (kRadius - way * vertex[2]) * std::sin(angle);
+        vertex[2] = way * (kRadius - (kRadius - way * vertex[2]) * std::cos(angle));
+      }
+      frame_ = renderFrame(box_, transformed(bent, boxPose()), 1);
       for (const int targets : {100, 300, 1500}) {
         DepthConfig config;
         config.max_targets = targets;
         const DepthAssociations found = associate(config);
-        DepthAssociations weighed = found;
-        weighByNoise(&weighed);
         ASSERT_GT(rmsResidual(found.associations), 0.001);
-        for (std::size_t i = 0; i < found.associations.size(); ++i)
-          ASSERT_EQ(weighed.associations[i].weight, found.associations[i].weight) << angle << " " << targets;
+        double plain = 0.0;
+        for (const Association& a : found.associations) plain += a.weight;
+        EXPECT_GT(plain, 0.4 * straight);
+        EXPECT_NEAR(totalWeight(found, edge_), plain, 0.1 * plain) << axis << " " << way << " " << targets;
       }
     }
   }
@@ -170,11 +213,11 @@ TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
       if (samples.grid(row, column) >= 0) samples.samples[samples.grid(row, column)].body = column / 6 % 2;
   const RigidMotions motions = {Eigen::Isometry3d::Identity(),
                                 Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.006))};
-  DepthAssociator depth(DepthConfig(), meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+  DepthAssociator depth(DepthConfig(), edge_);
   const DepthAssociations& found = depth.associate(frame_, surface_.image(), samples, motions, colors_);
   ASSERT_GT(rmsResidual(found.associations), 0.002);
-  const double noise = associate().noise;
-  EXPECT_NEAR(found.noise, noise, 0.2 * noise);
+  const double noise = associate().noise.density;
+  EXPECT_NEAR(found.noise.density, noise, 0.2 * noise);
 }
 
 TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {

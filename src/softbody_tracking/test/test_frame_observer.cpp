@@ -162,19 +162,50 @@ TEST_F(ResetBox, IsAsAtFirst) {
   }
 }
 
-TEST_F(TurnedBox, TrustsNoisyDepthLess) {
-  const auto meanWeight = [&](float noise_m) {
-    const Points vertices = transformed(box_.volume.rest_vertices, front_);
-    RgbdFrame frame = renderFrame(box_, vertices, 1);
-    std::mt19937 random(2);
-    std::normal_distribution<float> gauss(0.0f, noise_m);
-    for (float& z : frame.depth) z += gauss(random);
+class NoisyBox : public TurnedBox {
+ protected:
+  /// Mean of the depth targets' weights, with noise in every pixel and as much as that covered.
+  double meanWeight(float noise_m, const cv::Rect& hand = {}) {
     double sum = 0.0;
-    const std::vector<Association> found = observer_->observe(frame, vertices).depth.associations;
-    for (const Association& association : found) sum += association.weight;
-    return sum / static_cast<double>(found.size());
-  };
-  EXPECT_LT(meanWeight(0.01f), 0.7 * meanWeight(0.001f));
+    const Observation seen = show(front_, front_, [&](RgbdFrame* frame) {
+      std::normal_distribution<float> gauss(0.0f, noise_m);
+      for (float& z : frame->depth) z += gauss(random_);
+      frame->depth(hand).setTo(0.3f);
+    });
+    for (const Association& association : seen.depth.associations) sum += association.weight;
+    return sum / static_cast<double>(seen.depth.associations.size());
+  }
+
+  std::mt19937 random_{2};
+};
+
+TEST_F(NoisyBox, TrustsNoisyDepthLess) {
+  const double usual = meanWeight(0.001f);
+  for (int i = 0; i < 5; ++i) meanWeight(0.018f);
+  EXPECT_LT(meanWeight(0.018f), 0.7 * usual);
+}
+
+TEST_F(NoisyBox, TrustsDepthAlikeWhileAHandCoversIt) {
+  double before = 0.0;
+  for (int i = 0; i < 5; ++i) before = meanWeight(0.018f);
+  for (const int hidden : {300, 360, 390})
+    EXPECT_NEAR(meanWeight(0.018f, {0, 0, hidden, 480}), before, 0.15 * before) << hidden;
+}
+
+TEST_F(NoisyBox, IsAsNoisyAfterACut) {
+  double before = 0.0;
+  for (int i = 0; i < 5; ++i) before = meanWeight(0.018f);
+  box_ = cutBox(box_);
+  observer_->setTopologies(box_.volume, box_.surface);
+  EXPECT_NEAR(meanWeight(0.0f, {0, 0, 390, 480}), before, 0.2 * before) << "little shows";
+}
+
+TEST_F(NoisyBox, ForgetsTheNoiseWhenReset) {
+  const double first = meanWeight(0.018f);
+  meanWeight(0.001f);
+  observer_->reset();
+  random_.seed(2);
+  EXPECT_EQ(meanWeight(0.018f), first);
 }
 
 class BoxOfFewFeatures : public TurnedBox {

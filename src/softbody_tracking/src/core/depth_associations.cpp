@@ -14,10 +14,9 @@ constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction
 constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
 constexpr double kStandsOut = 0.01;            // [m] before the surface beside it, and
 constexpr double kSteepest = 1.0;              // times the distance between them: no body bends so
-constexpr double kUsualNoise = 0.001;          // [m] of a block's depth; with more it weighs less
-constexpr int kApart = 2;                      // blocks; side by side a stereo camera errs alike in them
-constexpr std::size_t kFewestBends = 30;       // of three blocks in a row, that tell the noise
-constexpr double kMedianOfNormal = 0.6745;     // of its absolute value, in standard deviations
+constexpr double kUsualNoise =
+    0.013;  // with more a thin body shakes; a depth camera's at 0.6 m is about this
+constexpr double kLeastTrust = 1.0 / 6.0;  // in depth: nothing else says how far away the body is
 
 using Block = DepthBlock;
 using BlockKind = DepthBlock::Kind;
@@ -162,36 +161,11 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   }
 }
 
-/// From the median of how far blocks lie off the middle of those beside them, as a standard deviation: what
-/// the prediction has wrong goes on evenly from one to the next. 0 where few blocks are measured.
-/// @param bends for its memory.
-double noiseOf(const SurfaceSamples& surface, const std::vector<Block>& blocks, std::vector<double>* bends) {
-  const auto one_piece = [&](int a, int b) { return surface.samples[a].body == surface.samples[b].body; };
-  const auto agrees = [&](int b) { return b >= 0 && blocks[b].kind == BlockKind::kAgrees; };
-  const cv::Mat1i& grid = surface.grid;
-  bends->clear();
-  for (int row = 0; row < grid.rows; ++row) {
-    const int* const samples = grid[row];
-    for (int column = 2 * kApart; column < grid.cols; ++column) {
-      const int left = samples[column - 2 * kApart], middle = samples[column - kApart],
-                right = samples[column];
-      if (!agrees(left) || !agrees(middle) || !agrees(right)) continue;
-      if (!one_piece(left, middle) || !one_piece(middle, right)) continue;
-      bends->push_back(
-          std::abs(blocks[left].difference - 2.0 * blocks[middle].difference + blocks[right].difference));
-    }
-  }
-  if (bends->size() < kFewestBends) return 0.0;
-  const auto median = bends->begin() + static_cast<std::ptrdiff_t>(bends->size() / 2);
-  std::nth_element(bends->begin(), median, bends->end());
-  return *median / (kMedianOfNormal * std::sqrt(6.0));
-}
-
 }  // namespace
 
-void weighByNoise(DepthAssociations* depth) {
-  if (depth->noise <= kUsualNoise) return;
-  const double scale = (kUsualNoise / depth->noise) * (kUsualNoise / depth->noise);
+void weighByNoise(double relative_noise, DepthAssociations* depth) {
+  if (relative_noise <= kUsualNoise) return;
+  const double scale = std::max(kLeastTrust, std::pow(kUsualNoise / relative_noise, 2));
   for (Association& association : depth->associations) association.weight *= scale;
 }
 
@@ -207,7 +181,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
   }
   markSteps(surface, &blocks_);
   growOccluders(surface.grid, &blocks_);
-  found_.noise = step == 1 ? noiseOf(surface, blocks_, &bends_) : 0.0;
+  found_.noise = pixel_step == 1 ? noiseOf(surface, blocks_, frame.camera.fx, &bends_) : NoiseSample();
 
   found_.associations.clear();
   found_.visible_blocks = found_.occluded_blocks = found_.absent_blocks = 0;

@@ -4,6 +4,7 @@
 
 #include "association.h"
 #include "color_model.h"
+#include "depth_noise.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tracker_config.h"
 #include "surface_samples.h"
@@ -16,7 +17,7 @@ struct DepthAssociations {
   int visible_blocks = 0;   ///< blocks of pixels that the prediction covers and the camera measured
   int occluded_blocks = 0;  ///< something nearer, or of another colour, stands there
   int absent_blocks = 0;    ///< the camera looks through: the body is not where it was predicted
-  double noise = 0.0;       ///< of a block of which every pixel counts, one sigma [m]; 0: not known
+  NoiseSample noise;        ///< where every pixel of a block counts
 };
 
 /// What a block of pixels shows.
@@ -55,7 +56,10 @@ class DepthAssociator {
   DepthAssociations found_;
 };
 
-/// Where depth is noisier than usual, all of it weighs less.
-void weighByNoise(DepthAssociations* depth);
+/// Where depth is noisier than usual, its targets weigh less by the square of that, within limits. The rigid
+/// step keeps their full weight: its six numbers are means over all of the body.
+/// @param relative_noise of the mean depth over a patch of one edge of the volume squared, per edge: in
+/// proportion to the body it bends large and small ones alike.
+void weighByNoise(double relative_noise, DepthAssociations* depth);
 
 }  // namespace softbody

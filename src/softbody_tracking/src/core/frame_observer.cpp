@@ -60,6 +60,7 @@ void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology&
 void FrameObserver::reset() {
   map_.reset();
   colors_.reset();
+  depth_noise_ = {};
   shown_before_.clear();
   searches_.clear();
   wide_search_.reset();
@@ -316,7 +317,8 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   followFeatures(frame, &seen);
   const RigidMotions motions = alignRigidly(frame, seen.matches);
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
-  weighByNoise(&seen.depth);
+  depth_noise_.learn(seen.depth.noise);
+  weighByNoise(depth_noise_.over(volume_edge_m_) / volume_edge_m_, &seen.depth);
   seen.outline = outline_.associate(frame, surface_.image(), motions, colors_);
   keepShownPieces(&seen);
   shown_before_ = seen.atLeast(Shows::kLoosely);
