@@ -19,6 +19,10 @@ def percent(value, digits=1):
     return "-" if value is None else f"{100.0 * value:.{digits}f}"
 
 
+def hundredfold(share):
+    return None if share is None else 100.0 * share
+
+
 def get(report, *keys):
     """A value deep in a report; None where there is none."""
     for key in keys:
@@ -72,5 +76,6 @@ def in_words(reports):
         error = get(report, "vertex_error", "all", "mean_mm")
         what = ", ".join(name) if kind == "fault" else name if kind in ("scene", name) else f"{name}, {kind}"
         words.append(f"{what}: {number(error)} mm" if error is not None else
-                     f"{what}: {number(report['depth_residual']['all']['residual']['median_mm'])} mm median depth residual")
+                     f"{what}: {number(get(report, 'depth_residual', 'all', 'residual', 'median_mm'))} mm "
+                     "median depth residual")
     return "; ".join(words)

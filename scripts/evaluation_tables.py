@@ -154,18 +154,16 @@ def toys(reports):
     if not report:
         return ["## A recorded plush toy", "", "Skipped: no ../shared/data/toys.", ""]
     rows = []
-    for window in [*report["depth_residual"]["windows"], report["depth_residual"]["all"]]:
-        first, count = window["first_frame"], window["frames"]
-        rows.append([f"{first} to {first + count - 1}", str(window["answered"]),
-                     number(window["residual"]["median_mm"]), number(window["residual"]["p95_mm"]),
-                     percent(window["within_10mm"]),
-                     percent(window["within_15mm_of_measured"])])
+    for window in [*(get(report, "depth_residual", "windows") or []), get(report, "depth_residual", "all") or {}]:
+        first, count = get(window, "first_frame"), get(window, "frames")
+        rows.append(["-" if count is None else f"{first} to {first + count - 1}", number(get(window, "answered"), 0),
+                     number(get(window, "residual", "median_mm")), number(get(window, "residual", "p95_mm")),
+                     percent(get(window, "within_10mm")), percent(get(window, "within_15mm_of_measured"))])
     found = get(reports.get(("no pose", "toys")), "depth_residual", "all")
-    text = "Depth against the tracked surface; there is no other truth."
-    if found:
-        text += (f" Found without a rough pose: median {number(found['residual']['median_mm'])} mm, "
-                 f"{percent(found['within_10mm'])} % within 10 mm, "
-                 f"{percent(found['within_15mm_of_measured'])} % within 15 mm, occluded counted as misses.")
+    text = ("Depth against the tracked surface; there is no other truth. "
+            f"Found without a rough pose: median {number(get(found, 'residual', 'median_mm'))} mm, "
+            f"{percent(get(found, 'within_10mm'))} % within 10 mm, "
+            f"{percent(get(found, 'within_15mm_of_measured'))} % within 15 mm, occluded counted as misses.")
     return section("A recorded plush toy", text,
                    ["frames", "answered", "median [mm]", "p95 [mm]", "within 10 mm [%]",
                     "within 15 mm, occluded counted as misses [%]"], rows)
