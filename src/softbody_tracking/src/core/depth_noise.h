@@ -23,7 +23,9 @@ NoiseSample noiseOf(const SurfaceSamples& surface, const std::vector<DepthBlock>
                     std::vector<double>* memory);
 
 /// The noise of depth, remembered over frames: a frame in which little of the body shows says little of it.
-/// The mean over a patch errs by the density over the patch's side, however many blocks the patch has.
+/// The mean over a patch errs by the density over the patch's side, however many blocks the patch has, if
+/// each block errs by itself; of a stereo camera's, blocks of one or two pixels understate it, by up to a
+/// half.
 class DepthNoise {
  public:
   void learn(const NoiseSample& sample);
