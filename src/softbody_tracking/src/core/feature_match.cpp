@@ -24,11 +24,12 @@ constexpr double kPrecisePx = 1.5;        // across the ray, that no match disag
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
 // Matches that disagree with their surroundings alike are a limb's: what is wrong in one place is fewer.
 constexpr int kFewestTogether = 20;
+constexpr float kBesidePx = 12.0f;       // of a limb's match most move as it does
 constexpr double kLimbMatches = 4.0;     // that its surroundings' turn and stretch count for there
 constexpr double kSmallestShare = 0.01;  // unexplained by any image
 constexpr double kUnusual = 2.0;         // times the median unexplained share: half the weight
-constexpr double kDense = 2.5;           // matches for each vertex that shows, of which none weighs more, ...
-constexpr double kMostWeight = 4.0;  // ... and times its weight that no match weighs more where they are few
+constexpr double kDense = 2.5;       // matches' weight for each vertex that shows, however many they are, ...
+constexpr double kMostWeight = 4.0;  // ... but none has more times its own than that
 
 double median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
@@ -230,7 +231,21 @@ class PieceJudge {
     const LinearMotion its = motions_.ofLimb(limb, shifted);
     const auto belongs = [&](int m) { return agrees(m, its, kPrecisePx * pixelSize(m)); };
     if (std::count_if(limb.begin(), limb.end(), belongs) < kFewestTogether) return;
-    std::copy_if(cell.begin(), cell.end(), std::back_inserter(*kept), belongs);
+    for (int m : cell)
+      if (belongs(m) && isAmong(m, its, around)) kept->push_back(m);
+  }
+
+  /// Whether what is right beside a match moves as the limb does. What moves otherwise amid the body's
+  /// matches is a reflection or a shadow.
+  bool isAmong(int match, const LinearMotion& limb, const LinearMotion& body) const {
+    const cv::Point2f& pixel = matches_[match].pixel;
+    int with_limb = 0, with_body = 0;
+    grid_.around(pixel.x, pixel.y, [&](int m) {
+      const cv::Point2f off = matches_[m].pixel - pixel;
+      if (!matches_[m].inlier || off.dot(off) > kBesidePx * kBesidePx) return;
+      ++(motions_.disagreement(m, limb) < motions_.disagreement(m, body) ? with_limb : with_body);
+    });
+    return with_limb > with_body;
   }
 
   double fx_;
@@ -284,8 +299,8 @@ void weighByAgreement(std::vector<FeatureMatch>* matches) {
 void weighByDensity(int vertices, std::vector<FeatureMatch>* matches) {
   const auto inliers = static_cast<double>(std::count_if(
       matches->begin(), matches->end(), [](const FeatureMatch& match) { return match.inlier; }));
-  if (inliers == 0.0) return;
-  const double scale = std::clamp(kDense * vertices / inliers, 1.0, kMostWeight);
+  if (inliers == 0.0 || vertices == 0) return;
+  const double scale = std::min(kDense * vertices / inliers, kMostWeight);
   for (FeatureMatch& match : *matches)
     match.association.weight = std::min(scale * match.association.weight, kLargestTargetWeight);
 }

@@ -35,7 +35,7 @@ bool invertHessian(const PatchTemplate& pattern, Eigen::Matrix2f* inverse) {
   return true;
 }
 
-/// Whether the warped grid lies in the image.
+/// Whether the warped grid lies in the image, which has a row more than the pairs.
 bool fits(const RowPairs& image, const cv::Point2f& center, const Eigen::Matrix2f& warp) {
   constexpr int kHalf = kPatchSide / 2;
   const float reach_u = kHalf * (std::abs(warp(0, 0)) + std::abs(warp(0, 1)));

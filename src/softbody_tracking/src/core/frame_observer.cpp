@@ -18,11 +18,13 @@ constexpr double kHardlyAny = 0.2;      // of the expected features: the piece i
 constexpr int kFramesBetweenSearches = 10;  // for a piece that is held
 constexpr int kTiles = 4;                   // of the predicted surface
 constexpr double kTileShare = 0.7;          // of the most features: a tile may have more texture than others
-constexpr int kFramesBetweenTiles = 3;  // in which new features are looked for, and so many times that ...
-constexpr int kSlowTiles = 3;           // ... where all of them were looked through in vain
-constexpr double kGap = 0.35;           // of the volume's edges, between features
-constexpr int kScouts = 48;             // features that say whether the prediction is far off
-constexpr double kFarOff = 4.0;         // [px] that full resolution hardly aligns
+constexpr int kFramesBetweenTiles = 3;   // in which new features are looked for, and so many times that ...
+constexpr int kSlowTiles = 3;            // ... where all of them were looked through in vain
+constexpr double kGap = 0.35;            // of the volume's edges, between features
+constexpr int kEnoughOfVertex = 4;       // features for each vertex that shows: more say nothing new, ...
+constexpr int kEnoughToRecognize = 300;  // ... but these, however coarse the volume is
+constexpr int kScouts = 48;              // features that say whether the prediction is far off
+constexpr double kFarOff = 4.0;          // [px] that full resolution hardly aligns
 
 bool any(const std::vector<bool>& pieces) {
   return std::find(pieces.begin(), pieces.end(), true) != pieces.end();
@@ -200,8 +202,8 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
     if (wide_search_.isDue()) {
       buildPyramid(frame, std::max(kWideSearchPx, config_.features.search_radius_px));
       map_.search(frame, pyramid_, extract(frame), surface_, &seen->matches);
+      markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     }
-    markOutliers(frame.camera, config_.features.max_disagreement_m, &seen->matches);
     const RigidMotions rough = alignRigidly(frame, seen->matches);
     if (largestMotion(surface_, rough) > kLookAgain) {
       look(frame, surface_.movedVolume(rough));
@@ -330,12 +332,16 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   return seen;
 }
 
+int FrameObserver::enoughFeatures() const {
+  const int of_volume = kEnoughOfVertex * shownVertices(samples_, surface_.volume());
+  return std::min(config_.features.max_features, std::max(kEnoughToRecognize, of_volume));
+}
+
 /// The first features at once; later only in gaps between the known ones, tile by tile, so that no frame
 /// takes much longer than others.
-void FrameObserver::admitNew(const RgbdFrame& frame, const Observation& seen) {
+void FrameObserver::admitNew(const RgbdFrame& frame, const Observation& seen, int room) {
   const bool first = map_.features().empty();
-  const int most = first ? FeatureMap::kAll : cvCeil(kTileShare * config_.features.max_features);
-  const int wanted = std::min(most, map_.room());
+  const int wanted = first ? room : std::min(room, cvCeil(kTileShare * enoughFeatures()));
   const cv::Rect region = first ? surface_.image().region : nextTile();
   cv::Mat1b free = colors_.mask(frame.color, region);
   map_.eraseTaken(seen.matches, &free);
@@ -347,8 +353,9 @@ void FrameObserver::admitNew(const RgbdFrame& frame, const Observation& seen) {
 void FrameObserver::admit(const RgbdFrame& frame, const Observation& seen) {
   if (--frames_to_admission_ < 0) {
     const std::size_t known = map_.features().size();
-    const bool full = map_.room() == 0;
-    if (!full) admitNew(frame, seen);
+    const int room = std::min(map_.room(), enoughFeatures() - map_.expected());
+    const bool full = room <= 0;
+    if (!full) admitNew(frame, seen, room);
     tiles_in_vain_ = full || map_.features().size() > known ? 0 : tiles_in_vain_ + 1;
     frames_to_admission_ = kFramesBetweenTiles * (tiles_in_vain_ < kTiles ? 1 : kSlowTiles) - 1;
   }

@@ -89,7 +89,8 @@ class FrameObserver {
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
   void keepShownPieces(Observation* seen) const;
-  void admitNew(const RgbdFrame& frame, const Observation& seen);
+  int enoughFeatures() const;
+  void admitNew(const RgbdFrame& frame, const Observation& seen, int room);
 
   TrackerConfig config_;
   double volume_edge_m_ = 0.0;  ///< mean length of the volume's edges

@@ -16,7 +16,9 @@ class GrayPyramid {
   /// @param region of the frame; widened a little so that it halves evenly.
   void build(const cv::Mat3b& color, const cv::Rect& region);
 
-  /// Halved only when first asked for: most frames need nothing but full resolution.
+  /// The image at a level, every element with the pixel below it, so a row less than the image; empty where
+  /// the region is, or has one row. Halved only when first asked for: most frames need nothing but full
+  /// resolution.
   const RowPairs& level(int l) const;
   cv::Point2f toLevel(const cv::Point2f& pixel, int l) const {
     return (pixel - origin_) * (1.0f / static_cast<float>(1 << l));
