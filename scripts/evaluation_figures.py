@@ -4,7 +4,7 @@ NOISE_FREE = ("bend", "push", "pull", "twist", "press")
 MOVING = ("still", "bend", "push", "twist")
 # Scenes with faults. One draw of wrong matches says little: the error differs by a third between them.
 WRONG_MATCH_SEEDS = {"bend": (1, 2, 3, 4), "push": (1, 2), "twist": (1, 2)}
-DEPTH_HOLES, FEW_FEATURES = "30 % depth holes", "50 features instead of 1000"
+DEPTH_HOLES, FEW_FEATURES = "30 % depth holes", "at most 50 features instead of at most 1000"
 
 
 def wrong_matches(seed):
