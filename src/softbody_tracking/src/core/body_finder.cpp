@@ -14,10 +14,9 @@ namespace {
 constexpr int kCoarseColumns = 80, kFineColumns = 160, kFinestColumns = 320;
 constexpr int kCoarseIcp = 10;
 constexpr std::size_t kMostCandidates = 4, kKept = 4;
-constexpr std::size_t kRefined = 8;        // shared by the places,
-constexpr std::size_t kFewestRefined = 4;  // of each at least: a box has four poses that look alike
-constexpr double kOtherTurn = 0.35;        // [rad]
-constexpr double kOtherPlace = 0.2;        // diameters
+constexpr std::size_t kRefined = 4;  // of each place: a box has four poses that look alike
+constexpr double kOtherTurn = 0.35;  // [rad]
+constexpr double kOtherPlace = 0.2;  // diameters
 
 /// Every orientation is within some 35 degrees of one of these: views from the directions of a Fibonacci
 /// sphere, with turns about the viewing axis.
@@ -141,16 +140,15 @@ std::vector<RegistrationResult> BodyFinder::find(const RgbdFrame& frame, const C
                   finest = subsampled(frame, kFinestColumns);
   PoseSearch search(coarse, coarse_, config_.distance_scale_m),
       finer(fine, coarse_, config_.distance_scale_m), last(finest, mesh_, config_.distance_scale_m);
-  const auto starts_by_place = places(fine, colors, guesses);
   std::vector<RegistrationResult> found, firsts;
-  for (const std::vector<Eigen::Isometry3d>& starts : starts_by_place) {
+  for (const std::vector<Eigen::Isometry3d>& starts : places(fine, colors, guesses)) {
     std::vector<RegistrationResult> here;
     for (const Eigen::Isometry3d& start : starts) {
       const Eigen::Isometry3d pose = search.icp(start, kCoarseIcp);
       here.push_back({pose, search.cost(pose)});
     }
     sortByCost(&here);
-    here = distinct(here, std::max(kFewestRefined, kRefined / starts_by_place.size()));
+    here = distinct(here, kRefined);
     for (RegistrationResult& pose : here) pose = finer.refine(pose.pose, 0.1, 0.02);
     sortBySupport(&finer, &here);
     firsts.push_back(here.front());
