@@ -126,6 +126,16 @@ TEST(ClusteredMesh, KeepsTheShapeWithinACell) {
     EXPECT_LT((kMesh.vertices.rowwise() - coarse.vertices.row(v)).rowwise().norm().minCoeff(), 0.03);
 }
 
+TEST(ClusteredMesh, KeepsAThreadThinnerThanACell) {
+  TriangleMesh thread = kMesh;
+  thread.vertices.rightCols(2) *= 0.05;
+  thread.vertices.rightCols(2).array() += 0.01;  // in a single row of cells
+  const TriangleMesh coarse = clustered(thread, 0.03);
+  EXPECT_GT(coarse.triangles.rows(), 20);
+  EXPECT_LT(coarse.vertices.col(0).minCoeff(), -0.08);
+  EXPECT_GT(coarse.vertices.col(0).maxCoeff(), 0.08);
+}
+
 TEST(BodyFinder, FindsTheBodyInAnyOrientation) {
   const BodyFinder finder(kMesh, RegistrationConfig());
   std::mt19937 random(5);

@@ -222,6 +222,25 @@ TEST_F(NoisyBox, ForgetsTheNoiseWhenReset) {
   EXPECT_EQ(meanWeight(0.018f), first);
 }
 
+/// A hand takes matches away, and the vertices that they were to say the place of.
+TEST_F(TurnedBox, TrustsFeaturesAlikeWhileAHandCoversOthers) {
+  const auto heaviest = [](const Observation& seen) {
+    double weight = 0.0;
+    for (const FeatureMatch& match : seen.matches) weight = std::max(weight, match.association.weight);
+    return weight;
+  };
+  for (int i = 0; i < 12; ++i) show(front_);
+  const double free = heaviest(show(front_));
+  const Observation covered = show(front_, front_, [](RgbdFrame* frame) {
+    const cv::Rect left(0, 0, 360, 480);
+    frame->depth(left).setTo(0.3f);
+    frame->color(left).setTo(cv::Vec3b(250, 20, 20));
+  });
+  EXPECT_GT(covered.matches.size(), 100u);
+  EXPECT_LT(covered.matches.size(), 350u);
+  EXPECT_NEAR(heaviest(covered), free, 0.2 * free);
+}
+
 class BoxOfFewFeatures : public TurnedBox {
  protected:
   BoxOfFewFeatures() : TurnedBox(40) {}

@@ -64,6 +64,20 @@ TEST(Localizer, CountsNoPoseThatFitsWorse) {
   EXPECT_EQ(found->alike, 1);
 }
 
+/// Thinner than the cells of a coarse mesh.
+TEST(Localizer, FindsAThread) {
+  BoxBody thread = makeBox(220, 4, 4);
+  thread.surface.rest_vertices.col(1) *= 0.03;
+  thread.surface.rest_vertices.col(2) *= 0.06;
+  thread.surface.rest_vertices.rightCols(2).array() += 0.0017;  // in a single row of cells
+  const TriangleMesh mesh{thread.surface.rest_vertices, thread.surface.triangles};
+  const RgbdFrame frame = renderFrame(thread, transformed(mesh.vertices, boxPose()), 1);
+  const auto found =
+      Localizer(mesh, RegistrationConfig()).anywhere(frame, ColorModel(), {boxPose()}, unknown);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(isAt(found->pose, boxPose()));
+}
+
 TEST(Localizer, TakesTheNextPlaceIfItsFeaturesAreThere) {
   const RgbdFrame frame = both(bodyAt(nearPose(), 0.0), bodyAt(farPose(), 0.005));
   for (double share_of_near : {0.0, -1.0}) {

@@ -1,5 +1,6 @@
 #include "body_finder.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -15,6 +16,7 @@ constexpr int kCoarseColumns = 80, kFineColumns = 160, kFinestColumns = 320;
 constexpr int kCoarseIcp = 10;
 constexpr std::size_t kMostCandidates = 4, kKept = 4;
 constexpr std::size_t kRefined = 4;  // of each place: a box has four poses that look alike
+constexpr double kLeastArea = 0.25;  // of a mesh, that a coarser one keeps
 constexpr double kOtherTurn = 0.35;  // [rad]
 constexpr double kOtherPlace = 0.2;  // diameters
 
@@ -51,9 +53,8 @@ void sortBySupport(PoseSearch* search, std::vector<RegistrationResult>* poses) {
   for (std::size_t i = 0; i < rated.size(); ++i) (*poses)[i] = rated[i].second;
 }
 
-}  // namespace
-
-TriangleMesh clustered(const TriangleMesh& mesh, double cell_m) {
+/// One vertex for each cell, in the middle of those in it.
+TriangleMesh inCells(const TriangleMesh& mesh, double cell_m) {
   std::map<std::tuple<int, int, int>, int> cells;
   std::vector<Eigen::Vector3d> sums;
   std::vector<int> counts, cluster(static_cast<std::size_t>(mesh.vertices.rows()));
@@ -81,6 +82,25 @@ TriangleMesh clustered(const TriangleMesh& mesh, double cell_m) {
   for (std::size_t f = 0; f < triangles.size(); ++f)
     result.triangles.row(static_cast<Eigen::Index>(f)) = triangles[f];
   return result;
+}
+
+double area(const TriangleMesh& mesh) {
+  double twice = 0.0;
+  for (const auto& triangle : mesh.triangles.rowwise()) {
+    const Eigen::Vector3d a = mesh.vertices.row(triangle[0]), b = mesh.vertices.row(triangle[1]),
+                          c = mesh.vertices.row(triangle[2]);
+    twice += (b - a).cross(c - a).norm();
+  }
+  return 0.5 * twice;
+}
+
+}  // namespace
+
+TriangleMesh clustered(const TriangleMesh& mesh, double cell_m) {
+  TriangleMesh coarse = inCells(mesh, cell_m);
+  // Of a thread that lies in one row of cells no triangle remains.
+  while (area(coarse) < kLeastArea * area(mesh)) coarse = inCells(mesh, cell_m *= 0.5);
+  return coarse;
 }
 
 BodyFinder::BodyFinder(const TriangleMesh& rest_surface, const RegistrationConfig& config)

@@ -7,7 +7,8 @@
 
 namespace softbody {
 
-/// A coarser mesh of the same outline for rendering small: vertices clustered in cells of the given side.
+/// A coarser mesh of the same outline for rendering small: vertices clustered in cells of the given side, or
+/// smaller ones where those leave hardly anything of a thin mesh.
 TriangleMesh clustered(const TriangleMesh& mesh, double cell_m);
 
 /// Finds a body anywhere in a frame, in any orientation: turned starts on every piece of the depth image of

@@ -97,13 +97,17 @@ void FeatureMap::predict(const RgbdFrame& frame, const ColorModel& colors, doubl
                          const PredictedSurface& surface) {
   predictions_.clear();
   missed_.clear();
+  covered_ = 0;
   for (std::size_t f = 0; f < features_.size(); ++f) {
     Prediction p;
     p.feature = static_cast<int>(f);
     p.position = surface.position(features_[f].place);
     p.body = surface.bodyOf(features_[f].place);
     if (!predictedVisible(surface, p.position, &p.pixel)) continue;
-    if (isCovered(frame, colors, p.pixel, p.position.z(), reach_m)) continue;
+    if (isCovered(frame, colors, p.pixel, p.position.z(), reach_m)) {
+      ++covered_;
+      continue;
+    }
     p.warp = surface.imageWarp(features_[f].place, features_[f].gradient);
     predictions_.push_back(p);
   }
@@ -195,6 +199,11 @@ void FeatureMap::credit(const std::vector<FeatureMatch>& matches, const std::vec
     features_[match.feature].matched += match.inlier && shown[match.association.body] ? 1 : 0;
 }
 
+double FeatureMap::uncoveredShare() const {
+  const int shown = expected() + covered_;
+  return shown == 0 ? 1.0 : static_cast<double>(expected()) / shown;
+}
+
 int FeatureMap::expected(const std::vector<bool>& counted) const {
   return static_cast<int>(std::count_if(predictions_.begin(), predictions_.end(),
                                         [&](const Prediction& p) { return counted[p.body]; }));
@@ -204,6 +213,7 @@ void FeatureMap::reset() {
   features_.clear();
   predictions_.clear();
   missed_.clear();
+  covered_ = 0;
   next_id_ = 0;
 }
 

@@ -74,6 +74,10 @@ class FeatureMap {
   /// that hardly shows are held in no esteem for it, good or bad.
   void credit(const std::vector<FeatureMatch>& matches, const std::vector<bool>& shown);
 
+  /// Of the features that the last predict() found on visible surface, the share that nothing stands before;
+  /// 1 where there are none.
+  double uncoveredShare() const;
+
   /// How many features the last predict() expected to see.
   int expected() const { return static_cast<int>(predictions_.size()); }
   /// How many of them on some of the pieces. @param counted of each piece.
@@ -129,6 +133,7 @@ class FeatureMap {
   std::vector<MapFeature> features_;
   std::vector<Prediction> predictions_;
   std::vector<Prediction> missed_;  ///< by align()
+  int covered_ = 0;                 ///< features, at the last predict()
   int next_id_ = 0;
 };
 

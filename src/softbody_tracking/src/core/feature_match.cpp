@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <iterator>
 
 #include "pixel_grid.h"
 #include "softbody_common/target_limits.h"
@@ -24,7 +23,7 @@ constexpr double kPrecisePx = 1.5;        // across the ray, that no match disag
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
 // Matches that disagree with their surroundings alike are a limb's: what is wrong in one place is fewer.
 constexpr int kFewestTogether = 20;
-constexpr float kBesidePx = 12.0f;       // of a limb's match most move as it does
+constexpr std::size_t kBeside = 8;       // nearest matches, of which most move as a limb's match does
 constexpr double kLimbMatches = 4.0;     // that its surroundings' turn and stretch count for there
 constexpr double kSmallestShare = 0.01;  // unexplained by any image
 constexpr double kUnusual = 2.0;         // times the median unexplained share: half the weight
@@ -239,13 +238,18 @@ class PieceJudge {
   /// matches is a reflection or a shadow.
   bool isAmong(int match, const LinearMotion& limb, const LinearMotion& body) const {
     const cv::Point2f& pixel = matches_[match].pixel;
-    int with_limb = 0, with_body = 0;
+    std::vector<std::pair<float, int>> beside;  // square of the distance [px^2], match
     grid_.around(pixel.x, pixel.y, [&](int m) {
       const cv::Point2f off = matches_[m].pixel - pixel;
-      if (!matches_[m].inlier || off.dot(off) > kBesidePx * kBesidePx) return;
-      ++(motions_.disagreement(m, limb) < motions_.disagreement(m, body) ? with_limb : with_body);
+      if (m != match && matches_[m].inlier) beside.emplace_back(off.dot(off), m);
     });
-    return with_limb > with_body;
+    const std::size_t count = std::min(kBeside, beside.size());
+    const auto last = beside.begin() + static_cast<std::ptrdiff_t>(count);
+    std::partial_sort(beside.begin(), last, beside.end());
+    const auto with_limb = std::count_if(beside.begin(), last, [&](const auto& other) {
+      return motions_.disagreement(other.second, limb) < motions_.disagreement(other.second, body);
+    });
+    return 2 * static_cast<std::size_t>(with_limb) >= count;
   }
 
   double fx_;
@@ -296,10 +300,10 @@ void weighByAgreement(std::vector<FeatureMatch>* matches) {
   }
 }
 
-void weighByDensity(int vertices, std::vector<FeatureMatch>* matches) {
+void weighByDensity(double vertices, std::vector<FeatureMatch>* matches) {
   const auto inliers = static_cast<double>(std::count_if(
       matches->begin(), matches->end(), [](const FeatureMatch& match) { return match.inlier; }));
-  if (inliers == 0.0 || vertices == 0) return;
+  if (inliers == 0.0 || vertices == 0.0) return;
   const double scale = std::min(kDense * vertices / inliers, kMostWeight);
   for (FeatureMatch& match : *matches)
     match.association.weight = std::min(scale * match.association.weight, kLargestTargetWeight);

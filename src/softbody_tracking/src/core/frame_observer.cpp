@@ -17,7 +17,7 @@ constexpr double kEnoughAligned = 0.5;  // of the expected features; with fewer,
 constexpr double kHardlyAny = 0.2;      // of the expected features: the piece is not there
 constexpr int kFramesBetweenSearches = 10;  // for a piece that is held
 constexpr int kTiles = 4;                   // of the predicted surface
-constexpr double kTileShare = 0.7;          // of the most features: a tile may have more texture than others
+constexpr double kTileShare = 0.7;          // of enough features: a tile may have more texture than others
 constexpr int kFramesBetweenTiles = 3;   // in which new features are looked for, and so many times that ...
 constexpr int kSlowTiles = 3;            // ... where all of them were looked through in vain
 constexpr double kGap = 0.35;            // of the volume's edges, between features
@@ -214,7 +214,7 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
   const std::vector<bool> gone = gonePieces(seen->matches);
   if (any(gone)) lookWhereRecognized(frame, gone, seen);
   weighByAgreement(&seen->matches);
-  weighByDensity(shownVertices(samples_, surface_.volume()), &seen->matches);
+  weighByDensity(vertices(), &seen->matches);
 }
 
 FrameObserver::FeatureCount FrameObserver::countOn(std::size_t piece,
@@ -332,8 +332,13 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   return seen;
 }
 
+/// Of the volume, as many as show and are not covered. Features say what is.
+double FrameObserver::vertices() const {
+  return shownVertices(samples_, surface_.volume()) * map_.uncoveredShare();
+}
+
 int FrameObserver::enoughFeatures() const {
-  const int of_volume = kEnoughOfVertex * shownVertices(samples_, surface_.volume());
+  const int of_volume = cvRound(kEnoughOfVertex * vertices());
   return std::min(config_.features.max_features, std::max(kEnoughToRecognize, of_volume));
 }
 

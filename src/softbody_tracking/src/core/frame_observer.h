@@ -89,6 +89,7 @@ class FrameObserver {
   void followFeatures(const RgbdFrame& frame, Observation* seen);
   std::vector<Keypoint> extract(const RgbdFrame& frame);
   void keepShownPieces(Observation* seen) const;
+  double vertices() const;
   int enoughFeatures() const;
   void admitNew(const RgbdFrame& frame, const Observation& seen, int room);
 

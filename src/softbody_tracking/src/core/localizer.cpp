@@ -107,7 +107,7 @@ std::optional<Localization> Localizer::anywhere(const RgbdFrame& frame, const Co
   for (bool first = true; !found.empty(); first = false) {
     const RegistrationResult best = found.front();
     const auto others =
-        std::stable_partition(found.begin(), found.end(), [&](const RegistrationResult& pose) {
+        std::stable_partition(found.begin() + 1, found.end(), [&](const RegistrationResult& pose) {
           return std::abs(pose.cost - best.cost) <= kAlikeCost &&
                  inSamePlace(frame.camera, pose.pose, best.pose);
         });

@@ -31,8 +31,9 @@ class Localizer {
   std::optional<Localization> recognized(const RgbdFrame& frame, const Eigen::Isometry3d& pose,
                                          const FeatureShare& feature_share) const;
 
-  /// Anywhere. Among poses alike in depth the one with most features; where they are expected and hardly
-  /// found, it is not the body, and the next place is looked at, which only features can make the body's.
+  /// Anywhere. Among poses alike in depth the one with most features. Where they are hardly found, it is not
+  /// the body; there, and where too few are expected to tell, the next place is looked at, which only
+  /// features that are found can make the body's.
   std::optional<Localization> anywhere(const RgbdFrame& frame, const ColorModel& colors,
                                        const std::vector<Eigen::Isometry3d>& guesses,
                                        const FeatureShare& feature_share) const;
