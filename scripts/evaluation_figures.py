@@ -19,10 +19,6 @@ def percent(value, digits=1):
     return "-" if value is None else f"{100.0 * value:.{digits}f}"
 
 
-def hundredfold(share):
-    return None if share is None else 100.0 * share
-
-
 def get(report, *keys):
     """A value deep in a report; None where there is none."""
     for key in keys:

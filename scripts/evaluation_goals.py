@@ -33,8 +33,8 @@ def goals(reports):
 
     def toy_within(kind):
         """Of all frames: those without a surface have no pixel near it."""
-        frames = get(reports.get((kind, "toys")), "frames")
-        return frames and 100.0 * (toy(kind, "within_10mm") or 0.0) * frames["answered"] / frames["expected"]
+        share, frames = toy(kind, "within_10mm"), get(reports.get((kind, "toys")), "frames")
+        return None if share is None else 100.0 * share * frames["answered"] / frames["expected"]
 
     pieces = [piece["mean_mm"] for piece in scene("cut", "vertex_error", "pieces") or []]
     sponge, faulty = ", ".join(NOISE_FREE), ", ".join(WRONG_MATCH_SEEDS)

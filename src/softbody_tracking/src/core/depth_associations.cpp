@@ -13,8 +13,9 @@ constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction
 constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
 constexpr double kStandsOut = 0.01;            // [m] before the surface beside it, and
 constexpr double kSteepest = 1.0;              // times the distance between them: no body bends so
-constexpr double kUsualNoise = 0.013;          // of an edge, over it; with more a thin body shakes
-constexpr double kLeastTrust = 1.0 / 6.0;      // in depth: nothing else says how far away the body is
+constexpr double kUsualNoise =
+    0.013;  // of the mean over an edge, as a share of it; with more a thin body shakes
+constexpr double kLeastTrust = 1.0 / 6.0;  // in depth: nothing else says how far away the body is
 
 using Block = DepthBlock;
 using BlockKind = DepthBlock::Kind;

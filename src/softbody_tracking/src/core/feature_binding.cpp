@@ -129,6 +129,7 @@ void FeatureMap::retire() {
   features_.erase(std::remove_if(features_.begin(), features_.end(), hopeless), features_.end());
   predictions_.clear();
   missed_.clear();
+  covered_ = 0;
 }
 
 void FeatureMap::rebind(const TetTopology& before, const TetTopology& after) {

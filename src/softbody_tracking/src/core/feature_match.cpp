@@ -23,11 +23,12 @@ constexpr double kPrecisePx = 1.5;        // across the ray, that no match disag
 constexpr double kWrongPx = 4.0;          // and that is too much wherever neighbours disagree as well
 // Matches that disagree with their surroundings alike are a limb's: what is wrong in one place is fewer.
 constexpr int kFewestTogether = 20;
-constexpr std::size_t kBeside = 8;       // nearest matches, of which most move as a limb's match does
-constexpr double kLimbMatches = 4.0;     // that its surroundings' turn and stretch count for there
+constexpr std::size_t kBeside = 8;    // nearest matches, of which half at least move as a limb's match does
+constexpr double kLimbMatches = 4.0;  // that its surroundings' turn and stretch count for there
 constexpr double kSmallestShare = 0.01;  // unexplained by any image
 constexpr double kUnusual = 2.0;         // times the median unexplained share: half the weight
-constexpr double kDense = 2.5;       // matches' weight for each vertex that shows, however many they are, ...
+constexpr double kDense =
+    2.5;  // matches' weight for each vertex that shows uncovered, however many they are, ...
 constexpr double kMostWeight = 4.0;  // ... but none has more times its own than that
 
 double median(std::vector<double>* values) {

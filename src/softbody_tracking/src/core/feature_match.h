@@ -23,7 +23,7 @@ int matchesOn(const std::vector<bool>& counted, const std::vector<FeatureMatch>&
 /// Marks outliers: matches that move otherwise than the linear motion in the image of their neighbours of the
 /// same piece, which starts from the motion of the whole piece, so that some wrong ones side by side do not
 /// lead it away; and those further from their prediction than a body moves in a frame. Twenty that are a few
-/// pixels off but move alike stay, where most beside them do too: a limb.
+/// pixels off but move alike stay, where half of those beside them do too: a limb.
 /// @param max_disagreement_m in any direction; across the ray 1.5 to 4 pixels are allowed.
 void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches);
 
@@ -32,7 +32,7 @@ void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<
 void weighByAgreement(std::vector<FeatureMatch>* matches);
 
 /// Weighs matches so that the inliers together count alike, many or few: for so many measurements of every
-/// vertex that shows. Where they are very few each counts four times at most; none beyond
+/// vertex. Where they are very few each counts four times at most; none beyond
 /// kLargestTargetWeight.
 /// @param vertices of the volume that show, and are not covered.
 void weighByDensity(double vertices, std::vector<FeatureMatch>* matches);

@@ -18,10 +18,11 @@ constexpr double kHardlyAny = 0.2;      // of the expected features: the piece i
 constexpr int kFramesBetweenSearches = 10;  // for a piece that is held
 constexpr int kTiles = 4;                   // of the predicted surface
 constexpr double kTileShare = 0.7;          // of enough features: a tile may have more texture than others
-constexpr int kFramesBetweenTiles = 3;   // in which new features are looked for, and so many times that ...
-constexpr int kSlowTiles = 3;            // ... where all of them were looked through in vain
-constexpr double kGap = 0.35;            // of the volume's edges, between features
-constexpr int kEnoughOfVertex = 4;       // features for each vertex that shows: more say nothing new, ...
+constexpr int kFramesBetweenTiles = 3;  // in which new features are looked for, and so many times that ...
+constexpr int kSlowTiles = 3;           // ... where all of them were looked through in vain
+constexpr double kGap = 0.35;           // of the volume's edges, between features
+constexpr int kEnoughOfVertex =
+    4;  // features for each vertex that shows uncovered: more say nothing new, ...
 constexpr int kEnoughToRecognize = 300;  // ... but these, however coarse the volume is
 constexpr int kScouts = 48;              // features that say whether the prediction is far off
 constexpr double kFarOff = 4.0;          // [px] that full resolution hardly aligns
