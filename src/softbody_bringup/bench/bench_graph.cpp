@@ -4,9 +4,9 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_bringup/pipeline.h"
-#include "softbody_bringup/virtual_camera/camera_setup.h"
-#include "softbody_tracking/camera_ingest.h"
+#include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_tracking/camera/camera_ingest.h"
+#include "softbody_virtual_camera/camera/camera_setup.h"
 
 /// Stages of the graph on the shipped sponge before the virtual camera, one thread.
 namespace {

@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "softbody_bringup/pipeline.h"
-#include "softbody_bringup/virtual_camera/camera_setup.h"
-#include "softbody_tracking/camera_ingest.h"
+#include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_tracking/camera/camera_ingest.h"
+#include "softbody_virtual_camera/camera/camera_setup.h"
 
 /// The tracking stage beside what the paper's system does of it: ORB features of OpenCV, matched by brute
 /// force. Same frames, taken in turns, one thread. Argument: 0 sponge, 1 doll.

@@ -2,7 +2,7 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "softbody_bringup/virtual_camera/camera_setup.h"
+#include "softbody_virtual_camera/camera/camera_setup.h"
 
 /// Parts of a frame of the virtual camera, one thread; arguments: 0 sponge or 1 doll, image width [px].
 namespace {

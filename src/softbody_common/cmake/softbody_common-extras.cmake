@@ -1,9 +1,9 @@
-# Settings that all softbody packages share.
-set(CMAKE_CXX_STANDARD 17)
-set(CMAKE_CXX_STANDARD_REQUIRED ON)
-set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-if(NOT CMAKE_BUILD_TYPE)
-  set(CMAKE_BUILD_TYPE Release)
+# softbody::common for packages that find this one.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+if(NOT TARGET opencv_core)
+  find_package(OpenCV 4 REQUIRED)
 endif()
-add_compile_options(-Wall -Wextra)
+find_package(yaml-cpp REQUIRED)
+if(NOT TARGET softbody::common)
+  include(${softbody_common_DIR}/softbody_common-targets.cmake)
+endif()

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "../test/cutting/cut_bodies.h"
-#include "core/cutting/tet_cutter.h"
+#include "cutting/fixtures/cut_bodies.h"
+#include "cutting/volume/tet_cutter.h"
 
 namespace {
 

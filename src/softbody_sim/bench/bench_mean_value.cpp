@@ -4,10 +4,10 @@
 #include <chrono>
 #include <vector>
 
-#include "doll_size.h"
-#include "mean_value_reference.h"
-#include "softbody_sim/mean_value_coordinates.h"
-#include "softbody_sim/tiled_weights.h"
+#include "bench/doll_size.h"
+#include "bench/mean_value_reference.h"
+#include "softbody_sim/interpolation/mean_value_coordinates.h"
+#include "softbody_sim/interpolation/tiled_weights.h"
 
 /// Mean value coordinates of the doll of Kang et al. 2022 (18,650 points, 252 faces), one thread. The ratios
 /// are of times taken turn by turn in one run, so that a busy machine slows both alike.

@@ -9,13 +9,13 @@
 #include <map>
 #include <memory>
 
-#include "bent_bodies.h"
-#include "core/elastic_blocks.h"
-#include "core/metric_solver.h"
-#include "core/projective_dynamics.h"
-#include "core/tet_matrix.h"
-#include "plain_projective_dynamics.h"
-#include "softbody_sim/simulator.h"
+#include "bench/bent_bodies.h"
+#include "bench/plain_projective_dynamics.h"
+#include "elasticity/elastic_blocks.h"
+#include "linear_solvers/metric_solver.h"
+#include "softbody_sim/dynamics/simulator.h"
+#include "tets/tet_matrix.h"
+#include "time_step/projective_dynamics.h"
 
 /// Projective dynamics against a plain implementation, one thread, bent bodies: `frame` (ten iterations of
 /// each, with and without the volume term), `converged` (as many as bring every vertex within 1e-6 mean edge

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "bent_bodies.h"
+#include "bench/bent_bodies.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
-#include "softbody_sim/simulator.h"
+#include "softbody_sim/dynamics/simulator.h"
 
 /// A frame of the simulator as the tracker drives it: while the body bends to and fro, 1500 depth targets
 /// on its upper side, each with a normal, elsewhere in every frame, so that the matrix is another one each

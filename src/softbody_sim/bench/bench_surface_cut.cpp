@@ -3,12 +3,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "../test/cutting/surface_meshes.h"
-#include "core/cutting/surface_swap.h"
-#include "core/cutting/tet_cutter.h"
-#include "softbody_sim/cuttable_surface.h"
-#include "softbody_sim/object_model.h"
-#include "softbody_sim/simulator.h"
+#include "cutting/binding/surface_swap.h"
+#include "cutting/fixtures/surface_meshes.h"
+#include "cutting/volume/tet_cutter.h"
+#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/object/object_model.h"
 
 namespace {
 

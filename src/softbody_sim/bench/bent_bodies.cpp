@@ -1,12 +1,12 @@
-#include "bent_bodies.h"
+#include "bench/bent_bodies.h"
 
 #include <cmath>
 #include <map>
 #include <random>
 
+#include "fixtures/test_meshes.h"
 #include "softbody_common/tet_geometry.h"
-#include "softbody_sim/object_model.h"
-#include "test/test_meshes.h"
+#include "softbody_sim/object/object_model.h"
 
 namespace softbody::bench {
 namespace {

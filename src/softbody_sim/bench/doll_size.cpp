@@ -1,4 +1,4 @@
-#include "doll_size.h"
+#include "bench/doll_size.h"
 
 #include <cmath>
 #include <random>

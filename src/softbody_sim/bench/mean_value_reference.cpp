@@ -1,4 +1,4 @@
-#include "mean_value_reference.h"
+#include "bench/mean_value_reference.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,10 +1,10 @@
-#include "plain_projective_dynamics.h"
+#include "bench/plain_projective_dynamics.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "core/tet_shape.h"
 #include "softbody_common/tet_geometry.h"
+#include "tets/tet_shape.h"
 
 namespace softbody::bench {
 

@@ -4,9 +4,9 @@
 #include <Eigen/SparseCholesky>
 #include <vector>
 
-#include "core/corotated_elasticity.h"
-#include "core/step_potential.h"
+#include "elasticity/corotated_elasticity.h"
 #include "softbody_common/types.h"
+#include "time_step/step_potential.h"
 
 namespace softbody::bench {
 

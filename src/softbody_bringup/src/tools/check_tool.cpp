@@ -2,10 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "softbody_bringup/bag_frames.h"
-#include "softbody_bringup/input_bag.h"
 #include "softbody_common/run_tool.h"
-#include "softbody_tracking/tool_check.h"
+#include "softbody_recordings/ros/bag_frames.h"
+#include "softbody_recordings/ros/input_bag.h"
+#include "softbody_tracking/tool/tool_check.h"
 
 int main(int argc, char** argv) {
   std::string input, tool;

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "softbody_bringup/evaluation/cut_pictures.h"
-#include "softbody_bringup/input_bag.h"
-#include "softbody_common/conversions.h"
+#include "softbody_common/ros/conversions.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_evaluation/ros/cut_pictures.h"
+#include "softbody_recordings/ros/input_bag.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "softbody_bringup/evaluation/evaluator.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_evaluation/ros/evaluator.h"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "softbody_bringup/camera_bag.h"
-#include "softbody_bringup/image_folder.h"
-#include "softbody_common/conversions.h"
+#include "softbody_common/ros/conversions.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_recordings/image_folder/image_folder.h"
+#include "softbody_recordings/ros/camera_bag.h"
 
 namespace {
 

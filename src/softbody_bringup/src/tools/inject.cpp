@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "softbody_bringup/injection/fault_options.h"
-#include "softbody_bringup/injection/injector.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_recordings/injection/fault_options.h"
+#include "softbody_recordings/ros/injector.h"
 
 namespace {
 

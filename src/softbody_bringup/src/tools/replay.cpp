@@ -1,4 +1,4 @@
-#include "softbody_bringup/replay.h"
+#include "softbody_recordings/ros/replay.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "softbody_bringup/simulate_truth.h"
+#include "softbody_evaluation/ros/simulate_truth.h"
 
 #include <CLI/CLI.hpp>
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "softbody_bringup/validation/checks.h"
-#include "softbody_bringup/validation/facts_reader.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_recordings/ros/facts_reader.h"
+#include "softbody_recordings/validation/checks.h"
 
 int main(int argc, char** argv) {
   namespace validation = softbody::validation;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "softbody_bringup/virtual_camera/bag_writer.h"
-#include "softbody_bringup/virtual_camera/camera_motion.h"
-#include "softbody_bringup/virtual_camera/node.h"
+#include "softbody_virtual_camera/motion/camera_motion.h"
+#include "softbody_virtual_camera/ros/bag_writer.h"
+#include "softbody_virtual_camera/ros/node.h"
 
 namespace {
 

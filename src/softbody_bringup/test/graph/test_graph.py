@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The whole graph on a bag that is played again and again."""
+import os
 import sys
 import unittest
 
@@ -7,10 +8,12 @@ import rosnode
 import rospy
 import rostest
 import tf2_ros
-from recorder import Recorder
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 from softbody_msgs.msg import MeshState, MeshTopology, StageTiming, Targets, TetTopology, TrackingStatus
 from visualization_msgs.msg import Marker
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
 
 OPTICAL_FRAME = "camera_color_optical_frame"
 NODES = ["camera_ingest", "feature_tracker", "simulator", "surface"]

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """While a bag is held /clock stands still: the service set_pose answers all the same, and the body is tracked from the pose
 set once the clock goes on."""
+import os
 import sys
 import threading
 import time
@@ -10,11 +11,13 @@ import numpy as np
 import rospy
 import rostest
 import tf2_ros
-from poses import ALIKE, CORNERS_M, placed, pose_in, rotation
-from recorder import PATIENCE_S, Recorder
 from rosgraph_msgs.msg import Clock
 from softbody_msgs.msg import Targets, TrackingStatus
 from softbody_msgs.srv import SetPose
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from poses import ALIKE, CORNERS_M, placed, pose_in, rotation  # pylint: disable=wrong-import-position
+from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
 
 OPTICAL_FRAME, TRUE_FRAME = "camera_color_optical_frame", "ground_truth_softbody"
 ROUGH_M = 0.012  # how far off the pose is that is set

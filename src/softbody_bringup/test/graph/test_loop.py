@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """A bag that starts again: time jumps back, and the graph starts anew without help."""
+import os
 import sys
 import unittest
 
 import rospy
 import rostest
-from recorder import Recorder
 from softbody_msgs.msg import MeshState, TrackingStatus
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
 
 
 def since_last_jump(messages):

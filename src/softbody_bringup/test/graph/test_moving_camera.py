@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A body at rest before a camera that an arm moves is at rest in output_frame; while tf says nothing of the arm, too late,
 or wrongly, frames are left out with the reason, the last good state stays, and tracking goes on as soon as tf is right."""
+import os
 import sys
 import threading
 import unittest
@@ -8,9 +9,11 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from recorder import Recorder
 from softbody_msgs.msg import MeshState, TrackingStatus
 from tf2_msgs.msg import TFMessage
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
 
 FRAME, CAMERA = "world", "camera_link"
 MAX_ERROR_M = 0.003

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """States in another frame than the camera's, a static one of tf: the body is where the truth is, and the knife, which is
 tracked in the camera's frame, cuts it there."""
+import os
 import sys
 import unittest
 
@@ -8,8 +9,10 @@ import numpy as np
 import rospy
 import rostest
 import tf2_ros
-from recorder import Recorder
 from softbody_msgs.msg import Cut, MeshState
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
 
 FRAME, CAMERA = "rig", "camera_color_optical_frame"
 MAX_ERROR_M = 0.005

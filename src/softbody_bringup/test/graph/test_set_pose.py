@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Tracking starts anew near a pose that the service feature_tracker/set_pose is given, in any frame of tf."""
+import os
 import sys
 import unittest
 
@@ -7,10 +8,12 @@ import numpy as np
 import rospy
 import rostest
 import tf2_ros
-from poses import ALIKE, CORNERS_M, placed, pose_in, rotation
-from recorder import Recorder
 from softbody_msgs.msg import Targets, TrackingStatus
 from softbody_msgs.srv import SetPose
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from poses import ALIKE, CORNERS_M, placed, pose_in, rotation  # pylint: disable=wrong-import-position
+from recorder import Recorder  # pylint: disable=wrong-import-position
 
 OPTICAL_FRAME, TRUE_FRAME = "camera_color_optical_frame", "ground_truth_softbody"
 ROUGH_M = 0.012  # how far off the poses are that are set

@@ -6,14 +6,14 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_bringup/evaluation/bags.h"
-#include "softbody_bringup/pipeline.h"
-#include "softbody_bringup/replay.h"
-#include "softbody_bringup/virtual_camera/bag_writer.h"
-#include "softbody_bringup/virtual_camera/camera_setup.h"
 #include "softbody_common/tet_geometry.h"
-#include "softbody_sim/cut_shapes.h"
-#include "softbody_tracking/camera_ingest.h"
+#include "softbody_evaluation/ros/bags.h"
+#include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_recordings/ros/replay.h"
+#include "softbody_sim/cutting/cut_shapes.h"
+#include "softbody_tracking/camera/camera_ingest.h"
+#include "softbody_virtual_camera/camera/camera_setup.h"
+#include "softbody_virtual_camera/ros/bag_writer.h"
 
 namespace softbody {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "softbody_bringup/evaluation/evaluator.h"
-#include "softbody_bringup/replay.h"
-#include "softbody_bringup/virtual_camera/bag_writer.h"
-#include "softbody_bringup/virtual_camera/camera_setup.h"
+#include "softbody_evaluation/ros/evaluator.h"
+#include "softbody_recordings/ros/replay.h"
+#include "softbody_virtual_camera/camera/camera_setup.h"
+#include "softbody_virtual_camera/ros/bag_writer.h"
 
 namespace softbody {
 namespace {

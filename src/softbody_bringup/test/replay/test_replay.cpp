@@ -4,11 +4,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "softbody_bringup/bag_frames.h"
-#include "softbody_bringup/pipeline.h"
-#include "softbody_bringup/replay.h"
-#include "softbody_bringup/result_bag.h"
-#include "softbody_common/conversions.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_recordings/ros/bag_frames.h"
+#include "softbody_recordings/ros/replay.h"
+#include "softbody_recordings/ros/result_bag.h"
 
 namespace softbody {
 namespace {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "softbody_bringup/evaluation/evaluator.h"
-#include "softbody_bringup/simulate_truth.h"
+#include "softbody_evaluation/ros/evaluator.h"
+#include "softbody_evaluation/ros/simulate_truth.h"
 
 namespace softbody {
 namespace {

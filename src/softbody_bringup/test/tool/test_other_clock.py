@@ -5,12 +5,11 @@ import os
 import sys
 import unittest
 
-import rospkg
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
-sys.path.append(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "test", "graph"))
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import Recorder  # pylint: disable=wrong-import-position
 
 EXPECTED = {"feature_tracker: tracking": (DiagnosticStatus.OK, "tracking"), "tool_tracker: tool": (DiagnosticStatus.OK, "seen"),

@@ -14,7 +14,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PolygonStamped, PoseStamped, PoseWithCovarianceStamped
 from softbody_msgs.msg import StageTiming
 
-sys.path.append(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "test", "graph"))
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import Recorder  # pylint: disable=wrong-import-position
 
 FRAMES = 10

@@ -4,13 +4,12 @@ import os
 import sys
 import unittest
 
-import rospkg
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import CameraInfo, Image
 
-sys.path.append(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "test", "graph"))
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import Recorder  # pylint: disable=wrong-import-position
 
 WIDTH, HEIGHT = 64, 48

@@ -5,7 +5,6 @@ import os
 import sys
 import unittest
 
-import rospkg
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -14,7 +13,7 @@ from rosgraph_msgs.msg import Log
 from tf2_ros import StaticTransformBroadcaster
 from visualization_msgs.msg import MarkerArray
 
-sys.path.append(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "test", "graph"))
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import Recorder  # pylint: disable=wrong-import-position
 
 REASON = "tf does not say where camera_color_optical_frame is in output_frame bench"

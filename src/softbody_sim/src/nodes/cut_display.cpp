@@ -8,7 +8,7 @@
 #include "softbody_common/surface_binding.h"
 #include "softbody_common/tet_locator.h"
 #include "softbody_common/topics.h"
-#include "softbody_sim/cut_markers.h"
+#include "softbody_sim/ros/cut_markers.h"
 
 namespace softbody {
 namespace {

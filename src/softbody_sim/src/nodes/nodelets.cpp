@@ -2,7 +2,7 @@
 
 #include "nodes/simulator_node.h"
 #include "nodes/surface_node.h"
-#include "softbody_common/node_nodelet.h"
+#include "softbody_common/ros/node_nodelet.h"
 
 namespace softbody {
 

@@ -4,13 +4,13 @@
 
 #include <boost/make_shared.hpp>
 
-#include "softbody_common/conversions.h"
-#include "softbody_common/cut_messages.h"
-#include "softbody_common/ros_parameters.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_msgs/MeshState.h"
 #include "softbody_msgs/StageTiming.h"
-#include "softbody_sim/object_model.h"
+#include "softbody_sim/object/object_model.h"
 
 namespace softbody {
 

@@ -12,7 +12,7 @@
 
 #include "nodes/surroundings_tracker.h"
 #include "softbody_common/stage_timer.h"
-#include "softbody_sim/simulator.h"
+#include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
 

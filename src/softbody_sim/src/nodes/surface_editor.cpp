@@ -6,11 +6,11 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
-#include "softbody_common/conversions.h"
-#include "softbody_common/cut_messages.h"
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/topics.h"
-#include "softbody_sim/cut_shapes.h"
+#include "softbody_sim/cutting/cut_shapes.h"
 
 namespace softbody {
 namespace {

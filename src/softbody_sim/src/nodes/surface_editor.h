@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "softbody_sim/cuttable_surface.h"
+#include "softbody_sim/cutting/cuttable_surface.h"
 
 namespace softbody {
 

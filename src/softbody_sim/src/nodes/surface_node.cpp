@@ -6,12 +6,12 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
-#include "core/cutting/cut_patch.h"
-#include "softbody_common/conversions.h"
-#include "softbody_common/ros_parameters.h"
+#include "cutting/patch/cut_patch.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_sim/conversions.h"
-#include "softbody_sim/object_model.h"
+#include "softbody_sim/object/object_model.h"
+#include "softbody_sim/ros/conversions.h"
 
 namespace softbody {
 namespace {

@@ -12,7 +12,7 @@
 #include "nodes/surface_editor.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
-#include "softbody_sim/visual_surface.h"
+#include "softbody_sim/interpolation/visual_surface.h"
 
 namespace softbody {
 

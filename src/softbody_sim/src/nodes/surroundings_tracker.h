@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "softbody_sim/object_model.h"
-#include "softbody_sim/obstacle_description.h"
-#include "softbody_sim/surroundings.h"
+#include "softbody_sim/constraints/obstacle_description.h"
+#include "softbody_sim/constraints/surroundings.h"
+#include "softbody_sim/object/object_model.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "core/model_folder.h"
+#include "report/model_folder.h"
 #include "softbody_common/run_tool.h"
 
 int main(int argc, char** argv) {

@@ -6,10 +6,10 @@
 #include <iostream>
 #include <random>
 
-#include "core/vertex_region.h"
 #include "softbody_common/tet_geometry.h"
-#include "softbody_sim/mesh_files.h"
-#include "softbody_sim/simulator.h"
+#include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/io/mesh_files.h"
+#include "tools/vertex_region.h"
 
 namespace {
 

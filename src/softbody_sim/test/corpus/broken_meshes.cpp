@@ -1,4 +1,4 @@
-#include "broken_meshes.h"
+#include "corpus/broken_meshes.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/surface_repair.h"
+#include "surface_mesh/surface_repair.h"
 
 namespace softbody::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "model_corpus.h"
+#include "corpus/model_corpus.h"
 
 /// Prepares a model of every mesh under a folder and prints what came out. Exit code 1 if any has a fault.
 int main(int argc, char** argv) {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "broken_meshes.h"
+#include "corpus/broken_meshes.h"
 
 /// Reads mutated mesh files of every format with little memory. A file that is neither read nor refused with
 /// a sentence is kept and named; exit code 1. A crash leaves the last file.

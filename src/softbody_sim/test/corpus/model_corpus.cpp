@@ -1,4 +1,4 @@
-#include "model_corpus.h"
+#include "corpus/model_corpus.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "core/enclosure.h"
+#include "cage/enclosure.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody::test {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model_quality.h"
+#include "report/model_quality.h"
 
 namespace softbody::test {
 

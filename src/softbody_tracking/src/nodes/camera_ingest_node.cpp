@@ -8,11 +8,11 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
-#include "softbody_common/conversions.h"
-#include "softbody_common/ros_parameters.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_tracking/conversions.h"
-#include "softbody_tracking/point_cloud.h"
+#include "softbody_tracking/camera/point_cloud.h"
+#include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
 namespace {

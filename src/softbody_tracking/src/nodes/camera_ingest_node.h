@@ -13,8 +13,8 @@
 #include "nodes/wall_throttle.h"
 #include "softbody_common/parameters.h"
 #include "softbody_common/stage_timer.h"
-#include "softbody_tracking/camera_ingest.h"
-#include "softbody_tracking/stream_monitor.h"
+#include "softbody_tracking/camera/camera_ingest.h"
+#include "softbody_tracking/camera/stream_monitor.h"
 
 namespace softbody {
 

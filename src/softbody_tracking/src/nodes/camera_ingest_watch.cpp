@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "nodes/camera_ingest_node.h"
-#include "softbody_common/conversions.h"
+#include "softbody_common/ros/conversions.h"
 
 /// What the node says about itself: why there are no frames, rates and latency.
 namespace softbody {

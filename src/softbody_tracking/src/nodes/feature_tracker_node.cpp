@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "nodes/silence.h"
-#include "softbody_common/conversions.h"
-#include "softbody_common/ros_parameters.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_common/tracking_state.h"
-#include "softbody_tracking/feature_messages.h"
+#include "softbody_tracking/ros/feature_messages.h"
 
 namespace softbody {
 namespace {

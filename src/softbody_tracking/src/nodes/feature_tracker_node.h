@@ -13,13 +13,13 @@
 #include <optional>
 #include <string>
 
-#include "core/blade_queue.h"
 #include "nodes/mask_input.h"
 #include "nodes/output_frame.h"
 #include "nodes/rectified_input.h"
 #include "softbody_common/parameters.h"
-#include "softbody_tracking/body_tracker.h"
-#include "softbody_tracking/tool_mask.h"
+#include "softbody_tracking/tool/tool_mask.h"
+#include "softbody_tracking/tracker/body_tracker.h"
+#include "tool/blade_queue.h"
 
 namespace softbody {
 

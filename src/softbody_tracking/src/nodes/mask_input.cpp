@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "softbody_common/conversions.h"
+#include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <opencv2/core.hpp>
 
-#include "core/mask_queue.h"
+#include "camera/mask_queue.h"
 #include "nodes/rectified_input.h"
 
 namespace softbody {

@@ -1,4 +1,4 @@
-#include "softbody_common/node_nodelet.h"
+#include "softbody_common/ros/node_nodelet.h"
 
 #include <pluginlib/class_list_macros.hpp>
 

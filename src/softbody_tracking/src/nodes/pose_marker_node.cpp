@@ -2,9 +2,9 @@
 
 #include <softbody_msgs/SetPose.h>
 
-#include "softbody_common/ros_parameters.h"
+#include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_tracking/pose_marker_message.h"
+#include "softbody_tracking/ros/pose_marker_message.h"
 
 namespace softbody {
 namespace {

@@ -11,10 +11,10 @@
 #include <cmath>
 
 #include "nodes/silence.h"
-#include "softbody_common/conversions.h"
-#include "softbody_common/ros_parameters.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_tracking/tool_messages.h"
+#include "softbody_tracking/ros/tool_messages.h"
 
 namespace softbody {
 

@@ -10,9 +10,9 @@
 
 #include "nodes/output_frame.h"
 #include "nodes/rectified_input.h"
-#include "softbody_tracking/blade_trail.h"
-#include "softbody_tracking/tool_tracker.h"
-#include "softbody_tracking/tool_watch.h"
+#include "softbody_tracking/ros/blade_trail.h"
+#include "softbody_tracking/tool/tool_tracker.h"
+#include "softbody_tracking/tool/tool_watch.h"
 
 namespace softbody {
 

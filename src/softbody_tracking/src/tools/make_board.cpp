@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "softbody_common/run_tool.h"
-#include "softbody_tracking/marker_board.h"
-#include "softbody_tracking/marker_detector.h"
+#include "softbody_tracking/marker_board/marker_board.h"
+#include "softbody_tracking/tool/marker_detector.h"
 
 namespace {
 

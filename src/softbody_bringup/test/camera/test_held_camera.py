@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""What camera_ingest says of its streams while /clock stands still, so early that no period in ROS time has passed."""
+import os
+import sys
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from rosgraph_msgs.msg import Clock, Log
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from hand_made_camera import TOPICS, Camera  # pylint: disable=wrong-import-position
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+
+class HeldCamera(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        threading.Thread(target=cls.hold, daemon=True).start()
+        cls.camera = Camera()
+        cls.recorder = Recorder(rosout=Log)
+
+    @classmethod
+    def hold(cls):
+        clock = rospy.Publisher("/clock", Clock, queue_size=1)
+        while True:
+            clock.publish(Clock(rospy.Time(1)))
+            time.sleep(0.02)
+
+    def test_what_is_wrong_is_told(self):
+        for words, fault in (("camera_depth_optical_frame", {"frames": {"depth": "camera_depth_optical_frame"}}),
+                             ("no frame_id", {"frames": {"color": "", "depth": ""}}),
+                             (TOPICS["color"] + ": a second image", {"copies": {"color": 2}}),
+                             (TOPICS["depth"] + ": an image without a stamp", {"unstamped": ("depth",)})):
+            self.camera.be(**fault)
+            self.recorder.wait_for_log("/softbody/camera_ingest", words)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_held_camera")
+    rostest.rosrun("softbody_bringup", "test_held_camera", HeldCamera, sys.argv)

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""The surface under a volume made by hand, with no simulator: a box of tets around the visual mesh."""
+import os
+import copy
+import itertools
+import sys
+import time
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import Point, Point32, Vector3
+from rosgraph_msgs.msg import Log
+from shape_msgs.msg import MeshTriangle
+from softbody_msgs.msg import Cut, MeshState, MeshTopology, TetTopology, Tetrahedron
+from softbody_msgs.srv import CutBody
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+FRAME = "made_by_hand"
+HALF_SIZE_M = np.array([0.11, 0.06, 0.03])
+
+
+def array(points):
+    return np.array([[p.x, p.y, p.z] for p in points])
+
+
+def points32(rows):
+    return [Point32(*row) for row in rows]
+
+
+def box_tets():
+    """A box as six tets around its diagonal (Kuhn), each with positive volume, and its corners."""
+    corners = np.array(list(itertools.product([-1, 1], repeat=3))) * HALF_SIZE_M
+    tets = []
+    for order in itertools.permutations([4, 2, 1]):
+        a, b, c, d = 0, order[0], order[0] + order[1], 7
+        volume = np.linalg.det(corners[[b, c, d]] - corners[a])
+        tets.append([a, b, c, d] if volume > 0 else [a, c, b, d])
+    return corners, tets
+
+
+def boundary(tets):
+    """Triangles of one tet only, outward."""
+    faces = [(t[i], t[j], t[k]) for t in tets for i, j, k in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))]
+    keys = [tuple(sorted(face)) for face in faces]
+    return [face for face, key in zip(faces, keys) if keys.count(key) == 1]
+
+
+class SurfaceAlone(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
+                                softbody__cut=Cut, rosout=Log)
+        cls.corners, tets = box_tets()
+        cls.topology = TetTopology(
+            rest_vertices=points32(cls.corners), tets=[Tetrahedron(vertex_indices=tet) for tet in tets],
+            surface_triangles=[MeshTriangle(vertex_indices=face) for face in boundary(tets)],
+            vertex_parents=range(8), tet_bodies=[0] * len(tets))
+        cls.topology.header.frame_id = "softbody"
+        cls.topology_publisher = rospy.Publisher("/softbody/volume/topology", TetTopology, queue_size=1, latch=True)
+        cls.state_publisher = rospy.Publisher("/softbody/volume/state", MeshState, queue_size=1)
+        cls.topology_publisher.publish(cls.topology)
+        cls.surface = cls.recorder.wait_for("softbody/surface/topology")[-1]
+        cls.recorder.wait(lambda _: cls.state_publisher.get_num_connections() > 0, "a surface that listens")
+
+    def surface_for(self, corners, seconds, revision=0):
+        state = MeshState(vertices=points32(corners), confidence=[1.0] * 8, revision=revision)
+        state.header.stamp = state.observed = rospy.Time(seconds)
+        state.header.frame_id = FRAME
+        self.state_publisher.publish(state)
+        return self.recorder.wait(
+            lambda seen: next((s for s in seen["softbody/surface/state"] if s.header.stamp == state.header.stamp), None),
+            f"the surface state of {seconds} s")
+
+    def test_reproduces_affine_maps(self):
+        rest = array(self.surface.rest_vertices)
+        random = np.random.default_rng(7)
+        for i in range(3):
+            linear = np.eye(3) + 0.3 * random.uniform(-1, 1, (3, 3))
+            offset = random.uniform(-0.5, 0.5, 3)
+            state = self.surface_for(self.corners @ linear.T + offset, 10 + i)
+            np.testing.assert_allclose(array(state.vertices), rest @ linear.T + offset, atol=2e-6)
+            self.assertEqual(state.header.frame_id, FRAME)
+            self.assertEqual(state.revision, self.surface.revision)
+
+    def test_holds_a_state_of_an_unknown_revision(self):
+        state = MeshState(vertices=points32(self.corners), confidence=[1.0] * 8, revision=5)
+        state.header.stamp = rospy.Time(20)
+        self.state_publisher.publish(state)
+        self.surface_for(self.corners, 21)
+        stamps = [message.header.stamp for message in self.recorder.messages["softbody/surface/state"]]
+        self.assertNotIn(rospy.Time(20), stamps)
+
+    def test_publishes_an_edit_with_its_first_state(self):
+        edited = copy.deepcopy(self.topology)
+        edited.revision, edited.header.stamp = 1, rospy.Time(40)
+        before = len(self.recorder.messages["softbody/surface/topology"])
+        self.topology_publisher.publish(edited)
+        rospy.sleep(1.5)  # topologies are sent every second
+        self.assertEqual(self.surface_for(self.corners, 41).revision, 0)
+        topologies = self.recorder.messages["softbody/surface/topology"][before:]
+        self.assertEqual({topology.revision for topology in topologies}, {0})
+        self.assertEqual(self.surface_for(self.corners, 42, revision=1).revision, 1)
+        topology = self.recorder.wait(
+            lambda seen: next((t for t in seen["softbody/surface/topology"] if t.revision == 1), None),
+            "the surface's topology of revision 1")
+        self.assertEqual(topology.header.stamp, rospy.Time(40))
+        self.topology_publisher.publish(self.topology)
+        self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 0, "revision 0 again")
+
+    def test_takes_back_a_cut_that_no_simulator_makes(self):
+        def cut():
+            rospy.wait_for_service("/softbody/surface/cut", 30)
+            return rospy.ServiceProxy("/softbody/surface/cut", CutBody)(point=Point(0.01, 0, 0), normal=Vector3(1, 0.1, 0))
+
+        self.surface_for(self.corners, 50)
+        answer = cut()
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("on its way", cut().message)
+
+        def taken_back(seen):
+            if time.monotonic() > taken_back.next:  # as a simulator does every second
+                self.topology_publisher.publish(self.topology)
+                taken_back.next = time.monotonic() + 0.9
+            return [log for log in seen["rosout"] if log.level >= Log.ERROR and "takes it back" in log.msg]
+
+        taken_back.next = 0.0
+        self.recorder.wait(taken_back, "an error that tells of the cut")
+        for second in (51, 52):
+            state = self.surface_for(self.corners, second)
+            self.assertEqual(state.revision, 0)
+            np.testing.assert_allclose(array(state.vertices), array(self.surface.rest_vertices), atol=2e-6)
+        answer = cut()
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.revision, 1)
+        self.recorder.messages["rosout"].clear()
+        self.recorder.wait(taken_back, "the same of the second cut")
+
+    def test_tears_where_it_is_stretched(self):
+        before = len(self.recorder.messages["softbody/cut"])
+        for i in range(5):
+            self.assertEqual(len(self.recorder.messages["softbody/cut"]), before)
+            self.surface_for(self.corners * [4.0, 1.0, 1.0], 60 + i)
+        cut = self.recorder.wait(lambda seen: seen["softbody/cut"][before:], "a tear")[0]
+        self.assertEqual((cut.kind, cut.revision, cut.header.stamp), (Cut.CUT, 1, rospy.Time(64)))
+        patch = array(cut.patch_vertices)
+        self.assertLess(np.ptp(patch[:, 0]), 1e-6)
+        self.assertTrue((np.ptp(patch, axis=0)[1:] > 2 * HALF_SIZE_M[1:]).all())
+
+    def test_refuses_an_open_volume_and_keeps_the_last_one(self):
+        open_topology = copy.deepcopy(self.topology)
+        open_topology.surface_triangles.pop()
+        self.topology_publisher.publish(open_topology)
+        self.recorder.wait_for_log("/softbody/surface", "topology", Log.ERROR)
+        state = self.surface_for(self.corners, 30)
+        np.testing.assert_allclose(array(state.vertices), array(self.surface.rest_vertices), atol=2e-6)
+        self.topology_publisher.publish(self.topology)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_surface_alone")
+    rostest.rosrun("softbody_bringup", "test_surface_alone", SurfaceAlone, sys.argv)

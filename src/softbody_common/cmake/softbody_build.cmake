@@ -1,0 +1,68 @@
+# How the softbody packages themselves are built. Nothing here reaches a package that does not call it.
+
+# C++17, warnings, and an optimised build where no build type was chosen.
+macro(softbody_build_settings)
+  set(CMAKE_CXX_STANDARD 17)
+  set(CMAKE_CXX_STANDARD_REQUIRED ON)
+  set(CMAKE_CXX_EXTENSIONS OFF)
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+  if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release)
+  endif()
+  add_compile_options(-Wall -Wextra)
+endmacro()
+
+# softbody_core_library(TARGET NAME): a library without ROS, which other packages link as softbody::NAME.
+# Its folders add their sources with target_sources.
+function(softbody_core_library target name)
+  add_library(${target})
+  add_library(softbody::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src/core)
+  install(TARGETS ${target} EXPORT ${PROJECT_NAME}-targets
+    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+endfunction()
+
+# softbody_ros_library(TARGET LIBRARY...): a library that may use ROS, with the core libraries it builds on.
+function(softbody_ros_library target)
+  add_library(${target})
+  add_dependencies(${target} ${catkin_EXPORTED_TARGETS})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src
+    ${PROJECT_SOURCE_DIR}/src/core)
+  target_include_directories(${target} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${target} PUBLIC ${ARGN} ${catkin_LIBRARIES})
+  install(TARGETS ${target}
+    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+endfunction()
+
+# softbody_program(NAME SOURCE LIBRARY...): an installed executable.
+function(softbody_program name source)
+  add_executable(${name} ${source})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/core)
+  target_link_libraries(${name} ${ARGN})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endfunction()
+
+# Writes the core libraries' targets for packages that find this one, in the devel and the install space.
+macro(softbody_export_core_libraries)
+  export(EXPORT ${PROJECT_NAME}-targets NAMESPACE softbody::
+    FILE ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake/${PROJECT_NAME}-targets.cmake)
+  install(EXPORT ${PROJECT_NAME}-targets NAMESPACE softbody::
+    DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+  install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
+endmacro()
+
+# softbody_gtest(NAME SOURCE...): one test program of a folder, linked to ${test_libraries}.
+function(softbody_gtest name)
+  catkin_add_gtest(${name} ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/src
+    ${PROJECT_SOURCE_DIR}/src/core)
+  target_compile_definitions(${name} PRIVATE ${test_definitions})
+  target_link_libraries(${name} ${test_libraries} gtest_main)
+endfunction()

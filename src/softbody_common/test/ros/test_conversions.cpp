@@ -1,0 +1,283 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "random_meshes.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+TetTopology randomVolume(unsigned seed) {
+  std::mt19937 random(seed);
+  const TetMesh mesh = shakenBlock(2, 2, 1, 0.03, 0.15, &random);
+  TetTopology topology;
+  topology.revision = seed;
+  topology.rest_vertices = mesh.vertices;
+  topology.tets = mesh.tets;
+  topology.surface = boundaryTriangles(mesh.tets);
+  topology.bodies = tetBodies(mesh.tets, static_cast<int>(mesh.vertices.rows()));
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
+    topology.vertex_parents.push_back(static_cast<int>(v) - 1);
+  topology.has_initial_pose = seed % 2 == 0;
+  if (topology.has_initial_pose) topology.initial_pose = randomMotion(&random);
+  return topology;
+}
+
+MeshTopology randomSurface(unsigned seed) {
+  const TetTopology volume = randomVolume(seed);
+  MeshTopology topology;
+  topology.revision = seed;
+  topology.rest_vertices = volume.rest_vertices;
+  topology.triangles = volume.surface;
+  topology.vertex_parents = volume.vertex_parents;
+  topology.bodies.assign(static_cast<std::size_t>(volume.surface.rows()), 1u);
+  for (Eigen::Index f = 0; f < volume.surface.rows(); ++f) topology.cut.push_back(f % 3 == 0);
+  if (seed % 2 == 0) topology.texture_coordinates = Points::Random(3 * volume.surface.rows(), 3);
+  return topology;
+}
+
+TargetSet randomTargets(unsigned seed) {
+  std::mt19937 random(seed);
+  TargetSet set;
+  set.revision = seed;
+  set.reset = seed % 2 == 1;
+  set.body_pose = randomMotion(&random);
+  for (int i = 0; i < 20; ++i) {
+    Target target;
+    target.kind = static_cast<TargetKind>(i % 4);
+    target.place.tet = i;
+    const Eigen::Vector3d weights = randomPoint(-2.0, 2.0, &random);
+    target.place.barycentric << weights, 1.0 - weights.sum();
+    target.position = randomPoint(-1.0, 1.0, &random);
+    if (i % 2 == 0) target.normal = randomPoint(-1.0, 1.0, &random).normalized();
+    target.weight = 0.1 + i;
+    set.targets.push_back(target);
+  }
+  return set;
+}
+
+/// Fails unless the message is refused with a sentence that holds these words.
+template <typename Message>
+void expectRefused(Message message, const std::function<void(Message&)>& spoil, const std::string& words) {
+  ASSERT_NO_THROW(fromMessage(message));
+  spoil(message);
+  try {
+    fromMessage(message);
+    ADD_FAILURE() << "accepted; expected a sentence with " << words;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+class RoundTrip : public testing::TestWithParam<unsigned> {};
+INSTANTIATE_TEST_SUITE_P(Seeds, RoundTrip, testing::Range(0u, 6u));
+
+TEST_P(RoundTrip, Pose) {
+  std::mt19937 random(GetParam());
+  const Eigen::Isometry3d pose = randomMotion(&random);
+  EXPECT_TRUE(fromMessage(toMessage(pose)).isApprox(pose, 1e-12));
+}
+
+TEST_P(RoundTrip, TetTopology) {
+  const TetTopology before = randomVolume(GetParam()), after = fromMessage(toMessage(before));
+  EXPECT_EQ(after.revision, before.revision);
+  EXPECT_LT((after.rest_vertices - before.rest_vertices).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_EQ(after.tets, before.tets);
+  EXPECT_EQ(after.surface, before.surface);
+  EXPECT_EQ(after.vertex_parents, before.vertex_parents);
+  EXPECT_EQ(after.bodies, before.bodies);
+  EXPECT_EQ(after.has_initial_pose, before.has_initial_pose);
+  EXPECT_TRUE(after.initial_pose.isApprox(before.initial_pose, 1e-12));
+}
+
+TEST_P(RoundTrip, MeshTopology) {
+  const MeshTopology before = randomSurface(GetParam()), after = fromMessage(toMessage(before));
+  EXPECT_EQ(after.revision, before.revision);
+  EXPECT_LT((after.rest_vertices - before.rest_vertices).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_EQ(after.triangles, before.triangles);
+  EXPECT_EQ(after.vertex_parents, before.vertex_parents);
+  EXPECT_EQ(after.bodies, before.bodies);
+  EXPECT_EQ(after.cut, before.cut);
+  EXPECT_TRUE(after.texture_coordinates.isApprox(before.texture_coordinates, 1e-6));
+}
+
+TEST_P(RoundTrip, MeshState) {
+  MeshState before;
+  before.revision = GetParam();
+  before.observed = 1'600'000'000'123'456'789LL;
+  before.vertices = Points::Random(30, 3);
+  before.confidence.assign(30, 0.25f);
+  const MeshState after = fromMessage(toMessage(before));
+  EXPECT_EQ(after.revision, before.revision);
+  EXPECT_EQ(after.observed, before.observed);
+  EXPECT_LT((after.vertices - before.vertices).cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_EQ(after.confidence, before.confidence);
+}
+
+TEST_P(RoundTrip, Targets) {
+  const TargetSet before = randomTargets(GetParam()), after = fromMessage(toMessage(before));
+  EXPECT_EQ(after.revision, before.revision);
+  EXPECT_EQ(after.reset, before.reset);
+  EXPECT_TRUE(after.body_pose.isApprox(before.body_pose, 1e-12));
+  ASSERT_EQ(after.targets.size(), before.targets.size());
+  for (std::size_t i = 0; i < after.targets.size(); ++i) {
+    const Target &a = after.targets[i], &b = before.targets[i];
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.place.tet, b.place.tet);
+    EXPECT_LT((a.place.barycentric - b.place.barycentric).norm(), 1e-6);
+    EXPECT_LT((a.position - b.position).norm() + (a.normal - b.normal).norm(), 1e-6);
+    EXPECT_NEAR(a.weight, b.weight, 1e-6);
+  }
+}
+
+TEST_P(RoundTrip, Cut) {
+  const MeshTopology mesh = randomSurface(GetParam());
+  const Cut before{
+      GetParam(), GetParam() / 2, static_cast<CutKind>(GetParam() % 4), {mesh.rest_vertices, mesh.triangles}};
+  const Cut after = fromMessage(toMessage(before));
+  EXPECT_EQ(after.revision, before.revision);
+  EXPECT_EQ(after.stroke, before.stroke);
+  EXPECT_EQ(after.kind, before.kind);
+  EXPECT_LT((after.patch.vertices - before.patch.vertices).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_EQ(after.patch.triangles, before.patch.triangles);
+}
+
+TEST(Conversions, EveryFieldOfACutIsChecked) {
+  using Message = softbody_msgs::Cut;
+  const MeshTopology mesh = randomSurface(1);
+  const Message good = toMessage(Cut{1, 1, CutKind::kCut, {mesh.rest_vertices, mesh.triangles}});
+  expectRefused<Message>(
+      good, [](Message& m) { m.kind = 4; }, "kind");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_vertices[1].y = kNaN; }, "patch_vertices[1]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_triangles[2].vertex_indices[0] = 999; }, "patch_triangles[2]");
+}
+
+TEST(Conversions, EveryFieldOfAVolumeIsChecked) {
+  using Message = softbody_msgs::TetTopology;
+  const Message good = toMessage(randomVolume(0));
+  expectRefused<Message>(
+      good, [](Message& m) { m.rest_vertices[3].y = kNaN; }, "rest_vertices[3]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.tets[2].vertex_indices[1] = 18; }, "tets[2]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.tets[0].vertex_indices[3] = 0xffffffffu; }, "tets[0]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.surface_triangles[5].vertex_indices[0] = 99; }, "surface_triangles[5]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.vertex_parents.pop_back(); }, "vertex_parents");
+  expectRefused<Message>(
+      good, [](Message& m) { m.tet_bodies.push_back(0); }, "tet_bodies");
+  expectRefused<Message>(
+      good, [](Message& m) { m.initial_pose.orientation.w += 0.5; }, "pose");
+  expectRefused<Message>(
+      good, [](Message& m) { m.initial_pose.position.x = kNaN; }, "pose");
+}
+
+TEST(Conversions, EveryFieldOfASurfaceIsChecked) {
+  using Message = softbody_msgs::MeshTopology;
+  const Message good = toMessage(randomSurface(0));
+  expectRefused<Message>(
+      good, [](Message& m) { m.rest_vertices[1].z = kNaN; }, "rest_vertices[1]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.triangles[4].vertex_indices[2] = 18; }, "triangles[4]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.vertex_parents.clear(); }, "vertex_parents");
+  expectRefused<Message>(
+      good, [](Message& m) { m.triangle_bodies.pop_back(); }, "triangle_bodies");
+  expectRefused<Message>(
+      good, [](Message& m) { m.cut_triangles.pop_back(); }, "cut_triangles");
+  expectRefused<Message>(
+      good, [](Message& m) { m.texture_coordinates.pop_back(); }, "texture_coordinates");
+  expectRefused<Message>(
+      good, [](Message& m) { m.texture_coordinates[7].x = kNaN; }, "texture_coordinates[7]");
+}
+
+TEST(Conversions, EveryFieldOfAStateIsChecked) {
+  using Message = softbody_msgs::MeshState;
+  MeshState state;
+  state.vertices = Points::Random(4, 3);
+  state.confidence.assign(4, 1.0f);
+  const Message good = toMessage(state);
+  expectRefused<Message>(
+      good, [](Message& m) { m.vertices[2].x = INFINITY; }, "vertices[2]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.confidence.pop_back(); }, "confidence");
+  for (const float bad : {-0.1f, 1.1f, kNaN}) {
+    expectRefused<Message>(
+        good, [bad](Message& m) { m.confidence[3] = bad; }, "confidence[3]");
+  }
+}
+
+TEST(Conversions, EveryFieldOfATargetIsChecked) {
+  using Message = softbody_msgs::Targets;
+  const Message good = toMessage(randomTargets(2));
+  const auto refused = [&good](const std::function<void(softbody_msgs::Target&)>& spoil) {
+    expectRefused<Message>(
+        good, [&spoil](Message& m) { spoil(m.targets[6]); }, "targets[6]");
+  };
+  refused([](auto& t) { t.kind = 9; });
+  refused([](auto& t) { t.tet = 0x80000000u; });
+  refused([](auto& t) { t.barycentric[2] = kNaN; });
+  refused([](auto& t) { t.barycentric[0] += 0.1f; });
+  refused([](auto& t) { t.position.z = kNaN; });
+  refused([](auto& t) { t.normal.x = kNaN; });
+  refused([](auto& t) { t.normal.x += 3.0f; });
+  for (const float bad : {0.0f, -1.0f, kNaN, INFINITY}) refused([bad](auto& t) { t.weight = bad; });
+  expectRefused<Message>(
+      good, [](Message& m) { m.body_pose.orientation.x = 7.0; }, "pose");
+}
+
+TEST(Conversions, StatusKeepsItsWords) {
+  TrackingStatus status;
+  status.state = TrackingState::kLost;
+  status.reason = "out of sight";
+  EXPECT_EQ(toMessage(status).state, softbody_msgs::TrackingStatus::LOST);
+  EXPECT_EQ(toMessage(status).reason, "out of sight");
+}
+
+TEST(Conversions, CamerasComeFromPOrElseFromK) {
+  const Pinhole camera{640, 480, 600.0, 601.0, 320.0, 240.0};
+  sensor_msgs::CameraInfo info = toMessage(camera);
+  EXPECT_EQ(pinholeFromMessage(info), camera);
+  info.K.fill(0.0);
+  EXPECT_EQ(pinholeFromMessage(info), camera);
+  info = toMessage(camera);
+  info.P.fill(0.0);
+  EXPECT_EQ(pinholeFromMessage(info), camera);
+}
+
+TEST(Conversions, UnusableCamerasAreRefused) {
+  const sensor_msgs::CameraInfo good = toMessage(Pinhole{640, 480, 600.0, 601.0, 320.0, 240.0});
+  const auto refused = [&good](const std::function<void(sensor_msgs::CameraInfo&)>& spoil) {
+    sensor_msgs::CameraInfo info = good;
+    spoil(info);
+    EXPECT_THROW(pinholeFromMessage(info), std::invalid_argument);
+  };
+  refused([](auto& info) { info = sensor_msgs::CameraInfo(); });
+  refused([](auto& info) { info.width = 0; });
+  refused([](auto& info) { info.height = 0xffffffffu; });
+  refused([](auto& info) { info.P[0] = -600.0; });
+  refused([](auto& info) { info.P[5] = 0.0; });
+  refused([](auto& info) { info.P[0] = NAN; });
+  refused([](auto& info) { info.P[0] = INFINITY; });
+  refused([](auto& info) { info.P[2] = NAN; });
+}
+
+TEST(Conversions, StampsKeepEveryNanosecond) {
+  for (const Nanoseconds stamp : {0LL, 1LL, 999'999'999LL, 1'600'000'000'000'000'001LL}) {
+    EXPECT_EQ(toNanoseconds(toTime(stamp)), stamp);
+  }
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "softbody_evaluation/report/report.h"
+
+namespace softbody::evaluation {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+
+void addLengths(const std::string& name, const Summary& s, std::vector<Figure>* figures) {
+  if (s.count == 0) return;
+  figures->push_back({name + ", mean", "mm", 1e3 * s.mean});
+  figures->push_back({name + ", RMS", "mm", 1e3 * s.rms});
+  figures->push_back({name + ", p95", "mm", 1e3 * s.p95});
+  figures->push_back({name + ", max", "mm", 1e3 * s.max});
+}
+
+void addStates(const std::map<std::string, std::size_t>& states, std::vector<Figure>* figures) {
+  double all = 0.0;
+  for (const auto& [state, frames] : states) all += static_cast<double>(frames);
+  for (const auto& [state, frames] : states)
+    figures->push_back({"frames " + state, "%", 100.0 * static_cast<double>(frames) / all});
+}
+
+void addVertexError(const VertexErrorReport& report, std::vector<Figure>* figures) {
+  addLengths("vertex error", report.all, figures);
+  addLengths("visible vertices", report.visible, figures);
+  addLengths("hidden vertices", report.hidden, figures);
+  addLengths("vertices near a cut", report.near_cut, figures);
+  for (std::size_t i = 0; i < report.pieces.size(); ++i)
+    addLengths(fmt::format("piece {}", i), report.pieces[i], figures);
+  figures->push_back({"drift, last minus first seconds", "mm", 1e3 * report.drift_m});
+  figures->push_back({"drift, last by first seconds", "times", report.drift_ratio});
+}
+
+void addCut(const Report& report, std::vector<Figure>* figures) {
+  if (report.pieces) {
+    figures->push_back({"frames with the true number of pieces", "%", 100.0 * report.pieces->frames_right});
+    figures->push_back({"vertices in the right piece", "%", 100.0 * report.pieces->vertices_right});
+  }
+  if (report.cut_surface) {
+    addLengths("cut surface from the true one", report.cut_surface->distance, figures);
+    addLengths("true cut surface from the result's", report.cut_surface->missed, figures);
+    figures->push_back({"cut surface, tilt", "deg", kDegrees * report.cut_surface->tilt_rad});
+    figures->push_back({"cut surface, local angle, mean", "deg", kDegrees * report.cut_surface->angle.mean});
+  }
+}
+
+void addAbsences(const std::vector<Absence>& absences, std::vector<Figure>* figures) {
+  for (const Absence& absence : absences) {
+    const std::string name = fmt::format("hidden at {:.1f} s", absence.begin_s);
+    if (absence.covered.count > 0)
+      figures->push_back({name + ", hidden part meanwhile, mean", "mm", 1e3 * absence.covered.mean});
+    figures->push_back({name + ", back to normal after", "s", absence.recovery_s.value_or(kNothing)});
+    figures->push_back(
+        {name + ", back to the error before after", "s", absence.recovery_to_before_s.value_or(kNothing)});
+  }
+}
+
+void addTool(const PoseErrorReport& tool, std::vector<Figure>* figures) {
+  const auto expected = static_cast<double>(tool.expected);
+  figures->push_back({"tool poses answered", "%", 100.0 * static_cast<double>(tool.answered) / expected});
+  addLengths("tool position", tool.position, figures);
+  figures->push_back({"tool rotation, mean", "deg", kDegrees * tool.rotation.mean});
+  figures->push_back({"tool rotation, p95", "deg", kDegrees * tool.rotation.p95});
+}
+
+void addVolume(const VolumeReport& volume, std::vector<Figure>* figures) {
+  figures->push_back({"volume change, mean", "%", 100.0 * volume.change.mean});
+  figures->push_back({"volume change, at most", "%", 100.0 * volume.change.largest});
+  figures->push_back({"volume change by cuts, at rest", "%", 100.0 * volume.cut_change});
+  if (!volume.error) return;
+  figures->push_back({"volume error, mean", "%", 100.0 * volume.error->mean});
+  figures->push_back({"volume error, at most", "%", 100.0 * volume.error->largest});
+}
+
+std::string cell(const std::optional<double>& value) {
+  return value && !std::isnan(*value) ? fmt::format("{:.4f}", *value) : std::string("-");
+}
+
+}  // namespace
+
+std::vector<Figure> figures(const Report& report) {
+  std::vector<Figure> all;
+  const double expected = static_cast<double>(std::max<std::size_t>(1, report.frames.expected));
+  all.push_back({"frames answered", "%", 100.0 * static_cast<double>(report.frames.answered) / expected});
+  if (!report.states.empty()) addStates(report.states, &all);
+  if (report.vertex_error) addVertexError(*report.vertex_error, &all);
+  addCut(report, &all);
+  addAbsences(report.absences, &all);
+  if (report.jitter) all.push_back({"jitter while still, RMS", "mm", 1e3 * report.jitter->per_vertex.rms});
+  if (report.tool) addTool(*report.tool, &all);
+  if (report.silhouette) {
+    const std::string name =
+        report.silhouette->against_truth ? "silhouette IoU" : "silhouette IoU against depth";
+    all.push_back({name + ", mean", "", report.silhouette->mean});
+    all.push_back({name + ", worst", "", report.silhouette->worst});
+  }
+  if (report.residual) {
+    all.push_back({"depth residual, median", "mm", 1e3 * report.residual->residual.median});
+    all.push_back({"depth residual, p95", "mm", 1e3 * report.residual->residual.p95});
+  }
+  if (report.volume.closed) addVolume(report.volume, &all);
+  for (const auto& [name, s] : report.stages) {
+    const std::string stage = name.node + ": " + name.stage + (name.initialization ? " (init.)" : "");
+    all.push_back({stage + ", mean", "ms", s.mean});
+    all.push_back({stage + ", p95", "ms", s.p95});
+  }
+  return all;
+}
+
+std::vector<ComparedFigure> compare(const Report& first, const Report& second) {
+  std::vector<ComparedFigure> rows;
+  for (const Figure& figure : figures(first)) rows.push_back({figure.name, figure.unit, figure.value, {}});
+  for (const Figure& figure : figures(second)) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const ComparedFigure& compared) {
+      return compared.name == figure.name;
+    });
+    if (row != rows.end()) {
+      row->second = figure.value;
+    } else {
+      rows.push_back({figure.name, figure.unit, {}, figure.value});
+    }
+  }
+  return rows;
+}
+
+nlohmann::json toJson(const std::vector<ComparedFigure>& comparison) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const ComparedFigure& row : comparison) {
+    nlohmann::json entry = {{"figure", row.name}, {"unit", row.unit}};
+    if (row.first) entry["result"] = *row.first;
+    if (row.second) entry["other"] = *row.second;
+    if (row.first && row.second) entry["difference"] = *row.first - *row.second;
+    rows.push_back(entry);
+  }
+  return rows;
+}
+
+std::string toText(const std::vector<ComparedFigure>& comparison) {
+  std::string text = fmt::format("{:<52} {:>12} {:>12} {:>12}\n", "", "result", "other", "difference");
+  for (const ComparedFigure& row : comparison) {
+    const std::string difference =
+        row.first && row.second ? fmt::format("{:+.4f}", *row.first - *row.second) : std::string("-");
+    text += fmt::format("{:<52} {:>12} {:>12} {:>12}\n",
+                        row.name + (row.unit.empty() ? "" : " [" + row.unit + "]"), cell(row.first),
+                        cell(row.second), difference);
+  }
+  return text;
+}
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,161 @@
+#include "softbody_evaluation/report/report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace softbody::evaluation {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegrees = 180.0 / M_PI;
+
+double mm(double metres) { return 1e3 * metres; }
+
+json inMillimetres(const Summary& s) {
+  return {{"count", s.count},          {"mean_mm", mm(s.mean)}, {"rms_mm", mm(s.rms)},
+          {"median_mm", mm(s.median)}, {"p95_mm", mm(s.p95)},   {"max_mm", mm(s.max)}};
+}
+
+json toJson(const VertexErrorReport& report) {
+  json pieces = json::array();
+  for (const Summary& piece : report.pieces) pieces.push_back(inMillimetres(piece));
+  json means = json::array();
+  for (const double mean : report.frame_means) means.push_back(mm(mean));
+  return {{"all", inMillimetres(report.all)},
+          {"visible", inMillimetres(report.visible)},
+          {"hidden", inMillimetres(report.hidden)},
+          {"near_cut", inMillimetres(report.near_cut)},
+          {"pieces", pieces},
+          {"unmatched_share", report.unmatched_share},
+          {"drift_mm_per_s", mm(report.drift_m_per_s)},
+          {"drift_mm", mm(report.drift_m)},
+          {"drift_ratio", report.drift_ratio},
+          {"drift_window_s", report.drift_window_s},
+          {"frame_times_s", report.times},
+          {"frame_mean_mm", means}};
+}
+
+json toJson(const ResidualReport& report) {
+  return {{"first_frame", report.first_frame},
+          {"frames", report.frames},
+          {"residual", inMillimetres(report.residual)},
+          {"within_10mm", report.within_10mm},
+          {"within_15mm", report.within_15mm},
+          {"within_15mm_of_measured", report.within_15mm_of_measured},
+          {"answered", report.answered},
+          {"occluded_share", report.occluded_share},
+          {"without_depth_share", report.without_depth_share}};
+}
+
+json toJson(const VolumeReport& report) {
+  if (!report.closed) return {{"closed", false}};
+  json document = {{"closed", true},
+                   {"rest_ml", 1e6 * report.rest_m3},
+                   {"mean_change", report.change.mean},
+                   {"largest_change", report.change.largest},
+                   {"cut_change", report.cut_change}};
+  if (report.error) {
+    document["mean_error"] = report.error->mean;
+    document["largest_error"] = report.error->largest;
+  }
+  return document;
+}
+
+json inDegrees(const Summary& s) {
+  return {{"mean", kDegrees * s.mean}, {"p95", kDegrees * s.p95}, {"max", kDegrees * s.max}};
+}
+
+json toJson(const CutSurfaceReport& report) {
+  return {{"distance", inMillimetres(report.distance)},
+          {"missed", inMillimetres(report.missed)},
+          {"angle_deg", inDegrees(report.angle)},
+          {"tilt_deg", kDegrees * report.tilt_rad},
+          {"area_ratio", report.area_ratio}};
+}
+
+json toJson(const Absence& absence) {
+  json document = {{"begin_s", absence.begin_s},
+                   {"end_s", absence.end_s},
+                   {"covered_share", absence.covered_share},
+                   {"normal_mm", mm(absence.normal)},
+                   {"covered", inMillimetres(absence.covered)},
+                   {"recovery_s", nullptr},
+                   {"recovery_to_before_s", nullptr}};
+  if (absence.recovery_s) document["recovery_s"] = *absence.recovery_s;
+  if (absence.recovery_to_before_s) document["recovery_to_before_s"] = *absence.recovery_to_before_s;
+  return document;
+}
+
+/// An array of what toJson makes of each.
+template <typename Items>
+json toJsonArray(const Items& items) {
+  json array = json::array();
+  for (const auto& item : items) array.push_back(toJson(item));
+  return array;
+}
+
+json toJson(const PiecesReport& report) {
+  return {{"frames", report.frames},
+          {"frames_right", report.frames_right},
+          {"vertices_right", report.vertices_right},
+          {"result_pieces", report.result_pieces},
+          {"true_pieces", report.true_pieces}};
+}
+
+json toJson(const PoseErrorReport& report) {
+  return {{"expected", report.expected},
+          {"answered", report.answered},
+          {"position", inMillimetres(report.position)},
+          {"rotation_deg", inDegrees(report.rotation)}};
+}
+
+json toJson(const SilhouetteReport& report) {
+  return {{"against", report.against_truth ? "truth" : "depth"},
+          {"frames", report.frames},
+          {"mean_iou", report.mean},
+          {"worst_iou", report.worst}};
+}
+
+json toJson(const std::map<StageName, Summary>& stages) {
+  json rows = json::array();
+  for (const auto& [name, s] : stages) {
+    rows.push_back({{"node", name.node},
+                    {"stage", name.stage},
+                    {"initialization", name.initialization},
+                    {"count", s.count},
+                    {"mean_ms", s.mean},
+                    {"median_ms", s.median},
+                    {"p95_ms", s.p95},
+                    {"max_ms", s.max}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+json toJson(const Report& report) {
+  json document = {{"frames", {{"expected", report.frames.expected}, {"answered", report.frames.answered}}},
+                   {"volume", toJson(report.volume)}};
+  if (report.vertex_error) document["vertex_error"] = toJson(*report.vertex_error);
+  if (!report.notes.empty()) document["notes"] = report.notes;
+  if (!report.states.empty()) document["states"] = report.states;
+  if (report.frames.recorded) document["frames"]["recorded"] = *report.frames.recorded;
+  if (report.pieces) document["pieces"] = toJson(*report.pieces);
+  if (report.cut_surface) document["cut_surface"] = toJson(*report.cut_surface);
+  if (report.vertex_error) document["absences"] = toJsonArray(report.absences);
+  if (report.jitter) {
+    document["jitter"] = {{"frames", report.jitter->frames},
+                          {"per_vertex", inMillimetres(report.jitter->per_vertex)}};
+  }
+  if (report.tool) document["tool"] = toJson(*report.tool);
+  if (report.silhouette) document["silhouette"] = toJson(*report.silhouette);
+  if (!report.stages.empty()) document["stages"] = toJson(report.stages);
+  if (report.residual) {
+    document["depth_residual"] = {{"all", toJson(*report.residual)},
+                                  {"windows", toJsonArray(report.residual_windows)}};
+  }
+  return document;
+}
+
+}  // namespace softbody::evaluation

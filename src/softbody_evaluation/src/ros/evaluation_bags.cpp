@@ -1,0 +1,215 @@
+#include <cv_bridge/cv_bridge.h>
+#include <fmt/format.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_evaluation/ros/bags.h"
+#include "softbody_recordings/pairing/frame_pairer.h"
+#include "softbody_recordings/ros/input_bag.h"
+
+namespace softbody::evaluation {
+namespace {
+
+constexpr Nanoseconds kSyncTolerance = 15'000'000;
+
+void requireTopic(const rosbag::Bag& bag, const std::string& topic) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  if (view.size() != 0) return;
+  throw std::invalid_argument(fmt::format("{}: there is nothing on {}", bag.getFileName(), topic));
+}
+
+template <typename Message>
+boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& instance,
+                                             const rosbag::Bag& bag) {
+  const auto message = instance.instantiate<Message>();
+  if (message) return message;
+  throw std::invalid_argument(fmt::format("{}: {} is of type {} instead of {}", bag.getFileName(),
+                                          instance.getTopic(), instance.getDataType(),
+                                          ros::message_traits::datatype<Message>()));
+}
+
+std::map<std::uint32_t, MeshTopology> readTopologies(const rosbag::Bag& bag, const std::string& topic) {
+  std::map<std::uint32_t, MeshTopology> topologies;
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instantiate<softbody_msgs::MeshTopology>(instance, bag);
+    if (topologies.count(message->revision) != 0) continue;  // latched ones are sent again and again
+    try {
+      topologies[message->revision] = fromMessage(*message);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("{}: {} of revision {}: {}", bag.getFileName(), topic,
+                                              message->revision, error.what()));
+    }
+  }
+  return topologies;
+}
+
+void requireOneFrame(const rosbag::Bag& bag, const std::string& topic, const std::string& frame_id,
+                     const SurfaceRecord& record) {
+  if (record.states.empty() || record.frame_id == frame_id) return;
+  throw std::invalid_argument(fmt::format("{}: states on {} are in frame '{}' and in '{}'", bag.getFileName(),
+                                          topic, record.frame_id, frame_id));
+}
+
+/// @throw std::invalid_argument if it has no topology, or values that are not finite.
+MeshState usableState(const softbody_msgs::MeshState& message,
+                      const std::map<std::uint32_t, MeshTopology>& topologies) {
+  const auto topology = topologies.find(message.revision);
+  if (topology == topologies.end())
+    throw std::invalid_argument(
+        fmt::format("it is of revision {}, of which no topology came", message.revision));
+  const auto vertices = static_cast<std::size_t>(topology->second.rest_vertices.rows());
+  if (message.vertices.size() != vertices) {
+    throw std::invalid_argument(fmt::format("it has {} vertices of revision {}, whose topology has {}",
+                                            message.vertices.size(), message.revision, vertices));
+  }
+  return fromMessage(message);
+}
+
+struct CameraTopics {
+  explicit CameraTopics(const std::string& camera)
+      : color(camera + "/color/image_raw"),
+        color_info(camera + "/color/camera_info"),
+        depth(camera + "/aligned_depth_to_color/image_raw"),
+        depth_info(camera + "/aligned_depth_to_color/camera_info") {}
+  std::string color, color_info, depth, depth_info;
+};
+
+/// Depth in metres. @throw std::invalid_argument for other encodings.
+cv::Mat1f depthInMetres(const sensor_msgs::Image& image) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const bool millimetres = image.encoding == encodings::TYPE_16UC1 || image.encoding == encodings::MONO16;
+  if (!millimetres && image.encoding != encodings::TYPE_32FC1) {
+    throw std::invalid_argument(
+        fmt::format("a depth image has encoding {}; 16UC1 or 32FC1 is needed", image.encoding));
+  }
+  cv::Mat1f depth;
+  cv_bridge::toCvCopy(image)->image.convertTo(depth, CV_32F, millimetres ? 1e-3 : 1.0);
+  return depth;
+}
+
+/// Removes the lens distortion of a camera_info from images of its size.
+class Undistortion {
+ public:
+  explicit Undistortion(const sensor_msgs::CameraInfo& info) : camera(pinholeFromMessage(info)) {
+    bool distorted = false;
+    for (const double d : info.D) distorted = distorted || d != 0.0;
+    if (!distorted) return;
+    const cv::Mat K(3, 3, CV_64F, const_cast<double*>(info.K.data())),
+        R(3, 3, CV_64F, const_cast<double*>(info.R.data()));
+    const cv::Mat new_K =
+        (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+    const cv::Mat rotation = info.R[0] == 0.0 ? cv::Mat::eye(3, 3, CV_64F) : R;
+    cv::initUndistortRectifyMap(K, info.D, rotation, new_K, cv::Size(camera.width, camera.height), CV_32FC1,
+                                map_u_, map_v_);
+  }
+
+  /// @param interpolation nearest for depth: no mixture of two surfaces.
+  cv::Mat apply(const cv::Mat& image, int interpolation) const {
+    if (map_u_.empty()) return image;
+    cv::Mat result;
+    cv::remap(image, result, map_u_, map_v_, interpolation);
+    return result;
+  }
+
+  const Pinhole camera;
+
+ private:
+  cv::Mat map_u_, map_v_;
+};
+
+using Pairer = FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr>;
+
+RecordedFrame toFrame(const Pairer::Pair& pair, const Undistortion& undistortion) {
+  RecordedFrame frame;
+  frame.stamp = pair.stamp;
+  frame.frame_id = pair.color->header.frame_id;
+  frame.camera = undistortion.camera;
+  frame.color = undistortion.apply(cv_bridge::toCvCopy(pair.color, "bgr8")->image, cv::INTER_LINEAR);
+  if (pair.depth) frame.depth = undistortion.apply(depthInMetres(*pair.depth), cv::INTER_NEAREST);
+  return frame;
+}
+
+sensor_msgs::CameraInfo firstInfo(const rosbag::Bag& bag, const std::string& topic) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  return *instantiate<sensor_msgs::CameraInfo>(*view.begin(), bag);
+}
+
+}  // namespace
+
+SurfaceRecord readSurface(const std::string& path, const std::string& topology_topic,
+                          const std::string& state_topic) {
+  const rosbag::Bag bag = openBag(path);
+  requireTopic(bag, topology_topic);
+  requireTopic(bag, state_topic);
+  SurfaceRecord record;
+  record.topologies = readTopologies(bag, topology_topic);
+  std::size_t left_out = 0;
+  std::string reason;
+  rosbag::View states(bag, rosbag::TopicQuery(state_topic));
+  for (const rosbag::MessageInstance& instance : states) {
+    const auto message = instantiate<softbody_msgs::MeshState>(instance, bag);
+    requireOneFrame(bag, state_topic, message->header.frame_id, record);
+    record.frame_id = message->header.frame_id;
+    try {
+      record.states[toNanoseconds(message->header.stamp)] = usableState(*message, record.topologies);
+    } catch (const std::invalid_argument& error) {
+      if (left_out++ == 0)
+        reason = fmt::format("at {:.3f} s {}", message->header.stamp.toSec(), error.what());
+    }
+  }
+  const std::string note = fmt::format("{}: {} of {} states on {} are not usable: {}", path, left_out,
+                                       states.size(), state_topic, reason);
+  if (record.states.empty()) throw std::invalid_argument(note);
+  if (left_out > 0) record.notes.push_back(note);
+  return record;
+}
+
+void readRecording(const std::string& path, const std::string& camera,
+                   const std::function<void(const RecordedFrame&)>& use) {
+  const rosbag::Bag bag = openBag(path);
+  const CameraTopics topics(camera);
+  for (const std::string& topic : {topics.color, topics.depth, topics.depth_info}) requireTopic(bag, topic);
+  const Undistortion undistortion(firstInfo(bag, topics.depth_info));
+  Pairer pairer(kSyncTolerance);
+  const auto drain = [&](bool finish) {
+    while (const auto pair = pairer.next(finish)) use(toFrame(*pair, undistortion));
+  };
+  rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{topics.color, topics.depth}));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto image = instantiate<sensor_msgs::Image>(instance, bag);
+    const Nanoseconds stamp = toNanoseconds(image->header.stamp);
+    if (instance.getTopic() == topics.color) {
+      pairer.addColor(stamp, image);
+    } else {
+      pairer.addDepth(stamp, image);
+    }
+    drain(false);
+  }
+  drain(true);
+}
+
+std::string recordingFrame(const std::string& path, const std::string& camera) {
+  const rosbag::Bag bag = openBag(path);
+  const CameraTopics topics(camera);
+  requireTopic(bag, topics.color);
+  rosbag::View view(bag, rosbag::TopicQuery(topics.color));
+  return instantiate<sensor_msgs::Image>(*view.begin(), bag)->header.frame_id;
+}
+
+bool hasRecording(const std::string& path, const std::string& camera) {
+  const rosbag::Bag bag = openBag(path);
+  const CameraTopics topics(camera);
+  for (const std::string& topic : {topics.color, topics.depth, topics.depth_info}) {
+    if (rosbag::View(bag, rosbag::TopicQuery(topic)).size() == 0) return false;
+  }
+  return true;
+}
+
+}  // namespace softbody::evaluation

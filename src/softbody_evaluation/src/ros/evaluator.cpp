@@ -1,0 +1,172 @@
+#include "softbody_evaluation/ros/evaluator.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "ros/evaluation_comparisons.h"
+#include "softbody_common/topics.h"
+#include "softbody_evaluation/report/plots.h"
+#include "softbody_evaluation/report/report_folder.h"
+#include "softbody_virtual_camera/ros/messages.h"
+
+namespace softbody::evaluation {
+namespace {
+
+constexpr char kToolPose[] = "/tool/pose", kTrueToolPose[] = "/ground_truth/tool/pose";
+
+/// A report with its pictures.
+struct Measured {
+  Report report;
+  Pictures pictures;
+};
+
+std::string recordingOf(const EvaluatorOptions& options) {
+  if (!options.recording.empty() || options.truth.empty() || !hasRecording(options.truth, options.camera))
+    return options.recording;
+  return options.truth;
+}
+
+SurfaceRecord readResult(const EvaluatorOptions& options, const std::string& bag) {
+  return readSurface(bag, options.result_namespace + "/" + topics::kSurfaceTopology,
+                     options.result_namespace + "/" + topics::kSurfaceState);
+}
+
+SurfaceRecord readTruth(const EvaluatorOptions& options) {
+  SurfaceRecord truth = readSurface(options.truth, std::string("/") + virtual_camera::kTruthTopologyTopic,
+                                    std::string("/") + virtual_camera::kTruthStateTopic);
+  if (!truth.notes.empty()) throw std::invalid_argument(truth.notes.front());
+  return truth;
+}
+
+/// The bags that may hold transforms. The result's own come last and win.
+std::vector<std::string> transformBags(const EvaluatorOptions& options, const std::string& recording) {
+  std::vector<std::string> bags{recording.empty() ? options.truth : recording, options.result};
+  if (bags.front() == bags.back()) bags.pop_back();
+  return bags;
+}
+
+/// The surface in another frame: itself, or a copy in `moved`.
+const SurfaceRecord* inFrame(const std::string& frame_id, const std::vector<std::string>& bags,
+                             const SurfaceRecord* surface, const std::string& states,
+                             std::optional<SurfaceRecord>* moved) {
+  if (surface == nullptr || surface->frame_id == frame_id) return surface;
+  *moved = *surface;
+  expressIn(frame_id, bags, &**moved, states);
+  return &**moved;
+}
+
+/// In the camera's frame, which moves where it is not that of the truth.
+void compareInCamera(const EvaluatorOptions& options, const std::string& recording,
+                     const SurfaceRecord& result, const SurfaceRecord* truth, Measured* measured) {
+  const std::string camera = recordingFrame(recording, options.camera);
+  const std::vector<std::string> bags = transformBags(options, recording);
+  std::optional<SurfaceRecord> moved_result, moved_truth;
+  const SurfaceRecord* seen = inFrame(camera, bags, &result, "states", &moved_result);
+  const SurfaceRecord* seen_truth = inFrame(camera, bags, truth, "states of the truth", &moved_truth);
+  addNotes(seen->notes, &measured->report.notes);
+  if (seen_truth != nullptr) addNotes(seen_truth->notes, &measured->report.notes);
+  compareWithRecording(options, recording, *seen, seen_truth, &measured->report, &measured->pictures);
+}
+
+VolumeReport volumeOf(const SurfaceRecord& surface) {
+  std::vector<const MeshState*> states;
+  for (const auto& [stamp, state] : surface.states) states.push_back(&state);
+  return volumeDrift(surface.topologies, states);
+}
+
+/// What the error would be if nothing had ever hidden the body.
+std::optional<SurfaceRecord> readUnhidden(const EvaluatorOptions& options, const std::string& recording,
+                                          const SurfaceRecord& truth) {
+  if (options.unhidden.empty()) return std::nullopt;
+  EvaluatorOptions its = options;
+  its.result = options.unhidden;
+  SurfaceRecord result = readResult(its, its.result);
+  expressIn(truth.frame_id, transformBags(its, recording), &result, "states of the unhidden body");
+  return result;
+}
+
+void addTool(const EvaluatorOptions& options, const std::string& recording, Report* report) {
+  const ToolRecord truth = readPoses(options.truth, kTrueToolPose);
+  if (truth.poses.empty()) return;
+  ToolRecord result = readPoses(options.result, options.result_namespace + kToolPose);
+  expressIn(truth.frame_id, transformBags(options, recording), &result);
+  addNotes(result.notes, &report->notes);
+  report->tool = poseError(result.poses, truth.poses);
+}
+
+Measured measure(const EvaluatorOptions& options) {
+  SurfaceRecord result = readResult(options, options.result);
+  Measured measured;
+  Report& report = measured.report;
+  const std::string recording = recordingOf(options);
+  std::optional<SurfaceRecord> truth;
+  if (!options.truth.empty()) truth = readTruth(options);
+  if (truth) expressIn(truth->frame_id, transformBags(options, recording), &result);
+  report.notes = result.notes;
+
+  report.frames = {result.states.size(), result.states.size(), {}};
+  report.volume = volumeOf(result);
+  report.states = readTrackingStates(options.result, options.result_namespace + "/" + topics::kStatus);
+  report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
+  if (!recording.empty()) compareInCamera(options, recording, result, truth ? &*truth : nullptr, &measured);
+  if (truth) {
+    const std::optional<SurfaceRecord> unhidden = readUnhidden(options, recording, *truth);
+    if (unhidden) addNotes(unhidden->notes, &report.notes);
+    compareWithTruth(options, result, *truth, unhidden ? &*unhidden : nullptr, &report, &measured.pictures);
+    addTool(options, recording, &report);
+  }
+  if (report.frames.answered == 0) {
+    throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame of {}", options.result,
+                                            options.truth.empty() ? recording : options.truth));
+  }
+  return measured;
+}
+
+/// Another result's figures and pictures under names of their own.
+void addOther(const Measured& other, Pictures* pictures) {
+  for (const auto& [name, picture] : other.pictures) (*pictures)["other_" + name] = picture;
+}
+
+}  // namespace
+
+Report evaluate(const EvaluatorOptions& options) {
+  const Measured measured = measure(options);
+  if (!options.report_folder.empty()) {
+    std::vector<ComparedFigure> rows;
+    for (const Figure& figure : figures(measured.report))
+      rows.push_back({figure.name, figure.unit, figure.value, {}});
+    writeReportFolder(
+        options.report_folder, toJson(measured.report),
+        htmlPage("Evaluation of " + options.result, rows, toText(measured.report), measured.pictures),
+        measured.pictures);
+  }
+  return measured.report;
+}
+
+Comparison evaluateBoth(const EvaluatorOptions& options, const std::string& other_result) {
+  EvaluatorOptions other_options = options;
+  other_options.result = other_result;
+  Measured first = measure(options);
+  const Measured other = measure(other_options);
+  addOther(other, &first.pictures);
+  Comparison comparison{first.report, other.report};
+  if (!options.report_folder.empty()) {
+    const std::vector<ComparedFigure> rows = compare(first.report, other.report);
+    const std::string words =
+        options.result + "\n" + toText(first.report) + "\n" + other_result + "\n" + toText(other.report);
+    writeReportFolder(options.report_folder, toJson(comparison),
+                      htmlPage(options.result + " beside " + other_result, rows, words, first.pictures),
+                      first.pictures);
+  }
+  return comparison;
+}
+
+nlohmann::json toJson(const Comparison& comparison) {
+  return {{"result", toJson(comparison.first)},
+          {"other", toJson(comparison.second)},
+          {"figures", toJson(compare(comparison.first, comparison.second))}};
+}
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,166 @@
+#include "softbody_evaluation/ros/evaluator.h"
+
+#include <gtest/gtest.h>
+#include <softbody_msgs/StageTiming.h>
+#include <softbody_msgs/TrackingStatus.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "fixtures/evaluator_bags.h"
+
+namespace softbody::evaluation {
+namespace {
+
+TEST(Evaluator, ThePerfectResultHasNoErrorButTheMillimetreGrid) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("perfect.bag", asItIs);
+  options.truth = recording();
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(report.vertex_error->all.max, 0.0);
+  EXPECT_EQ(report.vertex_error->all.count, static_cast<std::size_t>(522 * kFrames));
+  EXPECT_LT(report.residual->residual.max, 0.51e-3);
+  EXPECT_EQ(report.residual->occluded_share, 0.0);
+  EXPECT_TRUE(report.volume.closed);
+  EXPECT_LT(std::abs(report.volume.change.largest), 0.002);
+  EXPECT_EQ(report.volume.error->largest, 0.0);
+  EXPECT_EQ(report.frames.recorded, static_cast<std::size_t>(kFrames));
+}
+
+TEST(Evaluator, AKnownDisplacementIsTheErrorAndTheFolderHoldsTheReport) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("shifted.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.002f); });
+  options.truth = recording();
+  options.report_folder = testing::TempDir() + "evaluator_report";
+  const Report report = evaluate(options);
+  EXPECT_NEAR(report.vertex_error->all.mean, 0.002, 1e-7);
+  EXPECT_NEAR(report.vertex_error->visible.p95, 0.002, 1e-7);
+  EXPECT_NEAR(report.vertex_error->hidden.max, 0.002, 1e-7);
+  EXPECT_NEAR(toJson(report)["vertex_error"]["all"]["mean_mm"].get<double>(), 2.0, 1e-4);
+  for (const char* file :
+       {"report.json", "vertex_error.png", "depth_residual_histogram.png", "overlay.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(options.report_folder) / file)) << file;
+  }
+}
+
+TEST(Evaluator, MissingFramesAreCountedNotSkipped) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("gaps.bag", [](softbody_msgs::MeshState*, int frame) { return frame % 4 != 0; });
+  options.truth = recording();
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.expected, static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames - kFrames / 4));
+  options.truth.clear();
+  options.recording = recording();
+  EXPECT_EQ(evaluate(options).frames.answered, static_cast<std::size_t>(kFrames - kFrames / 4));
+}
+
+TEST(Evaluator, StatesThatAreNoAnswersAreCountedAndSaid) {
+  EvaluatorOptions options;
+  options.truth = recording();
+  options.result = resultFromTruth("broken.bag", [](softbody_msgs::MeshState* s, int frame) {
+    if (frame == 3) s->vertices.at(7).y = std::numeric_limits<float>::quiet_NaN();
+    if (frame == 5) s->revision = 9;
+    if (frame == 6) s->vertices.pop_back();
+    if (frame == 7) s->confidence.clear();
+    return true;
+  });
+  const Report report = evaluate(options);
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames - 4));
+  EXPECT_EQ(report.vertex_error->all.max, 0.0);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_NE(report.notes[0].find("4 of 20 states"), std::string::npos) << report.notes[0];
+  EXPECT_NE(report.notes[0].find("vertices[7] is not finite"), std::string::npos) << report.notes[0];
+
+  options.result = resultFromTruth("mixed.bag", [](softbody_msgs::MeshState* s, int frame) {
+    if (frame > 10) s->header.frame_id = "world";
+    return true;
+  });
+  EXPECT_NE(failure(options).find("'camera_color_optical_frame' and in 'world'"), std::string::npos);
+}
+
+TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("timed.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.001f); });
+  {
+    rosbag::Bag bag(options.result, rosbag::bagmode::Append);
+    softbody_msgs::StageTiming timing;
+    timing.node = "replay";
+    timing.stages.resize(1);
+    timing.stages[0].stage = "registration";
+    for (int k = 1; k <= 20; ++k) {
+      timing.stages[0].milliseconds = static_cast<float>(k);
+      bag.write("/softbody/timing", ros::Time(1.6e9 + k), timing);
+    }
+    softbody_msgs::TrackingStatus status;
+    for (int k = 0; k < 4; ++k) {
+      status.state = k < 3 ? softbody_msgs::TrackingStatus::TRACKING : softbody_msgs::TrackingStatus::LOST;
+      bag.write("/softbody/status", ros::Time(1.6e9 + k), status);
+    }
+  }
+  options.truth = recording();
+  options.report_folder = testing::TempDir() + "evaluator_page";
+  const Report report = evaluate(options);
+  EXPECT_TRUE(report.silhouette->against_truth);
+  EXPECT_GT(report.silhouette->worst, 0.9);
+  EXPECT_EQ(report.stages.size(), 1u);
+  EXPECT_EQ(report.states.at("tracking"), 3u);
+  EXPECT_EQ(report.states.at("lost"), 1u);
+  EXPECT_EQ(report.stages.begin()->second.mean, 10.5);
+  EXPECT_EQ(report.stages.begin()->second.p95, 19.0);
+  EXPECT_TRUE(std::filesystem::exists(options.report_folder + "/report.html"));
+
+  options.truth.clear();
+  options.recording = recording();
+  EXPECT_FALSE(evaluate(options).silhouette->against_truth);
+}
+
+TEST(Evaluator, TwoResultsSideBySide) {
+  EvaluatorOptions options;
+  options.result =
+      resultFromTruth("first_of_two.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.001f); });
+  const std::string other =
+      resultFromTruth("second_of_two.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.004f); });
+  options.truth = recording();
+  options.report_folder = testing::TempDir() + "evaluator_two";
+  const Comparison comparison = evaluateBoth(options, other);
+  EXPECT_NEAR(comparison.first.vertex_error->all.mean, 0.001, 1e-7);
+  EXPECT_NEAR(comparison.second.vertex_error->all.mean, 0.004, 1e-7);
+  EXPECT_EQ(toJson(comparison)["other"]["frames"]["answered"], kFrames);
+  for (const char* file : {"report.json", "report.html", "overlay.png", "other_overlay.png"})
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(options.report_folder) / file)) << file;
+}
+
+TEST(Evaluator, WhatDoesNotFitIsSaidInASentence) {
+  EvaluatorOptions options;
+  options.result = recording();
+  EXPECT_NE(failure(options).find("there is nothing on /softbody/surface/topology"), std::string::npos);
+
+  options.result = resultFromTruth("late.bag", [](softbody_msgs::MeshState* s, int) {
+    s->header.stamp += ros::Duration(0.001);
+    return true;
+  });
+  options.truth = recording();
+  EXPECT_NE(failure(options).find("no surface has the stamp"), std::string::npos);
+
+  options.result = resultFromTruth("world.bag", [](softbody_msgs::MeshState* s, int) {
+    s->header.frame_id = "world";
+    return true;
+  });
+  EXPECT_NE(failure(options).find("'world'"), std::string::npos);
+
+  options.result = resultFromTruth("revision.bag", [](softbody_msgs::MeshState* s, int) {
+    s->revision = 3;
+    return true;
+  });
+  EXPECT_NE(failure(options).find("revision 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace softbody::evaluation

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "softbody_common/stage_timer.h"
+#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/object/object_model.h"
+#include "softbody_tracking/tool/tool_mask.h"
+#include "softbody_tracking/tool/tool_tracker.h"
+#include "softbody_tracking/tracker/body_tracker.h"
+
+namespace softbody {
+
+/// What the graph's nodes publish for one frame.
+struct FrameOutput {
+  TrackingResult tracking;
+  Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
+  std::optional<MeshState> volume;  ///< fixed frame, as the surface; nothing until the body has been found
+  std::optional<MeshState> surface;
+  std::optional<ToolObservation> tool;
+  std::vector<Cut> cuts;              ///< in this frame: the states are of the revision after them
+  std::vector<std::string> warnings;  ///< why a cut was not made, in sentences
+  std::vector<StageTime> times;
+};
+
+struct PipelineConfig {
+  TrackerConfig tracker;
+  SimulatorConfig simulator;
+  CuttingConfig cutting;
+  ToolTrackerConfig tool_tracker;
+};
+
+/// Trackers, simulator and surface in a row, without ROS: each frame sees exactly the previous frame's state.
+class Pipeline {
+ public:
+  /// @param tool that is followed, and cuts; nothing: none.
+  Pipeline(const ObjectModel& model, const PipelineConfig& config,
+           const std::optional<ToolDescription>& tool = std::nullopt);
+
+  const TetTopology& volumeTopology() const { return simulator_.topology(); }
+  const MeshTopology& surfaceTopology() const { return surface_.surface().topology(); }
+
+  /// @param cuts that happen in this frame beside the tool's own, as from a journal; where the body is not
+  /// tracked they wait for the next frame in which it is.
+  FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
+
+  /// What a frame without a place in the fixed frame still shows: the tool, in the camera's frame. The body,
+  /// and a blade, need the place.
+  std::optional<ToolObservation> processUnplaced(RgbdFrame frame);
+
+  /// Nothing without a tool.
+  const std::optional<ToolTracker>& toolTracker() const { return tool_tracker_; }
+
+  /// Given cuts that still wait for the body.
+  std::size_t waitingCuts() const { return waiting_cuts_.size(); }
+
+ private:
+  void simulate(const TargetSet& targets, Nanoseconds stamp);
+  void makeWaitingCuts(FrameOutput* output);
+  std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;
+  void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
+  void tear(FrameOutput* output);
+  void adopt(const Cut& cut, FrameOutput* output);
+
+  StageTimer timer_;
+  BodyTracker tracker_;
+  Simulator simulator_;
+  CuttableSurface surface_;
+  std::optional<ToolTracker> tool_tracker_;
+  ToolMask tool_mask_;
+  std::vector<Cut> waiting_cuts_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <ros/timer.h>
+
+#include <memory>
+
+#include "softbody_recordings/injection/deliveries.h"
+#include "softbody_recordings/injection/image_faults.h"
+
+namespace softbody {
+class Parameters;
+}
+
+namespace softbody::injection {
+
+class LiveStream;
+
+/// The injector between a live camera and the graph: camera/... in, camera_faulty/... out, with the same
+/// faults for the same seed as in a bag. Parameters: seed, stream, and those of faultOptions with their unit,
+/// as delay_by_s.
+class InjectorNode {
+ public:
+  /// @throw std::invalid_argument for a bad parameter.
+  InjectorNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle);
+  ~InjectorNode();
+
+ private:
+  void readFaults(Parameters* parameters);
+  void relayInfos(ros::NodeHandle* handle);
+
+  DeliveryFaults deliveries_;
+  ImageFaults images_;
+  bool in_color_ = true, in_depth_ = true;  ///< which stream's deliveries go wrong
+  std::unique_ptr<LiveStream> color_, depth_;
+  ros::Publisher color_info_, depth_info_;
+  ros::Subscriber color_info_subscriber_, depth_info_subscriber_;
+};
+
+}  // namespace softbody::injection

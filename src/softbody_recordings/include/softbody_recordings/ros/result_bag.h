@@ -1,0 +1,52 @@
+#pragma once
+
+#include <std_msgs/Header.h>
+
+#include <filesystem>
+#include <string>
+
+#include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_recordings/ros/atomic_bag.h"
+
+namespace softbody {
+
+/// Writes what the graph would publish into a bag (lz4, record time = header stamp, so that the same input
+/// gives the same bytes). The file appears under its name when finish() is called; without that an earlier
+/// file stays as it was.
+class ResultBag {
+ public:
+  /// @param topic_namespace of the output topics, e.g. "/softbody". @param with_timing wall-clock rows too.
+  /// @throw rosbag::BagException if the file cannot be written.
+  ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
+            bool with_timing);
+
+  /// Both topologies, latched; to be written before the first state of a revision and again every second.
+  /// Their stamp stays that of the revision's first.
+  void writeTopologies(const Pipeline& pipeline, const ros::Time& stamp);
+  /// @param frame_id of targets and states; empty, as before this call: the images'.
+  void setOutputFrame(std::string frame_id) { output_frame_ = std::move(frame_id); }
+  /// @param blade of the tool that is tracked, in its frame.
+  void setBlade(Points blade) { blade_ = std::move(blade); }
+  /// What there is of a frame in which the body is not tracked. @param header of the colour image, as below.
+  void writeStatus(const TrackingStatus& status, const std_msgs::Header& header);
+  void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
+  /// One frame.
+  void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
+  void finish() { bag_.finish(); }
+
+ private:
+  std::string topic(const char* name) const { return namespace_ + "/" + name; }
+  template <typename Message>
+  void write(const std::string& topic, Message message, const std_msgs::Header& header);
+  void writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
+                      const std_msgs::Header& header);
+
+  std::string namespace_, body_frame_, output_frame_;
+  Points blade_;
+  bool with_timing_;
+  ros::Time revision_stamp_;  ///< of the frame from which the topologies hold
+  std::uint32_t revision_ = 0;
+  AtomicBag bag_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,117 @@
+#include "softbody_recordings/pipeline/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "softbody_common/rigid_fit.h"
+
+namespace softbody {
+
+Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
+                   const std::optional<ToolDescription>& tool)
+    : tracker_(config.tracker), simulator_(model.volume, model.material, config.simulator), surface_([&] {
+        const auto scope = timer_.stage("Resolution Enhancement", true);
+        return CuttableSurface(model.visual, model.volume, config.cutting);
+      }()) {
+  tracker_.setTopologies(volumeTopology(), surfaceTopology());
+  if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
+}
+
+FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts) {
+  FrameOutput output;
+  output.T_fixed_camera = frame.T_fixed_camera;
+  waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());
+  const bool simulated = simulator_.placed();
+  if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
+  const std::optional<Points> blade = seenBlade(frame, output);
+  if (blade) tool_mask_.see(frame.stamp, *blade);
+  output.tracking =
+      tracker_.track(tool_mask_.without(frame), simulated ? &simulator_.state() : nullptr, &timer_);
+  if (output.tracking.has_targets) {
+    simulate(output.tracking.targets, frame.stamp);
+    makeWaitingCuts(&output);
+    if (blade) followBlade(*blade, frame.stamp, &output);
+    tear(&output);
+    const auto scope = timer_.stage("Resolution Enhancement");
+    output.volume = simulator_.state();
+    output.surface = surface_.surface().apply(simulator_.state());
+  }
+  output.times = timer_.take();
+  return output;
+}
+
+std::optional<ToolObservation> Pipeline::processUnplaced(RgbdFrame frame) {
+  frame.placed = false;
+  return tool_tracker_ ? tool_tracker_->track(frame, nullptr) : std::nullopt;
+}
+
+void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp) {
+  const auto scope = timer_.stage("Soft-body Simulation", targets.reset);
+  simulator_.step(targets, stamp);
+}
+
+void Pipeline::makeWaitingCuts(FrameOutput* output) {
+  for (const Cut& given : std::exchange(waiting_cuts_, {})) {
+    std::string reason;
+    try {
+      if (surface_.apply(given, simulator_.state(), &reason)) {
+        adopt(given, output);
+        continue;
+      }
+    } catch (const std::invalid_argument& error) {
+      reason = error.what();
+    }
+    output->warnings.push_back(
+        fmt::format("the given cut of revision {} is not made: {}", given.revision, reason));
+  }
+}
+
+/// Where a blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
+std::optional<Points> Pipeline::seenBlade(const RgbdFrame& frame, const FrameOutput& output) const {
+  if (!output.tool || output.tool->bridged || tool_tracker_->tool().blade.rows() == 0) return std::nullopt;
+  return transformed(tool_tracker_->tool().blade, frame.T_fixed_camera * output.tool->T_camera_tool);
+}
+
+void Pipeline::followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output) {
+  const auto scope = timer_.stage("Cutting");
+  std::optional<Cut> own;
+  try {
+    own = surface_.follow(blade, simulator_.state(), stamp);
+  } catch (const std::exception& error) {
+    output->warnings.push_back(fmt::format("the blade cannot cut: {}", error.what()));
+  }
+  if (own) adopt(*own, output);
+}
+
+void Pipeline::tear(FrameOutput* output) {
+  std::optional<Cut> torn;
+  try {
+    torn = surface_.tear(simulator_.state());
+  } catch (const std::exception& error) {
+    output->warnings.push_back(fmt::format("the body cannot tear: {}", error.what()));
+  }
+  if (torn) adopt(*torn, output);
+}
+
+void Pipeline::adopt(const Cut& cut, FrameOutput* output) {
+  std::string reason;
+  bool made = false;
+  try {
+    made = simulator_.apply(cut, &reason);
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (!made) {
+    surface_.rollBack(cut.revision - 1);
+    output->warnings.push_back(
+        fmt::format("the simulator cannot make the cut of revision {}: {}", cut.revision, reason));
+    return;
+  }
+  surface_.confirm(cut.revision);
+  tracker_.setTopologies(volumeTopology(), surfaceTopology());
+  output->cuts.push_back(cut);
+}
+
+}  // namespace softbody

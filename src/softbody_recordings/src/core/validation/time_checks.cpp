@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "softbody_recordings/validation/checks.h"
+
+namespace softbody::validation {
+namespace {
+
+constexpr double kGapInIntervals = 2.5;    // two frames missing, or jitter that looks like it
+constexpr double kRateTolerance = 1e-3;    // stamps are rounded
+constexpr double kClockTolerance_s = 1.0;  // between header stamp and record time
+
+double seconds(Nanoseconds time) { return 1e-9 * static_cast<double>(time); }
+
+/// @param values not empty.
+Nanoseconds median(std::vector<Nanoseconds> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void checkOrder(const StreamFacts& stream, Findings* findings) {
+  const auto zeros = std::count(stream.stamps.begin(), stream.stamps.end(), 0);
+  if (zeros > 0) {
+    findings->push_back(
+        {Severity::kError, "stamps", stream.topic,
+         fmt::format("has {} messages without a stamp; the driver must stamp every image", zeros)});
+    return;
+  }
+  std::size_t back = 0, repeated = 0, where = 0;
+  for (std::size_t i = 1; i < stream.stamps.size(); ++i) {
+    repeated += stream.stamps[i] == stream.stamps[i - 1];
+    if (stream.stamps[i] >= stream.stamps[i - 1]) continue;
+    if (back++ == 0) where = i;
+  }
+  if (back > 0) {
+    findings->push_back(
+        {Severity::kWarning, "stamps", stream.topic,
+         fmt::format("goes back in time {} times, first by {:.3f} s at message {}: by less than a second, "
+                     "replay puts "
+                     "the image in its place and the live graph drops it; by more, tracking starts anew",
+                     back, seconds(stream.stamps[where - 1] - stream.stamps[where]), where)});
+  }
+  if (repeated > 0) {
+    findings->push_back({Severity::kWarning, "stamps", stream.topic,
+                         fmt::format("repeats a stamp {} times; the driver sends images twice", repeated)});
+  }
+}
+
+void checkClock(const StreamFacts& stream, Findings* findings) {
+  std::vector<Nanoseconds> delays;
+  for (std::size_t i = 0; i < stream.stamps.size(); ++i) {
+    if (stream.stamps[i] != 0) delays.push_back(stream.received[i] - stream.stamps[i]);
+  }
+  if (delays.empty()) return;
+  const double delay = seconds(median(delays));
+  if (std::abs(delay) <= kClockTolerance_s) return;
+  findings->push_back(
+      {Severity::kWarning, "clock", stream.topic,
+       fmt::format(
+           "was recorded {:.3f} s {} its stamps; transforms and latencies will be off: synchronise the "
+           "clocks, or record with use_sim_time as it was played",
+           std::abs(delay), delay > 0.0 ? "after" : "before")});
+}
+
+/// Intervals between the different stamps, sorted.
+std::vector<Nanoseconds> intervals(const std::set<Nanoseconds>& stamps) {
+  std::vector<Nanoseconds> result;
+  for (auto a = stamps.begin(), b = a; a != stamps.end() && ++b != stamps.end(); ++a)
+    result.push_back(*b - *a);
+  return result;
+}
+
+void checkRate(const StreamFacts& stream, const CheckLimits& limits, Findings* findings) {
+  std::set<Nanoseconds> stamps(stream.stamps.begin(), stream.stamps.end());
+  stamps.erase(0);
+  const std::vector<Nanoseconds> steps = intervals(stamps);
+  if (steps.empty()) return;
+  const double interval = seconds(median(steps)), rate = 1.0 / interval;
+  if (rate < (1.0 - kRateTolerance) * limits.slowest_rate_hz) {
+    findings->push_back(
+        {Severity::kWarning, "rates", stream.topic,
+         fmt::format("comes at {:.1f} Hz; below {:.0f} Hz fast motion is lost: record at 30 Hz", rate,
+                     limits.slowest_rate_hz)});
+  }
+  std::size_t gaps = 0, longest = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    gaps += seconds(steps[i]) > kGapInIntervals * interval;
+    if (steps[i] > steps[longest]) longest = i;
+  }
+  if (gaps == 0) return;
+  const Nanoseconds before =
+      *std::next(stamps.begin(), static_cast<std::ptrdiff_t>(longest)) - *stamps.begin();
+  findings->push_back(
+      {Severity::kWarning, "gaps", stream.topic,
+       fmt::format("has {} gaps at {:.1f} Hz, the longest of {:.3f} s at {:.2f} s; the disk or the "
+                   "network was too slow: record lz4, or fewer topics",
+                   gaps, rate, seconds(steps[longest]), seconds(before))});
+}
+
+void checkLength(const StreamFacts& stream, const CheckLimits& limits, Findings* findings) {
+  const auto [first, last] = std::minmax_element(stream.stamps.begin(), stream.stamps.end());
+  if (seconds(*last - *first) >= limits.shortest_s) return;
+  findings->push_back({Severity::kWarning, "length", stream.topic,
+                       fmt::format("has {} images over {:.2f} s; record {:.0f} s or more",
+                                   stream.stamps.size(), seconds(*last - *first), limits.shortest_s)});
+}
+
+}  // namespace
+
+Findings checkStamps(const RecordingFacts& facts, const CheckLimits& limits) {
+  Findings findings;
+  for (const StreamFacts* stream : {&facts.color, &facts.depth}) {
+    if (stream->stamps.empty()) continue;
+    checkOrder(*stream, &findings);
+    checkClock(*stream, &findings);
+    checkRate(*stream, limits, &findings);
+    checkLength(*stream, limits, &findings);
+  }
+  return findings;
+}
+
+Findings checkSync(const RecordingFacts& facts, const CheckLimits& limits) {
+  const std::set<Nanoseconds> depths(facts.depth.stamps.begin(), facts.depth.stamps.end());
+  if (depths.empty() || facts.color.stamps.empty()) return {};
+  std::vector<Nanoseconds> offsets;
+  std::size_t paired = 0;
+  for (const Nanoseconds stamp : facts.color.stamps) {
+    const auto after = depths.lower_bound(stamp);
+    Nanoseconds offset = after == depths.end() ? *depths.rbegin() - stamp : *after - stamp;
+    if (after != depths.begin() && std::llabs(*std::prev(after) - stamp) < std::llabs(offset))
+      offset = *std::prev(after) - stamp;
+    offsets.push_back(offset);
+    paired += seconds(std::llabs(offset)) <= limits.sync_tolerance_s;
+  }
+  const double share = static_cast<double>(paired) / static_cast<double>(offsets.size());
+  if (share >= 0.95) return {};
+  const Severity severity = share < 0.5 ? Severity::kError : Severity::kWarning;
+  return {
+      {severity, "sync", facts.depth.topic,
+       fmt::format(
+           "has an image within {:.0f} ms of only {:.0f} % of the colour images, {:+.1f} ms in the median; "
+           "switch on the driver's synchronisation (enable_sync), or raise sync_tolerance_s",
+           1e3 * limits.sync_tolerance_s, 100.0 * share, 1e3 * seconds(median(offsets)))}};
+}
+
+}  // namespace softbody::validation

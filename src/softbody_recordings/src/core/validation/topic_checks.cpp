@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include "softbody_recordings/validation/checks.h"
+
+namespace softbody::validation {
+namespace {
+
+constexpr char kImage[] = "sensor_msgs/Image", kInfo[] = "sensor_msgs/CameraInfo",
+               kCompressed[] = "sensor_msgs/CompressedImage";
+
+std::vector<std::string> topicsOfType(const RecordingFacts& facts, const std::string& type) {
+  std::vector<std::string> names;
+  for (const auto& [name, its_type] : facts.topics) {
+    if (its_type == type) names.push_back(name);
+  }
+  return names;
+}
+
+/// What the user can do where `topic` is missing.
+std::string remedy(const RecordingFacts& facts, const std::string& topic, const std::string& type) {
+  if (facts.topics.count(topic + "/compressed") != 0) {
+    return fmt::format(
+        "there is {0}/compressed, which is not read: decompress it to {0} with image_transport's "
+        "republish, or record raw images",
+        topic);
+  }
+  const std::vector<std::string> candidates = topicsOfType(facts, type);
+  if (!candidates.empty()) {
+    return fmt::format(
+        "of that type the bag has {}; name the camera's namespace (camera:=, --camera) or remap",
+        fmt::join(candidates, ", "));
+  }
+  const std::vector<std::string> compressed = topicsOfType(facts, kCompressed);
+  if (type == kImage && !compressed.empty()) {
+    return fmt::format("the bag has compressed images only ({}), which are not read: record raw images",
+                       fmt::join(compressed, ", "));
+  }
+  return "record it";
+}
+
+void checkTopic(const RecordingFacts& facts, const StreamFacts& stream, const std::string& type,
+                Severity severity, Findings* findings) {
+  if (!stream.present()) {
+    findings->push_back(
+        {severity, "topics", stream.topic,
+         fmt::format("is not in the bag (expected {}); {}", type, remedy(facts, stream.topic, type))});
+  } else if (stream.type != type) {
+    findings->push_back({severity, "types", stream.topic,
+                         fmt::format("is of type {} instead of {}; {}", stream.type, type,
+                                     remedy(facts, stream.topic, type))});
+  }
+}
+
+}  // namespace
+
+Findings checkTopics(const RecordingFacts& facts) {
+  Findings findings;
+  checkTopic(facts, facts.color, kImage, Severity::kError, &findings);
+  checkTopic(facts, facts.color_info, kInfo, Severity::kError, &findings);
+  checkTopic(facts, facts.depth, kImage, Severity::kError, &findings);
+  // The tracker takes colour's; evaluate and the checks of registration need depth's.
+  checkTopic(facts, facts.depth_info, kInfo, Severity::kWarning, &findings);
+  return findings;
+}
+
+}  // namespace softbody::validation

@@ -1,0 +1,67 @@
+#include "nodes/live_stream.h"
+
+#include <boost/make_shared.hpp>
+#include <stdexcept>
+
+#include "softbody_common/ros/conversions.h"
+
+namespace softbody::injection {
+namespace {
+
+constexpr std::uint32_t kQueue = 30;
+constexpr double kRestart_s = 1.0;  // stamps that go back by more: a bag starts again
+constexpr double kWarningPeriod_s = 5.0;
+
+}  // namespace
+
+LiveStream::LiveStream(ros::NodeHandle* handle, const std::string& in, const std::string& out, bool is_depth,
+                       const DeliveryFaults& deliveries, const ImageFaults& images)
+    : handle_(*handle),
+      topic_(handle->resolveName(in)),
+      is_depth_(is_depth),
+      deliveries_(deliveries),
+      faults_(images),
+      images_(topic_, is_depth, images) {
+  publisher_ = handle->advertise<sensor_msgs::Image>(out, kQueue);
+  subscriber_ = handle->subscribe(in, kQueue, &LiveStream::onImage, this, ros::TransportHints().tcpNoDelay());
+}
+
+void LiveStream::onImage(const sensor_msgs::ImageConstPtr& original) {
+  if (original->header.stamp + ros::Duration(kRestart_s) < last_stamp_) restart();
+  last_stamp_ = original->header.stamp;
+  const Fate fate = fateOf(images_.count(), deliveries_);
+  try {
+    const auto image = boost::make_shared<sensor_msgs::Image>(images_.next(*original));
+    image->header.stamp = toTime(toNanoseconds(image->header.stamp) + fate.stamp_shift);
+    const Held held{fate, image};
+    if (!fate.after_next) send(held);
+    if (overtaken_) send(*overtaken_);
+    overtaken_.reset();
+    if (fate.after_next) overtaken_ = held;
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s, error.what());
+  }
+}
+
+void LiveStream::restart() {
+  ROS_INFO_STREAM(topic_ << " starts again: so do the faults");
+  images_ = FaultyImages(topic_, is_depth_, faults_);
+  overtaken_.reset();
+  late_.clear();
+}
+
+void LiveStream::send(const Held& held) {
+  if (held.fate.delay <= 0) return publish(held);
+  const std::size_t number = next_timer_++;
+  const auto fire = [this, held, number](const ros::TimerEvent&) {
+    publish(held);
+    late_.erase(number);
+  };
+  late_[number] = handle_.createTimer(ros::Duration().fromNSec(held.fate.delay), fire, true);
+}
+
+void LiveStream::publish(const Held& held) {
+  for (int i = 0; i < held.fate.copies; ++i) publisher_.publish(held.image);
+}
+
+}  // namespace softbody::injection

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <sensor_msgs/Image.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "ros/injection/faulty_images.h"
+#include "softbody_recordings/injection/deliveries.h"
+
+namespace softbody::injection {
+
+/// One stream of live images: takes them as they come, sends them on as the faults will have it.
+class LiveStream {
+ public:
+  LiveStream(ros::NodeHandle* handle, const std::string& in, const std::string& out, bool is_depth,
+             const DeliveryFaults& deliveries, const ImageFaults& images);
+
+ private:
+  struct Held {
+    Fate fate;
+    sensor_msgs::ImageConstPtr image;
+  };
+
+  void onImage(const sensor_msgs::ImageConstPtr& original);
+  void restart();
+  /// Now, or later where the image is late.
+  void send(const Held& held);
+  void publish(const Held& held);
+
+  ros::NodeHandle handle_;
+  std::string topic_;
+  bool is_depth_;
+  DeliveryFaults deliveries_;
+  ImageFaults faults_;
+  FaultyImages images_;
+  ros::Time last_stamp_;
+  std::optional<Held> overtaken_;           ///< waits for the next image
+  std::map<std::size_t, ros::Timer> late_;  ///< by a number of their own
+  std::size_t next_timer_ = 0;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace softbody::injection

@@ -1,0 +1,12 @@
+#include <pluginlib/class_list_macros.hpp>
+
+#include "softbody_common/ros/node_nodelet.h"
+#include "softbody_recordings/ros/injector_node.h"
+
+namespace softbody {
+
+class InjectorNodelet : public NodeNodelet<injection::InjectorNode> {};
+
+}  // namespace softbody
+
+PLUGINLIB_EXPORT_CLASS(softbody::InjectorNodelet, nodelet::Nodelet)

@@ -1,0 +1,19 @@
+#include "softbody_recordings/ros/input_bag.h"
+
+#include <fmt/format.h>
+#include <rosbag/exceptions.h>
+
+#include <stdexcept>
+
+namespace softbody {
+
+rosbag::Bag openBag(const std::string& path) try {
+  return rosbag::Bag(path, rosbag::bagmode::Read);
+} catch (const rosbag::BagUnindexedException&) {
+  throw std::invalid_argument(fmt::format("{}: the bag was not closed; run rosbag reindex {}", path, path));
+} catch (const rosbag::BagException& error) {
+  throw std::invalid_argument(
+      fmt::format("{}: is not a whole bag ({}); rosbag reindex saves what can be read", path, error.what()));
+}
+
+}  // namespace softbody

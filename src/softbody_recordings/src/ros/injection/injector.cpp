@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/Image.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "ros/injection/faulty_images.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_recordings/ros/atomic_bag.h"
+#include "softbody_recordings/ros/injector.h"
+#include "softbody_recordings/ros/input_bag.h"
+
+namespace softbody::injection {
+namespace {
+
+/// One stream: when its images arrive, and how they look.
+class ImageStream {
+ public:
+  ImageStream(const std::string& topic, bool is_depth, const rosbag::Bag& bag, const InjectorOptions& options)
+      : topic_(topic), images_(topic, is_depth, options.images) {
+    rosbag::View view(bag, rosbag::TopicQuery(topic_));
+    std::vector<Nanoseconds> received;
+    for (const rosbag::MessageInstance& instance : view)
+      received.push_back(toNanoseconds(instance.getTime()));
+    if (received.empty())
+      throw std::invalid_argument(fmt::format("{}: there is nothing on {}", options.input, topic_));
+    const bool wanted = is_depth ? options.in_depth : options.in_color;
+    deliveries_ = planDeliveries(received, wanted ? options.deliveries : DeliveryFaults());
+  }
+
+  void write(const rosbag::MessageInstance& instance, AtomicBag* output) {
+    const auto original = instance.instantiate<sensor_msgs::Image>();
+    if (!original)
+      throw std::invalid_argument(
+          fmt::format("{} is of type {} instead of sensor_msgs/Image", topic_, instance.getDataType()));
+    const std::size_t number = images_.count();
+    sensor_msgs::Image changed = images_.next(*original);
+    for (; next_ < deliveries_.size() && deliveries_[next_].image == number; ++next_) {
+      changed.header.stamp = toTime(toNanoseconds(original->header.stamp) + deliveries_[next_].stamp_shift);
+      output->write(topic_, toTime(deliveries_[next_].received), changed, instance.getConnectionHeader());
+    }
+  }
+
+  const std::string& topic() const { return topic_; }
+  std::size_t read() const { return images_.count(); }
+  std::size_t written() const { return deliveries_.size(); }
+
+ private:
+  std::string topic_;
+  FaultyImages images_;
+  std::vector<Delivery> deliveries_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+InjectionReport inject(const InjectorOptions& options, const std::function<void(double)>& progress) try {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.input, options.output, ignored))
+    throw std::invalid_argument(fmt::format("{} is the input; name another output", options.output));
+  const rosbag::Bag input = openBag(options.input);
+  ImageStream color(options.camera + "/color/image_raw", false, input, options);
+  ImageStream depth(options.camera + "/aligned_depth_to_color/image_raw", true, input, options);
+  AtomicBag output(options.output);
+  rosbag::View view(input);
+  InjectionReport report;
+  double count = 0.0;
+  for (const rosbag::MessageInstance& instance : view) {
+    const std::string topic = instance.getTopic();
+    if (topic == color.topic()) {
+      color.write(instance, &output);
+    } else if (topic == depth.topic()) {
+      depth.write(instance, &output);
+    } else {
+      output.write(topic, instance.getTime(), instance, instance.getConnectionHeader());
+      ++report.copied;
+    }
+    progress(++count / static_cast<double>(view.size()));
+  }
+  output.finish();
+  report.color_read = color.read();
+  report.color_written = color.written();
+  report.depth_read = depth.read();
+  report.depth_written = depth.written();
+  return report;
+} catch (const rosbag::BagException& error) {
+  throw std::runtime_error(fmt::format("{}: {}", options.input, error.what()));
+}
+
+}  // namespace softbody::injection

@@ -1,0 +1,87 @@
+#include "softbody_recordings/ros/graph_config.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <stdexcept>
+
+#include "softbody_common/parameters.h"
+#include "softbody_common/yaml_map_reader.h"
+
+namespace softbody {
+namespace {
+
+const std::array<std::string, 6> kNodes{"camera_ingest", "feature_tracker", "pose_marker",
+                                        "simulator",     "surface",         "tool_tracker"};
+
+YAML::Node sectionsOf(const std::string& path) {
+  YAML::Node file = parseYamlFile(path);
+  if (!file.IsMap())
+    throw std::invalid_argument(path + ": must be a map with a section of parameters for each node");
+  for (const auto& section : file) {
+    const std::string name = YamlMapReader::shown(section.first);
+    if (std::find(kNodes.begin(), kNodes.end(), name) != kNodes.end()) continue;
+    throw std::invalid_argument(
+        fmt::format("{}:{}: '{}' is no node; parameters stand in the section of their node: {}", path,
+                    section.first.Mark().line + 1, name, fmt::join(kNodes, ", ")));
+  }
+  return file;
+}
+
+/// What a replay does not read of a node's section.
+struct LiveOnly {
+  std::set<std::string> unused;
+  std::set<std::string> missed;  ///< without them something else comes out
+};
+
+/// Reads one section; says which of its keys nobody knows, or a replay misses.
+template <typename Reader>
+auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly& live,
+                 std::vector<std::string>* warnings, Reader reader) {
+  const YAML::Node section = file[name];
+  Parameters parameters(section.IsDefined() ? section : YAML::Node(), name + "/");
+  auto config = reader(parameters);
+  for (const std::string& full_key : parameters.unknown()) {
+    const std::string key = full_key.substr(name.size() + 1);
+    if (live.unused.count(key) != 0) continue;
+    warnings->push_back(live.missed.count(key) != 0
+                            ? fmt::format("parameter {} has no effect in a replay", full_key)
+                            : fmt::format("unknown parameter {} is ignored", full_key));
+  }
+  return config;
+}
+
+}  // namespace
+
+GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings) {
+  const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
+  GraphConfig config;
+  config.ingest = readSection(
+      file, "camera_ingest", {{"queue_size", "voxel_size_m", "silence_timeout_s", "image_transport"}, {}},
+      warnings, [&config](Parameters& parameters) {
+        const SyncConfig sync = readSyncConfig(parameters);
+        config.sync_tolerance = sync.exact ? 0 : static_cast<Nanoseconds>(1e9 * sync.tolerance_s);
+        return readCameraIngestConfig(parameters);
+      });
+  config.pipeline.tracker =
+      readSection(file, "feature_tracker", {{"body_frame", "mask_timeout_s", "tf_timeout_s"}, {"use_mask"}},
+                  warnings, [&config](Parameters& parameters) {
+                    config.output_frame = parameters.text("output_frame", "");
+                    return readTrackerConfig(parameters);
+                  });
+  readSection(file, "pose_marker", {{"frame"}, {}}, warnings, [](Parameters&) { return 0; });
+  config.pipeline.simulator = readSection(
+      file, "simulator", {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s"}, {"obstacles"}},
+      warnings, readSimulatorConfig);
+  config.pipeline.cutting =
+      readSection(file, "surface", {{"body_frame", "object"}, {}}, warnings, readCuttingConfig);
+  config.pipeline.tool_tracker =
+      readSection(file, "tool_tracker", {{"tool", "tool_frame", "output_frame", "tf_timeout_s"}, {}},
+                  warnings, readToolTrackerConfig);
+  return config;
+}
+
+}  // namespace softbody

@@ -1,0 +1,201 @@
+#include "softbody_recordings/ros/replay.h"
+
+#include <fmt/format.h>
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_recordings/ros/bag_transforms.h"
+#include "softbody_recordings/ros/cut_journal.h"
+#include "softbody_recordings/ros/graph_config.h"
+#include "softbody_recordings/ros/input_bag.h"
+#include "softbody_recordings/ros/result_bag.h"
+#include "softbody_tracking/tool/tool_watch.h"
+
+namespace softbody {
+namespace {
+
+constexpr char kBodyFrame[] = "softbody";
+
+using Warn = std::function<void(const std::string&)>;
+
+void warnAll(const Warn& warn, const std::string& source, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    warn(source.empty() ? warning : fmt::format("{}: {}", source, warning));
+}
+
+ObjectModel loadModel(const std::string& object, const Warn& warn) {
+  const ObjectDescription description = loadObjectDescription(object);
+  ObjectModel model = buildObjectModel(description);
+  if (!description.pins.empty())
+    warn(fmt::format("{}: its pins hold nothing here, where there is no tf", object));
+  warnAll(warn, object, model.warnings);
+  return model;
+}
+
+std::optional<ToolDescription> loadTool(const std::string& path, const Warn& warn) {
+  if (path.empty()) return std::nullopt;
+  const ToolDescription tool = loadToolDescription(path);
+  warnAll(warn, "", tool.warnings);
+  return tool;
+}
+
+CutJournal loadJournal(const ReplayOptions& options) {
+  if (options.journal.empty()) return {};
+  return {openBag(options.journal), options.topic_namespace + "/cut"};
+}
+
+/// Where the camera is in the output frame.
+class CameraPoses {
+ public:
+  /// @param output_frame empty: the camera's own.
+  CameraPoses(const std::string& bag, std::string output_frame) : output_frame_(std::move(output_frame)) {
+    if (!output_frame_.empty()) transforms_.emplace(std::vector<std::string>{bag});
+  }
+
+  /// @throw tf2::TransformException where the bag does not tell it.
+  Eigen::Isometry3d of(const std_msgs::Header& header) const {
+    if (!transforms_) return Eigen::Isometry3d::Identity();
+    return transforms_->at(output_frame_, header.frame_id, header.stamp);
+  }
+
+  const std::string& outputFrame() const { return output_frame_; }
+  std::vector<std::string> warnings() const {
+    return transforms_ ? transforms_->warnings() : std::vector<std::string>();
+  }
+
+ private:
+  std::string output_frame_;
+  std::optional<BagTransforms> transforms_;
+};
+
+/// Frames through the pipeline into the bag.
+class Replay {
+ public:
+  Replay(const ReplayOptions& options, const ObjectModel& model, const GraphConfig& config,
+         const std::optional<ToolDescription>& tool, Warn warn)
+      : warn_(std::move(warn)),
+        camera_poses_(options.input,
+                      options.output_frame.empty() ? config.output_frame : options.output_frame),
+        pipeline_(model, config.pipeline, tool),
+        journal_(loadJournal(options)),
+        output_(options.output, options.topic_namespace, kBodyFrame, options.timing) {
+    for (const std::string& warning : camera_poses_.warnings()) warn_(warning);
+    output_.setOutputFrame(camera_poses_.outputFrame());
+    if (tool) output_.setBlade(tool->blade);
+  }
+
+  void process(RgbdFrame frame, const std_msgs::Header& header) {
+    try {
+      frame.T_fixed_camera = camera_poses_.of(header);
+    } catch (const tf2::TransformException& error) {
+      return skip(frame, header, error.what());
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const FrameOutput result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    summary_.milliseconds += elapsed.count();
+    for (const std::string& warning : result.warnings)
+      warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
+    heedTool(result.tool, header);
+    count(result);
+    const bool due =
+        header.stamp < topologies_written_ || header.stamp - topologies_written_ >= ros::Duration(1.0);
+    if (topologies_written_.isZero() || due || !result.cuts.empty()) {
+      output_.writeTopologies(pipeline_, header.stamp);
+      topologies_written_ = header.stamp;
+    }
+    output_.writeFrame(result, header);
+  }
+
+  ReplaySummary finish() {
+    const std::size_t left = journal_.size() + pipeline_.waitingCuts();
+    if (left > 0)
+      warn_(fmt::format("{} cuts of the journal are not made: the body is not tracked after them", left));
+    output_.finish();
+    const std::vector<std::uint32_t>& bodies = pipeline_.surfaceTopology().bodies;
+    summary_.tool_missed = tool_watch_.missed();
+    summary_.pieces = bodies.empty() ? 0 : 1 + *std::max_element(bodies.begin(), bodies.end());
+    return summary_;
+  }
+
+  const ReplaySummary& summary() const { return summary_; }
+
+ private:
+  void skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why) {
+    if (summary_.skipped++ == 0)
+      warn_(fmt::format("frame at {:.3f} s skipped: {}", header.stamp.toSec(), why));
+    count(skippedFrame(last_status_, header.frame_id, camera_poses_.outputFrame(), why));
+    output_.writeStatus(last_status_, header);
+    const std::optional<ToolObservation> tool = pipeline_.processUnplaced(frame);
+    heedTool(tool, header);
+    if (tool) output_.writeTool(*tool, header);
+  }
+
+  void heedTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header) {
+    if (!pipeline_.toolTracker()) return;
+    summary_.tools += tool ? 1 : 0;
+    const auto missing =
+        tool_watch_.heed(toNanoseconds(header.stamp), tool, pipeline_.toolTracker()->reason());
+    if (missing) warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), *missing));
+  }
+
+  void count(const TrackingStatus& status) {
+    last_status_ = status;
+    ++summary_.frames_by_state[status.state];
+    summary_.reasons[status.state] = status.reason;
+  }
+
+  void count(const FrameOutput& result) {
+    summary_.states += result.surface ? 1 : 0;
+    summary_.cuts += static_cast<int>(result.cuts.size());
+    count(result.tracking.status);
+  }
+
+  Warn warn_;
+  CameraPoses camera_poses_;
+  TrackingStatus last_status_;
+  Pipeline pipeline_;
+  ToolWatch tool_watch_;
+  CutJournal journal_;
+  ResultBag output_;
+  ReplaySummary summary_;
+  ros::Time topologies_written_;
+};
+
+}  // namespace
+
+ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
+                     const std::function<void(double)>& progress) {
+  std::vector<std::string> warnings;
+  GraphConfig config = readGraphConfig(options.parameters, &warnings);
+  warnAll(warn, "", warnings);
+  if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
+  const ObjectModel model = loadModel(options.object, warn);
+  const rosbag::Bag input = openBag(options.input);
+  Replay run(options, model, config, loadTool(options.tool, warn), warn);
+  CameraIngest ingest(config.ingest);
+  const BagFramesReport read =
+      readBagFrames(input, {options.camera, config.sync_tolerance}, &ingest,
+                    [&](const RgbdFrame& frame, const std_msgs::Header& header, double share) {
+                      run.process(frame, header);
+                      progress(share);
+                    });
+  if (run.summary().frames_by_state.empty()) {
+    throw std::runtime_error(fmt::format("{} holds no usable frame{}{}", options.input,
+                                         read.last_error.empty() ? "" : ": ", read.last_error));
+  }
+  if (run.summary().states == 0) {
+    throw std::runtime_error(fmt::format("no frame of {} gave a surface: {}", options.input,
+                                         run.summary().reasons.begin()->second));
+  }
+  ReplaySummary summary = run.finish();
+  summary.read = read;
+  return summary;
+}
+
+}  // namespace softbody

@@ -1,0 +1,90 @@
+#include "softbody_recordings/ros/result_bag.h"
+
+#include <geometry_msgs/PolygonStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <softbody_msgs/StageTiming.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/topics.h"
+#include "softbody_tracking/ros/feature_messages.h"
+#include "softbody_tracking/ros/tool_messages.h"
+
+namespace softbody {
+
+ResultBag::ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
+                     bool with_timing)
+    : namespace_(std::move(topic_namespace)),
+      body_frame_(std::move(body_frame)),
+      with_timing_(with_timing),
+      bag_(std::move(output)) {}
+
+template <typename Message>
+void ResultBag::write(const std::string& topic, Message message, const std_msgs::Header& header) {
+  message.header = header;
+  message.header.seq = 0;
+  bag_.write(topic, header.stamp, message);
+}
+
+void ResultBag::writeTopologies(const Pipeline& pipeline, const ros::Time& stamp) {
+  const std::uint32_t revision = pipeline.volumeTopology().revision;
+  if (revision_stamp_.isZero() || revision != revision_) revision_stamp_ = stamp;
+  revision_ = revision;
+  softbody_msgs::TetTopology volume = toMessage(pipeline.volumeTopology());
+  volume.header.frame_id = body_frame_;
+  volume.header.stamp = revision_stamp_;
+  bag_.writeLatched(topic(topics::kVolumeTopology), stamp, volume);
+  softbody_msgs::MeshTopology surface = toMessage(pipeline.surfaceTopology());
+  surface.header = volume.header;
+  bag_.writeLatched(topic(topics::kSurfaceTopology), stamp, surface);
+}
+
+void ResultBag::writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
+                               const std_msgs::Header& header) {
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(pose);
+  transform.header = header;
+  transform.header.seq = 0;
+  transform.child_frame_id = child;
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(transform);
+  bag_.write("/tf", header.stamp, message);
+}
+
+void ResultBag::writeTool(const ToolObservation& tool, const std_msgs::Header& header) {
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.pose = toMessage(tool);
+  write(topic(topics::kToolPose), pose, header);
+  if (blade_.rows() > 0 && !tool.bridged) {
+    geometry_msgs::PolygonStamped blade;
+    blade.polygon = bladePolygon(blade_, tool.T_camera_tool);
+    write(topic(topics::kToolBlade), blade, header);
+  }
+  writeTransform(tool.T_camera_tool, "tool", header);
+}
+
+void ResultBag::writeStatus(const TrackingStatus& status, const std_msgs::Header& header) {
+  write(topic(topics::kStatus), toMessage(status), header);
+}
+
+void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& header) {
+  std_msgs::Header fixed = header;
+  if (!output_frame_.empty()) fixed.frame_id = output_frame_;
+  writeStatus(frame.tracking.status, header);
+  if (frame.tracking.has_targets) {
+    write(topic(topics::kFeatures), makeFeatureCloud(frame.tracking.features), header);
+    write(topic(topics::kFeaturesMarker), makeFeatureMarker(frame.tracking.features), header);
+    write(topic(topics::kTargets), toMessage(frame.tracking.targets), fixed);
+    writeTransform(frame.T_fixed_camera.inverse() * frame.tracking.targets.body_pose, body_frame_, header);
+  }
+  if (frame.tool) writeTool(*frame.tool, header);
+  std_msgs::Header rest = header;
+  rest.frame_id = body_frame_;
+  for (const Cut& cut : frame.cuts) write(topic(topics::kCut), toMessage(cut), rest);
+  if (frame.volume) write(topic(topics::kVolumeState), toMessage(*frame.volume), fixed);
+  if (frame.surface) write(topic(topics::kSurfaceState), toMessage(*frame.surface), fixed);
+  if (with_timing_) write(topic(topics::kTiming), timingMessage("replay", frame.times), header);
+}
+
+}  // namespace softbody

@@ -1,0 +1,145 @@
+#include <cv_bridge/cv_bridge.h>
+#include <fmt/format.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_recordings/ros/facts_reader.h"
+#include "softbody_recordings/ros/input_bag.h"
+
+namespace softbody::validation {
+namespace {
+
+constexpr std::size_t kDepthSamples = 30;
+constexpr std::size_t kPixelStep = 7;  // every 7th pixel tells the median as well
+
+bool isMalformed(const sensor_msgs::Image& image) {
+  namespace enc = sensor_msgs::image_encodings;
+  std::size_t bytes = 0;
+  try {
+    bytes = static_cast<std::size_t>(enc::numChannels(image.encoding) * enc::bitDepth(image.encoding) / 8);
+  } catch (const std::runtime_error&) {  // an unknown encoding is a finding of its own
+  }
+  return image.step < image.width * bytes ||
+         image.data.size() != static_cast<std::size_t>(image.step) * image.height;
+}
+
+void addTimes(const std_msgs::Header& header, const ros::Time& received, StreamFacts* stream) {
+  stream->stamps.push_back(toNanoseconds(header.stamp));
+  stream->received.push_back(toNanoseconds(received));
+  stream->frame_ids.insert(header.frame_id);
+}
+
+CameraFacts factsOf(const sensor_msgs::CameraInfo& info) {
+  return {static_cast<int>(info.width),
+          static_cast<int>(info.height),
+          info.K[0],
+          info.K[4],
+          info.K[2],
+          info.K[5],
+          info.distortion_model,
+          info.D};
+}
+
+/// Gathers the values of sampled depth images.
+class DepthSampler {
+ public:
+  explicit DepthSampler(std::size_t images) : step_(std::max<std::size_t>(1, images / kDepthSamples)) {}
+
+  void add(const sensor_msgs::Image& image) {
+    if (seen_++ % step_ != 0 || isMalformed(image)) return;
+    namespace enc = sensor_msgs::image_encodings;
+    const bool known = image.encoding == enc::TYPE_16UC1 || image.encoding == enc::MONO16 ||
+                       image.encoding == enc::TYPE_32FC1;
+    if (!known) return;
+    cv::Mat1f depth;
+    cv_bridge::toCvCopy(image)->image.convertTo(depth, CV_32F);
+    ++images_;
+    for (std::size_t i = 0; i < depth.total(); i += kPixelStep) {
+      const float z = depth(static_cast<int>(i) / depth.cols, static_cast<int>(i) % depth.cols);
+      ++pixels_;
+      if (z > 0.0f && std::isfinite(z)) values_.push_back(z);
+    }
+  }
+
+  DepthFacts facts() {
+    DepthFacts facts;
+    facts.images = images_;
+    if (values_.empty()) return facts;
+    facts.valid_share = static_cast<double>(values_.size()) / static_cast<double>(pixels_);
+    const auto middle = values_.begin() + static_cast<std::ptrdiff_t>(values_.size() / 2);
+    std::nth_element(values_.begin(), middle, values_.end());
+    facts.median = *middle;
+    return facts;
+  }
+
+ private:
+  std::size_t step_, seen_ = 0, images_ = 0, pixels_ = 0;
+  std::vector<float> values_;
+};
+
+void addImage(const rosbag::MessageInstance& instance, StreamFacts* stream, DepthSampler* sampler) {
+  const auto image = instance.instantiate<sensor_msgs::Image>();
+  if (!image) return;  // its type is a finding
+  addTimes(image->header, instance.getTime(), stream);
+  ++stream->encodings[image->encoding];
+  ++stream->sizes[{static_cast<int>(image->width), static_cast<int>(image->height)}];
+  stream->malformed += isMalformed(*image);
+  if (sampler != nullptr) sampler->add(*image);
+}
+
+void addInfo(const rosbag::MessageInstance& instance, StreamFacts* stream,
+             std::vector<CameraFacts>* cameras) {
+  const auto info = instance.instantiate<sensor_msgs::CameraInfo>();
+  if (!info) return;
+  addTimes(info->header, instance.getTime(), stream);
+  const CameraFacts camera = factsOf(*info);
+  if (cameras->empty() || !(cameras->back() == camera)) cameras->push_back(camera);
+}
+
+}  // namespace
+
+RecordingFacts readFacts(const std::string& path, const std::string& camera,
+                         const std::function<void(double)>& progress) try {
+  const rosbag::Bag bag = openBag(path);
+  RecordingFacts facts;
+  facts.path = path;
+  rosbag::View everything(bag);
+  for (const rosbag::ConnectionInfo* connection : everything.getConnections())
+    facts.topics[connection->topic] = connection->datatype;
+  facts.color.topic = camera + "/color/image_raw";
+  facts.color_info.topic = camera + "/color/camera_info";
+  facts.depth.topic = camera + "/aligned_depth_to_color/image_raw";
+  facts.depth_info.topic = camera + "/aligned_depth_to_color/camera_info";
+  std::vector<std::string> names;
+  for (StreamFacts* stream : {&facts.color, &facts.color_info, &facts.depth, &facts.depth_info}) {
+    const auto found = facts.topics.find(stream->topic);
+    if (found != facts.topics.end()) stream->type = found->second;
+    names.push_back(stream->topic);
+  }
+  DepthSampler sampler(rosbag::View(bag, rosbag::TopicQuery(facts.depth.topic)).size());
+  rosbag::View view(bag, rosbag::TopicQuery(names));
+  double count = 0.0;
+  for (const rosbag::MessageInstance& instance : view) {
+    const std::string topic = instance.getTopic();
+    if (topic == facts.color.topic) addImage(instance, &facts.color, nullptr);
+    if (topic == facts.depth.topic) addImage(instance, &facts.depth, &sampler);
+    if (topic == facts.color_info.topic) addInfo(instance, &facts.color_info, &facts.color_cameras);
+    if (topic == facts.depth_info.topic) addInfo(instance, &facts.depth_info, &facts.depth_cameras);
+    progress(++count / static_cast<double>(view.size()));
+  }
+  facts.depth_values = sampler.facts();
+  return facts;
+} catch (const rosbag::BagException& error) {
+  throw std::runtime_error(
+      fmt::format("{}: is damaged ({}); rosbag reindex saves what can be read", path, error.what()));
+}
+
+}  // namespace softbody::validation

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "softbody_recordings/ros/graph_config.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+class GraphConfigTest : public ::testing::Test {
+ protected:
+  void TearDown() override { fs::remove(path_); }
+
+  GraphConfig read(const std::string& yaml) {
+    std::ofstream(path_) << yaml;
+    return readGraphConfig(path_, &warnings_);
+  }
+  std::string refusalOf(const std::string& yaml) {
+    try {
+      read(yaml);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const fs::path path_ =
+      fs::temp_directory_path() / ("softbody_parameters_" + std::to_string(::getpid()) + ".yaml");
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(GraphConfigTest, ReadsEachNodesSection) {
+  const GraphConfig config = read(
+      "camera_ingest: {sync: exact}\n"
+      "simulator: {iterations: 7, free_run_rate_hz: 0}\n"
+      "surface: {min_advance_m: 0.004}\n"
+      "tool_tracker:\n");
+  EXPECT_EQ(config.sync_tolerance, 0);
+  EXPECT_EQ(config.pipeline.simulator.iterations, 7);
+  EXPECT_EQ(config.pipeline.cutting.min_advance_m, 0.004);
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+}
+
+TEST_F(GraphConfigTest, HasDefaultsWithoutAFile) {
+  const GraphConfig config = readGraphConfig("", &warnings_);
+  EXPECT_EQ(config.pipeline.simulator.iterations, SimulatorConfig().iterations);
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(GraphConfigTest, RefusesParametersOutsideOfANodesSection) {
+  const std::string refusal = refusalOf("simulator: {iterations: 7}\ntarget_stiffness: 10.0\n");
+  EXPECT_NE(refusal.find(path_.string() + ":2:"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("'target_stiffness'"), std::string::npos) << refusal;
+  for (const char* section : {"feature_tracker", "simulator", "tool_tracker"})
+    EXPECT_NE(refusal.find(section), std::string::npos) << refusal;
+}
+
+TEST_F(GraphConfigTest, RefusesWhatIsNoMapOfSections) {
+  EXPECT_NE(refusalOf("- simulator\n"), "");
+  EXPECT_NE(refusalOf("simulator: 3\n"), "");
+  EXPECT_NE(refusalOf(""), "");
+  EXPECT_NE(refusalOf("simulator: {iterations: [\n").find("not YAML"), std::string::npos);
+}
+
+TEST_F(GraphConfigTest, NamesKeysThatTheNodeDoesNotKnow) {
+  read("simulator: {iteration: 7}\n");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_.front().find("simulator/iteration "), std::string::npos) << warnings_.front();
+}
+
+TEST_F(GraphConfigTest, KnowsWhatOnlyALiveGraphUses) {
+  read(
+      "camera_ingest: {queue_size: 5, voxel_size_m: 0.01, silence_timeout_s: 3, image_transport: raw}\n"
+      "feature_tracker: {body_frame: b, mask_timeout_s: 0.2, tf_timeout_s: 0.1}\n"
+      "pose_marker: {frame: world}\n"
+      "simulator: {object: x.yaml, body_frame: b, free_run_rate_hz: 30, stall_timeout_s: 1}\n"
+      "surface: {object: x.yaml, body_frame: b}\n"
+      "tool_tracker: {tool: x.yaml, tool_frame: knife}\n");
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+}
+
+TEST_F(GraphConfigTest, SaysWhatAReplayMisses) {
+  read(
+      "feature_tracker: {use_mask: true}\n"
+      "simulator: {obstacles: [{name: table, shape: plane}]}\n");
+  ASSERT_EQ(warnings_.size(), 2u);
+  for (const std::string& warning : warnings_)
+    EXPECT_NE(warning.find("has no effect in a replay"), std::string::npos) << warning;
+}
+
+TEST_F(GraphConfigTest, RefusesWhatTheNodeRefuses) {
+  EXPECT_NE(refusalOf("camera_ingest: {sync_tolerance_s: 0}\n").find("sync_tolerance_s is 0"),
+            std::string::npos);
+  EXPECT_EQ(read("camera_ingest: {sync_tolerance_s: 0.02}\n").sync_tolerance, 20'000'000);
+}
+
+}  // namespace
+}  // namespace softbody

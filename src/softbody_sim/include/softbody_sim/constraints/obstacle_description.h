@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "softbody_common/parameters.h"
+#include "softbody_sim/constraints/surroundings.h"
+
+namespace softbody {
+
+/// An obstacle as parameters describe it.
+struct ObstacleDescription {
+  std::string name;   ///< of its reaction's topic
+  std::string frame;  ///< that it follows; empty: the targets' frame
+  Obstacle shape;     ///< its pose is in that frame
+};
+
+/// The parameter `obstacles`: a list of maps with name, frame, shape (plane, sphere, capsule or box), pose,
+/// and radius_m, length_m, size_m, rounding_m as the shape needs. Adds keys that nobody knows to `unknown`.
+/// @throw std::invalid_argument with key, value and what is allowed.
+std::vector<ObstacleDescription> readObstacles(Parameters& parameters, std::vector<std::string>* unknown);
+
+/// @throw std::invalid_argument unless a name can be part of a topic's.
+void requireTopicName(const std::string& name);
+
+}  // namespace softbody

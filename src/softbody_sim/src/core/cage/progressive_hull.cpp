@@ -1,0 +1,114 @@
+#include "cage/progressive_hull.h"
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "surface_mesh/half_spaces.h"
+#include "surface_mesh/surface_repair.h"
+
+namespace softbody {
+namespace {
+
+namespace simplification = CGAL::Surface_mesh_simplification;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+
+constexpr double kMargin = 1e-6;       ///< of the size: how far outside of the replaced triangles
+constexpr double kLeastTurn = 0.2;     ///< cosine between a triangle's normals before and after
+constexpr double kLeastHeight = 0.15;  ///< of a triangle's longest edge
+
+Eigen::Vector3d toVector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+struct Placement {
+  double size;
+
+  template <typename Profile>
+  std::optional<Eigen::Vector3d> place(const Profile& profile) const {
+    std::vector<HalfSpace> outside;
+    const Surface& mesh = profile.surface_mesh();
+    for (const auto& t : profile.triangles()) {
+      const Eigen::Vector3d a = toVector(mesh.point(t.v0)), b = toVector(mesh.point(t.v1)),
+                            c = toVector(mesh.point(t.v2));
+      const Eigen::Vector3d normal = (b - a).cross(c - a);
+      if (normal.norm() < 1e-20) continue;
+      outside.push_back({normal.normalized(), normal.normalized().dot(a) + kMargin * size});
+    }
+    const Eigen::Vector3d middle = 0.5 * (toVector(profile.p0()) + toVector(profile.p1()));
+    return nearestPointIn(outside, middle, 0.1 * kMargin * size);
+  }
+
+  template <typename Profile>
+  bool keepsShape(const Profile& profile, const Eigen::Vector3d& x) const {
+    const Surface& mesh = profile.surface_mesh();
+    for (const auto& t : profile.triangles()) {
+      const std::array<Surface::Vertex_index, 3> corners{t.v0, t.v1, t.v2};
+      const auto moves = [&profile](Surface::Vertex_index v) {
+        return v == profile.v0() || v == profile.v1();
+      };
+      if (std::count_if(corners.begin(), corners.end(), moves) != 1) continue;
+      std::array<Eigen::Vector3d, 3> before, after;
+      for (int k = 0; k < 3; ++k) {
+        before[k] = toVector(mesh.point(corners[k]));
+        after[k] = moves(corners[k]) ? x : before[k];
+      }
+      const auto normalOf = [](const std::array<Eigen::Vector3d, 3>& p) -> Eigen::Vector3d {
+        return (p[1] - p[0]).cross(p[2] - p[0]);
+      };
+      const auto shapeOf = [&normalOf](const std::array<Eigen::Vector3d, 3>& p) {
+        return normalOf(p).norm() / std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(),
+                                              (p[0] - p[2]).squaredNorm()});
+      };
+      const Eigen::Vector3d n0 = normalOf(before).normalized(), n1 = normalOf(after).normalized();
+      if (n0.dot(n1) < kLeastTurn) return false;
+      if (shapeOf(after) < std::min(kLeastHeight, shapeOf(before))) return false;
+    }
+    return true;
+  }
+
+  template <typename Profile>
+  boost::optional<Kernel::Point_3> operator()(const Profile& profile) const {
+    const std::optional<Eigen::Vector3d> x = place(profile);
+    if (!x || !keepsShape(profile, *x)) return boost::none;
+    return Kernel::Point_3(x->x(), x->y(), x->z());
+  }
+};
+
+}  // namespace
+
+TriangleMesh progressiveHull(const TriangleMesh& mesh, int vertices) {
+  Surface surface;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    surface.add_vertex({mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2)});
+  }
+  const auto vertex = [](int index) { return Surface::Vertex_index(static_cast<Surface::size_type>(index)); };
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    surface.add_face(vertex(mesh.triangles(f, 0)), vertex(mesh.triangles(f, 1)),
+                     vertex(mesh.triangles(f, 2)));
+  }
+  const long excess =
+      static_cast<long>(surface.number_of_edges()) - 3L * static_cast<long>(surface.number_of_vertices());
+  const auto edges = static_cast<std::size_t>(std::max(6L, 3L * vertices + excess));
+  simplification::edge_collapse(surface, simplification::Count_stop_predicate<Surface>(edges),
+                                CGAL::parameters::get_cost(simplification::Edge_length_cost<Surface>())
+                                    .get_placement(Placement{sizeOf(mesh.vertices)}));
+  surface.collect_garbage();
+  TriangleMesh result{Points(static_cast<Eigen::Index>(surface.number_of_vertices()), 3),
+                      Triangles(static_cast<Eigen::Index>(surface.number_of_faces()), 3)};
+  for (const auto v : surface.vertices())
+    result.vertices.row(static_cast<Eigen::Index>(v)) = toVector(surface.point(v));
+  for (const auto f : surface.faces()) {
+    int corner = 0;
+    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) {
+      result.triangles(static_cast<Eigen::Index>(f), corner++) = static_cast<int>(v);
+    }
+  }
+  return result;
+}
+
+}  // namespace softbody

@@ -1,0 +1,65 @@
+#include "constraints/contact_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+
+ContactModel::ContactModel(const TetTopology& topology, double spacing_m, double pressure_stiffness,
+                           double reach_m)
+    : topology_(&topology),
+      spacing_m_(spacing_m),
+      pressure_stiffness_(pressure_stiffness),
+      reach_m_(reach_m) {}
+
+void ContactModel::find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
+                        const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts) {
+  if (!obstacles.empty() && points_.empty()) points_ = contactPoints(*topology_, spacing_m_);
+  findContacts(points_, topology_->tets, before, now, obstacles, before_poses, reach_m_, contacts);
+}
+
+void ContactModel::addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const {
+  for (const Contact& contact : contacts) {
+    const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
+    springs->addOneSided(point.place, topology_->tets, contact.position, contact.normal,
+                         pressure_stiffness_ * point.area);
+  }
+}
+
+double ContactModel::depthOf(const Contact& contact, const Points& x) const {
+  const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
+  return std::max(0.0, contact.normal.dot(contact.position - positionOf(point.place, x, topology_->tets)));
+}
+
+double ContactModel::difference(const std::vector<Contact>& a, const std::vector<Contact>& b,
+                                const Points& x) const {
+  double largest = 0.0;
+  auto i = a.begin(), j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    double change = 0.0;
+    const bool takes_a = j == b.end() || (i != a.end() && !comesBefore(*j, *i));
+    const bool takes_b = i == a.end() || (j != b.end() && !comesBefore(*i, *j));
+    if (takes_a) change += depthOf(*i++, x);
+    if (takes_b) change -= depthOf(*j++, x);
+    largest = std::max(largest, std::abs(change));
+  }
+  return largest;
+}
+
+void ContactModel::wrenches(const std::vector<Contact>& contacts, const Points& x,
+                            const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const {
+  wrenches->assign(obstacles.size(), Wrench());
+  for (const Contact& contact : contacts) {
+    const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
+    const auto obstacle = static_cast<std::size_t>(contact.obstacle);
+    const Eigen::Vector3d force = -pressure_stiffness_ * point.area * depthOf(contact, x) * contact.normal;
+    const Eigen::Vector3d arm =
+        positionOf(point.place, x, topology_->tets) - obstacles[obstacle].pose.translation();
+    (*wrenches)[obstacle].force += force;
+    (*wrenches)[obstacle].torque += arm.cross(force);
+  }
+}
+
+}  // namespace softbody

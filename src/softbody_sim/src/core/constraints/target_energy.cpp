@@ -1,0 +1,108 @@
+#include "constraints/target_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace softbody {
+namespace {
+
+using Spring = TargetEnergy::Spring;
+using SpringIterator = std::vector<Spring>::const_iterator;
+
+bool samePlace(const Spring& a, const Spring& b) { return a.tet == b.tet && a.barycentric == b.barycentric; }
+
+TetVector metricVector(const Spring& spring, double stiffness) {
+  return {spring.vertices, std::sqrt(stiffness) * spring.barycentric};
+}
+
+/// Whether the spring's place comes up within the next `most`.
+bool soonFollows(SpringIterator first, SpringIterator end, const Spring& spring, std::size_t most) {
+  const auto last = first + std::min<std::ptrdiff_t>(end - first, static_cast<std::ptrdiff_t>(most) + 1);
+  return std::any_of(first, last, [&](const Spring& other) { return samePlace(other, spring); });
+}
+
+}  // namespace
+
+void TargetEnergy::set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness) {
+  springs_.clear();
+  for (const Target& target : targets) {
+    springs_.push_back({target.place.tet, tets.row(target.place.tet), target.place.barycentric,
+                        target.position, target.normal.normalized(), target.weight * unit_stiffness});
+  }
+}
+
+void TargetEnergy::addOneSided(const MaterialPoint& place, const Tets& tets, const Eigen::Vector3d& position,
+                               const Eigen::Vector3d& normal, double stiffness) {
+  springs_.push_back(
+      {place.tet, tets.row(place.tet), place.barycentric, position, normal.normalized(), stiffness, true});
+}
+
+/// The way from the spring's position to its point that costs energy.
+Eigen::Vector3d TargetEnergy::offsetOf(const Spring& spring, const Points& x) {
+  Eigen::Vector3d offset = -spring.position;
+  for (int k = 0; k < 4; ++k) offset += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
+  if (spring.normal.isZero(0.0)) return offset;
+  const double distance = spring.normal.dot(offset);
+  return (spring.one_sided ? std::min(distance, 0.0) : distance) * spring.normal;
+}
+
+double TargetEnergy::addTo(const Points& x, Points* gradient) const {
+  double energy = 0.0;
+  for (const Spring& spring : springs_) {
+    const Eigen::Vector3d offset = offsetOf(spring, x);
+    energy += 0.5 * spring.stiffness * offset.squaredNorm();
+    for (int k = 0; k < 4; ++k) {
+      gradient->row(spring.vertices[k]) += spring.stiffness * spring.barycentric[k] * offset.transpose();
+    }
+  }
+  return energy;
+}
+
+void TargetEnergy::addMetric(TetMatrix* matrix) const {
+  for (const Spring& spring : springs_) {
+    matrix->addToTet(spring.tet, spring.stiffness * spring.barycentric * spring.barycentric.transpose());
+  }
+}
+
+void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
+  for (const Spring& spring : springs_) {
+    if (spring.one_sided && offsetOf(spring, x).isZero(0.0)) continue;
+    const Eigen::Matrix3d curvature = spring.normal.isZero(0.0)
+                                          ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                          : Eigen::Matrix3d(spring.normal * spring.normal.transpose());
+    BlockTetMatrix::TetBlock block;
+    for (Eigen::Index a = 0; a < 4; ++a) {
+      for (Eigen::Index b = 0; b < 4; ++b) {
+        block.block<3, 3>(3 * a, 3 * b) =
+            spring.stiffness * spring.barycentric[a] * spring.barycentric[b] * curvature;
+      }
+    }
+    matrix->addToTet(spring.tet, block);
+  }
+}
+
+bool TargetEnergy::metricChanges(const TargetEnergy& earlier, std::size_t most, std::vector<TetVector>* added,
+                                 std::vector<TetVector>* removed) const {
+  added->clear();
+  removed->clear();
+  const auto count = [&] { return added->size() + removed->size(); };
+  auto before = earlier.springs_.begin(), now = springs_.begin();
+  const auto before_end = earlier.springs_.end(), now_end = springs_.end();
+  while ((before != before_end || now != now_end) && count() <= most) {
+    if (before != before_end && now != now_end && samePlace(*before, *now)) {
+      const double change = now->stiffness - before->stiffness;
+      if (change != 0.0) (change > 0.0 ? added : removed)->push_back(metricVector(*now, std::abs(change)));
+      ++before;
+      ++now;
+    } else if (now != now_end && (before == before_end || !soonFollows(before, before_end, *now, most))) {
+      added->push_back(metricVector(*now, now->stiffness));
+      ++now;
+    } else {
+      removed->push_back(metricVector(*before, before->stiffness));
+      ++before;
+    }
+  }
+  return count() <= most;
+}
+
+}  // namespace softbody

@@ -1,0 +1,227 @@
+#include "softbody_sim/cutting/cuttable_surface.h"
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "cutting/binding/surface_history.h"
+#include "cutting/blade/blade_stroke.h"
+#include "cutting/blade/tearing.h"
+#include "cutting/volume/edited_volume.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kLeastTorn = 0.01;  // of the body's volume, that a tear may leave
+constexpr double kNear = 0.1;  // from the body's bounding box; a blade further away is not looked at [m]
+
+Eigen::AlignedBox3d boxOf(const Points& points) {
+  return {Eigen::Vector3d(points.colwise().minCoeff()), Eigen::Vector3d(points.colwise().maxCoeff())};
+}
+
+/// How far the tets reach beyond the visual mesh: no vertex of their surface is further from one of its.
+double overhangOf(const TetTopology& volume, const MeshTopology& visual) {
+  double most = 0.0;
+  for (const int v : volume.surface.reshaped()) {
+    const double nearest =
+        (visual.rest_vertices.rowwise() - volume.rest_vertices.row(v)).rowwise().squaredNorm().minCoeff();
+    most = std::max(most, nearest);
+  }
+  return std::sqrt(most);
+}
+
+/// Enclosed by the pieces, largest first.
+std::vector<double> volumesOf(const MeshTopology& mesh) {
+  std::vector<double> volumes;
+  const Eigen::Vector3d origin = mesh.rest_vertices.row(0);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return mesh.rest_vertices.row(mesh.triangles(t, k)).transpose() - origin;
+    };
+    const std::size_t body = mesh.bodies[static_cast<std::size_t>(t)];
+    if (body >= volumes.size()) volumes.resize(body + 1, 0.0);
+    volumes[body] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
+  }
+  std::sort(volumes.begin(), volumes.end(), std::greater<>());
+  return volumes;
+}
+
+/// What cuts change. Copies share all that an edit leaves alone.
+struct Models {
+  CutHistory tets;
+  SurfaceHistory surface;
+
+  bool cut(const Cut& cut, const MeshState& state, std::string* reason);
+  bool move(const Cut& cut, std::string* reason);
+};
+
+bool Models::cut(const Cut& cut, const MeshState& state, std::string* reason) {
+  SurfaceCut surface_cut = surface.preview(cut.patch, cut.stroke);
+  *reason = surface_cut.reason;
+  if (surface_cut.outcome != CutOutcome::kCut) return false;
+  const std::optional<TetEdit> edit = applyCut(cut, &tets, reason);
+  if (!edit) return false;
+  surface.cut(cut.patch, cut.stroke, std::move(surface_cut), *edit, state);
+  return true;
+}
+
+bool Models::move(const Cut& cut, std::string* reason) {
+  const std::optional<TetEdit> edit = applyCut(cut, &tets, reason);
+  if (!edit) return false;
+  const std::uint32_t revision = edit->topology.revision;
+  if (cut.kind == CutKind::kUndo) surface.undo(revision);
+  if (cut.kind == CutKind::kRedo) surface.redo(revision);
+  if (cut.kind == CutKind::kReset) surface.reset(revision);
+  return true;
+}
+
+}  // namespace
+
+CuttingConfig readCuttingConfig(Parameters& parameters) {
+  CuttingConfig config;
+  config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
+  config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
+  config.max_gap_s = parameters.number("max_gap_s", config.max_gap_s, 0.0, 60.0);
+  config.tear_strain = parameters.number("tear_strain", config.tear_strain, 0.0, 100.0);
+  return config;
+}
+
+struct CuttableSurface::Implementation {
+  Implementation(const MeshTopology& visual, const TetTopology& volume, const CuttingConfig& config_in)
+      : config(config_in),
+        models{CutHistory(volume), SurfaceHistory(VisualSurface(visual, volume))},
+        solid(visual),
+        blade(config, meanEdgeLength(volume.rest_vertices, volume.tets), overhangOf(volume, visual)),
+        tears(config.tear_strain) {}
+
+  bool apply(const Cut& cut, const MeshState& state, std::string* reason);
+  void liftAfterGap(Nanoseconds stamp);
+
+  CuttingConfig config;
+  Models models;
+  std::deque<Models> unconfirmed;  ///< before each cut that the simulator may still refuse, oldest first
+  RestSolid solid;
+  BladeStroke blade;
+  TearWatch tears;
+  std::optional<Nanoseconds> followed;  ///< stamp of the last blade
+};
+
+/// On a copy, so that tets and surface stay in step whatever is thrown between their edits.
+bool CuttableSurface::Implementation::apply(const Cut& cut, const MeshState& state, std::string* reason) {
+  Models next = models;
+  if (!(cut.kind == CutKind::kCut ? next.cut(cut, state, reason) : next.move(cut, reason))) return false;
+  unconfirmed.push_back(std::move(models));
+  models = std::move(next);
+  blade.noteNumber(cut.stroke);
+  return true;
+}
+
+void CuttableSurface::Implementation::liftAfterGap(Nanoseconds stamp) {
+  if (followed && (stamp < *followed || 1e-9 * static_cast<double>(stamp - *followed) > config.max_gap_s))
+    blade.lift();
+  followed = stamp;
+}
+
+CuttableSurface::CuttableSurface(const MeshTopology& visual, const TetTopology& volume,
+                                 const CuttingConfig& config)
+    : implementation_(std::make_unique<Implementation>(visual, volume, config)) {}
+CuttableSurface::~CuttableSurface() = default;
+CuttableSurface::CuttableSurface(CuttableSurface&&) noexcept = default;
+CuttableSurface& CuttableSurface::operator=(CuttableSurface&&) noexcept = default;
+
+const VisualSurface& CuttableSurface::surface() const { return implementation_->models.surface.surface(); }
+const TetTopology& CuttableSurface::volume() const { return implementation_->models.tets.topology(); }
+
+void CuttableSurface::lift() { implementation_->blade.lift(); }
+
+std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState& volume, Nanoseconds stamp) {
+  Implementation& s = *implementation_;
+  const TetTopology& topology = this->volume();
+  s.liftAfterGap(stamp);
+  if (volume.revision != topology.revision || volume.vertices.rows() != topology.rest_vertices.rows())
+    return std::nullopt;
+  if (boxOf(volume.vertices).exteriorDistance(boxOf(blade)) > kNear) {
+    s.blade.lift();
+    return std::nullopt;
+  }
+  const RestMap map(topology, volume.vertices, s.solid);
+  const std::optional<BladeCut> next = s.blade.follow(blade, map, s.solid);
+  if (!next) return std::nullopt;
+  const Cut cut{topology.revision + 1, next->stroke, CutKind::kCut, next->patch};
+  std::string reason;
+  if (!s.apply(cut, volume, &reason)) return std::nullopt;
+  s.blade.accept();
+  return cut;
+}
+
+std::optional<Cut> CuttableSurface::tear(const MeshState& volume) {
+  Implementation& s = *implementation_;
+  const TetTopology& topology = this->volume();
+  if (volume.revision != topology.revision || volume.vertices.rows() != topology.rest_vertices.rows())
+    return std::nullopt;
+  const std::optional<CutPatch> patch = s.tears.follow(topology, volume.vertices);
+  if (!patch) return std::nullopt;
+  const std::vector<double> before = volumesOf(surface().topology());
+  const double least = kLeastTorn * std::accumulate(before.begin(), before.end(), 0.0);
+  const auto crumbs = [least](const std::vector<double>& volumes) {
+    return std::count_if(volumes.begin(), volumes.end(), [least](double v) { return v < least; });
+  };
+  if (crumbs(preview(*patch).volumes) > crumbs(before)) return std::nullopt;
+  Cut cut = separateCut(*patch);
+  std::string reason;
+  if (!apply(cut, volume, &reason)) return std::nullopt;
+  return cut;
+}
+
+Cut CuttableSurface::separateCut(const TriangleMesh& patch) const {
+  return {volume().revision + 1,
+          implementation_->blade.lastNumber() + 1,
+          CutKind::kCut,
+          {inSinglePrecision(patch.vertices), patch.triangles}};
+}
+
+Cut CuttableSurface::edit(CutKind kind) const {
+  return {volume().revision + 1, implementation_->blade.lastNumber(), kind, {}};
+}
+
+bool CuttableSurface::apply(const Cut& cut, const MeshState& volume, std::string* reason) {
+  Implementation& s = *implementation_;
+  if (!s.apply(cut, volume, reason)) return false;
+  // A blade that is still in the body must not make its way since it came in again.
+  s.blade.forgetStrokes();
+  s.blade.lift();
+  return true;
+}
+
+void CuttableSurface::confirm(std::uint32_t revision) {
+  std::deque<Models>& before = implementation_->unconfirmed;
+  while (!before.empty() && before.front().tets.topology().revision < revision) before.pop_front();
+}
+
+bool CuttableSurface::rollBack(std::uint32_t revision) {
+  Implementation& s = *implementation_;
+  if (volume().revision == revision) return true;
+  const auto kept = std::find_if(s.unconfirmed.begin(), s.unconfirmed.end(), [=](const Models& models) {
+    return models.tets.topology().revision == revision;
+  });
+  if (kept == s.unconfirmed.end()) return false;
+  s.models = std::move(*kept);
+  s.unconfirmed.erase(kept, s.unconfirmed.end());
+  s.blade.forgetStrokes();
+  s.blade.lift();  // the same cut is not asked for again at once
+  return true;
+}
+
+CutPreview CuttableSurface::preview(const TriangleMesh& patch) const {
+  const Cut cut = separateCut(patch);
+  SurfaceCut surface_cut = implementation_->models.surface.preview(cut.patch, cut.stroke);
+  if (surface_cut.outcome != CutOutcome::kCut) return {surface_cut.reason, {}, {}};
+  std::vector<double> volumes = volumesOf(surface_cut.mesh);
+  return {"", std::move(volumes), std::move(surface_cut.mesh)};
+}
+
+}  // namespace softbody

@@ -1,0 +1,149 @@
+#include "cutting/surface/surface_compaction.h"
+
+#include <utility>
+
+namespace softbody {
+namespace {
+
+std::vector<std::uint32_t> numberBodies(std::size_t triangle_count, const std::vector<int>& mates) {
+  constexpr auto kUnknown = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> bodies(triangle_count, kUnknown);
+  std::uint32_t count = 0;
+  std::vector<int> open;
+  for (std::size_t first = 0; first < triangle_count; ++first) {
+    if (bodies[first] != kUnknown) continue;
+    bodies[first] = count;
+    open.push_back(static_cast<int>(first));
+    while (!open.empty()) {
+      const int t = open.back();
+      open.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const int neighbour = mates[3 * t + k] / 3;
+        if (bodies[neighbour] != kUnknown) continue;
+        bodies[neighbour] = count;
+        open.push_back(neighbour);
+      }
+    }
+    ++count;
+  }
+  return bodies;
+}
+
+/// New numbers of those that are used, in their order; -1: of the others. @return how many are used.
+template <class Used>
+int numberUsed(std::size_t count, const Used& used, std::vector<int>* numbers) {
+  int next = 0;
+  numbers->resize(count);
+  for (std::size_t k = 0; k < count; ++k) (*numbers)[k] = used(k) ? next++ : -1;
+  return next;
+}
+
+class Compaction {
+ public:
+  Compaction(const MeshTopology& before, const SplitSurface& surface, const StitchedSurface& stitched)
+      : before_(before), surface_(surface), stitched_(stitched) {}
+
+  SurfaceCut run();
+
+ private:
+  void number();
+  void writeVertices();
+  void writeTriangles();
+  void writeTexture();
+
+  const MeshTopology& before_;
+  const SplitSurface& surface_;
+  const StitchedSurface& stitched_;
+  std::vector<int> vertices_, triangles_;  ///< new numbers
+  int vertex_count_ = 0, triangle_count_ = 0;
+  SurfaceCut cut_;
+};
+
+SurfaceCut Compaction::run() {
+  cut_.outcome = CutOutcome::kCut;
+  cut_.mesh.revision = before_.revision + 1;
+  number();
+  writeVertices();
+  writeTriangles();
+  writeTexture();
+  return std::move(cut_);
+}
+
+void Compaction::number() {
+  const TriangleList& triangles = stitched_.triangles;
+  triangle_count_ = numberUsed(
+      triangles.size(), [&](std::size_t t) { return triangles[t][0] >= 0; }, &triangles_);
+  std::vector<char> used(stitched_.vertices.size(), 0);
+  for (const auto& triangle : triangles) {
+    if (triangle[0] < 0) continue;
+    for (const int v : triangle) used[v] = 1;
+  }
+  vertex_count_ = numberUsed(
+      used.size(), [&](std::size_t v) { return used[v] != 0; }, &vertices_);
+}
+
+void Compaction::writeVertices() {
+  MeshTopology& mesh = cut_.mesh;
+  mesh.rest_vertices.resize(vertex_count_, 3);
+  mesh.vertex_parents.resize(static_cast<std::size_t>(vertex_count_));
+  cut_.vertex_sources.resize(static_cast<std::size_t>(vertex_count_));
+  for (std::size_t v = 0; v < stitched_.vertices.size(); ++v) {
+    const int row = vertices_[v], source = stitched_.copied_from[v];
+    if (row < 0) continue;
+    const bool own = source >= 0 && source < surface_.own_vertices;
+    mesh.rest_vertices.row(row) = own ? stitched_.vertices[v] : rounded(stitched_.vertices[v]);
+    mesh.vertex_parents[row] = own ? before_.vertex_parents[source] : -1;
+    cut_.vertex_sources[row] = own ? source : -1;
+  }
+}
+
+void Compaction::writeTriangles() {
+  MeshTopology& mesh = cut_.mesh;
+  const auto count = static_cast<std::size_t>(triangle_count_);
+  mesh.triangles.resize(triangle_count_, 3);
+  mesh.cut.resize(count);
+  cut_.triangle_sources.resize(count);
+  Sheets& sheets = cut_.sheets;
+  sheets.triangles.resize(count);
+  sheets.mates.resize(3 * count);
+  for (std::size_t t = 0; t < stitched_.triangles.size(); ++t) {
+    const int row = triangles_[t];
+    if (row < 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int mate = stitched_.mates[3 * t + static_cast<std::size_t>(k)];
+      mesh.triangles(row, k) = sheets.triangles[row][k] = vertices_[stitched_.triangles[t][k]];
+      sheets.mates[3 * row + k] = 3 * triangles_[mate / 3] + mate % 3;
+    }
+    const bool of_surface = t < surface_.triangles.size();
+    const int source = of_surface ? surface_.sources[t] : -1;
+    cut_.triangle_sources[row] = source;
+    mesh.cut[row] = of_surface ? before_.cut[source] : true;
+  }
+  mesh.bodies = numberBodies(sheets.triangles.size(), sheets.mates);
+}
+
+void Compaction::writeTexture() {
+  Points& texture = cut_.mesh.texture_coordinates;
+  texture.setZero(surface_.texture.empty() ? 0 : 3 * triangle_count_, 3);
+  for (std::size_t h = 0; h < surface_.texture.size(); ++h) {
+    const int row = triangles_[h / 3];
+    if (row >= 0) texture.row(3 * row + static_cast<int>(h % 3)).head<2>() = surface_.texture[h];
+  }
+}
+
+}  // namespace
+
+// Volatile, because g++ 12 drops the conversion of neighbouring coordinates at -O3.
+Eigen::Vector3d rounded(const Eigen::Vector3d& point) {
+  return point.unaryExpr([](double coordinate) {
+    const volatile auto single = static_cast<float>(coordinate);
+    return static_cast<double>(single);
+  });
+}
+
+SurfaceCut compacted(const MeshTopology& before, const SplitSurface& surface,
+                     const StitchedSurface& stitched) {
+  return Compaction(before, surface, stitched).run();
+}
+
+}  // namespace softbody

@@ -1,0 +1,190 @@
+#include "cutting/surface/surface_cut.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "cutting/split/curve_snapping.h"
+#include "cutting/split/cut_curve.h"
+#include "cutting/split/cut_refused.h"
+#include "cutting/split/split_surface.h"
+#include "cutting/surface/grazing.h"
+#include "cutting/surface/sheets.h"
+#include "cutting/surface/surface_compaction.h"
+#include "cutting/surface/surface_stitching.h"
+#include "cutting/surface/wall_fill.h"
+
+namespace softbody {
+namespace {
+
+// Relative to the diagonal of the body's bounding box.
+constexpr double kSnapDistance = 1.0 / 20000.0;
+constexpr double kLowestTriangle = 1.0 / 400000.0;
+constexpr double kFlatness = 1.0 / 100000.0;
+constexpr double kGrazingDistance = 3.0 * kSnapDistance;
+constexpr double kOfLowTriangle = 0.01;
+constexpr int kAttempts = 6;
+
+double diagonalOf(const Points& points) {
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+void roundNewVertices(SplitSurface* surface) {
+  for (std::size_t v = static_cast<std::size_t>(surface->own_vertices); v < surface->vertices.size(); ++v) {
+    surface->vertices[v] = rounded(surface->vertices[v]);
+  }
+}
+
+SurfaceCut uncut(const MeshTopology& mesh, CutOutcome outcome, const std::string& reason) {
+  SurfaceCut result{outcome, reason, mesh, {}, {}, {}};
+  result.vertex_sources.resize(static_cast<std::size_t>(mesh.rest_vertices.rows()));
+  result.triangle_sources.resize(static_cast<std::size_t>(mesh.triangles.rows()));
+  std::iota(result.vertex_sources.begin(), result.vertex_sources.end(), 0);
+  std::iota(result.triangle_sources.begin(), result.triangle_sources.end(), 0);
+  return result;
+}
+
+/// Triangles that the cut has made, after rounding, are not too low; parts of a low triangle of the mesh may
+/// be as low.
+void checkHeights(const MeshTopology& mesh, const SplitSurface& surface, const StitchedSurface& stitched,
+                  double lowest) {
+  const std::vector<Eigen::Vector3d>& vertices = stitched.vertices;
+  const auto check = [&](std::size_t t, double limit) {
+    const auto& [a, b, c] = stitched.triangles[t];
+    const double height = smallestHeight(rounded(vertices[a]), rounded(vertices[b]), rounded(vertices[c]));
+    if (height < limit) throw CutRefused(fmt::format("it would leave a triangle {:.2g} m high", height));
+  };
+  for (const int t : surface.changed) {
+    if (!surface.used(t)) continue;
+    const auto source = mesh.triangles.row(surface.sources[t]);
+    const double source_height =
+        smallestHeight(mesh.rest_vertices.row(source[0]), mesh.rest_vertices.row(source[1]),
+                       mesh.rest_vertices.row(source[2]));
+    check(static_cast<std::size_t>(t), std::min(lowest, kOfLowTriangle * source_height));
+  }
+  for (std::size_t t = surface.triangles.size(); t < stitched.triangles.size(); ++t) check(t, lowest);
+}
+
+/// Pieces are thicker than the snapping distance: their volume is more than that times half of their surface.
+void checkPieces(const MeshTopology& mesh, double snap_distance) {
+  std::vector<double> excess(
+      mesh.bodies.empty() ? 0 : *std::max_element(mesh.bodies.begin(), mesh.bodies.end()) + 1);
+  const Eigen::Vector3d origin = mesh.rest_vertices.row(0);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return mesh.rest_vertices.row(mesh.triangles(t, k)).transpose() - origin;
+    };
+    const Eigen::Vector3d a = corner(0), area = 0.5 * (corner(1) - a).cross(corner(2) - a);
+    excess[mesh.bodies[static_cast<std::size_t>(t)]] += area.dot(a) / 3.0 - 0.5 * area.norm() * snap_distance;
+  }
+  if (std::any_of(excess.begin(), excess.end(), [](double volume) { return volume <= 0.0; })) {
+    throw CutRefused("it would leave a piece without thickness");
+  }
+}
+
+/// The patch comes to lie along the surface: it has to be moved outward.
+struct CutGrazes : CutRefused {
+  explicit CutGrazes(const Eigen::Vector3d& normal)
+      : CutRefused("the patch runs along the surface"), outward(normal) {}
+  Eigen::Vector3d outward;
+};
+
+class SurfaceCutter {
+ public:
+  /// Keeps references to both.
+  SurfaceCutter(const MeshTopology& mesh, const Sheets& sheets)
+      : mesh_(mesh),
+        triangles_(sheets.triangles),
+        mates_(sheets.mates),
+        diagonal_(diagonalOf(mesh.rest_vertices)) {}
+
+  SurfaceCut cut(const CutPatch& patch) const;
+
+ private:
+  SurfaceCut attempt(const CutPatch& patch) const;
+
+  const MeshTopology& mesh_;
+  const TriangleList& triangles_;
+  const std::vector<int>& mates_;
+  double diagonal_;
+};
+
+SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
+  const double snap_distance = kSnapDistance * diagonal_;
+  const PatchFacets facets = facetsOf(patch, kFlatness * diagonal_);
+  const CutCurve curve = intersect(mesh_.rest_vertices, triangles_, mates_, facets);
+  SplitSurface surface = splitAlong(curve, mesh_, triangles_, mates_);
+  snapCurve(snap_distance, &surface);
+  splitLonePieces(&surface);
+  roundNewVertices(&surface);
+  if (halfEdgesOfCurve(surface).empty()) {
+    return uncut(mesh_, CutOutcome::kMissed, "the patch does not pass through the surface");
+  }
+  WallFill fill = fillWalls(surface, curve, facets, snap_distance);
+  raiseLowTriangles(0.5 * snap_distance, facets, &fill);
+  const Grazing grazing = findGrazing(surface, fill, facets, kGrazingDistance * diagonal_);
+  if (grazing.triangles == fill.triangles.size()) {
+    return uncut(mesh_, CutOutcome::kMissed, "the patch only grazes the surface");
+  }
+  if (grazing.triangles > 0) throw CutGrazes(grazing.outward);
+  const StitchedSurface stitched = stitch(surface, fill);
+  checkHeights(mesh_, surface, stitched, kLowestTriangle * diagonal_);
+  SurfaceCut result = compacted(mesh_, surface, stitched);
+  checkPieces(result.mesh, snap_distance);
+  return result;
+}
+
+/// What fails because vertices, edges or faces of mesh and patch come to lie on each other is tried again
+/// with the patch moved by hardly more than the snapping would.
+SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
+  std::string reason;
+  CutPatch moved = inGeneralPosition(patch);
+  for (int k = 1; k <= kAttempts; ++k) {
+    Eigen::Vector3d shift = (k % 2 == 0 ? k : -k) * Eigen::Vector3d(0.61, -0.43, 0.67);
+    try {
+      return attempt(moved);
+    } catch (const CutGrazes& grazing) {
+      if (k == 1) reason = grazing.what(), shift = grazing.outward;
+    } catch (const CutRefused& refusal) {
+      if (k == 1) reason = refusal.what();
+    }
+    moved.vertices = patch.vertices.rowwise() + 2.0 * kSnapDistance * diagonal_ * shift.transpose();
+  }
+  return uncut(mesh_, CutOutcome::kRefused, reason);
+}
+
+/// The mesh with the vertices that its sheets do not share any more.
+MeshTopology withSheets(MeshTopology mesh, const Sheets& sheets) {
+  const auto own = mesh.rest_vertices.rows(), copies = static_cast<Eigen::Index>(sheets.copied_from.size());
+  mesh.rest_vertices.conservativeResize(own + copies, Eigen::NoChange);
+  for (Eigen::Index v = own; v < own + copies; ++v) {
+    const int source = sheets.copied_from[static_cast<std::size_t>(v - own)];
+    mesh.rest_vertices.row(v) = mesh.rest_vertices.row(source).eval();
+    mesh.vertex_parents.push_back(mesh.vertex_parents[static_cast<std::size_t>(source)]);
+  }
+  for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(t), k) = sheets.triangles[t][k];
+  }
+  return mesh;
+}
+
+}  // namespace
+
+SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch) {
+  return cutSurface(mesh, partSheets(listOf(mesh.triangles), mesh.rest_vertices), patch);
+}
+
+SurfaceCut cutSurface(const MeshTopology& mesh, const Sheets& sheets, const CutPatch& patch) {
+  if (sheets.copied_from.empty()) return SurfaceCutter(mesh, sheets).cut(patch);
+  const MeshTopology parted = withSheets(mesh, sheets);
+  SurfaceCut cut = SurfaceCutter(parted, sheets).cut(patch);
+  if (cut.outcome != CutOutcome::kCut) return uncut(mesh, cut.outcome, cut.reason);
+  const auto own = static_cast<int>(mesh.rest_vertices.rows());
+  for (int& source : cut.vertex_sources) {
+    if (source >= own) source = sheets.copied_from[static_cast<std::size_t>(source - own)];
+  }
+  return cut;
+}
+
+}  // namespace softbody

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "cutting/patch/patch_intersector.h"
+#include "cutting/volume/crack_opening.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Inner faces that follow the patch: their vertices are on the cut and the patch separates their two tets.
+/// Ascending. @param on_cut per vertex.
+std::vector<Face> facesAlong(const PatchIntersector& patch, const Points& vertices, const Tets& tets,
+                             const std::vector<bool>& on_cut);
+
+/// A crack opened as far as the surface stays a closed 2-manifold.
+struct ManifoldCrack {
+  OpenedTets opened;
+  Triangles surface;               ///< of the opened tets
+  std::vector<Face> closed_faces;  ///< still inside the body, by their vertices after opening; ascending
+  std::vector<int>
+      pinches;  ///< vertices whose faces stayed closed since the surface would touch itself there
+};
+
+/// Opens a crack. Where the surface would touch itself at a vertex, the faces at it stay closed.
+/// @param cut_faces ascending; @param known vertices at which the uncut surface is non-manifold; ascending.
+ManifoldCrack openManifoldCrack(const Tets& tets, int vertex_count, std::vector<Face> cut_faces,
+                                const std::vector<int>& known);
+
+}  // namespace softbody

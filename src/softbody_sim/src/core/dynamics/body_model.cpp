@@ -1,0 +1,80 @@
+#include "dynamics/body_model.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "softbody_common/tet_geometry.h"
+#include "time_step/fem_solver.h"
+#include "time_step/projective_dynamics.h"
+
+namespace softbody {
+namespace {
+
+/// A quarter of each tet's mass to each of its vertices [kg].
+Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) {
+  if (topology.tets.rows() == 0) throw std::invalid_argument("the topology has no tet");
+  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    for (int k = 0; k < 4; ++k) masses[topology.tets(t, k)] += 0.25 * density_kg_m3 * volumes[t];
+  }
+  for (Eigen::Index v = 0; v < masses.size(); ++v) {
+    if (!(masses[v] > 0.0))
+      throw std::invalid_argument(fmt::format("vertex {} has no mass: no tet uses it", v));
+  }
+  return masses;
+}
+
+double densityOf(const TetTopology& topology, const Material& material, const SimulatorConfig& config) {
+  if (!config.normalized_mass) return material.density_kg_m3;
+  return 1.0 / tetVolumes(topology.rest_vertices, topology.tets).sum();
+}
+
+std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Material& material,
+                                       const SimulatorConfig& config, double edge_length) {
+  requireConsistent(config);
+  const Lame lame = lameParameters(material.youngs_modulus_pa, material.poisson_ratio);
+  const double tolerance_m = config.tolerance * edge_length;
+  if (config.solver == SolverKind::kFem) {
+    return std::make_unique<FemSolver>(topology, config.elasticity, lame,
+                                       FemSolver::Options{config.iterations, tolerance_m});
+  }
+  ProjectiveDynamicsOptions options;
+  options.minimizer.max_iterations = config.iterations;
+  options.minimizer.tolerance_m = tolerance_m;
+  options.minimizer.history = config.lbfgs_history;
+  options.single_precision = config.single_precision;
+  options.simd = simdFromName(config.simd);
+  options.strain_smoothing = config.strain_smoothing;
+  return std::make_unique<ProjectiveDynamics>(topology, lame, options);
+}
+
+/// Held vertices are stiffer than the body by so much, which leaves rounding enough digits.
+constexpr double kPinStiffness = 1e5;
+
+ConstrainedStep makeStep(const TetTopology& topology, const Material& material, const SimulatorConfig& config,
+                         double edge_length, double target_stiffness, StepSolver* solver) {
+  const double E = material.youngs_modulus_pa;
+  return {topology,
+          ContactModel(topology, config.contact_spacing * edge_length,
+                       config.contact_stiffness * E / edge_length, 0.1 * edge_length),
+          {target_stiffness, kPinStiffness * E * edge_length, 1e-3 * edge_length},
+          solver};
+}
+
+}  // namespace
+
+BodyModel::BodyModel(TetTopology topology_in, const Material& material, const SimulatorConfig& config,
+                     double edge_length)
+    : topology(std::move(topology_in)),
+      masses(lumpedMasses(topology, densityOf(topology, material, config))),
+      target_stiffness(config.target_stiffness * material.youngs_modulus_pa * edge_length),
+      solver(makeSolver(topology, material, config, edge_length)),
+      constrained_step(makeStep(topology, material, config, edge_length, target_stiffness, solver.get())),
+      confidence(topology.rest_vertices, topology.tets),
+      load_estimate(topology, masses, config.load_fade_s),
+      unseen_pieces(topology) {}
+
+}  // namespace softbody

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+
+#include "dynamics/load_estimate.h"
+#include "dynamics/observation_confidence.h"
+#include "dynamics/unseen_pieces.h"
+#include "softbody_sim/dynamics/simulator.h"
+#include "time_step/constrained_step.h"
+#include "time_step/step_solver.h"
+
+namespace softbody {
+
+/// All that is computed once for a topology of the volume.
+struct BodyModel {
+  /// @param edge_length of the uncut body [m], which targets, contact and tolerances are measured by.
+  /// @throw std::invalid_argument if topology, material or config make no body.
+  BodyModel(TetTopology topology_in, const Material& material, const SimulatorConfig& config,
+            double edge_length);
+
+  TetTopology topology;
+  const Eigen::VectorXd masses;   ///< lumped [kg]
+  const double target_stiffness;  ///< of a target of weight 1 [N/m]
+  const std::unique_ptr<StepSolver> solver;
+  ConstrainedStep constrained_step;
+  ObservationConfidence confidence;
+  LoadEstimate load_estimate;
+  UnseenPieces unseen_pieces;
+};
+
+}  // namespace softbody

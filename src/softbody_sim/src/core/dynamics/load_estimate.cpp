@@ -1,0 +1,73 @@
+#include "dynamics/load_estimate.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "softbody_common/tet_geometry.h"
+#include "tets/tet_matrix.h"
+#include "tets/tet_shape.h"
+
+namespace softbody {
+namespace {
+
+/// M + l^2 L, the Laplacian with the density of each tet. l is the side of a cube of the body's volume.
+TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& masses) {
+  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
+  const double length = std::cbrt(volumes.sum()), density = masses.sum() / volumes.sum();
+  TetMatrix matrix(topology.tets, topology.rest_vertices.rows());
+  matrix.addToDiagonal(masses);
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    const Eigen::Matrix<double, 4, 3> gradients =
+        shapeGradients(edgesOf(topology.rest_vertices, topology.tets.row(t)).inverse());
+    matrix.addToTet(static_cast<int>(t),
+                    length * length * density * volumes[t] * gradients * gradients.transpose());
+  }
+  return matrix;
+}
+
+}  // namespace
+
+LoadEstimate::LoadEstimate(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s)
+    : masses_(masses),
+      pieces_(verticesOfBodies(topology.tets, masses.size())),
+      fade_s_(fade_s),
+      smoother_(TetMatrix(topology.tets, masses.size()).lower()) {
+  if (fade_s_ > 0.0) smoother_.factorize(screenedPoisson(topology, masses).lower());
+}
+
+/// Takes away what would accelerate the piece as a rigid body.
+void LoadEstimate::balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const {
+  double mass = 0.0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero();
+  for (int v : piece) {
+    mass += masses_[v];
+    center += masses_[v] * vertices.row(v).transpose();
+    force += masses_[v] * loads->row(v).transpose();
+  }
+  center /= mass;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+  for (int v : piece) {
+    const Eigen::Vector3d arm = vertices.row(v).transpose() - center;
+    inertia += masses_[v] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    torque += masses_[v] * arm.cross(loads->row(v).transpose());
+  }
+  const Eigen::Vector3d spin = inertia.ldlt().solve(torque);
+  for (int v : piece) {
+    const Eigen::Vector3d arm = vertices.row(v).transpose() - center;
+    loads->row(v) -= (force / mass + spin.cross(arm)).transpose();
+  }
+}
+
+void LoadEstimate::balance(const Points& vertices, Points* loads) const {
+  for (const std::vector<int>& piece : pieces_) balancePiece(piece, vertices, loads);
+}
+
+void LoadEstimate::update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads) {
+  if (fade_s_ <= 0.0) return;
+  smoother_.solve(springs, &spread_);
+  *loads = std::exp(-elapsed_s / fade_s_) * *loads + spread_;
+  balance(vertices, loads);
+}
+
+}  // namespace softbody

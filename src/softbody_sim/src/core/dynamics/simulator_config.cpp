@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "softbody_common/target_limits.h"
+#include "softbody_sim/dynamics/simulator.h"
+
+namespace softbody {
+
+double largestStiffness(const SimulatorConfig& config) {
+  // Rounding then leaves the body's own stiffness three digits in single precision, nine in double.
+  return config.single_precision ? 1e4 : 1e7;
+}
+
+void requireConsistent(const SimulatorConfig& config) {
+  const double largest = largestStiffness(config) / kLargestTargetWeight;
+  if (config.target_stiffness > largest) {
+    throw std::invalid_argument(fmt::format(
+        "target_stiffness is {}: in {} precision at most {}, since targets have weights of up to {}",
+        config.target_stiffness, config.single_precision ? "single" : "double", largest,
+        kLargestTargetWeight));
+  }
+  if (config.solver == SolverKind::kProjectiveDynamics && config.elasticity != Elasticity::kCorotated) {
+    throw std::invalid_argument("elasticity is 'neo_hookean' with solver 'pd'; it needs solver 'fem'");
+  }
+}
+
+SimulatorConfig readSimulatorConfig(Parameters& parameters) {
+  SimulatorConfig config;
+  if (parameters.choice("solver", "pd", {"pd", "fem"}) == "fem") config.solver = SolverKind::kFem;
+  if (parameters.choice("elasticity", "corotated", {"corotated", "neo_hookean"}) == "neo_hookean")
+    config.elasticity = Elasticity::kNeoHookean;
+  config.simulate = parameters.flag("simulate", config.simulate);
+  config.iterations = parameters.integer("iterations", config.iterations, 1, 1000);
+  config.tolerance = parameters.number("tolerance", config.tolerance, 0.0, 1.0);
+  config.normalized_mass = parameters.flag("normalized_mass", config.normalized_mass);
+  config.lbfgs_history = parameters.integer("lbfgs_history", config.lbfgs_history, 0, 5);
+  config.strain_smoothing = parameters.number("strain_smoothing", config.strain_smoothing, 0.0, 0.95);
+  config.single_precision = parameters.flag("single_precision", config.single_precision);
+  config.simd = parameters.choice("simd", config.simd, {"auto", "sse4", "avx2", "avx512"});
+  config.target_stiffness = parameters.number("target_stiffness", config.target_stiffness, 1e-6, 1e6);
+  config.load_fade_s = parameters.number("load_fade_s", config.load_fade_s, 0.0, 1e3);
+  config.contact_stiffness = parameters.number("contact_stiffness", config.contact_stiffness, 1e-3, 1e4);
+  config.contact_spacing = parameters.number("contact_spacing", config.contact_spacing, 0.1, 100.0);
+  config.max_time_step_s = parameters.number("max_time_step_s", config.max_time_step_s, 1e-3, 10.0);
+  const std::vector<double> gravity = parameters.numbers("gravity_m_s2", {0.0, 0.0, 0.0});
+  config.gravity = {gravity[0], gravity[1], gravity[2]};
+  requireConsistent(config);
+  return config;
+}
+
+}  // namespace softbody

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "elasticity/strain_smoothing.h"
+#include "softbody_common/types.h"
+#include "softbody_sim/object/object_model.h"
+#include "tets/tet_matrix.h"
+
+namespace softbody {
+
+/// Lame parameters [Pa].
+struct Lame {
+  double mu = 0.0;
+  double lambda = 0.0;
+};
+
+/// @throw std::invalid_argument unless E > 0 and 0 <= nu < 0.5.
+Lame lameParameters(double youngs_modulus_pa, double poisson_ratio);
+
+/// Energy density [J/m^3] of the corotated material, mu |F - R|^2 + lambda/2 tr^2(R^T F - I), and its
+/// derivative by F. The second term is the projective-dynamics distance 3/2 lambda |F - T|^2 to the nearest T
+/// whose singular values sum to 3. Finite for every finite F, inverted ones included.
+double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix3d* stress);
+
+/// The elastic energy of linear tets, a share of it of strains smoothed around the vertices, which takes away
+/// much of their locking (the alpha finite element method of Liu, Nguyen-Thoi, Lam 2008). Arrays are one
+/// contiguous column per quantity and component.
+class CorotatedElasticity {
+ public:
+  /// @param smoothing the share, from 0 to below 1.
+  /// @throw std::invalid_argument if a rest tet has no positive volume.
+  CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
+                      double smoothing = 0.0);
+
+  /// Energy [J]; adds its gradient [N], #V by 3.
+  double addTo(const Points& x, Points* gradient) const;
+
+  /// Adds the constant metric sum_t k_t G_t^T G_t that bounds the energy's curvature near rest: smoothed,
+  /// too, since the square of a mean is at most the mean of the squares.
+  void addMetric(TetMatrix* matrix) const;
+
+  const Eigen::Matrix<int, Eigen::Dynamic, 4>& tets() const { return tets_; }
+  const Eigen::VectorXd& volumes() const { return volumes_; }  ///< [m^3]
+  const Lame& lame() const { return lame_; }
+  double smoothing() const { return smoothing_; }
+  const SmoothedGradients& smoothed() const { return smoothed_; }  ///< empty without smoothing
+
+ private:
+  Eigen::Matrix3d inverseEdges(Eigen::Index t) const;
+  double addTets(const Points& x, Points* gradient) const;
+  double addSmoothed(const Points& x, Points* gradient) const;
+
+  Eigen::Matrix<int, Eigen::Dynamic, 4> tets_;
+  Eigen::Matrix<double, Eigen::Dynamic, 9>
+      inverse_edges_;  ///< of the rest edge matrices, column by column [1/m]
+  Eigen::VectorXd volumes_;
+  Lame lame_;
+  double smoothing_;
+  SmoothedGradients smoothed_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "elasticity/corotated_elasticity.h"
+#include "elasticity/smoothing_kernel.h"
+#include "elasticity/strain_smoothing.h"
+#include "simd/rows.h"
+
+namespace softbody {
+
+/// The share of CorotatedElasticity whose strains are smoothed, for the vector kernels, in the precision T.
+template <typename T>
+class ElasticPatches {
+ public:
+  /// @param share of the volumes, above 0.
+  ElasticPatches(const SmoothedGradients& smoothed, double share, const Lame& lame, Simd simd);
+
+  /// Energy [J]; adds its gradient [N].
+  double addTo(const Rows<T>& x, Rows<T>* gradient);
+
+ private:
+  std::vector<int> first_, rows_, columns_;
+  std::vector<T> gradients_, gradients_there_, volumes_;
+  std::vector<T> deformations_, stresses_;  ///< room for the kernel
+  T mu_, lambda_;
+  SmoothingKernel<T> kernel_;
+};
+
+}  // namespace softbody

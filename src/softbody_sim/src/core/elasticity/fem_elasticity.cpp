@@ -1,0 +1,104 @@
+#include "elasticity/fem_elasticity.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include "tets/tet_shape.h"
+
+namespace softbody {
+namespace {
+
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+using Vector9 = Eigen::Matrix<double, 9, 1>;
+
+/// F = U diag(stretches) V^T with rotations U and V; the last stretch is negative where F is inverted.
+struct PrincipalAxes {
+  Eigen::Matrix3d U, V;
+  Eigen::Vector3d stretches;
+};
+
+PrincipalAxes principalAxes(const Eigen::Matrix3d& F) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  PrincipalAxes axes{svd.matrixU(), svd.matrixV(), svd.singularValues()};
+  for (Eigen::Matrix3d* rotation : {&axes.U, &axes.V}) {
+    if (rotation->determinant() > 0.0) continue;
+    rotation->col(2) = -rotation->col(2);
+    axes.stretches[2] = -axes.stretches[2];
+  }
+  return axes;
+}
+
+/// Adds eigenvalue * q q^T for the mode q = U Q V^T.
+void addMode(double eigenvalue, const PrincipalAxes& axes, const Eigen::Matrix3d& Q, bool project,
+             Matrix9* hessian) {
+  if (project && eigenvalue <= 0.0) return;
+  const Eigen::Matrix3d mode = axes.U * Q * axes.V.transpose();
+  const Eigen::Map<const Vector9> q(mode.data());
+  hessian->noalias() += eigenvalue * q * q.transpose();
+}
+
+/// The Hessian by vec(F), from its nine eigenvectors: three scalings, three twists, three flips.
+Matrix9 densityHessian(const PrincipalDensity& density, const PrincipalAxes& axes, bool project) {
+  Matrix9 hessian = Matrix9::Zero();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scalings(density.hessian);
+  for (int i = 0; i < 3; ++i) {
+    addMode(scalings.eigenvalues()[i], axes, scalings.eigenvectors().col(i).asDiagonal(), project, &hessian);
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    for (const double sign : {-1.0, 1.0}) {
+      Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
+      Q(j, k) = std::sqrt(0.5);
+      Q(k, j) = sign * std::sqrt(0.5);
+      addMode(sign < 0.0 ? density.twist[i] : density.flip[i], axes, Q, project, &hessian);
+    }
+  }
+  return hessian;
+}
+
+}  // namespace
+
+FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame)
+    : elasticity_(elasticity), lame_(lame) {
+  const Eigen::VectorXd volumes = positiveVolumes(topology.rest_vertices, topology.tets);
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    const Eigen::RowVector4i tet = topology.tets.row(t);
+    elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()), volumes[t]});
+  }
+}
+
+Eigen::Matrix3d FemElasticity::deformationGradient(const Element& element, const Points& x) const {
+  Eigen::Matrix<double, 3, 4> corners;
+  for (int k = 0; k < 4; ++k) corners.col(k) = x.row(element.vertices[k]).transpose();
+  return corners * element.shape_gradients;
+}
+
+double FemElasticity::addTo(const Points& x, Points* gradient) const {
+  double energy = 0.0;
+  for (const Element& element : elements_) {
+    const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
+    const PrincipalDensity density = principalDensity(elasticity_, axes.stretches, lame_);
+    energy += element.volume * density.energy;
+    const Eigen::Matrix3d stress = axes.U * density.gradient.asDiagonal() * axes.V.transpose();
+    const Eigen::Matrix<double, 4, 3> forces = element.volume * element.shape_gradients * stress.transpose();
+    for (int k = 0; k < 4; ++k) gradient->row(element.vertices[k]) += forces.row(k);
+  }
+  return energy;
+}
+
+void FemElasticity::addHessian(const Points& x, BlockTetMatrix* matrix, bool project) const {
+  for (std::size_t t = 0; t < elements_.size(); ++t) {
+    const Element& element = elements_[t];
+    const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
+    const Matrix9 H = densityHessian(principalDensity(elasticity_, axes.stretches, lame_), axes, project);
+    // d vec(F) / d corners: column 3 a + c moves component c of corner a.
+    Eigen::Matrix<double, 9, 12> B = Eigen::Matrix<double, 9, 12>::Zero();
+    for (int a = 0; a < 4; ++a) {
+      for (int j = 0; j < 3; ++j) {
+        for (int c = 0; c < 3; ++c) B(3 * j + c, 3 * a + c) = element.shape_gradients(a, j);
+      }
+    }
+    matrix->addToTet(static_cast<int>(t), element.volume * B.transpose() * H * B);
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,148 @@
+#include "softbody_sim/interpolation/tet_binding.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "softbody_common/tet_geometry.h"
+#include "tets/tet_shape.h"
+
+namespace softbody {
+
+TetBinding::TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places)
+    : volume_(volume), places_(std::move(places)) {}
+
+/// Per piece the integral of |F^T F - I|^2, but for a factor.
+std::vector<double> TetBinding::squaredStrains(const Points& vertices) const {
+  std::vector<double> strains;
+  for (Eigen::Index t = 0; t < volume_.tets.rows(); ++t) {
+    const std::size_t body = volume_.bodies[static_cast<std::size_t>(t)];
+    if (body >= strains.size()) strains.resize(body + 1, 0.0);
+    const Eigen::RowVector4i tet = volume_.tets.row(t);
+    const Eigen::Matrix3d rest = edgesOf(volume_.rest_vertices, tet);
+    const Eigen::Matrix3d F = edgesOf(vertices, tet) * rest.inverse();
+    strains[body] += rest.determinant() * (F.transpose() * F - Eigen::Matrix3d::Identity()).squaredNorm();
+  }
+  return strains;
+}
+
+std::vector<double> TetBinding::correctionScales(const Points& vertices) const {
+  std::vector<double> scales = squaredStrains(vertices);
+  for (std::size_t b = 0; b < scales.size(); ++b) {
+    scales[b] = scales[b] >= strains_[b] ? 1.0 : std::sqrt(scales[b] / strains_[b]);
+  }
+  return scales;
+}
+
+/// Corrections in one state of the volume.
+class TetBinding::Meeting {
+ public:
+  Meeting(const TetTopology& volume, const Points& vertices)
+      : volume_(volume), vertices_(vertices), frames_(static_cast<std::size_t>(volume.tets.rows())) {}
+
+  /// Moves a point that follows `tet` by `offset`.
+  Correction correction(int tet, const Eigen::Vector3d& offset) {
+    Candidate best = candidate(tet, offset);
+    if (best.reach <= kLongestReach * offset.norm()) return best.correction;
+    for (const int neighbour : neighboursOf(tet)) {
+      const Candidate other = candidate(neighbour, offset);
+      if (other.reach < best.reach || !std::isfinite(best.reach)) best = other;
+    }
+    return std::isfinite(best.reach) ? best.correction : Correction{tet, Eigen::Vector4d::Zero()};
+  }
+
+ private:
+  static constexpr double kLongestReach = 6.0;  // in offsets; about 1 in a well-shaped tet
+
+  struct Frame {
+    Eigen::PartialPivLU<Eigen::Matrix3d> edges;
+    double longest_edge;  ///< at rest [m]
+  };
+  struct Candidate {
+    Correction correction;
+    double reach;  ///< how far it might move its point once the tet has another shape [m]
+  };
+
+  Frame frameOf(int tet) const {
+    const Eigen::RowVector4i corners = volume_.tets.row(tet);
+    double longest = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        const Eigen::RowVector3d edge =
+            volume_.rest_vertices.row(corners[i]) - volume_.rest_vertices.row(corners[j]);
+        longest = std::max(longest, edge.norm());
+      }
+    }
+    return {Eigen::PartialPivLU<Eigen::Matrix3d>(edgesOf(vertices_, corners)), longest};
+  }
+
+  Candidate candidate(int tet, const Eigen::Vector3d& offset) {
+    std::optional<Frame>& frame = frames_[static_cast<std::size_t>(tet)];
+    if (!frame) frame = frameOf(tet);
+    const Eigen::Vector3d weights = frame->edges.solve(offset);
+    Candidate candidate{{tet, {}}, 0.0};
+    candidate.correction.barycentric << -weights.sum(), weights;
+    candidate.reach =
+        candidate.correction.barycentric.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() * frame->longest_edge;
+    return candidate;
+  }
+
+  /// The tets that share a vertex with one; they are of its piece.
+  const std::vector<int>& neighboursOf(int tet) {
+    if (tets_at_.empty()) {
+      tets_at_.resize(static_cast<std::size_t>(volume_.rest_vertices.rows()));
+      for (int t = 0; t < static_cast<int>(volume_.tets.rows()); ++t) {
+        for (const int v : volume_.tets.row(t)) tets_at_[static_cast<std::size_t>(v)].push_back(t);
+      }
+    }
+    const auto [entry, is_new] = neighbours_.try_emplace(tet);
+    for (const int v : volume_.tets.row(tet)) {
+      if (!is_new) break;
+      const std::vector<int>& tets = tets_at_[static_cast<std::size_t>(v)];
+      entry->second.insert(entry->second.end(), tets.begin(), tets.end());
+    }
+    return entry->second;
+  }
+
+  const TetTopology& volume_;
+  const Points& vertices_;
+  std::vector<std::optional<Frame>> frames_;    ///< per tet, once it is asked for
+  std::vector<std::vector<int>> tets_at_;       ///< per vertex, once a flat tet has come
+  std::map<int, std::vector<int>> neighbours_;  ///< of flat tets
+};
+
+void TetBinding::meet(const Points& vertices, const Points& positions) {
+  strains_ = squaredStrains(vertices);
+  corrections_.resize(places_.size());
+  Meeting meeting(volume_, vertices);
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    const Eigen::Vector3d missing = positions.row(static_cast<Eigen::Index>(p)).transpose() -
+                                    positionOf(places_[p], vertices, volume_.tets);
+    corrections_[p] = meeting.correction(places_[p].tet, missing);
+  }
+}
+
+void TetBinding::apply(const MeshState& volume, const std::vector<int>& which, MeshState* state) const {
+  std::vector<double> scales;
+  if (!corrections_.empty()) scales = correctionScales(volume.vertices);
+  for (const int p : which) {
+    const MaterialPoint& place = places_[static_cast<std::size_t>(p)];
+    float confidence = 0.0f;
+    for (int c = 0; c < 4; ++c) {
+      confidence += static_cast<float>(place.barycentric[c]) *
+                    volume.confidence[static_cast<std::size_t>(volume_.tets(place.tet, c))];
+    }
+    Eigen::Vector3d position = positionOf(place, volume.vertices, volume_.tets);
+    if (!scales.empty()) {
+      const Correction& correction = corrections_[static_cast<std::size_t>(p)];
+      const double scale = scales[volume_.bodies[static_cast<std::size_t>(place.tet)]];
+      position += scale * positionOf({correction.tet, correction.barycentric}, volume.vertices, volume_.tets);
+    }
+    state->vertices.row(p) = position;
+    state->confidence[static_cast<std::size_t>(p)] = std::clamp(confidence, 0.0f, 1.0f);
+  }
+}
+
+}  // namespace softbody

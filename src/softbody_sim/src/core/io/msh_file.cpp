@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include "io/mesh_formats.h"
+#include "io/numbered_vertices.h"
+
+// Gmsh reference manual, "MSH file format version 1 (Legacy)" and "version 2 (Legacy)".
+
+namespace softbody {
+namespace {
+
+constexpr int kGmshTet = 4;
+
+/// Where an element's vertex ids start. Version 1: "id type physical elementary count ids...", version 2: "id
+/// type number-of-tags tags... ids...".
+std::size_t firstVertexField(const TextReader& reader, bool version_1) {
+  if (version_1) return 5;
+  const int tags = reader.integer(2);
+  if (tags < 0) reader.fail(fmt::format("{} tags", tags));
+  return 3 + static_cast<std::size_t>(tags);
+}
+
+/// Number of elements that are no tets.
+int readElements(TextReader& reader, bool version_1, NumberedVertices* mesh) {
+  const int count = reader.count(0);
+  int skipped = 0;
+  for (int e = 0; e < count; ++e) {
+    reader.require(fmt::format("element {} of {}", e + 1, count));
+    if (reader.integer(1) == kGmshTet) {
+      mesh->addTet(reader, firstVertexField(reader, version_1));
+    } else {
+      ++skipped;
+    }
+  }
+  return skipped;
+}
+
+void checkFormat(TextReader& reader) {
+  reader.require("the format's version");
+  const double version = reader.number(0);
+  if (!(version >= 1.0 && version < 3.0))
+    reader.fail(fmt::format("MSH version {}; versions 1 and 2 are read", version));
+  if (reader.integer(1) != 0) reader.fail("a binary MSH file; only ascii is read");
+}
+
+}  // namespace
+
+TetMesh readMsh(const std::string& path, Warnings* warnings) {
+  TextReader reader(path);
+  NumberedVertices mesh;
+  int skipped = 0;
+  bool has_vertices = false, has_elements = false;
+  while (reader.next()) {
+    const std::string section(reader.keyword());
+    if (section == "$MeshFormat") checkFormat(reader);
+    if (section == "$NOD" || section == "$Nodes") {
+      reader.require("the number of vertices");
+      mesh.readVertices(reader, reader.count(0));
+      has_vertices = true;
+    }
+    if (section == "$ELM" || section == "$Elements") {
+      reader.require("the number of elements");
+      skipped += readElements(reader, section == "$ELM", &mesh);
+      has_elements = true;
+    }
+  }
+  if (!has_vertices) reader.fail("the file ends without a $Nodes or $NOD section");
+  if (!has_elements) reader.fail("the file ends without an $Elements or $ELM section");
+  if (skipped > 0)
+    warnings->push_back(fmt::format("{}: {} elements that are no tets were skipped", path, skipped));
+  return mesh.mesh();
+}
+
+}  // namespace softbody

@@ -1,0 +1,34 @@
+#include "io/numbered_vertices.h"
+
+#include <fmt/format.h>
+
+#include "io/mesh_formats.h"
+
+namespace softbody {
+
+void NumberedVertices::readVertices(TextReader& reader, int count) {
+  for (int v = 0; v < count; ++v) {
+    reader.require(fmt::format("vertex {} of {}", v + 1, count));
+    const int id = reader.integer(0);
+    if (!index_of_id_.emplace(id, static_cast<int>(vertices_.size())).second) {
+      reader.fail(fmt::format("vertex {} is there twice", id));
+    }
+    vertices_.push_back(reader.point(1));
+  }
+}
+
+void NumberedVertices::addTet(const TextReader& reader, std::size_t first_field) {
+  Eigen::RowVector4i tet;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int id = reader.integer(first_field + k);
+    const auto index = index_of_id_.find(id);
+    if (index == index_of_id_.end())
+      reader.fail(fmt::format("a tet names vertex {}, which the file does not have", id));
+    tet[static_cast<int>(k)] = index->second;
+  }
+  tets_.push_back(tet);
+}
+
+TetMesh NumberedVertices::mesh() const { return {stackRows<Points>(vertices_), stackRows<Tets>(tets_)}; }
+
+}  // namespace softbody

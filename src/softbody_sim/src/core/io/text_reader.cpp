@@ -1,0 +1,128 @@
+#include "io/text_reader.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+namespace softbody {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kBlank(" \t\r\f\v\0", 6);  // some exporters end a file with a zero byte
+
+void splitFields(std::string_view line, std::vector<std::string_view>* fields) {
+  fields->clear();
+  std::size_t begin = 0;
+  while ((begin = line.find_first_not_of(kBlank, begin)) != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
+    fields->push_back(line.substr(begin, end - begin));
+    begin = end;
+  }
+}
+
+std::string_view withoutComment(std::string_view line) { return line.substr(0, line.find('#')); }
+
+std::string_view withoutCarriageReturn(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+bool continues(std::string_view line) { return !line.empty() && line.back() == '\\'; }
+
+}  // namespace
+
+std::string readFile(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  // A directory opens, but reading from it fails.
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
+  return text;
+}
+
+double parseNumber(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size() || text.empty()) return kNan;
+  // Numbers too small to hold are out of range too; they are good enough as the nearest one.
+  if (error == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
+  return std::isfinite(value) && error != std::errc::invalid_argument ? value : kNan;
+}
+
+TextReader::TextReader(std::string path) : path_(std::move(path)), text_(readFile(path_)) {}
+
+std::string_view TextReader::rawLine() {
+  const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+  const std::string_view line = std::string_view(text_).substr(position_, end - position_);
+  position_ = std::min(end + 1, text_.size());
+  ++line_;
+  return withoutCarriageReturn(withoutComment(line));
+}
+
+bool TextReader::next() {
+  while (position_ < text_.size()) {
+    std::string_view line = rawLine();
+    if (continues(line)) {
+      joined_.clear();
+      while (continues(line)) {
+        joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
+        line = position_ < text_.size() ? rawLine() : std::string_view();
+      }
+      line = joined_.append(line);
+    }
+    splitFields(line, &fields_);
+    if (!fields_.empty()) return true;
+  }
+  return false;
+}
+
+void TextReader::require(const std::string& expected) {
+  if (!next()) fail("the file ends where " + expected + " should come");
+}
+
+std::string_view TextReader::field(std::size_t k) const {
+  if (k >= fields_.size()) fail(fmt::format("{} fields where at least {} should be", fields_.size(), k + 1));
+  return fields_[k];
+}
+
+double TextReader::number(std::size_t k) const {
+  const double value = parseNumber(field(k));
+  if (std::isnan(value)) fail(fmt::format("'{}' is not a finite number", field(k)));
+  return value;
+}
+
+int TextReader::integer(std::size_t k) const {
+  std::string_view text = field(k);
+  if (text.front() == '+') text.remove_prefix(1);
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    fail(fmt::format("'{}' is not a whole number", field(k)));
+  }
+  return value;
+}
+
+int TextReader::count(std::size_t k) const {
+  const int value = integer(k);
+  // Whatever is counted takes at least two characters.
+  const std::size_t most = (text_.size() - position_ + 1) / 2;
+  if (value < 0 || static_cast<std::size_t>(value) > most) {
+    fail(fmt::format("announces {} entries; the rest of the file cannot hold them", value));
+  }
+  return value;
+}
+
+Eigen::RowVector3d TextReader::point(std::size_t first_field) const {
+  return {number(first_field), number(first_field + 1), number(first_field + 2)};
+}
+
+void TextReader::failAt(int line, const std::string& what) const {
+  throw std::invalid_argument(fmt::format("{}:{}: {}", path_, line, what));
+}
+
+}  // namespace softbody

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "io/mesh_formats.h"
+#include "io/numbered_vertices.h"
+
+namespace softbody {
+namespace {
+
+void readVertices(TextReader& reader, NumberedVertices* mesh) {
+  reader.require("the number of vertices");
+  mesh->readVertices(reader, reader.count(0));
+}
+
+void readTets(TextReader& reader, NumberedVertices* mesh) {
+  reader.require("the kind of elements");
+  if (reader.keyword() != "TET" && reader.keyword() != "TETS") {
+    reader.fail(fmt::format("elements of kind {}; only TET is read", reader.keyword()));
+  }
+  reader.require("the number of elements");
+  const int count = reader.count(0);
+  for (int e = 0; e < count; ++e) {
+    reader.require(fmt::format("tet {} of {}", e + 1, count));
+    mesh->addTet(reader, 1);
+  }
+}
+
+}  // namespace
+
+// Vega FEM user's manual, "Volumetric mesh file format (.veg)". Materials are taken from the object YAML.
+TetMesh readVeg(const std::string& path, Warnings* warnings) {
+  TextReader reader(path);
+  NumberedVertices mesh;
+  bool has_elements = false, has_material = false;
+  while (reader.next()) {
+    if (reader.keyword() == "*INCLUDE")
+      reader.fail("*INCLUDE is not followed; put the sections into one file");
+    if (reader.keyword() == "*VERTICES") readVertices(reader, &mesh);
+    if (reader.keyword() == "*ELEMENTS") {
+      readTets(reader, &mesh);
+      has_elements = true;
+    }
+    has_material = has_material || reader.keyword() == "*MATERIAL";
+  }
+  if (!has_elements) reader.fail("the file ends without an *ELEMENTS section");
+  if (has_material)
+    warnings->push_back(path + ": its *MATERIAL is ignored; the object YAML gives the material");
+  return mesh.mesh();
+}
+
+}  // namespace softbody

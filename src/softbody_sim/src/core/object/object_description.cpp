@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <map>
+#include <stdexcept>
+
+#include "softbody_common/yaml_map_reader.h"
+#include "softbody_sim/object/object_model.h"
+
+namespace softbody {
+namespace {
+
+double readUnit(YamlMapReader& object) {
+  if (!object.has("unit")) return 1.0;
+  try {
+    return metresPer(object.text("unit"));
+  } catch (const std::invalid_argument& error) {
+    object.fail(object.get("unit"), fmt::format("object/unit: {}", error.what()));
+  }
+}
+
+Material readMaterial(YamlMapReader& material) {
+  Material result;
+  result.youngs_modulus_pa = material.number("youngs_modulus_pa", result.youngs_modulus_pa, 1.0, 1e12);
+  result.poisson_ratio = material.number("poisson_ratio", result.poisson_ratio, 0.0, 0.495);
+  result.density_kg_m3 = material.number("density_kg_m3", result.density_kg_m3, 0.1, 30000.0);
+  result.damping = material.number("damping", result.damping, 0.0, 1.0);
+  return result;
+}
+
+/// `object/pins`: a list of maps with name, min, max and, if they move, frame. The box is in file units.
+std::vector<PinRegion> readPins(YamlMapReader& object, const std::string& path, double unit_m,
+                                Warnings* warnings) {
+  std::vector<PinRegion> pins;
+  const YAML::Node list = object.get("pins");
+  if (!list.IsDefined()) return pins;
+  if (!list.IsSequence()) object.fail(list, "object/pins must be a list of maps");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    YamlMapReader reader(list[i], path, fmt::format("object/pins/{}/", i));
+    PinRegion pin{reader.text("name"), reader.text("frame"), {}, {}};
+    if (pin.name.empty()) pin.name = fmt::format("pin{}", i);
+    pin.min = unit_m * Eigen::Vector3d(reader.numbers("min", 3).data());
+    pin.max = unit_m * Eigen::Vector3d(reader.numbers("max", 3).data());
+    if (!(pin.min.array() <= pin.max.array()).all())
+      reader.fail(list[i], fmt::format("object/pins/{}: min must not exceed max", i));
+    reader.warnOfUnknown(warnings);
+    pins.push_back(pin);
+  }
+  return pins;
+}
+
+}  // namespace
+
+double metresPer(const std::string& unit) {
+  static const std::map<std::string, double> kUnits{
+      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
+  const auto found = kUnits.find(unit);
+  if (found == kUnits.end())
+    throw std::invalid_argument(fmt::format("unit is '{}'; allowed: m, cm, mm, inch", unit));
+  return found->second;
+}
+
+ObjectDescription loadObjectDescription(const std::string& yaml_path) {
+  YamlMapReader file(parseYamlFile(yaml_path), yaml_path, "");
+  YamlMapReader object = file.map("object");
+  ObjectDescription description;
+  description.visual_mesh = object.file("visual_mesh");
+  if (description.visual_mesh.empty())
+    object.fail(object.get("visual_mesh"), "object/visual_mesh is missing");
+  description.cage_mesh = object.file("cage_mesh");
+  description.tet_mesh = object.file("tet_mesh");
+  description.unit_m = readUnit(object);
+  if (object.has("material")) {
+    YamlMapReader material = object.map("material");
+    description.material = readMaterial(material);
+    material.warnOfUnknown(&description.warnings);
+  }
+  if (object.has("initial_pose")) description.initial_pose = object.pose("initial_pose");
+  description.pins = readPins(object, yaml_path, description.unit_m, &description.warnings);
+  object.warnOfUnknown(&description.warnings);
+  file.warnOfUnknown(&description.warnings);
+  return description;
+}
+
+}  // namespace softbody

@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include "softbody_common/tet_geometry.h"
+#include "softbody_sim/object/object_model.h"
+#include "surface_mesh/surface_repair.h"
+
+namespace softbody {
+namespace {
+
+// Beyond these the unit is more likely wrong than the object remarkable.
+constexpr double kSmallest_m = 0.005;
+constexpr double kLargest_m = 10.0;
+
+void warnOfSize(const std::string& name, const Points& vertices, Warnings* warnings) {
+  const double size = sizeOf(vertices);
+  if (size > kSmallest_m && size < kLargest_m) return;
+  warnings->push_back(fmt::format("{}: is {:.4g} m large; is object/unit right?", name, size));
+}
+
+void warnOfEdges(const std::string& name, const Triangles& triangles, Warnings* warnings) {
+  const EdgeReport edges = examineEdges(triangles);
+  if (edges.open > 0)
+    warnings->push_back(fmt::format("{}: not closed, {} edges have one triangle", name, edges.open));
+  if (edges.branching > 0) {
+    warnings->push_back(fmt::format("{}: {} edges have more than two triangles", name, edges.branching));
+  }
+  if (edges.inconsistent > 0) {
+    warnings->push_back(
+        fmt::format("{}: cannot be oriented, {} edges remain twisted", name, edges.inconsistent));
+  }
+}
+
+}  // namespace
+
+MeshTopology loadVisualMesh(const ObjectDescription& description, Warnings* warnings) {
+  WeldedSurface surface = loadSurface(description.visual_mesh, description.unit_m, warnings);
+  warnOfSize(description.visual_mesh, surface.mesh.vertices, warnings);
+  warnOfEdges(description.visual_mesh, surface.mesh.triangles, warnings);
+  MeshTopology topology;
+  topology.bodies = triangleBodies(surface.mesh.triangles, static_cast<int>(surface.mesh.vertices.rows()));
+  topology.cut.assign(static_cast<std::size_t>(surface.mesh.triangles.rows()), false);
+  topology.rest_vertices = std::move(surface.mesh.vertices);
+  topology.triangles = std::move(surface.mesh.triangles);
+  topology.vertex_parents = std::move(surface.vertex_parents);
+  topology.texture_coordinates = std::move(surface.texture_coordinates);
+  return topology;
+}
+
+}  // namespace softbody

@@ -1,0 +1,143 @@
+#include "report/model_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <ostream>
+#include <stdexcept>
+
+#include "report/model_picture.h"
+#include "report/model_quality.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kShareOfMaking = 0.8;  // of the time
+constexpr std::array<const char*, 6> kFiles{"visual.obj",        "cage.obj",         "tets.vtu",
+                                            "report/models.png", "report/report.md", "object.yaml"};
+
+void writeText(const fs::path& path, const std::string& text) {
+  std::ofstream stream(path);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+std::string objectYaml(const std::string& mesh, const Material& material) {
+  return fmt::format(
+      "# Made by prepare_model from {}. The material is a guess (soft foam); set it to yours.\n"
+      "object:\n  visual_mesh: visual.obj\n  cage_mesh: cage.obj\n  tet_mesh: tets.vtu\n"
+      "  material: {{youngs_modulus_pa: {}, poisson_ratio: {}, density_kg_m3: {}, damping: {}}}\n"
+      "  # initial_pose: [x, y, z, qx, qy, qz, qw]   # in the colour optical frame, roughly; without it "
+      "the object is looked for\n",
+      fs::path(mesh).filename().string(), material.youngs_modulus_pa, material.poisson_ratio,
+      material.density_kg_m3, material.damping);
+}
+
+std::string report(const std::string& mesh, const ObjectModel& model, const ModelQuality& q) {
+  const Points& rest = model.visual.rest_vertices;
+  const Eigen::RowVector3d extent = 1e3 * (rest.colwise().maxCoeff() - rest.colwise().minCoeff());
+  std::string text =
+      fmt::format("# {}\n\n{:.1f} x {:.1f} x {:.1f} mm, texture coordinates: {}\n\n", mesh, extent[0],
+                  extent[1], extent[2], model.visual.texture_coordinates.rows() > 0 ? "yes" : "no");
+  text += "![visual mesh, cage and tets](models.png)\n\n";
+  text += "| | this object | sponge of Kang et al. 2022 | doll of Kang et al. 2022 |\n|---|---|---|---|\n";
+  text += fmt::format("| visual vertices | {} | 522 | 18650 |\n| visual triangles | {} | 1040 | 7190 |\n",
+                      q.visual_vertices, q.visual_triangles);
+  text += fmt::format("| cage vertices | {} | 132 | 128 |\n| cage triangles | {} | 260 | 252 |\n",
+                      q.cage_vertices, q.cage_triangles);
+  text +=
+      fmt::format("| tet vertices | {} | 132 | 154 |\n| tets | {} | 300 | 494 |\n\n", q.tet_vertices, q.tets);
+  text += fmt::format(
+      "- visual vertices outside of the cage: {}\n- margin to the cage: {:.3g} to {:.3g} mm, mean {:.3g} "
+      "mm\n",
+      q.outside, 1e3 * q.least_margin, 1e3 * q.largest_margin, 1e3 * q.mean_margin);
+  text += fmt::format("- volume of the cage: {:.4g} cm^3{}\n", 1e6 * q.cage_volume,
+                      q.visual_volume > 0.0
+                          ? fmt::format(", {:.2f} of the visual mesh's", q.cage_volume / q.visual_volume)
+                          : "");
+  text +=
+      fmt::format("- mean edge: {:.1f} mm; longest over shortest edges of the cage (95 % over 5 %): {:.2f}\n",
+                  1e3 * meanEdgeLength(model.volume.rest_vertices, model.volume.tets), q.edge_spread);
+  text += fmt::format(
+      "- dihedral angles: {:.1f} to {:.1f} degrees; 1 tet in 100 has one below {:.1f}\n- smallest tet: "
+      "{:.3g} cm^3\n",
+      q.smallest_dihedral, q.largest_dihedral, q.dihedral_percentile, 1e6 * q.smallest_tet);
+  text += fmt::format(
+      "- mean value coordinates: sum to 1 within {:.1e}, reproduce the visual vertices within {:.1e} of the "
+      "size\n",
+      q.partition_error, q.reproduction_error / q.size);
+  text += model.warnings.empty() ? "- warnings: none\n" : "- warnings:\n";
+  for (const std::string& warning : model.warnings) text += "  - " + warning + "\n";
+  return text;
+}
+
+/// A folder beside the target that vanishes when done.
+class StagingFolder {
+ public:
+  explicit StagingFolder(const fs::path& target)
+      : path_(fmt::format("{}.{}.tmp", target.string(), getpid())) {
+    fs::create_directories(path_ / "report");
+  }
+  ~StagingFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  StagingFolder(const StagingFolder&) = delete;
+  StagingFolder& operator=(const StagingFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  /// object.yaml comes last: whoever finds it finds what it names.
+  void moveInto(const fs::path& target) const {
+    for (const char* file : kFiles) {
+      if (fs::is_directory(target / file)) {
+        throw std::runtime_error((target / file).string() + ": is a folder where a file should go");
+      }
+    }
+    fs::create_directories(target / "report");
+    for (const char* file : kFiles) fs::rename(path_ / file, target / file);
+  }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+void prepareModel(const std::string& mesh, const std::string& unit, const std::string& folder,
+                  const VolumeSettings& settings, std::ostream& told) {
+  ObjectDescription description;
+  description.visual_mesh = mesh;
+  description.unit_m = metresPer(unit);
+  VolumeSettings making = settings;
+  making.progress = [&](double share) { settings.progress(kShareOfMaking * share); };
+  const ObjectModel model = buildObjectModel(description, making);
+  const TriangleMesh cage = cageOf(model.volume);
+
+  const fs::path target = fs::absolute(folder).lexically_normal();
+  const StagingFolder staging(target.has_filename() ? target : target.parent_path());
+  writeObj((staging.path() / "visual.obj").string(), {model.visual.rest_vertices, model.visual.triangles},
+           model.visual.texture_coordinates);
+  writeObj((staging.path() / "cage.obj").string(), cage);
+  writeVtu((staging.path() / "tets.vtu").string(), {model.volume.rest_vertices, model.volume.tets});
+  const std::string text = report(mesh, model, measureModel(model));
+  writeText(staging.path() / "report/report.md", text);
+  if (!cv::imwrite((staging.path() / "report/models.png").string(), drawModel(model))) {
+    throw std::runtime_error("the picture of the models cannot be written");
+  }
+  writeText(staging.path() / "object.yaml", objectYaml(mesh, model.material));
+  staging.moveInto(target);
+  settings.progress(1.0);
+  told << text << "written to " << target.string() << '\n';
+}
+
+}  // namespace softbody

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <hwy/highway.h>
+
+#include "simd/simd.h"
+
+namespace softbody {
+
+/// Where Highway's tables (HWY_DISPATCH_TABLE) hold the function for a width. Chosen per object, not per
+/// process as HWY_DYNAMIC_DISPATCH does. To be called from the file that fills the table.
+inline std::size_t dispatchIndex(Simd simd) {
+  hwy::ChosenTarget chosen;
+  switch (supportedSimd(simd)) {
+    case Simd::kAvx512:
+      chosen.Update(HWY_AVX3);
+      break;
+    case Simd::kAvx2:
+      chosen.Update(HWY_AVX2);
+      break;
+    case Simd::kSse4:
+      chosen.Update(HWY_SSE4);
+      break;
+    case Simd::kAuto:
+      chosen.Update(HWY_EMU128);
+      break;
+  }
+  return chosen.GetIndex();
+}
+
+}  // namespace softbody

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "softbody_sim/io/mesh_files.h"
+
+namespace softbody {
+
+/// A triangle mesh whose coincident vertices are one, and where its vertices were in the file.
+struct WeldedSurface {
+  TriangleMesh mesh;
+  Points texture_coordinates;       ///< empty, or 3 #F rows
+  std::vector<int> vertex_parents;  ///< #V: index in the file of the first vertex at that place
+};
+
+/// Edges that keep a surface from being closed.
+struct EdgeReport {
+  int open = 0;          ///< edges with one triangle
+  int branching = 0;     ///< edges with more than two triangles
+  int inconsistent = 0;  ///< edges whose two triangles run through them in the same direction
+  Eigen::Vector2i example = Eigen::Vector2i::Constant(-1);  ///< one of the open or branching edges
+
+  bool closed() const { return open == 0 && branching == 0; }
+};
+
+EdgeReport examineEdges(const Triangles& triangles);
+
+/// Welds vertices within 1e-7 of the mesh's size, drops triangles without area and repeated ones, and orients
+/// the rest outward as far as it can be oriented. @param name is used in warnings.
+/// @throw std::invalid_argument if no triangle is left.
+WeldedSurface repairSurface(const SurfaceFile& file, const std::string& name, Warnings* warnings);
+
+/// Reads a surface, scales it to metres and repairs it.
+WeldedSurface loadSurface(const std::string& path, double unit_m, Warnings* warnings);
+
+/// Length of the bounding box's diagonal.
+double sizeOf(const Points& vertices);
+
+}  // namespace softbody

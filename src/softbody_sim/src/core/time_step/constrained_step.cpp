@@ -1,0 +1,133 @@
+#include "time_step/constrained_step.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace softbody {
+namespace {
+
+/// A held vertex goes where its pin is, as if it were far too heavy to go elsewhere.
+void hold(const std::vector<Pin>& pins, double stiffness, StepPotential* potential) {
+  for (const Pin& pin : pins) {
+    potential->inertia[pin.vertex] = stiffness;
+    potential->prediction.row(pin.vertex) = pin.position;
+    potential->loads.row(pin.vertex).setZero();
+  }
+}
+
+}  // namespace
+
+void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count) {
+  for (const Pin& pin : surroundings.pins) {
+    if (pin.vertex < 0 || pin.vertex >= vertex_count || !pin.position.allFinite()) {
+      throw std::invalid_argument(
+          fmt::format("a pin holds vertex {} of {}, or holds it nowhere", pin.vertex, vertex_count));
+    }
+  }
+  for (const Obstacle& obstacle : surroundings.obstacles) {
+    if (!obstacle.pose.matrix().allFinite()) throw std::invalid_argument("an obstacle's pose is not finite");
+  }
+  const Points& loads = surroundings.loads;
+  if (loads.size() > 0 && (loads.rows() != vertex_count || !loads.allFinite())) {
+    throw std::invalid_argument(
+        fmt::format("{} loads, or not finite ones, for {} vertices", loads.rows(), vertex_count));
+  }
+}
+
+ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
+                                 StepSolver* solver)
+    : topology_(&topology), contact_(std::move(contact)), options_(options), solver_(solver) {}
+
+/// What is given.
+struct ConstrainedStep::Problem {
+  const StepPotential& free;
+  const std::vector<Target>& targets;
+  const Surroundings& surroundings;
+  const Points& before;
+  const std::vector<Eigen::Isometry3d>& before_poses;
+};
+
+const ConstrainedStep::Result& ConstrainedStep::solve(const StepPotential& free,
+                                                      const std::vector<Target>& targets,
+                                                      const Surroundings& surroundings, const Points& before,
+                                                      const std::vector<Eigen::Isometry3d>& before_poses,
+                                                      Points* x) {
+  const Problem problem{free, targets, surroundings, before, before_poses};
+  setPotential(problem);
+  hold(surroundings.pins, options_.pin_stiffness, &potential_);
+  gradient_.resize(x->rows(), 3);
+  chooseStart(problem, x);
+  iterate(problem, x);
+  contact_.wrenches(contacts_, *x, surroundings.obstacles, &result_.reactions.obstacles);
+  findPinForces(problem, *x);
+  return result_;
+}
+
+void ConstrainedStep::setPotential(const Problem& problem) {
+  potential_.inertia = problem.free.inertia;
+  potential_.prediction = problem.free.prediction;
+  potential_.loads = problem.free.loads;
+  if (problem.surroundings.loads.size() > 0) potential_.loads += problem.surroundings.loads;
+}
+
+/// A body that hangs or lies is nearer to its end where it was than where the loads alone take it.
+void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
+  const Surroundings& surroundings = problem.surroundings;
+  if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
+  still_ = problem.before;
+  for (const Pin& pin : surroundings.pins) still_.row(pin.vertex) = x->row(pin.vertex) = pin.position;
+  if (energyAt(still_, problem) < energyAt(*x, problem)) x->swap(still_);
+}
+
+double ConstrainedStep::energyAt(const Points& x, const Problem& problem) {
+  findContacts(x, problem, &contacts_);
+  setSprings(problem);
+  return potential_.evaluate(x, &gradient_) + solver_->addElasticity(x, &gradient_);
+}
+
+void ConstrainedStep::iterate(const Problem& problem, Points* x) {
+  constexpr int kMaxRounds = 5;
+  StepReport& report = result_.report;
+  report = {};
+  findContacts(*x, problem, &contacts_);
+  for (int round = 1;; ++round) {
+    setSprings(problem);
+    const int iterations = report.iterations;
+    report = solver_->minimize(potential_, x);
+    report.iterations += iterations;
+    if (problem.surroundings.obstacles.empty()) return;
+    findContacts(*x, problem, &found_);
+    keepEarlier(contacts_, &found_);
+    if (contact_.difference(contacts_, found_, *x) < options_.contact_tolerance_m) return;
+    if (round == kMaxRounds) {
+      report.converged = false;
+      return;
+    }
+    contacts_.swap(found_);
+  }
+}
+
+void ConstrainedStep::findContacts(const Points& x, const Problem& problem, std::vector<Contact>* contacts) {
+  contact_.find(problem.before, x, problem.surroundings.obstacles, problem.before_poses, contacts);
+}
+
+void ConstrainedStep::setSprings(const Problem& problem) {
+  potential_.targets.set(problem.targets, topology_->tets, options_.target_stiffness);
+  contact_.addSprings(contacts_, &potential_.targets);
+}
+
+/// A held vertex would follow the rest of its forces; the pin takes them up.
+void ConstrainedStep::findPinForces(const Problem& problem, const Points& x) {
+  const std::vector<Pin>& pins = problem.surroundings.pins;
+  result_.reactions.pins.assign(pins.size(), Wrench());
+  if (pins.empty()) return;
+  setPotential(problem);  // nothing held
+  potential_.evaluate(x, &gradient_);
+  solver_->addElasticity(x, &gradient_);
+  for (std::size_t k = 0; k < pins.size(); ++k)
+    result_.reactions.pins[k].force = -gradient_.row(pins[k].vertex);
+}
+
+}  // namespace softbody

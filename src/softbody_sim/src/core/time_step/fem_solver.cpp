@@ -1,0 +1,98 @@
+#include "time_step/fem_solver.h"
+
+#include <Eigen/CholmodSupport>
+#include <cmath>
+#include <stdexcept>
+
+namespace softbody {
+
+struct FemSolver::Factor : Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> {};
+
+FemSolver::FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
+                     const Options& options)
+    : elasticity_(topology, elasticity, lame),
+      options_(options),
+      hessian_(topology.tets, topology.rest_vertices.rows()),
+      factor_(std::make_unique<Factor>()),
+      gradient_(topology.rest_vertices.rows(), 3),
+      direction_(gradient_),
+      trial_(gradient_),
+      trial_gradient_(gradient_) {
+  factor_->cholmod().print = 0;
+  factor_->setMode(Eigen::CholmodSupernodalLLt);  // LDL' would accept an indefinite matrix
+  factor_->analyzePattern(hessian_.lower());
+}
+
+FemSolver::~FemSolver() = default;
+
+StepReport FemSolver::minimize(const StepPotential& potential, Points* x) {
+  StepReport report;
+  energy_ = evaluate(potential, *x, &gradient_);
+  double step = 0.0;
+  while (report.iterations < options_.max_iterations && !report.converged) {
+    ++report.iterations;
+    // Near the end the exact Hessian converges quadratically, which the projected one may not.
+    if (step < 1.0 || !findDirection(potential, *x, Hessian::kExact))
+      findDirection(potential, *x, Hessian::kProjected);
+    step = 1.0;
+    report.last_move_m = direction_.rowwise().norm().maxCoeff();
+    // Where no step along a descent direction gains anything it is a minimum within rounding.
+    report.converged = !searchLine(potential, x, &step) || report.last_move_m < options_.tolerance_m;
+    report.last_move_m *= step;
+  }
+  report.residual_n = gradient_.rowwise().norm().maxCoeff();
+  return report;
+}
+
+double FemSolver::addElasticity(const Points& x, Points* gradient) const {
+  return elasticity_.addTo(x, gradient);
+}
+
+double FemSolver::evaluate(const StepPotential& potential, const Points& x, Points* gradient) const {
+  const double energy = potential.evaluate(x, gradient);
+  return energy + elasticity_.addTo(x, gradient);
+}
+
+/// False if the exact Hessian is not positive definite. The projected one is singular only where nothing
+/// holds a body that has no inertia; a growing shift makes it definite, as in the method of Levenberg.
+bool FemSolver::findDirection(const StepPotential& potential, const Points& x, Hessian kind) {
+  hessian_.setZero();
+  hessian_.addToDiagonal(potential.inertia);
+  potential.targets.addHessian(x, &hessian_);
+  elasticity_.addHessian(x, &hessian_, kind == Hessian::kProjected);
+  if (solveShifted(0.0)) return true;
+  if (kind == Hessian::kExact) return false;
+  const double mean = hessian_.lower().diagonal().mean();
+  for (double shift = 1e-10; shift <= 1.0; shift *= 100.0) {
+    if (solveShifted(shift * mean)) return true;
+  }
+  throw std::runtime_error("the Hessian could not be made positive definite");
+}
+
+bool FemSolver::solveShifted(double shift) {
+  factor_->setShift(shift);
+  factor_->factorize(hessian_.lower());
+  if (factor_->info() != Eigen::Success) return false;
+  const Eigen::Map<const Eigen::VectorXd> right(gradient_.data(), gradient_.size());
+  Eigen::Map<Eigen::VectorXd>(direction_.data(), direction_.size()) = -factor_->solve(right);
+  return direction_.allFinite();
+}
+
+/// Halves the step until the energy falls enough (Armijo); false, x as it was, if it never does.
+bool FemSolver::searchLine(const StepPotential& potential, Points* x, double* step) {
+  constexpr double kArmijo = 1e-4;
+  constexpr int kMaxHalvings = 20;
+  const double slope = gradient_.cwiseProduct(direction_).sum();
+  for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
+    trial_ = *x + *step * direction_;
+    const double trial_energy = evaluate(potential, trial_, &trial_gradient_);
+    if (!(trial_energy <= energy_ + kArmijo * *step * slope)) continue;
+    energy_ = trial_energy;
+    x->swap(trial_);
+    gradient_.swap(trial_gradient_);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace softbody

@@ -1,0 +1,131 @@
+#include "time_step/projective_dynamics.h"
+
+#include "elasticity/elastic_blocks.h"
+#include "linear_solvers/metric_solver.h"
+#include "tets/tet_matrix.h"
+#include "time_step/step_rows.h"
+
+namespace softbody {
+
+class ProjectiveDynamics::Precision {
+ public:
+  virtual ~Precision() = default;
+  virtual StepReport minimize(const StepPotential& potential, Points* x) = 0;
+};
+
+namespace {
+
+TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& elasticity) {
+  TetMatrix metric(topology.tets, topology.rest_vertices.rows());
+  elasticity.addMetric(&metric);
+  return metric;
+}
+
+/// Updates in a row, so that their rounding does not pile up.
+constexpr int kMostUpdatedFrames = 100;
+
+/// The matrix of the global step, M / h^2 + elasticity + targets, which changes with h and with where targets
+/// are and how much they weigh, not with their positions.
+class StepMetric {
+ public:
+  StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity)
+      : metric_(elasticMetric(topology, elasticity)), elastic_(metric_.values()) {
+    added_.reserve(kMost + 1);
+    removed_.reserve(kMost + 1);
+  }
+
+  const Eigen::SparseMatrix<double>& lower() const { return metric_.lower(); }
+
+  /// Brings the solver's factor up to date.
+  template <typename T>
+  void set(const StepPotential& potential, MetricSolver<T>* solver) {
+    const bool few = has_factor_ && inertia_ == potential.inertia &&
+                     potential.targets.metricChanges(targets_, kMost, &added_, &removed_);
+    if (few && added_.empty() && removed_.empty()) return;
+    has_factor_ = false;  // until it is made
+    if (few && updated_frames_ < kMostUpdatedFrames) {
+      ++updated_frames_;
+      solver->update(added_, removed_);
+    } else {
+      updated_frames_ = 0;
+      metric_.values() = elastic_;
+      metric_.addToDiagonal(potential.inertia);
+      potential.targets.addMetric(&metric_);
+      solver->factorize(metric_.lower());
+    }
+    inertia_ = potential.inertia;
+    targets_ = potential.targets;
+    has_factor_ = true;
+  }
+
+ private:
+  static constexpr std::size_t kMost = MetricSolver<double>::kMostUpdates;
+
+  TetMatrix metric_;
+  const Eigen::VectorXd elastic_;  ///< the values that never change
+  bool has_factor_ = false;
+  Eigen::VectorXd inertia_;  ///< of the factor
+  TargetEnergy targets_;     ///< of the factor
+  std::vector<TetVector> added_, removed_;
+  int updated_frames_ = 0;
+};
+
+template <typename T>
+class InPrecision : public ProjectiveDynamics::Precision {
+ public:
+  InPrecision(const TetTopology& topology, const CorotatedElasticity& elasticity,
+              const ProjectiveDynamicsOptions& options)
+      : options_(options.minimizer),
+        elasticity_(topology.rest_vertices, elasticity, options.simd),
+        step_(topology.rest_vertices.rows(), options.simd),
+        metric_(topology, elasticity),
+        solver_(metric_.lower(), options.simd),
+        minimizer_(paddedRows(topology.rest_vertices.rows())),
+        x_(Rows<T>::Zero(paddedRows(topology.rest_vertices.rows()), 4)) {}
+
+  StepReport minimize(const StepPotential& potential, Points* x) override {
+    metric_.set(potential, &solver_);
+    step_.set(potential, potential.prediction.colwise().mean());
+    step_.toRows(*x, &x_);
+    const auto energy = [this](const Rows<T>& trial, Rows<T>* gradient) {
+      const double outer = step_.evaluate(trial, gradient);
+      return outer + elasticity_.addTo(trial, gradient);
+    };
+    const auto solve = [this](const Rows<T>& B, Rows<T>* X) { solver_.solve(B, X); };
+    const StepReport report = minimizer_.minimize(energy, solve, options_, &x_);
+    step_.fromRows(x_, x);
+    return report;
+  }
+
+ private:
+  const MinimizerOptions options_;
+  ElasticBlocks<T> elasticity_;
+  StepRows<T> step_;
+  StepMetric metric_;
+  MetricSolver<T> solver_;
+  QuasiNewton<Rows<T>> minimizer_;
+  Rows<T> x_;
+};
+
+}  // namespace
+
+ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const Lame& lame,
+                                       const ProjectiveDynamicsOptions& options)
+    : elasticity_(topology.rest_vertices, topology.tets, lame, options.strain_smoothing) {
+  if (options.single_precision)
+    implementation_ = std::make_unique<InPrecision<float>>(topology, elasticity_, options);
+  else
+    implementation_ = std::make_unique<InPrecision<double>>(topology, elasticity_, options);
+}
+
+ProjectiveDynamics::~ProjectiveDynamics() = default;
+
+StepReport ProjectiveDynamics::minimize(const StepPotential& potential, Points* x) {
+  return implementation_->minimize(potential, x);
+}
+
+double ProjectiveDynamics::addElasticity(const Points& x, Points* gradient) const {
+  return elasticity_.addTo(x, gradient);
+}
+
+}  // namespace softbody

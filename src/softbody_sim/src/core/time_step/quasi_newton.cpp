@@ -1,0 +1,171 @@
+#include "time_step/quasi_newton.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "simd/rows.h"
+
+namespace softbody {
+namespace {
+
+template <typename Positions>
+double dot(const Positions& a, const Positions& b) {
+  return static_cast<double>(a.cwiseProduct(b).sum());
+}
+
+template <typename Positions>
+double longestRow(const Positions& points) {
+  using Scalar = typename Positions::Scalar;
+  // Side by side: one maximum waits for the one before.
+  constexpr Eigen::Index kSideBySide = 4;
+  std::array<Scalar, kSideBySide> longest{};
+  const auto include = [&](Eigen::Index v, Eigen::Index k) {
+    const Scalar x = points(v, 0), y = points(v, 1), z = points(v, 2), squared = x * x + y * y + z * z;
+    longest[k] = longest[k] < squared ? squared : longest[k];
+  };
+  Eigen::Index v = 0;
+  for (; v + kSideBySide <= points.rows(); v += kSideBySide) {
+    for (Eigen::Index k = 0; k < kSideBySide; ++k) include(v + k, k);
+  }
+  for (; v < points.rows(); ++v) include(v, 0);
+  return std::sqrt(static_cast<double>(*std::max_element(longest.begin(), longest.end())));
+}
+
+/// Longest row; not a number where any number is not finite.
+template <typename Positions>
+double residualOf(const Positions& gradient) {
+  return gradient.allFinite() ? longestRow(gradient) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+template <typename Positions>
+QuasiNewton<Positions>::QuasiNewton(Eigen::Index rows) : pairs_(kHistory) {
+  for (Positions* p :
+       {&gradient_, &direction_, &residual_, &trial_, &trial_gradient_, &trial_gradient_change_}) {
+    p->setZero(rows, Positions::ColsAtCompileTime);
+  }
+  for (Pair& pair : pairs_) {
+    pair.move.setZero(rows, Positions::ColsAtCompileTime);
+    pair.gradient_change.setZero(rows, Positions::ColsAtCompileTime);
+  }
+}
+
+template <typename Positions>
+StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& metric,
+                                            const MinimizerOptions& options, Positions* x) {
+  if (options.history == 0) return iterate(energy, metric, options, x);
+  StepReport report;
+  history_ = std::min(options.history, kHistory);
+  pair_count_ = 0;
+  energy_ = energy(*x, &gradient_);
+  while (report.iterations < options.max_iterations && !report.converged) {
+    ++report.iterations;
+    findDirection(metric);
+    double step = 1.0;
+    if (!searchLine(energy, x, &step)) {
+      // Nothing to gain along the steepest direction of the metric: a minimum within rounding.
+      report.converged = pair_count_ == 0;
+      pair_count_ = 0;
+      continue;
+    }
+    report.last_move_m = step * longestRow(direction_);
+    report.converged = step == 1.0 && report.last_move_m < options.tolerance_m;
+  }
+  report.residual_n = residualOf(gradient_);
+  return report;
+}
+
+/// Local and global steps of projective dynamics. They need no line search: the metric bounds the curvature
+/// of every term, so that no iteration can raise the energy (Bouaziz et al. 2014, section 3).
+template <typename Positions>
+StepReport QuasiNewton<Positions>::iterate(const Energy& energy, const Metric& metric,
+                                           const MinimizerOptions& options, Positions* x) {
+  StepReport report;
+  while (report.iterations < options.max_iterations && !report.converged) {
+    ++report.iterations;
+    energy(*x, &gradient_);
+    metric(gradient_, &direction_);
+    *x -= direction_;
+    report.last_move_m = longestRow(direction_);
+    report.converged = report.last_move_m < options.tolerance_m;
+  }
+  report.residual_n = residualOf(gradient_);
+  return report;
+}
+
+/// The two-loop recursion (Nocedal and Wright 2006, algorithm 7.4).
+template <typename Positions>
+void QuasiNewton<Positions>::findDirection(const Metric& metric) {
+  std::array<double, kHistory> alpha{};
+  residual_ = gradient_;
+  for (int age = 0; age < pair_count_; ++age) {
+    const Pair& pair = recent(age);
+    alpha[age] = pair.inverse_product * dot(pair.move, residual_);
+    residual_ -= static_cast<Scalar>(alpha[age]) * pair.gradient_change;
+  }
+  metric(residual_, &direction_);
+  for (int age = pair_count_ - 1; age >= 0; --age) {
+    const Pair& pair = recent(age);
+    direction_ +=
+        static_cast<Scalar>(alpha[age] - pair.inverse_product * dot(pair.gradient_change, direction_)) *
+        pair.move;
+  }
+  direction_ = -direction_;
+}
+
+/// Halves the step until the energy falls enough; false, x as it was, if it never does.
+template <typename Positions>
+bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, double* step) {
+  constexpr int kMaxHalvings = 12;
+  const double slope = dot(gradient_, direction_);
+  if (!(slope < 0.0)) return false;
+  for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
+    trial_ = *x + static_cast<Scalar>(*step) * direction_;
+    const double trial_energy = energy(trial_, &trial_gradient_);
+    if (fallsEnough(trial_energy, slope, *step)) {
+      energy_ = trial_energy;
+      residual_ = trial_ - *x;
+      remember();
+      x->swap(trial_);
+      gradient_.swap(trial_gradient_);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Armijo's condition. In single precision the difference of two energies drowns in rounding long before the
+/// minimum does; there the slope at the end of the step tells (the approximate Wolfe condition of Hager and
+/// Zhang 2005).
+template <typename Positions>
+bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, double step) const {
+  constexpr double kArmijo = 1e-4;
+  if (trial_energy <= energy_ + kArmijo * step * slope) return true;
+  constexpr double kRounding = 1e-6;
+  return std::is_same_v<Scalar, float> && trial_energy <= energy_ + kRounding * std::abs(energy_) &&
+         dot(trial_gradient_, direction_) <= (2.0 * kArmijo - 1.0) * slope;
+}
+
+/// Keeps the accepted move (in residual_) where the curvature along it is positive, as the update needs.
+template <typename Positions>
+void QuasiNewton<Positions>::remember() {
+  trial_gradient_change_ = trial_gradient_ - gradient_;
+  const double product = dot(residual_, trial_gradient_change_);
+  if (!(product > 1e-12 * residual_.norm() * trial_gradient_change_.norm())) return;
+  newest_ = (newest_ + 1) % kHistory;
+  Pair& pair = recent(0);
+  pair.move.swap(residual_);
+  pair.gradient_change.swap(trial_gradient_change_);
+  pair.inverse_product = 1.0 / product;
+  if (pair_count_ < history_) ++pair_count_;
+}
+
+template class QuasiNewton<Points>;
+template class QuasiNewton<Rows<float>>;
+template class QuasiNewton<Rows<double>>;
+
+}  // namespace softbody

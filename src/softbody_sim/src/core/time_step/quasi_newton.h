@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "softbody_common/types.h"
+#include "softbody_sim/dynamics/simulator.h"
+
+namespace softbody {
+
+struct MinimizerOptions {
+  int max_iterations = 20;
+  double tolerance_m = 1e-6;  ///< converged when no vertex moves further in a full iteration
+  int history = 5;  ///< moves that L-BFGS remembers; 0: plain projective dynamics, without line search
+};
+
+/// Minimises energies of vertex positions, a row a vertex, by L-BFGS whose initial Hessian is a constant
+/// metric: without history one iteration is exactly the local and global step of projective dynamics, with it
+/// large rotations and sliding converge (Liu, Bouaziz, Kavan 2017). A backtracking line search keeps the
+/// energy from ever rising.
+template <typename Positions>
+class QuasiNewton {
+ public:
+  /// Energy, and its gradient.
+  using Energy = std::function<double(const Positions& x, Positions* gradient)>;
+  /// X = A^-1 B with the metric A.
+  using Metric = std::function<void(const Positions& B, Positions* X)>;
+
+  /// @param rows of the positions.
+  explicit QuasiNewton(Eigen::Index rows);
+
+  /// Allocates nothing but what `energy` and `metric` do. @param x start, then result.
+  StepReport minimize(const Energy& energy, const Metric& metric, const MinimizerOptions& options,
+                      Positions* x);
+
+ private:
+  using Scalar = typename Positions::Scalar;
+  static constexpr int kHistory = 5;
+  struct Pair {
+    Positions move;  ///< x_{k+1} - x_k
+    Positions gradient_change;
+    double inverse_product = 0.0;  ///< 1 / <move, gradient_change>
+  };
+
+  StepReport iterate(const Energy& energy, const Metric& metric, const MinimizerOptions& options,
+                     Positions* x);
+  void findDirection(const Metric& metric);
+  bool searchLine(const Energy& energy, Positions* x, double* step);
+  bool fallsEnough(double trial_energy, double slope, double step) const;
+  void remember();
+  Pair& recent(int age) { return pairs_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)]; }
+
+  std::vector<Pair> pairs_;
+  int history_ = kHistory;
+  int pair_count_ = 0;
+  int newest_ = 0;
+  double energy_ = 0.0;
+  Positions gradient_, direction_, residual_, trial_, trial_gradient_, trial_gradient_change_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+
+#include "simd/simd.h"
+
+namespace softbody {
+
+/// A target as TargetEnergy has it, in rows (x, y, z, 0).
+template <typename T>
+struct TargetRow {
+  int corners[4];  ///< where the vertices' rows begin
+  T barycentric[4];
+  T position[4];
+  T normal[4];  ///< unit, or zero
+  T stiffness;
+  bool has_normal;
+  bool one_sided;  ///< pushes along the normal only
+};
+
+/// A StepPotential in rows (x, y, z, 0).
+template <typename T>
+struct StepView {
+  std::size_t size;  ///< numbers in all rows, a multiple of 64
+  const T *inertia, *prediction, *loads;
+  const TargetRow<T>* targets;
+  std::size_t target_count;
+};
+
+/// Energy [J]; sets its gradient [N].
+template <typename T>
+using StepKernel = double (*)(const StepView<T>& step, const T* x, T* gradient);
+
+template <typename T>
+StepKernel<T> stepKernel(Simd simd);
+
+}  // namespace softbody

@@ -1,0 +1,73 @@
+#include "time_step/step_rows.h"
+
+namespace softbody {
+namespace {
+
+template <typename T>
+TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d& origin) {
+  TargetRow<T> row{};
+  for (int k = 0; k < 4; ++k) {
+    row.corners[k] = 4 * spring.vertices[k];
+    row.barycentric[k] = static_cast<T>(spring.barycentric[k]);
+  }
+  // Barycentric coordinates that do not quite sum to 1 move the origin, too.
+  const Eigen::Vector3d position = spring.position - spring.barycentric.sum() * origin.transpose();
+  for (int k = 0; k < 3; ++k) {
+    row.position[k] = static_cast<T>(position[k]);
+    row.normal[k] = static_cast<T>(spring.normal[k]);
+  }
+  row.stiffness = static_cast<T>(spring.stiffness);
+  row.has_normal = !spring.normal.isZero(0.0);
+  row.one_sided = spring.one_sided;
+  return row;
+}
+
+}  // namespace
+
+template <typename T>
+StepRows<T>::StepRows(Eigen::Index vertex_count, Simd simd)
+    : inertia_(Rows<T>::Zero(paddedRows(vertex_count), 4)),
+      prediction_(inertia_),
+      loads_(inertia_),
+      kernel_(stepKernel<T>(simd)) {}
+
+template <typename T>
+void StepRows<T>::set(const StepPotential& potential, const Eigen::RowVector3d& origin) {
+  origin_ = origin;
+  for (Eigen::Index v = 0; v < potential.inertia.size(); ++v) {
+    inertia_.row(v).setConstant(static_cast<T>(potential.inertia[v]));
+  }
+  toRows(potential.prediction, &prediction_);
+  loads_.topLeftCorner(potential.loads.rows(), 3) = potential.loads.cast<T>();
+  targets_.clear();
+  for (const TargetEnergy::Spring& spring : potential.targets.springs()) {
+    targets_.push_back(toRow<T>(spring, origin_));
+  }
+}
+
+template <typename T>
+double StepRows<T>::evaluate(const Rows<T>& x, Rows<T>* gradient) const {
+  const StepView<T> view{static_cast<std::size_t>(inertia_.size()),
+                         inertia_.data(),
+                         prediction_.data(),
+                         loads_.data(),
+                         targets_.data(),
+                         targets_.size()};
+  return kernel_(view, x.data(), gradient->data());
+}
+
+template <typename T>
+void StepRows<T>::toRows(const Points& points, Rows<T>* rows) const {
+  rows->col(3).setZero();
+  rows->topLeftCorner(points.rows(), 3) = (points.rowwise() - origin_).template cast<T>();
+}
+
+template <typename T>
+void StepRows<T>::fromRows(const Rows<T>& rows, Points* points) const {
+  *points = rows.topLeftCorner(points->rows(), 3).template cast<double>().rowwise() + origin_;
+}
+
+template class StepRows<float>;
+template class StepRows<double>;
+
+}  // namespace softbody

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "simd/rows.h"
+#include "time_step/step_kernel.h"
+#include "time_step/step_potential.h"
+
+namespace softbody {
+
+/// A StepPotential in rows of the precision T, about an origin near the body, where single precision is
+/// finest.
+template <typename T>
+class StepRows {
+ public:
+  StepRows(Eigen::Index vertex_count, Simd simd);
+
+  /// Allocates only where there are more targets than ever before.
+  void set(const StepPotential& potential, const Eigen::RowVector3d& origin);
+
+  /// Energy [J]; sets its gradient [N].
+  double evaluate(const Rows<T>& x, Rows<T>* gradient) const;
+
+  /// Points to rows about the origin, and back.
+  void toRows(const Points& points, Rows<T>* rows) const;
+  void fromRows(const Rows<T>& rows, Points* points) const;
+
+ private:
+  Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
+  Rows<T> inertia_;  ///< the same in all of a row
+  Rows<T> prediction_, loads_;
+  std::vector<TargetRow<T>> targets_;
+  StepKernel<T> kernel_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "softbody_common/types.h"
+#include "softbody_sim/dynamics/simulator.h"
+#include "time_step/step_potential.h"
+
+namespace softbody {
+
+/// Finds where one step of implicit Euler leads: the vertices that minimise elasticity and step potential.
+class StepSolver {
+ public:
+  virtual ~StepSolver() = default;
+
+  /// @param x start, then result, #V by 3 [m]. @throw std::runtime_error if a system cannot be solved.
+  virtual StepReport minimize(const StepPotential& potential, Points* x) = 0;
+
+  /// Elastic energy [J]; adds its gradient [N], #V by 3.
+  virtual double addElasticity(const Points& x, Points* gradient) const = 0;
+};
+
+}  // namespace softbody

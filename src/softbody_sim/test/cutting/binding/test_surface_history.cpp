@@ -1,0 +1,234 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cutting/fixtures/cut_visual_body.h"
+
+namespace softbody {
+namespace {
+
+using testing::CutBody;
+using testing::kRounding;
+using testing::planePatch;
+using testing::stateOf;
+using testing::worstJump;
+
+TEST(SurfaceHistory, CutsWithoutAJump) {
+  CutBody body;
+  const Points before = body.shown();
+  ASSERT_TRUE(body.cut(planePatch({0.093, 0.05, 0.015}, {1.0, 0.3, 0.1}, 1.0), 1));
+  const Points after = body.shown();
+  const MeshTopology& mesh = body.surface.surface().topology();
+  int kept = 0;
+  for (Eigen::Index v = 0; v < after.rows(); ++v) {
+    const int parent = mesh.vertex_parents[static_cast<std::size_t>(v)];
+    if (parent < 0) continue;
+    EXPECT_LT((after.row(v) - before.row(parent)).norm(), 1e-9);
+    ++kept;
+  }
+  EXPECT_GE(kept, before.rows());
+  EXPECT_LT((body.atRest() - mesh.rest_vertices).cwiseAbs().maxCoeff(), kRounding);
+}
+
+/// By how much an edge of the mesh is stretched at most where the pieces of tets are moved apart [m].
+double stretchWhenApart(const CutBody& body, double distance) {
+  const TetTopology& tets = body.tets.topology();
+  Points apart = tets.rest_vertices;
+  for (Eigen::Index t = 0; t < tets.tets.rows(); ++t) {
+    for (const int v : tets.tets.row(t)) {
+      apart(v, 2) = tets.rest_vertices(v, 2) + distance * tets.bodies[static_cast<std::size_t>(t)];
+    }
+  }
+  const Points shown = body.surface.surface().apply(stateOf(tets, apart)).vertices;
+  const MeshTopology& mesh = body.surface.surface().topology();
+  double worst = 0.0;
+  for (const auto& triangle : mesh.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangle[k], b = triangle[(k + 1) % 3];
+      worst = std::max(worst, (shown.row(a) - shown.row(b)).norm() -
+                                  (mesh.rest_vertices.row(a) - mesh.rest_vertices.row(b)).norm());
+    }
+  }
+  return worst;
+}
+
+TEST(SurfaceHistory, PiecesDoNotMixAtRandomCuts) {
+  const TetTopology sponge = testing::sponge();
+  testing::RandomCuts cuts(sponge, 5);
+  int parted = 0, counts_differ = 0;
+  for (int k = 0; k < 80; ++k) {
+    CutBody body;
+    if (!body.cut(cuts.planeCut(), 1)) continue;
+    const auto& bodies = body.tets.topology().bodies;
+    const auto& visual = body.surface.surface().topology().bodies;
+    const auto tet_pieces = *std::max_element(bodies.begin(), bodies.end()) + 1;
+    const auto visual_pieces = *std::max_element(visual.begin(), visual.end()) + 1;
+    parted += tet_pieces > 1;
+    counts_differ += tet_pieces != visual_pieces;
+    EXPECT_LT(stretchWhenApart(body, 0.05), kRounding) << k;
+    EXPECT_LT((body.atRest() - body.surface.surface().topology().rest_vertices).cwiseAbs().maxCoeff(),
+              kRounding);
+  }
+  EXPECT_EQ(counts_differ, 0);
+  EXPECT_GT(parted, 40);
+}
+
+/// Half of a plane: what a blade leaves that went in as far as `center`, along `way`.
+CutPatch halfPlane(const Eigen::Vector3d& center, const Eigen::Vector3d& normal, const Eigen::Vector3d& way) {
+  const Eigen::Vector3d across = normal.cross(way);
+  Points before(2, 3), now(2, 3);
+  before << (center - way - across).transpose(), (center - way + across).transpose();
+  now << (center - across).transpose(), (center + across).transpose();
+  return ruledPatch(before, now);
+}
+
+/// Which side of a plane the vertices belong to, 1 or -1: that of the triangles at them, or, where those lie
+/// in the plane, of the triangles' backs.
+std::vector<int> sidesOf(const MeshTopology& mesh, const Eigen::Vector3d& center,
+                         const Eigen::Vector3d& normal) {
+  const Points normals = vertexNormals(mesh.rest_vertices, mesh.triangles);
+  std::vector<double> sides(static_cast<std::size_t>(normals.rows()), 0.0);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    double height = 0.0;
+    for (const int v : mesh.triangles.row(t))
+      height += normal.dot(mesh.rest_vertices.row(v).transpose() - center);
+    for (const int v : mesh.triangles.row(t)) {
+      const double own = mesh.cut[static_cast<std::size_t>(t)] ? -1e-9 * normal.dot(normals.row(v)) : height;
+      sides[static_cast<std::size_t>(v)] += own;
+    }
+  }
+  std::vector<int> signs;
+  for (const double side : sides) signs.push_back(side > 0.0 ? 1 : -1);
+  return signs;
+}
+
+/// A slit's tets moved apart, the farther from its front the more; nothing moves within `margin` of it.
+Points opened(const TetTopology& tets, const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
+              const Eigen::Vector3d& way, double margin) {
+  std::vector<double> sides(static_cast<std::size_t>(tets.rest_vertices.rows()), 0.0);
+  for (const auto& tet : tets.tets.rowwise()) {
+    for (const int v : tet) {
+      for (const int w : tet)
+        sides[static_cast<std::size_t>(v)] += normal.dot(tets.rest_vertices.row(w).transpose() - center);
+    }
+  }
+  Points vertices = tets.rest_vertices;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    const double behind = way.dot(center - tets.rest_vertices.row(v).transpose()) - margin;
+    vertices.row(v) +=
+        std::copysign(std::max(0.0, behind), sides[static_cast<std::size_t>(v)]) * normal.transpose();
+  }
+  return vertices;
+}
+
+TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
+  const TetTopology sponge = testing::sponge();
+  testing::RandomCuts cuts(sponge, 7);
+  constexpr double kMargin = 0.04;  // more than a tet's edge
+  int slits = 0, checked = 0, other_side = 0;
+  for (int k = 0; k < 80; ++k) {
+    const Eigen::Vector3d center = cuts.point(), normal = cuts.direction();
+    const Eigen::Vector3d way = normal.cross(cuts.direction()).normalized();
+    CutBody body;
+    if (!body.cut(halfPlane(center, normal, way), 1)) continue;
+    ++slits;
+    const MeshTopology& mesh = body.surface.surface().topology();
+    const Points vertices = opened(body.tets.topology(), center, normal, way, kMargin);
+    const Points shown = body.surface.surface().apply(stateOf(body.tets.topology(), vertices)).vertices;
+    const std::vector<int> sides = sidesOf(mesh, center, normal);
+    for (Eigen::Index v = 0; v < shown.rows(); ++v) {
+      const double behind = way.dot(center - mesh.rest_vertices.row(v).transpose()) - kMargin;
+      if (behind < 0.01) continue;
+      ++checked;
+      const double moved = normal.dot(shown.row(v) - mesh.rest_vertices.row(v));
+      other_side += sides[static_cast<std::size_t>(v)] * moved < 0.4 * behind;
+    }
+  }
+  EXPECT_GT(slits, 40);
+  EXPECT_GT(checked, 5000);
+  // Flaps of some millimetres, thinner than what the tets resolve, stay with what they lie on.
+  EXPECT_LE(other_side, checked / 1000);
+}
+
+TEST(SurfaceHistory, StrokesGoOnWithoutAJump) {
+  const TetTopology sponge = testing::sponge();
+  testing::RandomCuts cuts(sponge, 9);
+  int steps = 0;
+  for (int k = 0; k < 20; ++k) {
+    CutBody body;
+    for (const CutPatch& patch : cuts.sweep(6)) {
+      const MeshTopology mesh = body.surface.surface().topology();
+      const Points shown = body.shown();
+      if (!body.cut(patch, 1)) continue;
+      ++steps;
+      const MeshTopology& after = body.surface.surface().topology();
+      EXPECT_LT(worstJump(shown, mesh, body.shown(), after), 1e-9) << "stroke " << k;
+      EXPECT_LT((body.atRest() - after.rest_vertices).cwiseAbs().maxCoeff(), kRounding);
+      // The body goes on moving while it is cut.
+      body.vertices.col(2) += 0.02 * body.vertices.col(0).cwiseAbs2() / 0.2;
+    }
+  }
+  EXPECT_GT(steps, 50);
+}
+
+TEST(SurfaceHistory, FollowsAffineDeformationsExactly) {
+  CutBody body;
+  body.vertices = body.tets.topology().rest_vertices;
+  ASSERT_TRUE(body.cut(planePatch({0.093, 0.05, 0.015}, {1.0, 0.3, 0.1}, 1.0), 1));
+  ASSERT_TRUE(body.cut(planePatch({0.1, 0.05, 0.015}, {0.1, 1.0, 0.1}, 1.0), 2));
+  Eigen::Matrix3d A;
+  A << 1.2, 0.3, -0.1, 0.0, 0.8, 0.2, 0.1, -0.2, 1.1;
+  const TetTopology& tets = body.tets.topology();
+  const VisualSurface& surface = body.surface.surface();
+  const Points shown = surface.apply(stateOf(tets, tets.rest_vertices * A.transpose())).vertices;
+  EXPECT_LT((shown - surface.topology().rest_vertices * A.transpose()).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+/// All that a surface consists of but its revision.
+void expectSame(const VisualSurface& surface, const VisualSurface& other, const Points& shown,
+                const Points& shown_other) {
+  EXPECT_EQ(surface.topology().rest_vertices, other.topology().rest_vertices);
+  EXPECT_EQ(surface.topology().triangles, other.topology().triangles);
+  EXPECT_EQ(surface.topology().vertex_parents, other.topology().vertex_parents);
+  EXPECT_EQ(surface.topology().bodies, other.topology().bodies);
+  EXPECT_EQ(surface.topology().cut, other.topology().cut);
+  EXPECT_EQ(shown, shown_other);
+}
+
+TEST(SurfaceHistory, UndoesFiveCutsBitForBitAndRedoesThem) {
+  CutBody body;
+  std::vector<VisualSurface> surfaces{body.surface.surface()};
+  std::vector<Points> states{body.vertices}, shown{body.shown()};
+  const TetTopology sponge = testing::sponge();
+  testing::RandomCuts cuts(sponge, 11);
+  for (std::uint32_t stroke = 1; surfaces.size() < 6; ++stroke) {
+    if (!body.cut(cuts.planeCut(), stroke)) continue;
+    surfaces.push_back(body.surface.surface());
+    states.push_back(body.vertices);
+    shown.push_back(body.shown());
+  }
+  const auto expectVersion = [&](std::size_t version) {
+    EXPECT_EQ(body.surface.surface().topology().revision, body.tets.topology().revision);
+    body.vertices = states[version];
+    expectSame(body.surface.surface(), surfaces[version], body.shown(), shown[version]);
+  };
+  for (std::size_t version = 5; version-- > 0;) {
+    body.tets.undo();
+    EXPECT_TRUE(body.surface.undo(body.tets.topology().revision));
+    expectVersion(version);
+  }
+  EXPECT_FALSE(body.surface.undo(99));
+  for (std::size_t version = 1; version <= 5; ++version) {
+    body.tets.redo();
+    EXPECT_TRUE(body.surface.redo(body.tets.topology().revision));
+    expectVersion(version);
+  }
+  EXPECT_FALSE(body.surface.redo(99));
+  body.tets.reset();
+  EXPECT_TRUE(body.surface.reset(body.tets.topology().revision));
+  expectVersion(0);
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cutting/fixtures/visual_sponge.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_common/tet_locator.h"
+#include "softbody_sim/dynamics/simulator.h"
+
+namespace softbody {
+namespace {
+
+constexpr Nanoseconds kFrame = 33'000'000;
+
+Cut throughTheMiddle(std::uint32_t revision = 1) {
+  return {revision, 1, CutKind::kCut, testing::planePatch({0.093, 0.05, 0.015}, {1.0, 0.1, 0.0}, 1.0)};
+}
+
+TargetSet atRest(const Simulator& simulator) {
+  TargetSet targets;
+  targets.revision = simulator.topology().revision;
+  targets.reset = true;
+  targets.body_pose = testing::somePose();
+  return targets;
+}
+
+/// Bent, and still moving.
+std::unique_ptr<Simulator> swinging() {
+  auto simulator = std::make_unique<Simulator>(testing::sponge(), Material(), SimulatorConfig());
+  TargetSet targets = atRest(*simulator);
+  simulator->step(targets, kFrame);
+  const TetTopology& topology = simulator->topology();
+  Points bent = topology.rest_vertices;
+  for (auto v : bent.rowwise()) v.z() += 3.0 * (v.x() - 0.1) * (v.x() - 0.1);
+  targets.reset = false;
+  targets.targets = testing::vertexTargets(topology, transformed(bent, testing::somePose()));
+  simulator->step(targets, 2 * kFrame);
+  return simulator;
+}
+
+std::vector<int> verticesOfBody(const TetTopology& topology, std::uint32_t body) {
+  std::vector<int> vertices;
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    if (topology.bodies[static_cast<std::size_t>(t)] != body) continue;
+    for (const int v : topology.tets.row(t)) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+/// Over a piece's material.
+Eigen::Vector3d meanOfBody(const TetTopology& topology, std::uint32_t body, const Points& values) {
+  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double all = 0.0;
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    if (topology.bodies[static_cast<std::size_t>(t)] != body) continue;
+    all += volumes[t];
+    for (const int v : topology.tets.row(t)) sum += 0.25 * volumes[t] * values.row(v).transpose();
+  }
+  return sum / all;
+}
+
+TEST(CutSimulation, NothingJumpsAtACutNorWhenItIsTakenBack) {
+  const std::unique_ptr<Simulator> swinging_body = swinging();
+  Simulator& simulator = *swinging_body;
+  const TetTopology uncut = simulator.topology();
+  const MeshState before = simulator.state();
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  const TetTopology cut = simulator.topology();
+  EXPECT_EQ(cut.revision, 1u);
+  EXPECT_EQ(simulator.state().revision, 1u);
+  EXPECT_EQ(simulator.state().vertices.topRows(before.vertices.rows()), before.vertices);
+  const std::vector<MaterialPoint> places = bindPoints(cut.rest_vertices, uncut.rest_vertices, uncut.tets);
+  EXPECT_LT(
+      (simulator.state().vertices - applyBinding(places, before.vertices, uncut.tets)).cwiseAbs().maxCoeff(),
+      1e-6);
+  ASSERT_TRUE(simulator.apply({2, 1, CutKind::kUndo, {}}, &reason)) << reason;
+  EXPECT_EQ(simulator.topology().rest_vertices, uncut.rest_vertices);
+  EXPECT_EQ(simulator.topology().tets, uncut.tets);
+  EXPECT_EQ(simulator.state().vertices, before.vertices);
+  EXPECT_EQ(simulator.state().confidence, before.confidence);
+}
+
+TEST(CutSimulation, MotionGoesOn) {
+  const std::unique_ptr<Simulator> one = swinging(), other = swinging();
+  Simulator &cut = *one, &whole = *other;
+  std::string reason;
+  ASSERT_TRUE(cut.apply(throughTheMiddle(), &reason)) << reason;
+  const Points start = whole.state().vertices;
+  TargetSet none;
+  whole.step(none, 3 * kFrame);
+  none.revision = 1;
+  cut.step(none, 3 * kFrame);
+  const Eigen::RowVector3d way = (whole.state().vertices - start).colwise().mean();
+  const Eigen::RowVector3d cut_way = (cut.state().vertices.topRows(start.rows()) - start).colwise().mean();
+  EXPECT_GT(way.norm(), 1e-3);
+  EXPECT_LT((way - cut_way).norm(), 0.2 * way.norm());
+}
+
+TEST(CutSimulation, PiecesMoveOnTheirOwn) {
+  Simulator simulator(testing::sponge(), Material(), {});
+  simulator.step(atRest(simulator), kFrame);
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  const TetTopology& topology = simulator.topology();
+  const std::vector<int> moved = verticesOfBody(topology, 0), still = verticesOfBody(topology, 1);
+  ASSERT_FALSE(still.empty());
+  const Points before = simulator.state().vertices;
+  Points goal = before;
+  for (const int v : moved) goal.row(v) = before.row(v) + Eigen::RowVector3d(0.0, 0.0, 0.05);
+  TargetSet targets;
+  targets.revision = 1;
+  for (const Target& target : testing::vertexTargets(topology, goal)) {
+    if (topology.bodies[static_cast<std::size_t>(target.place.tet)] == 0) targets.targets.push_back(target);
+  }
+  for (int k = 2; k < 12; ++k) simulator.step(targets, k * kFrame);
+  EXPECT_LT((simulator.state().vertices(moved, Eigen::all) - goal(moved, Eigen::all)).cwiseAbs().maxCoeff(),
+            2e-3);
+  EXPECT_LT((simulator.state().vertices(still, Eigen::all) - before(still, Eigen::all)).cwiseAbs().maxCoeff(),
+            1e-6);
+}
+
+/// The loads that are estimated of a body pulled at both ends balance on the whole, not on its halves.
+TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
+  Simulator simulator(testing::sponge(), Material(), {});
+  simulator.step(atRest(simulator), kFrame);
+  const TetTopology uncut = simulator.topology();
+  Points stretched = uncut.rest_vertices;
+  stretched.col(0) *= 1.2;
+  TargetSet targets;
+  targets.targets = testing::vertexTargets(uncut, transformed(stretched, testing::somePose()));
+  for (int k = 2; k < 22; ++k) simulator.step(targets, k * kFrame);
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  const Points before = simulator.state().vertices;
+  TargetSet none;
+  none.revision = 1;
+  for (int k = 22; k < 32; ++k) simulator.step(none, k * kFrame);
+  const Points way = simulator.state().vertices - before;
+  for (const std::uint32_t body : {0u, 1u})
+    EXPECT_LT(meanOfBody(simulator.topology(), body, way).norm(), 1e-4) << "piece " << body;
+}
+
+TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
+  Simulator simulator(testing::sponge(), Material(), {});
+  simulator.step(atRest(simulator), kFrame);
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  const TetTopology& topology = simulator.topology();
+  const std::vector<int> hidden = verticesOfBody(topology, 1);
+  TargetSet targets;
+  targets.revision = 1;
+  Points goal = simulator.state().vertices;
+  for (int k = 2; k < 8; ++k) {  // at 0.3 m/s
+    goal.col(2).array() += 0.01;
+    targets.targets = testing::vertexTargets(topology, goal);
+    simulator.step(targets, k * kFrame);
+  }
+  const Points before = simulator.state().vertices;
+  std::vector<Target>& seen = targets.targets;
+  const auto is_hidden = [&](const Target& target) {
+    return topology.bodies[static_cast<std::size_t>(target.place.tet)] == 1;
+  };
+  seen.erase(std::remove_if(seen.begin(), seen.end(), is_hidden), seen.end());
+  for (int k = 8; k < 38; ++k) simulator.step(targets, k * kFrame);
+  const double way = (simulator.state().vertices - before)(hidden, 2).mean();
+  EXPECT_GT(way, 0.005);
+  EXPECT_LT(way, 0.04);  // the material's damping alone lets it go 0.09 m
+}
+
+TEST(CutSimulation, TargetsOfTheRevisionBeforeAreStillUnderstood) {
+  Simulator simulator(testing::sponge(), Material(), {});
+  simulator.step(atRest(simulator), kFrame);
+  const TetTopology uncut = simulator.topology();
+  const Points goal =
+      transformed(uncut.rest_vertices, Eigen::Translation3d(0.02, 0.0, 0.01) * testing::somePose());
+  std::string reason;
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  TargetSet late;
+  late.revision = 0;
+  late.targets = testing::vertexTargets(uncut, goal);
+  for (int k = 2; k < 12; ++k) simulator.step(late, k * kFrame);
+  EXPECT_LT((simulator.state().vertices.topRows(goal.rows()) - goal).cwiseAbs().maxCoeff(), 2e-3);
+  for (std::uint32_t revision = 2; revision < 12; ++revision) {
+    const CutKind kind = revision % 2 == 0 ? CutKind::kUndo : CutKind::kRedo;
+    ASSERT_TRUE(simulator.apply({revision, 1, kind, {}}, &reason)) << reason;
+  }
+  EXPECT_THROW(simulator.step(late, 12 * kFrame), std::invalid_argument);
+}
+
+TEST(CutSimulation, AResetBeginsUncutAndOtherRevisionsAreRefused) {
+  const std::unique_ptr<Simulator> swinging_body = swinging();
+  Simulator& simulator = *swinging_body;
+  std::string reason;
+  EXPECT_FALSE(simulator.apply(throughTheMiddle(2), &reason));
+  EXPECT_EQ(reason, "it leads to revision 2, but the body is at 0");
+  EXPECT_FALSE(simulator.apply({1, 1, CutKind::kUndo, {}}, &reason));
+  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  EXPECT_THROW(
+      simulator.apply({2, 2, CutKind::kCut, {Points::Zero(1, 3), Triangles::Constant(1, 3, 4)}}, &reason),
+      std::invalid_argument);
+  EXPECT_EQ(simulator.topology().revision, 1u);
+  simulator.reset();
+  EXPECT_EQ(simulator.topology().revision, 0u);
+  EXPECT_EQ(simulator.topology().tets, testing::sponge().tets);
+  EXPECT_FALSE(simulator.placed());
+  simulator.step(atRest(simulator), kFrame);
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,391 @@
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include "fixtures/test_meshes.h"
+#include "softbody_common/target_limits.h"
+#include "softbody_sim/dynamics/simulator.h"
+
+namespace softbody {
+namespace {
+
+using testing::largestDistance;
+using testing::placing;
+using testing::somePose;
+using testing::sponge;
+using testing::vertexTargets;
+
+constexpr Nanoseconds kFrame = 33333333;
+
+Material undamped() {
+  Material material;
+  material.damping = 0.0;
+  return material;
+}
+
+SimulatorConfig accurate() {
+  SimulatorConfig config;
+  config.iterations = 300;
+  config.tolerance = 1e-7;
+  return config;
+}
+
+Eigen::VectorXd massesOf(const TetTopology& topology, double density) {
+  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
+  for (Eigen::Index t = 0; t < volumes.size(); ++t) {
+    for (int k = 0; k < 4; ++k) masses[topology.tets(t, k)] += density * volumes[t] / 4.0;
+  }
+  return masses;
+}
+
+/// Targets at the surface's vertices, each counting along the surface's normal alone.
+std::vector<Target> slidingTargets(const TetTopology& topology, const Points& positions) {
+  const Points normals = vertexNormals(positions, topology.surface);
+  std::vector<Target> targets = vertexTargets(topology, positions);
+  for (std::size_t v = 0; v < targets.size(); ++v)
+    targets[v].normal = normals.row(static_cast<Eigen::Index>(v));
+  return targets;
+}
+
+TEST(Simulator, StaysAtRest) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), SimulatorConfig());
+  simulator.step(placing(somePose()), 0);
+  const Points placed = transformed(topology.rest_vertices, somePose());
+  EXPECT_LT(largestDistance(simulator.state().vertices, placed), 1e-12);
+  for (int frame = 1; frame <= 30; ++frame) simulator.step({}, frame * kFrame);
+  EXPECT_LT(largestDistance(simulator.state().vertices, placed), 1e-12);
+  EXPECT_TRUE(simulator.report().converged);
+}
+
+TEST(Simulator, FollowsTargetsOfARigidMotion) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), accurate());
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  TargetSet targets;
+  const Points goal = transformed(topology.rest_vertices, somePose());
+  targets.targets = vertexTargets(topology, goal);
+  for (int frame = 1; frame <= 40; ++frame) simulator.step(targets, frame * kFrame);
+  EXPECT_LT(largestDistance(simulator.state().vertices, goal), 1e-7);
+}
+
+TEST(Simulator, ReachesTargetsFortyMillimetresAwayInOneStep) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), SimulatorConfig());
+  simulator.step(placing(somePose()), 0);
+  TargetSet targets;
+  const Eigen::Isometry3d moved = Eigen::Translation3d(0.025, -0.025, 0.02) * somePose() *
+                                  Eigen::AngleAxisd(0.2, Eigen::Vector3d(0.3, 0.2, 1.0).normalized());
+  const Points goal = transformed(topology.rest_vertices, moved);
+  targets.targets = vertexTargets(topology, goal);
+  simulator.step(targets, kFrame);
+  EXPECT_LT(largestDistance(simulator.state().vertices, goal), 1e-4);
+}
+
+TEST(Simulator, SurvivesContradictoryTargets) {
+  const TetTopology topology = sponge();
+  std::mt19937 random(1);
+  Simulator simulator(topology, Material(), SimulatorConfig());
+  simulator.step(placing(somePose()), 0);
+  TargetSet targets;
+  targets.targets =
+      vertexTargets(topology, testing::randomPoints(topology.rest_vertices.rows(), 0.3, &random));
+  for (int frame = 1; frame <= 5; ++frame) simulator.step(targets, frame * kFrame);
+  EXPECT_TRUE(simulator.state().vertices.allFinite());
+  for (int frame = 6; frame <= 200; ++frame) simulator.step({}, frame * kFrame);
+  const Eigen::Isometry3d pose = fitRigid(topology.rest_vertices, simulator.state().vertices);
+  EXPECT_LT(largestDistance(simulator.state().vertices, transformed(topology.rest_vertices, pose)), 1e-3);
+}
+
+TEST(Simulator, SlidesAlongTargetsWithNormals) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, undamped(), accurate());
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  // A plane through every vertex of the bottom holds z; pulling one corner sideways takes the whole body
+  // along.
+  TargetSet targets;
+  for (Target target : vertexTargets(topology, topology.rest_vertices)) {
+    if (target.position.z() > 1e-9) continue;
+    target.normal = Eigen::Vector3d::UnitZ();
+    targets.targets.push_back(target);
+  }
+  Target pull = targets.targets.front();
+  pull.position += Eigen::Vector3d(0.02, 0.01, 0.0);
+  pull.normal.setZero();
+  targets.targets.push_back(pull);
+  for (int frame = 1; frame <= 600; ++frame) {
+    simulator.step(targets, frame * kFrame);
+    for (const Target& target : targets.targets) {
+      const Eigen::Vector3d offset =
+          positionOf(target.place, simulator.state().vertices, topology.tets) - target.position;
+      EXPECT_LT(std::abs(offset.z()), 2e-4);
+    }
+  }
+  const Eigen::RowVector3d moved =
+      simulator.state().vertices.colwise().mean() - topology.rest_vertices.colwise().mean();
+  EXPECT_GT(moved.norm(), 0.01);
+}
+
+TEST(Simulator, IsHeldByNormalTargetsAllAround) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), accurate());
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  const Eigen::Isometry3d moved =
+      Eigen::Translation3d(0.004, -0.003, 0.005) * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ());
+  const Points goal = transformed(topology.rest_vertices, moved);
+  TargetSet targets;
+  targets.targets = slidingTargets(topology, goal);
+  for (int frame = 1; frame <= 30; ++frame) simulator.step(targets, frame * kFrame);
+  EXPECT_LT(largestDistance(simulator.state().vertices, goal), 1e-6);
+}
+
+TEST(Simulator, KeepsLinearMomentum) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, undamped(), SimulatorConfig());
+  simulator.step(placing(somePose()), 0);
+  TargetSet pull;
+  pull.targets = vertexTargets(
+      topology, transformed(topology.rest_vertices, Eigen::Translation3d(0.01, 0.0, 0.02) * somePose()));
+  pull.targets.resize(20);
+  simulator.step(pull, kFrame);
+  const Eigen::VectorXd masses = massesOf(topology, undamped().density_kg_m3);
+  const auto momentum = [&](const Points& before) {
+    return Eigen::RowVector3d(masses.transpose() * (simulator.state().vertices - before) / (1e-9 * kFrame));
+  };
+  Points before = simulator.state().vertices;
+  simulator.step({}, 2 * kFrame);
+  const Eigen::RowVector3d start = momentum(before);
+  EXPECT_GT(start.norm(), 1e-4);
+  for (int frame = 3; frame <= 100; ++frame) {
+    before = simulator.state().vertices;
+    simulator.step({}, frame * kFrame);
+    EXPECT_LT((momentum(before) - start).norm(), 1e-9 * start.norm());
+  }
+}
+
+TEST(Simulator, DampingTakesItsShareOfTheVelocity) {
+  const TetTopology topology = sponge();
+  Material material;
+  material.damping = 0.25;
+  SimulatorConfig config = accurate();
+  config.gravity = {0.0, 0.0, -9.81};
+  Simulator simulator(topology, material, config);
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  const Nanoseconds frame = 1000000000 / 30;
+  double velocity = 0.0;
+  for (int k = 1; k <= 10; ++k) {
+    const double before = simulator.state().vertices.col(2).mean();
+    simulator.step({}, k * frame);
+    velocity = 0.75 * velocity - 9.81 / 30.0;
+    EXPECT_NEAR(simulator.state().vertices.col(2).mean() - before, velocity / 30.0, 1e-6);
+  }
+}
+
+TEST(Simulator, ClampsLongGapsAndTakesNoTimeForARepeatedStamp) {
+  const TetTopology topology = sponge();
+  SimulatorConfig config;
+  config.gravity = {0.0, 0.0, -10.0};
+  Simulator simulator(topology, undamped(), config);
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  simulator.step({}, 5000000000);
+  const Points fallen = simulator.state().vertices;
+  EXPECT_NEAR(fallen(0, 2) - topology.rest_vertices(0, 2), -0.1, 1e-9);
+  simulator.step({}, 5000000000);
+  EXPECT_LT(largestDistance(simulator.state().vertices, fallen), 1e-12);
+}
+
+TEST(Simulator, DoesNotFlyOnAfterAGap) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, undamped(), accurate());
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  const Eigen::Vector3d way(0.05, 0.0, 0.0);
+  TargetSet targets;
+  targets.targets = vertexTargets(
+      topology, transformed(topology.rest_vertices, Eigen::Isometry3d(Eigen::Translation3d(way))));
+  constexpr Nanoseconds kGap = 2000000000;
+  simulator.step(targets, kGap);
+  const Points before = simulator.state().vertices;
+  const double reached = (before - topology.rest_vertices).col(0).mean();
+  EXPECT_GT(reached, 0.045);
+  simulator.step({}, kGap + kFrame);
+  // On at the gap's mean speed.
+  const double on = (simulator.state().vertices - before).col(0).mean();
+  EXPECT_NEAR(on, reached * static_cast<double>(kFrame) / static_cast<double>(kGap), 1e-6);
+}
+
+TEST(Simulator, RunsTheSameTwice) {
+  const auto run = [] {
+    const TetTopology topology = sponge();
+    Simulator simulator(topology, Material(), SimulatorConfig());
+    simulator.step(placing(somePose()), 0);
+    std::mt19937 random(9);
+    for (int frame = 1; frame <= 10; ++frame) {
+      TargetSet targets;
+      const Points noise = testing::randomPoints(topology.rest_vertices.rows(), 0.005, &random);
+      targets.targets = slidingTargets(topology, transformed(topology.rest_vertices, somePose()) + noise);
+      simulator.step(targets, frame * kFrame);
+    }
+    return simulator.state();
+  };
+  const MeshState a = run(), b = run();
+  EXPECT_TRUE(a.vertices == b.vertices);
+  EXPECT_EQ(a.confidence, b.confidence);
+}
+
+TEST(Simulator, ConfidenceIsOneWhereObservedAndDecaysFromThere) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), SimulatorConfig());
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 100);
+  EXPECT_EQ(simulator.state().observed, 0);
+  for (float confidence : simulator.state().confidence) EXPECT_EQ(confidence, 0.0f);
+
+  TargetSet targets;
+  targets.targets = {vertexTargets(topology, topology.rest_vertices).front()};
+  simulator.step(targets, 100 + kFrame);
+  EXPECT_EQ(simulator.state().observed, 100 + kFrame);
+  const std::vector<float>& confidence = simulator.state().confidence;
+  EXPECT_EQ(confidence.front(), 1.0f);
+  for (std::size_t v = 1; v < confidence.size(); ++v) {
+    EXPECT_LT(confidence[v], 1.0f);
+    EXPECT_GT(confidence[v], 0.0f);
+  }
+  EXPECT_LT(confidence.back(), 0.05f);
+  simulator.step({}, 100 + 2 * kFrame);
+  EXPECT_EQ(simulator.state().observed, 100 + kFrame);
+}
+
+TEST(Simulator, WithoutSimulationOnlyTargetedSurfaceVerticesMove) {
+  const TetTopology topology = sponge();
+  SimulatorConfig config;
+  config.simulate = false;
+  Simulator simulator(topology, Material(), config);
+  simulator.step(placing(somePose()), 0);
+  const Points placed = simulator.state().vertices;
+  Points goal = placed;
+  goal.row(17) += Eigen::RowVector3d(0.01, 0.02, 0.03);
+  TargetSet targets;
+  targets.targets = {vertexTargets(topology, goal)[17]};
+  simulator.step(targets, kFrame);
+  EXPECT_LT(largestDistance(simulator.state().vertices, goal), 1e-15);
+}
+
+TEST(Simulator, RefusesWhatItCannotUseAndKeepsItsState) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), SimulatorConfig());
+  EXPECT_FALSE(simulator.placed());
+  EXPECT_THROW(simulator.step({}, 0), std::invalid_argument);
+  simulator.step(placing(somePose()), 0);
+  const Points placed = simulator.state().vertices;
+
+  const Target good = vertexTargets(topology, placed).front();
+  const auto refuses = [&](TargetSet targets, const Target& target) {
+    targets.targets = {good, target};
+    EXPECT_THROW(simulator.step(targets, kFrame), std::invalid_argument);
+    EXPECT_TRUE(simulator.state().vertices == placed);
+  };
+  TargetSet other_revision;
+  other_revision.revision = 1;
+  refuses(other_revision, good);
+  Target bad = good;
+  bad.place.tet = static_cast<int>(topology.tets.rows());
+  refuses({}, bad);
+  bad = good;
+  bad.position.x() = std::nan("");
+  refuses({}, bad);
+  bad = good;
+  bad.weight = -1.0;
+  refuses(placing(Eigen::Isometry3d::Identity()), bad);
+  bad = good;
+  bad.weight = 1.01e6;
+  refuses({}, bad);
+  bad = good;
+  bad.place.barycentric = {1e12, -1e12, 1.0, 0.0};
+  refuses(placing(Eigen::Isometry3d::Identity()), bad);
+
+  simulator.reset();
+  EXPECT_FALSE(simulator.placed());
+  EXPECT_EQ(simulator.state().vertices.rows(), 0);
+}
+
+/// Were they stiffer, rounding would move the body about.
+TEST(Simulator, TheStiffestTargetsLeaveABodyAtRestWhereItIs) {
+  const TetTopology topology = sponge();
+  std::mt19937 random(6);
+  for (bool single : {false, true}) {
+    for (int history : {0, 5}) {
+      SimulatorConfig config;
+      config.single_precision = single;
+      config.lbfgs_history = history;
+      Simulator simulator(topology, Material(), config);
+      TargetSet targets = placing(Eigen::Isometry3d::Identity());
+      targets.targets = vertexTargets(topology, topology.rest_vertices);
+      for (Target& target : targets.targets) {
+        target.weight = largestStiffness(config) / config.target_stiffness;
+        target.normal = testing::randomPoints(1, 1.0, &random).transpose().normalized();
+      }
+      for (int frame = 0; frame < 30; ++frame) {
+        simulator.step(targets, frame * kFrame);
+        targets.reset = false;
+      }
+      const Points moved = simulator.state().vertices - topology.rest_vertices;
+      EXPECT_LT(moved.cwiseAbs().maxCoeff(), single ? 2e-4 : 1e-6) << "history " << history;
+    }
+  }
+}
+
+TEST(Simulator, AStepThatFailsOnTheWayLeavesNoTrace) {
+  const TetTopology topology = sponge();
+  SimulatorConfig config;
+  config.gravity = {0.0, 0.0, -9.81};
+  Simulator failing(topology, Material(), config), untouched(topology, Material(), config);
+  for (Simulator* simulator : {&failing, &untouched}) {
+    simulator->step(placing(somePose()), 0);
+    simulator->step({}, kFrame);
+  }
+  Surroundings impossible;
+  impossible.loads = Points::Constant(topology.rest_vertices.rows(), 3, 1e300);
+  EXPECT_THROW(failing.step(placing(Eigen::Isometry3d::Identity()), 2 * kFrame, impossible),
+               std::runtime_error);
+  for (int frame = 2; frame <= 4; ++frame) {
+    EXPECT_TRUE(failing.state().vertices == untouched.state().vertices) << frame;
+    for (Simulator* simulator : {&failing, &untouched}) simulator->step({}, frame * kFrame);
+  }
+}
+
+TEST(Simulator, RefusesVerticesThatNoTetUses) {
+  TetTopology topology = sponge();
+  topology.rest_vertices.conservativeResize(topology.rest_vertices.rows() + 1, Eigen::NoChange);
+  topology.rest_vertices.bottomRows<1>().setZero();
+  EXPECT_THROW(Simulator(topology, Material(), SimulatorConfig()), std::invalid_argument);
+}
+
+TEST(SimulatorConfig, ReadsItsParametersAndNamesWhatIsOutOfRange) {
+  Parameters good(YAML::Load("{simulate: false, iterations: 7, gravity_m_s2: [0, 9.81, 0]}"), "/simulator/");
+  const SimulatorConfig config = readSimulatorConfig(good);
+  EXPECT_FALSE(config.simulate);
+  EXPECT_EQ(config.iterations, 7);
+  EXPECT_EQ(config.gravity.y(), 9.81);
+  EXPECT_TRUE(good.unknown().empty());
+  Parameters bad(YAML::Load("{iterations: 0}"), "/simulator/");
+  try {
+    readSimulatorConfig(bad);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("/simulator/iterations is 0"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(SimulatorConfig, LeavesRoomForTheTrackersHeaviestTargets) {
+  for (const bool single : {false, true}) {
+    SimulatorConfig config;
+    config.single_precision = single;
+    config.target_stiffness = largestStiffness(config) / kLargestTargetWeight;
+    EXPECT_NO_THROW(requireConsistent(config));
+    config.target_stiffness *= 1.01;
+    EXPECT_THROW(requireConsistent(config), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "fixtures/test_meshes.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_common/tet_locator.h"
+#include "softbody_sim/interpolation/tet_binding.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kMissing = 1e-3;  // how far the points are from where their tets carry them [m]
+
+/// A point in the middle of every tet, corrected by a random millimetre in a deformed state.
+struct Bound {
+  explicit Bound(const Points& met) : plain(volume, middles(volume)), corrected(plain), vertices(met) {
+    std::mt19937 random(3);
+    positions = applyBinding(plain.places(), met, volume.tets);
+    positions += testing::randomPoints(positions.rows(), kMissing, &random);
+    corrected.meet(met, positions);
+  }
+
+  static std::vector<MaterialPoint> middles(const TetTopology& volume) {
+    std::vector<MaterialPoint> places;
+    for (int t = 0; t < static_cast<int>(volume.tets.rows()); ++t)
+      places.push_back({t, Eigen::Vector4d::Constant(0.25)});
+    return places;
+  }
+
+  Points shown(const TetBinding& binding, const Points& x) const {
+    MeshState state{0, {}, x, std::vector<float>(static_cast<std::size_t>(x.rows()), 1.0f)}, result;
+    std::vector<int> all(binding.places().size());
+    std::iota(all.begin(), all.end(), 0);
+    result.vertices.resize(static_cast<Eigen::Index>(all.size()), 3);
+    result.confidence.resize(all.size());
+    binding.apply(state, all, &result);
+    return result.vertices;
+  }
+  double worstCorrection(const Points& x) const {
+    return (shown(corrected, x) - shown(plain, x)).rowwise().norm().maxCoeff();
+  }
+
+  TetTopology volume = testing::sponge();
+  TetBinding plain, corrected;
+  Points vertices, positions;
+};
+
+/// The sponge, bent, with a vertex of one tet pressed to `height` times its height over the opposite face.
+Points withFlatTet(int tet, double height) {
+  const TetTopology sponge = testing::sponge();
+  Points x = sponge.rest_vertices;
+  x.col(2) += 2.0 * x.col(0).cwiseAbs2();
+  const Eigen::RowVector4i corners = sponge.tets.row(tet);
+  const Eigen::RowVector3d foot = (x.row(corners[1]) + x.row(corners[2]) + x.row(corners[3])) / 3.0;
+  x.row(corners[0]) = foot + height * (x.row(corners[0]) - foot);
+  return x;
+}
+
+TEST(TetBinding, MeetsPositionsAndIsExactAtRest) {
+  const Bound bound(withFlatTet(7, 1.0));
+  EXPECT_LT((bound.shown(bound.corrected, bound.vertices) - bound.positions).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(bound.worstCorrection(bound.volume.rest_vertices), 1e-12);
+}
+
+TEST(TetBinding, AFlatTetDoesNotMagnifyItsCorrection) {
+  for (const int tet : {7, 100, 151, 299}) {
+    for (const double height : {1e-2, 1e-5, 1e-9, 0.0}) {
+      const Bound bound(withFlatTet(tet, height));
+      EXPECT_LT((bound.shown(bound.corrected, bound.vertices) - bound.positions).cwiseAbs().maxCoeff(), 1e-9)
+          << tet << ", " << height;
+      for (const double later : {0.5, 1.0, -0.3}) {
+        EXPECT_LT(bound.worstCorrection(withFlatTet(tet, later)), 20.0 * kMissing) << tet << ", " << height;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace softbody

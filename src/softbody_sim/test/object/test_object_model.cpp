@@ -1,0 +1,270 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "cage/enclosure.h"
+#include "fixtures/model_files.h"
+#include "report/model_folder.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_sim/object/object_model.h"
+#include "surface_mesh/surface_repair.h"
+
+namespace softbody {
+namespace {
+
+using test::complaint;
+using test::TemporaryFolder;
+
+/// Keeps the user's own cache out of the tests.
+class ObjectModelTest : public testing::Test {
+ protected:
+  ObjectModelTest() { setenv("XDG_CACHE_HOME", folder_.file("cache").c_str(), 1); }
+  ~ObjectModelTest() override { unsetenv("XDG_CACHE_HOME"); }
+
+  ObjectDescription describe(const TriangleMesh& mesh) const {
+    writeObj(folder_.file("visual.obj"), mesh);
+    ObjectDescription description;
+    description.visual_mesh = folder_.file("visual.obj");
+    return description;
+  }
+
+  std::string yaml(const std::string& text) const { return folder_.write("object.yaml", text); }
+
+  TemporaryFolder folder_;
+};
+
+TriangleMesh stretched(TriangleMesh mesh, double x, double y, double z) {
+  mesh.vertices *= Eigen::Vector3d(x, y, z).asDiagonal();
+  return mesh;
+}
+
+void expectSound(const ObjectModel& model) {
+  const TetTopology& volume = model.volume;
+  const Eigen::VectorXd volumes = tetVolumes(volume.rest_vertices, volume.tets);
+  EXPECT_GT(volumes.minCoeff(), 0.0);
+  EXPECT_NEAR(enclosedVolume(volume.rest_vertices, volume.surface), volumes.sum(), 1e-9 * volumes.sum());
+  EXPECT_TRUE(examineEdges(volume.surface).closed());
+  EXPECT_EQ(examineEdges(volume.surface).inconsistent, 0);
+  EXPECT_TRUE(
+      pointsOutside(model.visual.rest_vertices, {volume.rest_vertices, volume.tets}, volume.surface).empty());
+}
+
+int cageVertexCount(const TetTopology& volume) {
+  const auto corners = volume.surface.reshaped();
+  return static_cast<int>(std::set<int>(corners.begin(), corners.end()).size());
+}
+
+TEST_F(ObjectModelTest, MadeVolumesEncloseTheVisualMeshWithNearUniformCages) {
+  const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
+  for (const TriangleMesh& mesh : {torus, stretched(torus, 1.0, 1.0, 0.1), stretched(torus, 3.0, 0.5, 1.0)}) {
+    const ObjectModel model = buildObjectModel(describe(mesh));
+    expectSound(model);
+    EXPECT_GE(cageVertexCount(model.volume), 170);
+    EXPECT_LE(cageVertexCount(model.volume), 420);
+    EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
+  }
+}
+
+TEST_F(ObjectModelTest, CageVerticesAreAboutAsManyAsAskedFor) {
+  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  for (const int wanted : {100, 400}) {
+    VolumeSettings settings;
+    settings.cage_vertices = wanted;
+    EXPECT_NEAR(cageVertexCount(buildObjectModel(description, settings).volume), wanted, 0.25 * wanted);
+  }
+}
+
+TEST_F(ObjectModelTest, AMeshWithHolesIsEnclosedToo) {
+  TriangleMesh mesh = test::torus(0.1, 0.03, 60, 24);
+  mesh.triangles = Triangles(mesh.triangles.bottomRows(mesh.triangles.rows() - 20));
+  const ObjectModel model = buildObjectModel(describe(mesh));
+  expectSound(model);
+  ASSERT_EQ(model.warnings.size(), 1U);
+  EXPECT_NE(model.warnings[0].find("not closed"), std::string::npos);
+}
+
+void expectEqual(const ObjectModel& a, const ObjectModel& b) {
+  EXPECT_EQ(a.volume.rest_vertices, b.volume.rest_vertices);
+  EXPECT_EQ(a.volume.tets, b.volume.tets);
+  EXPECT_EQ(a.warnings, b.warnings);
+}
+
+TEST_F(ObjectModelTest, AKeptVolumeEqualsANewOneBitForBit) {
+  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  VolumeSettings uncached;
+  uncached.use_cache = false;
+  const ObjectModel made = buildObjectModel(description, uncached);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("cache")));
+  expectEqual(made, buildObjectModel(description));
+  EXPECT_FALSE(std::filesystem::is_empty(folder_.file("cache/softbody")));
+  expectEqual(made, buildObjectModel(description));
+}
+
+TEST_F(ObjectModelTest, ADamagedCacheIsMadeAnewAndSaid) {
+  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  const ObjectModel made = buildObjectModel(description);
+  for (const auto& kept : std::filesystem::directory_iterator(folder_.file("cache/softbody"))) {
+    std::filesystem::resize_file(kept.path(), 1000);
+  }
+  const ObjectModel again = buildObjectModel(description);
+  EXPECT_EQ(again.volume.rest_vertices, made.volume.rest_vertices);
+  ASSERT_EQ(again.warnings.size(), 1U);
+  expectEqual(made, buildObjectModel(description));
+}
+
+TEST_F(ObjectModelTest, AnUnusableCacheIsAWarning) {
+  folder_.write("cache", "a file where a folder should be");
+  const ObjectModel model = buildObjectModel(describe(test::torus(0.1, 0.03, 60, 24)));
+  expectSound(model);
+  ASSERT_EQ(model.warnings.size(), 1U);
+  EXPECT_NE(model.warnings[0].find("not kept"), std::string::npos);
+}
+
+TEST_F(ObjectModelTest, AGivenCageIsFilled) {
+  ObjectDescription description = describe(test::torus(0.1, 0.02, 60, 24));
+  writeObj(folder_.file("cage.obj"), test::torus(0.1, 0.03, 24, 8));
+  description.cage_mesh = folder_.file("cage.obj");
+  const ObjectModel model = buildObjectModel(description);
+  expectSound(model);
+  const TriangleMesh cage = test::torus(0.1, 0.03, 24, 8);
+  EXPECT_NEAR(tetVolumes(model.volume.rest_vertices, model.volume.tets).sum(),
+              enclosedVolume(cage.vertices, cage.triangles),
+              0.15 * enclosedVolume(cage.vertices, cage.triangles));
+}
+
+TEST_F(ObjectModelTest, ACageOfTwelveTrianglesIsFilledWithMoreThanItsCorners) {
+  ObjectDescription description = describe(test::torus(0.05, 0.01, 60, 24));
+  folder_.write(
+      "cage.obj",
+      "v -.1 -.1 -.02\nv .1 -.1 -.02\nv .1 .1 -.02\nv -.1 .1 -.02\nv -.1 -.1 .02\nv .1 -.1 .02\nv .1 .1 .02\n"
+      "v -.1 .1 .02\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  description.cage_mesh = folder_.file("cage.obj");
+  const ObjectModel model = buildObjectModel(description);
+  expectSound(model);
+  EXPECT_GE(cageVertexCount(model.volume), 80);
+}
+
+TEST_F(ObjectModelTest, AnOpenCageIsRefused) {
+  ObjectDescription description = describe(test::torus(0.1, 0.02, 60, 24));
+  TriangleMesh cage = test::torus(0.1, 0.03, 24, 8);
+  cage.triangles = Triangles(cage.triangles.bottomRows(cage.triangles.rows() - 1));
+  writeObj(folder_.file("cage.obj"), cage);
+  description.cage_mesh = folder_.file("cage.obj");
+  const std::string said = complaint([&] { buildObjectModel(description); });
+  EXPECT_NE(said.find("cage.obj: the cage must be closed; 3 edges have one triangle"), std::string::npos)
+      << said;
+}
+
+TEST_F(ObjectModelTest, ToyTetsAreAcceptedAndTheWarningSaysHowFarItSticksOut) {
+  SKIP_WITHOUT_SHARED_DATA();
+  ObjectDescription description;
+  description.visual_mesh = test::sharedData() + "/toys/toy_surface.obj";
+  description.tet_mesh = test::sharedData() + "/toys/toy_tets.vtu";
+  const ObjectModel model = buildObjectModel(description);
+  EXPECT_EQ(model.volume.tets.rows(), 3068);
+  EXPECT_NE(model.warnings.back().find("lie outside of the tets, by up to 11 mm"), std::string::npos)
+      << model.warnings.back();
+}
+
+TEST_F(ObjectModelTest, PreparedFolderGivesTheSameModel) {
+  const ObjectDescription description = describe(stretched(test::torus(0.1, 0.03, 60, 24), 1000, 1000, 1000));
+  std::ostringstream progress;
+  prepareModel(description.visual_mesh, "mm", folder_.file("out"), {}, progress);
+  const ObjectModel prepared = buildObjectModel(loadObjectDescription(folder_.file("out/object.yaml")));
+  expectSound(prepared);
+  EXPECT_TRUE(prepared.warnings.empty()) << prepared.warnings.front();
+  EXPECT_GT(std::filesystem::file_size(folder_.file("out/report/models.png")), 1000U);
+  ObjectDescription scaled = description;
+  scaled.unit_m = 0.001;
+  EXPECT_EQ(prepared.volume.rest_vertices, buildObjectModel(scaled).volume.rest_vertices);
+}
+
+TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
+  std::filesystem::create_directories(folder_.file("out"));
+  folder_.write("out/object.yaml", "mine");
+  folder_.write("bad.obj", "v 0 0 0\nf 1 1 1\n");
+  std::ostringstream progress;
+  EXPECT_NE(complaint([&] { prepareModel(folder_.file("bad.obj"), "m", folder_.file("out"), {}, progress); }),
+            "");
+  std::ifstream kept(folder_.file("out/object.yaml"));
+  std::string content;
+  kept >> content;
+  EXPECT_EQ(content, "mine");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.file("."))) {
+    EXPECT_EQ(entry.path().string().find(".tmp"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(ObjectModelTest, AFolderWhereAFileShouldGoLeavesTheOthersAsTheyWere) {
+  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  std::filesystem::create_directories(folder_.file("out/tets.vtu"));
+  folder_.write("out/visual.obj", "mine");
+  std::ostringstream progress;
+  const std::string said =
+      complaint([&] { prepareModel(description.visual_mesh, "m", folder_.file("out"), {}, progress); });
+  EXPECT_NE(said.find("out/tets.vtu: is a folder where a file should go"), std::string::npos) << said;
+  EXPECT_EQ(std::filesystem::file_size(folder_.file("out/visual.obj")), 4U);
+}
+
+TEST_F(ObjectModelTest, DescriptionIsReadWithPathsRelativeToItsFile) {
+  describe(test::torus(0.1, 0.03, 12, 6));
+  const ObjectDescription description = loadObjectDescription(
+      yaml("object:\n  visual_mesh: visual.obj\n  unit: inch\n  colour: red\n"
+           "  material: {youngs_modulus_pa: 5.0e3, poisson_ratio: 0.4, density_kg_m3: 100, damping: 0.5}\n"
+           "  initial_pose: [1, 2, 3, 0, 0, 0.7071, 0.7071]\n"));
+  EXPECT_EQ(description.visual_mesh, folder_.file("visual.obj"));
+  EXPECT_EQ(description.unit_m, 0.0254);
+  EXPECT_EQ(description.material.poisson_ratio, 0.4);
+  ASSERT_TRUE(description.initial_pose);
+  EXPECT_TRUE(
+      (*description.initial_pose * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1, 3, 3), 1e-12));
+  ASSERT_EQ(description.warnings.size(), 1U);
+  EXPECT_NE(description.warnings[0].find("object.yaml:4: unknown key object/colour"), std::string::npos);
+}
+
+TEST_F(ObjectModelTest, BrokenDescriptionsAreRefusedWithLineKeyValueAndRange) {
+  describe(test::torus(0.1, 0.03, 12, 6));
+  const std::string begin = "object:\n  visual_mesh: visual.obj\n";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"object: [\n", ":2: not YAML"},
+      {"thing: 1\n", ":1: the key 'object' is missing"},
+      {"object: 3\n", ":1: 'object/' must be a map"},
+      {"object:\n  unit: m\n", ":2: object/visual_mesh is missing"},
+      {"object:\n  visual_mesh: none.obj\n", ":2: object/visual_mesh is 'none.obj'; there is no file"},
+      {begin + "  unit: ft\n", ":3: object/unit: unit is 'ft'; allowed: m, cm, mm, inch"},
+      {begin + "  material: {poisson_ratio: 0.5}\n",
+       ":3: object/material/poisson_ratio is '0.5'; allowed: a number from 0 to 0.495"},
+      {begin + "  material:\n    density_kg_m3: heavy\n",
+       ":4: object/material/density_kg_m3 is 'heavy'; allowed"},
+      {begin + "  material: {youngs_modulus_pa: .nan}\n", ":3: object/material/youngs_modulus_pa"},
+      {begin + "  initial_pose: [0, 0, 0]\n", ":3: object/initial_pose is '[0, 0, 0]'; allowed: a list of 7"},
+      {begin + "  initial_pose: [0, 0, 0, 0, 0, 0, 2]\n", "has length 2; allowed: 0.99 to 1.01"}};
+  for (const auto& [text, expected] : cases) {
+    const std::string path = yaml(text);
+    const std::string said = complaint([&path = path] { loadObjectDescription(path); });
+    EXPECT_NE(said.find(path + (expected[0] == ':' ? expected : "")), std::string::npos) << text << "\n"
+                                                                                         << said;
+    EXPECT_NE(said.find(expected), std::string::npos) << text << "\n" << said;
+  }
+  EXPECT_NE(
+      complaint([&] { loadObjectDescription(folder_.file("none.yaml")); }).find("none.yaml: cannot be read"),
+      std::string::npos);
+}
+
+TEST_F(ObjectModelTest, ShippedSpongeIsThePapersOwn) {
+  const ObjectModel model = buildObjectModel(
+      loadObjectDescription(std::string(SOFTBODY_SOURCE_DIR) + "/../softbody_bringup/config/sponge.yaml"));
+  EXPECT_EQ(model.visual.rest_vertices.rows(), 522);
+  EXPECT_EQ(model.visual.triangles.rows(), 1040);
+  EXPECT_EQ(model.volume.rest_vertices.rows(), 132);
+  EXPECT_EQ(model.volume.tets.rows(), 300);
+  EXPECT_EQ(model.volume.surface.rows(), 260);
+  EXPECT_NEAR(enclosedVolume(model.volume.rest_vertices, model.volume.surface), 0.2 * 0.1 * 0.04, 1e-12);
+  expectSound(model);
+  EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
+}
+
+}  // namespace
+}  // namespace softbody

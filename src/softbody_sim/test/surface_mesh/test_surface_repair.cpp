@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "fixtures/model_files.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_sim/object/object_model.h"
+#include "surface_mesh/hole_caps.h"
+#include "surface_mesh/surface_repair.h"
+
+namespace softbody {
+namespace {
+
+/// Every triangle with three vertices of its own, as STL has it.
+SurfaceFile exploded(const TriangleMesh& mesh) {
+  SurfaceFile file;
+  file.mesh.vertices.resize(3 * mesh.triangles.rows(), 3);
+  file.mesh.triangles.resize(mesh.triangles.rows(), 3);
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      file.mesh.vertices.row(3 * f + k) = mesh.vertices.row(mesh.triangles(f, k));
+      file.mesh.triangles(f, k) = static_cast<int>(3 * f) + k;
+    }
+  }
+  return file;
+}
+
+TEST(RepairSurface, LeavesACleanMeshAlone) {
+  const TriangleMesh mesh = test::torus(1.0, 0.3, 24, 12);
+  Warnings warnings;
+  const WeldedSurface repaired = repairSurface({mesh, {}}, "torus", &warnings);
+  EXPECT_EQ(repaired.mesh.vertices, mesh.vertices);
+  EXPECT_EQ(repaired.mesh.triangles, mesh.triangles);
+  std::vector<int> identity(static_cast<std::size_t>(mesh.vertices.rows()));
+  std::iota(identity.begin(), identity.end(), 0);
+  EXPECT_EQ(repaired.vertex_parents, identity);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(RepairSurface, WeldsNoisyCornersAndParentsAreTheFirstAtTheirPlace) {
+  const TriangleMesh mesh = test::torus(1.0, 0.3, 24, 12);
+  SurfaceFile file = exploded(mesh);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-1e-8, 1e-8);
+  for (double& x : file.mesh.vertices.reshaped()) x += noise(random);
+  Warnings warnings;
+  const WeldedSurface repaired = repairSurface(file, "torus", &warnings);
+  EXPECT_EQ(repaired.mesh.vertices.rows(), mesh.vertices.rows());
+  EXPECT_TRUE(examineEdges(repaired.mesh.triangles).closed());
+  for (std::size_t v = 0; v < repaired.vertex_parents.size(); ++v) {
+    EXPECT_EQ(repaired.mesh.vertices.row(static_cast<Eigen::Index>(v)),
+              file.mesh.vertices.row(repaired.vertex_parents[v]));
+    EXPECT_TRUE(v == 0 || repaired.vertex_parents[v - 1] < repaired.vertex_parents[v]);
+  }
+}
+
+TEST(RepairSurface, OrientsRandomlyTurnedTrianglesOutwardWithTheirTexture) {
+  const TriangleMesh mesh = test::torus(1.0, 0.3, 24, 12);
+  SurfaceFile file{mesh, Points(3 * mesh.triangles.rows(), 3)};
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k)
+      file.texture_coordinates.row(3 * f + k) = mesh.vertices.row(mesh.triangles(f, k));
+  }
+  std::mt19937 random(2);
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    if (random() % 2 == 0) continue;
+    std::swap(file.mesh.triangles(f, 0), file.mesh.triangles(f, 1));
+    file.texture_coordinates.row(3 * f).swap(file.texture_coordinates.row(3 * f + 1));
+  }
+  Warnings warnings;
+  const WeldedSurface repaired = repairSurface(file, "torus", &warnings);
+  EXPECT_EQ(examineEdges(repaired.mesh.triangles).inconsistent, 0);
+  EXPECT_NEAR(enclosedVolume(repaired.mesh.vertices, repaired.mesh.triangles),
+              enclosedVolume(mesh.vertices, mesh.triangles), 1e-12);
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(repaired.texture_coordinates.row(3 * f + k),
+                mesh.vertices.row(repaired.mesh.triangles(f, k)));
+    }
+  }
+}
+
+TEST(RepairSurface, TurnsAMeshThatIsInsideOut) {
+  TriangleMesh mesh = test::torus(1.0, 0.3, 24, 12);
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  Warnings warnings;
+  const WeldedSurface repaired = repairSurface({mesh, {}}, "torus", &warnings);
+  EXPECT_GT(enclosedVolume(repaired.mesh.vertices, repaired.mesh.triangles), 0.0);
+  EXPECT_EQ(warnings.size(), 1U);
+}
+
+TEST(RepairSurface, DropsFlatAndRepeatedTriangles) {
+  TriangleMesh mesh = test::torus(1.0, 0.3, 24, 12);
+  const Eigen::Index sound = mesh.triangles.rows();
+  mesh.triangles.conservativeResize(sound + 2, 3);
+  mesh.triangles.row(sound) << 0, 1, 1;
+  mesh.triangles.row(sound + 1) = mesh.triangles.row(5).reverse();
+  Warnings warnings;
+  EXPECT_EQ(repairSurface({mesh, {}}, "torus", &warnings).mesh.triangles.rows(), sound);
+  EXPECT_EQ(warnings.size(), 2U);
+}
+
+TEST(HoleCaps, CloseTheMeshAndGiveItItsVolumeBack) {
+  const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
+  TriangleMesh open = torus;
+  open.triangles = Triangles(torus.triangles.bottomRows(torus.triangles.rows() - 10));
+  ASSERT_GT(examineEdges(open.triangles).open, 0);
+  const TriangleMesh covered = withHolesCovered(open);
+  EXPECT_TRUE(examineEdges(covered.triangles).closed());
+  EXPECT_EQ(examineEdges(covered.triangles).inconsistent, 0);
+  EXPECT_NEAR(enclosedVolume(covered.vertices, covered.triangles),
+              enclosedVolume(torus.vertices, torus.triangles),
+              0.01 * enclosedVolume(torus.vertices, torus.triangles));
+  EXPECT_EQ(withHolesCovered(torus).triangles, torus.triangles);
+}
+
+TEST(RepairSurface, RefusesAMeshWithoutArea) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  Warnings warnings;
+  EXPECT_NE(test::complaint([&] { loadSurface(path, 1.0, &warnings); }).find("no triangle has an area"),
+            std::string::npos);
+}
+
+TEST(LoadVisualMesh, ScalesAndFillsTheTopology) {
+  const test::TemporaryFolder folder;
+  const TriangleMesh mesh = test::torus(100.0, 30.0, 24, 12);
+  writeObj(folder.file("torus.obj"), mesh);
+  ObjectDescription description;
+  description.visual_mesh = folder.file("torus.obj");
+  description.unit_m = 0.001;
+  Warnings warnings;
+  const MeshTopology topology = loadVisualMesh(description, &warnings);
+  EXPECT_TRUE(topology.rest_vertices.isApprox(1e-3 * mesh.vertices, 1e-15));
+  EXPECT_EQ(topology.revision, 0U);
+  EXPECT_EQ(topology.bodies, std::vector<std::uint32_t>(576, 0));
+  EXPECT_EQ(topology.cut, std::vector<bool>(576, false));
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(LoadVisualMesh, ToyIsWeldedAndItsHolesAndBranchingEdgesAreNamed) {
+  SKIP_WITHOUT_SHARED_DATA();
+  ObjectDescription description;
+  description.visual_mesh = test::sharedData() + "/toys/toy_surface.obj";
+  Warnings warnings;
+  const MeshTopology topology = loadVisualMesh(description, &warnings);
+  EXPECT_EQ(topology.rest_vertices.rows(), 3896);
+  EXPECT_EQ(examineEdges(topology.triangles).branching, 6);
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include "fixtures/test_meshes.h"
+#include "time_step/projective_dynamics.h"
+
+namespace softbody {
+namespace {
+
+using testing::randomPoints;
+
+struct Step {
+  TetTopology topology = testing::sponge();
+  Eigen::Index count = topology.rest_vertices.rows();
+  Lame lame = lameParameters(2.0e4, 0.3);
+  StepPotential potential;
+
+  Step() {
+    potential.inertia = Eigen::VectorXd::Constant(count, 2.0);
+    potential.prediction = topology.rest_vertices;
+    potential.loads = Points::Zero(count, 3);
+  }
+  void pullTo(const Points& positions, bool with_normals, std::mt19937* random) {
+    std::vector<Target> targets = testing::vertexTargets(topology, positions);
+    for (Target& target : targets) {
+      if (with_normals) target.normal = randomPoints(1, 1.0, random).transpose().normalized();
+    }
+    targets.resize(100);
+    potential.targets.set(targets, topology.tets, 300.0);
+  }
+  StepReport run(const ProjectiveDynamicsOptions& options, Points* x) const {
+    return ProjectiveDynamics(topology, lame, options).minimize(potential, x);
+  }
+  double energyAt(const Points& x) const {
+    Points gradient(count, 3);
+    const double outer = potential.evaluate(x, &gradient);
+    return outer + CorotatedElasticity(topology.rest_vertices, topology.tets, lame).addTo(x, &gradient);
+  }
+};
+
+ProjectiveDynamicsOptions withHistory(int history, int iterations) {
+  ProjectiveDynamicsOptions options;
+  options.minimizer = {iterations, 0.0, history};
+  return options;
+}
+
+TEST(ProjectiveDynamics, EnergyNeverRisesInAnIteration) {
+  std::mt19937 random(3);
+  for (double disorder : {0.0, 0.002, 0.02, 0.2}) {
+    for (bool with_normals : {false, true}) {
+      Step step;
+      step.pullTo(transformed(step.topology.rest_vertices, testing::somePose()), with_normals, &random);
+      Points x = step.topology.rest_vertices + randomPoints(step.count, disorder, &random);
+      ProjectiveDynamics solver(step.topology, step.lame, withHistory(0, 1));
+      double previous = step.energyAt(x);
+      for (int iteration = 0; iteration < 40; ++iteration) {
+        solver.minimize(step.potential, &x);
+        const double energy = step.energyAt(x);
+        EXPECT_LE(energy, previous * (1.0 + 1e-12)) << "disorder " << disorder << ", iteration " << iteration;
+        previous = energy;
+      }
+    }
+  }
+}
+
+TEST(ProjectiveDynamics, EveryWidthAndPrecisionGoesTheSameWay) {
+  std::mt19937 random(4);
+  Step step;
+  step.pullTo(transformed(step.topology.rest_vertices, testing::somePose()), true, &random);
+  const Points start = step.topology.rest_vertices + randomPoints(step.count, 0.003, &random);
+  for (int history : {0, 5}) {
+    ProjectiveDynamicsOptions options = withHistory(history, 10);
+    Points reference = start;
+    step.run(options, &reference);
+    for (Simd simd : {Simd::kSse4, Simd::kAvx2, Simd::kAvx512}) {
+      try {
+        options.simd = supportedSimd(simd);
+      } catch (const std::invalid_argument&) {
+        continue;
+      }
+      for (bool single : {false, true}) {
+        options.single_precision = single;
+        Points x = start;
+        step.run(options, &x);
+        EXPECT_LT((x - reference).cwiseAbs().maxCoeff(), single ? 2e-6 : 1e-11)
+            << nameOf(simd) << ", history " << history;
+      }
+    }
+  }
+}
+
+TEST(ProjectiveDynamics, SaysWhetherToleranceOrCapEndedItAndWhatIsLeft) {
+  std::mt19937 random(5);
+  Step step;
+  step.pullTo(step.topology.rest_vertices + randomPoints(step.count, 0.005, &random), false, &random);
+  for (bool single : {false, true}) {
+    ProjectiveDynamicsOptions options = withHistory(5, 3);
+    options.single_precision = single;
+    options.minimizer.tolerance_m = 1e-6;
+    Points x = step.topology.rest_vertices;
+    const StepReport capped = step.run(options, &x);
+    EXPECT_FALSE(capped.converged);
+    EXPECT_EQ(capped.iterations, 3);
+    options.minimizer.max_iterations = 500;
+    const StepReport report = step.run(options, &x);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT(report.iterations, 200);
+    EXPECT_LT(report.last_move_m, 1e-6);
+    EXPECT_LT(report.residual_n, 0.05 * capped.residual_n);
+
+    Points gradient(step.count, 3);
+    step.potential.evaluate(x, &gradient);
+    CorotatedElasticity(step.topology.rest_vertices, step.topology.tets, step.lame).addTo(x, &gradient);
+    EXPECT_NEAR(report.residual_n, gradient.rowwise().norm().maxCoeff(), single ? 1e-3 : 1e-9);
+  }
+}
+
+TEST(ProjectiveDynamics, FactorsAnewWhenTargetsChange) {
+  std::mt19937 random(6);
+  Step step;
+  ProjectiveDynamics kept(step.topology, step.lame, withHistory(0, 10));
+  for (int frame = 0; frame < 6; ++frame) {
+    step.pullTo(step.topology.rest_vertices + randomPoints(step.count, 0.005, &random), frame % 2 == 0,
+                &random);
+    std::vector<Target> targets = testing::vertexTargets(step.topology, step.topology.rest_vertices);
+    if (frame >= 3) {
+      for (Target& target : targets) target.weight = frame;
+      step.potential.targets.set(targets, step.topology.tets, 300.0);
+    }
+    Points x = step.topology.rest_vertices, expected = x;
+    kept.minimize(step.potential, &x);
+    step.run(withHistory(0, 10), &expected);
+    EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-12) << frame;
+  }
+}
+
+/// Few changes at a time, of which the factor is updated; more now and then.
+TEST(ProjectiveDynamics, FollowsTargetsThatComeGoAndChangeWeight) {
+  std::mt19937 random(7);
+  const auto below = [&random](std::size_t n) { return random() % n; };
+  Step step;
+  std::vector<Target> all = testing::vertexTargets(
+      step.topology, step.topology.rest_vertices + randomPoints(step.count, 0.005, &random));
+  std::vector<Target> targets(all.begin(), all.begin() + 60);
+  ProjectiveDynamics kept(step.topology, step.lame, withHistory(0, 10));
+  for (int frame = 0; frame < 300; ++frame) {
+    for (std::size_t change = below(frame % 20 == 0 ? 30 : 5); change > 0; --change) {
+      const std::size_t kind = below(3), place = below(targets.size());
+      if (kind == 0)
+        targets.insert(targets.begin() + static_cast<std::ptrdiff_t>(place), all[below(all.size())]);
+      else if (kind == 1 && targets.size() > 20)
+        targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(place));
+      else
+        targets[place].weight = 0.1 + static_cast<double>(below(100));
+    }
+    step.potential.targets.set(targets, step.topology.tets, 300.0);
+    Points x = step.topology.rest_vertices, expected = x;
+    kept.minimize(step.potential, &x);
+    step.run(withHistory(0, 10), &expected);
+    ASSERT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-11) << frame;
+  }
+}
+
+TEST(TargetEnergy, NamesTheFewChangesThatMakeOneMetricAnother) {
+  std::mt19937 random(8);
+  const Step step;
+  std::vector<Target> targets = testing::vertexTargets(step.topology, step.topology.rest_vertices);
+  TargetEnergy before, now;
+  before.set(targets, step.topology.tets, 300.0);
+  targets[3].weight = 2.0;
+  targets.erase(targets.begin() + 10);
+  targets.push_back(targets[40]);
+  now.set(targets, step.topology.tets, 300.0);
+  std::vector<TetVector> added, removed;
+  EXPECT_FALSE(now.metricChanges(before, 2, &added, &removed));
+  ASSERT_TRUE(now.metricChanges(before, 3, &added, &removed));
+  EXPECT_EQ(added.size(), 2u);
+  EXPECT_EQ(removed.size(), 1u);
+
+  TetMatrix expected(step.topology.tets, step.count), found = expected;
+  before.addMetric(&found);
+  now.addMetric(&expected);
+  Eigen::MatrixXd difference = expected.lower() - found.lower();
+  const auto subtract = [&difference](const TetVector& v, double sign) {
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 4; ++b) {
+        if (v.vertices[a] >= v.vertices[b])
+          difference(v.vertices[a], v.vertices[b]) -= sign * v.values[a] * v.values[b];
+      }
+    }
+  };
+  for (const TetVector& v : added) subtract(v, 1.0);
+  for (const TetVector& v : removed) subtract(v, -1.0);
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+}  // namespace
+}  // namespace softbody

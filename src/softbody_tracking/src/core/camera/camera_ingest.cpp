@@ -1,0 +1,113 @@
+#include "softbody_tracking/camera/camera_ingest.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "camera/flying_pixels.h"
+#include "camera/rectifier.h"
+
+namespace softbody {
+namespace {
+
+std::string sizeOf(const cv::Mat& image) { return fmt::format("{}x{}", image.cols, image.rows); }
+
+void checkImages(const cv::Mat3b& color, const cv::Mat& depth, const Pinhole& camera) {
+  if (color.empty()) throw std::invalid_argument("the colour image is empty");
+  if (color.cols != camera.width || color.rows != camera.height) {
+    throw std::invalid_argument(fmt::format("the colour image has {} pixels, but its camera_info says {}x{}",
+                                            sizeOf(color), camera.width, camera.height));
+  }
+  if (depth.empty()) return;
+  if (depth.size() != color.size()) {
+    throw std::invalid_argument(
+        fmt::format("the depth image has {} pixels, but colour has {}: depth must be registered "
+                    "to colour (RealSense: align_depth:=true)",
+                    sizeOf(depth), sizeOf(color)));
+  }
+  if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) {
+    throw std::invalid_argument(fmt::format("the depth image is {}; expected 16UC1 [mm] or 32FC1 [m]",
+                                            cv::typeToString(depth.type())));
+  }
+}
+
+/// NaN fails both comparisons.
+template <typename Depth>
+void metresInRange(const cv::Mat& depth, float unit_m, float min, float max, cv::Mat1f* metres) {
+  metres->create(depth.size());
+  for (int v = 0; v < depth.rows; ++v) {
+    const Depth* in = depth.ptr<Depth>(v);
+    float* out = (*metres)[v];
+    for (int u = 0; u < depth.cols; ++u) {
+      const float z = static_cast<float>(in[u]) * unit_m;
+      out[u] = z >= min && z <= max ? z : 0.0f;
+    }
+  }
+}
+
+}  // namespace
+
+CameraIngestConfig readCameraIngestConfig(Parameters& parameters) {
+  CameraIngestConfig config;
+  config.edge_jump_ratio = parameters.number("edge_jump_ratio", config.edge_jump_ratio, 0.001, 1.0);
+  config.min_depth_m = parameters.number("min_depth_m", config.min_depth_m, 0.001, 100.0);
+  config.max_depth_m = parameters.number("max_depth_m", config.max_depth_m, config.min_depth_m, 100.0);
+  return config;
+}
+
+SyncConfig readSyncConfig(Parameters& parameters) {
+  SyncConfig config;
+  config.exact = parameters.choice("sync", "approximate", {"approximate", "exact"}) == "exact";
+  config.tolerance_s = parameters.number("sync_tolerance_s", config.tolerance_s, 0.0001, 1.0);
+  return config;
+}
+
+struct CameraIngest::Implementation {
+  explicit Implementation(const CameraIngestConfig& c) : config(c), filter(c.edge_jump_ratio) {}
+
+  void cleanDepth(const cv::Mat& raw, cv::Mat1f* result) {
+    const auto min = static_cast<float>(config.min_depth_m), max = static_cast<float>(config.max_depth_m);
+    if (raw.type() == CV_16UC1) {
+      metresInRange<std::uint16_t>(raw, 0.001f, min, max, &metres);
+    } else {
+      metresInRange<float>(raw, 1.0f, min, max, &metres);
+    }
+    filter.apply(metres, result);
+  }
+
+  /// Frames are handed on, so their depth has memory of its own; what lies between is kept for the next one.
+  cv::Mat1f rectifiedDepth(const cv::Mat& raw) {
+    cv::Mat1f result;
+    if (rectifier.isIdentity()) {
+      cleanDepth(raw, &result);
+      return result;
+    }
+    cleanDepth(raw, &clean);
+    return rectifier.depth(clean);
+  }
+
+  CameraIngestConfig config;
+  FlyingPixelFilter filter;
+  Rectifier rectifier;
+  cv::Mat1f metres, clean;
+};
+
+CameraIngest::CameraIngest(const CameraIngestConfig& config)
+    : implementation_(std::make_unique<Implementation>(config)) {}
+CameraIngest::~CameraIngest() = default;
+
+RgbdFrame CameraIngest::process(const cv::Mat3b& color, const cv::Mat& depth, const Distortion& distortion,
+                                const Pinhole& rectified, Nanoseconds stamp) {
+  checkImages(color, depth, rectified);
+  Rectifier& rectifier = implementation_->rectifier;
+  rectifier.setCamera(distortion, rectified);
+  RgbdFrame frame;
+  frame.stamp = stamp;
+  frame.camera = rectified;
+  frame.color = rectifier.color(color);
+  frame.depth =
+      depth.empty() ? cv::Mat1f(cv::Mat1f::zeros(color.size())) : implementation_->rectifiedDepth(depth);
+  return frame;
+}
+
+}  // namespace softbody

@@ -1,0 +1,25 @@
+#include "features/descriptor_match.h"
+
+#include <algorithm>
+
+namespace softbody {
+namespace {
+
+constexpr float kRatio = 0.85f;       // best to second-best distance
+constexpr float kSamePlacePx = 3.0f;  // two keypoints nearer than this are no rivals
+
+}  // namespace
+
+int clearlyNearest(const std::vector<std::pair<int, int>>& candidates, const std::vector<Keypoint>& keypoints,
+                   int max_distance) {
+  const auto best = std::min_element(candidates.begin(), candidates.end());
+  if (best == candidates.end() || best->first > max_distance) return -1;
+  for (const auto& [distance, k] : candidates) {
+    if (static_cast<float>(best->first) <= kRatio * static_cast<float>(distance)) continue;
+    const cv::Point2f d = keypoints[k].pixel - keypoints[best->second].pixel;
+    if (d.dot(d) > kSamePlacePx * kSamePlacePx) return -1;
+  }
+  return static_cast<int>(best - candidates.begin());
+}
+
+}  // namespace softbody

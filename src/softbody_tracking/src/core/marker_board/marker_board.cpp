@@ -1,0 +1,99 @@
+#include "softbody_tracking/marker_board/marker_board.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "softbody_tracking/tool/marker_detector.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kEdge_m = 0.010;    ///< that printers leave blank
+constexpr double kBottom_m = 0.030;  ///< for the ruler
+constexpr double kLabel_m = 0.006;
+
+const std::map<std::string, std::pair<double, double>>& papers() {
+  static const std::map<std::string, std::pair<double, double>> kPapers{
+      {"a3", {0.297, 0.420}}, {"a4", {0.210, 0.297}}, {"a5", {0.148, 0.210}}, {"letter", {0.2159, 0.2794}}};
+  return kPapers;
+}
+
+void checkIds(const std::string& dictionary, const std::vector<int>& ids) {
+  const int count = markersInDictionary(dictionary);
+  std::set<int> seen;
+  for (const int id : ids) {
+    if (id < 0 || id >= count)
+      throw std::invalid_argument(
+          fmt::format("marker id is {}; allowed in {}: 0 to {}", id, dictionary, count - 1));
+    if (!seen.insert(id).second) throw std::invalid_argument(fmt::format("marker id {} is given twice", id));
+  }
+  if (ids.empty()) throw std::invalid_argument("a board needs at least one marker id");
+}
+
+}  // namespace
+
+std::vector<std::string> paperNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, size] : papers()) names.push_back(name);
+  return names;
+}
+
+MarkerBoard boardPaper(const std::string& paper) {
+  const auto found = papers().find(paper);
+  if (found == papers().end())
+    throw std::invalid_argument(
+        fmt::format("paper is '{}'; allowed: {}", paper, fmt::join(paperNames(), ", ")));
+  MarkerBoard board;
+  board.paper_width_m = found->second.first;
+  board.paper_height_m = found->second.second;
+  return board;
+}
+
+MarkerBoard layOutBoard(const std::string& dictionary, const std::vector<int>& ids, double size_m,
+                        const std::string& paper) {
+  checkIds(dictionary, ids);
+  if (!(size_m >= 0.003))
+    throw std::invalid_argument(fmt::format("markers of {} mm are too small", 1e3 * size_m));
+  MarkerBoard board = boardPaper(paper);
+  board.tool.dictionary = dictionary;
+  // A white margin of one cell on every side is what detection needs.
+  const double pitch_x = size_m * (1.0 + 2.0 / markerCells(dictionary, ids.front()).cols);
+  const double pitch_y = pitch_x + kLabel_m;
+  const int columns = std::min(static_cast<int>(ids.size()),
+                               static_cast<int>((board.paper_width_m - 2.0 * kEdge_m) / pitch_x));
+  const int rows = columns > 0 ? (static_cast<int>(ids.size()) + columns - 1) / columns : 0;
+  if (columns == 0 || rows * pitch_y > board.paper_height_m - 2.0 * kEdge_m - 2.0 * kBottom_m) {
+    throw std::invalid_argument(fmt::format("{} markers of {:g} mm with their margins do not fit on {} paper",
+                                            ids.size(), 1e3 * size_m, paper));
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
+    ToolMarker marker{ids[i], size_m, Eigen::Isometry3d::Identity()};
+    marker.T_tool_marker.translation() << (column - 0.5 * (columns - 1)) * pitch_x,
+        (0.5 * (rows - 1) - row) * pitch_y, 0.0;
+    board.tool.markers.push_back(marker);
+  }
+  return board;
+}
+
+std::string boardYaml(const MarkerBoard& board) {
+  std::string yaml =
+      "# Tool frame: the middle of the sheet, x right, y up, z out of the print. Give each marker its pose "
+      "on your\n"
+      "# tool, and the blade's corners in the tool frame: blade: [[x, y, z], [x, y, z], [x, y, z], [x, y, "
+      "z]]\n";
+  yaml += fmt::format("tool:\n  dictionary: {}\n  markers:\n", board.tool.dictionary);
+  for (const ToolMarker& marker : board.tool.markers) {
+    const Eigen::Vector3d at = marker.T_tool_marker.translation();
+    yaml += fmt::format("    - {{id: {}, size_m: {:g}, pose: [{:.6g}, {:.6g}, 0, 0, 0, 0, 1]}}\n", marker.id,
+                        marker.size_m, at.x(), at.y());
+  }
+  return yaml;
+}
+
+}  // namespace softbody

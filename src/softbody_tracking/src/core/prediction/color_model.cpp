@@ -1,0 +1,88 @@
+#include "prediction/color_model.h"
+
+#include <opencv2/imgproc.hpp>
+
+namespace softbody {
+namespace {
+
+constexpr int kLightBins = 8, kChromaBins = 32;
+constexpr int kFewestPixels = 200;
+constexpr float kSmallestDensity = 0.02f;  // of the body's own mean density
+
+/// Bin of a Lab pixel; lightness coarsely, since shadows of the hand darken the body.
+int binOf(const cv::Vec3b& lab) {
+  const int light = lab[0] * kLightBins / 256;
+  return (light * kChromaBins + lab[1] * kChromaBins / 256) * kChromaBins + lab[2] * kChromaBins / 256;
+}
+
+/// Blurs the counts over neighbouring bins, so that colours between learned ones pass.
+cv::Mat1f smoothed(const cv::Mat1f& counts) {
+  cv::Mat1f result(counts.size());
+  std::vector<cv::Mat1f> layers;
+  for (int l = 0; l < kLightBins; ++l) {
+    cv::Mat1f layer;
+    cv::GaussianBlur(counts.rowRange(l * kChromaBins * kChromaBins, (l + 1) * kChromaBins * kChromaBins)
+                         .reshape(1, kChromaBins),
+                     layer, cv::Size(5, 5), 1.0);
+    layers.push_back(layer);
+  }
+  for (int l = 0; l < kLightBins; ++l) {
+    cv::Mat1f sum = layers[l] * 0.5f;
+    sum += 0.25f * layers[std::max(0, l - 1)];
+    sum += 0.25f * layers[std::min(kLightBins - 1, l + 1)];
+    cv::Mat1f rows = result.rowRange(l * kChromaBins * kChromaBins, (l + 1) * kChromaBins * kChromaBins);
+    cv::Mat(sum.reshape(1, kChromaBins * kChromaBins)).copyTo(rows);
+  }
+  return result;
+}
+
+/// The middle of every 8 by 8 by 8 colours.
+cv::Mat3b paletteInLab() {
+  cv::Mat3b palette(1, 32 * 32 * 32), lab;
+  for (int i = 0; i < palette.cols; ++i) {
+    const auto middle = [](int bin) { return static_cast<uchar>(8 * bin + 4); };
+    palette(0, i) = {middle(i >> 10), middle(i >> 5 & 31), middle(i & 31)};
+  }
+  cv::cvtColor(palette, lab, cv::COLOR_BGR2Lab);
+  return lab;
+}
+
+cv::Mat3b toLab(const cv::Mat3b& color) {
+  cv::Mat blurred;
+  cv::Mat3b lab;
+  cv::GaussianBlur(color, blurred, cv::Size(3, 3), 0.0);
+  cv::cvtColor(blurred, lab, cv::COLOR_BGR2Lab);
+  return lab;
+}
+
+}  // namespace
+
+void ColorModel::learn(const cv::Mat3b& color, const cv::Mat1b& mask) {
+  if (cv::countNonZero(mask) < kFewestPixels) return;
+  const cv::Mat3b lab = toLab(color);
+  cv::Mat1f counts(kLightBins * kChromaBins * kChromaBins, 1, 0.0f);
+  for (int v = 0; v < lab.rows; ++v) {
+    for (int u = 0; u < lab.cols; ++u) {
+      if (mask(v, u) != 0) counts(binOf(lab(v, u))) += 1.0f;
+    }
+  }
+  const cv::Mat1f density = smoothed(counts);
+  // The density that a typical pixel of the body meets: sum of squares over sum.
+  const double typical = cv::sum(density.mul(counts))[0] / cv::sum(counts)[0];
+  const cv::Mat3b palette = paletteInLab();
+  of_body_.resize(static_cast<std::size_t>(palette.cols));
+  for (int i = 0; i < palette.cols; ++i) {
+    of_body_[i] = density(binOf(palette(0, i))) >= kSmallestDensity * typical ? 1 : 0;
+  }
+}
+
+cv::Mat1b ColorModel::mask(const cv::Mat3b& color, const cv::Rect& region) const {
+  if (!learned()) return cv::Mat1b(color.size(), 255);
+  cv::Mat1b result(color.size(), 0);
+  for (int v = region.y; v < region.br().y; ++v) {
+    for (int u = region.x; u < region.br().x; ++u) result(v, u) = belongs(color(v, u)) ? 255 : 0;
+  }
+  return result;
+}
+
+}  // namespace softbody

@@ -1,0 +1,126 @@
+#include "targets/knn_targets.h"
+
+#include <algorithm>
+#include <map>
+#include <nanoflann.hpp>
+#include <numeric>
+#include <set>
+
+#include "prediction/vertex_places.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/surface_binding.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kRotationNeighbors = 24;
+constexpr Eigen::Index kFewestForRotation = 4;
+
+using KdTree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 3>;
+
+}  // namespace
+
+std::vector<double> inverseDistanceWeights(const std::vector<double>& sorted_distances) {
+  std::vector<double> weights(sorted_distances.size(), 0.0);
+  if (weights.empty()) return weights;
+  if (sorted_distances.front() <= 0.0) {
+    weights.front() = 1.0;
+    return weights;
+  }
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    weights[j] = 1.0 / sorted_distances[j] - 1.0 / sorted_distances.back();
+  }
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& w : weights) w = sum > 0.0 ? w / sum : 1.0 / static_cast<double>(weights.size());
+  return weights;
+}
+
+void KnnTargets::bind(const std::vector<MapFeature>& features, const TetTopology& volume,
+                      const Points& vertices) {
+  vertices_.clear();
+  if (features.empty()) return;
+  Points positions(static_cast<Eigen::Index>(features.size()), 3);
+  for (std::size_t f = 0; f < features.size(); ++f)
+    positions.row(static_cast<Eigen::Index>(f)) = features[f].reference;
+  const KdTree tree(3, std::cref(positions));
+  const std::vector<MaterialPoint> places = vertexPlaces(volume);
+  const std::set<int> surface_vertices(volume.surface.data(), volume.surface.data() + volume.surface.size());
+  const auto wanted = static_cast<std::size_t>(std::max(config_.max_neighbors, kRotationNeighbors));
+  for (int v : surface_vertices) {
+    BoundVertex bound{places[v], vertices.row(v), {}, {}};
+    std::vector<Eigen::Index> indices(wanted);
+    std::vector<double> squared(wanted);
+    const std::size_t found =
+        tree.index->knnSearch(bound.reference.data(), wanted, indices.data(), squared.data());
+    std::vector<double> distances;
+    for (std::size_t n = 0; n < found; ++n) {
+      bound.wider_ids.push_back(features[indices[n]].id);
+      const double distance = std::sqrt(squared[n]);
+      const bool near = distance <= config_.radius_m && static_cast<int>(n) < config_.max_neighbors;
+      if (near) distances.push_back(distance);
+    }
+    const std::vector<double> weights = inverseDistanceWeights(distances);
+    for (std::size_t n = 0; n < weights.size(); ++n)
+      bound.neighbors.push_back({bound.wider_ids[n], weights[n]});
+    if (!bound.neighbors.empty()) vertices_.push_back(bound);
+  }
+}
+
+void KnnTargets::rebind(const TetTopology& before, const TetTopology& after) {
+  std::vector<MaterialPoint> places;
+  for (const BoundVertex& bound : vertices_) places.push_back(bound.place);
+  const std::vector<MaterialPoint> moved = transferPlaces(places, before, after);
+  for (std::size_t v = 0; v < vertices_.size(); ++v) vertices_[v].place = moved[v];
+}
+
+std::vector<Association> KnnTargets::associations(const std::vector<MapFeature>& features,
+                                                  const std::vector<FeatureMatch>& matches,
+                                                  const PredictedSurface& surface,
+                                                  const Eigen::Matrix3d& R_camera_fixed) const {
+  struct Motion {
+    std::uint32_t body;
+    Eigen::Vector3d reference, current;
+  };
+  std::map<int, Motion> motions;
+  for (const FeatureMatch& match : matches) {
+    const MapFeature& feature = features[match.feature];
+    if (match.inlier)
+      motions[feature.id] = {match.association.body, feature.reference, match.association.measured};
+  }
+  std::vector<Association> result;
+  for (const BoundVertex& bound : vertices_) {
+    const std::uint32_t body = surface.bodyOf(bound.place);
+    Eigen::Matrix3d rotation = R_camera_fixed;
+    if (config_.local_rotation) {
+      Points from(static_cast<Eigen::Index>(bound.wider_ids.size()), 3), to(from.rows(), 3);
+      Eigen::Index n = 0;
+      for (int id : bound.wider_ids) {
+        const auto motion = motions.find(id);
+        if (motion == motions.end() || motion->second.body != body) continue;
+        from.row(n) = motion->second.reference;
+        to.row(n++) = motion->second.current;
+      }
+      if (n >= kFewestForRotation) rotation = fitRigid(from.topRows(n), to.topRows(n)).linear();
+    }
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weight_sum = 0.0;
+    for (const Neighbor& neighbor : bound.neighbors) {
+      const auto motion = motions.find(neighbor.feature_id);
+      if (motion == motions.end() || motion->second.body != body) continue;
+      const Motion& m = motion->second;
+      sum += neighbor.weight * (m.current + rotation * (bound.reference - m.reference));
+      weight_sum += neighbor.weight;
+    }
+    if (weight_sum <= 0.0) continue;
+    Association association;
+    association.kind = TargetKind::kVertex;
+    association.place = bound.place;
+    association.body = body;
+    association.predicted = surface.position(bound.place);
+    association.measured = sum / weight_sum;
+    result.push_back(association);
+  }
+  return result;
+}
+
+}  // namespace softbody

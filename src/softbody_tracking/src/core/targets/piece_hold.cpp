@@ -1,0 +1,21 @@
+#include "targets/piece_hold.h"
+
+#include "prediction/vertex_places.h"
+
+namespace softbody {
+
+PieceHold::PieceHold(const TetTopology& volume) : places_(vertexPlaces(volume)) {}
+
+void PieceHold::add(const std::vector<int>& vertices, const Points& positions, double weight,
+                    std::vector<Target>* targets) const {
+  for (const int v : vertices) {
+    Target target;
+    target.kind = TargetKind::kVertex;
+    target.place = places_[static_cast<std::size_t>(v)];
+    target.position = positions.row(v);
+    target.weight = weight;
+    targets->push_back(target);
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,129 @@
+#include "softbody_tracking/tool/marker_detector.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <opencv2/aruco.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "tool/marker_edges.h"
+
+namespace softbody {
+namespace {
+
+const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME>& predefined() {
+  using namespace cv::aruco;
+  static const std::map<std::string, PREDEFINED_DICTIONARY_NAME> kNames{
+      {"DICT_4X4_50", DICT_4X4_50},
+      {"DICT_4X4_100", DICT_4X4_100},
+      {"DICT_4X4_250", DICT_4X4_250},
+      {"DICT_4X4_1000", DICT_4X4_1000},
+      {"DICT_5X5_50", DICT_5X5_50},
+      {"DICT_5X5_100", DICT_5X5_100},
+      {"DICT_5X5_250", DICT_5X5_250},
+      {"DICT_5X5_1000", DICT_5X5_1000},
+      {"DICT_6X6_50", DICT_6X6_50},
+      {"DICT_6X6_100", DICT_6X6_100},
+      {"DICT_6X6_250", DICT_6X6_250},
+      {"DICT_6X6_1000", DICT_6X6_1000},
+      {"DICT_7X7_50", DICT_7X7_50},
+      {"DICT_7X7_100", DICT_7X7_100},
+      {"DICT_7X7_250", DICT_7X7_250},
+      {"DICT_7X7_1000", DICT_7X7_1000},
+      {"DICT_ARUCO_ORIGINAL", DICT_ARUCO_ORIGINAL},
+      {"DICT_APRILTAG_16h5", DICT_APRILTAG_16h5},
+      {"DICT_APRILTAG_25h9", DICT_APRILTAG_25h9},
+      {"DICT_APRILTAG_36h10", DICT_APRILTAG_36h10},
+      {"DICT_APRILTAG_36h11", DICT_APRILTAG_36h11}};
+  return kNames;
+}
+
+cv::Ptr<cv::aruco::Dictionary> readDictionaryFile(const std::string& path) try {
+  const cv::FileStorage file(path, cv::FileStorage::READ);
+  const auto dictionary = cv::makePtr<cv::aruco::Dictionary>();
+  if (!dictionary->readDictionary(file.root()) || dictionary->bytesList.empty())
+    throw std::invalid_argument(path + " is no marker dictionary: it has no nmarkers, markersize, marker_0");
+  return dictionary;
+} catch (const cv::Exception& error) {
+  throw std::invalid_argument(fmt::format("{} is no marker dictionary: {}", path, error.err));
+}
+
+cv::Ptr<cv::aruco::Dictionary> findDictionary(const std::string& name) {
+  const auto found = predefined().find(name);
+  if (found != predefined().end()) return cv::aruco::getPredefinedDictionary(found->second);
+  if (std::filesystem::is_regular_file(name)) return readDictionaryFile(name);
+  throw std::invalid_argument(fmt::format("the marker dictionary '{}' is unknown; known: {}, or a file", name,
+                                          fmt::join(dictionaryNames(), ", ")));
+}
+
+/// Twice, since the contour that detection starts from may be off by a pixel. The reach stays within the
+/// black border, whose inner edges are others. @return false where the image does not show all four edges.
+bool refineCorners(const cv::Mat1b& gray, int cells_a_side, std::vector<cv::Point2f>* corners) {
+  double side = 1e9;
+  for (std::size_t k = 0; k < 4; ++k)
+    side = std::min(side, cv::norm((*corners)[k] - (*corners)[(k + 1) % 4]));
+  const double reach_px = std::clamp(0.7 * side / cells_a_side, 1.5, 5.0);
+  return refineQuadrilateral(gray, reach_px, corners) && refineQuadrilateral(gray, reach_px, corners);
+}
+
+}  // namespace
+
+std::vector<std::string> dictionaryNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, number] : predefined()) names.push_back(name);
+  return names;
+}
+
+int markersInDictionary(const std::string& dictionary) { return findDictionary(dictionary)->bytesList.rows; }
+
+cv::Mat1b markerCells(const std::string& dictionary, int id) {
+  const cv::Ptr<cv::aruco::Dictionary> words = findDictionary(dictionary);
+  if (id < 0 || id >= words->bytesList.rows) {
+    throw std::invalid_argument(
+        fmt::format("marker id is {}; allowed in {}: 0 to {}", id, dictionary, words->bytesList.rows - 1));
+  }
+  cv::Mat1b cells;
+  cv::aruco::drawMarker(words, id, words->markerSize + 2, cells);
+  return cells;
+}
+
+struct MarkerDetector::Implementation {
+  cv::Ptr<cv::aruco::Dictionary> dictionary;
+  cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
+};
+
+MarkerDetector::MarkerDetector(const std::string& dictionary)
+    : implementation_(std::make_unique<Implementation>()) {
+  implementation_->dictionary = findDictionary(dictionary);
+  // A bright plate's edge runs close around the marker printed on it; by default it would suppress it.
+  implementation_->parameters->minMarkerDistanceRate = 0.02;
+}
+
+MarkerDetector::~MarkerDetector() = default;
+
+std::vector<MarkerDetection> MarkerDetector::detect(const cv::Mat1b& gray, const cv::Rect& region) const {
+  const cv::Rect all(0, 0, gray.cols, gray.rows);
+  const cv::Rect part = region.empty() ? all : region & all;
+  if (part.empty()) return {};
+  std::vector<std::vector<cv::Point2f>> found;
+  std::vector<int> ids;
+  cv::aruco::detectMarkers(gray(part), implementation_->dictionary, found, ids, implementation_->parameters);
+  std::vector<MarkerDetection> detections;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (cv::Point2f& corner : found[i]) corner += cv::Point2f(part.tl());
+    if (!refineCorners(gray, implementation_->dictionary->markerSize + 2, &found[i])) continue;
+    MarkerDetection detection;
+    detection.id = ids[i];
+    for (int k = 0; k < 4; ++k) {
+      const cv::Point2f& corner = found[i][static_cast<std::size_t>(k)];
+      detection.corners.col(k) << corner.x, corner.y;
+    }
+    detections.push_back(detection);
+  }
+  return detections;
+}
+
+}  // namespace softbody

@@ -1,0 +1,157 @@
+#include "tool/marker_edges.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace softbody {
+namespace {
+
+constexpr double kFromCorner = 0.08;    ///< of a side that is left out at each end: rounded by blur
+constexpr double kStep_px = 0.5;        ///< along a profile
+constexpr double kWeakSlope = 0.25;     ///< of a profile's steepest; below is noise
+constexpr double kWeakContrast = 15.0;  ///< grey levels
+constexpr double kFewestPoints = 0.6;   ///< of a side's profiles that must show an edge
+constexpr double kBow_px = 0.3;     ///< of a side whose paper or image is bent; below it counts as straight
+constexpr double kBowShare = 0.85;  ///< of the deviations from a straight side that a bow may leave
+constexpr int kFits = 3;
+constexpr int kSteps = 3;  ///< to where two bent sides meet
+
+using Line = Eigen::Hyperplane<double, 2>;
+
+std::optional<double> grayAt(const cv::Mat1b& gray, const Eigen::Vector2d& p) {
+  const int u = static_cast<int>(std::floor(p.x())), v = static_cast<int>(std::floor(p.y()));
+  if (u < 0 || v < 0 || u + 1 >= gray.cols || v + 1 >= gray.rows) return std::nullopt;
+  const double a = p.x() - u, b = p.y() - v;
+  return (1 - b) * ((1 - a) * gray(v, u) + a * gray(v, u + 1)) +
+         b * ((1 - a) * gray(v + 1, u) + a * gray(v + 1, u + 1));
+}
+
+/// Where brightness rises along a profile: the centroid of its slope, as blur is symmetric. [px from p]
+std::optional<double> edgeOffset(const cv::Mat1b& gray, const Eigen::Vector2d& p,
+                                 const Eigen::Vector2d& outward, double reach_px) {
+  std::vector<double> slopes;
+  std::optional<double> before = grayAt(gray, p - reach_px * outward);
+  const int steps = static_cast<int>(2.0 * reach_px / kStep_px);
+  for (int i = 1; i <= steps; ++i) {
+    const std::optional<double> here = grayAt(gray, p + (i * kStep_px - reach_px) * outward);
+    if (!before || !here) return std::nullopt;
+    slopes.push_back(*here - *before);
+    before = here;
+  }
+  const double weak = kWeakSlope * *std::max_element(slopes.begin(), slopes.end());
+  double sum = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    const double slope = std::max(0.0, slopes[i] - weak);
+    sum += slope;
+    moment += slope * ((static_cast<double>(i) + 0.5) * kStep_px - reach_px);
+  }
+  if (sum < kWeakContrast) return std::nullopt;
+  return moment / sum;
+}
+
+/// Where one side's edge runs: its offset outward from the chord between the rough corners is a polynomial of
+/// the place along the chord, -0.5 to 0.5.
+struct Side {
+  Eigen::Vector2d from, chord, outward;
+  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();  ///< constant, linear, quadratic [px]
+
+  double offsetAt(double place) const { return coefficients.dot(powers(place)); }
+  static Eigen::Vector3d powers(double place) { return {1.0, place, place * place}; }
+  /// The tangent where a point lies beside the side.
+  Line tangentAt(const Eigen::Vector2d& p) const {
+    const double place = (p - from).dot(chord) / chord.squaredNorm() - 0.5;
+    const double slope = coefficients[1] + 2.0 * coefficients[2] * place;
+    return Line::Through(pointAt(place), pointAt(place) + chord + slope * outward);
+  }
+  Eigen::Vector2d pointAt(double place) const {
+    return from + (place + 0.5) * chord + offsetAt(place) * outward;
+  }
+};
+
+/// Offsets of an edge at places along a side.
+struct Profile {
+  std::vector<double> places, offsets;  // [px]
+};
+
+/// Least squares with Cauchy weights about the last fit. @param terms 2: straight; 3: bent.
+Eigen::Vector3d fitPolynomial(const Profile& profile, int terms) {
+  constexpr double kCauchy_px = 0.3;
+  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
+  for (int fit = 0; fit < kFits; ++fit) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < profile.places.size(); ++i) {
+      const Eigen::Vector3d powers = Side::powers(profile.places[i]);
+      const double distance = (profile.offsets[i] - coefficients.dot(powers)) / kCauchy_px;
+      const double weight = fit == 0 ? 1.0 : 1.0 / (1.0 + distance * distance);
+      normal += weight * powers * powers.transpose();
+      right += weight * profile.offsets[i] * powers;
+    }
+    coefficients.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(right.head(terms));
+  }
+  return coefficients;
+}
+
+double meanDeviation(const Profile& profile, const Eigen::Vector3d& coefficients) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < profile.places.size(); ++i)
+    sum += std::abs(profile.offsets[i] - coefficients.dot(Side::powers(profile.places[i])));
+  return sum / static_cast<double>(profile.places.size());
+}
+
+std::optional<Side> findSide(const cv::Mat1b& gray, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                             double reach_px) {
+  Side side;
+  side.from = from;
+  side.chord = to - from;
+  const double length = side.chord.norm();
+  // Clockwise in an image, whose y axis points down: outward is to the left.
+  side.outward = Eigen::Vector2d(side.chord.y(), -side.chord.x()) / length;
+  const int samples = std::max(8, static_cast<int>(length));
+  Profile profile;
+  for (int i = 0; i < samples; ++i) {
+    const double place = (1.0 - 2.0 * kFromCorner) * (i / (samples - 1.0) - 0.5);
+    const auto offset = edgeOffset(gray, from + (place + 0.5) * side.chord, side.outward, reach_px);
+    if (!offset) continue;
+    profile.places.push_back(place);
+    profile.offsets.push_back(*offset);
+  }
+  if (static_cast<double>(profile.places.size()) < kFewestPoints * samples) return std::nullopt;
+  const Eigen::Vector3d straight = fitPolynomial(profile, 2), bent = fitPolynomial(profile, 3);
+  const bool is_bent = std::abs(bent[2]) / 4.0 > kBow_px &&
+                       meanDeviation(profile, bent) < kBowShare * meanDeviation(profile, straight);
+  side.coefficients = is_bent ? bent : straight;
+  return side;
+}
+
+/// Where two sides meet, near a point.
+Eigen::Vector2d meeting(const Side& a, const Side& b, Eigen::Vector2d p) {
+  for (int k = 0; k < kSteps; ++k) p = a.tangentAt(p).intersection(b.tangentAt(p));
+  return p;
+}
+
+}  // namespace
+
+bool refineQuadrilateral(const cv::Mat1b& gray, double reach_px, std::vector<cv::Point2f>* corners) {
+  const auto corner = [&](std::size_t k) {
+    return Eigen::Vector2d((*corners)[k % 4].x, (*corners)[k % 4].y);
+  };
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto side = findSide(gray, corner(k), corner(k + 1), reach_px);
+    if (!side) return false;
+    sides.push_back(*side);
+  }
+  std::vector<cv::Point2f> refined;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector2d p = meeting(sides[(k + 3) % 4], sides[k], corner(k));
+    if (!((p - corner(k)).norm() <= 2.0 * reach_px)) return false;
+    refined.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  }
+  *corners = refined;
+  return true;
+}
+
+}  // namespace softbody

@@ -1,0 +1,77 @@
+#include "tool/pose_motion.h"
+
+#include <Eigen/Cholesky>
+
+namespace softbody {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// A hand's: standard deviations of velocity at first, and spectral densities of acceleration.
+constexpr double kSpeed_m_s = 0.5, kTurn_rad_s = 3.0;
+constexpr double kJerkiness_m_s2 = 3.0, kTurnJerkiness_rad_s2 = 20.0;
+
+Vector6 perAxis(double linear, double angular) {
+  Vector6 values;
+  values << linear, linear, linear, angular, angular, angular;
+  return values;
+}
+
+}  // namespace
+
+Eigen::Isometry3d movedPose(const Eigen::Isometry3d& T, const Vector6& move) {
+  const Eigen::Vector3d turn = move.tail<3>();
+  const double angle = turn.norm();
+  Eigen::Isometry3d moved = T;
+  if (angle > 0.0) moved.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * T.linear();
+  moved.translation() += move.head<3>();
+  return moved;
+}
+
+Vector6 poseDifference(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
+  Vector6 move;
+  move << to.translation() - from.translation(), turn.angle() * turn.axis();
+  return move;
+}
+
+PoseMotion::PoseMotion(const Eigen::Isometry3d& pose, const PoseCovariance& covariance, Nanoseconds stamp)
+    : pose_(pose), stamp_(stamp) {
+  covariance_.topLeftCorner<6, 6>() = covariance;
+  covariance_.bottomRightCorner<6, 6>().diagonal() = perAxis(kSpeed_m_s, kTurn_rad_s).array().square();
+}
+
+Eigen::Isometry3d PoseMotion::poseAt(double dt) const { return movedPose(pose_, dt * velocity_); }
+
+PoseMotion::Covariance PoseMotion::covarianceAt(double dt) const {
+  Covariance F = Covariance::Identity();
+  F.topRightCorner<6, 6>().diagonal().setConstant(dt);
+  Covariance predicted = F * covariance_ * F.transpose();
+  const Vector6 q = perAxis(kJerkiness_m_s2, kTurnJerkiness_rad_s2).array().square() / 30.0;
+  predicted.topLeftCorner<6, 6>().diagonal() += dt * dt * dt / 3.0 * q;
+  predicted.topRightCorner<6, 6>().diagonal() += dt * dt / 2.0 * q;
+  predicted.bottomLeftCorner<6, 6>().diagonal() += dt * dt / 2.0 * q;
+  predicted.bottomRightCorner<6, 6>().diagonal() += dt * q;
+  return predicted;
+}
+
+PoseMotion::Prediction PoseMotion::predict(Nanoseconds stamp) const {
+  const double dt = 1e-9 * static_cast<double>(stamp - stamp_);
+  return {poseAt(dt), covarianceAt(dt).topLeftCorner<6, 6>()};
+}
+
+void PoseMotion::update(const Eigen::Isometry3d& pose, const PoseCovariance& covariance, Nanoseconds stamp) {
+  const double dt = 1e-9 * static_cast<double>(stamp - stamp_);
+  const Covariance P = covarianceAt(dt);
+  const Eigen::Isometry3d predicted = poseAt(dt);
+  const PoseCovariance S = P.topLeftCorner<6, 6>() + covariance;
+  const Eigen::Matrix<double, 12, 6> K = S.ldlt().solve(P.topRows<6>()).transpose();
+  const Eigen::Matrix<double, 12, 1> step = K * poseDifference(predicted, pose);
+  pose_ = movedPose(predicted, step.head<6>());
+  velocity_ += step.tail<6>();
+  covariance_ = P - K * P.topRows<6>();
+  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+  stamp_ = stamp;
+}
+
+}  // namespace softbody

@@ -1,0 +1,137 @@
+#include "softbody_tracking/tool/tool_description.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "softbody_common/yaml_map_reader.h"
+#include "softbody_tracking/tool/marker_detector.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kLargest_m = 2.0;  ///< what is larger was given in mm
+constexpr double kFlatness = 0.02;  ///< of the blade's extent that a corner may lie off its plane
+
+std::string readDictionary(YamlMapReader& tool) {
+  std::string name = tool.text("dictionary");
+  const auto names = dictionaryNames();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return name;
+  if (name.find('.') == std::string::npos) {
+    tool.fail(tool.get("dictionary"),
+              fmt::format("tool/dictionary is '{}'; allowed: {}, or a file in OpenCV's format", name,
+                          fmt::join(names, ", ")));
+  }
+  return tool.file("dictionary");
+}
+
+ToolMarker readMarker(YamlMapReader& reader, int count) {
+  ToolMarker marker;
+  marker.id = reader.requiredInteger("id", 0, count - 1);
+  marker.size_m = reader.requiredNumber("size_m", 0.001, kLargest_m);
+  if (reader.has("pose")) marker.T_tool_marker = reader.pose("pose");
+  return marker;
+}
+
+void readMarkers(YamlMapReader& tool, const std::string& path, ToolDescription* description) {
+  const YAML::Node list = tool.get("markers");
+  if (!list.IsDefined() || !list.IsSequence() || list.size() == 0)
+    tool.fail(list, "tool/markers must be a list of at least one {id, size_m, pose}");
+  const int count = markersInDictionary(description->dictionary);
+  std::set<int> ids;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    YamlMapReader reader(list[i], path, fmt::format("tool/markers[{}]/", i));
+    description->markers.push_back(readMarker(reader, count));
+    reader.warnOfUnknown(&description->warnings);
+    const int id = description->markers.back().id;
+    if (!ids.insert(id).second)
+      tool.fail(list[i],
+                fmt::format("tool/markers[{}]/id is {}, as of another marker; ids must differ", i, id));
+  }
+}
+
+Points readBlade(YamlMapReader& tool) {
+  const YAML::Node list = tool.get("blade");
+  if (!list.IsDefined()) return Points(0, 3);
+  if (!list.IsSequence() || list.size() < 3)
+    tool.fail(list, "tool/blade must be a list of at least three corners [x, y, z]");
+  Points blade(static_cast<Eigen::Index>(list.size()), 3);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::vector<double> corner;
+    try {
+      corner = list[i].as<std::vector<double>>();
+    } catch (const YAML::Exception&) {
+    }
+    const bool usable = corner.size() == 3 &&
+                        std::all_of(corner.begin(), corner.end(), [](double x) { return std::isfinite(x); });
+    if (!usable) {
+      tool.fail(list[i], fmt::format("tool/blade[{}] is '{}'; allowed: three numbers [m]", i,
+                                     YamlMapReader::shown(list[i])));
+    }
+    blade.row(static_cast<Eigen::Index>(i)) << corner[0], corner[1], corner[2];
+  }
+  return blade;
+}
+
+void checkSize(YamlMapReader& tool, const ToolDescription& description) {
+  Eigen::AlignedBox3d box;
+  const auto check = [&](const std::string& key) {
+    const double span = box.isEmpty() ? 0.0 : box.diagonal().norm();
+    if (span <= kLargest_m) return;
+    tool.fail(tool.get(key),
+              fmt::format("with tool/{} the tool spans {:.4g} m; allowed: up to {} m; lengths are in metres",
+                          key, span, kLargest_m));
+  };
+  for (const auto& corner : description.blade.rowwise()) box.extend(corner.transpose());
+  check("blade");
+  for (const ToolMarker& marker : description.markers) {
+    const Eigen::Matrix<double, 3, 4> corners = markerCorners(marker);
+    for (int k = 0; k < 4; ++k) box.extend(corners.col(k));
+  }
+  check("markers");
+}
+
+/// Extents along the principal axes; the last one is the deviation from a plane.
+void checkBlade(YamlMapReader& tool, const Points& blade) {
+  const Points centred = blade.rowwise() - blade.colwise().mean();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinV);
+  const Eigen::MatrixXd along = centred * svd.matrixV();
+  const Eigen::RowVector3d extent = along.colwise().maxCoeff() - along.colwise().minCoeff();
+  if (extent(1) <= 1e-3 * extent(0) || extent(0) <= 0.0)
+    tool.fail(tool.get("blade"), "tool/blade has no area: its corners lie on one line");
+  if (extent(2) > kFlatness * extent(0)) {
+    tool.fail(tool.get("blade"),
+              fmt::format("tool/blade is not planar: its corners lie up to {:.1f} mm apart "
+                          "across their common plane",
+                          1e3 * extent(2)));
+  }
+}
+
+}  // namespace
+
+ToolDescription loadToolDescription(const std::string& yaml_path) {
+  YamlMapReader file(parseYamlFile(yaml_path), yaml_path, "");
+  YamlMapReader tool = file.map("tool");
+  ToolDescription description;
+  description.dictionary = readDictionary(tool);
+  readMarkers(tool, yaml_path, &description);
+  description.blade = readBlade(tool);
+  checkSize(tool, description);
+  if (description.blade.rows() > 0) checkBlade(tool, description.blade);
+  tool.warnOfUnknown(&description.warnings);
+  file.warnOfUnknown(&description.warnings);
+  return description;
+}
+
+Eigen::Matrix<double, 3, 4> markerCorners(const ToolMarker& marker) {
+  const double h = 0.5 * marker.size_m;
+  Eigen::Matrix<double, 3, 4> corners;
+  corners << -h, h, h, -h, h, h, -h, -h, 0.0, 0.0, 0.0, 0.0;
+  return marker.T_tool_marker * corners;
+}
+
+}  // namespace softbody

@@ -1,0 +1,95 @@
+#include "softbody_tracking/tool/tool_mask.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+
+#include "softbody_common/rigid_fit.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kMargin = 0.008;  // [m] for the blade's thickness and its way since
+constexpr double kNearest = 0.01;  // [m]
+
+/// The plane of a polygon, and the polygon in it.
+struct PlanePolygon {
+  explicit PlanePolygon(const Points& corners) : origin(corners.colwise().mean().transpose()) {
+    const Eigen::Index n = corners.rows();
+    normal.setZero();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::Vector3d a = corners.row(i), b = corners.row((i + 1) % n);
+      normal += (a - origin).cross(b - origin);
+    }
+    normal.normalize();
+    x = normal.unitOrthogonal();
+    y = normal.cross(x);
+    for (Eigen::Index i = 0; i < n; ++i) outline.push_back(inPlane(corners.row(i).transpose()));
+  }
+  cv::Point2f inPlane(const Eigen::Vector3d& p) const {
+    return {static_cast<float>(x.dot(p - origin)), static_cast<float>(y.dot(p - origin))};
+  }
+  bool isNear(const Eigen::Vector3d& p) const {
+    return std::abs(normal.dot(p - origin)) < kMargin &&
+           cv::pointPolygonTest(outline, inPlane(p), true) > -kMargin;
+  }
+
+  Eigen::Vector3d origin, normal, x, y;
+  std::vector<cv::Point2f> outline;
+};
+
+/// The polygon in the image, with the margin around it.
+struct ImagePolygon {
+  ImagePolygon(const Pinhole& camera, const Points& corners) {
+    for (const auto& corner : corners.rowwise()) {
+      const Eigen::Vector2d pixel = camera.project(corner.transpose());
+      outline.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+      margin = std::max(margin, kMargin * camera.fx / corner.z());
+    }
+  }
+  bool contains(int u, int v) const {
+    return cv::pointPolygonTest(outline, cv::Point2f(static_cast<float>(u), static_cast<float>(v)), true) >
+           -margin;
+  }
+  cv::Rect region() const {
+    const int border = static_cast<int>(std::ceil(margin)) + 1;
+    const cv::Rect box = cv::boundingRect(outline);
+    return {box.x - border, box.y - border, box.width + 2 * border, box.height + 2 * border};
+  }
+
+  std::vector<cv::Point2f> outline;  ///< [px]
+  double margin = 0.0;               ///< [px]
+};
+
+}  // namespace
+
+void ToolMask::see(Nanoseconds stamp, const Points& blade) {
+  stamp_ = stamp;
+  blade_ = blade;
+}
+
+RgbdFrame ToolMask::without(const RgbdFrame& frame) const {
+  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kStillThere) return frame;
+  const Points corners = transformed(blade_, frame.T_fixed_camera.inverse());
+  if (corners.col(2).minCoeff() < kNearest) return frame;
+  const PlanePolygon blade(corners);
+  const ImagePolygon in_image(frame.camera, corners);
+  const cv::Rect region = in_image.region() & cv::Rect(0, 0, frame.camera.width, frame.camera.height) &
+                          cv::Rect(cv::Point(), frame.depth.size());
+  RgbdFrame result = frame;
+  result.depth = frame.depth.clone();
+  result.covered = cv::Mat1b(frame.depth.size(), 0);
+  for (int v = region.y; v < region.br().y; ++v) {
+    for (int u = region.x; u < region.br().x; ++u) {
+      float& z = result.depth(v, u);
+      const bool covered = z > 0.0f ? blade.isNear(frame.camera.unproject(u, v, z)) : in_image.contains(u, v);
+      if (!covered) continue;
+      z = 0.0f;
+      result.covered(v, u) = 255;
+    }
+  }
+  return result;
+}
+
+}  // namespace softbody

@@ -1,0 +1,208 @@
+#include "softbody_tracking/tool/tool_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "softbody_tracking/tool/marker_detector.h"
+#include "tool/pose_motion.h"
+#include "tool/tool_hypotheses.h"
+#include "tool/tool_pose.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kRegionMargin = 0.5;  ///< of the markers' extent in the image
+constexpr double kRegionMargin_px = 24.0;
+
+cv::Mat1b grayOf(const cv::Mat3b& color) {
+  cv::Mat1b gray;
+  cv::cvtColor(color, gray, cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
+/// Where the markers are expected in the image; empty: anywhere.
+cv::Rect expectedRegion(const ToolDescription& tool, const Pinhole& camera, const Eigen::Isometry3d& T) {
+  Eigen::AlignedBox2d box;
+  for (const ToolMarker& marker : tool.markers) {
+    const Eigen::Matrix<double, 3, 4> corners = T * markerCorners(marker);
+    if (!(corners.row(2).minCoeff() > 1e-2)) return {};
+    for (int k = 0; k < 4; ++k) box.extend(camera.project(corners.col(k)));
+  }
+  const double margin = std::max(kRegionMargin_px, kRegionMargin * box.sizes().maxCoeff());
+  const Eigen::Array2d image(camera.width, camera.height);
+  const Eigen::Array2d low = (box.min().array() - margin).max(0.0).min(image),
+                       high = (box.max().array() + margin).max(0.0).min(image);
+  return {cv::Point(static_cast<int>(low.x()), static_cast<int>(low.y())),
+          cv::Point(static_cast<int>(high.x()), static_cast<int>(high.y()))};
+}
+
+double rmsOver(const ToolHypothesis& hypothesis, const Pinhole& camera) {
+  double sum = 0.0;
+  for (const MarkerMeasurement* m : hypothesis.markers) {
+    const double rms = reprojectionRms(*m, camera, hypothesis.estimate.T_camera_tool);
+    sum += rms * rms;
+  }
+  return std::sqrt(sum / static_cast<double>(hypothesis.markers.size()));
+}
+
+/// With its axes turned by a rotation.
+PoseCovariance turned(const PoseCovariance& covariance, const Eigen::Matrix3d& R) {
+  PoseCovariance turn = PoseCovariance::Zero();
+  turn.topLeftCorner<3, 3>() = R;
+  turn.bottomRightCorner<3, 3>() = R;
+  return turn * covariance * turn.transpose();
+}
+
+ToolObservation observationOf(const ToolHypothesis& hypothesis, const RgbdFrame& frame) {
+  ToolObservation observation;
+  observation.stamp = frame.stamp;
+  observation.T_camera_tool = hypothesis.estimate.T_camera_tool;
+  observation.covariance = hypothesis.estimate.covariance;
+  observation.markers = static_cast<int>(hypothesis.markers.size());
+  observation.reprojection_px = rmsOver(hypothesis, frame.camera);
+  observation.depth_offset_m = depthOffset(hypothesis.markers, observation.T_camera_tool);
+  return observation;
+}
+
+}  // namespace
+
+ToolTrackerConfig readToolTrackerConfig(Parameters& parameters) {
+  ToolTrackerConfig config;
+  config.corner_std_px = parameters.number("corner_std_px", config.corner_std_px, 0.01, 10.0);
+  config.use_depth = parameters.flag("use_depth", config.use_depth);
+  config.depth_std_1_m = parameters.number("depth_std_1_m", config.depth_std_1_m, 1e-5, 1.0);
+  config.depth_independent_samples =
+      parameters.number("depth_independent_samples", config.depth_independent_samples, 0.1, 1000.0);
+  config.max_reprojection_px =
+      parameters.number("max_reprojection_px", config.max_reprojection_px, 0.1, 100.0);
+  config.ambiguity = parameters.number("ambiguity", config.ambiguity, 0.0, 1000.0);
+  config.bridge_time_s = parameters.number("bridge_time_s", config.bridge_time_s, 0.0, 10.0);
+  return config;
+}
+
+struct ToolTracker::Implementation {
+  Implementation(const ToolDescription& description, const ToolTrackerConfig& tracker_config)
+      : tool(description), config(tracker_config), detector(description.dictionary) {
+    if (tool.markers.empty()) throw std::invalid_argument("a tool without markers cannot be tracked");
+  }
+
+  std::vector<MarkerMeasurement> measure(const cv::Mat1b& gray, const RgbdFrame& frame,
+                                         const cv::Rect& region) const {
+    std::vector<MarkerMeasurement> measurements;
+    for (const MarkerDetection& detection : detector.detect(gray, region)) {
+      const auto marker = std::find_if(tool.markers.begin(), tool.markers.end(),
+                                       [&](const ToolMarker& m) { return m.id == detection.id; });
+      if (marker == tool.markers.end()) continue;
+      measurements.push_back({&*marker, detection.corners, depthUnder(detection.corners, frame)});
+    }
+    return measurements;
+  }
+
+  /// Around the prediction first, then anywhere.
+  std::vector<ToolHypothesis> search(const RgbdFrame& frame) {
+    const cv::Mat1b gray = grayOf(frame.color);
+    const auto predicted = predict(frame);
+    const cv::Rect region = predicted ? expectedRegion(tool, frame.camera, predicted->pose) : cv::Rect();
+    std::vector<cv::Rect> parts{region};
+    if (!region.empty()) parts.emplace_back();
+    for (const cv::Rect& part : parts) {
+      measurements = measure(gray, frame, part);
+      auto hypotheses = toolHypotheses(measurements, frame.camera, predicted, config);
+      if (!hypotheses.empty()) return hypotheses;
+    }
+    return {};
+  }
+
+  std::optional<ToolObservation> observe(const RgbdFrame& frame) {
+    measurements.clear();
+    const std::vector<ToolHypothesis> hypotheses = search(frame);
+    if (measurements.empty()) {
+      reason = "none of the tool's markers is seen";
+    } else if (hypotheses.empty()) {
+      reason = fmt::format("no pose fits the markers to {} px", config.max_reprojection_px);
+    } else if (isAmbiguous(hypotheses, config)) {
+      reason = "two poses fit alike: the marker is too small, or seen too much from the front";
+    } else {
+      reason.clear();
+      return observationOf(hypotheses.front(), frame);
+    }
+    return std::nullopt;
+  }
+
+  void forgetOldMotion(Nanoseconds stamp) {
+    const auto bridged = static_cast<Nanoseconds>(1e9 * config.bridge_time_s);
+    if (motion && stamp - motion->stamp() > bridged) motion.reset();
+  }
+
+  /// In the camera's frame.
+  std::optional<PoseMotion::Prediction> predict(const RgbdFrame& frame) const {
+    if (!motion || !frame.placed) return std::nullopt;
+    const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
+    const PoseMotion::Prediction predicted = motion->predict(frame.stamp);
+    return PoseMotion::Prediction{T_camera_fixed * predicted.pose,
+                                  turned(predicted.covariance, T_camera_fixed.linear())};
+  }
+
+  void learnMotion(const ToolObservation& seen, const RgbdFrame& frame) {
+    if (!frame.placed) return;
+    const Eigen::Isometry3d pose = frame.T_fixed_camera * seen.T_camera_tool;
+    const PoseCovariance covariance = turned(seen.covariance, frame.T_fixed_camera.linear());
+    if (motion) {
+      motion->update(pose, covariance, frame.stamp);
+    } else {
+      motion.emplace(pose, covariance, frame.stamp);
+    }
+  }
+
+  std::optional<ToolObservation> bridge(const RgbdFrame& frame) const {
+    const auto predicted = predict(frame);
+    if (!predicted) return std::nullopt;
+    ToolObservation observation;
+    observation.stamp = frame.stamp;
+    observation.T_camera_tool = predicted->pose;
+    observation.covariance = predicted->covariance;
+    observation.bridged = true;
+    return observation;
+  }
+
+  ToolDescription tool;
+  ToolTrackerConfig config;
+  MarkerDetector detector;
+  std::optional<PoseMotion> motion;             ///< in the fixed frame
+  std::vector<MarkerMeasurement> measurements;  ///< of the present frame; hypotheses point into it
+  Nanoseconds last_stamp = 0;
+  std::string reason = "no frame yet";
+};
+
+ToolTracker::ToolTracker(const ToolDescription& tool, const ToolTrackerConfig& config)
+    : implementation_(std::make_unique<Implementation>(tool, config)) {}
+
+ToolTracker::~ToolTracker() = default;
+
+std::optional<ToolObservation> ToolTracker::track(const RgbdFrame& frame, StageTimer* timer) {
+  Implementation& self = *implementation_;
+  StageTimer unused;
+  const auto stage = (timer != nullptr ? timer : &unused)->stage("Tool Tracking");
+  if (frame.stamp < self.last_stamp) reset();
+  self.last_stamp = frame.stamp;
+  self.forgetOldMotion(frame.stamp);
+  std::optional<ToolObservation> observation = self.observe(frame);
+  if (!observation) return self.bridge(frame);
+  self.learnMotion(*observation, frame);
+  return observation;
+}
+
+const ToolDescription& ToolTracker::tool() const { return implementation_->tool; }
+
+const std::string& ToolTracker::reason() const { return implementation_->reason; }
+
+void ToolTracker::reset() {
+  implementation_->motion.reset();
+  implementation_->last_stamp = 0;
+  implementation_->reason = "no frame yet";
+}
+
+}  // namespace softbody

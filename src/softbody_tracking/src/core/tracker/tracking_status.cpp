@@ -1,0 +1,81 @@
+#include "tracker/tracking_status.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace softbody {
+namespace {
+
+constexpr double kDegradedShare = 0.3;  // of the visible surface that must be explained
+constexpr double kFewestFound = 0.05;   // of the expected features; fewer are covered
+constexpr double kWorstInlierRatio = 0.2;
+constexpr int kHeldFrames = 5;  // that a piece of a cut body is held before the status tells
+
+/// Empty if the frame shows the body well.
+std::string whyDegraded(const Observation& seen, int kept) {
+  const auto explained = static_cast<double>(seen.agreeing_blocks);
+  if (explained < kDegradedShare * seen.depth.visible_blocks) {
+    return seen.depth.occluded_blocks > seen.depth.absent_blocks ? "most of the body is occluded"
+                                                                 : "most of the body is not where predicted";
+  }
+  if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestFound * seen.expected_features)
+    return "hardly any of the expected features are found";
+  if (seen.matched_features >= kFewestExpectedFeatures && kept < kWorstInlierRatio * seen.matched_features)
+    return "most feature matches disagree with their neighbours";
+  return {};
+}
+
+std::string piecesText(const std::set<std::uint32_t>& numbers, std::size_t count) {
+  return fmt::format("{} {} of {} (triangle_bodies, from 0)", numbers.size() == 1 ? "piece" : "pieces",
+                     fmt::join(numbers, ", "), count);
+}
+
+void append(const std::string& text, std::string* reason) {
+  if (!reason->empty()) *reason += "; ";
+  *reason += text;
+}
+
+}  // namespace
+
+TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations) {
+  TrackingStatus status;
+  const auto kept = static_cast<int>(std::count_if(seen.matches.begin(), seen.matches.end(),
+                                                   [](const FeatureMatch& match) { return match.inlier; }));
+  status.features_tracked = static_cast<std::uint32_t>(kept);
+  status.inlier_ratio = seen.matched_features == 0 ? 0.0 : static_cast<double>(kept) / seen.matched_features;
+  status.residual_rms = rmsResidual(associations);
+  if (static_cast<int>(seen.agreeing_blocks) + kept < kFewestAssociations) {
+    status.state = TrackingState::kLost;
+    status.reason = seen.depth.visible_blocks == 0 ? "the body is out of view or nothing is measured there"
+                                                   : "neither depth nor features agree with the prediction";
+    return status;
+  }
+  status.reason = whyDegraded(seen, kept);
+  status.state = status.reason.empty() ? TrackingState::kTracking : TrackingState::kDegraded;
+  return status;
+}
+
+void HeldPieces::tell(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
+                      TrackingStatus* status) {
+  frames_.resize(seen.shown.size(), 0);
+  std::set<std::uint32_t> all, missing, hidden;
+  for (std::size_t p = 0; p < frames_.size(); ++p) {
+    frames_[p] = seen.shown[p] == Shows::kHardly ? frames_[p] + 1 : 0;
+    all.insert(names[p].begin(), names[p].end());
+    if (frames_[p] < kHeldFrames) continue;
+    (seen.in_view[p] ? missing : hidden).insert(names[p].begin(), names[p].end());
+  }
+  if (status->state != TrackingState::kTracking) return;
+  if (!missing.empty()) {
+    status->state = TrackingState::kDegraded;
+    append("too little shows of " + piecesText(missing, all.size()) + ": held where it was", &status->reason);
+  }
+  if (!hidden.empty()) {
+    append(piecesText(hidden, all.size()) + " out of view or too small to be followed: only inferred",
+           &status->reason);
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,42 @@
+#include "tracker/tracking_targets.h"
+
+namespace softbody {
+
+std::vector<TrackedFeature> trackedFeatures(const Observation& seen, const std::vector<MapFeature>& known,
+                                            const Eigen::Isometry3d& T_camera_fixed) {
+  std::vector<TrackedFeature> result;
+  for (const FeatureMatch& match : seen.matches) {
+    if (!match.inlier) continue;
+    const MapFeature& feature = known[match.feature];
+    const double confidence =
+        feature.predicted > 0 ? static_cast<double>(feature.matched) / feature.predicted : 0.0;
+    result.push_back({feature.id,
+                      {match.pixel.x, match.pixel.y},
+                      match.association.measured,
+                      T_camera_fixed * feature.reference,
+                      confidence});
+  }
+  return result;
+}
+
+std::vector<Target> targetsOf(const std::vector<Association>& associations,
+                              const Eigen::Isometry3d& T_fixed_camera) {
+  std::vector<Target> targets;
+  targets.reserve(associations.size());
+  for (const Association& a : associations) {
+    targets.push_back(
+        {a.kind, a.place, T_fixed_camera * a.measured, T_fixed_camera.linear() * a.normal, a.weight});
+  }
+  return targets;
+}
+
+void holdUnseen(const Observation& seen, const std::vector<std::vector<int>>& pieces, const Points& simulated,
+                const Points& found, const PieceHold& hold, std::vector<Target>* targets) {
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (seen.shown[p] == Shows::kWell) continue;
+    const bool hardly = seen.shown[p] == Shows::kHardly;
+    hold.add(pieces[p], hardly ? simulated : found, PieceHold::kWeak, targets);
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,74 @@
+#include "softbody_tracking/ros/blade_trail.h"
+
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/ros/conversions.h"
+
+namespace softbody {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr Nanoseconds kLength = 1'500'000'000, kLongestGap = 250'000'000;  // [ns]
+constexpr double kLifetime = 0.5;                               // of a marker that nobody renews [s]
+constexpr double kOutlineWidth = 0.0015, kTrailWidth = 0.0006;  // [m]
+constexpr float kOutlineAlpha = 0.3f;                           // of an earlier outline, to a path's
+
+Marker lineList(const char* name, double width, const std_msgs::Header& header) {
+  Marker marker;
+  marker.header = header;
+  marker.ns = name;
+  marker.type = Marker::LINE_LIST;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = width;
+  marker.color.r = marker.color.a = 1.0f;
+  marker.color.g = 0.67f;
+  marker.lifetime = ros::Duration(kLifetime);
+  return marker;
+}
+
+void addLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, float alpha_a, float alpha_b,
+             Marker* marker) {
+  marker->points.push_back(pointMessage(a));
+  marker->points.push_back(pointMessage(b));
+  for (const float alpha : {alpha_a, alpha_b}) {
+    marker->colors.push_back(marker->color);
+    marker->colors.back().a = alpha;
+  }
+}
+
+void addOutline(const Points& corners, float alpha, Marker* marker) {
+  for (Eigen::Index i = 0; i < corners.rows(); ++i)
+    addLine(corners.row(i), corners.row((i + 1) % corners.rows()), alpha, alpha, marker);
+}
+
+}  // namespace
+
+void BladeTrail::add(Nanoseconds stamp, const Eigen::Isometry3d& T_fixed_tool) {
+  if (!outlines_.empty() && (stamp < outlines_.back().stamp || stamp - outlines_.back().stamp > kLongestGap))
+    outlines_.clear();
+  outlines_.push_back({stamp, transformed(blade_, T_fixed_tool)});
+  while (stamp - outlines_.front().stamp > kLength) outlines_.pop_front();
+}
+
+float BladeTrail::freshness(const Outline& outline) const {
+  return 1.0f - static_cast<float>(outlines_.back().stamp - outline.stamp) / static_cast<float>(kLength);
+}
+
+visualization_msgs::MarkerArray BladeTrail::markers(const std_msgs::Header& header) const {
+  visualization_msgs::MarkerArray message;
+  if (outlines_.empty()) return message;
+  Marker blade = lineList("blade", kOutlineWidth, header), trail = lineList("trail", kTrailWidth, header);
+  addOutline(outlines_.back().corners, 1.0f, &blade);
+  trail.color.a = 0.99f;  // rviz blends lines of several colours only where this one is not opaque
+  for (std::size_t k = 0; k + 1 < outlines_.size(); ++k) {
+    const float from = freshness(outlines_[k]), to = freshness(outlines_[k + 1]);
+    addOutline(outlines_[k].corners, kOutlineAlpha * from, &trail);
+    for (Eigen::Index i = 0; i < blade_.rows(); ++i)
+      addLine(outlines_[k].corners.row(i), outlines_[k + 1].corners.row(i), from, to, &trail);
+  }
+  if (trail.points.empty()) trail.action = Marker::DELETE;
+  message.markers = {blade, trail};
+  return message;
+}
+
+}  // namespace softbody

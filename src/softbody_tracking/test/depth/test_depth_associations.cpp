@@ -1,0 +1,317 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "depth/depth_associations.h"
+#include "fixtures/synthetic_scene.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+class DepthAssociationsTest : public ::testing::Test {
+ protected:
+  DepthAssociationsTest()
+      : truth_(transformed(box_.volume.rest_vertices, boxPose())),
+        frame_(renderFrame(box_, truth_, 1)),
+        surface_(box_.volume, box_.surface) {
+    surface_.update(frame_.camera, truth_);
+  }
+
+  DepthAssociations associate(const DepthConfig& config = DepthConfig(),
+                              const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
+                              int pixel_step = 1) {
+    DepthAssociator depth(config, edge_);
+    return depth.associate(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
+                           colors_, pixel_step);
+  }
+
+  /// To every pixel's depth.
+  void addNoise(double sigma_m) {
+    std::mt19937 random(2);
+    std::normal_distribution<float> gauss(0.0f, static_cast<float>(sigma_m));
+    for (float& z : frame_.depth) z += gauss(random);
+  }
+
+  BoxBody box_ = makeBox();
+  double edge_ = meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
+  Points truth_;
+  RgbdFrame frame_;
+  PredictedSurface surface_;
+  ColorModel colors_;
+};
+
+TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
+  const DepthAssociations found = associate();
+  EXPECT_GT(found.associations.size(), 1000u);
+  EXPECT_EQ(found.occluded_blocks, 0);
+  EXPECT_EQ(found.absent_blocks, 0);
+  for (const Association& a : found.associations) {
+    EXPECT_LT(std::abs(a.residual()), 1e-6);
+    EXPECT_LT((positionOf(a.place, truth_, box_.volume.tets) - a.predicted).norm(), 1e-6);
+    EXPECT_LT(a.normal.dot(a.predicted), 0.0) << "visible surface faces the camera";
+  }
+}
+
+TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
+  surface_.update(frame_.camera,
+                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.004))));
+  for (const Association& a : associate().associations) {
+    EXPECT_LT(a.residual(), 0.0) << "the body lies behind its prediction, against the normals";
+    EXPECT_NEAR(a.residual(), 0.004 * a.normal.z(), 0.0025);
+  }
+}
+
+TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
+  surface_.update(frame_.camera,
+                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
+  const DepthAssociations all = associate();
+  for (const int step : {2, 3, 1000}) {
+    const DepthAssociations some = associate({}, Eigen::Isometry3d::Identity(), step);
+    EXPECT_NEAR(static_cast<double>(some.associations.size()), all.associations.size(),
+                0.05 * all.associations.size());
+    EXPECT_NEAR(rmsResidual(some.associations), rmsResidual(all.associations),
+                0.1 * rmsResidual(all.associations));
+  }
+}
+
+TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
+  DepthAssociator depth(DepthConfig(), edge_);
+  const RigidMotions still = {Eigen::Isometry3d::Identity()};
+  SurfaceSamples samples = sampleSurface(surface_, 1500);
+  const DepthAssociations fresh = depth.associate(frame_, surface_.image(), samples, still, colors_);
+  const DepthAssociations few =
+      depth.associate(frame_, surface_.image(), sampleSurface(surface_, 100), still, colors_);
+  EXPECT_LT(few.associations.size(), 200u);
+  samples = sampleSurface(surface_, 1500, sampleSurface(surface_, 100));
+  const DepthAssociations again = depth.associate(frame_, surface_.image(), samples, still, colors_);
+  EXPECT_EQ(again.associations.size(), fresh.associations.size());
+  EXPECT_EQ(again.visible_blocks, fresh.visible_blocks);
+  EXPECT_EQ(rmsResidual(again.associations), rmsResidual(fresh.associations));
+}
+
+TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
+  for (const double angle : {0.0, 0.6, 1.1}) {
+    const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
+    truth_ = transformed(box_.volume.rest_vertices, turned);
+    frame_ = renderFrame(box_, truth_, 1);
+    surface_.update(frame_.camera, truth_);
+    double weights = 0.0, area = 0.0;
+    for (const Association& a : associate().associations) weights += a.weight * edge_ * edge_;
+    for (const auto& triangle : box_.volume.surface.rowwise()) {
+      const Eigen::Vector3d a = truth_.row(triangle[0]), b = truth_.row(triangle[1]),
+                            c = truth_.row(triangle[2]);
+      const Eigen::Vector3d normal = (b - a).cross(c - a);  // twice the area long
+      if (normal.dot(a) < 0.0) area += 0.5 * normal.norm();
+    }
+    EXPECT_NEAR(weights, DepthConfig().weight * area, 0.07 * area) << "turned by " << angle;
+  }
+}
+
+/// Weights by its own noise alone.
+double totalWeight(DepthAssociations found, double volume_edge_m) {
+  DepthNoise noise;
+  noise.learn(found.noise);
+  weighByNoise(noise.over(volume_edge_m) / volume_edge_m, &found);
+  double sum = 0.0;
+  for (const Association& a : found.associations) sum += a.weight;
+  return sum;
+}
+
+TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlocks) {
+  const double fine = 0.25 * edge_;
+  for (const double noise_m : {0.0, 0.0005, 0.0013}) {
+    frame_ = renderFrame(box_, truth_, 1);
+    addNoise(noise_m);
+    const double usual = totalWeight(associate(), fine);
+    for (const int targets : {300, 3000, 100000}) {
+      DepthConfig other;
+      other.max_targets = targets;
+      EXPECT_NEAR(totalWeight(associate(other), fine) / usual, 1.0, 0.15) << noise_m << " " << targets;
+    }
+  }
+}
+
+TEST_F(DepthAssociationsTest, AreAsNoisyWhateverTheNumberOfBlocks) {
+  constexpr double kNoise = 0.002;
+  addNoise(kNoise);
+  const double density = kNoise * boxPose().translation().z() / frame_.camera.fx;  // of single pixels
+  for (const int targets : {100, 300, 1500, 3000, 100000}) {
+    DepthConfig config;
+    config.max_targets = targets;
+    EXPECT_NEAR(associate(config).noise.density, density, 0.13 * density) << targets;
+  }
+}
+
+/// As of a thin body far away from a stereo camera, which would shake with it.
+TEST_F(DepthAssociationsTest, WeighLessWhereDepthIsNoisierThanUsual) {
+  const auto weight = [&](double noise_m) {
+    frame_ = renderFrame(box_, truth_, 1);
+    addNoise(noise_m);
+    return totalWeight(associate(), 0.25 * edge_);
+  };
+  const double usual = weight(0.0);
+  EXPECT_NEAR(weight(0.0005), usual, 0.02 * usual) << "patches average over their pixels";
+  const double noisy = weight(0.0012), noisier = weight(0.0015);
+  EXPECT_LT(noisy, 0.9 * usual);
+  EXPECT_NEAR(noisier / noisy, 0.64, 0.06) << "by the square";
+}
+
+TEST(WeighByNoise, NeverLeavesAFastBodyWithoutDepth) {
+  for (const double relative_noise : {0.05, 0.5, 5.0}) {
+    DepthAssociations depth;
+    depth.associations.resize(1);
+    weighByNoise(relative_noise, &depth);
+    EXPECT_DOUBLE_EQ(depth.associations[0].weight, 1.0 / 6.0);
+  }
+}
+
+/// The rigid step leaves out pixels, and does not ask.
+TEST_F(DepthAssociationsTest, TellTheNoiseOfWholeBlocksAlone) {
+  for (const int targets : {1500, 100000}) {
+    DepthConfig config;
+    config.max_targets = targets;
+    EXPECT_GT(associate(config).noise.bends, 500u) << targets;
+    EXPECT_EQ(associate(config, Eigen::Isometry3d::Identity(), 2).noise.bends, 0u) << targets;
+  }
+}
+
+/// Such as a bend that the prediction does not have, and that depth is to mend.
+TEST_F(DepthAssociationsTest, ABendOtherThanPredictedIsHardlyNoise) {
+  constexpr double kRadius = 0.24;
+  const double straight = totalWeight(associate(), edge_);
+  for (const int axis : {0, 1}) {
+    for (const double way : {-1.0, 1.0}) {
+      Points bent = box_.volume.rest_vertices;
+      for (auto vertex : bent.rowwise()) {
+        const double angle = vertex[axis] / kRadius;
+        vertex[axis] = (kRadius - way * vertex[2]) * std::sin(angle);
+        vertex[2] = way * (kRadius - (kRadius - way * vertex[2]) * std::cos(angle));
+      }
+      frame_ = renderFrame(box_, transformed(bent, boxPose()), 1);
+      for (const int targets : {100, 300, 1500}) {
+        DepthConfig config;
+        config.max_targets = targets;
+        const DepthAssociations found = associate(config);
+        ASSERT_GT(rmsResidual(found.associations), 0.001);
+        double plain = 0.0;
+        for (const Association& a : found.associations) plain += a.weight;
+        EXPECT_GT(plain, 0.4 * straight);
+        EXPECT_NEAR(totalWeight(found, edge_), plain, 0.1 * plain) << axis << " " << way << " " << targets;
+      }
+    }
+  }
+}
+
+/// Pieces in stripes of six blocks, every second one nearer.
+TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
+  addNoise(0.001);
+  SurfaceSamples samples = sampleSurface(surface_, 1500);
+  for (int row = 0; row < samples.grid.rows; ++row)
+    for (int column = 0; column < samples.grid.cols; ++column)
+      if (samples.grid(row, column) >= 0) samples.samples[samples.grid(row, column)].body = column / 6 % 2;
+  const RigidMotions motions = {Eigen::Isometry3d::Identity(),
+                                Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.006))};
+  DepthAssociator depth(DepthConfig(), edge_);
+  const DepthAssociations& found = depth.associate(frame_, surface_.image(), samples, motions, colors_);
+  ASSERT_GT(rmsResidual(found.associations), 0.002);
+  const double noise = associate().noise.density;
+  EXPECT_NEAR(found.noise.density, noise, 0.2 * noise);
+}
+
+TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
+  frame_.depth(cv::Rect(0, 0, 320, 480)) -= 0.1f;
+  DepthAssociations found = associate();
+  EXPECT_GT(found.occluded_blocks, 300);
+  EXPECT_EQ(found.absent_blocks, 0);
+  frame_.depth.setTo(2.0f);
+  found = associate();
+  EXPECT_EQ(found.occluded_blocks, 0);
+  EXPECT_EQ(found.absent_blocks, found.visible_blocks);
+  EXPECT_TRUE(found.associations.empty());
+}
+
+TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
+  const cv::Mat3b other(frame_.color.size(), cv::Vec3b(250, 20, 20));
+  colors_.learn(other, cv::Mat1b(other.size(), 255));
+  const DepthAssociations found = associate();
+  EXPECT_EQ(found.occluded_blocks, found.visible_blocks);
+  EXPECT_TRUE(found.associations.empty());
+}
+
+/// A rigid motion of the samples and rendering the moved surface anew say the same.
+TEST_F(DepthAssociationsTest, MoveWithTheirSamples) {
+  const Eigen::Isometry3d error =
+      Eigen::Translation3d(0.003, -0.002, 0.004) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());
+  surface_.update(frame_.camera, transformed(truth_, error));
+  for (const Association& a : associate({}, error.inverse()).associations) {
+    EXPECT_LT(std::abs(a.residual()), 4e-4);
+    EXPECT_LT((positionOf(a.place, truth_, box_.volume.tets) - a.predicted).norm(), 1e-6);
+  }
+}
+
+/// A stick whose far end is in front of the body and whose tip touches it, flat or steep [m/px].
+TEST_F(DepthAssociationsTest, AnOccluderIsOneDownToItsTipHoweverSteep) {
+  const cv::Rect stick = cv::Rect(surface_.image().region.x + surface_.image().region.width / 2, 0, 30, 480);
+  const cv::Mat1f without = frame_.depth.clone();
+  for (const float slope : {5e-4f, 1e-3f, 1.5e-3f, 2e-3f}) {
+    without.copyTo(frame_.depth);
+    for (int v = 0; v < 300; ++v) {
+      for (int u = stick.x; u < stick.br().x; ++u) {
+        if (surface_.image().triangle(v, u) >= 0) frame_.depth(v, u) -= slope * static_cast<float>(300 - v);
+      }
+    }
+    int on_stick = 0;
+    for (const Association& a : associate().associations) {
+      const Eigen::Vector2d pixel = frame_.camera.project(a.measured);
+      on_stick += stick.contains(cv::Point(cvRound(pixel.x()), cvRound(pixel.y()))) && a.residual() > 0.005;
+    }
+    EXPECT_EQ(on_stick, 0) << slope;
+  }
+}
+
+/// A tool's handle with the body's colours, nowhere as near as the gate.
+TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
+  const cv::Rect& region = surface_.image().region;
+  const cv::Rect handle(region.x + region.width / 2, region.y + region.height / 3, 24, region.height / 3);
+  for (const float before : {0.015f, 0.025f, 0.035f}) {
+    cv::Mat1f depth = frame_.depth.clone();
+    std::swap(depth, frame_.depth);
+    frame_.depth(handle) -= before;
+    const DepthAssociations found = associate();
+    std::swap(depth, frame_.depth);
+    EXPECT_GT(found.occluded_blocks, 10) << before;
+    EXPECT_GT(found.associations.size(), 800u) << "the surface beside it stays";
+    for (const Association& a : found.associations) EXPECT_LT(std::abs(a.residual()), 0.01) << before;
+  }
+}
+
+TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
+  constexpr double kHeight = 0.03, kRadiusPx = 90.0;
+  const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
+  for (int v = 0; v < frame_.depth.rows; ++v) {
+    for (int u = 0; u < frame_.depth.cols; ++u) {
+      const double distance = (Eigen::Vector2d(u, v) - middle).norm();
+      if (surface_.image().triangle(v, u) < 0 || distance > kRadiusPx) continue;
+      frame_.depth(v, u) -= static_cast<float>(kHeight * 0.5 * (1.0 + std::cos(M_PI * distance / kRadiusPx)));
+    }
+  }
+  for (const int targets : {1500, 300, 100, 50}) {
+    DepthConfig config;
+    config.max_targets = targets;
+    const DepthAssociations found = associate(config);
+    EXPECT_EQ(found.occluded_blocks, 0) << targets;
+    double highest = 0.0;
+    for (const Association& a : found.associations) highest = std::max(highest, a.residual());
+    EXPECT_GT(highest, 0.02) << targets;
+  }
+}
+
+TEST_F(DepthAssociationsTest, NoDepthGivesNothing) {
+  frame_.depth.setTo(0.0f);
+  EXPECT_EQ(associate().visible_blocks, 0);
+}
+
+}  // namespace
+}  // namespace softbody

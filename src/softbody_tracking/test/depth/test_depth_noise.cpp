@@ -1,0 +1,125 @@
+#include "depth/depth_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "depth/depth_associations.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kFocal = 600.0, kDepth = 0.5;  // [px], [m]
+
+/// Blocks of a surface that faces the camera. @param difference of a block, by column and row [m].
+NoiseSample sampleOf(const cv::Size& grid, int block_px, const std::function<double(int, int)>& difference) {
+  SurfaceSamples surface;
+  surface.block_px = block_px;
+  surface.grid.create(grid);
+  std::vector<DepthBlock> blocks;
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      surface.grid(row, column) = static_cast<int>(blocks.size());
+      surface.samples.emplace_back();
+      DepthBlock& block = blocks.emplace_back();
+      block.kind = DepthBlock::Kind::kAgrees;
+      block.predicted = kDepth;
+      block.difference = difference(column, row);
+    }
+  }
+  std::vector<double> memory;
+  return noiseOf(surface, blocks, kFocal, &memory);
+}
+
+/// Of so much noise in a block's mean.
+NoiseSample noisy(const cv::Size& grid, double sigma_m, int block_px = 5) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> gauss(0.0, sigma_m);
+  return sampleOf(grid, block_px, [&](int, int) { return gauss(random); });
+}
+
+double width(int block_px) { return block_px * kDepth / kFocal; }
+
+TEST(NoiseOf, IsTheSigmaOfABlockTimesItsWidth) {
+  for (const int block_px : {1, 3, 5, 20}) {
+    const double sigma = 0.004 / block_px;  // of independent pixels' mean
+    const NoiseSample sample = noisy({60, 60}, sigma, block_px);
+    EXPECT_NEAR(sample.density, sigma * width(block_px), 0.06 * sigma * width(block_px)) << block_px;
+  }
+}
+
+TEST(NoiseOf, IsToldOfAThinBodyUprightAndLying) {
+  const NoiseSample lying = noisy({300, 3}, 0.002), upright = noisy({3, 300}, 0.002);
+  EXPECT_EQ(lying.bends, upright.bends);
+  EXPECT_GT(upright.bends, 500u);
+  for (const NoiseSample& sample : {lying, upright})
+    EXPECT_NEAR(sample.density, 0.002 * width(5), 0.1 * 0.002 * width(5));
+}
+
+TEST(NoiseOf, IsNoSlope) {
+  const NoiseSample sample =
+      sampleOf({40, 30}, 5, [](int column, int row) { return 0.002 * column - 0.001 * row; });
+  EXPECT_GT(sample.bends, 1000u);
+  EXPECT_LT(sample.density, 1e-12);
+}
+
+/// The pixels that a stereo camera's matching window holds err alike.
+TEST(NoiseOf, LooksFurtherThanPixelsThatErrAlike) {
+  for (const int block_px : {1, 2}) {
+    const int alike = 4 / block_px;
+    std::mt19937 random(3);
+    std::normal_distribution<double> gauss(0.0, 0.002);
+    cv::Mat1d error(60, 60);
+    for (double& value : error) value = gauss(random);
+    const NoiseSample sample =
+        sampleOf({60, 60}, block_px, [&](int column, int row) { return error(row / alike, column / alike); });
+    EXPECT_NEAR(sample.density, 0.002 * width(block_px), 0.12 * 0.002 * width(block_px)) << block_px;
+  }
+}
+
+TEST(DepthNoise, OfThePatchIsLessTheWiderItIs) {
+  DepthNoise noise;
+  EXPECT_EQ(noise.over(0.03), 0.0) << "unknown";
+  for (int frame = 0; frame < 100; ++frame) noise.learn({6e-6, 2000});
+  EXPECT_NEAR(noise.over(0.03), 0.2e-3, 1e-6);
+  EXPECT_NEAR(noise.over(0.06), 0.1e-3, 1e-6);
+}
+
+TEST(DepthNoise, IsKnownFromTheFirstFrameThatShowsMuch) {
+  DepthNoise noise;
+  noise.learn({6e-6, 2000});
+  EXPECT_NEAR(noise.over(1.0), 6e-6, 0.1e-6);
+}
+
+TEST(DepthNoise, FollowsAChangeWithinSomeFrames) {
+  DepthNoise noise;
+  for (int frame = 0; frame < 100; ++frame) noise.learn({2e-6, 2000});
+  for (int frame = 0; frame < 8; ++frame) noise.learn({6e-6, 2000});
+  EXPECT_NEAR(noise.over(1.0), 6e-6, 0.2e-6);
+}
+
+/// A hand covers most of the body.
+TEST(DepthNoise, OfAFrameThatShowsLittleIsThatOfThoseBefore) {
+  DepthNoise noise;
+  for (int frame = 0; frame < 10; ++frame) noise.learn({6e-6, 2000});
+  const double before = noise.over(1.0);
+  noise.learn({});
+  EXPECT_EQ(noise.over(1.0), before);
+  noise.learn({3e-6, 31});
+  noise.learn({9e-6, 29});
+  EXPECT_NEAR(noise.over(1.0), before, 0.02 * before);
+}
+
+/// A body that never shows much.
+TEST(DepthNoise, IsLearnedFromLittleInTheEnd) {
+  DepthNoise noise;
+  noise.learn({6e-6, 5});
+  EXPECT_LT(noise.over(1.0), 3e-6) << "five say little";
+  for (int frame = 0; frame < 300; ++frame) noise.learn({6e-6, 5});
+  EXPECT_NEAR(noise.over(1.0), 6e-6, 0.1e-6);
+}
+
+}  // namespace
+}  // namespace softbody

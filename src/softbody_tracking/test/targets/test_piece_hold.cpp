@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+
+#include "fixtures/synthetic_scene.h"
+#include "softbody_common/tet_geometry.h"
+#include "targets/piece_hold.h"
+
+namespace softbody {
+namespace {
+
+TEST(PieceHold, KeepsEachVertexOfThePieceAndNoOther) {
+  const BoxBody body = cutBox(makeBox());
+  const TetTopology& volume = body.volume;
+  const std::vector<std::vector<int>> pieces = verticesOfBodies(volume.tets, volume.rest_vertices.rows());
+  ASSERT_EQ(pieces.size(), 2u);
+  const Points positions = volume.rest_vertices.array() + 0.1;
+  for (const std::vector<int>& piece : pieces) {
+    std::vector<Target> targets;
+    PieceHold(volume).add(piece, positions, PieceHold::kWeak, &targets);
+    ASSERT_EQ(targets.size(), piece.size());
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Eigen::Vector3d rest = positionOf(targets[i].place, volume.rest_vertices, volume.tets);
+      EXPECT_EQ(rest.transpose(), volume.rest_vertices.row(piece[i]));
+      EXPECT_EQ(targets[i].position.transpose(), positions.row(piece[i]));
+      EXPECT_TRUE(targets[i].normal.isZero());
+      EXPECT_EQ(targets[i].weight, PieceHold::kWeak);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,132 @@
+#include "tool/blade_queue.h"
+
+#include <gtest/gtest.h>
+
+namespace softbody {
+namespace {
+
+constexpr Nanoseconds kMillisecond = 1'000'000;
+constexpr Nanoseconds kFrame = 33 * kMillisecond;
+
+/// A tool whose blades and tf come while frames are taken.
+struct Tool {
+  std::size_t frame(Nanoseconds now) { return show(now).lost; }
+  BladeQueue::Unused show(Nanoseconds now) {
+    const auto place = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
+      ++asked;
+      if (blade.stamp > tf) return std::nullopt;
+      newest = std::max(newest, blade.stamp);
+      return Eigen::Isometry3d::Identity();
+    };
+    return queue.show(now, place, &mask);
+  }
+  void blade(Nanoseconds stamp) { queue.add({stamp, "tool", Points::Zero(3, 3)}); }
+
+  BladeQueue queue;
+  ToolMask mask;
+  Nanoseconds tf = 0;       ///< known up to here
+  Nanoseconds newest = -1;  ///< that had a place
+  int asked = 0;            ///< for places
+};
+
+TEST(BladeQueue, ABladeThatNeverGetsAPlaceIsCountedOnce) {
+  Tool tool;
+  tool.blade(1);
+  std::size_t lost = 0;
+  for (Nanoseconds now = 1; now < 10'000 * kMillisecond; now += kFrame) {
+    lost += tool.frame(now);
+    EXPECT_EQ(lost, now > ToolMask::kStillThere + 1 ? 1u : 0u) << now;
+  }
+}
+
+TEST(BladeQueue, ABladeThatIsPlacedAFrameLaterIsNotCounted) {
+  Tool tool;
+  for (Nanoseconds k = 0; k < 300; ++k) {
+    if (k % 2 == 0) tool.blade(k * kFrame);
+    EXPECT_EQ(tool.frame(k * kFrame), 0u) << k;
+    tool.tf = k * kFrame;
+  }
+  EXPECT_EQ(tool.newest, 298 * kFrame);
+}
+
+TEST(BladeQueue, BladesOfAFastToolWaitUntilTheyArePlaced) {
+  constexpr Nanoseconds kBlade = 5 * kMillisecond, kLate = 150 * kMillisecond;
+  Tool tool;
+  for (Nanoseconds now = 0; now < 3000 * kMillisecond; now += kBlade) {
+    tool.blade(now);
+    tool.tf = now - kLate;
+    if (now % (6 * kBlade) != 0) continue;
+    EXPECT_EQ(tool.frame(now), 0u) << now;
+    if (now >= kLate) {
+      EXPECT_EQ(tool.newest, now - kLate);
+    }
+  }
+}
+
+TEST(BladeQueue, OfBladesThatNoFrameComesForTheNewestThousandAreKept) {
+  Tool tool;
+  tool.tf = -1;
+  for (Nanoseconds k = 0; k < 1500; ++k) tool.blade(k * kMillisecond);
+  EXPECT_EQ(tool.frame(499 * kMillisecond - ToolMask::kStillThere), 0u);
+  EXPECT_EQ(tool.asked, 0) << "the blades up to 499 ms should be gone";
+  EXPECT_EQ(tool.frame(10'000 * kMillisecond), 1000u);
+}
+
+TEST(BladeQueue, NothingIsLeftOfBladesFromBeforeItWasCleared) {
+  Tool tool;
+  tool.tf = 100 * kFrame;
+  for (Nanoseconds k = 0; k < 100; ++k) tool.blade(k * kFrame);
+  tool.queue.clear();
+  for (Nanoseconds k = 0; k < 100; ++k) EXPECT_EQ(tool.frame(k * kFrame), 0u);
+  EXPECT_EQ(tool.asked, 0);
+}
+
+TEST(BladeQueue, BladesOfAClockThatIsAheadAreTold) {
+  for (Nanoseconds lead : {0 * kFrame, 3 * kFrame, 40 * kFrame, 5000 * kFrame}) {
+    Tool tool;
+    for (Nanoseconds frame = 0; frame < 3000 * kFrame; frame += kFrame) {
+      tool.blade(frame + lead);
+      // From when the frames have come up with the first blade, one counts, though it is a late one.
+      const bool none_counts = lead - frame > ToolMask::kStillThere;
+      const Nanoseconds told = none_counts && frame > 1000 * kMillisecond ? lead : 0;
+      ASSERT_EQ(tool.show(frame).ahead, told) << "lead " << lead << ", frame " << frame;
+    }
+  }
+}
+
+TEST(BladeQueue, HowLongBladesWereAheadIsForgottenWhenTheQueueIsCleared) {
+  Tool tool;
+  for (Nanoseconds k = 0; k < 300; ++k) {
+    tool.blade(3000 * kFrame);
+    EXPECT_EQ(tool.show(k * kFrame).ahead, 0);
+    if (k % 15 == 0) tool.queue.clear();
+  }
+}
+
+/// A frame that waits for the user's mask comes when later blades have come.
+TEST(BladeQueue, TheBladeNearestToTheFrameIsTakenOut) {
+  constexpr Nanoseconds kWaited = 100 * kMillisecond;
+  Points blade(4, 3);
+  blade << -0.03, -0.01, 0.5, 0.03, -0.01, 0.5, 0.03, 0.01, 0.5, -0.03, 0.01, 0.5;
+  BladeQueue queue;
+  ToolMask mask;
+  const auto place = [](const ReportedBlade&) { return Eigen::Isometry3d::Identity(); };
+  const auto covered = [&](Nanoseconds stamp, int u) {
+    const RgbdFrame frame{stamp, Pinhole{160, 120, 150.0, 150.0, 79.5, 59.5},
+                          cv::Mat3b(120, 160, cv::Vec3b(90, 90, 90)), cv::Mat1f(120, 160, 0.5f)};
+    EXPECT_EQ(queue.show(stamp, place, &mask).lost, 0u);
+    return mask.without(frame).depth(60, u) == 0.0f;
+  };
+  const Points beside = blade.rowwise() + Eigen::RowVector3d(0.1, 0.0, 0.0);
+  for (Nanoseconds k = 0; k < 30; ++k) {
+    queue.add({k * kFrame, "tool", k < 15 ? blade : beside});
+    const Nanoseconds frame = k * kFrame - kWaited;
+    if (frame < 0) continue;
+    const bool right = frame + kFrame / 2 >= 15 * kFrame;
+    EXPECT_EQ(covered(frame, 80), !right) << k;
+    EXPECT_EQ(covered(frame, 110), right) << k;
+  }
+}
+
+}  // namespace
+}  // namespace softbody

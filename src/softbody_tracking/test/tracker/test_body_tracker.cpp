@@ -1,0 +1,339 @@
+#include <gtest/gtest.h>
+
+#include "fixtures/tracked_box.h"
+
+namespace softbody {
+namespace {
+
+TEST(BodyTracker, WaitsForTopologies) {
+  BodyTracker tracker{TrackerConfig()};
+  StageTimer timer;
+  const BoxBody box = makeBox();
+  const TrackingResult result = tracker.track(renderFrame(box, posedBox(box), 1), nullptr, &timer);
+  EXPECT_FALSE(result.has_targets);
+  EXPECT_EQ(result.status.state, TrackingState::kInitializing);
+  EXPECT_FALSE(result.status.reason.empty());
+}
+
+TEST(BodyTracker, RegistersAndAsksForAResetUntilTheSimulatorAnswers) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  const TrackingResult first = tracked.show(rest);
+  ASSERT_TRUE(first.has_targets);
+  EXPECT_TRUE(first.targets.reset);
+  EXPECT_LT((transformed(tracked.box().volume.rest_vertices, first.targets.body_pose) - rest)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.002);
+  EXPECT_FALSE(tracked.show(rest).targets.reset);
+}
+
+TEST(BodyTracker, TargetsLieWhereTheBodyIs) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 1; i <= 10; ++i) {
+    const Points truth = posedBox(tracked.box(), 0.002 * i, 0.01 * i);
+    const TrackingResult result = tracked.show(truth);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    EXPECT_GT(result.targets.targets.size(), 500u);
+    EXPECT_GT(result.status.features_tracked, 100u);
+    EXPECT_GT(result.status.inlier_ratio, 0.8);
+    EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.002);
+    EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kFeature), 0.009);
+  }
+}
+
+TEST(BodyTracker, AnOccluderMakesNoTargets) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  const cv::Rect hand(300, 200, 100, 80);
+  const TrackingResult result = tracked.show(rest, [&](RgbdFrame* frame) {
+    frame->depth(hand) -= 0.012f;
+    frame->color(hand).setTo(cv::Vec3b(250, 20, 20));
+  });
+  for (const Target& target : result.targets.targets) {
+    const Eigen::Vector2d pixel = tracked.frame().camera.project(target.position);
+    const bool covered = pixel.x() > hand.x + 4 && pixel.x() < hand.br().x - 4 && pixel.y() > hand.y + 4 &&
+                         pixel.y() < hand.br().y - 4;
+    EXPECT_FALSE(covered) << "target at " << pixel.transpose() << " lies on the hand";
+  }
+}
+
+TEST(BodyTracker, SaysThatTheBodyIsGoneAndFindsItAgain) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  for (int i = 0; i < 12; ++i) {
+    const TrackingResult gone = tracked.show(rest, [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+    EXPECT_NE(gone.status.state, TrackingState::kTracking);
+    EXPECT_FALSE(gone.status.reason.empty());
+  }
+  EXPECT_TRUE(tracked.tracksWithin(15, rest));
+}
+
+TEST(BodyTracker, SurvivesFramesWithoutAnyMeasurement) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(rest, [](RgbdFrame* frame) {
+      frame->depth.setTo(0.0f);
+      frame->color.setTo(cv::Vec3b());
+    });
+  }
+  EXPECT_TRUE(tracked.tracksWithin(15, rest));
+}
+
+TEST(BodyTracker, ABlankFrameDoesNotForgetTheBodysShape) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  for (int i = 0; i < 3; ++i) tracked.show(rest);
+  const TrackingResult blank = tracked.show(rest, [](RgbdFrame* frame) {
+    frame->depth.setTo(0.0f);
+    frame->color.setTo(cv::Vec3b());
+  });
+  EXPECT_EQ(blank.status.state, TrackingState::kLost);
+  const TrackingResult next = tracked.show(rest);
+  EXPECT_EQ(next.status.state, TrackingState::kTracking) << next.status.reason;
+  EXPECT_FALSE(next.targets.reset);
+}
+
+TEST(BodyTracker, WrongDepthDoesNotCarryTheBodyAway) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  for (int i = 0; i < 5; ++i) {
+    const TrackingResult result = tracked.show(rest, [](RgbdFrame* frame) { frame->depth.setTo(3.0f); });
+    EXPECT_NE(result.status.state, TrackingState::kTracking);
+    EXPECT_LT((result.targets.body_pose.translation() - boxPose().translation()).norm(), 0.01);
+    for (const Target& target : result.targets.targets) EXPECT_LT(target.position.z(), 1.0);
+  }
+}
+
+TEST(BodyTracker, SaysThatItsFeaturesAreCovered) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  tracked.show(rest);
+  const TrackingResult result =
+      tracked.show(rest, [](RgbdFrame* frame) { frame->color.setTo(cv::Vec3b(35, 90, 140)); });
+  EXPECT_EQ(result.status.state, TrackingState::kDegraded);
+  EXPECT_FALSE(result.status.reason.empty());
+}
+
+TEST(BodyTracker, FindsABodyThatNobodyPointedOut) {
+  BoxBody box = makeBox();
+  BodyTracker tracker{TrackerConfig()};
+  tracker.setTopologies(box.volume, box.surface);
+  StageTimer timer;
+  const Points truth = posedBox(box, 0.03, 0.4);
+  const TrackingResult result = tracker.track(renderFrame(box, truth, 1000), nullptr, &timer);
+  ASSERT_TRUE(result.has_targets) << result.status.reason;
+  EXPECT_EQ(result.status.state, TrackingState::kTracking);
+  // A box looks the same in four poses; its surface is at the same place in all of them.
+  const Points found = transformed(box.volume.rest_vertices, result.targets.body_pose);
+  for (Eigen::Index v = 0; v < found.rows(); ++v)
+    EXPECT_LT((truth.rowwise() - found.row(v)).rowwise().norm().minCoeff(), 0.003);
+  EXPECT_NE(result.status.reason.find("look alike"), std::string::npos) << result.status.reason;
+}
+
+TEST(BodyTracker, FindsABodyThatComesBackElsewhereAndTurned) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(posedBox(tracked.box()), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  const Points elsewhere = posedBox(tracked.box(), 0.08, 0.5);
+  ASSERT_TRUE(tracked.tracksWithin(15, elsewhere));
+  const TrackingResult result = tracked.show(elsewhere);
+  // Its features tell apart the four poses that look alike in depth.
+  EXPECT_LT((transformed(tracked.box().volume.rest_vertices, result.targets.body_pose) - elsewhere)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.003);
+}
+
+TEST(BodyTracker, FindsACubeThatComesBackTurned) {
+  BoxBody cube = makeBox(6, 6, 6);
+  for (Points* vertices : {&cube.volume.rest_vertices, &cube.surface.rest_vertices})
+    *vertices *= Eigen::Vector3d(0.5, 1.0, 2.5).asDiagonal();
+  TrackedBox tracked(TrackerConfig(), cube);
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(cube));
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(posedBox(cube), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  // In depth it looks the same in 24 poses.
+  const Points elsewhere = posedBox(cube, 0.06, 0.4);
+  EXPECT_EQ(tracked.show(elsewhere).status.state, TrackingState::kTracking) << "in the very first frame";
+  const TrackingResult result = tracked.show(elsewhere);
+  EXPECT_LT((transformed(cube.volume.rest_vertices, result.targets.body_pose) - elsewhere)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.003);
+}
+
+/// Largest distance of a vertex between the pose found and another.
+double distanceTo(const BoxBody& box, const TrackingResult& result, const Eigen::Isometry3d& pose) {
+  return (transformed(box.volume.rest_vertices, result.targets.body_pose) -
+          transformed(box.volume.rest_vertices, pose))
+      .rowwise()
+      .norm()
+      .maxCoeff();
+}
+
+TEST(BodyTracker, StartsAnewNearAPoseSetByHand) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  for (int i = 0; i < 5; ++i) tracked.show(rest);
+  // The same surface in depth, half a turn about each axis: which of the four is meant, only the user knows.
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+    const Eigen::Isometry3d meant = boxPose() * Eigen::AngleAxisd(M_PI, axis);
+    const Eigen::Isometry3d rough =
+        Eigen::Translation3d(0.015, -0.01, 0.02) * meant * Eigen::AngleAxisd(0.15, Eigen::Vector3d::UnitY());
+    tracked.tracker().restart(rough);
+    const TrackingResult result = tracked.show(rest);
+    ASSERT_TRUE(result.has_targets) << result.status.reason;
+    EXPECT_TRUE(result.targets.reset);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    EXPECT_LT(distanceTo(tracked.box(), result, meant), 0.003) << "about " << axis.transpose();
+  }
+}
+
+TEST(BodyTracker, APoseSetByHandHoldsUntilAReset) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
+  tracked.tracker().restart(turned);
+  EXPECT_LT(distanceTo(tracked.box(), tracked.show(rest), turned), 0.003);
+  tracked.tracker().reset();
+  EXPECT_LT(distanceTo(tracked.box(), tracked.show(rest), boxPose()), 0.003);
+}
+
+TEST(BodyTracker, RestartEndsBeingLost) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 0; i < 12; ++i) {
+    tracked.show(posedBox(tracked.box()), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  const Eigen::Isometry3d elsewhere = Eigen::Translation3d(0.06, 0.03, 0.06) * boxPose();
+  tracked.tracker().restart(elsewhere);
+  const TrackingResult result = tracked.show(posedBox(tracked.box(), 0.06));
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << "in the very next frame";
+  EXPECT_LT(distanceTo(tracked.box(), result, elsewhere), 0.003);
+}
+
+TEST(BodyTracker, RefusesARestartWithoutABody) {
+  EXPECT_THROW(BodyTracker(TrackerConfig()).restart(Eigen::Isometry3d::Identity()), std::logic_error);
+}
+
+TEST(BodyTracker, FollowsAJumpOfMoreThanTheSearchWindow) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  tracked.show(posedBox(tracked.box()));
+  const Points truth = posedBox(tracked.box(), 0.025);
+  const TrackingResult result = tracked.show(truth);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.003);
+}
+
+TEST(BodyTracker, FollowsAJumpAcrossTheImage) {
+  TrackedBox tracked;
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
+  // Half of its length away and turned by 29 degrees in one frame.
+  const Points truth = posedBox(tracked.box(), 0.1, 0.5);
+  const TrackingResult result = tracked.show(truth);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_FALSE(result.targets.reset) << "its deformation is not forgotten";
+  EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.003);
+}
+
+TEST(BodyTracker, IgnoresStatesThatDoNotAnswerItsTargets) {
+  BoxBody box = makeBox();
+  box.volume.has_initial_pose = true;
+  box.volume.initial_pose = boxPose();
+  BodyTracker tracker{TrackerConfig()};
+  tracker.setTopologies(box.volume, box.surface);
+  StageTimer timer;
+  const Points rest = posedBox(box);
+  const RgbdFrame first = renderFrame(box, rest, 1000), second = renderFrame(box, rest, 2000);
+  ASSERT_TRUE(tracker.track(first, nullptr, &timer).targets.reset);
+  const auto resetsWith = [&](const MeshState& state) {
+    return tracker.track(second, &state, &timer).targets.reset;
+  };
+  EXPECT_TRUE(resetsWith({0, 500, rest, {}})) << "from before the body was placed";
+  EXPECT_TRUE(resetsWith({0, 5000, rest, {}})) << "from a later pass of a looping bag";
+  EXPECT_TRUE(resetsWith({7, 1000, rest, {}})) << "of another revision";
+  EXPECT_TRUE(resetsWith({0, 1000, rest.topRows(5), {}})) << "of another size";
+  EXPECT_FALSE(resetsWith({0, 1000, rest, {}}));
+}
+
+TEST(BodyTracker, RefusesTopologiesWithoutTetsOrVertices) {
+  const BoxBody box = makeBox();
+  const auto refusalOf = [](const TetTopology& volume, const MeshTopology& surface) -> std::string {
+    BodyTracker tracker{TrackerConfig()};
+    try {
+      tracker.setTopologies(volume, surface);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_FALSE(tracker.ready());
+      return error.what();
+    }
+    return {};
+  };
+  const auto refusal = [&](const TetTopology& volume) { return refusalOf(volume, box.surface); };
+  EXPECT_EQ(refusal(box.volume), "");
+  EXPECT_EQ(refusal({}), "the volume's topology has no tet");
+  TetTopology volume = box.volume;
+  volume.rest_vertices.resize(0, 3);
+  EXPECT_EQ(refusal(volume), "a tet of the volume's topology names vertex 0 of 0");
+  volume = box.volume;
+  volume.tets(7, 2) = -1;
+  EXPECT_EQ(refusal(volume), "a tet of the volume's topology names vertex -1 of 198");
+  volume = box.volume;
+  volume.surface(3, 1) = 198;
+  EXPECT_EQ(refusal(volume), "a triangle of the volume's topology names vertex 198 of 198");
+  MeshTopology surface = box.surface;
+  surface.triangles(5, 0) = 198;
+  EXPECT_EQ(refusalOf(box.volume, surface), "a triangle of the surface's topology names vertex 198 of 198");
+  surface = box.surface;
+  surface.bodies.push_back(0);
+  EXPECT_EQ(refusalOf(box.volume, surface), "the surface's topology has 321 bodies for 320 triangles");
+}
+
+TEST(BodyTracker, RefusesImagesOfAnotherSizeThanTheCameras) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  EXPECT_THROW(tracked.show(rest, [](RgbdFrame* frame) { frame->depth.release(); }), std::invalid_argument);
+  EXPECT_THROW(tracked.show(rest, [](RgbdFrame* frame) { frame->color.create(2, 2); }),
+               std::invalid_argument);
+}
+
+TEST(BodyTracker, KnnModeMovesVertices) {
+  TrackerConfig config;
+  config.knn_targets = true;
+  TrackedBox tracked(config);
+  tracked.show(posedBox(tracked.box()));
+  const Points truth = posedBox(tracked.box(), 0.005, 0.05);
+  const TrackingResult result = tracked.show(truth);
+  ASSERT_FALSE(result.targets.targets.empty());
+  for (const Target& target : result.targets.targets) EXPECT_EQ(target.kind, TargetKind::kVertex);
+  EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kVertex), 0.006);
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "softbody_common/pinhole.h"
+#include "softbody_virtual_camera/rendering/corner_shading.h"
+#include "softbody_virtual_camera/rendering/visibility_buffer.h"
+#include "softbody_virtual_camera/scenes/scene.h"
+#include "softbody_virtual_camera/textures/baked_texture.h"
+
+namespace softbody::virtual_camera {
+
+/// An image that more can be drawn over.
+struct Canvas {
+  cv::Mat3b color;      ///< r, g, b
+  cv::Mat1f fine;       ///< inverse z [1/m] at the samples of colour, 2 by 2 a pixel; 0: nothing
+  cv::Mat1f inverse_z;  ///< at the pixels' centres [1/m]; 0: nothing
+};
+
+/// Nothing but a dark room.
+Canvas emptyCanvas(const Pinhole& camera);
+
+/// Actors that are drawn together over what is behind them: work is done only where they are.
+class Layer {
+ public:
+  explicit Layer(const Pinhole& camera) : camera_(camera) {}
+  void add(const Actor& actor);
+
+  /// @param vertices of its actors in their order, in the camera's frame [m]. @param to_light unit.
+  void place(const std::vector<const Points*>& vertices, const Eigen::Vector3d& to_light);
+
+  /// Draws the placed actors; @param color becomes the size of the canvas'.
+  void drawColor(const Canvas& behind, cv::Mat3b* color);
+  void drawDepth(const Canvas& behind, cv::Mat1f* inverse_z);
+
+  /// Draws all of a canvas.
+  Canvas draw(const Canvas& behind);
+
+  /// 1 for those of the first vertices that are seen in the last depth, 0 for the others: a triangle at it
+  /// faces the camera and nothing lies before it.
+  std::vector<float> visibility(int count, const cv::Mat1f& inverse_z) const;
+
+ private:
+  cv::v_float32x4 colorAt(const PixelWeights& triangle, float u, float v) const;
+  void prefetch(int u, int v) const;
+  cv::Vec3b pixelColor(const cv::Vec3b& behind, int u, int v) const;
+
+  Pinhole camera_;
+  Triangles triangles_;          ///< of all actors
+  std::vector<char> one_sided_;  ///< per triangle: of a closed surface
+  CornerShading shading_;
+  BakedTexture texture_;
+  Points vertices_;  ///< of all actors
+  Projection projection_;
+  VisibilityBuffer color_samples_, depth_samples_;
+};
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "softbody_virtual_camera/rendering/layer.h"
+
+namespace softbody::virtual_camera {
+
+struct RenderedImage {
+  cv::Mat3b color;                ///< r, g, b; anti-aliased by 2 by 2 samples a pixel
+  cv::Mat1f depth;                ///< z of the nearest surface at the pixel's centre [m]; 0: nothing
+  std::vector<float> visibility;  ///< per vertex of the first actor: 1 seen, 0 hidden
+};
+
+/// Renders a scene on the CPU: solid textures baked once, diffuse light, z-buffer. Actors that stand still
+/// are drawn once; only where the others are, a frame is drawn anew.
+class Renderer {
+ public:
+  Renderer(const Scene& scene, const Pinhole& camera);
+
+  /// The vertices of still actors, and the light on them, are not looked at.
+  void render(const SceneState& state, RenderedImage* image);
+  /// One half of it each.
+  void renderColor(const SceneState& state, cv::Mat3b* color);
+  void renderDepth(const SceneState& state, RenderedImage* image);
+
+ private:
+  void place(const SceneState& state);
+  void drawDepth(RenderedImage* image);
+
+  int body_vertices_ = 0;
+  std::vector<char> still_;  ///< per actor
+  Layer moving_;
+  Canvas backdrop_;  ///< the still actors
+  cv::Mat1f inverse_z_;
+};
+
+}  // namespace softbody::virtual_camera

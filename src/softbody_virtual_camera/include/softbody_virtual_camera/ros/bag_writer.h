@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "softbody_virtual_camera/camera/virtual_camera.h"
+
+namespace softbody::virtual_camera {
+
+struct BagOptions {
+  std::string path;
+  int frames = 150;
+  double rate_hz = 30.0;
+  bool small = false;  ///< bz2: half the size, but slow to write and to read; otherwise lz4
+};
+
+/// Writes the camera's topics, the truth and /tf as a bag. The record time is the header's stamp and the
+/// first stamp is fixed, so that the same camera gives the same bytes. The file appears only when it is
+/// complete.
+/// @param progress is told the number of frames written. @throw rosbag::BagException, std::runtime_error if
+/// it cannot be written.
+void writeBag(VirtualCamera* camera, const BagOptions& options, const std::function<void(int)>& progress);
+
+}  // namespace softbody::virtual_camera

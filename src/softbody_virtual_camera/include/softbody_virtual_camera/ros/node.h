@@ -1,0 +1,40 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/timer.h>
+
+#include <optional>
+
+#include "softbody_virtual_camera/camera/camera_setup.h"
+
+namespace softbody::virtual_camera {
+
+/// The virtual camera live. Parameters: scene, body, unit, seed, noise, width, height, rate [Hz], loop,
+/// publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...) and optical
+/// frame -> ground_truth_softbody.
+class VirtualCameraNode {
+ public:
+  /// @param setup where the parameters are silent.
+  VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const CameraSetup& setup);
+
+ private:
+  bool watched() const;
+  void publishLatched(std::uint32_t revision, const ros::Time& stamp);
+  void publishFrame(const ros::TimerEvent& event);
+
+  CameraSetup setup_;
+  bool loop_ = true, publish_camera_tf_ = true;
+  double hold_s_ = 2.0;
+  std::optional<VirtualCamera> camera_;
+  ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, truth_tool_,
+      truth_cut_, tf_, tf_static_;
+  ros::Timer timer_;
+  int frame_ = 0;
+  std::uint32_t revision_ = 0;
+};
+
+/// ros::init, one VirtualCameraNode, ros::spin. @return the exit code.
+int runNode(int argc, char** argv, const CameraSetup& setup);
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,68 @@
+#include "softbody_virtual_camera/bodies/body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "bodies/obj_materials.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_sim/io/mesh_files.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+Picture readPicture(const std::string& path) {
+  cv::Mat image = cv::imread(path, cv::IMREAD_COLOR);
+  if (image.empty())
+    throw std::invalid_argument(fmt::format("{}: is not an image that OpenCV can read", path));
+  cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
+  return makePicture(image);
+}
+
+bool isObj(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension == ".obj";
+}
+
+}  // namespace
+
+MeshTopology topologyOf(const Body& body) {
+  const auto vertices = static_cast<std::size_t>(body.rest.vertices.rows());
+  MeshTopology topology;
+  topology.rest_vertices = body.rest.vertices;
+  topology.triangles = body.rest.triangles;
+  topology.vertex_parents.resize(vertices);
+  std::iota(topology.vertex_parents.begin(), topology.vertex_parents.end(), 0);
+  topology.bodies = triangleBodies(body.rest.triangles, static_cast<int>(vertices));
+  topology.cut.assign(static_cast<std::size_t>(body.rest.triangles.rows()), false);
+  topology.texture_coordinates = body.skin.coordinates;
+  return topology;
+}
+
+Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings) {
+  SurfaceFile file = readSurfaceFile(path, warnings);
+  Body body;
+  body.rest = {unit_m * file.mesh.vertices, std::move(file.mesh.triangles)};
+  if (body.rest.triangles.rows() == 0) throw std::invalid_argument(fmt::format("{}: holds no faces", path));
+  body.skin.coordinates = std::move(file.texture_coordinates);
+  if (!isObj(path)) return body;
+  ObjMaterials materials = readObjMaterials(path);
+  if (materials.files.empty()) return body;
+  if (body.skin.coordinates.rows() == 0) {
+    throw std::invalid_argument(
+        fmt::format("{}: its materials name images, but it has no texture coordinates", path));
+  }
+  body.skin.picture = std::move(materials.image);
+  std::transform(materials.files.begin(), materials.files.end(), std::back_inserter(body.skin.pictures),
+                 readPicture);
+  return body;
+}
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,75 @@
+#include "bodies/body_frame.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <stdexcept>
+
+namespace softbody::virtual_camera {
+namespace {
+
+constexpr double kLength = 0.2, kShortest = 0.05, kLongest = 2.0;  // [m]
+
+Points ownRows(const BodyFrame& frame, const Points& played) {
+  return (frame.scale * played * frame.turn).rowwise() + frame.center.transpose();
+}
+
+Eigen::Isometry3d ownPose(const BodyFrame& frame, const Eigen::Isometry3d& T_camera_played) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = T_camera_played.linear() * frame.turn;
+  T.translation() = frame.scale * T_camera_played.translation() - T.linear() * frame.center;
+  return T;
+}
+
+}  // namespace
+
+BodyFrame frameOf(const Points& rest) {
+  const Eigen::Vector3d low = rest.colwise().minCoeff(), high = rest.colwise().maxCoeff();
+  Eigen::Index axis = 0;
+  const double length = (high - low).maxCoeff(&axis);
+  if (!(length >= kShortest && length <= kLongest)) {
+    throw std::invalid_argument(
+        fmt::format("the body is {:.4g} m long; the scenes take {} to {} m: is its unit right?", length,
+                    kShortest, kLongest));
+  }
+  BodyFrame frame;
+  if (axis == 1) frame.turn << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  if (axis == 2) frame.turn << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  frame.center = 0.5 * (low + high);
+  frame.scale = length / kLength;
+  return frame;
+}
+
+Points toPlayed(const BodyFrame& frame, const Points& own) {
+  return (own.rowwise() - frame.center.transpose()) * frame.turn.transpose() / frame.scale;
+}
+
+Scene toOwn(const BodyFrame& frame, const Scene& played, const TriangleMesh& body) {
+  Scene scene = played;
+  for (Actor& actor : scene.actors) {
+    actor.rest.vertices *= frame.scale;
+    actor.texel_m *= frame.scale;
+    actor.texture = [=, texture = actor.texture](const Eigen::Vector3d& p) {
+      return texture(p / frame.scale);
+    };
+  }
+  scene.actors.at(0).rest = body;
+  scene.actors.at(0).texture = [=, texture = played.actors.at(0).texture](const Eigen::Vector3d& p) {
+    return texture(frame.turn * (p - frame.center) / frame.scale);
+  };
+  scene.T_camera_world.translation() *= frame.scale;
+  for (Edit& edit : scene.edits) {
+    edit.topology.rest_vertices = ownRows(frame, edit.topology.rest_vertices);
+    edit.patch.vertices = ownRows(frame, edit.patch.vertices);
+  }
+  scene.state = [=, state = played.state](double t) {
+    SceneState now = state(t);
+    now.T_camera_body = ownPose(frame, now.T_camera_body);
+    for (Points& vertices : now.vertices) vertices *= frame.scale;
+    if (now.T_camera_tool) now.T_camera_tool->translation() *= frame.scale;
+    return now;
+  };
+  return scene;
+}
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,65 @@
+#include "softbody_virtual_camera/rendering/renderer.h"
+
+#include <algorithm>
+
+namespace softbody::virtual_camera {
+namespace {
+
+/// The vertices of the actors that stand still, or of those that do not.
+std::vector<const Points*> select(const std::vector<Points>& vertices, const std::vector<char>& still,
+                                  bool wanted) {
+  std::vector<const Points*> selected;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (static_cast<bool>(still.at(i)) == wanted) selected.push_back(&vertices[i]);
+  }
+  return selected;
+}
+
+}  // namespace
+
+Renderer::Renderer(const Scene& scene, const Pinhole& camera)
+    : body_vertices_(static_cast<int>(scene.actors.at(0).rest.vertices.rows())), moving_(camera) {
+  Layer still(camera);
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    // The body is the first of the moving layer, whether it moves or not: its vertices are asked for.
+    still_.push_back(i > 0 && scene.actors[i].still);
+    (still_.back() ? still : moving_).add(scene.actors[i]);
+  }
+  const SceneState start = scene.state(0.0);
+  still.place(select(start.vertices, still_, true), start.to_light);
+  backdrop_ = still.draw(emptyCanvas(camera));
+}
+
+void Renderer::render(const SceneState& state, RenderedImage* image) {
+  place(state);
+  moving_.drawColor(backdrop_, &image->color);
+  drawDepth(image);
+}
+
+void Renderer::renderColor(const SceneState& state, cv::Mat3b* color) {
+  place(state);
+  moving_.drawColor(backdrop_, color);
+}
+
+void Renderer::renderDepth(const SceneState& state, RenderedImage* image) {
+  place(state);
+  drawDepth(image);
+}
+
+void Renderer::place(const SceneState& state) {
+  moving_.place(select(state.vertices, still_, false), state.to_light);
+}
+
+void Renderer::drawDepth(RenderedImage* image) {
+  moving_.drawDepth(backdrop_, &inverse_z_);
+  image->depth.create(inverse_z_.size());
+  for (int v = 0; v < inverse_z_.rows; ++v) {
+    std::transform(inverse_z_[v], inverse_z_[v] + inverse_z_.cols, image->depth[v], [](float inverse_z) {
+      const float z = 1.0f / inverse_z;
+      return inverse_z > 0.0f ? z : 0.0f;
+    });
+  }
+  image->visibility = moving_.visibility(body_vertices_, inverse_z_);
+}
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,82 @@
+#include "scenes/plays.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "softbody_virtual_camera/motion/deformations.h"
+#include "softbody_virtual_camera/motion/motion_profiles.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kLargestCurvature = 7.0;  // [1/m]
+constexpr double kLargestTwist = 7.0;      // [rad/m]
+constexpr double kLargestStrain = 0.3;
+
+Play stretching(const std::string& name, const Stage& stage, double strain) {
+  Play play;
+  play.name = name;
+  const double half_length = stage.actors.at(0).rest.vertices.col(0).cwiseAbs().maxCoeff();
+  play.deformation = [=](const Eigen::Vector3d& rest, double t) {
+    return stretch(rest, {strain * plateau(t, {0.5, 1.5, 1.0}), half_length});
+  };
+  return play;
+}
+
+}  // namespace
+
+Play stillPlay(const Stage&) {
+  Play play;
+  play.name = "still";
+  return play;
+}
+
+Play bendPlay(const Stage&) {
+  Play play;
+  play.name = "bend";
+  play.deformation = [](const Eigen::Vector3d& rest, double t) {
+    return bend(rest, kLargestCurvature * swing(t));
+  };
+  return play;
+}
+
+Play twistPlay(const Stage&) {
+  Play play;
+  play.name = "twist";
+  play.deformation = [](const Eigen::Vector3d& rest, double t) {
+    return twist(rest, kLargestTwist * swing(t));
+  };
+  return play;
+}
+
+Play pushPlay(const Stage& stage) { return stretching("push", stage, -kLargestStrain); }
+
+Play pullPlay(const Stage& stage) { return stretching("pull", stage, kLargestStrain); }
+
+Play shakePlay(const Stage& stage) {
+  constexpr double kSpeed = 1.0, kTurnRate = kPi;                                   // [m/s], [rad/s]
+  constexpr double kFrequency = 2.0 * 2.0 * kPi, kTurnFrequency = 1.2 * 2.0 * kPi;  // [rad/s]
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.35, 0.15, 0.9).normalized();
+  Play play;
+  play.name = "shake";
+  play.T_camera_body = [=, start = stage.T_camera_body](double t) -> Eigen::Isometry3d {
+    const double share = plateau(t, {0.5, 1.0, 2.0});
+    const double offset = share * kSpeed / kFrequency * std::sin(kFrequency * (t - 0.5));
+    const double angle = share * kTurnRate / kTurnFrequency * std::sin(kTurnFrequency * (t - 0.5));
+    return Eigen::Translation3d(offset, 0.0, 0.0) * start * Eigen::AngleAxisd(angle, axis);
+  };
+  return play;
+}
+
+Play leavePlay(const Stage& stage) {
+  constexpr double kDistance = 0.5;  // [m]
+  Play play;
+  play.name = "leave";
+  play.T_camera_body = [start = stage.T_camera_body](double t) -> Eigen::Isometry3d {
+    return Eigen::Translation3d(-kDistance * plateau(t, {0.5, 1.5, 1.0}), 0.0, 0.0) * start;
+  };
+  return play;
+}
+
+}  // namespace softbody::virtual_camera

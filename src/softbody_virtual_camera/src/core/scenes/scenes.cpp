@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "bodies/body_frame.h"
+#include "scenes/plays.h"
+#include "softbody_virtual_camera/scenes/scene.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+const std::string kDoll = "doll_";
+
+using PlayMaker = Play (*)(const Stage& stage);
+using CutMaker = Scene (*)(const Stage& stage, const Tool& tool);
+
+const std::map<std::string, PlayMaker>& plays() {
+  static const std::map<std::string, PlayMaker> makers = {
+      {"still", stillPlay}, {"bend", bendPlay},   {"twist", twistPlay},
+      {"push", pushPlay},   {"pull", pullPlay},   {"shake", shakePlay},
+      {"leave", leavePlay}, {"press", pressPlay}, {"occlude", occludePlay}};
+  return makers;
+}
+
+const std::map<std::string, CutMaker>& cuts() {
+  static const std::map<std::string, CutMaker> makers = {
+      {"cut", cutScene}, {"cut-cross", cutCrossScene}, {"cut-partial", cutPartialScene}};
+  return makers;
+}
+
+bool isDoll(const std::string& scene) { return scene.compare(0, kDoll.size(), kDoll) == 0; }
+
+}  // namespace
+
+Scene withoutHands(Scene scene) {
+  const std::size_t kept = scene.actors.size() - std::exchange(scene.hands, 0);
+  scene.actors.resize(kept);
+  scene.state = [kept, with_hands = std::move(scene.state)](double t) {
+    SceneState state = with_hands(t);
+    state.vertices.resize(kept);
+    return state;
+  };
+  return scene;
+}
+
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const std::string& prefix : {std::string(), kDoll}) {
+    for (const auto& [name, maker] : plays()) names.push_back(prefix + name);
+    for (const auto& [name, maker] : cuts()) names.push_back(prefix + name);
+  }
+  return names;
+}
+
+std::string objectOf(const std::string& scene) { return isDoll(scene) ? "doll" : "sponge"; }
+
+Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, const std::string& tool_file) {
+  const std::string plain = isDoll(name) ? name.substr(kDoll.size()) : name;
+  const auto play = plays().find(plain);
+  const auto cut = cuts().find(plain);
+  if (play == plays().end() && cut == cuts().end()) {
+    throw std::invalid_argument(
+        fmt::format("there is no scene '{}'; known: {}", name, fmt::join(sceneNames(), ", ")));
+  }
+  const BodyFrame frame = frameOf(body.rest.vertices);
+  const Stage stage =
+      makeStage({{toPlayed(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed);
+  Scene scene = play != plays().end() ? perform(stage, play->second(stage))
+                                      : cut->second(stage, scaled(readTool(tool_file), 1.0 / frame.scale));
+  scene.name = name;
+  return toOwn(frame, scene, body.rest);
+}
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,82 @@
+#include "scenes/stage.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "softbody_virtual_camera/bodies/shapes.h"
+#include "softbody_virtual_camera/rendering/random.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+/// Optical frame of a camera at `eye` that looks at `target`, its x axis level.
+Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
+  const Eigen::Vector3d forward = (target - eye).normalized();
+  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.linear() << right, forward.cross(right), forward;
+  T_world_camera.translation() = eye;
+  return T_world_camera.inverse();
+}
+
+/// Height of the body's origin above the table [m]: free to bend, and all of it above.
+double heightOf(const TriangleMesh& body) {
+  constexpr double kLeast = 0.08, kClearance = 0.02;
+  return std::max(kLeast, kClearance - body.vertices.col(2).minCoeff());
+}
+
+}  // namespace
+
+Stage makeStage(const Body& body, std::uint64_t seed) {
+  constexpr double kDistance = 0.5, kElevation = 42.0 * kDegree, kYaw = 25.0 * kDegree;
+  const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest));
+  const Eigen::Vector3d eye =
+      center + kDistance * Eigen::Vector3d(0.0, -std::cos(kElevation), std::sin(kElevation));
+  Stage stage;
+  stage.T_camera_world = lookAt(eye, center);
+  stage.T_camera_body =
+      stage.T_camera_world * Eigen::Translation3d(center) * Eigen::AngleAxisd(kYaw, Eigen::Vector3d::UnitZ());
+  const TriangleMesh table = rectangle({-0.8, -0.3, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.8, 0.0});
+  const TriangleMesh wall = rectangle({-0.8, 0.5, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.0, 0.8});
+  stage.actors = {{body.rest, cellTexture(hash(seed, 1))},
+                  {table, woodTexture(hash(seed, 2)), 1.6e-3},
+                  {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
+  stage.actors[0].skin = body.skin;
+  stage.actors[1].still = stage.actors[2].still = true;
+  return stage;
+}
+
+Scene perform(const Stage& stage, const Play& play) {
+  Scene scene;
+  scene.name = play.name;
+  scene.duration_s = play.duration_s;
+  scene.T_camera_world = stage.T_camera_world;
+  const Eigen::Vector3d to_light =
+      stage.T_camera_world.linear() * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
+  scene.actors = stage.actors;
+  for (const Prop& prop : play.props) scene.actors.push_back(prop.actor);
+  scene.hands = play.props.size();
+  const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
+  const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);
+  scene.state = [=, rest = stage.actors.at(0).rest.vertices](double time) {
+    const double t = play.repeats ? std::fmod(time, play.duration_s) : time;
+    Points body = rest;
+    if (play.deformation) {
+      for (Eigen::Index i = 0; i < rest.rows(); ++i) body.row(i) = play.deformation(rest.row(i), t);
+    }
+    SceneState state;
+    state.to_light = to_light;
+    state.T_camera_body = play.T_camera_body ? play.T_camera_body(t) : stage.T_camera_body;
+    state.vertices = {transformed(state.T_camera_body, body), table, wall};
+    for (const Prop& prop : play.props) {
+      state.vertices.push_back(transformed(prop.T_camera_prop(t), prop.actor.rest.vertices));
+    }
+    return state;
+  };
+  return scene;
+}
+
+}  // namespace softbody::virtual_camera

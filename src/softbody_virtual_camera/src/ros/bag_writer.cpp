@@ -1,0 +1,62 @@
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+
+#include "softbody_common/topics.h"
+#include "softbody_recordings/ros/atomic_bag.h"
+#include "softbody_virtual_camera/ros/bag_writer.h"
+#include "softbody_virtual_camera/ros/messages.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+const ros::Time kStart(1600000000, 0);
+
+std::string absolute(const char* topic) { return std::string("/") + topic; }
+
+void writeLatched(const VirtualCamera& camera, std::uint32_t revision, const ros::Time& stamp,
+                  AtomicBag* bag) {
+  bag->writeLatched("/tf_static", stamp, opticalFrameTransform(stamp));
+  bag->writeLatched(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(revision), stamp));
+}
+
+void writeCuts(const VirtualCamera& camera, std::uint32_t last_revision, std::uint32_t revision,
+               const ros::Time& stamp, AtomicBag* bag) {
+  for (std::uint32_t made = last_revision; made < revision; ++made) {
+    bag->write(absolute(kTruthCutTopic), stamp, cutMessage(camera.scene().edits.at(made), stamp));
+  }
+}
+
+void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, AtomicBag* bag) {
+  bag->write("/tf", stamp, messages.transforms);
+  bag->write(absolute(topics::kCameraColorInfo), stamp, messages.info);
+  bag->write(absolute(topics::kCameraDepthInfo), stamp, messages.info);
+  bag->write(absolute(topics::kCameraColor), stamp, messages.color);
+  bag->write(absolute(topics::kCameraDepth), stamp, messages.depth);
+  bag->write(absolute(kTruthStateTopic), stamp, messages.truth);
+  if (messages.tool) bag->write(absolute(kTruthToolPoseTopic), stamp, messages.tool);
+}
+
+}  // namespace
+
+void writeBag(VirtualCamera* camera, const BagOptions& options, const std::function<void(int)>& progress) {
+  AtomicBag bag(options.path, options.small ? rosbag::compression::BZ2 : rosbag::compression::LZ4);
+  const int frames_a_second = std::max(1, static_cast<int>(std::lround(options.rate_hz)));
+  std::uint32_t last_revision = 0;
+  for (int frame = 0; frame < options.frames; ++frame) {
+    const double t = frame / options.rate_hz;
+    const ros::Time stamp = kStart + ros::Duration(t);
+    const CaptureMessages messages =
+        toMessages(camera->capture(frame, t), camera->pinhole(), stamp, static_cast<std::uint32_t>(frame));
+    const std::uint32_t revision = messages.truth->revision;
+    if (frame % frames_a_second == 0 || revision != last_revision)
+      writeLatched(*camera, revision, stamp, &bag);
+    writeCuts(*camera, last_revision, revision, stamp, &bag);
+    last_revision = revision;
+    writeFrame(messages, stamp, &bag);
+    progress(frame + 1);
+  }
+  bag.finish();
+}
+
+}  // namespace softbody::virtual_camera

@@ -1,0 +1,99 @@
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <boost/make_shared.hpp>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_virtual_camera/ros/messages.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+geometry_msgs::TransformStamped transformMessage(const std_msgs::Header& header, const char* child,
+                                                 const Eigen::Isometry3d& T) {
+  const geometry_msgs::Pose pose = toMessage(T);
+  geometry_msgs::TransformStamped message;
+  message.header = header;
+  message.child_frame_id = child;
+  message.transform.translation.x = pose.position.x;
+  message.transform.translation.y = pose.position.y;
+  message.transform.translation.z = pose.position.z;
+  message.transform.rotation = pose.orientation;
+  return message;
+}
+
+/// camera_link (x forward, z up) -> camera_color_optical_frame (z forward, y down).
+Eigen::Isometry3d opticalFrame() {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5).toRotationMatrix();
+  return T;
+}
+
+std_msgs::Header headerOf(const ros::Time& stamp, const char* frame_id) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame_id;
+  return header;
+}
+
+}  // namespace
+
+CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,
+                           std::uint32_t sequence) {
+  std_msgs::Header header;
+  header.seq = sequence;
+  header.stamp = stamp;
+  header.frame_id = kOpticalFrame;
+  CaptureMessages messages;
+  messages.color = cv_bridge::CvImage(header, sensor_msgs::image_encodings::RGB8, capture.color).toImageMsg();
+  messages.depth =
+      cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_16UC1, capture.depth_mm).toImageMsg();
+  messages.info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(camera));
+  messages.info->header = header;
+  messages.truth = boost::make_shared<softbody_msgs::MeshState>(toMessage(capture.truth));
+  messages.truth->header = header;
+  if (capture.T_world_camera) messages.truth->header.frame_id = kWorldFrame;
+  messages.truth->observed = stamp;
+  messages.transforms.transforms.push_back(transformMessage(header, kBodyFrame, capture.T_camera_body));
+  if (capture.T_world_camera) {
+    messages.transforms.transforms.push_back(transformMessage(
+        headerOf(stamp, kWorldFrame), kCameraFrame, *capture.T_world_camera * opticalFrame().inverse()));
+  }
+  if (capture.T_camera_tool) {
+    messages.tool = boost::make_shared<geometry_msgs::PoseStamped>();
+    messages.tool->header = header;
+    messages.tool->pose = toMessage(*capture.T_camera_tool);
+  }
+  return messages;
+}
+
+softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp) {
+  softbody_msgs::MeshTopology message = toMessage(topology);
+  message.header.stamp = stamp;
+  message.header.frame_id = kBodyFrame;
+  return message;
+}
+
+softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp) {
+  MeshTopology patch;
+  patch.rest_vertices = edit.patch.vertices;
+  patch.triangles = edit.patch.triangles;
+  const softbody_msgs::MeshTopology arrays = toMessage(patch);
+  softbody_msgs::Cut message;
+  message.header.stamp = stamp;
+  message.header.frame_id = kBodyFrame;
+  message.revision = message.stroke = edit.topology.revision;
+  message.kind = softbody_msgs::Cut::CUT;
+  message.patch_vertices = arrays.rest_vertices;
+  message.patch_triangles = arrays.triangles;
+  return message;
+}
+
+tf2_msgs::TFMessage opticalFrameTransform(const ros::Time& stamp) {
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(
+      transformMessage(headerOf(stamp, kCameraFrame), kOpticalFrame, opticalFrame()));
+  return message;
+}
+
+}  // namespace softbody::virtual_camera
