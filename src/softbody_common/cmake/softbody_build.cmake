@@ -49,13 +49,19 @@ function(softbody_program name source)
   install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 
+# softbody_development_program(NAME SOURCE...): an executable for make targets, not installed. The caller links it.
+function(softbody_development_program name)
+  add_executable(${name} ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test
+    ${PROJECT_SOURCE_DIR}/src/core)
+endfunction()
+
 # Writes the core libraries' targets for packages that find this one, in the devel and the install space.
 macro(softbody_export_core_libraries)
   export(EXPORT ${PROJECT_NAME}-targets NAMESPACE softbody::
     FILE ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake/${PROJECT_NAME}-targets.cmake)
   install(EXPORT ${PROJECT_NAME}-targets NAMESPACE softbody::
     DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
-  install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 endmacro()
 
 # softbody_gtest(NAME SOURCE...): one test program of a folder, linked to ${test_libraries}.
