@@ -1,0 +1,219 @@
+#!/usr/bin/python3
+"""Checks the walls between ROS and the cores, between packages and between rooms.
+
+Usage: walls.py [ROOT [LIBRARIES]]
+ROOT is the project, LIBRARIES the folder with its built libraries (ROOT/catkin_ws/devel/lib); without that folder the
+libraries are not checked. Prints one line per fault; exit code 1 if there is any.
+A room is a folder of src/core with the public headers of the folder of the same name below include/PACKAGE.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+# A package uses only packages to its left.
+PACKAGES = ["softbody_msgs", "softbody_common", "softbody_tracking", "softbody_sim", "softbody_recordings",
+            "softbody_virtual_camera", "softbody_evaluation", "softbody_bringup"]
+MOST_FILES = 25
+MOST_LINES = 350
+CPP = {".h", ".cpp"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
+ROS_LIBRARY = re.compile(
+    r"lib(ros|xmlrpcpp|cpp_common|tf2?[._]|tf2_|cv_bridge|image_|message_filters|nodelet|pluginlib|class_loader|"
+    r"diagnostic_|interactive_markers|topic_tools|eigen_conversions|softbody_\w+_(ros|nodes)\b)")
+NOT_SOURCES = {".git", "catkin_ws", "__pycache__", "bench", "demo_output", "evaluation", "validation"}
+
+
+class Source:
+    """A C++ file: its package, its place in the package, and what it includes."""
+
+    def __init__(self, root, path):
+        self.name = str(path.relative_to(root))
+        self.package, *parts = path.relative_to(root / "src").parts
+        self.place = pathlib.PurePosixPath(*parts)
+        self.path = path
+        self.includes = [(quote, pathlib.PurePosixPath(target))
+                         for quote, target in INCLUDE.findall(path.read_text())]
+
+    def is_below(self, *folders):
+        return any(self.place.is_relative_to(folder) for folder in folders)
+
+    @property
+    def public(self):
+        return f"include/{self.package}"
+
+    @property
+    def may_use_ros(self):
+        return self.package == "softbody_bringup" or self.is_below(
+            f"{self.public}/ros", "src/ros", "src/nodes", "test")
+
+    @property
+    def room(self):
+        """The room of a core's file, or None."""
+        for folder in ("src/core", self.public):
+            if self.is_below(folder) and not self.is_below(f"{self.public}/ros"):
+                return str(self.place.relative_to(folder).parent)
+        return None
+
+
+def cpp_sources(root):
+    paths = sorted(path for path in (root / "src").rglob("*") if path.suffix in CPP)
+    return [Source(root, path) for path in paths]
+
+
+def is_ros(target, cache={}):
+    """Whether a header belongs to a ROS package: Debian installs a package.xml for each."""
+    package = target.parts[0]
+    if package not in cache:
+        cache[package] = package in ("ros", "rosbag", "softbody_msgs") or (
+            not package.startswith("softbody_") and pathlib.Path("/usr/share", package, "package.xml").exists())
+    return cache[package] or (package.startswith("softbody_") and target.parts[1:2] == ("ros",))
+
+
+def ros_faults(sources):
+    for source in sources:
+        if source.may_use_ros:
+            continue
+        for _, target in source.includes:
+            if is_ros(target) or target.parts[0] in ("nodes", "ros"):
+                yield f"{source.name}: includes ROS ({target}); only ros/ and nodes/ may"
+
+
+def package_faults(root, sources):
+    for source in sources:
+        for _, target in source.includes:
+            other = target.parts[0]
+            if other in PACKAGES and PACKAGES.index(other) > PACKAGES.index(source.package):
+                yield f"{source.name}: includes {target} of a package above its own"
+    for package in PACKAGES:
+        manifest = ElementTree.parse(root / "src" / package / "package.xml").getroot()
+        for other in {element.text for element in manifest if element.tag.endswith("depend")}:
+            if other in PACKAGES[PACKAGES.index(package):]:
+                yield f"src/{package}/package.xml: depends on {other}, which is not below it"
+
+
+def include_style_faults(root, sources):
+    for source in sources:
+        package = root / "src" / source.package
+        # A header of the same package has one spelling; bench/ and test/ add their own folders.
+        folders = [package / "src/core", package / "src", package / "test", package]
+        for quote, target in source.includes:
+            first = target.parts[0]
+            own = first.startswith("softbody_") and first != "softbody_msgs"
+            if own and quote == "<":
+                yield f'{source.name}: <{target}> should be "{target}"'
+            if own and not (root / "src" / first / "include" / target).exists():
+                yield f"{source.name}: there is no public header {target}"
+            if quote == '"' and not own and not any((folder / target).exists() for folder in folders):
+                yield f"{source.name}: {target} is not room/file.h from src/core, src or test"
+
+
+def header_faults(sources):
+    names = {(source.package, str(source.place)) for source in sources}
+    for source in sources:
+        if source.place.suffix != ".cpp" or not source.is_below("src/core"):
+            continue
+        header = source.place.with_suffix(".h")
+        public = f"{source.public}/{header.relative_to('src/core')}"
+        if not {(source.package, str(header)), (source.package, public)} & names:
+            yield f"{source.name}: has no header of its own ({header.name} beside it or in {public})"
+
+
+def room_graphs(root, sources):
+    """{package: {room: {room it includes: a file that does}}} of the cores."""
+    graphs = {}
+    for source in sources:
+        if source.room is None:
+            continue
+        graph = graphs.setdefault(source.package, {}).setdefault(source.room, {})
+        for quote, target in source.includes:
+            if target.parts[0] == source.package:
+                target = target.relative_to(source.package)
+            elif quote == "<" or not (root / "src" / source.package / "src/core" / target).exists():
+                continue
+            if str(target.parent) != source.room:
+                graph.setdefault(str(target.parent), source.name)
+    return graphs
+
+
+def cycle(graph):
+    """Rooms that include each other in a ring, or nothing."""
+    done, trail = set(), []
+
+    def visit(room):
+        if room in trail:
+            return trail[trail.index(room):] + [room]
+        if room in done:
+            return []
+        trail.append(room)
+        for other in sorted(graph.get(room, {})):
+            if found := visit(other):
+                return found
+        done.add(trail.pop())
+        return []
+
+    return next((found for found in map(visit, sorted(graph)) if found), [])
+
+
+def room_faults(root, sources):
+    for package, graph in room_graphs(root, sources).items():
+        if ring := cycle(graph):
+            steps = [f"{a} -> {b} ({graph[a][b]})" for a, b in zip(ring, ring[1:])]
+            yield f"src/{package}: the rooms include each other: {', '.join(steps)}"
+
+
+def is_text_source(path):
+    if path.suffix in CPP | {".py"}:
+        return True
+    return path.suffix == "" and path.is_file() and path.read_bytes()[:2] == b"#!"
+
+
+def size_faults(root):
+    folders = [root]
+    while folders:
+        folder = folders.pop()
+        entries = sorted(path for path in folder.iterdir() if not path.is_symlink())
+        folders += [path for path in entries if path.is_dir() and (folder != root or path.name not in NOT_SOURCES)
+                    and path.name != "__pycache__"]
+        files = [path for path in entries if path.is_file()]
+        if len(files) > MOST_FILES:
+            yield f"{folder.relative_to(root)}: {len(files)} files, more than {MOST_FILES}"
+        for path in filter(is_text_source, files):
+            lines = len(path.read_text().splitlines())
+            if lines > MOST_LINES:
+                yield f"{path.relative_to(root)}: {lines} lines, more than {MOST_LINES}"
+
+
+def core_libraries(root):
+    for path in sorted((root / "src").glob("*/CMakeLists.txt")):
+        yield from re.findall(r"^softbody_core_library\((\w+)", path.read_text(), re.MULTILINE)
+
+
+def library_faults(root, libraries):
+    if not libraries.is_dir():
+        return
+    for name in core_libraries(root):
+        path = libraries / f"lib{name}.so"
+        if not path.exists():
+            yield f"{path}: not built"
+            continue
+        dynamic = subprocess.run(["readelf", "-d", path], stdout=subprocess.PIPE, text=True, check=True).stdout
+        for needed in re.findall(r"\(NEEDED\).*\[(.*)\]", dynamic):
+            if ROS_LIBRARY.match(needed):
+                yield f"{path.name}: linked to {needed}; a core does without ROS"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
+    libraries = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "catkin_ws/devel/lib"
+    sources = cpp_sources(root)
+    faults = [*ros_faults(sources), *package_faults(root, sources), *include_style_faults(root, sources),
+              *header_faults(sources), *room_faults(root, sources), *size_faults(root),
+              *library_faults(root, libraries)]
+    print("\n".join(faults))
+    return 1 if faults or not sources else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
