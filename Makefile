@@ -9,17 +9,22 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test cuts demo bench evaluate figures corpus validation tidy format clean help dependencies
+.PHONY: build test shared-data cuts demo bench evaluate figures corpus validation tidy format clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
 
-test: dependencies  ## build, then run unit tests, rostests, launch file checks, catkin_lint and the format check
+test: dependencies  ## build, then run unit tests, rostests, launch file checks, walls, install space, catkin_lint and format
 	scripts/build
 	scripts/build tests
 	scripts/run_tests
 
-cuts: dependencies  ## 10,000 random cuts of sponge, torus, toy and spot (slow); make test makes a few of them
+shared-data: dependencies  ## the tests on meshes, photographs and a toy's recording by others, in ../shared/data
+	scripts/build
+	scripts/build tests
+	scripts/checks/shared_data
+
+cuts: dependencies  ## 10,000 random cuts of sponge, torus, spot and the toy of ../shared/data (slow); make test makes a few
 	scripts/build
 	scripts/build tests
 	scripts/cuts
@@ -54,7 +59,7 @@ clean:  ## remove everything that was built or written
 	rm -rf bench demo_output evaluation validation
 
 help:  ## this list
-	@sed -n 's/^\([a-z]*\):.*##  *\(.*\)/\1\t\2/p' Makefile | expand -t 12
+	@sed -n 's/^\([a-z-]*\):.*##  *\(.*\)/\1\t\2/p' Makefile | expand -t 14
 
 dependencies:
 	@scripts/install_dependencies scripts/apt-packages.txt

@@ -292,57 +292,5 @@ TEST(DamagedFiles, AreReadSoundlyOrRefused) {
   }
 }
 
-struct Counts {
-  const char* file;
-  int vertices;
-  int elements;
-};
-
-/// Those of their README, but for three vertices of the raptor that belong to no tet.
-TEST(SharedMeshes, HaveTheCountsOfTheirReadme) {
-  SKIP_WITHOUT_SHARED_DATA();
-  for (const Counts& expected : std::initializer_list<Counts>{{"sofa/liver.msh", 181, 596},
-                                                              {"sofa/cylinder.msh", 510, 2430},
-                                                              {"sofa/Armadillo_Tetra_4406.vtu", 1446, 4406},
-                                                              {"sofa/raptorTetra_8418.vtu", 2993, 8418},
-                                                              {"sofa/seaMonster2-volume1.vtu", 1175, 3376},
-                                                              {"admm/box768.node", 413, 1175},
-                                                              {"admm/bunny_1124.ele", 777, 2510},
-                                                              {"admm/dillo919.node", 919, 2761},
-                                                              {"admm/horse759.node", 962, 3221},
-                                                              {"fastcorot/armadillo_4k.node", 1180, 3717},
-                                                              {"vega/beam3_tet.veg", 208, 450},
-                                                              {"../../toys/toy_tets.vtu", 961, 3068}}) {
-    Warnings warnings;
-    const TetMesh mesh = readTetFile(test::sharedData() + "/meshes/tet/" + expected.file, &warnings);
-    EXPECT_EQ(mesh.vertices.rows(), expected.vertices) << expected.file;
-    EXPECT_EQ(mesh.tets.rows(), expected.elements) << expected.file;
-  }
-}
-
-TEST(SharedMeshes, AllReadWithPositiveTetsThatFillTheirBoundary) {
-  SKIP_WITHOUT_SHARED_DATA();
-  int surfaces = 0, tet_meshes = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::sharedData() + "/meshes")) {
-    const std::string path = entry.path().string(), extension = entry.path().extension().string();
-    Warnings warnings;
-    if (extension == ".obj") {
-      EXPECT_GT(readSurfaceFile(path, &warnings).mesh.triangles.rows(), 0) << path;
-      ++surfaces;
-    } else if ((extension == ".vtu" || extension == ".msh" || extension == ".node" || extension == ".veg") &&
-               entry.path().stem() != "beam3") {  // of hexahedra
-      const TetMesh mesh = readTetFile(path, &warnings);
-      const Eigen::VectorXd volumes = tetVolumes(mesh.vertices, mesh.tets);
-      EXPECT_GT(volumes.minCoeff(), 0.0) << path;
-      EXPECT_NEAR(enclosedVolume(mesh.vertices, boundaryTriangles(mesh.tets)), volumes.sum(),
-                  1e-9 * volumes.sum())
-          << path;
-      ++tet_meshes;
-    }
-  }
-  EXPECT_GE(surfaces, 14);
-  EXPECT_GE(tet_meshes, 17);
-}
-
 }  // namespace
 }  // namespace softbody

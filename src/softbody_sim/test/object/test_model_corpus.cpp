@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <random>
+#include <filesystem>
 
 #include "corpus/model_corpus.h"
 #include "fixtures/model_files.h"
+#include "fixtures/test_meshes.h"
 
 namespace softbody {
 namespace {
@@ -35,15 +35,19 @@ PreparedModel prepare(const TriangleMesh& mesh) {
   return test::prepareAndCheck({"mesh", folder.file("mesh.obj"), false}, folder.file("."));
 }
 
-/// The whole corpus is `make corpus`.
-TEST(ModelCorpus, ASampleIsPreparedWithoutFault) {
-  SKIP_WITHOUT_SHARED_DATA();
-  std::vector<CorpusMesh> corpus = test::modelCorpus(test::sharedData());
-  std::shuffle(corpus.begin(), corpus.end(), std::mt19937(1));
+/// A cow, a torus and the boundary of a tet mesh. `make shared-data` prepares many more.
+TEST(ModelCorpus, SurfacesAndBoundariesArePreparedWithoutFault) {
   const TemporaryFolder folder;
-  for (std::size_t k = 0; k < 4 && k < corpus.size(); ++k) {
-    const PreparedModel prepared = test::prepareAndCheck(corpus[k], folder.file("."));
-    EXPECT_TRUE(prepared.faults.empty()) << corpus[k].name << ": " << joined(prepared.faults);
+  std::filesystem::copy(test::testData("spot.obj"), folder.file("spot.obj"));
+  writeObj(folder.file("torus.obj"), test::torus(0.1, 0.03, 60, 24));
+  const TetTopology tets = testing::boxTopology({8, 4, 4}, {0.2, 0.1, 0.1});
+  writeVtu(folder.file("tets.vtu"), {tets.rest_vertices, tets.tets});
+  const std::vector<CorpusMesh> corpus = test::modelCorpus(folder.file("."));
+  ASSERT_EQ(corpus.size(), 3u);
+  const TemporaryFolder scratch;
+  for (const CorpusMesh& mesh : corpus) {
+    const PreparedModel prepared = test::prepareAndCheck(mesh, scratch.file("."));
+    EXPECT_TRUE(prepared.faults.empty()) << mesh.name << ": " << joined(prepared.faults);
   }
 }
 

@@ -138,17 +138,14 @@ TEST(RandomSurfaceCuts, Torus) {
   cutBothAtRandom(testing::topologyOf(volumeAround({mesh.rest_vertices, mesh.triangles}, 300)), mesh, 2);
 }
 
-TEST(RandomSurfaceCuts, Toy) {
-  if (test::sharedData().empty()) GTEST_SKIP() << "skipped: no ../shared/data";
+TEST(RandomSurfaceCuts, DISABLED_Toy) {
   Warnings warnings;
-  const TetMesh tets = readTetFile(test::sharedData() + "/toys/toy_tets.vtu", &warnings);
-  cutBothAtRandom(testing::topologyOf(tets), testing::loadMesh(test::sharedData() + "/toys/toy_surface.obj"),
-                  3);
+  const TetMesh tets = readTetFile(test::sharedData("toys/toy_tets.vtu"), &warnings);
+  cutBothAtRandom(testing::topologyOf(tets), testing::loadMesh(test::sharedData("toys/toy_surface.obj")), 3);
 }
 
 TEST(RandomSurfaceCuts, Spot) {
-  if (test::sharedData().empty()) GTEST_SKIP() << "skipped: no ../shared/data";
-  MeshTopology mesh = testing::loadMesh(test::sharedData() + "/meshes/spot.obj");
+  MeshTopology mesh = testing::loadMesh(test::testData("spot.obj"));
   mesh.rest_vertices *= 0.1;
   cutBothAtRandom(testing::topologyOf(volumeAround({mesh.rest_vertices, mesh.triangles}, 400)), mesh, 4);
 }

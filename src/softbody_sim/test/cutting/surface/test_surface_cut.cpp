@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 
 #include "cutting/fixtures/random_patches.h"
 #include "cutting/fixtures/surface_meshes.h"
 #include "cutting/split/curve_snapping.h"
 #include "cutting/surface/surface_cut.h"
+#include "fixtures/model_files.h"
 
 namespace softbody {
 namespace {
@@ -16,7 +16,6 @@ namespace {
 using namespace softbody::testing;
 
 const std::string kShipped = SOFTBODY_SOURCE_DIR "/../softbody_bringup/config/";
-const std::string kShared = SOFTBODY_SOURCE_DIR "/../../../shared/data/";
 
 double diagonalOf(const MeshTopology& mesh) {
   return (mesh.rest_vertices.colwise().maxCoeff() - mesh.rest_vertices.colwise().minCoeff()).norm();
@@ -58,6 +57,19 @@ double lowestNewTriangle(const MeshTopology& mesh) {
     if (is_new) lowest = std::min(lowest, smallestHeight(corners[0], corners[1], corners[2]));
   }
   return lowest;
+}
+
+/// Spot with three holes, as a scanned mesh has them.
+MeshTopology openSpot() {
+  MeshTopology mesh = loadMesh(test::testData("spot.obj"));
+  std::vector<int> kept;
+  for (int t = 0; t < mesh.triangles.rows(); ++t) {
+    if (t % 2000 > 3) kept.push_back(t);
+  }
+  TriangleMesh open{mesh.rest_vertices, Triangles(kept.size(), 3)};
+  for (std::size_t t = 0; t < kept.size(); ++t)
+    open.triangles.row(static_cast<Eigen::Index>(t)) = mesh.triangles.row(kept[t]);
+  return meshTopology(open);
 }
 
 /// Few in make test, as many as SOFTBODY_CUTS_PER_BODY says in make cuts.
@@ -146,16 +158,12 @@ TEST(SurfaceCut, RandomCutsOfSponge) { cutAtRandom(loadMesh(kShipped + "sponge.o
 
 TEST(SurfaceCut, RandomCutsOfTorus) { cutAtRandom(torus(), numberOfCuts(240), 2); }
 
-TEST(SurfaceCut, RandomCutsOfSpot) {
-  const std::string path = kShared + "meshes/spot.obj";
-  if (!std::ifstream(path)) GTEST_SKIP() << "skipped: no ../shared/data";
-  cutAtRandom(loadMesh(path), numberOfCuts(60), 3);
-}
+TEST(SurfaceCut, RandomCutsOfSpot) { cutAtRandom(loadMesh(test::testData("spot.obj")), numberOfCuts(60), 3); }
 
-TEST(SurfaceCut, RandomCutsOfToy) {
-  const std::string path = kShared + "toys/toy_surface.obj";
-  if (!std::ifstream(path)) GTEST_SKIP() << "skipped: no ../shared/data";
-  cutAtRandom(loadMesh(path), numberOfCuts(60), 4);
+TEST(SurfaceCut, RandomCutsOfAnOpenMesh) { cutAtRandom(openSpot(), numberOfCuts(60), 4); }
+
+TEST(SurfaceCut, DISABLED_RandomCutsOfToy) {
+  cutAtRandom(loadMesh(test::sharedData("toys/toy_surface.obj")), numberOfCuts(60), 4);
 }
 
 TEST(SurfaceCut, NamesParentsAndInterpolatesTextureCoordinates) {

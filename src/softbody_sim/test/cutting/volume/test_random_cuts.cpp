@@ -139,19 +139,16 @@ TEST(RandomCuts, Sponge) { cutAtRandom(testing::sponge(), "sponge"); }
 
 TEST(RandomCuts, Torus) { cutAtRandom(testing::torus(), "torus"); }
 
-TEST(RandomCuts, Toy) {
-  if (test::sharedData().empty()) GTEST_SKIP() << "skipped: no ../shared/data";
+TEST(RandomCuts, DISABLED_Toy) {
   Warnings warnings;
-  TetMesh mesh = readTetFile(test::sharedData() + "/toys/toy_tets.vtu", &warnings);
+  const TetMesh mesh = readTetFile(test::sharedData("toys/toy_tets.vtu"), &warnings);
   cutAtRandom(testing::topologyOf(mesh), "toy");
 }
 
 TEST(RandomCuts, Spot) {
-  if (test::sharedData().empty()) GTEST_SKIP() << "skipped: no ../shared/data";
-  if (std::getenv("SOFTBODY_CUTS_PER_BODY") == nullptr) GTEST_SKIP() << "skipped: only in make cuts";
   Warnings warnings;
-  const TriangleMesh spot = readSurfaceFile(test::sharedData() + "/meshes/spot.obj", &warnings).mesh;
-  TriangleMesh sized{0.1 * spot.vertices, spot.triangles};
+  const TriangleMesh spot = readSurfaceFile(test::testData("spot.obj"), &warnings).mesh;
+  const TriangleMesh sized{0.1 * spot.vertices, spot.triangles};
   cutAtRandom(testing::topologyOf(volumeAround(sized, 400)), "spot");
 }
 
