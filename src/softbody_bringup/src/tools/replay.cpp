@@ -51,12 +51,17 @@ void print(const ReplaySummary& summary, const ReplayOptions& options) {
   };
   fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", summary.read.frames,
              summary.states, summary.read.without_depth, summary.read.unusable, summary.skipped);
-  const auto& [colors_again, depths_again, depths_alone] = summary.read.left_out;
-  if (colors_again + depths_again > 0)
-    fmt::print("left out: {} colour and {} depth images with the stamp of one before\n", colors_again,
-               depths_again);
-  if (depths_alone > 0)
-    fmt::print("left out: {} depth images that no colour image came near to\n", depths_alone);
+  const softbody::UnpairedImages& left_out = summary.read.unpaired;
+  const std::pair<int, const char*> kinds[] = {
+      {left_out.unstamped, "images without a stamp"},
+      {left_out.colors_repeated, "colour images with the stamp of the image before"},
+      {left_out.depths_repeated, "depth images with the stamp of the image before"},
+      {left_out.colors_late, "colour images that arrived after a later one"},
+      {left_out.depths_late, "depth images that arrived after a later one"},
+      {left_out.colors_alone, "colour images without a depth image"},
+      {left_out.depths_alone, "depth images without a colour image"}};
+  for (const auto& [images, kind] : kinds)
+    if (images > 0) fmt::print("left out: {} {}\n", images, kind);
   fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
              count(TrackingState::kTracking), count(TrackingState::kDegraded), count(TrackingState::kLost),
              count(TrackingState::kRecovering), count(TrackingState::kInitializing));

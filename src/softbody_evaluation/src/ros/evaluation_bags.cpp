@@ -10,13 +10,11 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_evaluation/ros/bags.h"
-#include "softbody_recordings/pairing/frame_pairer.h"
 #include "softbody_recordings/ros/input_bag.h"
+#include "softbody_tracking/camera/frame_pairer.h"
 
 namespace softbody::evaluation {
 namespace {
-
-constexpr Nanoseconds kSyncTolerance = 15'000'000;
 
 void requireTopic(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
@@ -124,9 +122,10 @@ class Undistortion {
   cv::Mat map_u_, map_v_;
 };
 
-using Pairer = FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr>;
+using Pairer =
+    FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
-RecordedFrame toFrame(const Pairer::Pair& pair, const Undistortion& undistortion) {
+RecordedFrame toFrame(const Pairer::Frame& pair, const Undistortion& undistortion) {
   RecordedFrame frame;
   frame.stamp = pair.stamp;
   frame.frame_id = pair.color->header.frame_id;
@@ -136,9 +135,9 @@ RecordedFrame toFrame(const Pairer::Pair& pair, const Undistortion& undistortion
   return frame;
 }
 
-sensor_msgs::CameraInfo firstInfo(const rosbag::Bag& bag, const std::string& topic) {
+sensor_msgs::CameraInfoConstPtr firstInfo(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
-  return *instantiate<sensor_msgs::CameraInfo>(*view.begin(), bag);
+  return instantiate<sensor_msgs::CameraInfo>(*view.begin(), bag);
 }
 
 }  // namespace
@@ -176,8 +175,10 @@ void readRecording(const std::string& path, const std::string& camera,
   const rosbag::Bag bag = openBag(path);
   const CameraTopics topics(camera);
   for (const std::string& topic : {topics.color, topics.depth, topics.depth_info}) requireTopic(bag, topic);
-  const Undistortion undistortion(firstInfo(bag, topics.depth_info));
-  Pairer pairer(kSyncTolerance);
+  const sensor_msgs::CameraInfoConstPtr info = firstInfo(bag, topics.depth_info);
+  const Undistortion undistortion(*info);
+  Pairer pairer{PairingConfig()};
+  pairer.setInfo(info);
   const auto drain = [&](bool finish) {
     while (const auto pair = pairer.next(finish)) use(toFrame(*pair, undistortion));
   };

@@ -38,7 +38,7 @@ TEST_F(GraphConfigTest, ReadsEachNodesSection) {
       "simulator: {iterations: 7, free_run_rate_hz: 0}\n"
       "surface: {min_advance_m: 0.004}\n"
       "tool_tracker:\n");
-  EXPECT_EQ(config.sync_tolerance, 0);
+  EXPECT_TRUE(config.pairing.exact);
   EXPECT_EQ(config.pipeline.simulator.iterations, 7);
   EXPECT_EQ(config.pipeline.cutting.min_advance_m, 0.004);
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();
@@ -94,7 +94,7 @@ TEST_F(GraphConfigTest, SaysWhatAReplayMisses) {
 TEST_F(GraphConfigTest, RefusesWhatTheNodeRefuses) {
   EXPECT_NE(refusalOf("camera_ingest: {sync_tolerance_s: 0}\n").find("sync_tolerance_s is 0"),
             std::string::npos);
-  EXPECT_EQ(read("camera_ingest: {sync_tolerance_s: 0.02}\n").sync_tolerance, 20'000'000);
+  EXPECT_EQ(read("camera_ingest: {sync_tolerance_s: 0.02}\n").pairing.tolerance, 20'000'000);
 }
 
 }  // namespace

@@ -1,85 +1,145 @@
+#include "nodes/camera_ingest_watch.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "nodes/camera_ingest_node.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_tracking/ros/conversions.h"
 
-/// What the node says about itself: why there are no frames, rates and latency.
 namespace softbody {
 namespace {
 
-constexpr double kDiagnosisPeriod_s = 1.0, kRemarkPeriod_s = 60.0;
-constexpr double kLongestLatency_s = 2.0, kLongestLead_s = 0.1;  // beyond, clocks differ
-// A camera may be so many times as long in starting as it may be silent.
-constexpr double kStartTimeouts = 5.0;
+constexpr double kCheckPeriod_s = 0.5;  // half of kDiagnosisPeriod_s, so that no diagnosis is late by much
+constexpr double kDiagnosisPeriod_s = 1.0;  // as diagnostic_updater's own
+constexpr double kRemarkPeriod_s = 60.0;    // a remark holds for a whole run: not in every screen of the log
+constexpr double kLongestLatency_s = 2.0;   // more is not a slow machine: the clocks differ
+constexpr double kLongestLead_s = 0.1;      // a stamp ahead of the clock by more: the clocks differ
+constexpr double kStartTimeouts = 5.0;      // a camera may take this many silence timeouts to start
 
 }  // namespace
 
-double CameraIngestNode::secondsWithoutFrame() const {
-  // Before the first frame the clock itself may be missing; later a paused bag is no silence.
+CameraIngestWatch::CameraIngestWatch(ros::NodeHandle handle, const ros::NodeHandle& private_handle,
+                                     const PairingConfig& pairing, double silence_timeout_s,
+                                     std::function<StreamTopics()> topics)
+    : silence_timeout_s_(silence_timeout_s),
+      topics_(std::move(topics)),
+      monitor_(pairing.exact ? 0 : pairing.tolerance, toNanoseconds(ros::Time(silence_timeout_s))),
+      start_(ros::WallTime::now()),
+      last_diagnosis_(start_),
+      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
+  diagnostics_.setHardwareID("RGB-D camera");
+  diagnostics_.add("frames", this, &CameraIngestWatch::diagnose);
+  // Wall time: without /clock a simulated timer never fires, and that must be reported.
+  timer_ = handle.createWallTimer(ros::WallDuration(kCheckPeriod_s), [this](const auto&) { check(); });
+}
+
+void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const ImageArrival& arrival) {
+  const double gap_s = 1e-9 * static_cast<double>(arrival.gap);
+  switch (arrival.kind) {
+    case ImageArrival::kUnstamped:
+      monitor_.unstamped(stream);
+      return logDropped(stream, "an image without a stamp", "is dropped: its time is not known");
+    case ImageArrival::kLate:
+      return logDropped(
+          stream, "a late image",
+          fmt::format("is dropped: its stamp is {:.3f} s before that of the last image", -gap_s));
+    case ImageArrival::kRepeated:
+      return logDropped(stream, "a second image",
+                        fmt::format("with the stamp {:.6f} is dropped", stamp.toSec()));
+    case ImageArrival::kRestarted:
+      ROS_INFO_STREAM("time jumped back by " << -gap_s << " s");
+      monitor_.completed();
+      break;
+    case ImageArrival::kAccepted:
+      break;
+  }
+  monitor_.arrived(stream, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
+}
+
+void CameraIngestWatch::logDropped(Stream stream, const std::string& what, const std::string& why) {
+  const std::string topic = topics_()[static_cast<std::size_t>(stream)].name;
+  throttle_.warn(topic + what, fmt::format("{}: {} {}", topic, what, why));
+}
+
+void CameraIngestWatch::noteInfo(const ros::Time& stamp) {
+  monitor_.arrived(Stream::kColorInfo, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
+}
+
+void CameraIngestWatch::noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth) {
+  ++frames_;
+  last_frame_ = ros::Time::now();
+  latency_s_ = (last_frame_ - color.stamp).toSec();
+  color_frame_ = withoutSlash(color.frame_id);
+  if (depth != nullptr) depth_frame_ = withoutSlash(depth->frame_id);
+  monitor_.completed();
+}
+
+void CameraIngestWatch::noteRefusal(const std::string& why) {
+  ++refused_;
+  monitor_.refused(why);
+  throttle_.warn("refused", why);
+}
+
+double CameraIngestWatch::secondsWithoutFrame() const {
+  // Before the first frame /clock itself may be missing. Later a paused bag is not silent.
   if (last_frame_.isZero()) return (ros::WallTime::now() - start_).toSec();
   return (ros::Time::now() - last_frame_).toSec();
 }
 
-bool CameraIngestNode::isStarting() const {
+bool CameraIngestWatch::isStarting() const {
   if (!last_frame_.isZero()) return false;
-  // Images that come and make no frame are a fault, once there was time for one.
-  if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < config_.silence_timeout_s;
-  return secondsWithoutFrame() < kStartTimeouts * config_.silence_timeout_s;
+  // Images that arrive but make no frame are a fault.
+  if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < silence_timeout_s_;
+  return secondsWithoutFrame() < kStartTimeouts * silence_timeout_s_;
 }
 
-std::string CameraIngestNode::silence() const {
+std::string CameraIngestWatch::silence() const {
   return fmt::format("{} {:.0f} s: {}", isStarting() ? "waiting for the first frame for" : "no frame for",
                      secondsWithoutFrame(), complaint());
 }
 
-std::string CameraIngestNode::complaint() const {
+std::string CameraIngestWatch::complaint() const {
   if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
     return "use_sim_time is set, but /clock is silent (rosbag play --clock?)";
   }
-  const auto publishers = [](const auto& subscriber) {
-    return static_cast<int>(subscriber.getNumPublishers());
-  };
-  return monitor_->complaint({StreamTopic{color_subscriber_.getTopic(), publishers(color_subscriber_)},
-                              StreamTopic{info_subscriber_.getTopic(), publishers(info_subscriber_)},
-                              StreamTopic{depth_subscriber_.getTopic(), publishers(depth_subscriber_)}},
-                             toNanoseconds(ros::Time::now()));
+  return monitor_.complaint(topics_(), toNanoseconds(ros::Time::now()));
 }
 
-/// What is odd about frames that come.
-std::vector<CameraIngestNode::Remark> CameraIngestNode::remarks() const {
+std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
+  const StreamTopics topics = topics_();
+  const std::string& color = topics[static_cast<std::size_t>(Stream::kColor)].name;
+  const std::string& depth = topics[static_cast<std::size_t>(Stream::kDepth)].name;
   std::vector<Remark> remarks;
   if (color_frame_.empty())
     remarks.push_back(
-        {"no frame", fmt::format("{} has no frame_id, so no result has one: set the driver's optical frame",
-                                 color_subscriber_.getTopic())});
+        {"no frame", fmt::format("{} has no frame_id, so no result has one: set the frame_id of "
+                                 "the driver's optical frame",
+                                 color)});
   if (depth_frame_ != color_frame_)
     remarks.push_back(
         {"two frames",
-         fmt::format("{} is in frame '{}', {} in '{}'; if it is registered to colour, it should say "
-                     "colour's frame",
-                     depth_subscriber_.getTopic(), depth_frame_, color_subscriber_.getTopic(),
-                     color_frame_)});
+         fmt::format("{} is in frame '{}', {} in '{}': if depth is registered to colour, both need "
+                     "the frame_id of colour",
+                     depth, depth_frame_, color, color_frame_)});
   // A simulated clock is made of the stamps, and lags behind them.
   if (!ros::Time::isSimTime() && (latency_s_ > kLongestLatency_s || latency_s_ < -kLongestLead_s))
     remarks.push_back(
-        {"clock",
-         fmt::format(
-             "stamps are {:.1f} s {} this machine's clock, by which tf and timers go: synchronise the "
-             "camera's clock; a bag needs use_sim_time and --clock",
-             std::abs(latency_s_), latency_s_ > 0.0 ? "behind" : "ahead of")});
+        {"clock", fmt::format("stamps are {:.1f} s {} this machine's clock, which tf and timers use: "
+                              "synchronise the camera's clock; a bag needs use_sim_time and --clock",
+                              std::abs(latency_s_), latency_s_ > 0.0 ? "behind" : "ahead of")});
   return remarks;
 }
 
-void CameraIngestNode::watch() {
-  // A bag that starts again: the silence is counted from there.
+void CameraIngestWatch::check() {
+  // A bag that starts again: silence is counted from there.
   if (ros::Time::now() < last_frame_) last_frame_ = ros::Time::now();
-  if (both_came_.isZero() && monitor_->hasCome(Stream::kColor) && monitor_->hasCome(Stream::kDepth))
+  if (both_came_.isZero() && monitor_.hasCome(Stream::kColor) && monitor_.hasCome(Stream::kDepth))
     both_came_ = ros::WallTime::now();
-  if (secondsWithoutFrame() > config_.silence_timeout_s) {
+  if (secondsWithoutFrame() > silence_timeout_s_) {
     if (isStarting())
       throttle_.info("start", silence());
     else
@@ -88,16 +148,16 @@ void CameraIngestNode::watch() {
   if ((ros::WallTime::now() - last_diagnosis_).toSec() >= kDiagnosisPeriod_s) diagnostics_.force_update();
 }
 
-void CameraIngestNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void CameraIngestWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   const double period = (ros::WallTime::now() - last_diagnosis_).toSec();
   const double rate = frames_ / std::max(period, 1e-3);
   std::vector<std::string> odd;
   for (const Remark& remark : frames_ > 0 ? remarks() : std::vector<Remark>()) {
-    throttle_.warn(remark.about, remark.sentence, kRemarkPeriod_s);
+    throttle_.warn(remark.kind, remark.sentence, kRemarkPeriod_s);
     odd.push_back(remark.sentence);
   }
-  if (secondsWithoutFrame() > config_.silence_timeout_s) {
+  if (secondsWithoutFrame() > silence_timeout_s_) {
     status.summary(isStarting() ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR, silence());
   } else if (refused_ > 0) {
     status.summary(DiagnosticStatus::WARN,
@@ -110,8 +170,9 @@ void CameraIngestNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("frames per second", fmt::format("{:.1f}", rate));
   status.add("frames refused", refused_);
   status.add("latency [ms]", fmt::format("{:.1f}", std::max(0.0, latency_s_) * 1e3));
-  status.add("colour", color_subscriber_.getTopic());
-  status.add("depth", depth_subscriber_.getTopic());
+  const StreamTopics topics = topics_();
+  status.add("colour", topics[static_cast<std::size_t>(Stream::kColor)].name);
+  status.add("depth", topics[static_cast<std::size_t>(Stream::kDepth)].name);
   frames_ = refused_ = 0;
   last_diagnosis_ = ros::WallTime::now();
 }

@@ -7,28 +7,28 @@
 #include <functional>
 #include <string>
 
-#include "softbody_recordings/pairing/frame_pairer.h"
 #include "softbody_tracking/camera/camera_ingest.h"
+#include "softbody_tracking/camera/frame_pairer.h"
 
 namespace softbody {
 
 struct BagFramesConfig {
-  std::string camera = "/camera";           ///< namespace of the camera's topics
-  Nanoseconds sync_tolerance = 15'000'000;  ///< between colour and depth
+  std::string camera = "/camera";  ///< namespace of the camera's topics
+  PairingConfig pairing;           ///< as camera_ingest's
 };
 
 /// What was read.
 struct BagFramesReport {
   int frames = 0;
-  int without_depth = 0;  ///< colour images that no depth image came near to, passed on without
-  LeftOutImages left_out;
-  int unusable = 0;        ///< images that could not be converted
+  int without_depth = 0;   ///< of these, frames that have a colour image alone
+  int unusable = 0;        ///< of these, frames whose images could not be converted
   std::string last_error;  ///< of the last unusable one
+  UnpairedImages unpaired;
 };
 
-/// Reads a bag's camera topics through the ingest, frame by frame in bag order.
-/// @param use called with each frame, the colour image's header, and the share of the bag that has been read
-/// (0..1).
+/// Reads a bag's camera topics through the ingest. The frames are those that camera_ingest makes when the bag
+/// is played.
+/// @param use called with each frame, the colour image's header, and the progress through the bag (0..1).
 /// @throw std::invalid_argument if a camera topic is missing; the sentence lists what the bag has.
 BagFramesReport readBagFrames(
     const rosbag::Bag& bag, const BagFramesConfig& config, CameraIngest* ingest,

@@ -10,7 +10,7 @@ namespace softbody {
 
 /// Parameters of every node, from one file with a section a node, as launch files take it.
 struct GraphConfig {
-  Nanoseconds sync_tolerance = BagFramesConfig().sync_tolerance;
+  PairingConfig pairing;
   CameraIngestConfig ingest;
   PipelineConfig pipeline;
   std::string output_frame;  ///< empty: the colour optical frame

@@ -9,7 +9,7 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
-#include "softbody_recordings/pairing/frame_pairer.h"
+#include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
@@ -42,63 +42,60 @@ boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& inst
   return message;
 }
 
-/// The first CameraInfo, since images may come before it.
-sensor_msgs::CameraInfoConstPtr firstInfo(const rosbag::Bag& bag, const std::string& topic) {
-  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-    return instantiate<sensor_msgs::CameraInfo>(message, "sensor_msgs/CameraInfo");
-  }
-  throw std::invalid_argument(fmt::format("{} has no message", topic));
-}
+struct CameraTopics {
+  std::string color, info, depth;
+};
 
 class Reader {
  public:
-  Reader(const BagFramesConfig& config, sensor_msgs::CameraInfoConstPtr info, CameraIngest* ingest,
-         const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use)
-      : ingest_(ingest), use_(use), pairer_(config.sync_tolerance), info_(std::move(info)) {}
+  using Use = std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>;
 
-  void add(const rosbag::MessageInstance& message, const std::string& color, const std::string& info,
-           const std::string& depth) {
-    if (message.getTopic() == info) {
-      info_ = instantiate<sensor_msgs::CameraInfo>(message, "sensor_msgs/CameraInfo");
-    } else if (message.getTopic() == color || message.getTopic() == depth) {
-      const auto image = instantiate<sensor_msgs::Image>(message, "sensor_msgs/Image");
-      const Nanoseconds stamp = toNanoseconds(image->header.stamp);
-      message.getTopic() == color ? pairer_.addColor(stamp, image) : pairer_.addDepth(stamp, image);
-    }
+  Reader(const PairingConfig& pairing, CameraTopics topics, CameraIngest* ingest, const Use& use)
+      : topics_(std::move(topics)), ingest_(ingest), use_(use), pairer_(pairing) {}
+
+  void add(const rosbag::MessageInstance& message) {
+    if (message.getTopic() == topics_.info)
+      return pairer_.setInfo(instantiate<sensor_msgs::CameraInfo>(message, "sensor_msgs/CameraInfo"));
+    const auto image = instantiate<sensor_msgs::Image>(message, "sensor_msgs/Image");
+    const Nanoseconds stamp = toNanoseconds(image->header.stamp);
+    if (message.getTopic() == topics_.color)
+      pairer_.addColor(stamp, image);
+    else
+      pairer_.addDepth(stamp, image);
   }
 
-  void drain(bool finish, double progress) {
-    while (const auto pair = pairer_.next(finish)) process(*pair, progress);
+  void processCompleteFrames(bool finish, double progress) {
+    while (const auto frame = pairer_.next(finish)) process(*frame, progress);
   }
 
   BagFramesReport report() const {
     BagFramesReport report = report_;
-    report.left_out = pairer_.leftOut();
+    report.unpaired = pairer_.unpaired();
     return report;
   }
 
  private:
-  using Pairer = FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr>;
+  using Pairer =
+      FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
-  void process(const Pairer::Pair& pair, double progress) {
+  void process(const Pairer::Frame& images, double progress) {
     ++report_.frames;
-    if (!pair.depth) ++report_.without_depth;
+    if (!images.depth) ++report_.without_depth;
     RgbdFrame frame;
     try {
-      if (pair.stamp <= 0) throw std::invalid_argument("an image without a stamp");
-      frame = frameFromMessages(*pair.color, pair.depth.get(), *info_, ingest_);
+      frame = frameFromMessages(*images.color, images.depth.get(), *images.info, ingest_);
     } catch (const std::exception& error) {
       ++report_.unusable;
       report_.last_error = error.what();
       return;
     }
-    use_(frame, pair.color->header, progress);
+    use_(frame, images.color->header, progress);
   }
 
+  CameraTopics topics_;
   CameraIngest* ingest_;
-  const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use_;
+  const Use& use_;
   Pairer pairer_;
-  sensor_msgs::CameraInfoConstPtr info_;
   BagFramesReport report_;
 };
 
@@ -107,19 +104,21 @@ class Reader {
 BagFramesReport readBagFrames(
     const rosbag::Bag& bag, const BagFramesConfig& config, CameraIngest* ingest,
     const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use) {
-  const std::string color = cameraTopic(config.camera, topics::kCameraColor);
-  const std::string info = cameraTopic(config.camera, topics::kCameraColorInfo);
-  const std::string depth = cameraTopic(config.camera, topics::kCameraDepth);
-  requireTopics(bag, {color, info, depth});
-  rosbag::View view(bag, rosbag::TopicQuery({color, info, depth}));
-  Reader reader(config, firstInfo(bag, info), ingest, use);
+  const CameraTopics topics{cameraTopic(config.camera, topics::kCameraColor),
+                            cameraTopic(config.camera, topics::kCameraColorInfo),
+                            cameraTopic(config.camera, topics::kCameraDepth)};
+  requireTopics(bag, {topics.color, topics.info, topics.depth});
+  if (rosbag::View(bag, rosbag::TopicQuery(topics.info)).size() == 0)
+    throw std::invalid_argument(fmt::format("{}: {} has no message", bag.getFileName(), topics.info));
+  rosbag::View view(bag, rosbag::TopicQuery({topics.color, topics.info, topics.depth}));
+  Reader reader(config.pairing, topics, ingest, use);
   const double total = view.size();
   double count = 0.0;
   for (const rosbag::MessageInstance& message : view) {
-    reader.add(message, color, info, depth);
-    reader.drain(false, ++count / total);
+    reader.add(message);
+    reader.processCompleteFrames(false, ++count / total);
   }
-  reader.drain(true, 1.0);
+  reader.processCompleteFrames(true, 1.0);
   return reader.report();
 }
 

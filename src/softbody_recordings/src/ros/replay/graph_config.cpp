@@ -59,13 +59,12 @@ auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly
 GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings) {
   const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
   GraphConfig config;
-  config.ingest = readSection(
-      file, "camera_ingest", {{"queue_size", "voxel_size_m", "silence_timeout_s", "image_transport"}, {}},
-      warnings, [&config](Parameters& parameters) {
-        const SyncConfig sync = readSyncConfig(parameters);
-        config.sync_tolerance = sync.exact ? 0 : static_cast<Nanoseconds>(1e9 * sync.tolerance_s);
-        return readCameraIngestConfig(parameters);
-      });
+  config.ingest =
+      readSection(file, "camera_ingest", {{"voxel_size_m", "silence_timeout_s", "image_transport"}, {}},
+                  warnings, [&config](Parameters& parameters) {
+                    config.pairing = readPairingConfig(parameters);
+                    return readCameraIngestConfig(parameters);
+                  });
   config.pipeline.tracker =
       readSection(file, "feature_tracker", {{"body_frame", "mask_timeout_s", "tf_timeout_s"}, {"use_mask"}},
                   warnings, [&config](Parameters& parameters) {

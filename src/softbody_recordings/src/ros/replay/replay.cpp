@@ -180,7 +180,7 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
   Replay run(options, model, config, loadTool(options.tool, warn), warn);
   CameraIngest ingest(config.ingest);
   const BagFramesReport read =
-      readBagFrames(input, {options.camera, config.sync_tolerance}, &ingest,
+      readBagFrames(input, {options.camera, config.pairing}, &ingest,
                     [&](const RgbdFrame& frame, const std_msgs::Header& header, double share) {
                       run.process(frame, header);
                       progress(share);

@@ -18,15 +18,6 @@ struct CameraIngestConfig {
 /// @throw std::invalid_argument as Parameters does.
 CameraIngestConfig readCameraIngestConfig(Parameters& parameters);
 
-/// What makes a pair of a colour and a depth image.
-struct SyncConfig {
-  bool exact = false;          ///< stamps must be equal
-  double tolerance_s = 0.015;  ///< largest difference of stamps otherwise
-};
-
-/// @throw std::invalid_argument as Parameters does.
-SyncConfig readSyncConfig(Parameters& parameters);
-
 /// Distortion of a colour image as in sensor_msgs/CameraInfo.
 struct Distortion {
   cv::Matx33d K = cv::Matx33d::zeros();

@@ -55,13 +55,6 @@ CameraIngestConfig readCameraIngestConfig(Parameters& parameters) {
   return config;
 }
 
-SyncConfig readSyncConfig(Parameters& parameters) {
-  SyncConfig config;
-  config.exact = parameters.choice("sync", "approximate", {"approximate", "exact"}) == "exact";
-  config.tolerance_s = parameters.number("sync_tolerance_s", config.tolerance_s, 0.0001, 1.0);
-  return config;
-}
-
 struct CameraIngest::Implementation {
   explicit Implementation(const CameraIngestConfig& c) : config(c), filter(c.edge_jump_ratio) {}
 

@@ -1,0 +1,61 @@
+#include "nodes/camera_ingest_outputs.h"
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <softbody_msgs/StageTiming.h>
+
+#include <boost/make_shared.hpp>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/topics.h"
+#include "softbody_tracking/camera/point_cloud.h"
+#include "softbody_tracking/ros/conversions.h"
+
+namespace softbody {
+
+CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m)
+    : voxel_size_m_(voxel_size_m),
+      color_(handle.advertise<sensor_msgs::Image>(topics::kRgbRect, 1)),
+      info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, 1)),
+      depth_(handle.advertise<sensor_msgs::Image>(topics::kDepthRect, 1)),
+      points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, 1)),
+      timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1)) {}
+
+bool CameraIngestOutputs::hasSubscriber() const {
+  for (const ros::Publisher* publisher : {&color_, &info_, &depth_, &points_, &timing_}) {
+    if (publisher->getNumSubscribers() > 0) return true;
+  }
+  return false;
+}
+
+void CameraIngestOutputs::publish(const RgbdFrame& frame, const std_msgs::Header& header,
+                                  StageTimer* timer) const {
+  if (info_.getNumSubscribers() > 0) {
+    const auto info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(frame.camera));
+    info->header = header;
+    info_.publish(info);
+  }
+  if (color_.getNumSubscribers() > 0) color_.publish(toMessage(frame.color, header));
+  if (depth_.getNumSubscribers() > 0) depth_.publish(toMessage(frame.depth, header));
+  if (points_.getNumSubscribers() > 0) {
+    const auto stage = timer->stage("point cloud");
+    publishPoints(frame, header);
+  }
+  const std::vector<StageTime> stages = timer->take();
+  if (timing_.getNumSubscribers() > 0) {
+    const auto timing =
+        boost::make_shared<softbody_msgs::StageTiming>(timingMessage("camera_ingest", stages));
+    timing->header = header;
+    timing_.publish(timing);
+  }
+}
+
+void CameraIngestOutputs::publishPoints(const RgbdFrame& frame, const std_msgs::Header& header) const {
+  if (voxel_size_m_ == 0.0)
+    points_.publish(toMessage(organizedCloud(frame), frame.camera.width, header));
+  else
+    points_.publish(toMessage(voxelCloud(frame, voxel_size_m_), 0, header));
+}
+
+}  // namespace softbody

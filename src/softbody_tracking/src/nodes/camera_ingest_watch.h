@@ -1,0 +1,63 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <std_msgs/Header.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "nodes/wall_throttle.h"
+#include "softbody_tracking/camera/frame_pairer.h"
+#include "softbody_tracking/camera/stream_monitor.h"
+
+namespace softbody {
+
+/// Watches the streams of camera_ingest: explains in the log and in /diagnostics why no frame comes, what is
+/// wrong with the frames that come, their rate and their latency.
+class CameraIngestWatch {
+ public:
+  /// @param silence_timeout_s without a frame, after which the reason is logged.
+  /// @param topics of the streams at the moment.
+  CameraIngestWatch(ros::NodeHandle handle, const ros::NodeHandle& private_handle,
+                    const PairingConfig& pairing, double silence_timeout_s,
+                    std::function<StreamTopics()> topics);
+
+  /// An image reached the pairer. Logs why it was dropped.
+  void noteImage(Stream stream, const ros::Time& stamp, const ImageArrival& arrival);
+  void noteInfo(const ros::Time& stamp);
+  /// @param depth null: the frame has no depth image.
+  void noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth);
+  /// A frame's messages cannot be used.
+  void noteRefusal(const std::string& why);
+
+ private:
+  struct Remark {
+    std::string kind, sentence;
+  };
+
+  void check();
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void logDropped(Stream stream, const std::string& what, const std::string& why);
+  double secondsWithoutFrame() const;
+  bool isStarting() const;
+  std::string silence() const;
+  std::string complaint() const;
+  std::vector<Remark> remarks() const;
+
+  double silence_timeout_s_;
+  std::function<StreamTopics()> topics_;
+  StreamMonitor monitor_;
+  WallThrottle throttle_;
+  ros::Time last_frame_;             ///< when it was completed
+  ros::WallTime start_, both_came_;  ///< the latter: when colour and depth had come, usable or not
+  int frames_ = 0, refused_ = 0;     ///< since the last diagnosis
+  double latency_s_ = 0.0;  ///< from the last frame's stamp to its completion; below 0: clocks differ
+  std::string color_frame_, depth_frame_;  ///< frame_id in the last frame
+  ros::WallTime last_diagnosis_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace softbody
