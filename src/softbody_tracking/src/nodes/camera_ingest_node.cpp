@@ -17,7 +17,7 @@ CameraIngestNode::CameraIngestNode(ros::NodeHandle handle, const ros::NodeHandle
   parameters.text("image_transport", "raw");
   warnUnknown(parameters);
   pairer_.emplace(pairing);
-  outputs_.emplace(handle, voxel_size_m);
+  outputs_.emplace(handle, voxel_size_m, static_cast<std::uint32_t>(pairing.queue_size));
   watch_.emplace(handle, private_handle, pairing, silence_timeout_s, [this] { return streamTopics(); });
   subscribe(handle, private_handle, pairing.queue_size);
 }

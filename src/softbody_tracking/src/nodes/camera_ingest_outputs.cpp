@@ -14,13 +14,14 @@
 
 namespace softbody {
 
-CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m)
+CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m,
+                                         std::uint32_t queue_size)
     : voxel_size_m_(voxel_size_m),
-      color_(handle.advertise<sensor_msgs::Image>(topics::kRgbRect, 1)),
-      info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, 1)),
-      depth_(handle.advertise<sensor_msgs::Image>(topics::kDepthRect, 1)),
-      points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, 1)),
-      timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1)) {}
+      color_(handle.advertise<sensor_msgs::Image>(topics::kRgbRect, queue_size)),
+      info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, queue_size)),
+      depth_(handle.advertise<sensor_msgs::Image>(topics::kDepthRect, queue_size)),
+      points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, queue_size)),
+      timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, queue_size)) {}
 
 bool CameraIngestOutputs::hasSubscriber() const {
   for (const ros::Publisher* publisher : {&color_, &info_, &depth_, &points_, &timing_}) {

@@ -3,6 +3,8 @@
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
 
+#include <cstdint>
+
 #include "softbody_common/stage_timer.h"
 #include "softbody_tracking/rgbd_frame.h"
 
@@ -12,7 +14,9 @@ namespace softbody {
 class CameraIngestOutputs {
  public:
   /// @param voxel_size_m of the points; 0: organised, one point a pixel.
-  CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m);
+  /// @param queue_size of each topic. An image that was missing may complete several frames at once, of which
+  /// none may be lost: subscribers choose for themselves whether they want the newest alone.
+  CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m, std::uint32_t queue_size);
 
   bool hasSubscriber() const;
 
