@@ -2,10 +2,10 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "nodes/camera_ingest_node.h"
-#include "nodes/feature_tracker_node.h"
-#include "nodes/pose_marker_node.h"
-#include "nodes/tool_tracker_node.h"
+#include "nodes/camera_ingest/camera_ingest_node.h"
+#include "nodes/feature_tracker/feature_tracker_node.h"
+#include "nodes/pose_marker/pose_marker_node.h"
+#include "nodes/tool_tracker/tool_tracker_node.h"
 
 namespace softbody {
 

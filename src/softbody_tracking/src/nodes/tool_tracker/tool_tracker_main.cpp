@@ -1,4 +1,4 @@
-#include "nodes/tool_tracker_node.h"
+#include "nodes/tool_tracker/tool_tracker_node.h"
 #include "softbody_common/ros/run_node.h"
 
 int main(int argc, char** argv) {

@@ -7,8 +7,8 @@
 
 #include <optional>
 
-#include "nodes/camera_ingest_outputs.h"
-#include "nodes/camera_ingest_watch.h"
+#include "nodes/camera_ingest/camera_ingest_outputs.h"
+#include "nodes/camera_ingest/camera_ingest_watch.h"
 #include "softbody_common/parameters.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/frame_pairer.h"

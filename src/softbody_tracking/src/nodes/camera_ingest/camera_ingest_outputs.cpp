@@ -1,4 +1,4 @@
-#include "nodes/camera_ingest_outputs.h"
+#include "nodes/camera_ingest/camera_ingest_outputs.h"
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>

@@ -1,4 +1,4 @@
-#include "nodes/camera_ingest_node.h"
+#include "nodes/camera_ingest/camera_ingest_node.h"
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/ros_parameters.h"

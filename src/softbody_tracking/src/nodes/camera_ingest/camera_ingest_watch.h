@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/wall_throttle.h"
+#include "nodes/camera_ingest/wall_throttle.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/camera/stream_monitor.h"
 

@@ -1,4 +1,4 @@
-#include "nodes/feature_tracker_node.h"
+#include "nodes/feature_tracker/feature_tracker_node.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <fmt/format.h>

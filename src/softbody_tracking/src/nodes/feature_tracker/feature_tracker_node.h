@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "nodes/mask_input.h"
+#include "nodes/feature_tracker/mask_input.h"
 #include "nodes/output_frame.h"
 #include "nodes/rectified_input.h"
 #include "softbody_common/parameters.h"

@@ -1,4 +1,4 @@
-#include "nodes/mask_input.h"
+#include "nodes/feature_tracker/mask_input.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>

@@ -1,4 +1,4 @@
-#include "nodes/feature_tracker_node.h"
+#include "nodes/feature_tracker/feature_tracker_node.h"
 #include "softbody_common/ros/run_node.h"
 
 int main(int argc, char** argv) {

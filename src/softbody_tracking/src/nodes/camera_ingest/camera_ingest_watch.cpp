@@ -1,4 +1,4 @@
-#include "nodes/camera_ingest_watch.h"
+#include "nodes/camera_ingest/camera_ingest_watch.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "nodes/pose_marker_node.h"
+#include "nodes/pose_marker/pose_marker_node.h"
 #include "softbody_common/ros/run_node.h"
 
 int main(int argc, char** argv) {

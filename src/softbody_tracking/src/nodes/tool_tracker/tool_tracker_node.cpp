@@ -1,4 +1,4 @@
-#include "nodes/tool_tracker_node.h"
+#include "nodes/tool_tracker/tool_tracker_node.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <geometry_msgs/PolygonStamped.h>

@@ -1,4 +1,4 @@
-#include "nodes/pose_marker_node.h"
+#include "nodes/pose_marker/pose_marker_node.h"
 
 #include <softbody_msgs/SetPose.h>
 
