@@ -6,7 +6,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kPoll_s = 0.002;
+constexpr double kPoll_s = 0.002;  // [s] between two looks at the tf buffer; short against a frame's 33 ms
 
 }  // namespace
 
@@ -15,19 +15,34 @@ OutputFrame::OutputFrame(Parameters& parameters)
       timeout_s_(parameters.number("tf_timeout_s", 0.05, 0.0, 5.0)),
       listener_(buffer_) {}
 
-/// Waits in wall time: the time of a bag that is held would never run out.
-Eigen::Isometry3d OutputFrame::lookUp(const std::string& target, const std::string& source,
-                                      const ros::Time& stamp, double patience_s) const {
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(patience_s);
-  while (!buffer_.canTransform(target, source, stamp) && ros::ok() && ros::WallTime::now() < deadline) {
-    ros::WallDuration(kPoll_s).sleep();
-  }
-  return tf2::transformToEigen(buffer_.lookupTransform(target, source, stamp));
+std_msgs::Header OutputFrame::fixedHeader(const std_msgs::Header& camera_header) const {
+  std_msgs::Header header = camera_header;
+  if (!name_.empty()) header.frame_id = name_;
+  return header;
 }
 
-Eigen::Isometry3d OutputFrame::poseOf(const std_msgs::Header& header) const {
-  if (name_.empty() || name_ == header.frame_id) return Eigen::Isometry3d::Identity();
-  return lookUp(name_, header.frame_id, header.stamp, timeout_s_);
+Eigen::Isometry3d OutputFrame::cameraPose(const std_msgs::Header& camera_header) const {
+  return poseOf(camera_header, camera_header.frame_id, timeout_s_);
+}
+
+Eigen::Isometry3d OutputFrame::poseOf(const std_msgs::Header& header, const std::string& camera_frame,
+                                      double timeout_s) const {
+  const std::string& fixed = name_.empty() ? camera_frame : name_;
+  std_msgs::Header source = header;
+  if (source.frame_id.empty()) source.frame_id = camera_frame;
+  if (source.frame_id == fixed) return Eigen::Isometry3d::Identity();
+  return lookUp(fixed, source, timeout_s);
+}
+
+/// Waits in wall time: ROS time does not advance while a bag is paused.
+Eigen::Isometry3d OutputFrame::lookUp(const std::string& target, const std_msgs::Header& source,
+                                      double timeout_s) const {
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(timeout_s);
+  while (!buffer_.canTransform(target, source.frame_id, source.stamp) && ros::ok() &&
+         ros::WallTime::now() < deadline) {
+    ros::WallDuration(kPoll_s).sleep();
+  }
+  return tf2::transformToEigen(buffer_.lookupTransform(target, source.frame_id, source.stamp));
 }
 
 }  // namespace softbody

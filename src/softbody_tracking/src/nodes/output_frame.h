@@ -12,23 +12,31 @@
 
 namespace softbody {
 
-/// The frame that stands still, in which bodies and tools are followed, and where tf says that others are in
-/// it.
+/// The fixed frame of bodies and tools: the parameter `output_frame`, or the camera's own frame if that is
+/// empty.
 class OutputFrame {
  public:
   /// Reads `output_frame` and `tf_timeout_s`. @throw std::invalid_argument as Parameters does.
   explicit OutputFrame(Parameters& parameters);
 
-  /// Empty: the camera's own frame.
+  /// The parameter; empty: the camera's own frame.
   const std::string& name() const { return name_; }
-  /// A header's frame in this one at its stamp; identity where this one is the camera's own.
-  /// @throw tf2::TransformException where tf does not tell it in time.
-  Eigen::Isometry3d poseOf(const std_msgs::Header& header) const;
-  /// T_target_source. @throw tf2::TransformException where tf does not know it within the patience.
-  Eigen::Isometry3d lookUp(const std::string& target, const std::string& source, const ros::Time& stamp,
-                           double patience_s) const;
+
+  /// The camera's header with the fixed frame as its frame_id.
+  std_msgs::Header fixedHeader(const std_msgs::Header& camera_header) const;
+
+  /// T_fixed_camera at the header's stamp. @throw tf2::TransformException if tf does not know it in time.
+  Eigen::Isometry3d cameraPose(const std_msgs::Header& camera_header) const;
+
+  /// T_fixed_frame of any frame at the header's stamp. @param header an empty frame_id means the camera's
+  /// frame.
+  /// @throw tf2::TransformException if tf does not know it within timeout_s.
+  Eigen::Isometry3d poseOf(const std_msgs::Header& header, const std::string& camera_frame,
+                           double timeout_s) const;
 
  private:
+  Eigen::Isometry3d lookUp(const std::string& target, const std_msgs::Header& source, double timeout_s) const;
+
   std::string name_;
   double timeout_s_;
   tf2_ros::Buffer buffer_;

@@ -4,15 +4,12 @@
 
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_tracking/ros/pose_marker_message.h"
 
 namespace softbody {
 namespace {
 
-constexpr char kTopics[] = "pose_marker";
-constexpr char kService[] = "feature_tracker/set_pose";
-constexpr double kPatience_s = 5.0;
-constexpr double kAhead_m = 0.5;  // of the camera, where no pose is known
+constexpr char kService[] = "feature_tracker/set_pose";  // ~set_pose of the feature tracker in this namespace
+constexpr double kWarningPeriod_s = 5.0;                 // [s] between two warnings about a missing input
 
 bool isGiven(const geometry_msgs::Pose& pose) {
   const geometry_msgs::Quaternion& q = pose.orientation;
@@ -22,30 +19,27 @@ bool isGiven(const geometry_msgs::Pose& pose) {
 }  // namespace
 
 PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle)
-    : server_(handle.resolveName(kTopics)) {
+    : set_pose_(handle.serviceClient<softbody_msgs::SetPose>(kService)),
+      marker_(handle, [this](const auto& feedback) { restartTracking(feedback); }) {
   Parameters parameters = readParameters(private_handle);
   frame_ = parameters.text("frame", "");
   warnUnknown(parameters);
-  start_.position.z = kAhead_m;
-  start_.orientation.w = 1.0;
-  menu_.insert("track from here",
-               [this](const visualization_msgs::InteractiveMarkerFeedbackConstPtr& f) { track(*f); });
-  set_pose_ = handle.serviceClient<softbody_msgs::SetPose>(kService);
   volume_topology_subscriber_ =
       handle.subscribe(topics::kVolumeTopology, 1, &PoseMarkerNode::onVolumeTopology, this);
   surface_topology_subscriber_ =
       handle.subscribe(topics::kSurfaceTopology, 1, &PoseMarkerNode::onSurfaceTopology, this);
   if (frame_.empty()) info_subscriber_ = handle.subscribe(topics::kRgbInfo, 1, &PoseMarkerNode::onInfo, this);
-  // Wall time: the time of a bag that is held stands still.
-  watch_timer_ = handle.createWallTimer(ros::WallDuration(kPatience_s), [this](const auto&) { watch(); });
+  // A wall timer: ROS time does not advance while a bag is paused.
+  warning_timer_ =
+      handle.createWallTimer(ros::WallDuration(kWarningPeriod_s), [this](const auto&) { warnIfNotShown(); });
 }
 
-/// The marker needs the body's shape and a frame to stand in.
-void PoseMarkerNode::watch() {
-  if (mesh_) return watch_timer_.stop();
-  const bool framed = !frame_.empty();
-  const ros::Subscriber& missing = framed ? surface_topology_subscriber_ : info_subscriber_;
-  ROS_WARN_STREAM("the marker waits for " << (framed ? "the body's shape, " : "the images' frame, ")
+/// The marker needs the body's shape and a frame.
+void PoseMarkerNode::warnIfNotShown() {
+  if (marker_.isShown()) return warning_timer_.stop();
+  const bool has_frame = !frame_.empty();
+  const ros::Subscriber& missing = has_frame ? surface_topology_subscriber_ : info_subscriber_;
+  ROS_WARN_STREAM("the marker waits for " << (has_frame ? "the body's shape, " : "the images' frame, ")
                                           << missing.getTopic()
                                           << " (publishers: " << missing.getNumPublishers() << ")");
 }
@@ -56,43 +50,20 @@ void PoseMarkerNode::onInfo(const sensor_msgs::CameraInfo::ConstPtr& message) {
 }
 
 void PoseMarkerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) {
-  volume_topology_subscriber_.shutdown();  // only for where to begin
-  if (!isGiven(message->initial_pose)) return;
-  start_ = message->initial_pose;
-  if (!mesh_) return;
-  server_.setPose("body", start_);
-  server_.applyChanges();
+  volume_topology_subscriber_.shutdown();  // only its initial pose is used
+  if (isGiven(message->initial_pose)) marker_.setStartPose(message->initial_pose);
 }
 
 void PoseMarkerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
-  // The topology is sent again every second: then the camera's frame may be known, and only a new one counts.
-  if (frame_.empty()) return;
-  if (mesh_ && mesh_->revision == message->revision && mesh_->rest_vertices == message->rest_vertices &&
-      mesh_->triangles == message->triangles)
-    return;
-  geometry_msgs::PoseStamped pose;
-  pose.header.frame_id = frame_;
-  pose.pose = start_;
-  visualization_msgs::InteractiveMarker shown;
-  if (server_.get("body", shown)) {
-    pose.header = shown.header;
-    pose.pose = shown.pose;
-  }
-  // Further clients see it move, too.
-  server_.insert(makePoseMarker(*message, pose),
-                 [this](const visualization_msgs::InteractiveMarkerFeedbackConstPtr& feedback) {
-                   if (feedback->event_type == feedback->POSE_UPDATE) server_.applyChanges();
-                 });
-  menu_.apply(server_, "body");
-  server_.applyChanges();
-  mesh_ = message;
+  // Without a frame the marker waits: the topology is sent again every second.
+  if (!frame_.empty()) marker_.show(message, frame_);
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, surface_topology_subscriber_.getTopic() << " is unusable: " << error.what());
 }
 
-void PoseMarkerNode::track(const visualization_msgs::InteractiveMarkerFeedback& feedback) {
+void PoseMarkerNode::restartTracking(const PoseMarker::Feedback& feedback) {
   softbody_msgs::SetPose call;
-  call.request.pose.header.frame_id = feedback.header.frame_id;  // at whatever time tf knows it
+  call.request.pose.header.frame_id = feedback.header.frame_id;  // stamp 0: the latest transform counts
   call.request.pose.pose = feedback.pose;
   if (!set_pose_.call(call)) {
     ROS_WARN_STREAM("the service " << set_pose_.getService() << " does not answer");

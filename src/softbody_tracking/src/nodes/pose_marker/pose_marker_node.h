@@ -1,7 +1,5 @@
 #pragma once
 
-#include <interactive_markers/interactive_marker_server.h>
-#include <interactive_markers/menu_handler.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <softbody_msgs/MeshTopology.h>
@@ -9,10 +7,11 @@
 
 #include <string>
 
+#include "nodes/pose_marker/pose_marker.h"
+
 namespace softbody {
 
-/// The body as an interactive marker of rviz: whoever moves it where the body is, and picks "track from here"
-/// in its menu, starts tracking anew there.
+/// Lets the user move a marker of the body in rviz and restart the tracking at its pose.
 class PoseMarkerNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
@@ -22,17 +21,15 @@ class PoseMarkerNode {
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
   void onInfo(const sensor_msgs::CameraInfo::ConstPtr& message);
-  void watch();
-  void track(const visualization_msgs::InteractiveMarkerFeedback& feedback);
+  void warnIfNotShown();
+  void restartTracking(const PoseMarker::Feedback& feedback);
 
-  std::string frame_;                           ///< empty until the camera's is known
-  softbody_msgs::MeshTopology::ConstPtr mesh_;  ///< that is shown
-  geometry_msgs::Pose start_;                   ///< where it stands first
-  interactive_markers::InteractiveMarkerServer server_;
-  interactive_markers::MenuHandler menu_;
+  // Subscribers and timers come last, so that they are the first to be destroyed.
+  std::string frame_;  ///< of the marker; empty until the camera's is known
   ros::ServiceClient set_pose_;
+  PoseMarker marker_;
   ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, info_subscriber_;
-  ros::WallTimer watch_timer_;
+  ros::WallTimer warning_timer_;
 };
 
 }  // namespace softbody

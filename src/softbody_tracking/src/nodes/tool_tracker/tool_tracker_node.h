@@ -2,15 +2,16 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_broadcaster.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 
+#include "nodes/frame_watchdog.h"
+#include "nodes/node_diagnostics.h"
 #include "nodes/output_frame.h"
-#include "nodes/rectified_input.h"
-#include "softbody_tracking/ros/blade_trail.h"
+#include "nodes/rectified_image_subscriber.h"
+#include "nodes/tool_tracker/tool_publisher.h"
+#include "softbody_common/parameters.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 #include "softbody_tracking/tool/tool_watch.h"
 
@@ -23,28 +24,27 @@ class ToolTrackerNode {
   ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
-  void onFrame(const RectifiedImages& images);
-  void place(const std_msgs::Header& header, RgbdFrame* frame);
-  void publish(const std_msgs::Header& header, const RgbdFrame& frame);
-  void publishBlade(const std_msgs::Header& header, const RgbdFrame& frame);
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                  Parameters parameters);
 
-  ros::NodeHandle handle_;
-  std::string tool_frame_;
-  std::unique_ptr<OutputFrame> output_frame_;
-  std::unique_ptr<ToolTracker> tracker_;
+  void onFrame(const RectifiedImages& images);
+  void placeCamera(const std_msgs::Header& header, RgbdFrame* frame);
+  void publish(const std_msgs::Header& header, const RgbdFrame& frame);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void diagnoseObservation(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  // Subscribers and timers come last, so that they are the first to be destroyed.
+  OutputFrame output_frame_;
+  ToolTracker tracker_;
+  ToolPublisher publisher_;
   ToolWatch watch_;
   std::optional<ToolObservation> last_;  ///< of the last frame
-  ros::Time last_arrival_;               ///< when it came
-  std::string unusable_;                 ///< why the last frame could not be used; empty: it could
-  std::string not_placed_;               ///< why tf does not place the last frame's camera; empty: it does
+  std::string frame_error_;              ///< why the last frame could not be used; empty: it could
+  std::string tf_error_;  ///< why tf gave no pose of the camera for the last frame; empty: it did
+  FrameWatchdog watchdog_;
 
-  tf2_ros::TransformBroadcaster tf_broadcaster_;
-  std::optional<BladeTrail> trail_;  ///< of a tool with a blade
-  ros::Publisher pose_, blade_, marker_, timing_;
-  std::optional<RectifiedInput> images_;
-  diagnostic_updater::Updater diagnostics_;
-  ros::WallTimer diagnostics_timer_;
+  RectifiedImageSubscriber images_;
+  NodeDiagnostics diagnostics_;
 };
 
 }  // namespace softbody

@@ -7,35 +7,29 @@
 #include <sensor_msgs/Image.h>
 
 #include <functional>
-#include <utility>
 
-#include "softbody_common/topics.h"
+#include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
 
-/// What camera_ingest made of a frame, with one stamp.
+/// One frame from camera_ingest. The three messages have the same stamp.
 struct RectifiedImages {
   sensor_msgs::ImageConstPtr color, depth;
   sensor_msgs::CameraInfoConstPtr info;
 };
 
-/// Listens to camera_ingest.
-class RectifiedInput {
+/// The images as a frame whose T_fixed_camera is the identity. The frame may share the messages' memory, so
+/// the messages must outlive it. @throw cv_bridge::Exception or std::invalid_argument for malformed messages.
+RgbdFrame frameFromImages(const RectifiedImages& images);
+
+/// Receives frames from camera_ingest.
+class RectifiedImageSubscriber {
  public:
   using Callback = std::function<void(const RectifiedImages& images)>;
 
-  RectifiedInput(ros::NodeHandle handle, Callback callback)
-      : callback_(std::move(callback)),
-        color_(handle, topics::kRgbRect, 1),
-        depth_(handle, topics::kDepthRect, 1),
-        info_(handle, topics::kRgbInfo, 1),
-        synchronizer_(color_, depth_, info_, kQueue) {
-    synchronizer_.registerCallback(&RectifiedInput::onImages, this);
-  }
+  RectifiedImageSubscriber(ros::NodeHandle handle, Callback callback);
 
  private:
-  static constexpr int kQueue = 4;
-
   void onImages(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                 const sensor_msgs::CameraInfoConstPtr& info) {
     callback_({color, depth, info});

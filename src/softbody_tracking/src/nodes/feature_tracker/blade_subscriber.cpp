@@ -1,0 +1,52 @@
+#include "nodes/feature_tracker/blade_subscriber.h"
+
+#include <fmt/format.h>
+#include <tf2/exceptions.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/topics.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kSubscriberQueue = 100;  // blades that may arrive while one frame is tracked
+
+}  // namespace
+
+BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up) : look_up_(std::move(look_up)) {
+  subscriber_ = handle.subscribe(topics::kToolBlade, kSubscriberQueue, &BladeSubscriber::onBlade, this);
+}
+
+void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {
+  blades_.add(
+      {toNanoseconds(message->header.stamp), message->header.frame_id, fromMessage(message->polygon)});
+}
+
+RgbdFrame BladeSubscriber::withoutBlade(const RgbdFrame& frame) {
+  std::string reason;  // of the oldest blade without a pose
+  const auto pose = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
+    std_msgs::Header header;
+    header.stamp = toTime(blade.stamp);
+    header.frame_id = blade.frame_id;
+    try {
+      return look_up_(header);
+    } catch (const tf2::TransformException& error) {
+      if (reason.empty()) reason = error.what();
+      return std::nullopt;
+    }
+  };
+  const BladeQueue::Unused unused = blades_.show(frame.stamp, pose, &mask_);
+  if (unused.lost > 0) ROS_WARN_STREAM_THROTTLE(5.0, "the blade's pose is unknown: " << reason);
+  if (unused.ahead > 0)
+    ROS_WARN_STREAM_THROTTLE(
+        5.0, fmt::format("the blade does not cover the body: its stamp is {:.1f} s ahead of the frame's. "
+                         "Both must come from one clock",
+                         1e-9 * static_cast<double>(unused.ahead)));
+  return mask_.without(frame);
+}
+
+}  // namespace softbody

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/MeshTopology.h>
+#include <softbody_msgs/TetTopology.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "softbody_tracking/tracker/body_tracker.h"
+
+namespace softbody {
+
+/// Receives the simulated body: the topologies of volume and surface, which it gives to the tracker, and the
+/// state.
+class BodySubscriber {
+ public:
+  /// @param tracker must outlive this.
+  BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker);
+
+  /// The newest state with the tracker's topology; nothing if there is none or if it is malformed.
+  std::optional<MeshState> state() const;
+
+  /// Forgets all states, for when time has jumped back.
+  void clearStates();
+
+ private:
+  void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
+  void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
+  void onState(const softbody_msgs::MeshState::ConstPtr& message);
+  void adoptTopologies();
+
+  BodyTracker* tracker_;
+  std::optional<TetTopology> volume_;                                ///< newest topology
+  std::optional<MeshTopology> surface_;                              ///< newest topology
+  std::uint32_t adopted_revision_ = 0;                               ///< of the tracker's topologies
+  softbody_msgs::MeshState::ConstPtr newest_state_, adopted_state_;  ///< of any, and of the adopted revision
+  ros::Subscriber volume_subscriber_, surface_subscriber_, state_subscriber_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,73 @@
+#include "nodes/feature_tracker/mask_synchronizer.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/topics.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kSubscriberQueue = 10;     // masks: a segmentation of several frames sends them at once
+constexpr double kTimerPeriod_s = 0.01;  // [s] between two checks for timeouts; short against a frame's 33 ms
+
+}  // namespace
+
+cv::Mat1f maskedDepth(const cv::Mat1f& depth, const cv::Mat1b& mask) {
+  if (mask.size() != depth.size()) {
+    throw std::invalid_argument("the mask is " + std::to_string(mask.cols) + "x" + std::to_string(mask.rows) +
+                                ", the rectified image " + std::to_string(depth.cols) + "x" +
+                                std::to_string(depth.rows));
+  }
+  cv::Mat1f result(depth.size(), 0.0f);
+  depth.copyTo(result, mask);
+  return result;
+}
+
+MaskSynchronizer::MaskSynchronizer(ros::NodeHandle handle, double timeout_s, Callback callback)
+    : callback_(std::move(callback)), timeout_s_(timeout_s), queue_(timeout_s) {
+  subscriber_ = handle.subscribe(topics::kMask, kSubscriberQueue, &MaskSynchronizer::onMask, this);
+  timer_ = handle.createWallTimer(ros::WallDuration(kTimerPeriod_s),
+                                  [this](const ros::WallTimerEvent&) { passReadyFrames(); });
+}
+
+void MaskSynchronizer::addFrame(const RectifiedImages& images) {
+  queue_.addFrame(toNanoseconds(images.color->header.stamp), images, ros::WallTime::now().toSec());
+  passReadyFrames();
+}
+
+void MaskSynchronizer::onMask(const sensor_msgs::ImageConstPtr& message) try {
+  // A copy: the queue may keep the mask longer than the message lives.
+  const cv::Mat1b mask = cv_bridge::toCvCopy(message, sensor_msgs::image_encodings::MONO8)->image;
+  queue_.addMask(toNanoseconds(message->header.stamp), mask);
+  passReadyFrames();
+} catch (const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(5.0, subscriber_.getTopic() << " is unusable: " << error.what());
+}
+
+void MaskSynchronizer::passReadyFrames() {
+  while (const auto ready = queue_.ready(ros::WallTime::now().toSec())) {
+    if (!ready->mask) {
+      ROS_WARN_STREAM_THROTTLE(5.0, "frame " << ready->frame.color->header.stamp
+                                             << " is tracked without a mask: no mask on "
+                                             << subscriber_.getTopic() << " within " << timeout_s_
+                                             << " s, or only the mask of a later frame");
+    }
+    callback_(ready->frame, ready->mask.value_or(cv::Mat1b()));
+  }
+}
+
+std::unique_ptr<MaskSynchronizer> makeMaskSynchronizer(const ros::NodeHandle& handle, Parameters& parameters,
+                                                       MaskSynchronizer::Callback callback) {
+  const bool use_mask = parameters.flag("use_mask", false);
+  const double timeout_s = parameters.number("mask_timeout_s", 0.3, 0.0, 5.0);
+  if (!use_mask) return nullptr;
+  return std::make_unique<MaskSynchronizer>(handle, timeout_s, std::move(callback));
+}
+
+}  // namespace softbody

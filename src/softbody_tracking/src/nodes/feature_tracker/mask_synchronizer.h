@@ -1,0 +1,45 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <sensor_msgs/Image.h>
+
+#include <functional>
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "camera/mask_queue.h"
+#include "nodes/rectified_image_subscriber.h"
+#include "softbody_common/parameters.h"
+
+namespace softbody {
+
+/// Depth where the mask is not zero, 0 elsewhere. @throw std::invalid_argument if the sizes differ.
+cv::Mat1f maskedDepth(const cv::Mat1f& depth, const cv::Mat1b& mask);
+
+/// Holds each frame until its segmentation mask arrives on the topic `mask`. Warns about frames without a
+/// mask.
+class MaskSynchronizer {
+ public:
+  /// @param mask empty if none arrived in time.
+  using Callback = std::function<void(const RectifiedImages& images, const cv::Mat1b& mask)>;
+
+  MaskSynchronizer(ros::NodeHandle handle, double timeout_s, Callback callback);
+  void addFrame(const RectifiedImages& images);
+
+ private:
+  void onMask(const sensor_msgs::ImageConstPtr& message);
+  void passReadyFrames();
+
+  Callback callback_;
+  double timeout_s_;
+  MaskQueue<RectifiedImages, cv::Mat1b> queue_;
+  ros::Subscriber subscriber_;
+  ros::WallTimer timer_;
+};
+
+/// Reads `use_mask` and `mask_timeout_s`. @return nullptr if no masks are used.
+/// @throw std::invalid_argument as Parameters does.
+std::unique_ptr<MaskSynchronizer> makeMaskSynchronizer(const ros::NodeHandle& handle, Parameters& parameters,
+                                                       MaskSynchronizer::Callback callback);
+
+}  // namespace softbody
