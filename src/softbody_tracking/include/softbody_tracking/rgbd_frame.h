@@ -13,11 +13,11 @@ struct RgbdFrame {
   Nanoseconds stamp = 0;
   Pinhole camera;
   cv::Mat3b color;  ///< BGR
-  cv::Mat1f depth;  ///< z [m]; 0: none
-  /// The camera in the frame that stands still, in which the body is simulated; identity: the camera's own.
+  cv::Mat1f depth;  ///< z [m]; 0: no depth
+  /// The camera's pose in the fixed frame, in which the body is simulated. The identity if that is the camera's.
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
-  bool placed = true;      ///< false: where the camera is in that frame is not known
-  cv::Mat1b covered = {};  ///< not 0: something known stands before the body; empty: nothing does
+  bool placed = true;      ///< false: T_fixed_camera is unknown
+  cv::Mat1b covered = {};  ///< not 0: a known object, such as the blade, occludes the body; empty: no such object
 };
 
 }  // namespace softbody

@@ -31,7 +31,7 @@ void checkImages(const cv::Mat3b& color, const cv::Mat& depth, const Pinhole& ca
   }
 }
 
-/// NaN fails both comparisons.
+/// Depth in metres, and 0 for depth out of range. NaN fails both comparisons.
 template <typename Depth>
 void metresInRange(const cv::Mat& depth, float unit_m, float min, float max, cv::Mat1f* metres) {
   metres->create(depth.size());
@@ -68,7 +68,7 @@ struct CameraIngest::Implementation {
     filter.apply(metres, result);
   }
 
-  /// Frames are handed on, so their depth has memory of its own; what lies between is kept for the next one.
+  /// The result has its own memory, because the caller keeps it. Intermediate images are reused.
   cv::Mat1f rectifiedDepth(const cv::Mat& raw) {
     cv::Mat1f result;
     if (rectifier.isIdentity()) {

@@ -6,10 +6,10 @@
 namespace softbody {
 namespace {
 
-constexpr int kSupport = 2;
-constexpr float kDiagonal = 1.5f;
+constexpr int kMinNearNeighbors = 2;   // of eight: a thin wire has two, a stray pixel has none
+constexpr float kDiagonalFactor = 1.5f;  // diagonal neighbours are sqrt(2) pixels away; rounded up
 
-/// z lies between the two and far from both.
+/// Whether z lies between a and b and is near neither.
 int isStep(float a, float b, float z, float reach) {
   const float nearer = std::min(a, b), farther = std::max(a, b);
   return static_cast<int>(nearer > 0.0f) & static_cast<int>(nearer < z - reach) &
@@ -22,7 +22,7 @@ int isNear(float neighbor, float z, float reach) { return static_cast<int>(std::
 void filterRow(const float* __restrict above, const float* __restrict row, const float* __restrict below,
                float ratio, int width, float* __restrict result) {
   for (int i = 0; i < width; ++i) {
-    const float z = row[i + 1], reach = ratio * z, diagonal = kDiagonal * reach;
+    const float z = row[i + 1], reach = ratio * z, diagonal = kDiagonalFactor * reach;
     const int support = isNear(row[i], z, reach) + isNear(row[i + 2], z, reach) +
                         isNear(above[i + 1], z, reach) + isNear(below[i + 1], z, reach) +
                         isNear(above[i], z, diagonal) + isNear(above[i + 2], z, diagonal) +
@@ -30,7 +30,7 @@ void filterRow(const float* __restrict above, const float* __restrict row, const
     const int steps = isStep(row[i], row[i + 2], z, reach) | isStep(above[i + 1], below[i + 1], z, reach) |
                       isStep(above[i], below[i + 2], z, diagonal) |
                       isStep(above[i + 2], below[i], z, diagonal);
-    const int keep = static_cast<int>(support >= kSupport) & (1 - steps);
+    const int keep = static_cast<int>(support >= kMinNearNeighbors) & (1 - steps);
     result[i] = z * static_cast<float>(keep);
   }
 }

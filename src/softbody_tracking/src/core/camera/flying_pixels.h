@@ -4,18 +4,16 @@
 
 namespace softbody {
 
-/// Removes depths that sensors invent between two surfaces. With "near" meaning within ratio * z (half as
-/// much again along a diagonal, whose pixels are further apart), a pixel stays if
-/// - at least two of its eight neighbours are near: a thin wire has them along itself, a stray pixel has not;
-/// and
-/// - along row, column and diagonals it is no step between a nearer and a farther neighbour neither of which
-/// is near:
-///   a ramp across an edge. An object in front of the background has farther neighbours on both sides.
+/// Removes flying pixels: false depths that a sensor gives between two surfaces. Two pixels are near each other
+/// if their depths differ by less than ratio * z, or 1.5 times that along a diagonal. A pixel is kept if
+/// - at least two of its eight neighbours are near it, as along a thin wire; and
+/// - in no direction (row, column, diagonals) it lies between a nearer and a farther neighbour, both of them not
+///   near: that is a ramp across a depth edge. A real object before the background has farther neighbours only.
 class FlyingPixelFilter {
  public:
   explicit FlyingPixelFilter(double ratio) : ratio_(static_cast<float>(ratio)) {}
 
-  /// @param depth [m], 0: none. @param result its memory is reused when the size fits.
+  /// @param depth [m]; 0: no depth. @param result its memory is reused if it has the right size.
   void apply(const cv::Mat1f& depth, cv::Mat1f* result);
 
  private:

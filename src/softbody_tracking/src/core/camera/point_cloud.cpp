@@ -24,7 +24,7 @@ ColoredPoint meanOf(const Voxel& sum) {
           packed(sum.red / n, sum.green / n, sum.blue / n)};
 }
 
-/// 21 bits a coordinate: +-1000 m at 1 mm.
+/// 21 bits for each coordinate: +-1000 m at a voxel size of 1 mm.
 std::uint64_t voxelKey(const Eigen::Vector3d& point, double size) {
   std::uint64_t key = 0;
   for (int k = 0; k < 3; ++k) {
@@ -65,7 +65,7 @@ std::vector<ColoredPoint> voxelCloud(const RgbdFrame& frame, double voxel_size_m
       if (z <= 0.0) continue;
       const Eigen::Vector3d p = frame.camera.unproject(u, v, z);
       const std::uint64_t key = voxelKey(p, voxel_size_m);
-      // Pixels side by side mostly share their voxel.
+      // Neighbouring pixels mostly share a voxel: this saves the look-up.
       if (voxels.empty() || key != last_key) {
         const auto [entry, is_new] = index.emplace(key, voxels.size());
         if (is_new) voxels.emplace_back();

@@ -20,10 +20,11 @@ cv::Matx33d cameraMatrix(const Pinhole& camera) {
   return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
 }
 
-bool leavesPixels(const Distortion& distortion, const Pinhole& rectified) {
-  const bool straight = std::all_of(distortion.coefficients.begin(), distortion.coefficients.end(),
+/// Whether raw and rectified image are the same.
+bool isAlreadyRectified(const Distortion& distortion, const Pinhole& rectified) {
+  const bool undistorted = std::all_of(distortion.coefficients.begin(), distortion.coefficients.end(),
                                     [](double c) { return c == 0.0; });
-  if (!straight || distortion.fisheye) return false;
+  if (!undistorted || distortion.fisheye) return false;
   const bool no_calibration = distortion.K(0, 0) == 0.0;
   return no_calibration || (distortion.R == cv::Matx33d::eye() && distortion.K == cameraMatrix(rectified));
 }
@@ -31,9 +32,9 @@ bool leavesPixels(const Distortion& distortion, const Pinhole& rectified) {
 void checkRotation(const cv::Matx33d& R, const cv::Matx33d& K) {
   const double centre[] = {K(0, 2), K(1, 2)};
   const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]);
-  // Negated so that NaN is refused too.
+  // The comparison is negated so that NaN is refused too.
   if (!finite || !(std::abs(cv::determinant(R) - 1.0) < 1e-3)) {
-    throw std::invalid_argument("camera_info: the centre in K is not finite, or R is no rotation");
+    throw std::invalid_argument("camera_info: the centre in K is not finite, or R is not a rotation");
   }
 }
 
@@ -55,7 +56,7 @@ void check(const Distortion& distortion) {
   checkRotation(distortion.R, distortion.K);
 }
 
-/// z of a point in the rectified frame per z in the raw frame, for every rectified pixel.
+/// z of a point in the rectified frame divided by its z in the raw frame, for each rectified pixel.
 cv::Mat1f rotatedDepthScale(const cv::Matx33d& R, const Pinhole& camera) {
   cv::Mat1f scale(camera.height, camera.width);
   for (int v = 0; v < scale.rows; ++v) {
@@ -72,7 +73,7 @@ cv::Mat1f rotatedDepthScale(const cv::Matx33d& R, const Pinhole& camera) {
 
 void Rectifier::setCamera(const Distortion& distortion, const Pinhole& rectified) {
   if (distortion == distortion_ && rectified == rectified_) return;
-  const bool identity = leavesPixels(distortion, rectified);
+  const bool identity = isAlreadyRectified(distortion, rectified);
   if (!identity) check(distortion);
   distortion_ = distortion;
   rectified_ = rectified;

@@ -6,17 +6,17 @@
 
 namespace softbody {
 
-/// Resamples images of one camera onto its rectified pinhole; the maps are made once for a camera.
+/// Resamples images onto the rectified pinhole camera. The maps are computed only when the camera changes.
 class Rectifier {
  public:
-  /// @throw std::invalid_argument if the distortion makes no sense.
+  /// @throw std::invalid_argument if the distortion is invalid.
   void setCamera(const Distortion& distortion, const Pinhole& rectified);
 
   bool isIdentity() const { return identity_; }
-  /// Bilinear; black outside. The same image where there is nothing to rectify.
+  /// Bilinear interpolation; black outside of the raw image. Returns raw itself if it is already rectified.
   cv::Mat3b color(const cv::Mat3b& raw) const;
-  /// Nearest, as depths of two surfaces must not be mixed; 0 outside. z is turned into the rectified frame
-  /// (R).
+  /// Nearest neighbour, because depths of two surfaces must not be mixed; 0 outside of the raw image. z is given
+  /// in the rectified camera frame (R).
   cv::Mat1f depth(const cv::Mat1f& raw) const;
 
  private:
@@ -26,7 +26,7 @@ class Rectifier {
   Pinhole rectified_;
   bool identity_ = true;
   cv::Mat bilinear_, bilinear_fraction_, nearest_;
-  cv::Mat1f depth_scale_;  ///< rectified z per raw z; empty where R is the identity
+  cv::Mat1f depth_scale_;  ///< rectified z divided by raw z; empty if R is the identity
 };
 
 }  // namespace softbody
