@@ -8,8 +8,8 @@ constexpr double kPeriod_s = 1.0;  // [s] the usual rate of /diagnostics, 1 Hz
 }  // namespace
 
 NodeDiagnostics::NodeDiagnostics(ros::NodeHandle handle, const ros::NodeHandle& private_handle,
-                                 const std::string& node_name, const std::string& task, const Report& report)
-    : updater_(handle, private_handle, node_name) {
+                                 const std::string& task, const Report& report)
+    : updater_(handle, private_handle, private_handle.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add(task, report);
   // force_update() on a wall timer: update() uses ROS time, which stops or jumps back with a bag.

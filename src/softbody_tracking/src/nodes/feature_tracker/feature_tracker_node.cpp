@@ -34,8 +34,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       mask_synchronizer_(makeMaskSynchronizer(
           handle, parameters, [this](const auto& images, const auto& mask) { track(images, mask); })),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
-      diagnostics_(handle, private_handle, ros::this_node::getName(), "tracking",
-                   [this](auto& status) { diagnose(status); }) {
+      diagnostics_(handle, private_handle, "tracking", [this](auto& status) { diagnose(status); }) {
   warnUnknown(parameters);
 }
 

@@ -25,8 +25,7 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
       tracker_(loadTool(parameters), readToolTrackerConfig(parameters)),
       publisher_(handle, tracker_.tool().blade, parameters.text("tool_frame", "tool")),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
-      diagnostics_(handle, private_handle, private_handle.getNamespace(), "tool",
-                   [this](auto& status) { diagnose(status); }) {
+      diagnostics_(handle, private_handle, "tool", [this](auto& status) { diagnose(status); }) {
   warnUnknown(parameters);
 }
 
