@@ -5,7 +5,7 @@
 #include "softbody_common/run_tool.h"
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/input_bag.h"
-#include "softbody_tracking/tool/tool_check.h"
+#include "softbody_tracking/tool/tool_calibration_check.h"
 
 int main(int argc, char** argv) {
   std::string input, tool;
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   return softbody::runTool(&app, argc, argv, [&] {
     const softbody::ToolDescription description = softbody::loadToolDescription(tool);
     for (const std::string& warning : description.warnings) fmt::print(stderr, "check_tool: {}\n", warning);
-    softbody::ToolCheck check(description);
+    softbody::ToolCalibrationCheck check(description);
     const rosbag::Bag bag = softbody::openBag(input);
     softbody::CameraIngest ingest{softbody::CameraIngestConfig()};
     softbody::ProgressLine progress("check_tool");
@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
       check.add(frame);
       progress(share);
     });
-    const softbody::ToolCheckReport report = check.report();
+    const softbody::ToolCalibrationReport report = check.report();
     fmt::print("frames {}, tool seen {}\nreprojection {:.2f} px\nnoise {:.2f} mm\n", report.frames,
                report.seen, report.reprojection_px, 1e3 * report.noise_m);
     if (report.depth_ratio > 0.0) fmt::print("measured / computed depth {:.3f}\n", report.depth_ratio);

@@ -109,11 +109,11 @@ TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
   }
 }
 
-/// Weights by its own noise alone.
+/// Sum of the weights, downweighted by the noise of this frame alone.
 double totalWeight(DepthAssociations found, double volume_edge_m) {
-  DepthNoise noise;
-  noise.learn(found.noise);
-  weighByNoise(noise.over(volume_edge_m) / volume_edge_m, &found);
+  DepthNoiseEstimator noise;
+  noise.update(found.noise);
+  downweightByNoise(noise.patchStdDev(volume_edge_m) / volume_edge_m, &found);
   double sum = 0.0;
   for (const Association& a : found.associations) sum += a.weight;
   return sum;
@@ -162,7 +162,7 @@ TEST(WeighByNoise, NeverLeavesAFastBodyWithoutDepth) {
   for (const double relative_noise : {0.05, 0.5, 5.0}) {
     DepthAssociations depth;
     depth.associations.resize(1);
-    weighByNoise(relative_noise, &depth);
+    downweightByNoise(relative_noise, &depth);
     EXPECT_DOUBLE_EQ(depth.associations[0].weight, 1.0 / 6.0);
   }
 }
@@ -172,8 +172,8 @@ TEST_F(DepthAssociationsTest, TellTheNoiseOfWholeBlocksAlone) {
   for (const int targets : {1500, 100000}) {
     DepthConfig config;
     config.max_targets = targets;
-    EXPECT_GT(associate(config).noise.bends, 500u) << targets;
-    EXPECT_EQ(associate(config, Eigen::Isometry3d::Identity(), 2).noise.bends, 0u) << targets;
+    EXPECT_GT(associate(config).noise.count, 500u) << targets;
+    EXPECT_EQ(associate(config, Eigen::Isometry3d::Identity(), 2).noise.count, 0u) << targets;
   }
 }
 

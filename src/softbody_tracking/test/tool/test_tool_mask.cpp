@@ -21,9 +21,9 @@ Points blade(double z, double tilt = 0.0) {
 
 TEST(ToolMask, HidesTheBladeAndAMargin) {
   ToolMask mask;
-  mask.see(0, blade(0.498));
+  mask.setBlade(0, blade(0.498));
   const RgbdFrame frame = wall(33'000'000);
-  const RgbdFrame without = mask.without(frame);
+  const RgbdFrame without = mask.withoutBlade(frame);
   const cv::Mat1f& depth = without.depth;
   EXPECT_EQ(cv::countNonZero((depth == 0.0f) != (without.covered != 0)), 0);
   for (int v = 0; v < depth.rows; ++v) {
@@ -47,11 +47,11 @@ TEST(ToolMask, CoversWhatIsUnderABladeWithoutDepth) {
   for (const double tilt : {0.0, 0.7, M_PI / 2.0}) {
     const Points corners = blade(0.45, tilt);
     ToolMask mask;
-    mask.see(0, corners);
+    mask.setBlade(0, corners);
     RgbdFrame frame = wall(0);
-    EXPECT_TRUE(cv::countNonZero(mask.without(frame).covered) == 0) << "the wall behind is measured";
+    EXPECT_TRUE(cv::countNonZero(mask.withoutBlade(frame).covered) == 0) << "the wall behind is measured";
     frame.depth.setTo(0.0f);
-    const RgbdFrame without = mask.without(frame);
+    const RgbdFrame without = mask.withoutBlade(frame);
     for (int v = 0; v < frame.depth.rows; ++v) {
       for (int u = 0; u < frame.depth.cols; ++u) {
         // Of the blade's middle, by its width in the image.
@@ -71,25 +71,25 @@ TEST(ToolMask, CoversWhatIsUnderABladeWithoutDepth) {
 TEST(ToolMask, LeavesWhatIsBehindOrBeforeTheBlade) {
   for (const double z : {0.48, 0.52}) {
     ToolMask mask;
-    mask.see(0, blade(z));
-    EXPECT_EQ(cv::countNonZero(mask.without(wall(0)).depth != 0.5f), 0) << z;
+    mask.setBlade(0, blade(z));
+    EXPECT_EQ(cv::countNonZero(mask.withoutBlade(wall(0)).depth != 0.5f), 0) << z;
   }
 }
 
 TEST(ToolMask, HidesOnlyWhereABladeOnEdgeMeetsTheBody) {
   ToolMask mask;
-  mask.see(0, blade(0.5, M_PI / 2.0));
-  const cv::Mat1f depth = mask.without(wall(0)).depth;
+  mask.setBlade(0, blade(0.5, M_PI / 2.0));
+  const cv::Mat1f depth = mask.withoutBlade(wall(0)).depth;
   EXPECT_EQ(depth(60, 80), 0.0f);
   EXPECT_EQ(depth(60 + 6, 80), 0.5f);  // 20 mm beside it
 }
 
 TEST(ToolMask, StaysInTheImageWhereTheCameraClaimsALargerOne) {
   ToolMask mask;
-  mask.see(0, blade(0.5));
+  mask.setBlade(0, blade(0.5));
   RgbdFrame frame = wall(0);
   frame.camera = {1600, 1200, 1500.0, 1500.0, 79.5, 59.5};
-  const cv::Mat1f depth = mask.without(frame).depth;
+  const cv::Mat1f depth = mask.withoutBlade(frame).depth;
   EXPECT_EQ(depth.size(), frame.depth.size());
   EXPECT_EQ(depth(60, 80), 0.0f);
 }
@@ -97,12 +97,12 @@ TEST(ToolMask, StaysInTheImageWhereTheCameraClaimsALargerOne) {
 TEST(ToolMask, ForgetsABladeThatIsNoLongerSeen) {
   ToolMask mask;
   const RgbdFrame late = wall(300'000'000);
-  EXPECT_EQ(mask.without(late).depth.data, late.depth.data);
-  mask.see(0, blade(0.5));
-  EXPECT_EQ(mask.without(late).depth.data, late.depth.data);
-  EXPECT_GT(cv::countNonZero(mask.without(wall(100'000'000)).depth == 0.0f), 100);
-  mask.see(300'000'000, blade(-0.1));
-  EXPECT_EQ(mask.without(late).depth.data, late.depth.data) << "a blade behind the camera";
+  EXPECT_EQ(mask.withoutBlade(late).depth.data, late.depth.data);
+  mask.setBlade(0, blade(0.5));
+  EXPECT_EQ(mask.withoutBlade(late).depth.data, late.depth.data);
+  EXPECT_GT(cv::countNonZero(mask.withoutBlade(wall(100'000'000)).depth == 0.0f), 100);
+  mask.setBlade(300'000'000, blade(-0.1));
+  EXPECT_EQ(mask.withoutBlade(late).depth.data, late.depth.data) << "a blade behind the camera";
 }
 
 }  // namespace

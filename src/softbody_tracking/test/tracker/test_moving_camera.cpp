@@ -112,10 +112,10 @@ TEST(MovingCamera, ABladeIsWhereItWasSeenFromAnotherPlace) {
   frame.depth = cv::Mat1f(120, 160, 0.5f);
   frame.T_fixed_camera = cameraAt(2);
   ToolMask mask;
-  mask.see(kFrame, transformed(blade, cameraAt(2)));
-  EXPECT_EQ(mask.without(frame).depth(60, 80), 0.0f);
+  mask.setBlade(kFrame, transformed(blade, cameraAt(2)));
+  EXPECT_EQ(mask.withoutBlade(frame).depth(60, 80), 0.0f);
   frame.T_fixed_camera = cameraAt(2) * Eigen::Translation3d(0.2, 0.0, 0.0);
-  const cv::Mat1f left = mask.without(frame).depth;
+  const cv::Mat1f left = mask.withoutBlade(frame).depth;
   EXPECT_EQ(left(60, 80), 0.5f);
   EXPECT_EQ(left(60, 20), 0.0f);
 }

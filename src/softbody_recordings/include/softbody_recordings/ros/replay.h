@@ -24,7 +24,7 @@ struct ReplaySummary {
   BagFramesReport read;
   int states = 0, tools = 0, cuts = 0;  ///< frames with a surface, with the tool; edits made
   int skipped = 0;                      ///< frames of which tf does not tell where the camera is
-  std::string tool_missed;              ///< ToolWatch::missed()
+  std::string tool_missed;              ///< ToolDropoutMonitor::missedFrames()
   std::size_t pieces = 1;               ///< at the end
   std::map<TrackingState, int> frames_by_state;
   std::map<TrackingState, std::string> reasons;  ///< the last one of each state

@@ -26,9 +26,9 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   const bool simulated = simulator_.placed();
   if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
   const std::optional<Points> blade = seenBlade(frame, output);
-  if (blade) tool_mask_.see(frame.stamp, *blade);
+  if (blade) tool_mask_.setBlade(frame.stamp, *blade);
   output.tracking =
-      tracker_.track(tool_mask_.without(frame), simulated ? &simulator_.state() : nullptr, &timer_);
+      tracker_.track(tool_mask_.withoutBlade(frame), simulated ? &simulator_.state() : nullptr, &timer_);
   if (output.tracking.has_targets) {
     simulate(output.tracking.targets, frame.stamp);
     makeWaitingCuts(&output);

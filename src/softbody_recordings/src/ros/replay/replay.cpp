@@ -14,7 +14,7 @@
 #include "softbody_recordings/ros/graph_config.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/result_bag.h"
-#include "softbody_tracking/tool/tool_watch.h"
+#include "softbody_tracking/tool/tool_dropout_monitor.h"
 
 namespace softbody {
 namespace {
@@ -118,7 +118,7 @@ class Replay {
       warn_(fmt::format("{} cuts of the journal are not made: the body is not tracked after them", left));
     output_.finish();
     const std::vector<std::uint32_t>& bodies = pipeline_.surfaceTopology().bodies;
-    summary_.tool_missed = tool_watch_.missed();
+    summary_.tool_missed = tool_dropouts_.missedFrames();
     summary_.pieces = bodies.empty() ? 0 : 1 + *std::max_element(bodies.begin(), bodies.end());
     return summary_;
   }
@@ -140,7 +140,7 @@ class Replay {
     if (!pipeline_.toolTracker()) return;
     summary_.tools += tool ? 1 : 0;
     const auto missing =
-        tool_watch_.heed(toNanoseconds(header.stamp), tool, pipeline_.toolTracker()->reason());
+        tool_dropouts_.update(toNanoseconds(header.stamp), tool, pipeline_.toolTracker()->reason());
     if (missing) warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), *missing));
   }
 
@@ -160,7 +160,7 @@ class Replay {
   CameraPoses camera_poses_;
   TrackingStatus last_status_;
   Pipeline pipeline_;
-  ToolWatch tool_watch_;
+  ToolDropoutMonitor tool_dropouts_;
   CutJournal journal_;
   ResultBag output_;
   ReplaySummary summary_;

@@ -162,7 +162,7 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
 
 }  // namespace
 
-void weighByNoise(double relative_noise, DepthAssociations* depth) {
+void downweightByNoise(double relative_noise, DepthAssociations* depth) {
   if (relative_noise <= kUsualNoise) return;
   const double scale = std::max(kLeastTrust, std::pow(kUsualNoise / relative_noise, 2));
   for (Association& association : depth->associations) association.weight *= scale;
@@ -180,7 +180,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
   }
   markSteps(surface, &blocks_);
   growOccluders(surface.grid, &blocks_);
-  found_.noise = pixel_step == 1 ? noiseOf(surface, blocks_, frame.camera.fx, &bends_) : NoiseSample();
+  found_.noise = pixel_step == 1 ? sampleDepthNoise(surface, blocks_, frame.camera.fx, &second_differences_) : DepthNoiseSample();
 
   found_.associations.clear();
   found_.visible_blocks = found_.occluded_blocks = found_.absent_blocks = 0;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "depth/depth_noise.h"
+#include "depth/depth_noise_estimator.h"
 #include "prediction/association.h"
 #include "prediction/color_model.h"
 #include "prediction/surface_samples.h"
@@ -17,7 +17,7 @@ struct DepthAssociations {
   int visible_blocks = 0;   ///< blocks of pixels that the prediction covers and the camera measured
   int occluded_blocks = 0;  ///< something nearer, or of another colour, stands there
   int absent_blocks = 0;    ///< the camera looks through: the body is not where it was predicted
-  NoiseSample noise;        ///< where every pixel of a block counts
+  DepthNoiseSample noise;        ///< where every pixel of a block counts
 };
 
 /// What a block of pixels shows.
@@ -52,7 +52,7 @@ class DepthAssociator {
   DepthConfig config_;
   double volume_edge_m_;
   std::vector<DepthBlock> blocks_;
-  std::vector<double> bends_;
+  std::vector<double> second_differences_;
   DepthAssociations found_;
 };
 
@@ -60,6 +60,6 @@ class DepthAssociator {
 /// step keeps their full weight: its six numbers are means over all of the body.
 /// @param relative_noise of the mean depth over a patch of one edge of the volume squared, per edge: in
 /// proportion to the body it bends large and small ones alike.
-void weighByNoise(double relative_noise, DepthAssociations* depth);
+void downweightByNoise(double relative_noise, DepthAssociations* depth);
 
 }  // namespace softbody

@@ -70,7 +70,7 @@ void ToolMask::see(Nanoseconds stamp, const Points& blade) {
 }
 
 RgbdFrame ToolMask::without(const RgbdFrame& frame) const {
-  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kStillThere) return frame;
+  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kBladeValidity) return frame;
   const Points corners = transformed(blade_, frame.T_fixed_camera.inverse());
   if (corners.col(2).minCoeff() < kNearest) return frame;
   const PlanePolygon blade(corners);

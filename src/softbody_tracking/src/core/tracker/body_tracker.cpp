@@ -9,7 +9,7 @@
 #include "prediction/topology_check.h"
 #include "softbody_common/rigid_fit.h"
 #include "targets/knn_targets.h"
-#include "targets/piece_hold.h"
+#include "targets/position_prior.h"
 #include "tracker/body_placement.h"
 #include "tracker/frame_observer.h"
 #include "tracker/tracking_status.h"
@@ -51,7 +51,7 @@ struct BodyTracker::Implementation {
   BodyPlacement placement;
   std::unique_ptr<FrameObserver> observer;
   std::unique_ptr<RigidPrediction> prediction;
-  std::unique_ptr<PieceHold> hold;
+  std::unique_ptr<PositionPrior> hold;
   HeldPieces held;
   std::vector<bool> moving;  ///< pieces whose velocity is known well enough to go on with; none: all
   Nanoseconds last_stamp = 0;
@@ -84,7 +84,7 @@ void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& s
   self.prediction =
       std::make_unique<RigidPrediction>(volume.rest_vertices, self.observer->surface().pieces());
   self.placement.forgetModels();
-  self.hold = std::make_unique<PieceHold>(volume);
+  self.hold = std::make_unique<PositionPrior>(volume);
   self.moving.clear();
   self.held.reset();
   if (!edited) self.reset();

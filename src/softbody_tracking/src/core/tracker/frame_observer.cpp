@@ -320,8 +320,8 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& vertice
   followFeatures(frame, &seen);
   const RigidMotions motions = alignRigidly(frame, seen.matches);
   seen.depth = depth_.associate(frame, surface_.image(), samples_, motions, colors_);
-  depth_noise_.learn(seen.depth.noise);
-  weighByNoise(depth_noise_.over(volume_edge_m_) / volume_edge_m_, &seen.depth);
+  depth_noise_.update(seen.depth.noise);
+  downweightByNoise(depth_noise_.patchStdDev(volume_edge_m_) / volume_edge_m_, &seen.depth);
   seen.outline = outline_.associate(frame, surface_.image(), motions, colors_);
   keepShownPieces(&seen);
   shown_before_ = seen.atLeast(Shows::kLoosely);

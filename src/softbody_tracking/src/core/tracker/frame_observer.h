@@ -97,7 +97,7 @@ class FrameObserver {
   double volume_edge_m_ = 0.0;  ///< mean length of the volume's edges
   PredictedSurface surface_;
   DepthAssociator depth_;
-  DepthNoise depth_noise_;
+  DepthNoiseEstimator depth_noise_;
   OutlineAssociator outline_;
   RigidAlignment rigid_;
   SurfaceSamples samples_;  ///< of the prediction

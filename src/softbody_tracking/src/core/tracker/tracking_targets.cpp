@@ -31,11 +31,11 @@ std::vector<Target> targetsOf(const std::vector<Association>& associations,
 }
 
 void holdUnseen(const Observation& seen, const std::vector<std::vector<int>>& pieces, const Points& simulated,
-                const Points& found, const PieceHold& hold, std::vector<Target>* targets) {
+                const Points& found, const PositionPrior& hold, std::vector<Target>* targets) {
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (seen.shown[p] == Shows::kWell) continue;
     const bool hardly = seen.shown[p] == Shows::kHardly;
-    hold.add(pieces[p], hardly ? simulated : found, PieceHold::kWeak, targets);
+    hold.addTargets(pieces[p], hardly ? simulated : found, PositionPrior::kPriorWeight, targets);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "softbody_tracking/tracker/body_tracker.h"
-#include "targets/piece_hold.h"
+#include "targets/position_prior.h"
 #include "tracker/frame_observer.h"
 
 namespace softbody {
@@ -21,6 +21,6 @@ std::vector<Target> targetsOf(const std::vector<Association>& associations,
 /// goes as a whole where it was found. @param simulated vertices of the volume, fixed frame. @param found
 /// the same, where they were found. @param pieces the vertices of each.
 void holdUnseen(const Observation& seen, const std::vector<std::vector<int>>& pieces, const Points& simulated,
-                const Points& found, const PieceHold& hold, std::vector<Target>* targets);
+                const Points& found, const PositionPrior& hold, std::vector<Target>* targets);
 
 }  // namespace softbody

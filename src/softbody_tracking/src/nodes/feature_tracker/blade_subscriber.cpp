@@ -28,7 +28,7 @@ void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& mes
 
 RgbdFrame BladeSubscriber::withoutBlade(const RgbdFrame& frame) {
   std::string reason;  // of the oldest blade without a pose
-  const auto pose = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
+  const auto look_up = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
     std_msgs::Header header;
     header.stamp = toTime(blade.stamp);
     header.frame_id = blade.frame_id;
@@ -39,14 +39,14 @@ RgbdFrame BladeSubscriber::withoutBlade(const RgbdFrame& frame) {
       return std::nullopt;
     }
   };
-  const BladeQueue::Unused unused = blades_.show(frame.stamp, pose, &mask_);
-  if (unused.lost > 0) ROS_WARN_STREAM_THROTTLE(5.0, "the blade's pose is unknown: " << reason);
-  if (unused.ahead > 0)
+  const BladeBuffer::Rejected rejected = blades_.updateMask(frame.stamp, look_up, &mask_);
+  if (rejected.expired > 0) ROS_WARN_STREAM_THROTTLE(5.0, "the blade's pose is unknown: " << reason);
+  if (rejected.lead > 0)
     ROS_WARN_STREAM_THROTTLE(
         5.0, fmt::format("the blade does not cover the body: its stamp is {:.1f} s ahead of the frame's. "
                          "Both must come from one clock",
-                         1e-9 * static_cast<double>(unused.ahead)));
-  return mask_.without(frame);
+                         1e-9 * static_cast<double>(rejected.lead)));
+  return mask_.withoutBlade(frame);
 }
 
 }  // namespace softbody

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "softbody_tracking/tool/tool_mask.h"
-#include "tool/blade_queue.h"
+#include "tool/blade_buffer.h"
 
 namespace softbody {
 
@@ -31,7 +31,7 @@ class BladeSubscriber {
   void onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message);
 
   PoseLookup look_up_;
-  BladeQueue blades_;
+  BladeBuffer blades_;
   ToolMask mask_;
   ros::Subscriber subscriber_;
 };

@@ -37,7 +37,7 @@ void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
   StageTimer timer;
   last_ = tracker_.track(frame, &timer);
   frame_error_.clear();
-  const auto warning = watch_.heed(frame.stamp, last_, tracker_.reason());
+  const auto warning = dropouts_.update(frame.stamp, last_, tracker_.reason());
   if (warning) ROS_WARN_STREAM(*warning);
   if (last_) publish(header, frame);
   publisher_.publishTiming(header, timer.take());
@@ -71,7 +71,7 @@ void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   if (watchdog_.isExpired()) return status.summary(DiagnosticStatus::WARN, FrameWatchdog::message());
   if (!frame_error_.empty())
     return status.summary(DiagnosticStatus::ERROR, "frames come, but cannot be used: " + frame_error_);
-  if (!watch_.missed().empty()) status.add("not seen in", watch_.missed());
+  if (!dropouts_.missedFrames().empty()) status.add("not seen in", dropouts_.missedFrames());
   if (!last_) return status.summary(DiagnosticStatus::WARN, "not seen: " + tracker_.reason());
   if (last_->bridged) {
     status.summary(DiagnosticStatus::WARN, "bridged by its motion: " + tracker_.reason());

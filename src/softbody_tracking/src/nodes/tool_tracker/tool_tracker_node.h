@@ -13,7 +13,7 @@
 #include "nodes/tool_tracker/tool_publisher.h"
 #include "softbody_common/parameters.h"
 #include "softbody_tracking/tool/tool_tracker.h"
-#include "softbody_tracking/tool/tool_watch.h"
+#include "softbody_tracking/tool/tool_dropout_monitor.h"
 
 namespace softbody {
 
@@ -37,7 +37,7 @@ class ToolTrackerNode {
   OutputFrame output_frame_;
   ToolTracker tracker_;
   ToolPublisher publisher_;
-  ToolWatch watch_;
+  ToolDropoutMonitor dropouts_;
   std::optional<ToolObservation> last_;  ///< of the last frame
   std::string frame_error_;              ///< why the last frame could not be used; empty: it could
   std::string tf_error_;  ///< why tf gave no pose of the camera for the last frame; empty: it did

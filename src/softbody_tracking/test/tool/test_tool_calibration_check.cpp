@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/tool_scene.h"
-#include "softbody_tracking/tool/tool_check.h"
+#include "softbody_tracking/tool/tool_calibration_check.h"
 
 namespace softbody {
 namespace {
@@ -14,8 +14,8 @@ const ToolDescription& knife() {
 }
 
 /// A still tool, and what is claimed of it.
-ToolCheckReport check(const ToolDescription& claimed, double focal_factor = 1.0, bool visible = true) {
-  ToolCheck check(claimed);
+ToolCalibrationReport check(const ToolDescription& claimed, double focal_factor = 1.0, bool visible = true) {
+  ToolCalibrationCheck check(claimed);
   std::mt19937 random(9);
   const Eigen::Isometry3d pose = slanted(0.6, &random);
   for (int i = 0; i < kFrames; ++i) {
@@ -29,31 +29,31 @@ ToolCheckReport check(const ToolDescription& claimed, double focal_factor = 1.0,
   return check.report();
 }
 
-TEST(ToolCheck, FindsNothingWrongWithARightToolAndCamera) {
-  const ToolCheckReport report = check(knife());
+TEST(ToolCalibrationCheck, FindsNothingWrongWithARightToolAndCamera) {
+  const ToolCalibrationReport report = check(knife());
   EXPECT_EQ(report.seen, kFrames);
   EXPECT_TRUE(report.faults.empty()) << report.faults.front();
   EXPECT_NEAR(report.depth_ratio, 1.0, 0.01);
   EXPECT_LT(report.noise_m, 0.001);
 }
 
-TEST(ToolCheck, NamesTheSizeThatDepthAsksFor) {
+TEST(ToolCalibrationCheck, NamesTheSizeThatDepthAsksFor) {
   ToolDescription wrong = knife();
   wrong.markers[0].size_m = 0.048;
-  const ToolCheckReport report = check(wrong);
+  const ToolCalibrationReport report = check(wrong);
   EXPECT_NEAR(report.depth_ratio, 1.25, 0.01);
   ASSERT_EQ(report.faults.size(), 1u);
   EXPECT_NE(report.faults[0].find("not 48.0"), std::string::npos) << report.faults[0];
 }
 
-TEST(ToolCheck, NamesTheFocalLengthThatDepthAsksFor) {
-  const ToolCheckReport report = check(knife(), 0.9);
+TEST(ToolCalibrationCheck, NamesTheFocalLengthThatDepthAsksFor) {
+  const ToolCalibrationReport report = check(knife(), 0.9);
   EXPECT_NEAR(report.depth_ratio, 1.0 / 0.9, 0.02);
   EXPECT_FALSE(report.faults.empty());
 }
 
-TEST(ToolCheck, SaysThatTheToolIsNotSeen) {
-  const ToolCheckReport report = check(knife(), 1.0, false);
+TEST(ToolCalibrationCheck, SaysThatTheToolIsNotSeen) {
+  const ToolCalibrationReport report = check(knife(), 1.0, false);
   ASSERT_EQ(report.faults.size(), 1u);
   EXPECT_NE(report.faults[0].find("0 of 8"), std::string::npos) << report.faults[0];
 }

@@ -1,12 +1,12 @@
-#include "targets/piece_hold.h"
+#include "targets/position_prior.h"
 
 #include "prediction/vertex_places.h"
 
 namespace softbody {
 
-PieceHold::PieceHold(const TetTopology& volume) : places_(vertexPlaces(volume)) {}
+PositionPrior::PositionPrior(const TetTopology& volume) : places_(vertexPlaces(volume)) {}
 
-void PieceHold::add(const std::vector<int>& vertices, const Points& positions, double weight,
+void PositionPrior::addTargets(const std::vector<int>& vertices, const Points& positions, double weight,
                     std::vector<Target>* targets) const {
   for (const int v : vertices) {
     Target target;

@@ -1,4 +1,4 @@
-#include "tool/blade_queue.h"
+#include "tool/blade_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,38 +8,38 @@ namespace {
 constexpr Nanoseconds kMillisecond = 1'000'000;
 constexpr Nanoseconds kFrame = 33 * kMillisecond;
 
-/// A tool whose blades and tf come while frames are taken.
+/// Reports blades and tf while frames are taken.
 struct Tool {
-  std::size_t frame(Nanoseconds now) { return show(now).lost; }
-  BladeQueue::Unused show(Nanoseconds now) {
-    const auto place = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
+  std::size_t frame(Nanoseconds now) { return updateMask(now).expired; }
+  BladeBuffer::Rejected updateMask(Nanoseconds now) {
+    const auto look_up = [&](const ReportedBlade& blade) -> std::optional<Eigen::Isometry3d> {
       ++asked;
       if (blade.stamp > tf) return std::nullopt;
       newest = std::max(newest, blade.stamp);
       return Eigen::Isometry3d::Identity();
     };
-    return queue.show(now, place, &mask);
+    return buffer.updateMask(now, look_up, &mask);
   }
-  void blade(Nanoseconds stamp) { queue.add({stamp, "tool", Points::Zero(3, 3)}); }
+  void blade(Nanoseconds stamp) { buffer.add({stamp, "tool", Points::Zero(3, 3)}); }
 
-  BladeQueue queue;
+  BladeBuffer buffer;
   ToolMask mask;
-  Nanoseconds tf = 0;       ///< known up to here
-  Nanoseconds newest = -1;  ///< that had a place
-  int asked = 0;            ///< for places
+  Nanoseconds tf = 0;       ///< knows poses up to here
+  Nanoseconds newest = -1;  ///< blade with a pose
+  int asked = 0;            ///< number of pose look-ups
 };
 
-TEST(BladeQueue, ABladeThatNeverGetsAPlaceIsCountedOnce) {
+TEST(BladeBuffer, ABladeThatNeverGetsAPoseIsCountedOnce) {
   Tool tool;
   tool.blade(1);
-  std::size_t lost = 0;
+  std::size_t expired = 0;
   for (Nanoseconds now = 1; now < 10'000 * kMillisecond; now += kFrame) {
-    lost += tool.frame(now);
-    EXPECT_EQ(lost, now > ToolMask::kStillThere + 1 ? 1u : 0u) << now;
+    expired += tool.frame(now);
+    EXPECT_EQ(expired, now > ToolMask::kBladeValidity + 1 ? 1u : 0u) << now;
   }
 }
 
-TEST(BladeQueue, ABladeThatIsPlacedAFrameLaterIsNotCounted) {
+TEST(BladeBuffer, ABladeWhosePoseComesAFrameLaterIsNotCounted) {
   Tool tool;
   for (Nanoseconds k = 0; k < 300; ++k) {
     if (k % 2 == 0) tool.blade(k * kFrame);
@@ -49,7 +49,7 @@ TEST(BladeQueue, ABladeThatIsPlacedAFrameLaterIsNotCounted) {
   EXPECT_EQ(tool.newest, 298 * kFrame);
 }
 
-TEST(BladeQueue, BladesOfAFastToolWaitUntilTheyArePlaced) {
+TEST(BladeBuffer, BladesOfAFastToolWaitForTheirPoses) {
   constexpr Nanoseconds kBlade = 5 * kMillisecond, kLate = 150 * kMillisecond;
   Tool tool;
   for (Nanoseconds now = 0; now < 3000 * kMillisecond; now += kBlade) {
@@ -63,63 +63,63 @@ TEST(BladeQueue, BladesOfAFastToolWaitUntilTheyArePlaced) {
   }
 }
 
-TEST(BladeQueue, OfBladesThatNoFrameComesForTheNewestThousandAreKept) {
+TEST(BladeBuffer, WithoutFramesTheNewestThousandBladesAreKept) {
   Tool tool;
   tool.tf = -1;
   for (Nanoseconds k = 0; k < 1500; ++k) tool.blade(k * kMillisecond);
-  EXPECT_EQ(tool.frame(499 * kMillisecond - ToolMask::kStillThere), 0u);
+  EXPECT_EQ(tool.frame(499 * kMillisecond - ToolMask::kBladeValidity), 0u);
   EXPECT_EQ(tool.asked, 0) << "the blades up to 499 ms should be gone";
   EXPECT_EQ(tool.frame(10'000 * kMillisecond), 1000u);
 }
 
-TEST(BladeQueue, NothingIsLeftOfBladesFromBeforeItWasCleared) {
+TEST(BladeBuffer, ClearRemovesAllBlades) {
   Tool tool;
   tool.tf = 100 * kFrame;
   for (Nanoseconds k = 0; k < 100; ++k) tool.blade(k * kFrame);
-  tool.queue.clear();
+  tool.buffer.clear();
   for (Nanoseconds k = 0; k < 100; ++k) EXPECT_EQ(tool.frame(k * kFrame), 0u);
   EXPECT_EQ(tool.asked, 0);
 }
 
-TEST(BladeQueue, BladesOfAClockThatIsAheadAreTold) {
+TEST(BladeBuffer, ReportsBladesFromAClockThatIsAhead) {
   for (Nanoseconds lead : {0 * kFrame, 3 * kFrame, 40 * kFrame, 5000 * kFrame}) {
     Tool tool;
     for (Nanoseconds frame = 0; frame < 3000 * kFrame; frame += kFrame) {
       tool.blade(frame + lead);
-      // From when the frames have come up with the first blade, one counts, though it is a late one.
-      const bool none_counts = lead - frame > ToolMask::kStillThere;
-      const Nanoseconds told = none_counts && frame > 1000 * kMillisecond ? lead : 0;
-      ASSERT_EQ(tool.show(frame).ahead, told) << "lead " << lead << ", frame " << frame;
+      // As soon as the frames reach the first blade, one blade is usable, although it is late.
+      const bool none_counts = lead - frame > ToolMask::kBladeValidity;
+      const Nanoseconds expected = none_counts && frame > 1000 * kMillisecond ? lead : 0;
+      ASSERT_EQ(tool.updateMask(frame).lead, expected) << "lead " << lead << ", frame " << frame;
     }
   }
 }
 
-TEST(BladeQueue, HowLongBladesWereAheadIsForgottenWhenTheQueueIsCleared) {
+TEST(BladeBuffer, ClearRestartsTheTimeThatBladesAreAhead) {
   Tool tool;
   for (Nanoseconds k = 0; k < 300; ++k) {
     tool.blade(3000 * kFrame);
-    EXPECT_EQ(tool.show(k * kFrame).ahead, 0);
-    if (k % 15 == 0) tool.queue.clear();
+    EXPECT_EQ(tool.updateMask(k * kFrame).lead, 0);
+    if (k % 15 == 0) tool.buffer.clear();
   }
 }
 
-/// A frame that waits for the user's mask comes when later blades have come.
-TEST(BladeQueue, TheBladeNearestToTheFrameIsTakenOut) {
+/// A frame that waits for its segmentation mask comes after later blades.
+TEST(BladeBuffer, MasksTheBladeNearestInTimeToTheFrame) {
   constexpr Nanoseconds kWaited = 100 * kMillisecond;
   Points blade(4, 3);
   blade << -0.03, -0.01, 0.5, 0.03, -0.01, 0.5, 0.03, 0.01, 0.5, -0.03, 0.01, 0.5;
-  BladeQueue queue;
+  BladeBuffer buffer;
   ToolMask mask;
-  const auto place = [](const ReportedBlade&) { return Eigen::Isometry3d::Identity(); };
+  const auto look_up = [](const ReportedBlade&) { return Eigen::Isometry3d::Identity(); };
   const auto covered = [&](Nanoseconds stamp, int u) {
     const RgbdFrame frame{stamp, Pinhole{160, 120, 150.0, 150.0, 79.5, 59.5},
                           cv::Mat3b(120, 160, cv::Vec3b(90, 90, 90)), cv::Mat1f(120, 160, 0.5f)};
-    EXPECT_EQ(queue.show(stamp, place, &mask).lost, 0u);
-    return mask.without(frame).depth(60, u) == 0.0f;
+    EXPECT_EQ(buffer.updateMask(stamp, look_up, &mask).expired, 0u);
+    return mask.withoutBlade(frame).depth(60, u) == 0.0f;
   };
   const Points beside = blade.rowwise() + Eigen::RowVector3d(0.1, 0.0, 0.0);
   for (Nanoseconds k = 0; k < 30; ++k) {
-    queue.add({k * kFrame, "tool", k < 15 ? blade : beside});
+    buffer.add({k * kFrame, "tool", k < 15 ? blade : beside});
     const Nanoseconds frame = k * kFrame - kWaited;
     if (frame < 0) continue;
     const bool right = frame + kFrame / 2 >= 15 * kFrame;

@@ -1,4 +1,4 @@
-#include "softbody_tracking/tool/tool_check.h"
+#include "softbody_tracking/tool/tool_calibration_check.h"
 
 #include <fmt/format.h>
 
@@ -45,9 +45,9 @@ double noise(const std::vector<Eigen::Vector3d>& positions) {
 
 }  // namespace
 
-ToolCheck::ToolCheck(const ToolDescription& tool) : tracker_(tool), corners_only_(tool, cornersOnly()) {}
+ToolCalibrationCheck::ToolCalibrationCheck(const ToolDescription& tool) : tracker_(tool), corners_only_(tool, cornersOnly()) {}
 
-void ToolCheck::add(const RgbdFrame& frame) {
+void ToolCalibrationCheck::add(const RgbdFrame& frame) {
   ++frames_;
   focal_px_ = frame.camera.fx;
   const auto observation = tracker_.track(frame, nullptr);
@@ -63,8 +63,8 @@ void ToolCheck::add(const RgbdFrame& frame) {
   if (corners->depth_offset_m != 0.0) depth_ratios_.push_back((z + corners->depth_offset_m) / z);
 }
 
-ToolCheckReport ToolCheck::report() const {
-  ToolCheckReport report{frames_,
+ToolCalibrationReport ToolCalibrationCheck::report() const {
+  ToolCalibrationReport report{frames_,
                          static_cast<int>(positions_.size()),
                          mean(reprojections_px_),
                          median(depth_ratios_),

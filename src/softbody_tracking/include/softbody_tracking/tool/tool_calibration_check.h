@@ -9,7 +9,7 @@
 namespace softbody {
 
 /// What a recording says of a tool YAML and of the camera.
-struct ToolCheckReport {
+struct ToolCalibrationReport {
   int frames = 0, seen = 0;
   double reprojection_px = 0.0;     ///< mean of the frames' rms, from corners alone
   double depth_ratio = 0.0;         ///< median of measured over computed depth, corners alone; 0: no depth
@@ -18,12 +18,12 @@ struct ToolCheckReport {
 };
 
 /// Compares what markers' corners say with what depth says, frame by frame.
-class ToolCheck {
+class ToolCalibrationCheck {
  public:
   /// @throw std::invalid_argument as ToolTracker.
-  explicit ToolCheck(const ToolDescription& tool);
+  explicit ToolCalibrationCheck(const ToolDescription& tool);
   void add(const RgbdFrame& frame);
-  ToolCheckReport report() const;
+  ToolCalibrationReport report() const;
 
  private:
   ToolTracker tracker_, corners_only_;

@@ -4,30 +4,30 @@
 #include <optional>
 #include <string>
 
-#include "softbody_tracking/tool/tool_watch.h"
+#include "softbody_tracking/tool/tool_dropout_monitor.h"
 
 namespace softbody {
 namespace {
 
 constexpr char kNone[] = "none of the tool's markers is seen";
 
-/// At 10 Hz: what is said, by the number of the frame.
+/// Frames at 10 Hz. The result holds the warnings by the number of the frame.
 class Session {
  public:
   std::map<int, std::string> watch(int frames, const std::optional<ToolObservation>& seen,
                                    const std::string& reason) {
-    std::map<int, std::string> said;
+    std::map<int, std::string> warnings;
     for (int i = 0; i < frames; ++i, ++frame_) {
-      const auto sentence = watch_.heed(1'000'000'000 + frame_ * 100'000'000LL, seen, reason);
-      if (sentence) said[frame_] = *sentence;
+      const auto warning = monitor_.update(1'000'000'000 + frame_ * 100'000'000LL, seen, reason);
+      if (warning) warnings[frame_] = *warning;
     }
-    return said;
+    return warnings;
   }
   void restart() { frame_ = 0; }
-  std::string missed() const { return watch_.missed(); }
+  std::string missed() const { return monitor_.missedFrames(); }
 
  private:
-  ToolWatch watch_;
+  ToolDropoutMonitor monitor_;
   int frame_ = 0;
 };
 
@@ -37,32 +37,32 @@ ToolObservation bridged() {
   return observation;
 }
 
-TEST(ToolWatch, TellsOfAToolThatNeverShowsLessAndLessOften) {
+TEST(ToolDropoutMonitor, WarnsOfAToolThatIsNeverSeenLessAndLessOften) {
   Session session;
-  const auto said = session.watch(250, std::nullopt, kNone);
-  ASSERT_EQ(said.size(), 3u);
-  EXPECT_EQ(said.at(50),
-            "the tool has not been seen once in 5.0 s, nor cut anything: 51 frames: "
+  const auto warnings = session.watch(250, std::nullopt, kNone);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_EQ(warnings.at(50),
+            "the tool has not been seen in the first 5.0 s and cuts nothing: 51 frames: "
             "none of the tool's markers is seen");
-  EXPECT_TRUE(said.count(100) == 1 && said.count(200) == 1);
+  EXPECT_TRUE(warnings.count(100) == 1 && warnings.count(200) == 1);
   EXPECT_EQ(session.missed(), "250 frames: none of the tool's markers is seen");
 }
 
-TEST(ToolWatch, TellsForHowLongAToolHasNotBeenSeenAndWhy) {
+TEST(ToolDropoutMonitor, SaysHowLongAToolHasNotBeenSeenAndWhy) {
   Session session;
   EXPECT_TRUE(session.watch(30, std::nullopt, kNone).empty());
   EXPECT_TRUE(session.watch(100, ToolObservation(), "").empty());
   EXPECT_TRUE(session.watch(10, bridged(), "two poses fit alike").empty());
-  const auto said = session.watch(60, std::nullopt, kNone);
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said.begin()->second,
-            "the tool has not been seen for 5.0 s, nor cut anything: 40 frames: none of the tool's "
+  const auto warnings = session.watch(60, std::nullopt, kNone);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings.begin()->second,
+            "the tool has not been seen for 5.0 s and cuts nothing: 40 frames: none of the tool's "
             "markers is seen; 10 frames: two poses fit alike");
   EXPECT_EQ(session.missed(),
             "90 frames: none of the tool's markers is seen; 10 frames: two poses fit alike");
 }
 
-TEST(ToolWatch, SaysNothingOfShortAbsences) {
+TEST(ToolDropoutMonitor, IgnoresShortAbsences) {
   Session session;
   for (int i = 0; i < 5; ++i) {
     EXPECT_TRUE(session.watch(40, std::nullopt, kNone).empty());
@@ -70,17 +70,17 @@ TEST(ToolWatch, SaysNothingOfShortAbsences) {
   }
 }
 
-/// As where the camera stops for a while.
-TEST(ToolWatch, TellsOnceOfALongGapBetweenFrames) {
+/// The camera has stopped for a while.
+TEST(ToolDropoutMonitor, WarnsOnceAfterALongGapBetweenFrames) {
   constexpr Nanoseconds kSecond = 1'000'000'000;
-  ToolWatch watch;
-  watch.heed(kSecond, std::nullopt, kNone);
-  EXPECT_TRUE(watch.heed(101 * kSecond, std::nullopt, kNone));
-  EXPECT_FALSE(watch.heed(102 * kSecond, std::nullopt, kNone));
-  EXPECT_TRUE(watch.heed(161 * kSecond, std::nullopt, kNone));
+  ToolDropoutMonitor monitor;
+  monitor.update(kSecond, std::nullopt, kNone);
+  EXPECT_TRUE(monitor.update(101 * kSecond, std::nullopt, kNone));
+  EXPECT_FALSE(monitor.update(102 * kSecond, std::nullopt, kNone));
+  EXPECT_TRUE(monitor.update(161 * kSecond, std::nullopt, kNone));
 }
 
-TEST(ToolWatch, StartsAnewWithABagThatLoops) {
+TEST(ToolDropoutMonitor, RestartsWithABagThatLoops) {
   Session session;
   for (int i = 0; i < 5; ++i) {
     EXPECT_TRUE(session.watch(40, std::nullopt, kNone).empty());

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Makes weak targets that keep vertices at given positions, for pieces of a cut body that no measurement holds.
+class PositionPrior {
+ public:
+  /// Weight of such a target, where a target of ordinary measurements has about 1. It is far stiffer than a
+  /// vertex's inertia, far softer than any measurement, and too small for the vertex to count as observed.
+  static constexpr double kPriorWeight = 0.01;
+
+  explicit PositionPrior(const TetTopology& volume);
+
+  /// Appends one target for each vertex. @param positions #V by 3 of the volume, wanted positions [m].
+  void addTargets(const std::vector<int>& vertices, const Points& positions, double weight,
+                  std::vector<Target>* targets) const;
+
+ private:
+  std::vector<MaterialPoint> places_;  ///< of the volume's vertices
+};
+
+}  // namespace softbody
