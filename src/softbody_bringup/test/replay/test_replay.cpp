@@ -82,8 +82,7 @@ TEST_F(ReplayTest, SaysInWhichFramesTheToolIsNotSeen) {
   options.tool = CONFIG_DIR "/knife.yaml";
   options.output = folder_ / "result.bag";
   const auto quiet = [](const auto&) {};
-  EXPECT_EQ(softbody::replay(options, quiet, quiet).tool_missed,
-            "45 frames: none of the tool's markers is seen");
+  EXPECT_EQ(softbody::replay(options, quiet, quiet).tool_missed, "45 frames: no marker of the tool is seen");
   options.tool.clear();
   EXPECT_EQ(softbody::replay(options, quiet, quiet).tool_missed, "");
 }

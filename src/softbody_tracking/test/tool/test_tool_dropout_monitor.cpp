@@ -9,7 +9,7 @@
 namespace softbody {
 namespace {
 
-constexpr char kNone[] = "none of the tool's markers is seen";
+constexpr char kNone[] = "no marker of the tool is seen";
 
 /// Frames at 10 Hz. The result holds the warnings by the number of the frame.
 class Session {
@@ -43,23 +43,23 @@ TEST(ToolDropoutMonitor, WarnsOfAToolThatIsNeverSeenLessAndLessOften) {
   ASSERT_EQ(warnings.size(), 3u);
   EXPECT_EQ(warnings.at(50),
             "the tool has not been seen in the first 5.0 s and cuts nothing: 51 frames: "
-            "none of the tool's markers is seen");
+            "no marker of the tool is seen");
   EXPECT_TRUE(warnings.count(100) == 1 && warnings.count(200) == 1);
-  EXPECT_EQ(session.missed(), "250 frames: none of the tool's markers is seen");
+  EXPECT_EQ(session.missed(), "250 frames: no marker of the tool is seen");
 }
 
 TEST(ToolDropoutMonitor, SaysHowLongAToolHasNotBeenSeenAndWhy) {
   Session session;
   EXPECT_TRUE(session.watch(30, std::nullopt, kNone).empty());
   EXPECT_TRUE(session.watch(100, ToolObservation(), "").empty());
-  EXPECT_TRUE(session.watch(10, bridged(), "two poses fit alike").empty());
+  EXPECT_TRUE(session.watch(10, bridged(), "two poses fit equally well").empty());
   const auto warnings = session.watch(60, std::nullopt, kNone);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings.begin()->second,
-            "the tool has not been seen for 5.0 s and cuts nothing: 40 frames: none of the tool's "
-            "markers is seen; 10 frames: two poses fit alike");
+            "the tool has not been seen for 5.0 s and cuts nothing: 40 frames: no marker of the tool is "
+            "seen; 10 frames: two poses fit equally well");
   EXPECT_EQ(session.missed(),
-            "90 frames: none of the tool's markers is seen; 10 frames: two poses fit alike");
+            "90 frames: no marker of the tool is seen; 10 frames: two poses fit equally well");
 }
 
 TEST(ToolDropoutMonitor, IgnoresShortAbsences) {
@@ -86,7 +86,7 @@ TEST(ToolDropoutMonitor, RestartsWithABagThatLoops) {
     EXPECT_TRUE(session.watch(40, std::nullopt, kNone).empty());
     session.restart();
   }
-  EXPECT_EQ(session.missed(), "200 frames: none of the tool's markers is seen") << "in all rounds";
+  EXPECT_EQ(session.missed(), "200 frames: no marker of the tool is seen") << "in all rounds";
 }
 
 }  // namespace

@@ -9,30 +9,32 @@
 
 namespace softbody {
 
-/// A sheet of markers to print: in rows around its middle, x right, y up; poses are in the frame of the
-/// sheet.
+/// A sheet of markers to print, in rows around its centre. Poses are in the sheet's frame: origin at the
+/// centre, x right, y up.
 struct MarkerBoard {
   ToolDescription tool;
   double paper_width_m = 0.210, paper_height_m = 0.297;
 };
 
-/// Names that boardPaper knows.
+/// Names that boardPaper accepts.
 std::vector<std::string> paperNames();
 
-/// An empty sheet. @throw std::invalid_argument with the known names.
+/// An empty sheet. @throw std::invalid_argument for an unknown name, with the known names.
 MarkerBoard boardPaper(const std::string& paper);
 
-/// @param ids one marker each, at least one, all different. @param size_m side of the black square.
-/// @throw std::invalid_argument if an id is not in the dictionary, or if they do not fit on the paper.
+/// A sheet with one marker for each id. @param ids at least one, all different. @param size_m side of the
+/// black square. @throw std::invalid_argument if an id is not in the dictionary or the markers do not fit on
+/// the paper.
 MarkerBoard layOutBoard(const std::string& dictionary, const std::vector<int>& ids, double size_m,
                         const std::string& paper);
 
-/// To scale, with a ruler line to check the print by. @throw std::runtime_error if it cannot be written.
+/// Draws the sheet to scale, with a ruler to check the print. @throw std::runtime_error if the file cannot be
+/// written.
 void writeBoardPdf(const MarkerBoard& board, const std::filesystem::path& path);
 void writeBoardSvg(const MarkerBoard& board, const std::filesystem::path& path);
 cv::Mat1b boardImage(const MarkerBoard& board, double dots_per_inch);
 
-/// The tool YAML of the board, without a blade.
+/// A tool YAML with the board's markers and without a blade.
 std::string boardYaml(const MarkerBoard& board);
 
 }  // namespace softbody

@@ -8,30 +8,34 @@
 
 namespace softbody {
 
-/// What a recording says of a tool YAML and of the camera.
+/// How well a recording agrees with a tool YAML and the camera's calibration.
 struct ToolCalibrationReport {
   int frames = 0, seen = 0;
-  double reprojection_px = 0.0;     ///< mean of the frames' rms, from corners alone
-  double depth_ratio = 0.0;         ///< median of measured over computed depth, corners alone; 0: no depth
-  double noise_m = 0.0;             ///< standard deviation from frame to frame, motion taken off
-  std::vector<std::string> faults;  ///< sentences; empty: nothing is wrong
+  double reprojection_px = 0.0;  ///< mean over frames of the rms error, for poses from corners alone
+  double depth_ratio = 0.0;      ///< median of measured / computed depth, for poses from corners; 0: no depth
+  double noise_m = 0.0;          ///< standard deviation of the position between frames, without the motion
+  std::vector<std::string> faults;  ///< one sentence each; empty: nothing is wrong
 };
 
-/// Compares what markers' corners say with what depth says, frame by frame.
+/// Checks a tool YAML and the camera's calibration: compares poses from marker corners with depth, frame by
+/// frame.
 class ToolCalibrationCheck {
  public:
-  /// @throw std::invalid_argument as ToolTracker.
+  /// @throw std::invalid_argument as ToolTracker does.
   explicit ToolCalibrationCheck(const ToolDescription& tool);
   void add(const RgbdFrame& frame);
   ToolCalibrationReport report() const;
 
  private:
+  void addVisibilityFault(ToolCalibrationReport* report) const;
+  void addDepthFault(ToolCalibrationReport* report) const;
+
   ToolTracker tracker_, corners_only_;
   int frames_ = 0;
   double focal_px_ = 0.0;
-  std::vector<Eigen::Vector3d> positions_;  ///< of frames where the tool was seen
+  std::vector<Eigen::Vector3d> positions_;  ///< of the tool, in frames where it was seen
   std::vector<double> reprojections_px_, depth_ratios_;
-  std::map<std::string, int> reasons_;  ///< why it was not seen, and how often
+  std::map<std::string, int> reasons_;  ///< why the tool was not seen, with the number of frames
 };
 
 }  // namespace softbody

@@ -8,26 +8,27 @@
 
 namespace softbody {
 
-/// A square ArUco marker on a tool. Its frame: origin at its centre, x right, y up, z out of the print.
+/// A square ArUco marker on a tool. Its frame: origin at the centre, x right, y up, z out of the print.
 struct ToolMarker {
   int id = 0;
   double size_m = 0.0;  ///< side of the black square
   Eigen::Isometry3d T_tool_marker = Eigen::Isometry3d::Identity();
 };
 
-/// What a tool YAML says.
+/// The content of a tool YAML.
 struct ToolDescription {
-  std::string dictionary;           ///< as MarkerDetector takes it
-  std::vector<ToolMarker> markers;  ///< ids differ
+  std::string dictionary;           ///< see MarkerDetector
+  std::vector<ToolMarker> markers;  ///< with different ids
   Points blade;                     ///< planar polygon in the tool frame [m]; empty: a tool without a blade
   std::vector<std::string> warnings;
 };
 
-/// @throw std::invalid_argument with file, line, key, value and what is allowed; a tool spans at most 2 m.
+/// Reads a tool YAML. A tool may be 2 m long at most.
+/// @throw std::invalid_argument with file, line, key, value and what is allowed.
 ToolDescription loadToolDescription(const std::string& yaml_path);
 
-/// A marker's corners in the tool frame [m], in the order in which they are detected: clockwise on the print
-/// from its top left.
+/// A marker's corners in the tool frame [m], in the order of MarkerDetection: clockwise on the print,
+/// starting at its top left.
 Eigen::Matrix<double, 3, 4> markerCorners(const ToolMarker& marker);
 
 }  // namespace softbody

@@ -5,19 +5,20 @@
 
 namespace softbody {
 
-/// Takes a tracked blade out of a frame: it stands in the body that it cuts, without a step in depth,
-/// and would be taken for the body.
+/// Removes a tracked blade from frames. Inside a cut there is no depth step between blade and body, so the
+/// blade would be taken for the body.
 class ToolMask {
  public:
-  static constexpr Nanoseconds kBladeValidity = 200'000'000;  ///< a blade counts so long before and after
+  static constexpr Nanoseconds kBladeValidity =
+      200'000'000;  ///< [ns] a blade is used this long before and after its stamp
 
   /// @param blade planar polygon in the fixed frame, #B by 3 [m].
   void see(Nanoseconds stamp, const Points& blade);
 
-  /// The frame without depth, and covered, within 8 mm of the blade where that was seen last; covered as well
-  /// where it has no depth, which a shiny blade does not return, there in the image. The frame as it
-  /// is where no blade was seen up to kBladeValidity before or after, or where it reaches nearer than 1 cm to
-  /// the camera plane.
+  /// The frame with depth removed, and `covered` set, at points within 8 mm of the blade. Pixels without
+  /// depth are covered if the blade lies there in the image: a shiny blade returns no depth. Returns the
+  /// frame itself if no blade is valid at its stamp, or if the blade comes nearer than 1 cm to the camera
+  /// plane.
   RgbdFrame without(const RgbdFrame& frame) const;
 
  private:

@@ -13,13 +13,13 @@
 namespace softbody {
 
 struct ToolTrackerConfig {
-  double corner_std_px = 0.15;           ///< of a detected corner, each coordinate
-  bool use_depth = true;                 ///< depth under the markers
-  double depth_std_1_m = 0.005;          ///< standard deviation of a depth at 1 m; grows with z^2
-  double depth_independent_samples = 8;  ///< as many as a marker's depths are worth: what they share stays
-  double max_reprojection_px = 3.0;      ///< rms of a marker that belongs to the tool
-  double ambiguity = 8.0;      ///< a mirrored pose whose cost (chi squared) is within this is as good
-  double bridge_time_s = 0.3;  ///< a tool out of sight is predicted for so long
+  double corner_std_px = 0.15;           ///< standard deviation of each coordinate of a detected corner
+  bool use_depth = true;                 ///< use the depth on the markers
+  double depth_std_1_m = 0.005;          ///< standard deviation of depth at 1 m; it grows with z^2
+  double depth_independent_samples = 8;  ///< effective number of independent samples on a marker
+  double max_reprojection_px = 3.0;      ///< largest rms error of a marker that belongs to the tool
+  double ambiguity = 8.0;      ///< two poses are ambiguous if their costs (chi squared) differ by less
+  double bridge_time_s = 0.3;  ///< how long a tool that is not seen is predicted
 };
 
 /// @throw std::invalid_argument as Parameters does.
@@ -29,31 +29,31 @@ ToolTrackerConfig readToolTrackerConfig(Parameters& parameters);
 /// [rad], as in geometry_msgs/PoseWithCovariance.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
-/// Where the tool is in one frame.
+/// The tool's pose in one frame.
 struct ToolObservation {
   Nanoseconds stamp = 0;
   Eigen::Isometry3d T_camera_tool = Eigen::Isometry3d::Identity();  ///< colour optical frame
   PoseCovariance covariance = PoseCovariance::Zero();
-  bool bridged = false;  ///< predicted from motion, not seen; its covariance grows from frame to frame
-  int markers = 0;       ///< that it was computed from; 0 when bridged
-  double reprojection_px = 0.0;  ///< rms over their corners
+  bool bridged = false;          ///< predicted from its motion, not seen; the covariance grows with time
+  int markers = 0;               ///< number of markers used; 0 if bridged
+  double reprojection_px = 0.0;  ///< rms over the markers' corners
   double depth_offset_m = 0.0;   ///< mean measured minus computed depth on the markers; 0 without depth
 };
 
-/// Follows a tool by its markers: corners and the depth under them, all markers at once.
+/// Tracks a tool by the corners of its markers and the depth on them, all markers together.
 class ToolTracker {
  public:
   /// @throw std::invalid_argument if the description has no markers, or an unknown dictionary.
   explicit ToolTracker(const ToolDescription& tool, const ToolTrackerConfig& config = {});
   ~ToolTracker();
 
-  /// @return nothing where the tool is neither seen nor bridged; reason() says why. Stamps that jump back
-  /// start anew. The tool's motion is predicted in the frame that stands still: in a frame whose camera is
-  /// not placed there the tool is seen without a prediction, and not bridged. @param timer may be null.
+  /// The tool's pose; nothing if it is neither seen nor bridged, and reason() says why. An older stamp than
+  /// the last one resets the tracker. Motion is predicted in the fixed frame: without a camera pose there
+  /// (frame.placed) the tool is neither predicted nor bridged. @param timer may be null.
   std::optional<ToolObservation> track(const RgbdFrame& frame, StageTimer* timer);
 
   const ToolDescription& tool() const;
-  /// Why the last frame gave no pose or a bridged one; empty: it was seen.
+  /// Why the tool was not seen in the last frame; empty: it was seen.
   const std::string& reason() const;
   void reset();
 

@@ -8,19 +8,21 @@
 namespace softbody {
 namespace {
 
-constexpr double kMostGrazing = 0.1;           // cosine between normal and ray below which depth says little
-constexpr double kOccluderStep = 0.003;        // [m] in front of the prediction that an occluder's end may be
-constexpr double kOccluderContinuity = 0.008;  // [m] between neighbouring blocks of one occluder
-constexpr double kStandsOut = 0.01;            // [m] before the surface beside it, and
-constexpr double kSteepest = 1.0;              // times the distance between them: no body bends so
-constexpr double kUsualNoise =
-    0.013;  // of the mean over an edge, as a share of it; with more a thin body shakes
-constexpr double kLeastTrust = 1.0 / 6.0;  // in depth: nothing else says how far away the body is
+constexpr double kMinCosine = 0.1;  // between normal and ray; at more grazing angles depth is unreliable
+constexpr double kMinSlope =
+    0.05;  // normal times ray at z = 1; below it the plane's depth is ill-conditioned
+constexpr double kOccluderStep = 0.003;  // [m] an occluder's end is at least this far before the prediction
+constexpr double kOccluderContinuity =
+    0.008;                             // [m] largest depth step between neighbouring blocks of an occluder
+constexpr double kProtrusion = 0.01;   // [m] an object this far before the surface beside it occludes it,
+constexpr double kMaxSteepness = 1.0;  // if this times their distance is less: no body bends so steeply
+constexpr double kUsualRelativeNoise = 0.013;  // see downweightByNoise; with more noise a thin body shakes
+constexpr double kMinNoiseWeight = 1.0 / 6.0;  // smallest factor: only depth gives the body's distance
 
 using Block = DepthBlock;
 using BlockKind = DepthBlock::Kind;
 
-/// Offsets from first to one before end that keep both places in [0, length).
+/// Offsets first .. end - 1 that keep both a + offset and b + offset in [0, length).
 struct Offsets {
   int first, end;
 };
@@ -29,7 +31,8 @@ Offsets offsetsInside(int a, int b, int size, int length) {
   return {std::max({-(size / 2), -a, -b}), std::min({size - size / 2, length - a, length - b})};
 }
 
-/// Counts a block's pixels. The surface's shape around the sample is the rendered one.
+/// Classifies a block by the majority of its pixels. Around the sample, the predicted shape is the rendered
+/// one.
 void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& rendered_center, int size,
              int step, const ColorModel& colors, double max_distance, Block* block) {
   const cv::Point& center = block->center;
@@ -70,7 +73,7 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
   }
 }
 
-/// The sample where the rigid motion takes it, and the frame's depth there.
+/// Moves a sample by the rigid motion, and compares it with the frame's depth there.
 Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSample& sample, int size,
               int step, const Eigen::Isometry3d& motion, const ColorModel& colors, double max_distance) {
   Block block;
@@ -81,7 +84,7 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   if (!frame.camera.contains(pixel.x(), pixel.y())) return block;
   block.center = {cvRound(pixel.x()), cvRound(pixel.y())};
   const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
-  if (-slope < 0.05) return block;
+  if (-slope < kMinSlope) return block;
   block.predicted = block.normal.dot(block.position) / slope;
   measure(frame, image, sample.center, size, step, colors, max_distance, &block);
   return block;
@@ -89,8 +92,8 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
 
 double measuredDepth(const Block& block) { return block.predicted + block.difference; }
 
-/// Whether an occluder's depth goes on from one block to the next: without a step, or as steeply as from the
-/// block before. A blade seen from above is steep.
+/// Whether an occluder continues from one block to the next: without a step in depth, or with the same slope
+/// as from the block before. A blade seen from above is steep.
 bool continues(const Block* before, const Block& occluder, const Block& next) {
   const double step = measuredDepth(next) - measuredDepth(occluder);
   if (std::abs(step) < kOccluderContinuity) return true;
@@ -99,39 +102,42 @@ bool continues(const Block* before, const Block& occluder, const Block& next) {
   return std::abs(step - last_step) < kOccluderContinuity;
 }
 
-/// Of two blocks of one smooth surface, whether the first lies in front of what the other shows to be there.
-bool standsBefore(const Block& block, const Block& other) {
+/// Whether a block lies before the surface that another block of the same smooth surface shows.
+bool protrudesFrom(const Block& block, const Block& other) {
   return other.kind == BlockKind::kAgrees && std::abs(other.difference) < kOccluderStep &&
          block.difference <
-             other.difference - std::max(kStandsOut, kSteepest * (block.position - other.position).norm()) &&
+             other.difference -
+                 std::max(kProtrusion, kMaxSteepness * (block.position - other.position).norm()) &&
          std::abs(block.predicted - other.predicted) < kOccluderContinuity;
 }
 
-/// What stands out from the surface by a step is something before it, whatever its colour: a tool's handle,
-/// nearer than the gate. The blocks at its border see both, so the second next counts as well.
-void markSteps(const SurfaceSamples& surface, std::vector<Block>* blocks) {
+/// Marks blocks that protrude from the surface by a step as occluded, whatever their colour: a tool's handle
+/// may be within the depth gate. Blocks at the border of an object show both, so the second neighbours count
+/// too.
+void markProtrusions(const SurfaceSamples& surface, std::vector<Block>* blocks) {
   const cv::Mat1i& grid = surface.grid;
   const cv::Rect inside(cv::Point(), grid.size());
-  std::vector<int> before;
+  std::vector<int> protruding;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.cols; ++column) {
       const int b = grid(row, column);
-      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].difference > -kStandsOut) continue;
+      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].difference > -kProtrusion)
+        continue;
       for (const cv::Point& way : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1),
                                    cv::Point(2, 0), cv::Point(-2, 0), cv::Point(0, 2), cv::Point(0, -2)}) {
         const cv::Point place = cv::Point(column, row) + way;
         const int other = inside.contains(place) ? grid(place) : -1;
         if (other < 0 || surface.samples[other].body != surface.samples[b].body) continue;
-        if (!standsBefore((*blocks)[b], (*blocks)[other])) continue;
-        before.push_back(b);
+        if (!protrudesFrom((*blocks)[b], (*blocks)[other])) continue;
+        protruding.push_back(b);
         break;
       }
     }
   }
-  for (const int b : before) (*blocks)[b].kind = BlockKind::kOccluded;
+  for (const int b : protruding) (*blocks)[b].kind = BlockKind::kOccluded;
 }
 
-/// The rest of a hand of which one end is recognised as an occluder.
+/// Marks the rest of a hand, of which one end has been recognised as an occluder.
 void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   std::vector<cv::Point> open;
   for (int row = 0; row < grid.rows; ++row) {
@@ -151,9 +157,9 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
       Block& block = (*blocks)[grid(next)];
       const cv::Point back = place - step;
       const Block* before = inside.contains(back) && grid(back) >= 0 ? &(*blocks)[grid(back)] : nullptr;
-      const bool goes_on = block.kind == BlockKind::kAgrees && block.difference < -kOccluderStep &&
-                           continues(before, occluder, block);
-      if (!goes_on) continue;
+      const bool same_occluder = block.kind == BlockKind::kAgrees && block.difference < -kOccluderStep &&
+                                 continues(before, occluder, block);
+      if (!same_occluder) continue;
       block.kind = BlockKind::kOccluded;
       open.push_back(next);
     }
@@ -163,8 +169,8 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
 }  // namespace
 
 void downweightByNoise(double relative_noise, DepthAssociations* depth) {
-  if (relative_noise <= kUsualNoise) return;
-  const double scale = std::max(kLeastTrust, std::pow(kUsualNoise / relative_noise, 2));
+  if (relative_noise <= kUsualRelativeNoise) return;
+  const double scale = std::max(kMinNoiseWeight, std::pow(kUsualRelativeNoise / relative_noise, 2));
   for (Association& association : depth->associations) association.weight *= scale;
 }
 
@@ -178,9 +184,10 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.body], colors,
                               config_.max_distance_m));
   }
-  markSteps(surface, &blocks_);
+  markProtrusions(surface, &blocks_);
   growOccluders(surface.grid, &blocks_);
-  found_.noise = pixel_step == 1 ? sampleDepthNoise(surface, blocks_, frame.camera.fx, &second_differences_) : DepthNoiseSample();
+  found_.noise = pixel_step == 1 ? sampleDepthNoise(surface, blocks_, frame.camera.fx, &second_differences_)
+                                 : DepthNoiseSample();
 
   found_.associations.clear();
   found_.visible_blocks = found_.occluded_blocks = found_.absent_blocks = 0;
@@ -192,7 +199,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     found_.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
     if (block.kind != BlockKind::kAgrees) continue;
     const double cosine = -block.normal.dot(block.position.normalized());
-    if (cosine < kMostGrazing) continue;
+    if (cosine < kMinCosine) continue;
     Association association;
     association.kind = TargetKind::kDepth;
     association.place = surface.samples[i].place;
@@ -202,7 +209,8 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
         frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);
     association.normal = block.normal;
     const double width = surface.block_px * block.position.z() / (frame.camera.fx * volume_edge_m_);
-    const double weight = config_.weight * width * width / cosine;  // per area of surface, not of picture
+    const double weight =
+        config_.weight * width * width / cosine;  // per area of the surface, not of the image
     association.weight = std::min(weight, kLargestTargetWeight);
     found_.associations.push_back(association);
   }

@@ -11,39 +11,40 @@
 
 namespace softbody {
 
-/// What the depth image says of the predicted surface.
+/// The predicted surface compared with the depth image.
 struct DepthAssociations {
   std::vector<Association> associations;
-  int visible_blocks = 0;   ///< blocks of pixels that the prediction covers and the camera measured
-  int occluded_blocks = 0;  ///< something nearer, or of another colour, stands there
-  int absent_blocks = 0;    ///< the camera looks through: the body is not where it was predicted
-  DepthNoiseSample noise;        ///< where every pixel of a block counts
+  int visible_blocks = 0;   ///< blocks of pixels with a prediction and a measurement
+  int occluded_blocks = 0;  ///< blocks that show something nearer or of another colour
+  int absent_blocks = 0;    ///< blocks that show something farther: the body is not there
+  DepthNoiseSample noise;   ///< empty if pixels were skipped (pixel_step above 1)
 };
 
-/// What a block of pixels shows.
+/// A block of pixels around a surface sample.
 struct DepthBlock {
   enum class Kind { kUnmeasured, kAgrees, kOccluded, kAbsent };
   Kind kind = Kind::kUnmeasured;
-  cv::Point center;          ///< where the sample is now [px]
-  double predicted = 0.0;    ///< depth of the sample's plane there [m]
-  double difference = 0.0;   ///< mean of the agreeing pixels: measured minus predicted [m]
-  Eigen::Vector3d position;  ///< the sample's, moved [m]
+  cv::Point center;          ///< projection of the moved sample [px]
+  double predicted = 0.0;    ///< depth of the moved sample's plane at the center [m]
+  double difference = 0.0;   ///< mean of measured minus predicted depth over the agreeing pixels [m]
+  Eigen::Vector3d position;  ///< of the moved sample, camera frame [m]
   Eigen::Vector3d normal;
 };
 
-/// Associates visible surface with the depth measured along the same rays (projective association, point to
-/// plane). A block of pixels gives one association, with the mean of its depth differences. What goes on from
-/// an occluder without a step in depth, nearer than the body should be, belongs to the occluder.
+/// Associates visible surface with depth along the same rays (projective data association, point to plane).
+/// Each block of pixels gives one association, with the mean of its depth differences. A block that is nearer
+/// than the prediction and continues an occluder without a step in depth belongs to the occluder.
 class DepthAssociator {
  public:
-  /// @param volume_edge_m mean edge of the tets: depth weights are per square of it.
+  /// @param volume_edge_m mean edge of the tets; config.weight is the weight per square of it.
   DepthAssociator(const DepthConfig& config, double volume_edge_m)
       : config_(config), volume_edge_m_(volume_edge_m) {}
 
-  /// @param image the surface as rendered when it was sampled. @param motions of the body's pieces since
-  /// then.
-  /// @param pixel_step 1: every pixel of a block; 2: every second one of every second row, and so on.
-  /// @return valid until the next call, which reuses its memory.
+  /// @param image the rendered surface that the samples were taken from.
+  /// @param motions of the body's pieces since then.
+  /// @param pixel_step 1: every pixel of a block counts; 2: every second pixel of every second row; and so
+  /// on.
+  /// @return a reference that is valid until the next call.
   const DepthAssociations& associate(const RgbdFrame& frame, const RasterImage& image,
                                      const SurfaceSamples& surface, const RigidMotions& motions,
                                      const ColorModel& colors, int pixel_step = 1);
@@ -56,10 +57,10 @@ class DepthAssociator {
   DepthAssociations found_;
 };
 
-/// Where depth is noisier than usual, its targets weigh less by the square of that, within limits. The rigid
-/// step keeps their full weight: its six numbers are means over all of the body.
-/// @param relative_noise of the mean depth over a patch of one edge of the volume squared, per edge: in
-/// proportion to the body it bends large and small ones alike.
+/// Reduces the weights of depth targets if the noise is above usual, by the square of the ratio, down to a
+/// limit. Rigid alignment does not need this: its six parameters average over the whole body.
+/// @param relative_noise standard deviation of the mean depth over a patch of one mean tet edge squared,
+/// divided by that edge. Relative to its size, this bends large and small bodies equally.
 void downweightByNoise(double relative_noise, DepthAssociations* depth);
 
 }  // namespace softbody

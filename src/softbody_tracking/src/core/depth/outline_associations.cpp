@@ -9,27 +9,27 @@
 namespace softbody {
 namespace {
 
-constexpr int kWantedSamples = 160;
-constexpr int kBorder = 8;             // [px] of the image, where outlines may be its own
-constexpr int kNormalWindow = 4;       // [px] either way, in which the outline's direction is measured
-constexpr double kDeadZone = 2.0;      // [px] that the ends of depth may be wrong by
-constexpr int kReach = 20;             // [px] either way that the body's end is looked for
-constexpr int kLongestGap = 4;         // [px] without depth
-constexpr float kFarther = 0.02f;      // [m] that what is behind the body is farther by, far beyond the noise
-constexpr double kTolerance = 0.015;   // [m] between the prediction and the body at a pixel
-constexpr double kContinuity = 0.008;  // [m] between neighbouring pixels of the body
-constexpr double kFarthestOut = 0.012;  // [m]; further out may be a hand that touches the body
-constexpr double kLargestPull = 0.01;   // [m]; a greater error pulls no more
+constexpr int kWantedSamples = 160;  // wanted number of samples around the body
+constexpr int kBorder = 8;           // [px] at the image border an outline may be the image's own
+constexpr int kNormalWindow = 4;     // [px] each way; window in which the outline's direction is measured
+constexpr double kDeadZone = 2.0;    // [px] inaccuracy of depth at edges
+constexpr int kReach = 20;           // [px] each way; how far the body's end is searched
+constexpr int kMaxGap = 4;           // [px] longest gap without depth
+constexpr float kFarther = 0.02f;  // [m] the background is at least this far behind the body; far above noise
+constexpr double kTolerance = 0.015;   // [m] between prediction and body at a pixel
+constexpr double kContinuity = 0.008;  // [m] largest step between neighbouring pixels of the body
+constexpr double kMaxOutward = 0.012;  // [m] what reaches further may be a hand that touches the body
+constexpr double kMaxPull = 0.01;      // [m] a larger error does not pull more
 
-/// Whether a surface ends at a pixel, by its depth and that of a neighbour; 0: nothing.
+/// Whether a surface ends at a pixel of this depth, given the depth beside it. Depth 0: no surface.
 bool endsAt(float depth, float beside) {
   return depth > 0.0f && (beside <= 0.0f || beside - depth > kFarther);
 }
 
-/// Whether a surface ends between neighbouring pixels. Where nothing is rendered depth is 0.
+/// Whether a surface ends between two neighbouring pixels. Depth 0: nothing is rendered.
 bool isStep(float a, float b) { return std::abs(a - b) > kFarther; }
 
-/// From the surface's pixels around towards the others; nothing where they balance.
+/// Unit vector from the surface's pixels towards the other pixels of a window; nothing if they balance.
 std::optional<Eigen::Vector2d> outwardAt(const cv::Mat1f& rendered, const cv::Point& pixel) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   const float farthest = rendered(pixel) + kFarther;
@@ -44,7 +44,7 @@ std::optional<Eigen::Vector2d> outwardAt(const cv::Mat1f& rendered, const cv::Po
   return sum / length;
 }
 
-/// Pixels along an outline's normal: step by step outwards from where the prediction has it.
+/// Pixels along the normal of the predicted outline; step 0 is on the outline, positive steps lead outwards.
 class OutlineWalk {
  public:
   OutlineWalk(const RgbdFrame& frame, const RasterImage& image, const ColorModel& colors,
@@ -60,19 +60,19 @@ class OutlineWalk {
 
   const Eigen::Vector2d& start() const { return start_; }
 
-  /// How far outside of the predicted outline the body's last pixel is, negative inside [px]; nothing where
-  /// the frame does not tell.
+  /// Distance of the body's last pixel from the predicted outline [px], positive outside; nothing if the
+  /// frame does not show where the body ends.
   std::optional<double> bodyEnd() const {
     int body = 0;
     for (Shown shown; (shown = shownAt(body)) != Shown::kBody; --body) {
       if (shown == Shown::kOther || body == -kReach || isOtherSide(body - 1)) return std::nullopt;
     }
-    for (int step = body + 1; step <= kReach && step - body <= kLongestGap + 1; ++step) {
+    for (int step = body + 1; step <= kReach && step - body <= kMaxGap + 1; ++step) {
       if (!isInside(step)) return std::nullopt;
       const double depth = measuredAt(step), farther = depth - measuredAt(body);
       if (depth <= 0.0) continue;
       if (farther > kFarther) return endBetween(distanceTo(body), distanceTo(step));
-      if (!goesOn(farther, body, step)) return std::nullopt;
+      if (!continues(farther, body, step)) return std::nullopt;
       body = step;
     }
     return std::nullopt;
@@ -96,7 +96,7 @@ class OutlineWalk {
   bool hasBodyColor(int step) const { return colors_.belongs(frame_.color(pixelAt(step))); }
   double measuredAt(int step) const { return frame_.depth(pixelAt(step)); }
 
-  /// 0: the prediction does not cover the pixel.
+  /// Predicted depth; 0 if the prediction does not cover the pixel.
   double predictedAt(int step) const {
     const cv::Point pixel(cvRound(rendered_start_.x() + step * outward_.x()),
                           cvRound(rendered_start_.y() + step * outward_.y()));
@@ -104,12 +104,12 @@ class OutlineWalk {
     return rendered_(pixel) > 0.0f ? rendered_(pixel) + farther_by_ : 0.0;
   }
 
-  /// Whether the prediction ends there on its other side: a limb narrower than the reach.
+  /// Whether the prediction ends there on its other side, as on a limb narrower than the reach.
   bool isOtherSide(int step) const {
     return isStep(static_cast<float>(predictedAt(step)), static_cast<float>(predictedAt(step + 1)));
   }
 
-  /// What the frame has where the prediction has the body.
+  /// What the frame shows at a pixel that the prediction covers.
   Shown shownAt(int step) const {
     const double predicted = predictedAt(step);
     if (!isInside(step) || predicted <= 0.0) return Shown::kOther;
@@ -118,16 +118,17 @@ class OutlineWalk {
     return predicted - depth < kTolerance && hasBodyColor(step) ? Shown::kBody : Shown::kOther;
   }
 
-  /// In a gap without depth the body may end anywhere: as near to the prediction as can be.
+  /// In a gap without depth the body may end anywhere. The end nearest to the prediction is taken.
   static double endBetween(double body, double behind) {
     return body >= 0.0 ? body : std::min(0.0, std::max(body, behind - 1.0));
   }
 
-  bool goesOn(double farther, int from, int to) const {
+  /// Whether the body continues from one pixel to another.
+  bool continues(double farther, int from, int to) const {
     return std::abs(farther) < (to - from) * kContinuity && hasBodyColor(to) && !isOtherPart(to);
   }
 
-  /// Whether the frame has what the prediction has behind the outline.
+  /// Whether the frame shows the part of the body that the prediction has behind the outline.
   bool isOtherPart(int step) const {
     const double predicted = predictedAt(step);
     return step > 0 && predicted - depth_ > kFarther && std::abs(measuredAt(step) - predicted) < kTolerance;
@@ -138,24 +139,24 @@ class OutlineWalk {
   const ColorModel& colors_;
   Eigen::Vector2d rendered_start_, start_, outward_;
   double depth_;
-  double farther_by_;  ///< than rendered [m]
+  double farther_by_;  ///< change of the depth since it was rendered [m]
 };
 
-/// Nothing where the outline agrees, or the frame does not tell.
+/// Nothing if the outline agrees with the frame, or if the frame does not show where the body ends.
 std::optional<Association> associateSample(const RgbdFrame& frame, const RasterImage& image,
                                            const OutlineSample& sample, const Eigen::Isometry3d& motion,
                                            const ColorModel& colors) {
   Association association;
   association.place = sample.place;
-  association.body = sample.body;
+  association.body = sample.piece;
   association.predicted = motion * sample.position;
   const double z = association.predicted.z();
   if (!(z > 0.0)) return std::nullopt;
   const OutlineWalk walk(frame, image, colors, sample, association.predicted);
   const std::optional<double> end = walk.bodyEnd();
   if (!end || std::abs(*end) <= kDeadZone) return std::nullopt;
-  const double pixels_per_m = frame.camera.fx / z, most = kLargestPull * pixels_per_m;
-  if (*end > kFarthestOut * pixels_per_m) return std::nullopt;
+  const double pixels_per_m = frame.camera.fx / z, most = kMaxPull * pixels_per_m;
+  if (*end > kMaxOutward * pixels_per_m) return std::nullopt;
   const double pull = std::copysign(std::min(std::abs(*end) - kDeadZone, most), *end);
   const Eigen::Vector2d pixel = walk.start() + pull * sample.outward;
   association.measured = frame.camera.unproject(pixel.x(), pixel.y(), z);
@@ -175,7 +176,7 @@ void OutlineAssociator::sample(const PredictedSurface& surface) {
   const cv::Rect region = surface.image().region & cv::Rect(kBorder, kBorder, rendered.cols - 2 * kBorder,
                                                             rendered.rows - 2 * kBorder);
   spacing_px_ = std::max(1, 2 * (region.width + region.height) / kWantedSamples);
-  // Rows cross the steep parts of the outline, columns the flat ones.
+  // Rows of pixels cross the steep parts of the outline, columns cross the flat parts.
   for (int v = region.y + spacing_px_ / 2; v < region.br().y; v += spacing_px_) {
     const float* row = rendered[v];
     for (int u = region.x; u <= region.br().x; ++u) {
@@ -197,8 +198,8 @@ void OutlineAssociator::addEnds(const PredictedSurface& surface, const cv::Point
   if (endsAt(depth_b, depth_a)) addSample(surface, b, a - b);
 }
 
-/// Pieces that lie against each other end nowhere in the image: at cuts nothing is said. Nor is it where the
-/// outline's normal is nearer to the other direction of the grid.
+/// Skips cuts, where two pieces touch and no outline shows. Also skips places whose normal is nearer to the
+/// other direction of the pixel grid: they are sampled in that direction.
 void OutlineAssociator::addSample(const PredictedSurface& surface, const cv::Point& pixel,
                                   const cv::Point& across) {
   const RasterImage& image = surface.image();
@@ -217,7 +218,7 @@ const std::vector<Association>& OutlineAssociator::associate(const RgbdFrame& fr
   found_.clear();
   for (const OutlineSample& sample : samples_) {
     std::optional<Association> association =
-        associateSample(frame, image, sample, motions[sample.body], colors);
+        associateSample(frame, image, sample, motions[sample.piece], colors);
     if (!association) continue;
     const double spacing_m = spacing_px_ * association->predicted.z() / frame.camera.fx;
     association->weight = std::min(config_.weight * spacing_m / volume_edge_m_, kLargestTargetWeight);

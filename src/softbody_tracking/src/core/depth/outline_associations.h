@@ -10,34 +10,37 @@
 
 namespace softbody {
 
-/// A pixel at which the predicted surface ends in the image, before something farther or nothing at all.
+/// A pixel on the predicted outline: beside it the image shows something farther, or nothing.
 struct OutlineSample {
   cv::Point pixel;
   Eigen::Vector2d outward;  ///< unit, in the image
   MaterialPoint place;
-  std::uint32_t body = 0;    ///< the piece that it belongs to
+  std::uint32_t piece = 0;   ///< of the body
   Eigen::Vector3d position;  ///< camera frame [m]
 };
 
-/// Where the frame shows that the body ends elsewhere than the predicted outline, along its normal in the
-/// image (Harris and Stennett 1990, RAPID). Depth along rays says nothing of surface that lies beside the
-/// body, or of body beside the surface:
-/// - The camera sees through the prediction to what is clearly farther: the outline is pulled back.
-/// - The body goes on beyond the prediction, with neither a step in depth nor another colour, up to a clear
-///   step backwards: the outline is pulled out.
-/// An error of up to two pixels says nothing, since depth at edges is no better. Nor does a sample where
-/// something nearer, a foreign colour, much missing depth or the image's border comes in between.
+/// Associates the predicted outline with the body's outline in the frame, along the outline's normal in the
+/// image (Harris and Stennett 1990, RAPID). It corrects errors across the line of sight, which depth along
+/// rays cannot see:
+/// - If the camera sees something clearly farther through the prediction, the outline is pulled in.
+/// - If the body continues beyond the prediction, without a step in depth and in its own colour, up to a
+/// clear step
+///   backwards, the outline is pulled out.
+/// Errors of up to two pixels are ignored, because depth is that inaccurate at edges. Samples are ignored if
+/// something nearer, another colour, a gap in depth or the image border lies in between.
 class OutlineAssociator {
  public:
-  /// @param volume_edge_m mean edge of the tets: weights are per edge.
+  /// @param volume_edge_m mean edge of the tets; config.weight is the weight per edge.
   OutlineAssociator(const OutlineConfig& config, double volume_edge_m)
       : config_(config), volume_edge_m_(volume_edge_m) {}
 
-  /// Samples the outline of a surface as just rendered.
+  /// Samples the outline of a surface that has just been rendered.
   void sample(const PredictedSurface& surface);
 
-  /// @param image the surface as rendered when it was sampled. @param motions of the body's pieces since
-  /// then. @return only the distance across the outline, in the image, counts. Valid until the next call.
+  /// @param image the rendered surface that the samples were taken from.
+  /// @param motions of the body's pieces since then.
+  /// @return point-to-plane associations: only the distance across the outline in the image counts. The
+  /// reference is valid until the next call.
   const std::vector<Association>& associate(const RgbdFrame& frame, const RasterImage& image,
                                             const RigidMotions& motions, const ColorModel& colors);
 

@@ -13,9 +13,10 @@
 namespace softbody {
 namespace {
 
-constexpr double kEdge_m = 0.010;    ///< that printers leave blank
-constexpr double kBottom_m = 0.030;  ///< for the ruler
-constexpr double kLabel_m = 0.006;
+constexpr double kEdge_m = 0.010;       // [m] edge of the paper that printers leave blank
+constexpr double kBottom_m = 0.030;     // [m] height of the ruler and its text
+constexpr double kLabel_m = 0.006;      // [m] height of the text below a marker
+constexpr double kMinMarker_m = 0.003;  // [m] smallest marker that is laid out
 
 const std::map<std::string, std::pair<double, double>>& papers() {
   static const std::map<std::string, std::pair<double, double>> kPapers{
@@ -57,11 +58,12 @@ MarkerBoard boardPaper(const std::string& paper) {
 MarkerBoard layOutBoard(const std::string& dictionary, const std::vector<int>& ids, double size_m,
                         const std::string& paper) {
   checkIds(dictionary, ids);
-  if (!(size_m >= 0.003))
-    throw std::invalid_argument(fmt::format("markers of {} mm are too small", 1e3 * size_m));
+  if (!(size_m >= kMinMarker_m))
+    throw std::invalid_argument(fmt::format("markers of {:g} mm are too small; allowed: {:g} mm or more",
+                                            1e3 * size_m, 1e3 * kMinMarker_m));
   MarkerBoard board = boardPaper(paper);
   board.tool.dictionary = dictionary;
-  // A white margin of one cell on every side is what detection needs.
+  // The detector needs a white margin of one cell on each side.
   const double pitch_x = size_m * (1.0 + 2.0 / markerCells(dictionary, ids.front()).cols);
   const double pitch_y = pitch_x + kLabel_m;
   const int columns = std::min(static_cast<int>(ids.size()),
@@ -83,10 +85,10 @@ MarkerBoard layOutBoard(const std::string& dictionary, const std::vector<int>& i
 
 std::string boardYaml(const MarkerBoard& board) {
   std::string yaml =
-      "# Tool frame: the middle of the sheet, x right, y up, z out of the print. Give each marker its pose "
-      "on your\n"
-      "# tool, and the blade's corners in the tool frame: blade: [[x, y, z], [x, y, z], [x, y, z], [x, y, "
-      "z]]\n";
+      "# Tool frame: origin at the centre of the sheet, x right, y up, z out of the print. Set the pose of "
+      "each\n"
+      "# marker on your tool. Add the blade's corners in the tool frame [m]:\n"
+      "#   blade: [[x, y, z], [x, y, z], [x, y, z], [x, y, z]]\n";
   yaml += fmt::format("tool:\n  dictionary: {}\n  markers:\n", board.tool.dictionary);
   for (const ToolMarker& marker : board.tool.markers) {
     const Eigen::Vector3d at = marker.T_tool_marker.translation();

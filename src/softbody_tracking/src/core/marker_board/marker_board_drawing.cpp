@@ -13,9 +13,11 @@
 namespace softbody {
 namespace {
 
-constexpr double kPoints = 72.0 / 0.0254;  ///< PDF and SVG points a metre
-constexpr double kRuler_m = 0.1;
-constexpr double kTextHeight_m = 0.0035;
+constexpr double kPointsPerMetre = 72.0 / 0.0254;  // unit of PDF and SVG: 1/72 inch
+constexpr double kRuler_m = 0.1;                   // [m] long enough to see a wrong scale, and fits on A5
+constexpr double kRulerFromBottom_m = 0.020;       // [m] leaves room for the text below the ruler
+constexpr double kLine_m = 0.0002;                 // [m] width of the ruler's lines
+constexpr double kTextHeight_m = 0.0035;           // [m] about 10 points
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
@@ -26,7 +28,7 @@ void drawText(cairo_t* page, double x, double y, const std::string& text) {
   cairo_show_text(page, text.c_str());
 }
 
-/// Black, and all white cells as one path, so that no seams show between them.
+/// Fills the square black, then all white cells as one path, so that no seams show between them.
 void drawMarker(cairo_t* page, const std::string& dictionary, const ToolMarker& marker, double x, double y) {
   const cv::Mat1b cells = markerCells(dictionary, marker.id);
   const double cell = marker.size_m / cells.cols;
@@ -46,7 +48,7 @@ void drawMarker(cairo_t* page, const std::string& dictionary, const ToolMarker& 
 }
 
 void drawRuler(cairo_t* page, double x, double y) {
-  cairo_set_line_width(page, 0.0002);
+  cairo_set_line_width(page, kLine_m);
   cairo_move_to(page, x, y);
   cairo_line_to(page, x + kRuler_m, y);
   for (int i = 0; i <= 10; ++i) {
@@ -55,10 +57,10 @@ void drawRuler(cairo_t* page, double x, double y) {
   }
   cairo_stroke(page);
   drawText(page, x, y + 0.006,
-           "100 mm: measure it. If it is not, print at 100 %, without fitting to the page.");
+           "Measure this line. If it is not 100 mm long, print again at 100 %, without fitting to the page.");
 }
 
-/// @param scale units of the surface a metre.
+/// @param scale units of the cairo surface per metre.
 void draw(const MarkerBoard& board, double scale, cairo_surface_t* surface) {
   const Context page(cairo_create(surface), &cairo_destroy);
   cairo_scale(page.get(), scale, scale);
@@ -71,21 +73,21 @@ void draw(const MarkerBoard& board, double scale, cairo_surface_t* surface) {
                0.5 * (board.paper_width_m - marker.size_m) + at.x(),
                0.5 * (board.paper_height_m - marker.size_m) - at.y());
   }
-  drawRuler(page.get(), 0.5 * (board.paper_width_m - kRuler_m), board.paper_height_m - 0.020);
+  drawRuler(page.get(), 0.5 * (board.paper_width_m - kRuler_m), board.paper_height_m - kRulerFromBottom_m);
   cairo_show_page(page.get());
 }
 
 using Maker = cairo_surface_t* (*)(const char*, double, double);
 
-/// Under another name first, so that a failure leaves an earlier file alone.
+/// Writes to a temporary file first, so that a failure keeps an earlier file.
 void write(const MarkerBoard& board, const std::filesystem::path& path, Maker make) {
   const std::filesystem::path temporary = path.string() + ".part";
   cairo_status_t status = CAIRO_STATUS_SUCCESS;
   {
-    const Surface surface(
-        make(temporary.c_str(), board.paper_width_m * kPoints, board.paper_height_m * kPoints),
-        &cairo_surface_destroy);
-    draw(board, kPoints, surface.get());
+    const Surface surface(make(temporary.c_str(), board.paper_width_m * kPointsPerMetre,
+                               board.paper_height_m * kPointsPerMetre),
+                          &cairo_surface_destroy);
+    draw(board, kPointsPerMetre, surface.get());
     cairo_surface_finish(surface.get());
     status = cairo_surface_status(surface.get());
   }

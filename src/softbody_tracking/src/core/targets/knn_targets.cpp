@@ -1,7 +1,6 @@
 #include "targets/knn_targets.h"
 
 #include <algorithm>
-#include <map>
 #include <nanoflann.hpp>
 #include <numeric>
 #include <set>
@@ -13,8 +12,8 @@
 namespace softbody {
 namespace {
 
-constexpr int kRotationNeighbors = 24;
-constexpr Eigen::Index kFewestForRotation = 4;
+constexpr int kRotationNeighbors = 24;            // features for a local rotation; averages over their noise
+constexpr Eigen::Index kMinRotationFeatures = 4;  // one more than the three that determine a rotation
 
 using KdTree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 3>;
 
@@ -73,51 +72,61 @@ void KnnTargets::rebind(const TetTopology& before, const TetTopology& after) {
   for (std::size_t v = 0; v < vertices_.size(); ++v) vertices_[v].place = moved[v];
 }
 
+/// Rotation of the nearest features on the vertex's piece; the fallback if there are too few.
+Eigen::Matrix3d KnnTargets::localRotation(const BoundVertex& vertex, const FeatureMotions& motions,
+                                          std::uint32_t piece, const Eigen::Matrix3d& fallback) const {
+  if (!config_.local_rotation) return fallback;
+  Points from(static_cast<Eigen::Index>(vertex.wider_ids.size()), 3), to(from.rows(), 3);
+  Eigen::Index n = 0;
+  for (int id : vertex.wider_ids) {
+    const auto motion = motions.find(id);
+    if (motion == motions.end() || motion->second.piece != piece) continue;
+    from.row(n) = motion->second.reference;
+    to.row(n++) = motion->second.current;
+  }
+  return n >= kMinRotationFeatures ? fitRigid(from.topRows(n), to.topRows(n)).linear() : fallback;
+}
+
+/// Kang et al. 2022, eq. 4, with the offsets from features to the vertex rotated; nothing without a feature.
+std::optional<Eigen::Vector3d> KnnTargets::measuredPosition(const BoundVertex& vertex,
+                                                            const FeatureMotions& motions,
+                                                            std::uint32_t piece,
+                                                            const Eigen::Matrix3d& rotation) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weight_sum = 0.0;
+  for (const Neighbor& neighbor : vertex.neighbors) {
+    const auto motion = motions.find(neighbor.feature_id);
+    if (motion == motions.end() || motion->second.piece != piece) continue;
+    const FeatureMotion& m = motion->second;
+    sum += neighbor.weight * (m.current + rotation * (vertex.reference - m.reference));
+    weight_sum += neighbor.weight;
+  }
+  if (weight_sum <= 0.0) return std::nullopt;
+  return sum / weight_sum;
+}
+
 std::vector<Association> KnnTargets::associations(const std::vector<MapFeature>& features,
                                                   const std::vector<FeatureMatch>& matches,
                                                   const PredictedSurface& surface,
                                                   const Eigen::Matrix3d& R_camera_fixed) const {
-  struct Motion {
-    std::uint32_t body;
-    Eigen::Vector3d reference, current;
-  };
-  std::map<int, Motion> motions;
+  FeatureMotions motions;
   for (const FeatureMatch& match : matches) {
     const MapFeature& feature = features[match.feature];
     if (match.inlier)
       motions[feature.id] = {match.association.body, feature.reference, match.association.measured};
   }
   std::vector<Association> result;
-  for (const BoundVertex& bound : vertices_) {
-    const std::uint32_t body = surface.bodyOf(bound.place);
-    Eigen::Matrix3d rotation = R_camera_fixed;
-    if (config_.local_rotation) {
-      Points from(static_cast<Eigen::Index>(bound.wider_ids.size()), 3), to(from.rows(), 3);
-      Eigen::Index n = 0;
-      for (int id : bound.wider_ids) {
-        const auto motion = motions.find(id);
-        if (motion == motions.end() || motion->second.body != body) continue;
-        from.row(n) = motion->second.reference;
-        to.row(n++) = motion->second.current;
-      }
-      if (n >= kFewestForRotation) rotation = fitRigid(from.topRows(n), to.topRows(n)).linear();
-    }
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double weight_sum = 0.0;
-    for (const Neighbor& neighbor : bound.neighbors) {
-      const auto motion = motions.find(neighbor.feature_id);
-      if (motion == motions.end() || motion->second.body != body) continue;
-      const Motion& m = motion->second;
-      sum += neighbor.weight * (m.current + rotation * (bound.reference - m.reference));
-      weight_sum += neighbor.weight;
-    }
-    if (weight_sum <= 0.0) continue;
+  for (const BoundVertex& vertex : vertices_) {
+    const std::uint32_t piece = surface.bodyOf(vertex.place);
+    const Eigen::Matrix3d rotation = localRotation(vertex, motions, piece, R_camera_fixed);
+    const std::optional<Eigen::Vector3d> measured = measuredPosition(vertex, motions, piece, rotation);
+    if (!measured) continue;
     Association association;
     association.kind = TargetKind::kVertex;
-    association.place = bound.place;
-    association.body = body;
-    association.predicted = surface.position(bound.place);
-    association.measured = sum / weight_sum;
+    association.place = vertex.place;
+    association.body = piece;
+    association.predicted = surface.position(vertex.place);
+    association.measured = *measured;
     result.push_back(association);
   }
   return result;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "features/feature_map.h"
@@ -10,26 +13,27 @@
 
 namespace softbody {
 
-/// The paper's targets: every low-resolution surface vertex follows its nearest features with
-/// inverse-distance weights (Kang et al. 2022, eq. 3-4), displacements measured from the reference frame. A
-/// vertex without any feature within the radius gets no target. What a match weighs does not count, as in the
-/// paper.
+/// The paper's targets: each vertex of the low-resolution surface follows its nearest features with
+/// inverse-distance weights (Kang et al. 2022, eq. 3-4). Displacements are measured from the reference frame.
+/// A vertex without a feature within the radius gets no target. As in the paper, the matches' weights are not
+/// used.
 class KnnTargets {
  public:
   explicit KnnTargets(const KnnConfig& config) : config_(config) {}
 
-  /// Weights, once, in the reference frame. @param vertices volume vertices there, fixed frame.
+  /// Computes the weights, once, in the reference frame. @param vertices #V by 3 of the volume then, fixed
+  /// frame [m].
   void bind(const std::vector<MapFeature>& features, const TetTopology& volume, const Points& vertices);
 
-  /// Where the vertices' features have gone. Neighbours that were not found, or that a cut has parted from
-  /// the vertex, leave their weight to the others. @param R_camera_fixed turns offsets of then into those of
-  /// a body that has not turned since.
+  /// Targets from the features found in a frame. Features that were not found, or that a cut has separated
+  /// from the vertex, are left out, and the remaining weights are normalised.
+  /// @param R_camera_fixed rotation of the offsets for a body that has not turned since the reference frame.
   std::vector<Association> associations(const std::vector<MapFeature>& features,
                                         const std::vector<FeatureMatch>& matches,
                                         const PredictedSurface& surface,
                                         const Eigen::Matrix3d& R_camera_fixed) const;
 
-  /// Takes the vertices to an edited body.
+  /// Transfers the vertices to an edited body.
   void rebind(const TetTopology& before, const TetTopology& after);
 
   void reset() { vertices_.clear(); }
@@ -42,16 +46,30 @@ class KnnTargets {
   struct BoundVertex {
     MaterialPoint place;
     Eigen::Vector3d reference;
-    std::vector<Neighbor> neighbors;  ///< within the radius, for the position
-    std::vector<int> wider_ids;       ///< for the local rotation
+    std::vector<Neighbor> neighbors;  ///< features within the radius, for the position
+    std::vector<int> wider_ids;       ///< nearest features, for the local rotation
   };
+
+  /// A feature's motion since the reference frame.
+  struct FeatureMotion {
+    std::uint32_t piece;
+    Eigen::Vector3d reference, current;
+  };
+  using FeatureMotions = std::map<int, FeatureMotion>;  ///< by the feature's id
+
+  Eigen::Matrix3d localRotation(const BoundVertex& vertex, const FeatureMotions& motions, std::uint32_t piece,
+                                const Eigen::Matrix3d& fallback) const;
+  static std::optional<Eigen::Vector3d> measuredPosition(const BoundVertex& vertex,
+                                                         const FeatureMotions& motions, std::uint32_t piece,
+                                                         const Eigen::Matrix3d& rotation);
 
   KnnConfig config_;
   std::vector<BoundVertex> vertices_;
 };
 
-/// Normalised inverse-distance weights of sorted distances (eq. 3): 1/D_j - 1/D_k. The guards: a feature at
-/// distance 0 takes all, and where every weight would be 0 (k = 1, or all distances equal) they are equal.
+/// Normalised inverse-distance weights of sorted distances: 1/D_j - 1/D_k (Kang et al. 2022, eq. 3). A
+/// feature at distance 0 gets the whole weight. If all weights would be 0 (k = 1, or equal distances), they
+/// are equal.
 std::vector<double> inverseDistanceWeights(const std::vector<double>& sorted_distances);
 
 }  // namespace softbody

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <opencv2/aruco.hpp>
 #include <opencv2/imgproc.hpp>
@@ -13,6 +14,10 @@
 
 namespace softbody {
 namespace {
+
+constexpr double kReach = 0.7;        // of a cell: stays within the black border, which is one cell wide
+constexpr double kMinReach_px = 1.5;  // [px] the contour may be off by a pixel
+constexpr double kMaxReach_px = 5.0;  // [px] a longer profile adds only noise
 
 const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME>& predefined() {
   using namespace cv::aruco;
@@ -45,10 +50,11 @@ cv::Ptr<cv::aruco::Dictionary> readDictionaryFile(const std::string& path) try {
   const cv::FileStorage file(path, cv::FileStorage::READ);
   const auto dictionary = cv::makePtr<cv::aruco::Dictionary>();
   if (!dictionary->readDictionary(file.root()) || dictionary->bytesList.empty())
-    throw std::invalid_argument(path + " is no marker dictionary: it has no nmarkers, markersize, marker_0");
+    throw std::invalid_argument(path +
+                                " is not a marker dictionary: nmarkers, markersize or marker_0 is missing");
   return dictionary;
 } catch (const cv::Exception& error) {
-  throw std::invalid_argument(fmt::format("{} is no marker dictionary: {}", path, error.err));
+  throw std::invalid_argument(fmt::format("{} is not a marker dictionary: {}", path, error.err));
 }
 
 cv::Ptr<cv::aruco::Dictionary> findDictionary(const std::string& name) {
@@ -59,13 +65,13 @@ cv::Ptr<cv::aruco::Dictionary> findDictionary(const std::string& name) {
                                           fmt::join(dictionaryNames(), ", ")));
 }
 
-/// Twice, since the contour that detection starts from may be off by a pixel. The reach stays within the
-/// black border, whose inner edges are others. @return false where the image does not show all four edges.
+/// Refines the corners twice, because the detector's contour may be off by a pixel. The reach stays within
+/// the black border, which has other edges inside. @return false if the image does not show all four edges.
 bool refineCorners(const cv::Mat1b& gray, int cells_a_side, std::vector<cv::Point2f>* corners) {
-  double side = 1e9;
+  double side = std::numeric_limits<double>::max();
   for (std::size_t k = 0; k < 4; ++k)
     side = std::min(side, cv::norm((*corners)[k] - (*corners)[(k + 1) % 4]));
-  const double reach_px = std::clamp(0.7 * side / cells_a_side, 1.5, 5.0);
+  const double reach_px = std::clamp(kReach * side / cells_a_side, kMinReach_px, kMaxReach_px);
   return refineQuadrilateral(gray, reach_px, corners) && refineQuadrilateral(gray, reach_px, corners);
 }
 
@@ -80,13 +86,13 @@ std::vector<std::string> dictionaryNames() {
 int markersInDictionary(const std::string& dictionary) { return findDictionary(dictionary)->bytesList.rows; }
 
 cv::Mat1b markerCells(const std::string& dictionary, int id) {
-  const cv::Ptr<cv::aruco::Dictionary> words = findDictionary(dictionary);
-  if (id < 0 || id >= words->bytesList.rows) {
+  const cv::Ptr<cv::aruco::Dictionary> markers = findDictionary(dictionary);
+  if (id < 0 || id >= markers->bytesList.rows) {
     throw std::invalid_argument(
-        fmt::format("marker id is {}; allowed in {}: 0 to {}", id, dictionary, words->bytesList.rows - 1));
+        fmt::format("marker id is {}; allowed in {}: 0 to {}", id, dictionary, markers->bytesList.rows - 1));
   }
   cv::Mat1b cells;
-  cv::aruco::drawMarker(words, id, words->markerSize + 2, cells);
+  cv::aruco::drawMarker(markers, id, markers->markerSize + 2, cells);
   return cells;
 }
 
@@ -98,7 +104,7 @@ struct MarkerDetector::Implementation {
 MarkerDetector::MarkerDetector(const std::string& dictionary)
     : implementation_(std::make_unique<Implementation>()) {
   implementation_->dictionary = findDictionary(dictionary);
-  // A bright plate's edge runs close around the marker printed on it; by default it would suppress it.
+  // With OpenCV's default, the edge of a bright plate around a marker can suppress the marker.
   implementation_->parameters->minMarkerDistanceRate = 0.02;
 }
 

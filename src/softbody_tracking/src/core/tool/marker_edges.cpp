@@ -8,15 +8,18 @@
 namespace softbody {
 namespace {
 
-constexpr double kFromCorner = 0.08;    ///< of a side that is left out at each end: rounded by blur
-constexpr double kStep_px = 0.5;        ///< along a profile
-constexpr double kWeakSlope = 0.25;     ///< of a profile's steepest; below is noise
-constexpr double kWeakContrast = 15.0;  ///< grey levels
-constexpr double kFewestPoints = 0.6;   ///< of a side's profiles that must show an edge
-constexpr double kBow_px = 0.3;     ///< of a side whose paper or image is bent; below it counts as straight
-constexpr double kBowShare = 0.85;  ///< of the deviations from a straight side that a bow may leave
-constexpr int kFits = 3;
-constexpr int kSteps = 3;  ///< to where two bent sides meet
+constexpr double kCornerMargin = 0.08;    // part of a side left out at each end, where blur rounds the corner
+constexpr double kStep_px = 0.5;          // [px] between samples of a profile
+constexpr double kMinSlope = 0.25;        // of a profile's steepest slope; smaller slopes are noise
+constexpr double kMinContrast = 15.0;     // grey levels across an edge
+constexpr double kMinEdgeFraction = 0.6;  // of a side's profiles that must show an edge
+constexpr double kMinBow_px = 0.3;  // [px] of bent paper or lens distortion; a smaller bow counts as straight
+constexpr double kMaxBowResidual =
+    0.85;                           // of the straight fit's mean deviation; a curve must fit better than this
+constexpr double kCauchy_px = 0.3;  // [px] scale of the robust weights
+constexpr int kMinProfiles = 8;     // across a side, however short
+constexpr int kFitIterations = 3;   // reweighted least squares; converges in three
+constexpr int kIntersectionSteps = 3;  // Newton steps to the corner of two curves
 
 using Line = Eigen::Hyperplane<double, 2>;
 
@@ -28,7 +31,8 @@ std::optional<double> grayAt(const cv::Mat1b& gray, const Eigen::Vector2d& p) {
          b * ((1 - a) * gray(v + 1, u) + a * gray(v + 1, u + 1));
 }
 
-/// Where brightness rises along a profile: the centroid of its slope, as blur is symmetric. [px from p]
+/// Distance from p to the edge along the outward direction [px]: the centroid of the slope, because blur is
+/// symmetric.
 std::optional<double> edgeOffset(const cv::Mat1b& gray, const Eigen::Vector2d& p,
                                  const Eigen::Vector2d& outward, double reach_px) {
   std::vector<double> slopes;
@@ -40,26 +44,26 @@ std::optional<double> edgeOffset(const cv::Mat1b& gray, const Eigen::Vector2d& p
     slopes.push_back(*here - *before);
     before = here;
   }
-  const double weak = kWeakSlope * *std::max_element(slopes.begin(), slopes.end());
+  const double threshold = kMinSlope * *std::max_element(slopes.begin(), slopes.end());
   double sum = 0.0, moment = 0.0;
   for (std::size_t i = 0; i < slopes.size(); ++i) {
-    const double slope = std::max(0.0, slopes[i] - weak);
+    const double slope = std::max(0.0, slopes[i] - threshold);
     sum += slope;
     moment += slope * ((static_cast<double>(i) + 0.5) * kStep_px - reach_px);
   }
-  if (sum < kWeakContrast) return std::nullopt;
+  if (sum < kMinContrast) return std::nullopt;
   return moment / sum;
 }
 
-/// Where one side's edge runs: its offset outward from the chord between the rough corners is a polynomial of
-/// the place along the chord, -0.5 to 0.5.
+/// One side's edge: its outward offset from the chord between the rough corners, as a polynomial of the place
+/// along the chord, -0.5 to 0.5.
 struct Side {
   Eigen::Vector2d from, chord, outward;
   Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();  ///< constant, linear, quadratic [px]
 
   double offsetAt(double place) const { return coefficients.dot(powers(place)); }
   static Eigen::Vector3d powers(double place) { return {1.0, place, place * place}; }
-  /// The tangent where a point lies beside the side.
+  /// The tangent at the place nearest to a point.
   Line tangentAt(const Eigen::Vector2d& p) const {
     const double place = (p - from).dot(chord) / chord.squaredNorm() - 0.5;
     const double slope = coefficients[1] + 2.0 * coefficients[2] * place;
@@ -70,16 +74,15 @@ struct Side {
   }
 };
 
-/// Offsets of an edge at places along a side.
+/// Measured offsets of an edge at places along a side.
 struct Profile {
   std::vector<double> places, offsets;  // [px]
 };
 
-/// Least squares with Cauchy weights about the last fit. @param terms 2: straight; 3: bent.
+/// Iteratively reweighted least squares with Cauchy weights. @param terms 2: a line; 3: a parabola.
 Eigen::Vector3d fitPolynomial(const Profile& profile, int terms) {
-  constexpr double kCauchy_px = 0.3;
   Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
-  for (int fit = 0; fit < kFits; ++fit) {
+  for (int fit = 0; fit < kFitIterations; ++fit) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < profile.places.size(); ++i) {
@@ -109,26 +112,26 @@ std::optional<Side> findSide(const cv::Mat1b& gray, const Eigen::Vector2d& from,
   const double length = side.chord.norm();
   // Clockwise in an image, whose y axis points down: outward is to the left.
   side.outward = Eigen::Vector2d(side.chord.y(), -side.chord.x()) / length;
-  const int samples = std::max(8, static_cast<int>(length));
+  const int samples = std::max(kMinProfiles, static_cast<int>(length));
   Profile profile;
   for (int i = 0; i < samples; ++i) {
-    const double place = (1.0 - 2.0 * kFromCorner) * (i / (samples - 1.0) - 0.5);
+    const double place = (1.0 - 2.0 * kCornerMargin) * (i / (samples - 1.0) - 0.5);
     const auto offset = edgeOffset(gray, from + (place + 0.5) * side.chord, side.outward, reach_px);
     if (!offset) continue;
     profile.places.push_back(place);
     profile.offsets.push_back(*offset);
   }
-  if (static_cast<double>(profile.places.size()) < kFewestPoints * samples) return std::nullopt;
+  if (static_cast<double>(profile.places.size()) < kMinEdgeFraction * samples) return std::nullopt;
   const Eigen::Vector3d straight = fitPolynomial(profile, 2), bent = fitPolynomial(profile, 3);
-  const bool is_bent = std::abs(bent[2]) / 4.0 > kBow_px &&
-                       meanDeviation(profile, bent) < kBowShare * meanDeviation(profile, straight);
+  const bool is_bent = std::abs(bent[2]) / 4.0 > kMinBow_px &&
+                       meanDeviation(profile, bent) < kMaxBowResidual * meanDeviation(profile, straight);
   side.coefficients = is_bent ? bent : straight;
   return side;
 }
 
-/// Where two sides meet, near a point.
-Eigen::Vector2d meeting(const Side& a, const Side& b, Eigen::Vector2d p) {
-  for (int k = 0; k < kSteps; ++k) p = a.tangentAt(p).intersection(b.tangentAt(p));
+/// The intersection of two sides near a point.
+Eigen::Vector2d intersection(const Side& a, const Side& b, Eigen::Vector2d p) {
+  for (int k = 0; k < kIntersectionSteps; ++k) p = a.tangentAt(p).intersection(b.tangentAt(p));
   return p;
 }
 
@@ -146,7 +149,7 @@ bool refineQuadrilateral(const cv::Mat1b& gray, double reach_px, std::vector<cv:
   }
   std::vector<cv::Point2f> refined;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Eigen::Vector2d p = meeting(sides[(k + 3) % 4], sides[k], corner(k));
+    const Eigen::Vector2d p = intersection(sides[(k + 3) % 4], sides[k], corner(k));
     if (!((p - corner(k)).norm() <= 2.0 * reach_px)) return false;
     refined.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
   }

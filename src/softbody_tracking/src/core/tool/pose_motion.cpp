@@ -7,9 +7,12 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// A hand's: standard deviations of velocity at first, and spectral densities of acceleration.
-constexpr double kSpeed_m_s = 0.5, kTurn_rad_s = 3.0;
-constexpr double kJerkiness_m_s2 = 3.0, kTurnJerkiness_rad_s2 = 20.0;
+// Assumed for a tool in a hand.
+constexpr double kSpeed_m_s = 0.5;          // [m/s] initial standard deviation of the velocity
+constexpr double kTurnRate_rad_s = 3.0;     // [rad/s] initial standard deviation of the angular velocity
+constexpr double kAcceleration_m_s2 = 3.0;  // [m/s^2] standard deviation over one frame
+constexpr double kAngularAcceleration_rad_s2 = 20.0;  // [rad/s^2] standard deviation over one frame
+constexpr double kFrameRate_hz = 30.0;                // [Hz] turns those variances into spectral densities
 
 Vector6 perAxis(double linear, double angular) {
   Vector6 values;
@@ -38,7 +41,7 @@ Vector6 poseDifference(const Eigen::Isometry3d& from, const Eigen::Isometry3d& t
 PoseMotion::PoseMotion(const Eigen::Isometry3d& pose, const PoseCovariance& covariance, Nanoseconds stamp)
     : pose_(pose), stamp_(stamp) {
   covariance_.topLeftCorner<6, 6>() = covariance;
-  covariance_.bottomRightCorner<6, 6>().diagonal() = perAxis(kSpeed_m_s, kTurn_rad_s).array().square();
+  covariance_.bottomRightCorner<6, 6>().diagonal() = perAxis(kSpeed_m_s, kTurnRate_rad_s).array().square();
 }
 
 Eigen::Isometry3d PoseMotion::poseAt(double dt) const { return movedPose(pose_, dt * velocity_); }
@@ -47,7 +50,7 @@ PoseMotion::Covariance PoseMotion::covarianceAt(double dt) const {
   Covariance F = Covariance::Identity();
   F.topRightCorner<6, 6>().diagonal().setConstant(dt);
   Covariance predicted = F * covariance_ * F.transpose();
-  const Vector6 q = perAxis(kJerkiness_m_s2, kTurnJerkiness_rad_s2).array().square() / 30.0;
+  const Vector6 q = perAxis(kAcceleration_m_s2, kAngularAcceleration_rad_s2).array().square() / kFrameRate_hz;
   predicted.topLeftCorner<6, 6>().diagonal() += dt * dt * dt / 3.0 * q;
   predicted.topRightCorner<6, 6>().diagonal() += dt * dt / 2.0 * q;
   predicted.bottomLeftCorner<6, 6>().diagonal() += dt * dt / 2.0 * q;

@@ -7,12 +7,12 @@
 
 namespace softbody {
 
-/// T moved by a small translation [m] and rotation [rad], both along the axes of the frame that T leads to.
+/// T_a_b moved by a translation [m] and then a rotation vector [rad], both in the axes of frame a.
 Eigen::Isometry3d movedPose(const Eigen::Isometry3d& T, const Eigen::Matrix<double, 6, 1>& move);
-/// The move from one pose to another: movedPose(from, poseDifference(from, to)) = to.
+/// The move that takes one pose to another: movedPose(from, poseDifference(from, to)) = to.
 Eigen::Matrix<double, 6, 1> poseDifference(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
 
-/// A Kalman filter over pose and velocity that predicts a hand-held tool; acceleration is white noise.
+/// Kalman filter over the pose and velocity of a hand-held tool, with white-noise acceleration.
 class PoseMotion {
  public:
   struct Prediction {
@@ -20,11 +20,11 @@ class PoseMotion {
     PoseCovariance covariance;
   };
 
-  /// At rest, with a hand's velocities.
+  /// Starts at rest, with the uncertainty of a hand's velocity.
   PoseMotion(const Eigen::Isometry3d& pose, const PoseCovariance& covariance, Nanoseconds stamp);
 
   Prediction predict(Nanoseconds stamp) const;
-  /// Takes in a pose measured at a stamp that is not before the last one.
+  /// Measurement update. @param stamp not before the last one.
   void update(const Eigen::Isometry3d& pose, const PoseCovariance& covariance, Nanoseconds stamp);
   /// Of the last update.
   Nanoseconds stamp() const { return stamp_; }

@@ -9,16 +9,16 @@
 namespace softbody {
 namespace {
 
-constexpr double kMostlySeen = 0.9;
-constexpr double kGoodReprojection_px = 1.0;
-constexpr double kGoodDepthRatio = 0.015;
-constexpr double kGoodNoise_m = 0.002;
+constexpr double kMinSeenFraction = 0.9;       // of the frames; fewer are reported
+constexpr double kMaxReprojection_px = 1.0;    // [px] mean rms error of a good calibration
+constexpr double kMaxDepthRatioError = 0.015;  // relative error of depth that a good camera may have
+constexpr double kMaxNoise_m = 0.002;          // [m] jitter that still allows clean cuts
+constexpr double kLooseGate_px = 10.0;         // [px] a wrong calibration must be measured, not rejected
 
 ToolTrackerConfig cornersOnly() {
   ToolTrackerConfig config;
   config.use_depth = false;
-  // What does not fit well is to be measured here, not left out.
-  config.max_reprojection_px = 10.0;
+  config.max_reprojection_px = kLooseGate_px;
   return config;
 }
 
@@ -35,7 +35,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Second differences know nothing of an even motion; of white noise they have six times the variance.
+/// Standard deviation from second differences, which an even motion does not change. For white noise they
+/// have six times its variance.
 double noise(const std::vector<Eigen::Vector3d>& positions) {
   double sum = 0.0;
   for (std::size_t i = 2; i < positions.size(); ++i)
@@ -45,7 +46,8 @@ double noise(const std::vector<Eigen::Vector3d>& positions) {
 
 }  // namespace
 
-ToolCalibrationCheck::ToolCalibrationCheck(const ToolDescription& tool) : tracker_(tool), corners_only_(tool, cornersOnly()) {}
+ToolCalibrationCheck::ToolCalibrationCheck(const ToolDescription& tool)
+    : tracker_(tool), corners_only_(tool, cornersOnly()) {}
 
 void ToolCalibrationCheck::add(const RgbdFrame& frame) {
   ++frames_;
@@ -64,42 +66,51 @@ void ToolCalibrationCheck::add(const RgbdFrame& frame) {
 }
 
 ToolCalibrationReport ToolCalibrationCheck::report() const {
-  ToolCalibrationReport report{frames_,
-                         static_cast<int>(positions_.size()),
-                         mean(reprojections_px_),
-                         median(depth_ratios_),
-                         noise(positions_),
-                         {}};
-  const auto say = [&report](const std::string& fault) { report.faults.push_back(fault); };
-  if (report.seen < kMostlySeen * report.frames) {
-    const auto most = std::max_element(reasons_.begin(), reasons_.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    say(fmt::format("the tool is seen in {} of {} frames; else mostly: {}", report.seen, report.frames,
-                    most->first));
-  }
-  if (report.reprojection_px > kGoodReprojection_px) {
-    say(fmt::format(
-        "corners lie {:.1f} px from where the pose puts them: the intrinsics or the distortion are "
-        "wrong, the print is bent, or the markers' poses in the YAML are not those on the tool",
+  ToolCalibrationReport report;
+  report.frames = frames_;
+  report.seen = static_cast<int>(positions_.size());
+  report.reprojection_px = mean(reprojections_px_);
+  report.depth_ratio = median(depth_ratios_);
+  report.noise_m = noise(positions_);
+  addVisibilityFault(&report);
+  if (report.reprojection_px > kMaxReprojection_px) {
+    report.faults.push_back(fmt::format(
+        "corners lie {:.1f} px from where the pose puts them. Either the intrinsics or the distortion "
+        "are wrong, or the print is bent, or the markers' poses in the YAML are wrong",
         report.reprojection_px));
   }
-  if (report.depth_ratio > 0.0 && std::abs(report.depth_ratio - 1.0) > kGoodDepthRatio) {
-    const double size_mm = 1e3 * tracker_.tool().markers.front().size_m;
-    say(fmt::format(
-        "depth puts the markers {:.3f} times as far as their size does: either they measure {:.1f} mm, "
-        "not {:.1f}, or fx is {:.0f}, not {:.0f}, or the depth scale is wrong",
-        report.depth_ratio, report.depth_ratio * size_mm, size_mm, report.depth_ratio * focal_px_,
-        focal_px_));
-  }
-  if (report.depth_ratio == 0.0 && !reprojections_px_.empty())
-    say("there is no depth under the markers: size and intrinsics cannot be checked against it");
-  if (report.noise_m > kGoodNoise_m) {
-    say(fmt::format(
-        "the pose jitters by {:.1f} mm from frame to frame: larger markers, more light or a shorter "
-        "exposure help",
+  addDepthFault(&report);
+  if (report.noise_m > kMaxNoise_m) {
+    report.faults.push_back(fmt::format(
+        "the pose jitters by {:.1f} mm from frame to frame: use larger markers, more light or a shorter "
+        "exposure",
         1e3 * report.noise_m));
   }
   return report;
+}
+
+void ToolCalibrationCheck::addVisibilityFault(ToolCalibrationReport* report) const {
+  if (report->seen >= kMinSeenFraction * report->frames) return;
+  const auto most_frequent = std::max_element(
+      reasons_.begin(), reasons_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  report->faults.push_back(fmt::format("the tool is seen in {} of {} frames. The most frequent reason: {}",
+                                       report->seen, report->frames, most_frequent->first));
+}
+
+void ToolCalibrationCheck::addDepthFault(ToolCalibrationReport* report) const {
+  const double ratio = report->depth_ratio;
+  if (ratio == 0.0) {
+    if (!reprojections_px_.empty())
+      report->faults.emplace_back(
+          "there is no depth on the markers, so size and intrinsics cannot be checked");
+    return;
+  }
+  if (std::abs(ratio - 1.0) <= kMaxDepthRatioError) return;
+  const double size_mm = 1e3 * tracker_.tool().markers.front().size_m;
+  report->faults.push_back(fmt::format(
+      "by depth the markers are {:.3f} times as far away as by their size. Either they measure {:.1f} "
+      "mm, not {:.1f}, or fx is {:.0f}, not {:.0f}, or the depth scale is wrong",
+      ratio, ratio * size_mm, size_mm, ratio * focal_px_, focal_px_));
 }
 
 }  // namespace softbody

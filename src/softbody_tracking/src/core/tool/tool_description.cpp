@@ -14,8 +14,11 @@
 namespace softbody {
 namespace {
 
-constexpr double kLargest_m = 2.0;  ///< what is larger was given in mm
-constexpr double kFlatness = 0.02;  ///< of the blade's extent that a corner may lie off its plane
+constexpr double kMaxSize_m = 2.0;      // [m] a larger tool was probably given in mm
+constexpr double kMinMarker_m = 0.001;  // [m] smallest side of a marker
+constexpr double kFlatness =
+    0.02;  // of the blade's length; how far its corners may lie apart across its plane
+constexpr double kMinWidth = 1e-3;  // of the blade's length; a narrower blade is a line
 
 std::string readDictionary(YamlMapReader& tool) {
   std::string name = tool.text("dictionary");
@@ -32,7 +35,7 @@ std::string readDictionary(YamlMapReader& tool) {
 ToolMarker readMarker(YamlMapReader& reader, int count) {
   ToolMarker marker;
   marker.id = reader.requiredInteger("id", 0, count - 1);
-  marker.size_m = reader.requiredNumber("size_m", 0.001, kLargest_m);
+  marker.size_m = reader.requiredNumber("size_m", kMinMarker_m, kMaxSize_m);
   if (reader.has("pose")) marker.T_tool_marker = reader.pose("pose");
   return marker;
 }
@@ -50,7 +53,7 @@ void readMarkers(YamlMapReader& tool, const std::string& path, ToolDescription* 
     const int id = description->markers.back().id;
     if (!ids.insert(id).second)
       tool.fail(list[i],
-                fmt::format("tool/markers[{}]/id is {}, as of another marker; ids must differ", i, id));
+                fmt::format("tool/markers[{}]/id is {}, which another marker has; ids must differ", i, id));
   }
 }
 
@@ -81,10 +84,10 @@ void checkSize(YamlMapReader& tool, const ToolDescription& description) {
   Eigen::AlignedBox3d box;
   const auto check = [&](const std::string& key) {
     const double span = box.isEmpty() ? 0.0 : box.diagonal().norm();
-    if (span <= kLargest_m) return;
+    if (span <= kMaxSize_m) return;
     tool.fail(tool.get(key),
               fmt::format("with tool/{} the tool spans {:.4g} m; allowed: up to {} m; lengths are in metres",
-                          key, span, kLargest_m));
+                          key, span, kMaxSize_m));
   };
   for (const auto& corner : description.blade.rowwise()) box.extend(corner.transpose());
   check("blade");
@@ -95,13 +98,13 @@ void checkSize(YamlMapReader& tool, const ToolDescription& description) {
   check("markers");
 }
 
-/// Extents along the principal axes; the last one is the deviation from a plane.
+/// Refuses a blade without area and a blade that is not planar, by its extents along the principal axes.
 void checkBlade(YamlMapReader& tool, const Points& blade) {
   const Points centred = blade.rowwise() - blade.colwise().mean();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinV);
   const Eigen::MatrixXd along = centred * svd.matrixV();
   const Eigen::RowVector3d extent = along.colwise().maxCoeff() - along.colwise().minCoeff();
-  if (extent(1) <= 1e-3 * extent(0) || extent(0) <= 0.0)
+  if (extent(1) <= kMinWidth * extent(0) || extent(0) <= 0.0)
     tool.fail(tool.get("blade"), "tool/blade has no area: its corners lie on one line");
   if (extent(2) > kFlatness * extent(0)) {
     tool.fail(tool.get("blade"),

@@ -7,8 +7,10 @@
 namespace softbody {
 namespace {
 
-constexpr double kLooseGate = 0.5;  ///< of a marker's side: before the pose is refined
-constexpr double kSameTurn_rad = 0.05, kSameTurnSigmas = 4.0;
+constexpr double kCoarseGate = 0.5;  // of a marker's side; largest rms error before the pose is refined
+constexpr double kSameRotation_rad = 0.05;   // [rad] rotations that differ by less are the same pose,
+constexpr double kSameRotationSigmas = 4.0;  // as are those within this many standard deviations
+constexpr double kMaxMotionCost = 3.0;  // times the ambiguity: a faster motion than predicted stays possible
 
 double side(const Eigen::Matrix<double, 2, 4>& corners) {
   double longest = 0.0;
@@ -16,13 +18,13 @@ double side(const Eigen::Matrix<double, 2, 4>& corners) {
   return longest;
 }
 
-/// Of every id the detection nearest to where the pose puts it.
+/// For each marker id, the detection nearest to its projection.
 std::vector<const MarkerMeasurement*> agreeing(const std::vector<MarkerMeasurement>& measurements,
                                                const Pinhole& camera, const Eigen::Isometry3d& T) {
   std::vector<const MarkerMeasurement*> markers;
   for (const MarkerMeasurement& candidate : measurements) {
     const double error = reprojectionRms(candidate, camera, T);
-    if (!(error < kLooseGate * side(candidate.corners))) continue;
+    if (!(error < kCoarseGate * side(candidate.corners))) continue;
     const auto same = std::find_if(markers.begin(), markers.end(), [&candidate](const auto* other) {
       return other->marker == candidate.marker;
     });
@@ -35,7 +37,7 @@ std::vector<const MarkerMeasurement*> agreeing(const std::vector<MarkerMeasureme
   return markers;
 }
 
-/// Refines, and drops the worst marker until all agree. @return no markers if none does.
+/// Refines the pose, and removes the worst marker until all agree. May return no markers.
 ToolHypothesis refined(std::vector<const MarkerMeasurement*> markers, const Pinhole& camera,
                        const Eigen::Isometry3d& start, const ToolTrackerConfig& config) {
   ToolHypothesis hypothesis;
@@ -61,7 +63,7 @@ double motionCost(const PoseEstimate& estimate, const PoseMotion::Prediction& pr
   return std::min(bound, squared);
 }
 
-double turnBetween(const ToolHypothesis& a, const ToolHypothesis& b) {
+double rotationBetween(const ToolHypothesis& a, const ToolHypothesis& b) {
   return poseDifference(a.estimate.T_camera_tool, b.estimate.T_camera_tool).tail<3>().norm();
 }
 
@@ -76,9 +78,9 @@ std::vector<ToolHypothesis> toolHypotheses(const std::vector<MarkerMeasurement>&
     for (const Eigen::Isometry3d& start : planarPoses(measurement, camera)) {
       ToolHypothesis hypothesis = refined(agreeing(measurements, camera, start), camera, start, config);
       if (hypothesis.markers.empty()) continue;
-      // A hand that was quicker than predicted must still be believed: the bound.
       if (predicted)
-        hypothesis.motion_cost = motionCost(hypothesis.estimate, *predicted, 3.0 * config.ambiguity);
+        hypothesis.motion_cost =
+            motionCost(hypothesis.estimate, *predicted, kMaxMotionCost * config.ambiguity);
       hypotheses.push_back(std::move(hypothesis));
     }
   }
@@ -97,8 +99,9 @@ bool isAmbiguous(const std::vector<ToolHypothesis>& best_first, const ToolTracke
     if (other.markers.size() < best.markers.size()) return false;
     const double worse =
         (other.estimate.cost - best.estimate.cost) / scale + other.motion_cost - best.motion_cost;
-    const bool other_turn = turnBetween(best, other) > std::max(kSameTurn_rad, kSameTurnSigmas * uncertainty);
-    return other_turn && worse < config.ambiguity;
+    const bool different =
+        rotationBetween(best, other) > std::max(kSameRotation_rad, kSameRotationSigmas * uncertainty);
+    return different && worse < config.ambiguity;
   });
 }
 

@@ -13,17 +13,18 @@ namespace softbody {
 struct ToolHypothesis {
   std::vector<const MarkerMeasurement*> markers;
   PoseEstimate estimate;
-  double motion_cost = 0.0;  ///< squared Mahalanobis distance from the predicted pose, bounded
+  double motion_cost = 0.0;  ///< squared Mahalanobis distance from the predicted pose, limited
 };
 
-/// Both planar solutions of every marker, each refined over all markers that agree with it, best first: most
-/// markers, then least cost of corners, depth and motion. Poses that no marker agrees with are left out.
+/// Hypotheses from both planar poses of each marker, each refined over all markers that agree with it. The
+/// best comes first: most markers, then least cost of corners, depth and motion. Poses without an agreeing
+/// marker are left out.
 std::vector<ToolHypothesis> toolHypotheses(const std::vector<MarkerMeasurement>& measurements,
                                            const Pinhole& camera,
                                            const std::optional<PoseMotion::Prediction>& predicted,
                                            const ToolTrackerConfig& config);
 
-/// Whether another pose, clearly turned against the first, explains the same markers about as well.
+/// Whether a pose with a clearly different rotation explains the markers nearly as well as the first.
 bool isAmbiguous(const std::vector<ToolHypothesis>& best_first, const ToolTrackerConfig& config);
 
 }  // namespace softbody

@@ -10,10 +10,10 @@
 namespace softbody {
 namespace {
 
-constexpr double kMargin = 0.008;  // [m] for the blade's thickness and its way since
-constexpr double kNearest = 0.01;  // [m]
+constexpr double kMargin = 0.008;      // [m] for the blade's thickness and its motion since its stamp
+constexpr double kMinDistance = 0.01;  // [m] from the camera plane; nearer, the projection is ill-conditioned
 
-/// The plane of a polygon, and the polygon in it.
+/// A polygon in 3D: its plane, and its outline in that plane.
 struct PlanePolygon {
   explicit PlanePolygon(const Points& corners) : origin(corners.colwise().mean().transpose()) {
     const Eigen::Index n = corners.rows();
@@ -39,7 +39,7 @@ struct PlanePolygon {
   std::vector<cv::Point2f> outline;
 };
 
-/// The polygon in the image, with the margin around it.
+/// A polygon in the image, with a margin around it.
 struct ImagePolygon {
   ImagePolygon(const Pinhole& camera, const Points& corners) {
     for (const auto& corner : corners.rowwise()) {
@@ -70,9 +70,10 @@ void ToolMask::see(Nanoseconds stamp, const Points& blade) {
 }
 
 RgbdFrame ToolMask::without(const RgbdFrame& frame) const {
-  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kBladeValidity) return frame;
+  if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kBladeValidity)
+    return frame;
   const Points corners = transformed(blade_, frame.T_fixed_camera.inverse());
-  if (corners.col(2).minCoeff() < kNearest) return frame;
+  if (corners.col(2).minCoeff() < kMinDistance) return frame;
   const PlanePolygon blade(corners);
   const ImagePolygon in_image(frame.camera, corners);
   const cv::Rect region = in_image.region() & cv::Rect(0, 0, frame.camera.width, frame.camera.height) &

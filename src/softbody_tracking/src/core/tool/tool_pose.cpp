@@ -14,10 +14,11 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kDepthGrid = 12;
-constexpr double kDepthMargin = 0.06;  ///< of the marker's side
-constexpr double kCauchyScale = 3.0;   ///< standard deviations
-constexpr int kMaxIterations = 30;
+constexpr int kDepthGrid = 12;  // depth points in each direction of a marker; its depths err together anyway
+constexpr double kDepthMargin = 0.06;  // of a marker's side; depth at its edge may be that of the background
+constexpr double kCauchyScale = 3.0;   // standard deviations; larger depth residuals are outliers
+constexpr int kMaxIterations = 30;     // of Levenberg-Marquardt
+constexpr double kMinZ_m = 1e-3;       // [m] smallest depth of a corner that can be projected
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
@@ -25,7 +26,7 @@ Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   return m;
 }
 
-/// Half the cost's gradient, its Gauss-Newton matrix and the cost.
+/// Gauss-Newton matrix A, half of the gradient b, and the cost.
 struct NormalEquations {
   Matrix6 A = Matrix6::Zero();
   Vector6 b = Vector6::Zero();
@@ -54,15 +55,15 @@ void addCorners(const MarkerMeasurement& measurement, const Pinhole& camera, con
   }
 }
 
-/// A depth's share: many in one place err together.
-double depthShare(const MarkerMeasurement& measurement, const ToolTrackerConfig& config) {
+/// Weight of one depth point: the errors of a marker's depth points are correlated.
+double depthWeight(const MarkerMeasurement& measurement, const ToolTrackerConfig& config) {
   const auto count = static_cast<double>(measurement.depth_points.size());
   return std::min(1.0, config.depth_independent_samples / std::max(1.0, count));
 }
 
 void addDepths(const MarkerMeasurement& measurement, const Eigen::Isometry3d& T,
                const ToolTrackerConfig& config, NormalEquations* equations) {
-  const double share = depthShare(measurement, config);
+  const double share = depthWeight(measurement, config);
   const Eigen::Isometry3d& T_tool_marker = measurement.marker->T_tool_marker;
   const Eigen::Vector3d normal = T.linear() * T_tool_marker.linear().col(2);
   const Eigen::Vector3d centre = T * T_tool_marker.translation();
@@ -95,14 +96,14 @@ double degreesOfFreedom(const std::vector<const MarkerMeasurement*>& measurement
   for (const MarkerMeasurement* measurement : measurements) {
     count += 8.0;
     if (config.use_depth)
-      count += depthShare(*measurement, config) * static_cast<double>(measurement->depth_points.size());
+      count += depthWeight(*measurement, config) * static_cast<double>(measurement->depth_points.size());
   }
   return count;
 }
 
 bool inFront(const std::vector<const MarkerMeasurement*>& measurements, const Eigen::Isometry3d& T) {
   return std::all_of(measurements.begin(), measurements.end(), [&T](const MarkerMeasurement* m) {
-    return (T * markerCorners(*m->marker)).row(2).minCoeff() > 1e-3;
+    return (T * markerCorners(*m->marker)).row(2).minCoeff() > kMinZ_m;
   });
 }
 
@@ -160,7 +161,7 @@ double reprojectionRms(const MarkerMeasurement& measurement, const Pinhole& came
   const Eigen::Matrix<double, 3, 4> corners = T_camera_tool * markerCorners(*measurement.marker);
   double sum = 0.0;
   for (int k = 0; k < 4; ++k) {
-    if (!(corners(2, k) > 1e-3)) return INFINITY;
+    if (!(corners(2, k) > kMinZ_m)) return INFINITY;
     sum += (camera.project(corners.col(k)) - measurement.corners.col(k)).squaredNorm();
   }
   return std::sqrt(sum / 4.0);

@@ -9,21 +9,21 @@
 
 namespace softbody {
 
-/// One of the tool's markers as a frame shows it.
+/// One of the tool's markers, measured in a frame.
 struct MarkerMeasurement {
   const ToolMarker* marker = nullptr;
   Eigen::Matrix<double, 2, 4> corners;        ///< [px], in the order of markerCorners
-  std::vector<Eigen::Vector3d> depth_points;  ///< on the print, camera frame [m]
+  std::vector<Eigen::Vector3d> depth_points;  ///< points on the print, camera frame [m]
 };
 
-/// Depth under the marker, away from its edge; none where the frame has none.
+/// Points on the marker from the frame's depth, away from its edge; empty without depth.
 std::vector<Eigen::Vector3d> depthUnder(const Eigen::Matrix<double, 2, 4>& corners, const RgbdFrame& frame);
 
-/// Both poses (tool in the camera frame) in which a single marker looks alike: Infinitesimal Plane-based Pose
-/// Estimation (Collins and Bartoli 2014), the one that fits better first.
+/// Both poses T_camera_tool that explain a single planar marker, by Infinitesimal Plane-based Pose Estimation
+/// (Collins and Bartoli 2014). The better fit comes first.
 std::vector<Eigen::Isometry3d> planarPoses(const MarkerMeasurement& measurement, const Pinhole& camera);
 
-/// [px]
+/// Root mean square distance between projected and measured corners [px]; infinity behind the camera.
 double reprojectionRms(const MarkerMeasurement& measurement, const Pinhole& camera,
                        const Eigen::Isometry3d& T_camera_tool);
 
@@ -34,12 +34,12 @@ struct PoseEstimate {
   double variance_factor = 1.0;                        ///< chi squared per degree of freedom, at least 1
 };
 
-/// Levenberg-Marquardt over all markers' corners and depths at once, from a start nearby. Depths count by
-/// their distance from the marker's plane, with Cauchy weights.
+/// Refines a pose with Levenberg-Marquardt over the corners and depth points of all markers. The residual of
+/// a depth point is its distance from the marker's plane, with Cauchy weights.
 PoseEstimate refinePose(const std::vector<const MarkerMeasurement*>& measurements, const Pinhole& camera,
                         const Eigen::Isometry3d& start, const ToolTrackerConfig& config);
 
-/// Mean of measured minus computed depth over all points [m]; 0 where there are none.
+/// Mean of measured minus computed depth over all depth points [m]; 0 without points.
 double depthOffset(const std::vector<const MarkerMeasurement*>& measurements,
                    const Eigen::Isometry3d& T_camera_tool);
 

@@ -14,8 +14,9 @@
 namespace softbody {
 namespace {
 
-constexpr double kRegionMargin = 0.5;  ///< of the markers' extent in the image
-constexpr double kRegionMargin_px = 24.0;
+constexpr double kRegionMargin = 0.5;  // of the markers' extent in the image, for an error of the prediction
+constexpr double kRegionMargin_px = 24.0;  // [px] smallest margin, for small markers
+constexpr double kMinDepth_m = 0.01;       // [m] a marker nearer to the camera plane has no usable projection
 
 cv::Mat1b grayOf(const cv::Mat3b& color) {
   cv::Mat1b gray;
@@ -23,12 +24,12 @@ cv::Mat1b grayOf(const cv::Mat3b& color) {
   return gray;
 }
 
-/// Where the markers are expected in the image; empty: anywhere.
+/// Part of the image in which the markers are expected; empty: the whole image.
 cv::Rect expectedRegion(const ToolDescription& tool, const Pinhole& camera, const Eigen::Isometry3d& T) {
   Eigen::AlignedBox2d box;
   for (const ToolMarker& marker : tool.markers) {
     const Eigen::Matrix<double, 3, 4> corners = T * markerCorners(marker);
-    if (!(corners.row(2).minCoeff() > 1e-2)) return {};
+    if (!(corners.row(2).minCoeff() > kMinDepth_m)) return {};
     for (int k = 0; k < 4; ++k) box.extend(camera.project(corners.col(k)));
   }
   const double margin = std::max(kRegionMargin_px, kRegionMargin * box.sizes().maxCoeff());
@@ -48,12 +49,12 @@ double rmsOver(const ToolHypothesis& hypothesis, const Pinhole& camera) {
   return std::sqrt(sum / static_cast<double>(hypothesis.markers.size()));
 }
 
-/// With its axes turned by a rotation.
-PoseCovariance turned(const PoseCovariance& covariance, const Eigen::Matrix3d& R) {
-  PoseCovariance turn = PoseCovariance::Zero();
-  turn.topLeftCorner<3, 3>() = R;
-  turn.bottomRightCorner<3, 3>() = R;
-  return turn * covariance * turn.transpose();
+/// The covariance with its axes rotated by R.
+PoseCovariance rotated(const PoseCovariance& covariance, const Eigen::Matrix3d& R) {
+  PoseCovariance rotation = PoseCovariance::Zero();
+  rotation.topLeftCorner<3, 3>() = R;
+  rotation.bottomRightCorner<3, 3>() = R;
+  return rotation * covariance * rotation.transpose();
 }
 
 ToolObservation observationOf(const ToolHypothesis& hypothesis, const RgbdFrame& frame) {
@@ -101,7 +102,7 @@ struct ToolTracker::Implementation {
     return measurements;
   }
 
-  /// Around the prediction first, then anywhere.
+  /// Searches around the prediction first, then in the whole image.
   std::vector<ToolHypothesis> search(const RgbdFrame& frame) {
     const cv::Mat1b gray = grayOf(frame.color);
     const auto predicted = predict(frame);
@@ -120,11 +121,11 @@ struct ToolTracker::Implementation {
     measurements.clear();
     const std::vector<ToolHypothesis> hypotheses = search(frame);
     if (measurements.empty()) {
-      reason = "none of the tool's markers is seen";
+      reason = "no marker of the tool is seen";
     } else if (hypotheses.empty()) {
       reason = fmt::format("no pose fits the markers to {} px", config.max_reprojection_px);
     } else if (isAmbiguous(hypotheses, config)) {
-      reason = "two poses fit alike: the marker is too small, or seen too much from the front";
+      reason = "two poses fit equally well: the marker is too small in the image, or it faces the camera";
     } else {
       reason.clear();
       return observationOf(hypotheses.front(), frame);
@@ -137,19 +138,19 @@ struct ToolTracker::Implementation {
     if (motion && stamp - motion->stamp() > bridged) motion.reset();
   }
 
-  /// In the camera's frame.
+  /// Predicted pose in the camera's frame.
   std::optional<PoseMotion::Prediction> predict(const RgbdFrame& frame) const {
     if (!motion || !frame.placed) return std::nullopt;
     const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
     const PoseMotion::Prediction predicted = motion->predict(frame.stamp);
     return PoseMotion::Prediction{T_camera_fixed * predicted.pose,
-                                  turned(predicted.covariance, T_camera_fixed.linear())};
+                                  rotated(predicted.covariance, T_camera_fixed.linear())};
   }
 
-  void learnMotion(const ToolObservation& seen, const RgbdFrame& frame) {
+  void updateMotion(const ToolObservation& seen, const RgbdFrame& frame) {
     if (!frame.placed) return;
     const Eigen::Isometry3d pose = frame.T_fixed_camera * seen.T_camera_tool;
-    const PoseCovariance covariance = turned(seen.covariance, frame.T_fixed_camera.linear());
+    const PoseCovariance covariance = rotated(seen.covariance, frame.T_fixed_camera.linear());
     if (motion) {
       motion->update(pose, covariance, frame.stamp);
     } else {
@@ -172,7 +173,7 @@ struct ToolTracker::Implementation {
   ToolTrackerConfig config;
   MarkerDetector detector;
   std::optional<PoseMotion> motion;             ///< in the fixed frame
-  std::vector<MarkerMeasurement> measurements;  ///< of the present frame; hypotheses point into it
+  std::vector<MarkerMeasurement> measurements;  ///< of the current frame; hypotheses point into it
   Nanoseconds last_stamp = 0;
   std::string reason = "no frame yet";
 };
@@ -191,7 +192,7 @@ std::optional<ToolObservation> ToolTracker::track(const RgbdFrame& frame, StageT
   self.forgetOldMotion(frame.stamp);
   std::optional<ToolObservation> observation = self.observe(frame);
   if (!observation) return self.bridge(frame);
-  self.learnMotion(*observation, frame);
+  self.updateMotion(*observation, frame);
   return observation;
 }
 
