@@ -1,10 +1,11 @@
-"""docs/evaluation.md, and the short table in README.md, from the reports of `evaluate`."""
+"""docs/evaluation.md, and the table of ten figures in README.md, from the reports of `evaluate`."""
 import datetime
 import subprocess
 
 from evaluation_goals import goal_table
-from evaluation_tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, stage_times, toys,
-                               volumes)
+from evaluation_summary import summary_table
+from evaluation_tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, paragraph,
+                               stage_times, toys, volumes)
 
 BEGIN, END = "<!-- evaluation begin: written by make evaluate -->", "<!-- evaluation end -->"
 
@@ -21,10 +22,12 @@ def origin(root):
 
 def document(root, reports):
     lines = ["# Evaluation", "", f"Written by {origin(root)}.", "",
-             "The virtual camera's recordings (default seed and noise, 640 x 480 at 30 Hz) tracked by `replay` and",
-             "compared with the exact truth; `-`: not measured. [What each figure means](figures.md).", "",
-             "## Goals", "", "What of an error volume and material leave, however a body is tracked: [below](#what-the-volume-allows).",
-             "", *goal_table(reports)]
+             *paragraph("Recordings of the virtual camera (default seed and noise, 640 x 480 at 30 Hz), tracked by "
+                        "`replay` and compared with the exact truth. `-`: not measured. "
+                        "[Scenes](virtual_camera.md#scenes), [definitions of the figures](figures.md)."), "",
+             "## Goals", "",
+             "A part of the error comes from volume and material, and no tracking can remove it:",
+             "[what the volume allows](#what-the-volume-allows).", "", *goal_table(reports)]
     for part in (accuracy, noise, moving_camera, volumes, long_runs, absences, cuts, faults, toys, stage_times):
         lines += part(reports)
     return "\n".join(lines).rstrip() + "\n"
@@ -37,10 +40,10 @@ def replace(path, text):
 
 
 def write(root, text, reports):
-    """docs/evaluation.md, and the goals between the marks in README.md."""
+    """docs/evaluation.md, and the ten figures between the marks in README.md."""
     readme = root / "README.md"
     before, rest = readme.read_text().split(BEGIN)
     after = rest.split(END)[1]
-    quoted = "\n".join([f"Measured by {origin(root)}:", "", *goal_table(reports)])
+    quoted = "\n".join([f"Measured by {origin(root)}:", "", *summary_table(reports)])
     replace(root / "docs/evaluation.md", text)
     replace(readme, f"{before}{BEGIN}\n{quoted}{END}{after}")

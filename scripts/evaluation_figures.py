@@ -2,9 +2,21 @@
 
 NOISE_FREE = ("bend", "push", "pull", "twist", "press")
 MOVING = ("still", "bend", "push", "twist")
-# Scenes with faults. One draw of wrong matches says little: the error differs by a third between them.
+# Scenes with faults. Several seeds of wrong matches, because the error differs by a third between them.
 WRONG_MATCH_SEEDS = {"bend": (1, 2, 3, 4), "push": (1, 2), "twist": (1, 2)}
-DEPTH_HOLES, FEW_FEATURES = "30 % depth holes", "at most 50 features instead of at most 1000"
+DEPTH_HOLES, FEW_FEATURES = "30 % depth holes", "at most 50 features instead of 1000"
+
+# Kang et al. 2022: section 6 (the mean error), Table 2 (times; "Init." is the first frame).
+PAPER_MEAN_ERROR_MM = 2.56
+PAPER_TIMES_MS = {
+    "Feature-Point Tracking": {"sponge": 0.56, "doll": 0.67},
+    "Soft-body Simulation": {"sponge": 10.62, "doll": 29.02},
+    "Resolution Enhancement": {"sponge": 0.38, "doll": 2.81},
+    "Feature-Point Tracking (first frame)": {"sponge": 15.51, "doll": 22.53},
+    "Soft-body Simulation (first frame)": {"sponge": 21.22, "doll": 23.61},
+    "Resolution Enhancement (first frame)": {"sponge": 18.41, "doll": 542.31},
+}
+PAPER_FRAME_MS = {"sponge": 11.56, "doll": 32.50}  # its "Total"
 
 
 def wrong_matches(seed):
@@ -20,7 +32,7 @@ def percent(value, digits=1):
 
 
 def get(report, *keys):
-    """A value deep in a report; None where there is none."""
+    """A nested value of a report; None if it is missing."""
     for key in keys:
         if report is None:
             return None
@@ -29,7 +41,7 @@ def get(report, *keys):
 
 
 def of_kind(reports, kind):
-    """Reports of one kind by name, in alphabetical order; those of other bodies after the sponge's."""
+    """Reports of one kind by name, in alphabetical order; the sponge first."""
     chosen = {name: report for (its_kind, name), report in reports.items() if its_kind == kind}
     return dict(sorted(chosen.items(), key=lambda item: ("_" in item[0], item[0])))
 
@@ -50,21 +62,21 @@ def worst(values):
 
 
 def moving_times(reports):
-    """Mean errors before a camera that moves as multiples of those before one at rest, by scene."""
+    """Mean error with a moving camera over that with a fixed camera, by scene."""
     keys = ("vertex_error", "all", "mean_mm")
     return {name: get(moving, *keys) / get(reports[("scene", name)], *keys)
             for name, moving in of_kind(reports, "moving camera").items()}
 
 
 def fault_times(reports, scene, fault):
-    """Mean error with a fault as a multiple of that without; None if one was not measured."""
+    """Mean error with a fault over that without; None if one was not measured."""
     base, faulty = (get(reports.get(key), "vertex_error", "all", "mean_mm")
                     for key in (("scene", scene), ("fault", (scene, fault))))
     return None if base is None or faulty is None else faulty / base
 
 
 def in_words(reports):
-    """One line on what has been measured, each scene and fault by its name."""
+    """One line with the mean error of each scene and fault."""
     words = []
     for (kind, name), report in reports.items():
         if not report:
