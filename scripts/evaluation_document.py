@@ -4,8 +4,9 @@ import subprocess
 
 from evaluation_goals import goal_table
 from evaluation_summary import summary_table
-from evaluation_tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, paragraph,
-                               stage_times, toys, volumes)
+from evaluation_tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, stage_times, toys,
+                               volumes)
+from markdown_lines import paragraph
 
 BEGIN, END = "<!-- evaluation begin: written by make evaluate -->", "<!-- evaluation end -->"
 

@@ -3,7 +3,7 @@ import math
 
 from evaluation_figures import (DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, fault_times, get,
                                 moving_times, number, worst, wrong_matches)
-from evaluation_tables import table
+from markdown_lines import table
 
 
 def goals(reports):

@@ -1,23 +1,14 @@
 """The tables of docs/evaluation.md, each with its introduction, from the reports of `evaluate`."""
 import statistics
-import textwrap
 
 from evaluation_figures import (PAPER_TIMES_MS, WRONG_MATCH_SEEDS, fault_times, frames, get, moving_times, number,
                                 of_kind, percent, tracking_share, worst)
-
-
-def table(columns, rows):
-    lines = [columns, ["---"] * len(columns), *rows]
-    return ["| " + " | ".join(cells) + " |" for cells in lines] + [""]
+from markdown_lines import paragraph, table
 
 
 def section(title, words, columns, rows):
     """A table with its introduction; nothing if there is no row."""
     return [f"## {title}", "", *paragraph(words), "", *table(columns, rows)] if rows else []
-
-
-def paragraph(words):
-    return textwrap.wrap(words, 120, break_long_words=False, break_on_hyphens=False)
 
 
 def accuracy(reports):
