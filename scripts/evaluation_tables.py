@@ -159,8 +159,8 @@ def stage_times(reports):
              *(number(PAPER_TIMES_MS.get(words, {}).get(body)) for body in paper)] for words, of_body in times.items()]
     return section("Time",
                    "Median time of each stage in a frame [ms]. Two replays run side by side on this machine, without "
-                   "a GPU. The paper's times are those of its Table 2, on an Intel Core i7-6700K with a GeForce GTX 1080 "
-                   "Ti.",
+                   "a GPU. The paper's times are those of its Table 2, on an Intel Core i7-6700K with a GeForce GTX "
+                   "1080 Ti.",
                    ["stage", *bodies, *(f"paper, {body}" for body in paper)], rows)
 
 

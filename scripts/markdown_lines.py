@@ -2,8 +2,8 @@
 import textwrap
 
 
-def paragraph(words, width=120):
-    return textwrap.wrap(words, width, break_long_words=False, break_on_hyphens=False)
+def paragraph(words):
+    return textwrap.wrap(words, 120, break_long_words=False, break_on_hyphens=False)
 
 
 def table(columns, rows):
