@@ -74,9 +74,8 @@ struct CameraTopics {
   explicit CameraTopics(const std::string& camera)
       : color(camera + "/color/image_raw"),
         color_info(camera + "/color/camera_info"),
-        depth(camera + "/aligned_depth_to_color/image_raw"),
-        depth_info(camera + "/aligned_depth_to_color/camera_info") {}
-  std::string color, color_info, depth, depth_info;
+        depth(camera + "/aligned_depth_to_color/image_raw") {}
+  std::string color, color_info, depth;
 };
 
 /// Depth in metres. @throw std::invalid_argument for other encodings.
@@ -174,8 +173,8 @@ void readRecording(const std::string& path, const std::string& camera,
                    const std::function<void(const RecordedFrame&)>& use) {
   const rosbag::Bag bag = openBag(path);
   const CameraTopics topics(camera);
-  for (const std::string& topic : {topics.color, topics.depth, topics.depth_info}) requireTopic(bag, topic);
-  const sensor_msgs::CameraInfoConstPtr info = firstInfo(bag, topics.depth_info);
+  for (const std::string& topic : {topics.color, topics.depth, topics.color_info}) requireTopic(bag, topic);
+  const sensor_msgs::CameraInfoConstPtr info = firstInfo(bag, topics.color_info);
   const Undistortion undistortion(*info);
   Pairer pairer{PairingConfig()};
   pairer.setInfo(info);
@@ -207,7 +206,7 @@ std::string recordingFrame(const std::string& path, const std::string& camera) {
 bool hasRecording(const std::string& path, const std::string& camera) {
   const rosbag::Bag bag = openBag(path);
   const CameraTopics topics(camera);
-  for (const std::string& topic : {topics.color, topics.depth, topics.depth_info}) {
+  for (const std::string& topic : {topics.color, topics.depth, topics.color_info}) {
     if (rosbag::View(bag, rosbag::TopicQuery(topic)).size() == 0) return false;
   }
   return true;

@@ -137,6 +137,23 @@ TEST(Evaluator, TwoResultsSideBySide) {
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(options.report_folder) / file)) << file;
 }
 
+// Registered depth lies on the grid of the colour image, so the colour's CameraInfo is enough, as it is for
+// the graph.
+TEST(Evaluator, ARecordingNeedsNoCameraInfoOfDepth) {
+  const std::string path = testing::TempDir() + "without_depth_info.bag";
+  {
+    rosbag::Bag in(recording()), out(path, rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& m : rosbag::View(in)) {
+      if (m.getTopic() != "/camera/aligned_depth_to_color/camera_info")
+        out.write(m.getTopic(), m.getTime(), m);
+    }
+  }
+  EvaluatorOptions options;
+  options.result = resultFromTruth("of_documented_topics.bag", asItIs);
+  options.recording = path;
+  EXPECT_LT(evaluate(options).residual->residual.max, 0.51e-3);
+}
+
 TEST(Evaluator, WhatDoesNotFitIsSaidInASentence) {
   EvaluatorOptions options;
   options.result = recording();
