@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Every example of README.md and docs/*.md runs: bash blocks in order, page by page; YAML blocks are loaded by their tool."""
+import glob
+import os
+import sys
+import tempfile
+import unittest
+
+import rospkg
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import doc_pages
+import example_runner
+import stand_ins
+
+ROOT = os.path.realpath(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "../.."))
+PAGES = ["README.md", *sorted(os.path.relpath(path, ROOT) for path in glob.glob(f"{ROOT}/docs/*.md"))]
+
+
+class DocExamples(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix="doc_examples_")
+        cls.addClassCleanup(cls.scratch.cleanup)
+        cls.stand_ins = f"{cls.scratch.name}/stand_ins"
+        os.makedirs(cls.stand_ins)
+        stand_ins.make(cls.stand_ins, f"{ROOT}/config")
+
+    def run_page(self, text, name):
+        examples = doc_pages.examples(text)
+        if not examples:
+            return
+        with tempfile.TemporaryDirectory(prefix="page_", dir=self.scratch.name) as scratch:
+            runner = example_runner.PageRunner(ROOT, self.stand_ins, scratch)
+            self.addCleanup(runner.close)
+            for example in examples:
+                try:
+                    runner.run(example)
+                except example_runner.ExampleFailed as error:
+                    self.fail(f"{name}:{example.line}: {error}\nThe example:\n{example.text}")
+            runner.close()
+
+    def test_an_example_that_is_wrong_fails(self):
+        for broken, reason in (
+                ("```bash\nrosrun softbody_bringup replay my.bag --no-such-option\n```\n", "no-such-option"),
+                ("```bash\nroslaunch softbody_bringup demo.launch no_such_argument:=1\n```\n", "no argument 'no_such_argument'"),
+                ("```bash\nroslaunch softbody_bringup track.launch object:=no_such_file.yaml\n```\n", "there is no such file"),
+                ("```bash\nmake no_such_target\n```\n", "no_such_target"),
+                ("<!-- example: live -->\n```bash\nrosrun softbody_bringup replay --no-such-option\n```\n", "names no option"),
+                ("<!-- example: fails -->\n```bash\nrosrun softbody_bringup validate_bag my.bag\n```\n", "exit code 0"),
+                ("```yaml\nobject:\n  visual_mesh: sponge.obj\n  pins: [{name: grip, min: [5, 5, 5], max: [6, 6, 6]}]\n```\n",
+                 "no vertex of the volume"),
+                ("```yaml\nfeature_tracker: {no_such_parameter: 1}\n```\n", "no_such_parameter")):
+            with self.assertRaisesRegex(self.failureException, reason):
+                self.run_page(broken, "broken")
+
+
+def page_test(page):
+    def test(self):
+        with open(f"{ROOT}/{page}", encoding="utf-8") as file:
+            self.run_page(file.read(), page)
+    return test
+
+
+for page_name in PAGES:
+    setattr(DocExamples, "test_" + page_name.replace("/", "_").replace(".md", ""), page_test(page_name))
+
+if __name__ == "__main__":
+    rostest.rosrun("softbody_bringup", "doc_examples", DocExamples, sys.argv)
