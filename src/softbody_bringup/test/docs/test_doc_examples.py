@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every example of README.md and docs/*.md runs: bash blocks in order, page by page; YAML blocks are loaded by their tool."""
+"""Every example of README.md and docs/*.md runs: bash blocks in order, page by page; YAML blocks are loaded by their tool.
+Log sentences that a page quotes are those of the sources."""
 import glob
 import os
 import sys
@@ -12,6 +13,7 @@ import rostest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import doc_pages
 import example_runner
+import log_sentences
 import stand_ins
 
 ROOT = os.path.realpath(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "../.."))
@@ -54,6 +56,14 @@ class DocExamples(unittest.TestCase):
                 ("```yaml\nfeature_tracker: {no_such_parameter: 1}\n```\n", "no_such_parameter")):
             with self.assertRaisesRegex(self.failureException, reason):
                 self.run_page(broken, "broken")
+
+    def test_quoted_log_sentences(self):
+        sources, wrong = log_sentences.literals(ROOT), []
+        for page in PAGES:
+            with open(f"{ROOT}/{page}", encoding="utf-8") as file:
+                for sentence in log_sentences.quoted(file.read()):
+                    wrong += [f"{page}: no source says '{part}'" for part in log_sentences.missing(sentence, sources)]
+        self.assertEqual(wrong, [])
 
 
 def page_test(page):
