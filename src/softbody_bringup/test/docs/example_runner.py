@@ -12,7 +12,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 TIMEOUT_S = 180
 # Programs that only check their arguments: in every block, and in a block that is marked live.
 ALWAYS_CHECKED = ("roslaunch", "make")
-CHECKED_LIVE = ALWAYS_CHECKED + ("rosrun", "rosbag", "rosservice", "rostopic", "rosparam", "rosnode", "rqt_graph", "rviz", "roscore")
+CHECKED_LIVE = ALWAYS_CHECKED + ("rosrun", "rosbag", "rosservice", "rostopic", "rosparam", "rosnode", "rqt_graph", "rviz", "roscore", "time")
 GRAPH_SECTIONS = ("camera_ingest", "feature_tracker", "pose_marker", "simulator", "surface", "tool_tracker")
 
 
@@ -47,7 +47,8 @@ class PageRunner:
         self.programs = {"run": f"{scratch}/run", "live": f"{scratch}/live", "background": "", "fails": f"{scratch}/run"}
         self.stubs(self.programs["run"], ALWAYS_CHECKED)
         self.stubs(self.programs["live"], CHECKED_LIVE)
-        self.environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{free_port()}", "PWD": self.folder,
+        self.port = free_port()
+        self.environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{self.port}", "PWD": self.folder,
                             "XDG_CACHE_HOME": f"{scratch}/cache"}
         os.makedirs(f"{self.folder}/catkin_ws/devel")
         with open(f"{self.folder}/catkin_ws/devel/setup.bash", "w", encoding="utf-8"):
@@ -86,6 +87,18 @@ class PageRunner:
         log = open(f"{self.folder}/background.log", "a", encoding="utf-8")
         self.background.append(subprocess.Popen(["bash", "-c", command], cwd=self.folder, env=self.environment,
                                                 stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True))
+
+        self.wait_for_master()
+
+    def wait_for_master(self):
+        """The next example takes for granted that the graph has been started."""
+        end = time.monotonic() + TIMEOUT_S
+        while time.monotonic() < end:
+            with socket.socket() as client:
+                if client.connect_ex(("localhost", self.port)) == 0:
+                    return
+            time.sleep(0.1)
+        raise ExampleFailed("no master comes up")
 
     def close(self):
         for process in self.background:
