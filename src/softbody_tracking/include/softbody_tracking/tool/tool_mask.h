@@ -13,7 +13,7 @@ class ToolMask {
       200'000'000;  ///< [ns] a blade is used this long before and after its stamp
 
   /// @param blade planar polygon in the fixed frame, #B by 3 [m].
-  void see(Nanoseconds stamp, const Points& blade);
+  void setBlade(Nanoseconds stamp, const Points& blade);
 
   /// The frame with depth removed, and `covered` set, at points within 8 mm of the blade. Pixels without
   /// depth are covered if the blade lies there in the image: a shiny blade returns no depth. Returns the

@@ -64,7 +64,7 @@ struct ImagePolygon {
 
 }  // namespace
 
-void ToolMask::see(Nanoseconds stamp, const Points& blade) {
+void ToolMask::setBlade(Nanoseconds stamp, const Points& blade) {
   stamp_ = stamp;
   blade_ = blade;
 }
