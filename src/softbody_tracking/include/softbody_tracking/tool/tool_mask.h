@@ -19,7 +19,7 @@ class ToolMask {
   /// depth are covered if the blade lies there in the image: a shiny blade returns no depth. Returns the
   /// frame itself if no blade is valid at its stamp, or if the blade comes nearer than 1 cm to the camera
   /// plane.
-  RgbdFrame without(const RgbdFrame& frame) const;
+  RgbdFrame withoutBlade(const RgbdFrame& frame) const;
 
  private:
   Nanoseconds stamp_ = 0;

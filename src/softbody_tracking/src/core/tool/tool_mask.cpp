@@ -69,7 +69,7 @@ void ToolMask::setBlade(Nanoseconds stamp, const Points& blade) {
   blade_ = blade;
 }
 
-RgbdFrame ToolMask::without(const RgbdFrame& frame) const {
+RgbdFrame ToolMask::withoutBlade(const RgbdFrame& frame) const {
   if (blade_.rows() < 3 || !blade_.allFinite() || std::abs(frame.stamp - stamp_) > kBladeValidity)
     return frame;
   const Points corners = transformed(blade_, frame.T_fixed_camera.inverse());
