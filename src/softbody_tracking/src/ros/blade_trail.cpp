@@ -8,10 +8,13 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr Nanoseconds kLength = 1'500'000'000, kLongestGap = 250'000'000;  // [ns]
-constexpr double kLifetime = 0.5;                               // of a marker that nobody renews [s]
-constexpr double kOutlineWidth = 0.0015, kTrailWidth = 0.0006;  // [m]
-constexpr float kOutlineAlpha = 0.3f;                           // of an earlier outline, to a path's
+constexpr Nanoseconds kLength = 1'500'000'000;  // [ns] time that the trail shows
+constexpr Nanoseconds kMaxGap =
+    250'000'000;                     // [ns] between poses of one trail; a blink of the markers is shorter
+constexpr double kLifetime_s = 0.5;  // [s] a marker that is not renewed disappears
+constexpr double kOutlineWidth_m = 0.0015;  // [m] of the present outline
+constexpr double kTrailWidth_m = 0.0006;    // [m] of the trail; thinner, so that the outline stands out
+constexpr float kOutlineAlpha = 0.3f;       // of an earlier outline, as a factor of its path's
 
 Marker lineList(const char* name, double width, const std_msgs::Header& header) {
   Marker marker;
@@ -22,7 +25,7 @@ Marker lineList(const char* name, double width, const std_msgs::Header& header) 
   marker.scale.x = width;
   marker.color.r = marker.color.a = 1.0f;
   marker.color.g = 0.67f;
-  marker.lifetime = ros::Duration(kLifetime);
+  marker.lifetime = ros::Duration(kLifetime_s);
   return marker;
 }
 
@@ -44,7 +47,7 @@ void addOutline(const Points& corners, float alpha, Marker* marker) {
 }  // namespace
 
 void BladeTrail::add(Nanoseconds stamp, const Eigen::Isometry3d& T_fixed_tool) {
-  if (!outlines_.empty() && (stamp < outlines_.back().stamp || stamp - outlines_.back().stamp > kLongestGap))
+  if (!outlines_.empty() && (stamp < outlines_.back().stamp || stamp - outlines_.back().stamp > kMaxGap))
     outlines_.clear();
   outlines_.push_back({stamp, transformed(blade_, T_fixed_tool)});
   while (stamp - outlines_.front().stamp > kLength) outlines_.pop_front();
@@ -57,9 +60,9 @@ float BladeTrail::freshness(const Outline& outline) const {
 visualization_msgs::MarkerArray BladeTrail::markers(const std_msgs::Header& header) const {
   visualization_msgs::MarkerArray message;
   if (outlines_.empty()) return message;
-  Marker blade = lineList("blade", kOutlineWidth, header), trail = lineList("trail", kTrailWidth, header);
+  Marker blade = lineList("blade", kOutlineWidth_m, header), trail = lineList("trail", kTrailWidth_m, header);
   addOutline(outlines_.back().corners, 1.0f, &blade);
-  trail.color.a = 0.99f;  // rviz blends lines of several colours only where this one is not opaque
+  trail.color.a = 0.99f;  // rviz blends coloured lines only if the marker itself is not opaque
   for (std::size_t k = 0; k + 1 < outlines_.size(); ++k) {
     const float from = freshness(outlines_[k]), to = freshness(outlines_[k + 1]);
     addOutline(outlines_[k].corners, kOutlineAlpha * from, &trail);

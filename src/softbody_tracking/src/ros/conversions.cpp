@@ -3,8 +3,8 @@
 #include <cv_bridge/cv_bridge.h>
 #include <fmt/format.h>
 #include <sensor_msgs/image_encodings.h>
-#include <boost/make_shared.hpp>
 
+#include <boost/make_shared.hpp>
 #include <cstring>
 #include <set>
 #include <stdexcept>
@@ -16,11 +16,11 @@ namespace enc = sensor_msgs::image_encodings;
 namespace softbody {
 namespace {
 
-constexpr std::uint32_t kMostPixels = 1u
-                                      << 14;  // a side; keeps products of a corrupt header from overflowing
+// Pixels in a row or column. Products of a corrupt header's numbers must not overflow.
+constexpr std::uint32_t kMaxSide = 1u << 14;
 
 void checkLayout(const sensor_msgs::Image& image, const char* name) {
-  if (image.width == 0 || image.height == 0 || image.width > kMostPixels || image.height > kMostPixels) {
+  if (image.width == 0 || image.height == 0 || image.width > kMaxSide || image.height > kMaxSide) {
     throw std::invalid_argument(
         fmt::format("the {} image has {}x{} pixels", name, image.width, image.height));
   }
@@ -33,17 +33,17 @@ void checkLayout(const sensor_msgs::Image& image, const char* name) {
   if (image.step < image.width * bytes ||
       image.data.size() < static_cast<std::size_t>(image.step) * image.height) {
     throw std::invalid_argument(
-        fmt::format("the {} image is cut short: {} bytes in rows of {} for {}x{} pixels of {}", name,
+        fmt::format("the {} image is truncated: {} bytes in rows of {} for {}x{} pixels of {}", name,
                     image.data.size(), image.step, image.width, image.height, image.encoding));
   }
 }
 
-/// A view that keeps no reference: the caller's message outlives it.
+/// A view without a reference to the message: the caller's message must outlive it.
 cv_bridge::CvImageConstPtr share(const sensor_msgs::Image& image, const std::string& encoding,
                                  const char* name) {
   try {
     return cv_bridge::toCvShare(image, boost::shared_ptr<void const>(), encoding);
-  } catch (const std::exception& error) {  // cv_bridge::Exception, and cv::Exception out of the conversion
+  } catch (const std::exception& error) {  // cv_bridge::Exception, or cv::Exception from the conversion
     throw std::invalid_argument(
         fmt::format("the {} image's encoding '{}' cannot be used: {}", name, image.encoding, error.what()));
   }
@@ -58,7 +58,7 @@ cv::Mat3b colorFromMessage(const sensor_msgs::Image& image) {
   const std::set<std::string> depth_only{enc::TYPE_16UC1, enc::TYPE_32FC1};
   if (depth_only.count(image.encoding) != 0) {
     throw std::invalid_argument(
-        fmt::format("the colour image's encoding is '{}', that of depth", image.encoding));
+        fmt::format("the colour image's encoding is '{}', a depth encoding", image.encoding));
   }
   const cv_bridge::CvImageConstPtr bgr = share(image, enc::BGR8, "colour");
   return bgr->image.data == image.data.data() ? bgr->image.clone() : bgr->image;
@@ -66,7 +66,7 @@ cv::Mat3b colorFromMessage(const sensor_msgs::Image& image) {
 
 cv::Mat depthFromMessage(const sensor_msgs::Image& image) {
   checkLayout(image, "depth");
-  // mono16 is what some drivers call millimetres.
+  // Some drivers call depth in millimetres mono16.
   const std::set<std::string> allowed{enc::TYPE_16UC1, enc::MONO16, enc::TYPE_32FC1};
   if (allowed.count(image.encoding) == 0) {
     throw std::invalid_argument(
@@ -85,7 +85,7 @@ Distortion distortionFromMessage(const sensor_msgs::CameraInfo& info) {
   }
   Distortion distortion;
   distortion.K = matrix(info.K);
-  // A message that nobody filled in has R all zero.
+  // R is all zero in a message that was not filled in.
   if (matrix(info.R) != cv::Matx33d::zeros()) distortion.R = matrix(info.R);
   distortion.coefficients = info.D;
   distortion.fisheye = info.distortion_model == "equidistant";

@@ -7,7 +7,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kLineWidth = 0.0008;  // [m]
+constexpr double kLineWidth_m = 0.0008;  // [m] thin, because up to a thousand lines are shown
 
 }  // namespace
 
@@ -39,7 +39,7 @@ visualization_msgs::Marker makeFeatureMarker(const std::vector<TrackedFeature>& 
   marker.type = visualization_msgs::Marker::LINE_LIST;
   marker.action = visualization_msgs::Marker::ADD;
   marker.pose.orientation.w = 1.0;
-  marker.scale.x = kLineWidth;
+  marker.scale.x = kLineWidth_m;
   marker.color.b = marker.color.a = 1.0f;
   marker.color.g = 0.4f;
   for (const TrackedFeature& feature : features) {

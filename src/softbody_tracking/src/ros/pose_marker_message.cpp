@@ -11,6 +11,9 @@ namespace {
 using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::Marker;
 
+constexpr double kRelativeScale =
+    1.2;  // of the body's largest extent, so that arrows and rings lie outside of it
+
 Marker meshMarker(const MeshTopology& mesh) {
   Marker marker;
   marker.type = Marker::TRIANGLE_LIST;
@@ -39,7 +42,8 @@ InteractiveMarkerControl meshControl(const MeshTopology& mesh) {
   return control;
 }
 
-/// Along or about the axis onto which a quarter turn takes the x axis: the controls' own.
+/// A control along or about an axis. rviz uses the control's x axis, which a quarter turn takes to the wanted
+/// axis.
 InteractiveMarkerControl axisControl(const std::array<double, 3>& quarter_turn, std::uint8_t mode,
                                      const std::string& name) {
   InteractiveMarkerControl control;
@@ -63,7 +67,7 @@ visualization_msgs::InteractiveMarker makePoseMarker(const softbody_msgs::MeshTo
   marker.header = pose.header;
   marker.pose = pose.pose;
   marker.name = "body";
-  marker.scale = static_cast<float>(1.2 * size.maxCoeff());
+  marker.scale = static_cast<float>(kRelativeScale * size.maxCoeff());
   marker.controls.push_back(meshControl(mesh));
   const std::array<std::array<double, 3>, 3> turns{{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
   const std::array<std::string, 3> names{"x", "y", "z"};

@@ -10,7 +10,7 @@ const StreamTopics kTopics{StreamTopic{"/cam/color", 1}, StreamTopic{"/cam/info"
 constexpr Nanoseconds kTolerance = 15'000'000, kPeriod = 33'333'333, kSilence = 2'000'000'000;
 
 bool says(const StreamMonitor& monitor, const std::string& words, Nanoseconds now = 0) {
-  return monitor.complaint(kTopics, now).find(words) != std::string::npos;
+  return monitor.diagnosis(kTopics, now).find(words) != std::string::npos;
 }
 
 TEST(StreamMonitor, NamesExactlyTheSilentTopics) {
@@ -18,7 +18,7 @@ TEST(StreamMonitor, NamesExactlyTheSilentTopics) {
   for (int arriving = 0; arriving < 7; ++arriving) {
     StreamMonitor monitor(kTolerance, kSilence);
     for (int s = 0; s < 3; ++s) {
-      if ((arriving >> s & 1) != 0) monitor.arrived(streams[s], 1000, 0);
+      if ((arriving >> s & 1) != 0) monitor.noteArrival(streams[s], 1000, 0);
     }
     for (int s = 0; s < 3; ++s)
       EXPECT_EQ(says(monitor, kTopics[s].name), (arriving >> s & 1) == 0) << arriving;
@@ -33,19 +33,19 @@ TEST(StreamMonitor, TellsAbsentPublishersFromSilentOnes) {
 
 TEST(StreamMonitor, TellsImagesWithoutAStampFromNone) {
   StreamMonitor monitor(kTolerance, kSilence);
-  monitor.unstamped(Stream::kColor);
+  monitor.noteUnstamped(Stream::kColor);
   EXPECT_TRUE(says(monitor, "/cam/color (its images have no stamp)"));
   EXPECT_TRUE(says(monitor, "/cam/info (publishers: 1, but silent)"));
-  monitor.completed();
+  monitor.noteFrame();
   EXPECT_TRUE(says(monitor, "/cam/color (publishers: 1, but silent)"));
 }
 
 TEST(StreamMonitor, MeasuresHowFarStampsAreApart) {
   StreamMonitor monitor(kTolerance, kSilence);
   for (int k = 0; k < 100; ++k) {
-    monitor.arrived(Stream::kColor, k * kPeriod, k * kPeriod);
-    monitor.arrived(Stream::kColorInfo, k * kPeriod, k * kPeriod);
-    monitor.arrived(Stream::kDepth, k * kPeriod + 16'000'000, k * kPeriod);
+    monitor.noteArrival(Stream::kColor, k * kPeriod, k * kPeriod);
+    monitor.noteArrival(Stream::kColorInfo, k * kPeriod, k * kPeriod);
+    monitor.noteArrival(Stream::kDepth, k * kPeriod + 16'000'000, k * kPeriod);
   }
   EXPECT_TRUE(says(monitor, "differ by 16.0 ms", 100 * kPeriod));
   EXPECT_TRUE(says(monitor, "tolerance is 15.0 ms", 100 * kPeriod));
@@ -55,38 +55,38 @@ TEST(StreamMonitor, MeasuresHowFarStampsAreApart) {
 TEST(StreamMonitor, WhatCameLongAgoIsSilentNow) {
   constexpr Nanoseconds kLater = 100'000'000'000;
   StreamMonitor monitor(kTolerance, kSilence);
-  for (const Stream stream : {Stream::kColorInfo, Stream::kDepth}) monitor.arrived(stream, 0, 0);
-  monitor.arrived(Stream::kColor, kLater, kLater);
-  EXPECT_TRUE(says(monitor, "no usable message on /cam/depth", kLater)) << monitor.complaint(kTopics, kLater);
-  monitor.arrived(Stream::kDepth, 0, kLater);
+  for (const Stream stream : {Stream::kColorInfo, Stream::kDepth}) monitor.noteArrival(stream, 0, 0);
+  monitor.noteArrival(Stream::kColor, kLater, kLater);
+  EXPECT_TRUE(says(monitor, "no usable message on /cam/depth", kLater)) << monitor.diagnosis(kTopics, kLater);
+  monitor.noteArrival(Stream::kDepth, 0, kLater);
   EXPECT_TRUE(says(monitor, "differ by 100000.0 ms", kLater)) << "another clock";
 }
 
 TEST(StreamMonitor, OneCameraInfoIsEnough) {
   StreamMonitor monitor(kTolerance, kSilence);
-  monitor.arrived(Stream::kColorInfo, 0, 0);
-  monitor.completed();
+  monitor.noteArrival(Stream::kColorInfo, 0, 0);
+  monitor.noteFrame();
   EXPECT_FALSE(says(monitor, "/cam/info", 10 * kSilence));
   EXPECT_TRUE(says(monitor, "/cam/color", 10 * kSilence));
 }
 
 TEST(StreamMonitor, KnowsWhatEverCame) {
   StreamMonitor monitor(kTolerance, kSilence);
-  monitor.arrived(Stream::kColor, 0, 0);
-  monitor.unstamped(Stream::kDepth);
-  monitor.completed();
-  EXPECT_TRUE(monitor.hasCome(Stream::kColor));
-  EXPECT_TRUE(monitor.hasCome(Stream::kDepth));
-  EXPECT_FALSE(monitor.hasCome(Stream::kColorInfo));
+  monitor.noteArrival(Stream::kColor, 0, 0);
+  monitor.noteUnstamped(Stream::kDepth);
+  monitor.noteFrame();
+  EXPECT_TRUE(monitor.hasArrived(Stream::kColor));
+  EXPECT_TRUE(monitor.hasArrived(Stream::kDepth));
+  EXPECT_FALSE(monitor.hasArrived(Stream::kColorInfo));
 }
 
 TEST(StreamMonitor, ARefusalIsGivenUntilAFrameIsComplete) {
   StreamMonitor monitor(kTolerance, kSilence);
   for (const Stream stream : {Stream::kColor, Stream::kColorInfo, Stream::kDepth})
-    monitor.arrived(stream, 5, 0);
-  monitor.refused("sizes differ");
+    monitor.noteArrival(stream, 5, 0);
+  monitor.noteRefusal("sizes differ");
   EXPECT_TRUE(says(monitor, "sizes differ"));
-  monitor.completed();
+  monitor.noteFrame();
   EXPECT_FALSE(says(monitor, "sizes differ"));
 }
 

@@ -11,45 +11,45 @@ namespace softbody {
 
 enum class Stream { kColor = 0, kColorInfo = 1, kDepth = 2 };
 
-/// A stream's topic as the user sees it.
+/// The topic of a stream.
 struct StreamTopic {
-  std::string name;  ///< resolved
+  std::string name;  ///< resolved name
   int publishers = 0;
 };
 using StreamTopics = std::array<StreamTopic, 3>;  ///< in the order of Stream
 
-/// Remembers what arrived since the last complete frame, to say why none came.
+/// Remembers the messages since the last frame, to explain why no further frame came.
 class StreamMonitor {
  public:
   /// @param tolerance largest difference of the stamps of colour and depth; 0: they must be equal.
-  /// @param silence in which a stream that goes on has a message.
-  StreamMonitor(Nanoseconds tolerance, Nanoseconds silence) : tolerance_(tolerance), silence_(silence) {}
+  /// @param timeout a stream without a message for this long is silent.
+  StreamMonitor(Nanoseconds tolerance, Nanoseconds timeout) : tolerance_(tolerance), timeout_(timeout) {}
 
-  /// @param now by the clock that complaint() goes by.
-  void arrived(Stream stream, Nanoseconds stamp, Nanoseconds now);
-  /// A message without a stamp, which cannot be used.
-  void unstamped(Stream stream);
-  /// A synchronised set that could not be used, and why.
-  void refused(const std::string& why) { refusal_ = why; }
-  /// A complete frame: everything before it is forgotten.
-  void completed();
+  /// A message arrived. @param now of the clock that diagnosis() uses.
+  void noteArrival(Stream stream, Nanoseconds stamp, Nanoseconds now);
+  /// A message without a stamp arrived. It cannot be used.
+  void noteUnstamped(Stream stream);
+  /// The messages of a frame could not be used.
+  void noteRefusal(const std::string& why) { refusal_ = why; }
+  /// A frame is complete. Forgets all messages before it.
+  void noteFrame();
 
-  /// Whether it ever sent a message, with a stamp or without.
-  bool hasCome(Stream stream) const { return came_[static_cast<std::size_t>(stream)]; }
-  /// Why there was no frame since the last one, in a sentence.
-  std::string complaint(const StreamTopics& topics, Nanoseconds now) const;
+  /// Whether the stream has ever had a message, with a stamp or without.
+  bool hasArrived(Stream stream) const { return ever_arrived_[static_cast<std::size_t>(stream)]; }
+  /// One sentence that explains why no frame came since the last one.
+  std::string diagnosis(const StreamTopics& topics, Nanoseconds now) const;
 
  private:
   struct Arrival {
     Nanoseconds stamp, time;
   };
-  std::vector<Nanoseconds> lately(Stream stream, Nanoseconds now) const;
+  std::vector<Nanoseconds> recentStamps(Stream stream, Nanoseconds now) const;
   bool isSilent(Stream stream, Nanoseconds now) const;
 
   std::array<std::deque<Arrival>, 3> arrivals_;
-  std::array<bool, 3> unstamped_{}, came_{};
+  std::array<bool, 3> unstamped_{}, ever_arrived_{};
   std::string refusal_;
-  Nanoseconds tolerance_, silence_;
+  Nanoseconds tolerance_, timeout_;
 };
 
 }  // namespace softbody

@@ -8,17 +8,18 @@
 
 namespace softbody {
 
-/// The blade of a tracked tool and the way that it came, as markers for rviz.
+/// The blade of a tracked tool and its recent path, as markers for rviz.
 class BladeTrail {
  public:
   /// @param blade polygon in the tool frame [m].
   explicit BladeTrail(Points blade) : blade_(std::move(blade)) {}
 
-  /// The tool is seen. A gap, or time that jumps back, begins a new trail.
+  /// Adds a pose of the tool. A gap in time, or an older stamp, starts a new trail.
   void add(Nanoseconds stamp, const Eigen::Isometry3d& T_fixed_tool);
 
-  /// "blade", its outline now, and "trail", its earlier outlines and the paths of its corners, which fade.
-  /// @param header with the stamp of the frame and the id of the fixed frame.
+  /// The markers "blade", its present outline, and "trail", its earlier outlines and its corners' paths,
+  /// which fade.
+  /// @param header with the stamp of the last pose and the fixed frame's id.
   visualization_msgs::MarkerArray markers(const std_msgs::Header& header) const;
 
  private:
@@ -29,7 +30,7 @@ class BladeTrail {
   float freshness(const Outline& outline) const;
 
   Points blade_;
-  std::deque<Outline> outlines_;  ///< the newest at the back
+  std::deque<Outline> outlines_;  ///< the newest is the last
 };
 
 }  // namespace softbody

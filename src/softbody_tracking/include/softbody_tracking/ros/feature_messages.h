@@ -7,13 +7,13 @@
 
 #include "softbody_tracking/tracker/body_tracker.h"
 
-/// Tracked features as messages; headers are the caller's.
+/// Tracked features as messages. The caller sets the headers.
 namespace softbody {
 
-/// Fields x y z [m], id (int32), u v [px], confidence (0..1), all but id float32.
+/// A cloud with the fields x y z [m], u v [px], confidence (0..1), all float32, and id (int32).
 sensor_msgs::PointCloud2 makeFeatureCloud(const std::vector<TrackedFeature>& features);
 
-/// Feature vectors: a LINE_LIST from each feature's reference position to its present one.
+/// Feature vectors: a LINE_LIST from each feature's reference position to its present position.
 visualization_msgs::Marker makeFeatureMarker(const std::vector<TrackedFeature>& features);
 
 }  // namespace softbody

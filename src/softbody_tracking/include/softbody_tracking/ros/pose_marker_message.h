@@ -6,8 +6,9 @@
 
 namespace softbody {
 
-/// The body at rest, to be moved and turned by hand: the mesh itself can be dragged, and each axis has an
-/// arrow and a ring. @throw std::invalid_argument if the mesh is no mesh.
+/// An interactive marker of the body at rest. The user drags the mesh itself, or an arrow or a ring of an
+/// axis.
+/// @throw std::invalid_argument if the mesh is malformed.
 visualization_msgs::InteractiveMarker makePoseMarker(const softbody_msgs::MeshTopology& mesh,
                                                      const geometry_msgs::PoseStamped& pose);
 

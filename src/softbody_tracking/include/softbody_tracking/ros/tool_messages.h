@@ -5,12 +5,12 @@
 
 #include "softbody_tracking/tool/tool_tracker.h"
 
-/// A tracked tool as messages; headers are the caller's.
+/// A tracked tool as messages. The caller sets the headers.
 namespace softbody {
 
 geometry_msgs::PoseWithCovariance toMessage(const ToolObservation& observation);
 
-/// The blade's corners moved by a pose.
+/// The blade's corners, transformed by T.
 geometry_msgs::Polygon bladePolygon(const Points& blade, const Eigen::Isometry3d& T);
 
 }  // namespace softbody

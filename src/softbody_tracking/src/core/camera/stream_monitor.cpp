@@ -9,17 +9,18 @@
 namespace softbody {
 namespace {
 
-constexpr std::size_t kRemembered = 30;
+constexpr std::size_t kMaxArrivals = 30;  // messages kept of each stream: a second of images
 
-Nanoseconds nearestDifference(const std::vector<Nanoseconds>& a, const std::vector<Nanoseconds>& b) {
-  Nanoseconds nearest = std::numeric_limits<Nanoseconds>::max();
+/// Smallest difference between a stamp of a and a stamp of b.
+Nanoseconds smallestDifference(const std::vector<Nanoseconds>& a, const std::vector<Nanoseconds>& b) {
+  Nanoseconds smallest = std::numeric_limits<Nanoseconds>::max();
   for (Nanoseconds x : a) {
-    for (Nanoseconds y : b) nearest = std::min(nearest, std::abs(x - y));
+    for (Nanoseconds y : b) smallest = std::min(smallest, std::abs(x - y));
   }
-  return nearest;
+  return smallest;
 }
 
-std::string silence(const StreamTopic& topic, bool unstamped) {
+std::string describeSilence(const StreamTopic& topic, bool unstamped) {
   if (unstamped) return fmt::format("{} (its images have no stamp)", topic.name);
   return topic.publishers == 0 ? fmt::format("{} (nobody publishes it)", topic.name)
                                : fmt::format("{} (publishers: {}, but silent)", topic.name, topic.publishers);
@@ -27,44 +28,45 @@ std::string silence(const StreamTopic& topic, bool unstamped) {
 
 }  // namespace
 
-void StreamMonitor::arrived(Stream stream, Nanoseconds stamp, Nanoseconds now) {
+void StreamMonitor::noteArrival(Stream stream, Nanoseconds stamp, Nanoseconds now) {
   std::deque<Arrival>& arrivals = arrivals_[static_cast<std::size_t>(stream)];
   arrivals.push_back({stamp, now});
-  if (arrivals.size() > kRemembered) arrivals.pop_front();
-  came_[static_cast<std::size_t>(stream)] = true;
+  if (arrivals.size() > kMaxArrivals) arrivals.pop_front();
+  ever_arrived_[static_cast<std::size_t>(stream)] = true;
 }
 
-void StreamMonitor::unstamped(Stream stream) {
-  unstamped_[static_cast<std::size_t>(stream)] = came_[static_cast<std::size_t>(stream)] = true;
+void StreamMonitor::noteUnstamped(Stream stream) {
+  unstamped_[static_cast<std::size_t>(stream)] = ever_arrived_[static_cast<std::size_t>(stream)] = true;
 }
 
-void StreamMonitor::completed() {
+void StreamMonitor::noteFrame() {
   for (auto& arrivals : arrivals_) arrivals.clear();
   unstamped_ = {};
   refusal_.clear();
 }
 
-/// Stamps of what arrived as long ago as a stream that goes on is silent at most.
-std::vector<Nanoseconds> StreamMonitor::lately(Stream stream, Nanoseconds now) const {
+/// Stamps of the messages that arrived within the timeout.
+std::vector<Nanoseconds> StreamMonitor::recentStamps(Stream stream, Nanoseconds now) const {
   std::vector<Nanoseconds> stamps;
   for (const Arrival& arrival : arrivals_[static_cast<std::size_t>(stream)])
-    if (now - arrival.time <= silence_) stamps.push_back(arrival.stamp);
+    if (now - arrival.time <= timeout_) stamps.push_back(arrival.stamp);
   return stamps;
 }
 
-/// One CameraInfo is enough: some drivers latch it.
+/// For CameraInfo one message at any time is enough, because some drivers latch it.
 bool StreamMonitor::isSilent(Stream stream, Nanoseconds now) const {
-  return stream == Stream::kColorInfo ? !hasCome(stream) : lately(stream, now).empty();
+  return stream == Stream::kColorInfo ? !hasArrived(stream) : recentStamps(stream, now).empty();
 }
 
-std::string StreamMonitor::complaint(const StreamTopics& topics, Nanoseconds now) const {
+std::string StreamMonitor::diagnosis(const StreamTopics& topics, Nanoseconds now) const {
   std::vector<std::string> silent;
   for (std::size_t s = 0; s < topics.size(); ++s) {
-    if (isSilent(static_cast<Stream>(s), now)) silent.push_back(silence(topics[s], unstamped_[s]));
+    if (isSilent(static_cast<Stream>(s), now)) silent.push_back(describeSilence(topics[s], unstamped_[s]));
   }
   if (!silent.empty()) return fmt::format("no usable message on {}", fmt::join(silent, ", "));
   if (!refusal_.empty()) return refusal_;
-  const Nanoseconds difference = nearestDifference(lately(Stream::kColor, now), lately(Stream::kDepth, now));
+  const Nanoseconds difference =
+      smallestDifference(recentStamps(Stream::kColor, now), recentStamps(Stream::kDepth, now));
   if (difference > tolerance_) {
     return fmt::format("stamps of {} and {} differ by {:.1f} ms at least; the tolerance is {:.1f} ms",
                        topics[static_cast<std::size_t>(Stream::kColor)].name,

@@ -41,7 +41,7 @@ void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const I
   const double gap_s = 1e-9 * static_cast<double>(arrival.gap);
   switch (arrival.kind) {
     case ImageArrival::kUnstamped:
-      monitor_.unstamped(stream);
+      monitor_.noteUnstamped(stream);
       return logDropped(stream, "an image without a stamp", "is dropped: its time is not known");
     case ImageArrival::kLate:
       return logDropped(
@@ -52,12 +52,12 @@ void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const I
                         fmt::format("with the stamp {:.6f} is dropped", stamp.toSec()));
     case ImageArrival::kRestarted:
       ROS_INFO_STREAM("time jumped back by " << -gap_s << " s");
-      monitor_.completed();
+      monitor_.noteFrame();
       break;
     case ImageArrival::kAccepted:
       break;
   }
-  monitor_.arrived(stream, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
+  monitor_.noteArrival(stream, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
 }
 
 void CameraIngestWatch::logDropped(Stream stream, const std::string& what, const std::string& why) {
@@ -66,7 +66,7 @@ void CameraIngestWatch::logDropped(Stream stream, const std::string& what, const
 }
 
 void CameraIngestWatch::noteInfo(const ros::Time& stamp) {
-  monitor_.arrived(Stream::kColorInfo, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
+  monitor_.noteArrival(Stream::kColorInfo, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
 }
 
 void CameraIngestWatch::noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth) {
@@ -75,12 +75,12 @@ void CameraIngestWatch::noteFrame(const std_msgs::Header& color, const std_msgs:
   latency_s_ = (last_frame_ - color.stamp).toSec();
   color_frame_ = withoutSlash(color.frame_id);
   if (depth != nullptr) depth_frame_ = withoutSlash(depth->frame_id);
-  monitor_.completed();
+  monitor_.noteFrame();
 }
 
 void CameraIngestWatch::noteRefusal(const std::string& why) {
   ++refused_;
-  monitor_.refused(why);
+  monitor_.noteRefusal(why);
   throttle_.warn("refused", why);
 }
 
@@ -106,7 +106,7 @@ std::string CameraIngestWatch::complaint() const {
   if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
     return "use_sim_time is set, but /clock is silent (rosbag play --clock?)";
   }
-  return monitor_.complaint(topics_(), toNanoseconds(ros::Time::now()));
+  return monitor_.diagnosis(topics_(), toNanoseconds(ros::Time::now()));
 }
 
 std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
@@ -137,7 +137,7 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
 void CameraIngestWatch::check() {
   // A bag that starts again: silence is counted from there.
   if (ros::Time::now() < last_frame_) last_frame_ = ros::Time::now();
-  if (both_came_.isZero() && monitor_.hasCome(Stream::kColor) && monitor_.hasCome(Stream::kDepth))
+  if (both_came_.isZero() && monitor_.hasArrived(Stream::kColor) && monitor_.hasArrived(Stream::kDepth))
     both_came_ = ros::WallTime::now();
   if (secondsWithoutFrame() > silence_timeout_s_) {
     if (isStarting())

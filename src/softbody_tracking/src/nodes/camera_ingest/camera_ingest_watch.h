@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/camera_ingest/wall_throttle.h"
+#include "nodes/camera_ingest/throttled_log.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/camera/stream_monitor.h"
 
@@ -49,7 +49,7 @@ class CameraIngestWatch {
   double silence_timeout_s_;
   std::function<StreamTopics()> topics_;
   StreamMonitor monitor_;
-  WallThrottle throttle_;
+  ThrottledLog throttle_;
   ros::Time last_frame_;             ///< when it was completed
   ros::WallTime start_, both_came_;  ///< the latter: when colour and depth had come, usable or not
   int frames_ = 0, refused_ = 0;     ///< since the last diagnosis
