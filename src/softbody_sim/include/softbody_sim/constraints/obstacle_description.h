@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "softbody_common/parameters.h"
-#include "softbody_sim/constraints/surroundings.h"
+#include "softbody_sim/constraints/obstacle.h"
 
 namespace softbody {
 

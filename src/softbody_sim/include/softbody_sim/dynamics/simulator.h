@@ -4,62 +4,13 @@
 #include <string>
 
 #include "softbody_common/cut.h"
-#include "softbody_common/parameters.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
+#include "softbody_sim/dynamics/simulator_config.h"
 #include "softbody_sim/object/object_model.h"
+#include "softbody_sim/time_step/step_report.h"
 
 namespace softbody {
-
-/// Who minimises a step: projective dynamics for speed, or finite elements by Newton's method for accuracy.
-enum class SolverKind { kProjectiveDynamics, kFem };
-
-/// Elastic energies: corotated, or stable neo-Hookean (Smith, de Goes, Kim 2018), which only FEM has.
-enum class Elasticity { kCorotated, kNeoHookean };
-
-struct SimulatorConfig {
-  SolverKind solver = SolverKind::kProjectiveDynamics;
-  Elasticity elasticity = Elasticity::kCorotated;
-  bool simulate = true;     ///< false: surface vertices go where their targets are (Kang et al. 2022, Fig. 6)
-  int iterations = 20;      ///< local/global, or Newton, iterations a step at most
-  double tolerance = 1e-4;  ///< stop when no vertex moves further in an iteration [mean edge lengths]
-  int lbfgs_history = 5;    ///< moves that L-BFGS remembers, at most 5; 0: plain projective dynamics
-  /// Share of the energy whose strains are smoothed around the vertices, so that few linear tets bend as many
-  /// would; projective dynamics only. 0: none.
-  double strain_smoothing = 0.7;
-  bool single_precision = false;  ///< positions to about 0.1 um, at twice the speed
-  std::string simd = "auto";      ///< vector instructions: auto (the widest there are), sse4, avx2 or avx512
-  bool normalized_mass =
-      false;  ///< the body weighs 1 kg, whatever its density (Kang et al. 2022, section 5.1)
-  double target_stiffness = 10.0;  ///< stiffness of a target of weight 1, in units of E * mean edge length
-  double load_fade_s =
-      0.3;  ///< in which forces that were estimated from the targets fall to 1/e; 0: none are
-  double max_time_step_s = 0.1;  ///< longer gaps between frames are simulated as this
-  /// [m/s^2], in the frame of the targets; zero: the rest shape already hangs or lies as it does.
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  double contact_stiffness = 20.0;  ///< pressure at a depth of a mean edge length, in units of E
-  double contact_spacing = 0.5;     ///< between points of the surface that feel contact [mean edge lengths]
-};
-
-/// Of a target, weight times target_stiffness, in units of E * mean edge length: beside stiffer ones the
-/// body's own stiffness is lost in rounding.
-double largestStiffness(const SimulatorConfig& config);
-
-/// @throw std::invalid_argument if the solver does not have the elasticity, or targets may be too
-/// stiff.
-void requireConsistent(const SimulatorConfig& config);
-
-/// @throw std::invalid_argument as Parameters and requireConsistent do.
-SimulatorConfig readSimulatorConfig(Parameters& parameters);
-
-/// How the last step ended.
-struct StepReport {
-  int iterations = 0;
-  bool converged = false;    ///< on the tolerance; otherwise `iterations` is the cap
-  double last_move_m = 0.0;  ///< largest move of a vertex in the last iteration [m]
-  double residual_n =
-      0.0;  ///< largest force on a vertex that was left unbalanced when the last iteration began or ended [N]
-};
 
 /// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective
 /// dynamics (Bouaziz et al. 2014) accelerated by L-BFGS (Liu, Bouaziz, Kavan 2017), or by finite elements

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "softbody_common/types.h"
-#include "softbody_sim/constraints/surroundings.h"
+#include "softbody_sim/constraints/obstacle.h"
 
 namespace softbody {
 

@@ -4,6 +4,7 @@
 
 #include "constraints/contact.h"
 #include "constraints/target_energy.h"
+#include "softbody_sim/constraints/surroundings.h"
 
 namespace softbody {
 

@@ -1,8 +1,8 @@
+#include "softbody_sim/constraints/obstacle.h"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
-
-#include "softbody_sim/constraints/surroundings.h"
 
 namespace softbody {
 

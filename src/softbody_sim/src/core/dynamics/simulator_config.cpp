@@ -1,9 +1,10 @@
+#include "softbody_sim/dynamics/simulator_config.h"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "softbody_common/target_limits.h"
-#include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
 

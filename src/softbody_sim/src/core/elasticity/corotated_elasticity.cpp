@@ -1,24 +1,11 @@
 #include "elasticity/corotated_elasticity.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
-#include <stdexcept>
 
 #include "elasticity/rotation.h"
 #include "tets/tet_shape.h"
 
 namespace softbody {
-
-Lame lameParameters(double youngs_modulus_pa, double poisson_ratio) {
-  if (!(youngs_modulus_pa > 0.0) || !(poisson_ratio >= 0.0 && poisson_ratio < 0.5)) {
-    throw std::invalid_argument(
-        fmt::format("material: youngs_modulus_pa {} must be above 0, poisson_ratio {} in [0, 0.5)",
-                    youngs_modulus_pa, poisson_ratio));
-  }
-  return {youngs_modulus_pa / (2.0 * (1.0 + poisson_ratio)),
-          youngs_modulus_pa * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio))};
-}
 
 double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix3d* stress) {
   Eigen::Matrix3d R;

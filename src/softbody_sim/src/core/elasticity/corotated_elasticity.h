@@ -2,21 +2,12 @@
 
 #include <Eigen/Core>
 
+#include "elasticity/lame_parameters.h"
 #include "elasticity/strain_smoothing.h"
 #include "softbody_common/types.h"
-#include "softbody_sim/object/object_model.h"
 #include "tets/tet_matrix.h"
 
 namespace softbody {
-
-/// Lame parameters [Pa].
-struct Lame {
-  double mu = 0.0;
-  double lambda = 0.0;
-};
-
-/// @throw std::invalid_argument unless E > 0 and 0 <= nu < 0.5.
-Lame lameParameters(double youngs_modulus_pa, double poisson_ratio);
 
 /// Energy density [J/m^3] of the corotated material, mu |F - R|^2 + lambda/2 tr^2(R^T F - I), and its
 /// derivative by F. The second term is the projective-dynamics distance 3/2 lambda |F - T|^2 to the nearest T

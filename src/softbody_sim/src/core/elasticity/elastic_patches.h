@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "elasticity/corotated_elasticity.h"
+#include "elasticity/lame_parameters.h"
 #include "elasticity/smoothing_kernel.h"
 #include "elasticity/strain_smoothing.h"
 #include "simd/rows.h"

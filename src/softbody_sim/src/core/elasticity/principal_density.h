@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "elasticity/corotated_elasticity.h"
-#include "softbody_sim/dynamics/simulator.h"
+#include "elasticity/lame_parameters.h"
+#include "softbody_sim/elasticity/elasticity.h"
 
 namespace softbody {
 

@@ -1,8 +1,5 @@
 #include "time_step/constrained_step.h"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
 #include <utility>
 
 namespace softbody {
@@ -18,23 +15,6 @@ void hold(const std::vector<Pin>& pins, double stiffness, StepPotential* potenti
 }
 
 }  // namespace
-
-void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count) {
-  for (const Pin& pin : surroundings.pins) {
-    if (pin.vertex < 0 || pin.vertex >= vertex_count || !pin.position.allFinite()) {
-      throw std::invalid_argument(
-          fmt::format("a pin holds vertex {} of {}, or holds it nowhere", pin.vertex, vertex_count));
-    }
-  }
-  for (const Obstacle& obstacle : surroundings.obstacles) {
-    if (!obstacle.pose.matrix().allFinite()) throw std::invalid_argument("an obstacle's pose is not finite");
-  }
-  const Points& loads = surroundings.loads;
-  if (loads.size() > 0 && (loads.rows() != vertex_count || !loads.allFinite())) {
-    throw std::invalid_argument(
-        fmt::format("{} loads, or not finite ones, for {} vertices", loads.rows(), vertex_count));
-  }
-}
 
 ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
                                  StepSolver* solver)

@@ -8,9 +8,6 @@
 
 namespace softbody {
 
-/// @throw std::invalid_argument unless vertices exist and numbers are finite.
-void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count);
-
 /// A step under pins, contact and loads. Contacts are found again where the solution has moved on, until what
 /// they say of it no longer changes.
 class ConstrainedStep {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "softbody_common/types.h"
-#include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/time_step/step_report.h"
 
 namespace softbody {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "softbody_common/types.h"
-#include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/time_step/step_report.h"
 #include "time_step/step_potential.h"
 
 namespace softbody {

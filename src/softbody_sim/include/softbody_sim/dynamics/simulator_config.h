@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "softbody_common/parameters.h"
+#include "softbody_sim/elasticity/elasticity.h"
+
+namespace softbody {
+
+/// The minimiser of a step: projective dynamics for speed, or finite elements with Newton's method for
+/// accuracy.
+enum class SolverKind { kProjectiveDynamics, kFem };
+
+struct SimulatorConfig {
+  SolverKind solver = SolverKind::kProjectiveDynamics;
+  Elasticity elasticity = Elasticity::kCorotated;
+  bool simulate = true;     ///< false: targets move surface vertices directly (Kang et al. 2022, Fig. 6)
+  int iterations = 20;      ///< maximum of a step: local/global iterations, or Newton iterations
+  double tolerance = 1e-4;  ///< a step has converged when no vertex moves further [mean edge lengths]
+  int lbfgs_history = 5;    ///< moves that L-BFGS keeps, at most 5; 0: plain projective dynamics
+  /// Fraction of the energy that uses strains smoothed around the vertices. It reduces the locking of linear
+  /// tets in bending. Projective dynamics only; 0: no smoothing.
+  double strain_smoothing = 0.7;
+  bool single_precision = false;   ///< twice as fast, positions accurate to about 0.1 um
+  std::string simd = "auto";       ///< vector instructions: auto (the widest available), sse4, avx2 or avx512
+  bool normalized_mass = false;    ///< the mass is 1 kg for every density (Kang et al. 2022, section 5.1)
+  double target_stiffness = 10.0;  ///< of a target of weight 1, in units of E * mean edge length
+  double load_fade_s = 0.3;        ///< time in which estimated loads fall to 1/e; 0: loads are not estimated
+  double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
+  /// [m/s^2], in the frame of the targets. Zero: gravity already shaped the rest shape.
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  double contact_stiffness = 20.0;  ///< pressure at a depth of one mean edge length, in units of E
+  double contact_spacing = 0.5;     ///< of the contact points on the surface [mean edge lengths]
+};
+
+/// Maximum of weight times target_stiffness, in units of E * mean edge length. Beside stiffer targets,
+/// rounding would erase the body's own stiffness.
+double largestStiffness(const SimulatorConfig& config);
+
+/// @throw std::invalid_argument if the solver does not offer the elasticity, or if targets could be too
+/// stiff.
+void requireConsistent(const SimulatorConfig& config);
+
+/// @throw std::invalid_argument as Parameters and requireConsistent do.
+SimulatorConfig readSimulatorConfig(Parameters& parameters);
+
+}  // namespace softbody

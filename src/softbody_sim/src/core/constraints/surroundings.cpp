@@ -1,0 +1,26 @@
+#include "softbody_sim/constraints/surroundings.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace softbody {
+
+void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count) {
+  for (const Pin& pin : surroundings.pins) {
+    if (pin.vertex < 0 || pin.vertex >= vertex_count) {
+      throw std::invalid_argument(
+          fmt::format("a pin holds vertex {}; allowed: 0 to {}", pin.vertex, vertex_count - 1));
+    }
+    if (!pin.position.allFinite()) throw std::invalid_argument("a pin's position is not finite");
+  }
+  for (const Obstacle& obstacle : surroundings.obstacles) {
+    if (!obstacle.pose.matrix().allFinite()) throw std::invalid_argument("an obstacle's pose is not finite");
+  }
+  const Points& loads = surroundings.loads;
+  if (loads.size() > 0 && loads.rows() != vertex_count)
+    throw std::invalid_argument(fmt::format("{} loads for {} vertices", loads.rows(), vertex_count));
+  if (!loads.allFinite()) throw std::invalid_argument("a load is not finite");
+}
+
+}  // namespace softbody
