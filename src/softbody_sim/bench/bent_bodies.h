@@ -5,7 +5,7 @@
 
 #include "elasticity/corotated_elasticity.h"
 #include "softbody_common/types.h"
-#include "time_step/step_potential.h"
+#include "time_step/incremental_potential.h"
 
 namespace softbody::bench {
 
@@ -15,7 +15,7 @@ struct BentBody {
   TetTopology topology;
   Lame lame;
   double edge_length = 0.0;  ///< mean [m]
-  StepPotential potential;
+  IncrementalPotential potential;
   Points start;
 };
 

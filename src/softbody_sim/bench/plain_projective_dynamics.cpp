@@ -41,7 +41,7 @@ class Projector {
 }  // namespace
 
 PlainProjectiveDynamics::PlainProjectiveDynamics(const TetTopology& topology, const Lame& lame,
-                                                 const StepPotential& potential, double smoothing)
+                                                 const IncrementalPotential& potential, double smoothing)
     : tets_(topology.tets),
       volumes_((1.0 - smoothing) * tetVolumes(topology.rest_vertices, topology.tets)),
       lame_(lame),
@@ -113,7 +113,7 @@ void PlainProjectiveDynamics::localStep(const Points& x) {
   }
 }
 
-void PlainProjectiveDynamics::globalStep(const StepPotential& potential, Points* x) {
+void PlainProjectiveDynamics::globalStep(const IncrementalPotential& potential, Points* x) {
   right_side_ = potential.inertia.asDiagonal() * potential.prediction + potential.loads;
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
     const auto index = static_cast<std::size_t>(t);
@@ -136,7 +136,7 @@ void PlainProjectiveDynamics::globalStep(const StepPotential& potential, Points*
   *x = solver_.solve(right_side_);
 }
 
-void PlainProjectiveDynamics::iterate(const StepPotential& potential, Points* x) {
+void PlainProjectiveDynamics::iterate(const IncrementalPotential& potential, Points* x) {
   localStep(*x);
   globalStep(potential, x);
 }

@@ -6,7 +6,7 @@
 
 #include "elasticity/corotated_elasticity.h"
 #include "softbody_common/types.h"
-#include "time_step/step_potential.h"
+#include "time_step/incremental_potential.h"
 
 namespace softbody::bench {
 
@@ -17,14 +17,14 @@ namespace softbody::bench {
 class PlainProjectiveDynamics {
  public:
   /// Factors the system for the potential's inertia and targets. @param smoothing as in CorotatedElasticity.
-  PlainProjectiveDynamics(const TetTopology& topology, const Lame& lame, const StepPotential& potential,
-                          double smoothing = 0.0);
+  PlainProjectiveDynamics(const TetTopology& topology, const Lame& lame,
+                          const IncrementalPotential& potential, double smoothing = 0.0);
 
   /// One local and one global step, from x to x. Targets without normals only.
-  void iterate(const StepPotential& potential, Points* x);
+  void iterate(const IncrementalPotential& potential, Points* x);
 
   void localStep(const Points& x);
-  void globalStep(const StepPotential& potential, Points* x);
+  void globalStep(const IncrementalPotential& potential, Points* x);
 
  private:
   /// A deformation gradient smoothed around a vertex.

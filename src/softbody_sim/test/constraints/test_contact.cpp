@@ -33,7 +33,7 @@ TEST(Obstacle, NormalIsTheGradientOfTheDistanceAndLeadsToTheSurface) {
 TEST(ContactPoints, ShareTheWholeSurface) {
   const TetTopology topology = testing::sponge();
   for (double spacing : {1.0, 0.01, 0.004}) {
-    const std::vector<ContactPoint> points = contactPoints(topology, spacing);
+    const std::vector<ContactPoint> points = sampleContactPoints(topology, spacing);
     double area = 0.0;
     std::vector<int> vertices;
     for (const ContactPoint& point : points) {
@@ -53,7 +53,7 @@ TEST(ContactPoints, ShareTheWholeSurface) {
 
 TEST(FindContacts, StopsAPointBeforeAnObstacleThatPassedThroughIt) {
   const TetTopology topology = testing::sponge();
-  const std::vector<ContactPoint> points = contactPoints(topology, 0.02);
+  const std::vector<ContactPoint> points = sampleContactPoints(topology, 0.02);
   Obstacle ball = Obstacle::sphere(0.003);
   for (const ContactPoint& point : points) {
     const Eigen::Vector3d place = positionOf(point.place, topology.rest_vertices, topology.tets);
@@ -74,9 +74,9 @@ TEST(KeepEarlier, AddsWhatWasNotFoundAgainInOrder) {
     return Contact{point, obstacle, Eigen::Vector3d(0.0, 0.0, height), Eigen::Vector3d::UnitZ()};
   };
   std::vector<Contact> now{contact(0, 3, 1.0), contact(1, 2, 1.0)};
-  keepEarlier({contact(0, 1, 2.0), contact(0, 3, 2.0), contact(1, 0, 2.0), contact(2, 9, 2.0)}, &now);
+  addEarlierContacts({contact(0, 1, 2.0), contact(0, 3, 2.0), contact(1, 0, 2.0), contact(2, 9, 2.0)}, &now);
   ASSERT_EQ(now.size(), 5u);
-  EXPECT_TRUE(std::is_sorted(now.begin(), now.end(), comesBefore));
+  EXPECT_TRUE(std::is_sorted(now.begin(), now.end(), isOrderedBefore));
   for (const Contact& found : now) {
     const bool again = found.point == 3 || found.point == 2;
     EXPECT_EQ(found.position.z(), again ? 1.0 : 2.0) << found.obstacle << ", " << found.point;
@@ -87,7 +87,7 @@ TEST(OneSidedSprings, GradientAndHessianMatchDifferences) {
   const TetTopology topology = testing::boxTopology({2, 2, 1}, {0.04, 0.04, 0.02});
   std::mt19937 random(5);
   TargetEnergy springs;
-  for (const ContactPoint& point : contactPoints(topology, 0.015)) {
+  for (const ContactPoint& point : sampleContactPoints(topology, 0.015)) {
     springs.addOneSided(point.place, topology.tets, randomPoints(1, 0.03, &random).transpose(),
                         randomPoints(1, 1.0, &random).transpose(), 300.0);
   }

@@ -39,7 +39,7 @@ namespace {
 
 TEST(Allocations, AFrameAfterTheFirstMakesNone) {
   const TetTopology topology = testing::sponge();
-  StepPotential potential;
+  IncrementalPotential potential;
   potential.inertia = Eigen::VectorXd::Constant(topology.rest_vertices.rows(), 2.0);
   potential.prediction = topology.rest_vertices;
   potential.loads = Points::Zero(topology.rest_vertices.rows(), 3);

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
-#include <yaml-cpp/yaml.h>
 
 #include "fixtures/test_meshes.h"
-#include "softbody_common/target_limits.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
@@ -267,124 +265,6 @@ TEST(Simulator, WithoutSimulationOnlyTargetedSurfaceVerticesMove) {
   targets.targets = {vertexTargets(topology, goal)[17]};
   simulator.step(targets, kFrame);
   EXPECT_LT(largestDistance(simulator.state().vertices, goal), 1e-15);
-}
-
-TEST(Simulator, RefusesWhatItCannotUseAndKeepsItsState) {
-  const TetTopology topology = sponge();
-  Simulator simulator(topology, Material(), SimulatorConfig());
-  EXPECT_FALSE(simulator.placed());
-  EXPECT_THROW(simulator.step({}, 0), std::invalid_argument);
-  simulator.step(placing(somePose()), 0);
-  const Points placed = simulator.state().vertices;
-
-  const Target good = vertexTargets(topology, placed).front();
-  const auto refuses = [&](TargetSet targets, const Target& target) {
-    targets.targets = {good, target};
-    EXPECT_THROW(simulator.step(targets, kFrame), std::invalid_argument);
-    EXPECT_TRUE(simulator.state().vertices == placed);
-  };
-  TargetSet other_revision;
-  other_revision.revision = 1;
-  refuses(other_revision, good);
-  Target bad = good;
-  bad.place.tet = static_cast<int>(topology.tets.rows());
-  refuses({}, bad);
-  bad = good;
-  bad.position.x() = std::nan("");
-  refuses({}, bad);
-  bad = good;
-  bad.weight = -1.0;
-  refuses(placing(Eigen::Isometry3d::Identity()), bad);
-  bad = good;
-  bad.weight = 1.01e6;
-  refuses({}, bad);
-  bad = good;
-  bad.place.barycentric = {1e12, -1e12, 1.0, 0.0};
-  refuses(placing(Eigen::Isometry3d::Identity()), bad);
-
-  simulator.reset();
-  EXPECT_FALSE(simulator.placed());
-  EXPECT_EQ(simulator.state().vertices.rows(), 0);
-}
-
-/// Were they stiffer, rounding would move the body about.
-TEST(Simulator, TheStiffestTargetsLeaveABodyAtRestWhereItIs) {
-  const TetTopology topology = sponge();
-  std::mt19937 random(6);
-  for (bool single : {false, true}) {
-    for (int history : {0, 5}) {
-      SimulatorConfig config;
-      config.single_precision = single;
-      config.lbfgs_history = history;
-      Simulator simulator(topology, Material(), config);
-      TargetSet targets = placing(Eigen::Isometry3d::Identity());
-      targets.targets = vertexTargets(topology, topology.rest_vertices);
-      for (Target& target : targets.targets) {
-        target.weight = largestStiffness(config) / config.target_stiffness;
-        target.normal = testing::randomPoints(1, 1.0, &random).transpose().normalized();
-      }
-      for (int frame = 0; frame < 30; ++frame) {
-        simulator.step(targets, frame * kFrame);
-        targets.reset = false;
-      }
-      const Points moved = simulator.state().vertices - topology.rest_vertices;
-      EXPECT_LT(moved.cwiseAbs().maxCoeff(), single ? 2e-4 : 1e-6) << "history " << history;
-    }
-  }
-}
-
-TEST(Simulator, AStepThatFailsOnTheWayLeavesNoTrace) {
-  const TetTopology topology = sponge();
-  SimulatorConfig config;
-  config.gravity = {0.0, 0.0, -9.81};
-  Simulator failing(topology, Material(), config), untouched(topology, Material(), config);
-  for (Simulator* simulator : {&failing, &untouched}) {
-    simulator->step(placing(somePose()), 0);
-    simulator->step({}, kFrame);
-  }
-  Surroundings impossible;
-  impossible.loads = Points::Constant(topology.rest_vertices.rows(), 3, 1e300);
-  EXPECT_THROW(failing.step(placing(Eigen::Isometry3d::Identity()), 2 * kFrame, impossible),
-               std::runtime_error);
-  for (int frame = 2; frame <= 4; ++frame) {
-    EXPECT_TRUE(failing.state().vertices == untouched.state().vertices) << frame;
-    for (Simulator* simulator : {&failing, &untouched}) simulator->step({}, frame * kFrame);
-  }
-}
-
-TEST(Simulator, RefusesVerticesThatNoTetUses) {
-  TetTopology topology = sponge();
-  topology.rest_vertices.conservativeResize(topology.rest_vertices.rows() + 1, Eigen::NoChange);
-  topology.rest_vertices.bottomRows<1>().setZero();
-  EXPECT_THROW(Simulator(topology, Material(), SimulatorConfig()), std::invalid_argument);
-}
-
-TEST(SimulatorConfig, ReadsItsParametersAndNamesWhatIsOutOfRange) {
-  Parameters good(YAML::Load("{simulate: false, iterations: 7, gravity_m_s2: [0, 9.81, 0]}"), "/simulator/");
-  const SimulatorConfig config = readSimulatorConfig(good);
-  EXPECT_FALSE(config.simulate);
-  EXPECT_EQ(config.iterations, 7);
-  EXPECT_EQ(config.gravity.y(), 9.81);
-  EXPECT_TRUE(good.unknown().empty());
-  Parameters bad(YAML::Load("{iterations: 0}"), "/simulator/");
-  try {
-    readSimulatorConfig(bad);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("/simulator/iterations is 0"), std::string::npos)
-        << error.what();
-  }
-}
-
-TEST(SimulatorConfig, LeavesRoomForTheTrackersHeaviestTargets) {
-  for (const bool single : {false, true}) {
-    SimulatorConfig config;
-    config.single_precision = single;
-    config.target_stiffness = largestStiffness(config) / kLargestTargetWeight;
-    EXPECT_NO_THROW(requireConsistent(config));
-    config.target_stiffness *= 1.01;
-    EXPECT_THROW(requireConsistent(config), std::invalid_argument);
-  }
 }
 
 }  // namespace

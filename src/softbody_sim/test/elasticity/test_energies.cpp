@@ -5,7 +5,7 @@
 #include "constraints/target_energy.h"
 #include "elasticity/corotated_elasticity.h"
 #include "fixtures/test_meshes.h"
-#include "time_step/step_potential.h"
+#include "time_step/incremental_potential.h"
 
 namespace softbody {
 namespace {
@@ -126,11 +126,11 @@ TEST_P(Energies, TargetGradientMatchesDifferences) {
   }
 }
 
-TEST_P(Energies, StepPotentialGradientMatchesDifferences) {
-  StepPotential potential{Eigen::VectorXd::LinSpaced(deformed_.rows(), 1.0, 9.0),
-                          topology_.rest_vertices,
-                          randomPoints(deformed_.rows(), 3.0, &random_),
-                          {}};
+TEST_P(Energies, IncrementalPotentialGradientMatchesDifferences) {
+  IncrementalPotential potential{Eigen::VectorXd::LinSpaced(deformed_.rows(), 1.0, 9.0),
+                                 topology_.rest_vertices,
+                                 randomPoints(deformed_.rows(), 3.0, &random_),
+                                 {}};
   potential.targets.set(someTargets(topology_, true, &random_), topology_.tets, 300.0);
   const Energy energy = [&](const Points& x, Points* gradient) { return potential.evaluate(x, gradient); };
   expectGradientMatchesDifferences(energy, deformed_, 1e-8, &random_);

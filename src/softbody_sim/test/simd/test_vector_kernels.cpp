@@ -11,7 +11,7 @@
 #include "linear_solvers/positive_definite_solver.h"
 #include "tets/tet_matrix.h"
 #include "tets/tet_shape.h"
-#include "time_step/step_rows.h"
+#include "time_step/packed_potential.h"
 
 namespace softbody {
 namespace {
@@ -199,8 +199,8 @@ TYPED_TEST(VectorKernels, ElasticityOfLargeBodiesIsThatOfTheScalarCodeWithinRoun
   }
 }
 
-TYPED_TEST(VectorKernels, StepPotentialIsThatOfTheScalarCodeOnEveryWidth) {
-  StepPotential potential;
+TYPED_TEST(VectorKernels, IncrementalPotentialIsThatOfTheScalarCodeOnEveryWidth) {
+  IncrementalPotential potential;
   potential.inertia = Eigen::VectorXd::LinSpaced(this->count_, 1.0, 9.0);
   potential.prediction = this->topology_.rest_vertices + randomPoints(this->count_, 0.01, &this->random_);
   potential.loads = randomPoints(this->count_, 0.1, &this->random_);
@@ -216,7 +216,7 @@ TYPED_TEST(VectorKernels, StepPotentialIsThatOfTheScalarCodeOnEveryWidth) {
   Points expected(this->count_, 3);
   const double energy = potential.evaluate(x, &expected);
   for (Simd simd : widths()) {
-    StepRows<TypeParam> step(this->count_, simd);
+    PackedPotential<TypeParam> step(this->count_, simd);
     step.set(potential, origin);
     Rows<TypeParam> rows = this->toRows(Points::Zero(this->count_, 3)), gradient = rows;
     step.toRows(x, &rows);

@@ -97,11 +97,11 @@ TEST_P(FemEnergies, ForcesHaveNeitherResultantNorMoment) {
 TEST_P(FemEnergies, AreLinearElasticityForSmallStrains) {
   // Uniaxial strain: the modulus is lambda + 2 mu along, lambda across.
   constexpr double kStrain = 1e-6;
-  const PrincipalDensity density = principalDensity(GetParam(), {1.0 + kStrain, 1.0, 1.0}, kLame);
+  const IsotropicEnergy density = isotropicEnergy(GetParam(), {1.0 + kStrain, 1.0, 1.0}, kLame);
   EXPECT_NEAR(density.gradient[0] / kStrain, kLame.lambda + 2.0 * kLame.mu, 1e-4 * kLame.mu);
   EXPECT_NEAR(density.gradient[1] / kStrain, kLame.lambda, 1e-4 * kLame.mu);
-  EXPECT_NEAR(principalDensity(GetParam(), {1.0, 1.0, 1.0}, kLame).flip[0], 2.0 * kLame.mu, 1e-9 * kLame.mu);
-  EXPECT_NEAR(principalDensity(GetParam(), {1.0, 1.0, 1.0}, kLame).twist[0], 0.0, 1e-9 * kLame.mu);
+  EXPECT_NEAR(isotropicEnergy(GetParam(), {1.0, 1.0, 1.0}, kLame).flip[0], 2.0 * kLame.mu, 1e-9 * kLame.mu);
+  EXPECT_NEAR(isotropicEnergy(GetParam(), {1.0, 1.0, 1.0}, kLame).twist[0], 0.0, 1e-9 * kLame.mu);
 }
 
 INSTANTIATE_TEST_SUITE_P(Elasticity, FemEnergies,
@@ -127,7 +127,7 @@ TEST(FemElasticity, IsTheEnergyOfProjectiveDynamics) {
 TEST(FemSolver, NewtonConvergesQuadratically) {
   const TetTopology topology = testing::sponge();
   const Eigen::Index count = topology.rest_vertices.rows();
-  StepPotential potential{
+  IncrementalPotential potential{
       Eigen::VectorXd::Constant(count, 0.5), topology.rest_vertices, Points::Zero(count, 3), {}};
   Points goal = topology.rest_vertices;
   goal.col(2) += 3.0 * goal.col(0).cwiseAbs2();  // a bend

@@ -12,7 +12,7 @@ struct Step {
   TetTopology topology = testing::sponge();
   Eigen::Index count = topology.rest_vertices.rows();
   Lame lame = lameParameters(2.0e4, 0.3);
-  StepPotential potential;
+  IncrementalPotential potential;
 
   Step() {
     potential.inertia = Eigen::VectorXd::Constant(count, 2.0);

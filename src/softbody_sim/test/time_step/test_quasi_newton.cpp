@@ -5,8 +5,8 @@
 #include "elasticity/corotated_elasticity.h"
 #include "fixtures/test_meshes.h"
 #include "linear_solvers/positive_definite_solver.h"
+#include "time_step/incremental_potential.h"
 #include "time_step/quasi_newton.h"
-#include "time_step/step_potential.h"
 
 namespace softbody {
 namespace {
@@ -18,7 +18,7 @@ struct Problem {
   TetTopology topology = testing::boxTopology({4, 3, 2}, {0.08, 0.06, 0.04});
   Eigen::Index count = topology.rest_vertices.rows();
   CorotatedElasticity elasticity{topology.rest_vertices, topology.tets, lameParameters(2.0e4, 0.3)};
-  StepPotential potential{
+  IncrementalPotential potential{
       Eigen::VectorXd::Constant(count, 0.5), topology.rest_vertices, Points::Zero(count, 3), {}};
   TargetEnergy& targets = potential.targets;
   TetMatrix matrix{topology.tets, count};

@@ -59,7 +59,7 @@ class Simulator {
   bool apply(const Cut& cut, std::string* reason);
   /// Targets of one of the last few revisions, for the present one; others as they are. Who keeps targets
   /// through more edits than that brings them up to date at each.
-  TargetSet broughtUpToDate(TargetSet targets) const;
+  TargetSet toCurrentRevision(TargetSet targets) const;
 
   /// Back to "not placed" and not cut, at the first revision.
   void reset();

@@ -98,7 +98,7 @@ Eigen::Vector3d firstMeeting(const Obstacle& obstacle, const Eigen::Vector3d& a,
 
 }  // namespace
 
-std::vector<ContactPoint> contactPoints(const TetTopology& topology, double spacing_m) {
+std::vector<ContactPoint> sampleContactPoints(const TetTopology& topology, double spacing_m) {
   const double edge = longestEdge(topology.rest_vertices, topology.surface);
   const int n = std::clamp(static_cast<int>(std::ceil(edge / spacing_m)), 1, 8);
   const auto lattice = latticeTriangles(n);
@@ -145,17 +145,17 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
   }
 }
 
-bool comesBefore(const Contact& a, const Contact& b) {
+bool isOrderedBefore(const Contact& a, const Contact& b) {
   return std::tie(a.obstacle, a.point) < std::tie(b.obstacle, b.point);
 }
 
-void keepEarlier(const std::vector<Contact>& earlier, std::vector<Contact>* contacts) {
+void addEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts) {
   const auto found = static_cast<std::ptrdiff_t>(contacts->size());
   for (const Contact& contact : earlier) {
     const auto begin = contacts->begin();
-    if (!std::binary_search(begin, begin + found, contact, comesBefore)) contacts->push_back(contact);
+    if (!std::binary_search(begin, begin + found, contact, isOrderedBefore)) contacts->push_back(contact);
   }
-  std::sort(contacts->begin(), contacts->end(), comesBefore);
+  std::sort(contacts->begin(), contacts->end(), isOrderedBefore);
 }
 
 }  // namespace softbody

@@ -15,7 +15,7 @@ struct ContactPoint {
 
 /// A lattice of points on the surface, finer than `spacing_m` (at most 8 to an edge), its vertices among
 /// them.
-std::vector<ContactPoint> contactPoints(const TetTopology& topology, double spacing_m);
+std::vector<ContactPoint> sampleContactPoints(const TetTopology& topology, double spacing_m);
 
 /// A contact as an energy sees it: the point may not cross the plane, which is the obstacle's tangent plane.
 struct Contact {
@@ -38,9 +38,9 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
 
 /// Adds those of `earlier` that were not found again: a point that a contact has pushed out of the obstacle's
 /// way would otherwise fall back into it. Both as findContacts orders them.
-void keepEarlier(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
+void addEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
 
 /// The order of findContacts.
-bool comesBefore(const Contact& a, const Contact& b);
+bool isOrderedBefore(const Contact& a, const Contact& b);
 
 }  // namespace softbody

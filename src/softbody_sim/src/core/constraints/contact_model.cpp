@@ -16,7 +16,7 @@ ContactModel::ContactModel(const TetTopology& topology, double spacing_m, double
 
 void ContactModel::find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
                         const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts) {
-  if (!obstacles.empty() && points_.empty()) points_ = contactPoints(*topology_, spacing_m_);
+  if (!obstacles.empty() && points_.empty()) points_ = sampleContactPoints(*topology_, spacing_m_);
   findContacts(points_, topology_->tets, before, now, obstacles, before_poses, reach_m_, contacts);
 }
 
@@ -33,14 +33,14 @@ double ContactModel::depthOf(const Contact& contact, const Points& x) const {
   return std::max(0.0, contact.normal.dot(contact.position - positionOf(point.place, x, topology_->tets)));
 }
 
-double ContactModel::difference(const std::vector<Contact>& a, const std::vector<Contact>& b,
-                                const Points& x) const {
+double ContactModel::largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
+                                        const Points& x) const {
   double largest = 0.0;
   auto i = a.begin(), j = b.begin();
   while (i != a.end() || j != b.end()) {
     double change = 0.0;
-    const bool takes_a = j == b.end() || (i != a.end() && !comesBefore(*j, *i));
-    const bool takes_b = i == a.end() || (j != b.end() && !comesBefore(*i, *j));
+    const bool takes_a = j == b.end() || (i != a.end() && !isOrderedBefore(*j, *i));
+    const bool takes_b = i == a.end() || (j != b.end() && !isOrderedBefore(*i, *j));
     if (takes_a) change += depthOf(*i++, x);
     if (takes_b) change -= depthOf(*j++, x);
     largest = std::max(largest, std::abs(change));

@@ -24,7 +24,8 @@ class ContactModel {
 
   /// Largest change between two lists in how deep a point is in its obstacle [m]: how far one is from
   /// describing contact as the other does. Both as findContacts orders them.
-  double difference(const std::vector<Contact>& a, const std::vector<Contact>& b, const Points& x) const;
+  double largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
+                            const Points& x) const;
 
   /// What the body does to each obstacle.
   void wrenches(const std::vector<Contact>& contacts, const Points& x, const std::vector<Obstacle>& obstacles,

@@ -73,8 +73,8 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
       target_stiffness(config.target_stiffness * material.youngs_modulus_pa * edge_length),
       solver(makeSolver(topology, material, config, edge_length)),
       constrained_step(makeStep(topology, material, config, edge_length, target_stiffness, solver.get())),
-      confidence(topology.rest_vertices, topology.tets),
-      load_estimate(topology, masses, config.load_fade_s),
-      unseen_pieces(topology) {}
+      vertex_confidence(topology.rest_vertices, topology.tets),
+      load_estimator(topology, masses, config.load_fade_s),
+      occluded_piece_damping(topology) {}
 
 }  // namespace softbody

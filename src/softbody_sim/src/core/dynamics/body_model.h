@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "dynamics/load_estimate.h"
-#include "dynamics/observation_confidence.h"
-#include "dynamics/unseen_pieces.h"
+#include "dynamics/load_estimator.h"
+#include "dynamics/occluded_piece_damping.h"
+#include "dynamics/vertex_confidence.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/constrained_step.h"
 #include "time_step/step_solver.h"
@@ -23,9 +23,9 @@ struct BodyModel {
   const double target_stiffness;  ///< of a target of weight 1 [N/m]
   const std::unique_ptr<StepSolver> solver;
   ConstrainedStep constrained_step;
-  ObservationConfidence confidence;
-  LoadEstimate load_estimate;
-  UnseenPieces unseen_pieces;
+  VertexConfidence vertex_confidence;
+  LoadEstimator load_estimator;
+  OccludedPieceDamping occluded_piece_damping;
 };
 
 }  // namespace softbody

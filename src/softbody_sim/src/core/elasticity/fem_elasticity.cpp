@@ -39,7 +39,7 @@ void addMode(double eigenvalue, const PrincipalAxes& axes, const Eigen::Matrix3d
 }
 
 /// The Hessian by vec(F), from its nine eigenvectors: three scalings, three twists, three flips.
-Matrix9 densityHessian(const PrincipalDensity& density, const PrincipalAxes& axes, bool project) {
+Matrix9 densityHessian(const IsotropicEnergy& density, const PrincipalAxes& axes, bool project) {
   Matrix9 hessian = Matrix9::Zero();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scalings(density.hessian);
   for (int i = 0; i < 3; ++i) {
@@ -76,7 +76,7 @@ double FemElasticity::addTo(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (const Element& element : elements_) {
     const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
-    const PrincipalDensity density = principalDensity(elasticity_, axes.stretches, lame_);
+    const IsotropicEnergy density = isotropicEnergy(elasticity_, axes.stretches, lame_);
     energy += element.volume * density.energy;
     const Eigen::Matrix3d stress = axes.U * density.gradient.asDiagonal() * axes.V.transpose();
     const Eigen::Matrix<double, 4, 3> forces = element.volume * element.shape_gradients * stress.transpose();
@@ -89,7 +89,7 @@ void FemElasticity::addHessian(const Points& x, BlockTetMatrix* matrix, bool pro
   for (std::size_t t = 0; t < elements_.size(); ++t) {
     const Element& element = elements_[t];
     const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
-    const Matrix9 H = densityHessian(principalDensity(elasticity_, axes.stretches, lame_), axes, project);
+    const Matrix9 H = densityHessian(isotropicEnergy(elasticity_, axes.stretches, lame_), axes, project);
     // d vec(F) / d corners: column 3 a + c moves component c of corner a.
     Eigen::Matrix<double, 9, 12> B = Eigen::Matrix<double, 9, 12>::Zero();
     for (int a = 0; a < 4; ++a) {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "elasticity/principal_density.h"
+#include "elasticity/isotropic_energy.h"
 #include "softbody_common/types.h"
 #include "tets/block_tet_matrix.h"
 

@@ -53,24 +53,24 @@ MetricSolver<T>::MetricSolver(const Eigen::SparseMatrix<double>& lower, Simd sim
       solve_panels_(panelSolve<T>(simd)),
       count_(static_cast<int>(lower.rows())),
       permuted_(Rows<T>::Zero(paddedRows(count_), 4)) {
-  factorization_.reserveUpdates(kMostUpdates);
+  factorization_.reserveUpdates(kMaxUpdates);
   if (count_ <= kLargestInverse) inverse_.emplace(lower, simd);
 }
 
 template <typename T>
 void MetricSolver<T>::factorize(const Eigen::SparseMatrix<double>& lower) {
   factorization_.factorize(lower);
-  takeFactor();
+  packFactor();
 }
 
 template <typename T>
 void MetricSolver<T>::update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed) {
   factorization_.update(added, removed);
-  takeFactor();
+  packFactor();
 }
 
 template <typename T>
-void MetricSolver<T>::takeFactor() {
+void MetricSolver<T>::packFactor() {
   const CholeskyView L = factorization_.factor();
   factor_.panels.clear();
   factor_.rows.clear();

@@ -19,7 +19,7 @@ class MetricSolver {
  public:
   /// Rank-one changes up to which updating a factor costs less than factoring anew, whatever the body: about
   /// 24 for 300 tets, 50 for a thousand, more beyond (bench_projective_dynamics, `update`).
-  static constexpr std::size_t kMostUpdates = 16;
+  static constexpr std::size_t kMaxUpdates = 16;
 
   /// @param lower compressed lower triangle of A, for its pattern.
   MetricSolver(const Eigen::SparseMatrix<double>& lower, Simd simd);
@@ -27,14 +27,14 @@ class MetricSolver {
   /// @throw std::runtime_error if A is not positive definite.
   void factorize(const Eigen::SparseMatrix<double>& lower);
 
-  /// As PositiveDefiniteSolver's. Cheaper than factorize() for up to kMostUpdates.
+  /// As PositiveDefiniteSolver's. Cheaper than factorize() for up to kMaxUpdates.
   void update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed);
 
   /// X = A^-1 B, both paddedRows(#V).
   void solve(const Rows<T>& B, Rows<T>* X);
 
  private:
-  void takeFactor();
+  void packFactor();
   void invert();
 
   PositiveDefiniteSolver factorization_;

@@ -6,7 +6,7 @@ namespace softbody {
 namespace {
 
 /// A held vertex goes where its pin is, as if it were far too heavy to go elsewhere.
-void hold(const std::vector<Pin>& pins, double stiffness, StepPotential* potential) {
+void hold(const std::vector<Pin>& pins, double stiffness, IncrementalPotential* potential) {
   for (const Pin& pin : pins) {
     potential->inertia[pin.vertex] = stiffness;
     potential->prediction.row(pin.vertex) = pin.position;
@@ -22,14 +22,14 @@ ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel conta
 
 /// What is given.
 struct ConstrainedStep::Problem {
-  const StepPotential& free;
+  const IncrementalPotential& free;
   const std::vector<Target>& targets;
   const Surroundings& surroundings;
   const Points& before;
   const std::vector<Eigen::Isometry3d>& before_poses;
 };
 
-const ConstrainedStep::Result& ConstrainedStep::solve(const StepPotential& free,
+const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential& free,
                                                       const std::vector<Target>& targets,
                                                       const Surroundings& surroundings, const Points& before,
                                                       const std::vector<Eigen::Isometry3d>& before_poses,
@@ -79,8 +79,8 @@ void ConstrainedStep::iterate(const Problem& problem, Points* x) {
     report.iterations += iterations;
     if (problem.surroundings.obstacles.empty()) return;
     findContacts(*x, problem, &found_);
-    keepEarlier(contacts_, &found_);
-    if (contact_.difference(contacts_, found_, *x) < options_.contact_tolerance_m) return;
+    addEarlierContacts(contacts_, &found_);
+    if (contact_.largestDepthChange(contacts_, found_, *x) < options_.contact_tolerance_m) return;
     if (round == kMaxRounds) {
       report.converged = false;
       return;

@@ -29,7 +29,7 @@ class ConstrainedStep {
   /// Allocates only where there are more targets or contacts than ever before.
   /// @param free the step without targets and surroundings; @param before vertices at its start;
   /// @param before_poses of the obstacles then; @param x start, then result. @return until the next call.
-  const Result& solve(const StepPotential& free, const std::vector<Target>& targets,
+  const Result& solve(const IncrementalPotential& free, const std::vector<Target>& targets,
                       const Surroundings& surroundings, const Points& before,
                       const std::vector<Eigen::Isometry3d>& before_poses, Points* x);
 
@@ -48,9 +48,9 @@ class ConstrainedStep {
   ContactModel contact_;
   Options options_;
   StepSolver* solver_;
-  StepPotential potential_;        ///< with pins held, and the springs of contacts_
-  std::vector<Contact> contacts_;  ///< under which the result was found
-  std::vector<Contact> found_;     ///< where the result is
+  IncrementalPotential potential_;  ///< with pins held, and the springs of contacts_
+  std::vector<Contact> contacts_;   ///< under which the result was found
+  std::vector<Contact> found_;      ///< where the result is
   Points still_, gradient_;
   Result result_;
 };

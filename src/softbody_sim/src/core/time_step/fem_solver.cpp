@@ -25,7 +25,7 @@ FemSolver::FemSolver(const TetTopology& topology, Elasticity elasticity, const L
 
 FemSolver::~FemSolver() = default;
 
-StepReport FemSolver::minimize(const StepPotential& potential, Points* x) {
+StepReport FemSolver::minimize(const IncrementalPotential& potential, Points* x) {
   StepReport report;
   energy_ = evaluate(potential, *x, &gradient_);
   double step = 0.0;
@@ -48,14 +48,14 @@ double FemSolver::addElasticity(const Points& x, Points* gradient) const {
   return elasticity_.addTo(x, gradient);
 }
 
-double FemSolver::evaluate(const StepPotential& potential, const Points& x, Points* gradient) const {
+double FemSolver::evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient) const {
   const double energy = potential.evaluate(x, gradient);
   return energy + elasticity_.addTo(x, gradient);
 }
 
 /// False if the exact Hessian is not positive definite. The projected one is singular only where nothing
 /// holds a body that has no inertia; a growing shift makes it definite, as in the method of Levenberg.
-bool FemSolver::findDirection(const StepPotential& potential, const Points& x, Hessian kind) {
+bool FemSolver::findDirection(const IncrementalPotential& potential, const Points& x, Hessian kind) {
   hessian_.setZero();
   hessian_.addToDiagonal(potential.inertia);
   potential.targets.addHessian(x, &hessian_);
@@ -79,7 +79,7 @@ bool FemSolver::solveShifted(double shift) {
 }
 
 /// Halves the step until the energy falls enough (Armijo); false, x as it was, if it never does.
-bool FemSolver::searchLine(const StepPotential& potential, Points* x, double* step) {
+bool FemSolver::searchLine(const IncrementalPotential& potential, Points* x, double* step) {
   constexpr double kArmijo = 1e-4;
   constexpr int kMaxHalvings = 20;
   const double slope = gradient_.cwiseProduct(direction_).sum();

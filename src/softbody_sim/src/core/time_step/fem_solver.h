@@ -22,17 +22,17 @@ class FemSolver : public StepSolver {
   FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame, const Options& options);
   ~FemSolver() override;
 
-  StepReport minimize(const StepPotential& potential, Points* x) override;
+  StepReport minimize(const IncrementalPotential& potential, Points* x) override;
   double addElasticity(const Points& x, Points* gradient) const override;
 
  private:
   struct Factor;
   enum class Hessian { kExact, kProjected };
 
-  double evaluate(const StepPotential& potential, const Points& x, Points* gradient) const;
-  bool findDirection(const StepPotential& potential, const Points& x, Hessian kind);
+  double evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient) const;
+  bool findDirection(const IncrementalPotential& potential, const Points& x, Hessian kind);
   bool solveShifted(double shift);
-  bool searchLine(const StepPotential& potential, Points* x, double* step);
+  bool searchLine(const IncrementalPotential& potential, Points* x, double* step);
 
   FemElasticity elasticity_;
   Options options_;

@@ -3,14 +3,14 @@
 #include "elasticity/elastic_blocks.h"
 #include "linear_solvers/metric_solver.h"
 #include "tets/tet_matrix.h"
-#include "time_step/step_rows.h"
+#include "time_step/packed_potential.h"
 
 namespace softbody {
 
 class ProjectiveDynamics::Precision {
  public:
   virtual ~Precision() = default;
-  virtual StepReport minimize(const StepPotential& potential, Points* x) = 0;
+  virtual StepReport minimize(const IncrementalPotential& potential, Points* x) = 0;
 };
 
 namespace {
@@ -38,7 +38,7 @@ class StepMetric {
 
   /// Brings the solver's factor up to date.
   template <typename T>
-  void set(const StepPotential& potential, MetricSolver<T>* solver) {
+  void set(const IncrementalPotential& potential, MetricSolver<T>* solver) {
     const bool few = has_factor_ && inertia_ == potential.inertia &&
                      potential.targets.metricChanges(targets_, kMost, &added_, &removed_);
     if (few && added_.empty() && removed_.empty()) return;
@@ -59,7 +59,7 @@ class StepMetric {
   }
 
  private:
-  static constexpr std::size_t kMost = MetricSolver<double>::kMostUpdates;
+  static constexpr std::size_t kMost = MetricSolver<double>::kMaxUpdates;
 
   TetMatrix metric_;
   const Eigen::VectorXd elastic_;  ///< the values that never change
@@ -83,7 +83,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
         minimizer_(paddedRows(topology.rest_vertices.rows())),
         x_(Rows<T>::Zero(paddedRows(topology.rest_vertices.rows()), 4)) {}
 
-  StepReport minimize(const StepPotential& potential, Points* x) override {
+  StepReport minimize(const IncrementalPotential& potential, Points* x) override {
     metric_.set(potential, &solver_);
     step_.set(potential, potential.prediction.colwise().mean());
     step_.toRows(*x, &x_);
@@ -100,7 +100,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
  private:
   const MinimizerOptions options_;
   ElasticBlocks<T> elasticity_;
-  StepRows<T> step_;
+  PackedPotential<T> step_;
   StepMetric metric_;
   MetricSolver<T> solver_;
   QuasiNewton<Rows<T>> minimizer_;
@@ -120,7 +120,7 @@ ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const Lame& 
 
 ProjectiveDynamics::~ProjectiveDynamics() = default;
 
-StepReport ProjectiveDynamics::minimize(const StepPotential& potential, Points* x) {
+StepReport ProjectiveDynamics::minimize(const IncrementalPotential& potential, Points* x) {
   return implementation_->minimize(potential, x);
 }
 

@@ -25,7 +25,7 @@ class ProjectiveDynamics : public StepSolver {
   ProjectiveDynamics(const TetTopology& topology, const Lame& lame, const ProjectiveDynamicsOptions& options);
   ~ProjectiveDynamics() override;
 
-  StepReport minimize(const StepPotential& potential, Points* x) override;
+  StepReport minimize(const IncrementalPotential& potential, Points* x) override;
   double addElasticity(const Points& x, Points* gradient) const override;
 
   class Precision;  ///< all that depends on single or double precision

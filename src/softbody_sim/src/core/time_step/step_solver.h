@@ -2,7 +2,7 @@
 
 #include "softbody_common/types.h"
 #include "softbody_sim/time_step/step_report.h"
-#include "time_step/step_potential.h"
+#include "time_step/incremental_potential.h"
 
 namespace softbody {
 
@@ -12,7 +12,7 @@ class StepSolver {
   virtual ~StepSolver() = default;
 
   /// @param x start, then result, #V by 3 [m]. @throw std::runtime_error if a system cannot be solved.
-  virtual StepReport minimize(const StepPotential& potential, Points* x) = 0;
+  virtual StepReport minimize(const IncrementalPotential& potential, Points* x) = 0;
 
   /// Elastic energy [J]; adds its gradient [N], #V by 3.
   virtual double addElasticity(const Points& x, Points* gradient) const = 0;

@@ -159,7 +159,7 @@ TEST_F(CutElasticity, VectorKernelsLetPiecesTurnFreelyToo) {
 
 /// A step of time that takes the pieces apart, each turning, is one of rigid motions.
 TEST_F(CutElasticity, PiecesInFlightGoWhereTheirInertiaTakesThem) {
-  StepPotential potential;
+  IncrementalPotential potential;
   potential.inertia = Eigen::VectorXd::Constant(count_, 1.0);
   potential.prediction = moved(body_.rest_vertices);
   potential.loads = Points::Zero(count_, 3);

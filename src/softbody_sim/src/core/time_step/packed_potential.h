@@ -3,20 +3,20 @@
 #include <vector>
 
 #include "simd/rows.h"
-#include "time_step/step_kernel.h"
-#include "time_step/step_potential.h"
+#include "time_step/incremental_potential.h"
+#include "time_step/potential_kernel.h"
 
 namespace softbody {
 
-/// A StepPotential in rows of the precision T, about an origin near the body, where single precision is
-/// finest.
+/// A IncrementalPotential in rows of the precision T, about an origin near the body, where single precision
+/// is finest.
 template <typename T>
-class StepRows {
+class PackedPotential {
  public:
-  StepRows(Eigen::Index vertex_count, Simd simd);
+  PackedPotential(Eigen::Index vertex_count, Simd simd);
 
   /// Allocates only where there are more targets than ever before.
-  void set(const StepPotential& potential, const Eigen::RowVector3d& origin);
+  void set(const IncrementalPotential& potential, const Eigen::RowVector3d& origin);
 
   /// Energy [J]; sets its gradient [N].
   double evaluate(const Rows<T>& x, Rows<T>* gradient) const;
@@ -30,7 +30,7 @@ class StepRows {
   Rows<T> inertia_;  ///< the same in all of a row
   Rows<T> prediction_, loads_;
   std::vector<TargetRow<T>> targets_;
-  StepKernel<T> kernel_;
+  PotentialKernel<T> kernel_;
 };
 
 }  // namespace softbody

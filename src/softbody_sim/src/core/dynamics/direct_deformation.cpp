@@ -1,10 +1,10 @@
-#include "dynamics/surface_follower.h"
+#include "dynamics/direct_deformation.h"
 
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 
-void followTargets(const std::vector<Target>& targets, const TetTopology& topology, Points* vertices) {
+void moveToTargets(const std::vector<Target>& targets, const TetTopology& topology, Points* vertices) {
   std::vector<bool> on_surface(static_cast<std::size_t>(vertices->rows()), false);
   for (int vertex : topology.surface.reshaped()) on_surface[static_cast<std::size_t>(vertex)] = true;
 

@@ -1,4 +1,4 @@
-#include "elasticity/principal_density.h"
+#include "elasticity/isotropic_energy.h"
 
 #include <cmath>
 
@@ -11,10 +11,10 @@ Eigen::Vector3d productsOfOthers(const Eigen::Vector3d& s) { return {s[1] * s[2]
 
 }  // namespace
 
-PrincipalDensity corotatedDensity(const Eigen::Vector3d& stretches, const Lame& lame) {
+IsotropicEnergy corotatedIsotropicEnergy(const Eigen::Vector3d& stretches, const Lame& lame) {
   const Eigen::Vector3d strain = stretches - Eigen::Vector3d::Ones();
   const double dilation = strain.sum();
-  PrincipalDensity density;
+  IsotropicEnergy density;
   density.energy = lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * dilation * dilation;
   density.gradient = 2.0 * lame.mu * strain + Eigen::Vector3d::Constant(lame.lambda * dilation);
   density.hessian = Eigen::Matrix3d::Constant(lame.lambda);
@@ -27,7 +27,7 @@ PrincipalDensity corotatedDensity(const Eigen::Vector3d& stretches, const Lame& 
   return density;
 }
 
-PrincipalDensity neoHookeanDensity(const Eigen::Vector3d& stretches, const Lame& lame) {
+IsotropicEnergy neoHookeanIsotropicEnergy(const Eigen::Vector3d& stretches, const Lame& lame) {
   const double mu = 4.0 / 3.0 * lame.mu;
   const double lambda = lame.lambda + 5.0 / 6.0 * lame.mu;
   const double alpha = 1.0 + 0.75 * mu / lambda;
@@ -37,7 +37,7 @@ PrincipalDensity neoHookeanDensity(const Eigen::Vector3d& stretches, const Lame&
   const double shear = mu * (1.0 - 1.0 / (squares + 1.0));
   const double rest = 0.5 * lambda * (1.0 - alpha) * (1.0 - alpha) - 0.5 * mu * std::log(4.0);
 
-  PrincipalDensity density;
+  IsotropicEnergy density;
   density.energy =
       0.5 * mu * (squares - 3.0) + 0.5 * lambda * excess * excess - 0.5 * mu * std::log(squares + 1.0) - rest;
   density.gradient = shear * stretches + lambda * excess * cofactors;
@@ -54,9 +54,9 @@ PrincipalDensity neoHookeanDensity(const Eigen::Vector3d& stretches, const Lame&
   return density;
 }
 
-PrincipalDensity principalDensity(Elasticity elasticity, const Eigen::Vector3d& stretches, const Lame& lame) {
-  return elasticity == Elasticity::kCorotated ? corotatedDensity(stretches, lame)
-                                              : neoHookeanDensity(stretches, lame);
+IsotropicEnergy isotropicEnergy(Elasticity elasticity, const Eigen::Vector3d& stretches, const Lame& lame) {
+  return elasticity == Elasticity::kCorotated ? corotatedIsotropicEnergy(stretches, lame)
+                                              : neoHookeanIsotropicEnergy(stretches, lame);
 }
 
 }  // namespace softbody

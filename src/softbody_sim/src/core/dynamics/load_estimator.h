@@ -15,11 +15,11 @@ namespace softbody {
 /// action of a controller, and a gradient step towards the smallest forces that explain the observations. The
 /// estimate balances on every connected piece: how it moves as a whole is left to the springs, so that a body
 /// out of sight stays where it was.
-class LoadEstimate {
+class LoadEstimator {
  public:
   /// @param masses lumped, #V [kg]. @param fade_s in which remembered loads fall to 1/e; 0: none are
   /// estimated.
-  LoadEstimate(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s);
+  LoadEstimator(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s);
 
   /// Allocates on the first call only. @param springs forces of the springs on the vertices, #V by 3 [N].
   /// @param vertices #V by 3 [m].

@@ -10,13 +10,13 @@ namespace softbody {
 /// How far each vertex's position rests on this frame's measurements: 1 where targets act on the vertex
 /// itself, and exp(-d / (2 mean edge lengths)) at the distance d along the tets' rest edges from the nearest
 /// such vertex.
-class ObservationConfidence {
+class VertexConfidence {
  public:
-  ObservationConfidence(const Points& rest_vertices, const Tets& tets);
+  VertexConfidence(const Points& rest_vertices, const Tets& tets);
 
   /// A vertex is observed when its barycentric shares, times the targets' weights, sum to at least 1/4.
   /// Allocates nothing. @param confidence #V.
-  void find(const std::vector<Target>& targets, std::vector<float>* confidence);
+  void compute(const std::vector<Target>& targets, std::vector<float>* confidence);
 
  private:
   struct Neighbor {

@@ -10,7 +10,7 @@ namespace softbody {
 /// An isotropic energy density as a function of the principal stretches s, the signed singular values of the
 /// deformation gradient F = U diag(s) V^T with rotations U and V, and the closed-form eigenvalues of its
 /// Hessian by F (Smith, de Goes, Kim 2019, "Analytic eigensystems for isotropic distortion energies").
-struct PrincipalDensity {
+struct IsotropicEnergy {
   double energy = 0.0;       ///< [J/m^3]
   Eigen::Vector3d gradient;  ///< d energy / d s_i [Pa]
   Eigen::Matrix3d hessian;   ///< d^2 energy / d s_i d s_j [Pa]: the Hessian over the three scaling modes
@@ -19,13 +19,13 @@ struct PrincipalDensity {
 };
 
 /// mu |F - R|^2 + lambda/2 tr^2(R^T F - I), the energy of projective dynamics; R never a reflection.
-PrincipalDensity corotatedDensity(const Eigen::Vector3d& stretches, const Lame& lame);
+IsotropicEnergy corotatedIsotropicEnergy(const Eigen::Vector3d& stretches, const Lame& lame);
 
 /// Stable neo-Hookean of Smith, de Goes, Kim 2018, eq. 14, with their parameters for which small strains obey
 /// Hooke's law with `lame` (section 3.4); less its value at rest. Smooth and finite for every F.
-PrincipalDensity neoHookeanDensity(const Eigen::Vector3d& stretches, const Lame& lame);
+IsotropicEnergy neoHookeanIsotropicEnergy(const Eigen::Vector3d& stretches, const Lame& lame);
 
 /// The density of `elasticity`.
-PrincipalDensity principalDensity(Elasticity elasticity, const Eigen::Vector3d& stretches, const Lame& lame);
+IsotropicEnergy isotropicEnergy(Elasticity elasticity, const Eigen::Vector3d& stretches, const Lame& lame);
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "dynamics/load_estimate.h"
+#include "dynamics/load_estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -14,12 +14,12 @@ using testing::vertexTargets;
 
 constexpr Nanoseconds kFrame = 33333333;
 
-TEST(LoadEstimate, BalancesOnEveryPiece) {
+TEST(LoadEstimator, BalancesOnEveryPiece) {
   std::mt19937 random(4);
   const TetTopology topology = testing::twoBoxes({4, 3, 2}, {0.2, 0.1, 0.04});
   const Eigen::Index count = topology.rest_vertices.rows();
   const Eigen::VectorXd masses = randomPoints(count, 0.5, &random).col(0).array() + 1.0;
-  LoadEstimate estimate(topology, masses, 0.3);
+  LoadEstimator estimate(topology, masses, 0.3);
   Points loads = Points::Zero(count, 3);
   for (int frame = 0; frame < 3; ++frame)
     estimate.update(randomPoints(count, 1.0, &random), topology.rest_vertices, 1.0 / 30.0, &loads);
@@ -35,10 +35,10 @@ TEST(LoadEstimate, BalancesOnEveryPiece) {
   }
 }
 
-TEST(LoadEstimate, OnePieceFeelsNothingOfAnother) {
+TEST(LoadEstimator, OnePieceFeelsNothingOfAnother) {
   const TetTopology topology = testing::twoBoxes({4, 3, 2}, {0.2, 0.1, 0.04});
   const Eigen::Index count = topology.rest_vertices.rows();
-  LoadEstimate estimate(topology, Eigen::VectorXd::Ones(count), 0.3);
+  LoadEstimator estimate(topology, Eigen::VectorXd::Ones(count), 0.3);
   Points springs = Points::Zero(count, 3), loads = springs;
   springs.row(0) << 1.0, 2.0, 3.0;
   estimate.update(springs, topology.rest_vertices, 0.0, &loads);
@@ -101,14 +101,14 @@ class StretchedBox {
   int frame_ = 0;
 };
 
-TEST(LoadEstimate, FindsTheUnseenSideOfABodyThatIsPulledAtItsEnds) {
+TEST(LoadEstimator, FindsTheUnseenSideOfABodyThatIsPulledAtItsEnds) {
   StretchedBox without(0.0), with(0.3);
   without.observe(20, true);
   with.observe(20, true);
   EXPECT_LT(with.hiddenError(with.stretched()), 0.6 * without.hiddenError(without.stretched()));
 }
 
-TEST(LoadEstimate, ABodyOutOfSightGoesBackToItsShapeWhereItIs) {
+TEST(LoadEstimator, ABodyOutOfSightGoesBackToItsShapeWhereItIs) {
   StretchedBox box(0.3);
   box.observe(20, true);
   const Eigen::RowVector3d center = box.vertices().colwise().mean();

@@ -9,12 +9,12 @@ namespace softbody {
 /// The pieces of a cut body that the camera does not see, as behind the blade. Nothing tells where such a
 /// piece goes, and the last speed that was measured of it is mostly noise: while other pieces are observed it
 /// comes to rest where it is.
-class UnseenPieces {
+class OccludedPieceDamping {
  public:
-  explicit UnseenPieces(const TetTopology& topology);
+  explicit OccludedPieceDamping(const TetTopology& topology);
 
   /// Slows the pieces without targets; the speed halves in 0.1 s. @param velocities #V by 3.
-  void slow(const std::vector<Target>& targets, double elapsed_s, Points* velocities);
+  void apply(const std::vector<Target>& targets, double elapsed_s, Points* velocities);
 
  private:
   std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;

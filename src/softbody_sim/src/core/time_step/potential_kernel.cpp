@@ -1,9 +1,9 @@
-#include "time_step/step_kernel.h"
+#include "time_step/potential_kernel.h"
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "time_step/step_kernel.cpp"
+#define HWY_TARGET_INCLUDE "time_step/potential_kernel.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -15,7 +15,7 @@ namespace softbody::HWY_NAMESPACE {
 namespace {
 
 template <typename T>
-HWY_INLINE double setInertia(const StepView<T>& step, const T* x, T* gradient) {
+HWY_INLINE double setInertialTerms(const PotentialView<T>& step, const T* x, T* gradient) {
   const hn::CappedTag<T, 16> d;
   constexpr std::size_t kChunk = 256;  // numbers whose energies are summed in the precision T
   const auto half = hn::Set(d, T(0.5));
@@ -57,9 +57,9 @@ HWY_INLINE void addTarget(const TargetRow<T>& target, const T* x, T* gradient, R
 }
 
 template <typename T>
-double stepPotential(const StepView<T>& step, const T* x, T* gradient) {
+double evaluate(const PotentialView<T>& step, const T* x, T* gradient) {
   constexpr std::size_t kChunk = 32;  // targets whose energies are summed in the precision T
-  double energy = setInertia(step, x, gradient);
+  double energy = setInertialTerms(step, x, gradient);
   for (std::size_t begin = 0; begin < step.target_count; begin += kChunk) {
     const std::size_t end = begin + kChunk < step.target_count ? begin + kChunk : step.target_count;
     Row<T> twice = Row<T>::zero();
@@ -71,11 +71,11 @@ double stepPotential(const StepView<T>& step, const T* x, T* gradient) {
 
 }  // namespace
 
-double stepEnergyFloat(const StepView<float>& step, const float* x, float* gradient) {
-  return stepPotential(step, x, gradient);
+double potentialFloat(const PotentialView<float>& step, const float* x, float* gradient) {
+  return evaluate(step, x, gradient);
 }
-double stepEnergyDouble(const StepView<double>& step, const double* x, double* gradient) {
-  return stepPotential(step, x, gradient);
+double potentialDouble(const PotentialView<double>& step, const double* x, double* gradient) {
+  return evaluate(step, x, gradient);
 }
 
 }  // namespace softbody::HWY_NAMESPACE
@@ -86,16 +86,16 @@ HWY_AFTER_NAMESPACE();
 
 namespace softbody {
 
-HWY_EXPORT(stepEnergyFloat);
-HWY_EXPORT(stepEnergyDouble);
+HWY_EXPORT(potentialFloat);
+HWY_EXPORT(potentialDouble);
 
 template <>
-StepKernel<float> stepKernel<float>(Simd simd) {
-  return HWY_DISPATCH_TABLE(stepEnergyFloat)[dispatchIndex(simd)];
+PotentialKernel<float> potentialKernel<float>(Simd simd) {
+  return HWY_DISPATCH_TABLE(potentialFloat)[dispatchIndex(simd)];
 }
 template <>
-StepKernel<double> stepKernel<double>(Simd simd) {
-  return HWY_DISPATCH_TABLE(stepEnergyDouble)[dispatchIndex(simd)];
+PotentialKernel<double> potentialKernel<double>(Simd simd) {
+  return HWY_DISPATCH_TABLE(potentialDouble)[dispatchIndex(simd)];
 }
 
 }  // namespace softbody

@@ -9,6 +9,6 @@ namespace softbody {
 /// Deformation without simulation (Kang et al. 2022, Fig. 6): every surface vertex in a target's tet moves by
 /// the mean of its targets' offsets, weighted with the targets' weights and barycentric coordinates. No other
 /// vertex moves.
-void followTargets(const std::vector<Target>& targets, const TetTopology& topology, Points* vertices);
+void moveToTargets(const std::vector<Target>& targets, const TetTopology& topology, Points* vertices);
 
 }  // namespace softbody

@@ -18,9 +18,9 @@ struct TargetRow {
   bool one_sided;  ///< pushes along the normal only
 };
 
-/// A StepPotential in rows (x, y, z, 0).
+/// A IncrementalPotential in rows (x, y, z, 0).
 template <typename T>
-struct StepView {
+struct PotentialView {
   std::size_t size;  ///< numbers in all rows, a multiple of 64
   const T *inertia, *prediction, *loads;
   const TargetRow<T>* targets;
@@ -29,9 +29,9 @@ struct StepView {
 
 /// Energy [J]; sets its gradient [N].
 template <typename T>
-using StepKernel = double (*)(const StepView<T>& step, const T* x, T* gradient);
+using PotentialKernel = double (*)(const PotentialView<T>& step, const T* x, T* gradient);
 
 template <typename T>
-StepKernel<T> stepKernel(Simd simd);
+PotentialKernel<T> potentialKernel(Simd simd);
 
 }  // namespace softbody

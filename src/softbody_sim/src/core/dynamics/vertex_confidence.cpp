@@ -1,4 +1,4 @@
-#include "dynamics/observation_confidence.h"
+#include "dynamics/vertex_confidence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ std::vector<std::pair<int, int>> edgesOf(const Tets& tets) {
 
 }  // namespace
 
-ObservationConfidence::ObservationConfidence(const Points& rest_vertices, const Tets& tets)
+VertexConfidence::VertexConfidence(const Points& rest_vertices, const Tets& tets)
     : tets_(tets), neighbors_(static_cast<std::size_t>(rest_vertices.rows())) {
   double sum = 0.0;
   int count = 0;
@@ -43,7 +43,7 @@ ObservationConfidence::ObservationConfidence(const Points& rest_vertices, const 
 }
 
 /// Dijkstra from all observed vertices at once.
-void ObservationConfidence::findDistances() {
+void VertexConfidence::findDistances() {
   constexpr double kObserved = 0.25;
   const auto push = [this](double distance, int vertex) {
     queue_.emplace_back(distance_[vertex] = distance, vertex);
@@ -65,7 +65,7 @@ void ObservationConfidence::findDistances() {
   }
 }
 
-void ObservationConfidence::find(const std::vector<Target>& targets, std::vector<float>* confidence) {
+void VertexConfidence::compute(const std::vector<Target>& targets, std::vector<float>* confidence) {
   support_.assign(neighbors_.size(), 0.0);
   for (const Target& target : targets) {
     for (int k = 0; k < 4; ++k) {

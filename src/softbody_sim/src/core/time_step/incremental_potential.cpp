@@ -1,8 +1,8 @@
-#include "time_step/step_potential.h"
+#include "time_step/incremental_potential.h"
 
 namespace softbody {
 
-double StepPotential::evaluate(const Points& x, Points* gradient) const {
+double IncrementalPotential::evaluate(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (Eigen::Index v = 0; v < x.rows(); ++v) {
     const Eigen::RowVector3d offset = x.row(v) - prediction.row(v);

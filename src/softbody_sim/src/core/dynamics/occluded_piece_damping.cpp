@@ -1,4 +1,4 @@
-#include "dynamics/unseen_pieces.h"
+#include "dynamics/occluded_piece_damping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@ namespace softbody {
 
 constexpr double kHalfLife = 0.1;  // [s]
 
-UnseenPieces::UnseenPieces(const TetTopology& topology)
+OccludedPieceDamping::OccludedPieceDamping(const TetTopology& topology)
     : tet_bodies_(tetBodies(topology.tets, static_cast<int>(topology.rest_vertices.rows()))),
       vertex_bodies_(vertexBodies(topology.tets, tet_bodies_, topology.rest_vertices.rows())),
       seen_(*std::max_element(tet_bodies_.begin(), tet_bodies_.end()) + 1) {}
 
-void UnseenPieces::slow(const std::vector<Target>& targets, double elapsed_s, Points* velocities) {
+void OccludedPieceDamping::apply(const std::vector<Target>& targets, double elapsed_s, Points* velocities) {
   if (seen_.size() == 1 || targets.empty()) return;
   seen_.assign(seen_.size(), false);
   for (const Target& target : targets) seen_[tet_bodies_[static_cast<std::size_t>(target.place.tet)]] = true;

@@ -1,4 +1,4 @@
-#include "dynamics/unseen_pieces.h"
+#include "dynamics/occluded_piece_damping.h"
 
 #include <gtest/gtest.h>
 
@@ -15,34 +15,34 @@ Target targetIn(int tet) {
   return target;
 }
 
-TEST(UnseenPieces, ComeToRestWhileOthersAreSeen) {
+TEST(OccludedPieceDamping, ComeToRestWhileOthersAreSeen) {
   std::mt19937 random(3);
   const TetTopology topology = testing::twoBoxes({2, 2, 2}, {0.1, 0.1, 0.1});
   const Eigen::Index count = topology.rest_vertices.rows() / 2;
   const Points before = randomPoints(2 * count, 1.0, &random);
-  UnseenPieces pieces(topology);
+  OccludedPieceDamping pieces(topology);
   Points velocities = before;
-  pieces.slow({targetIn(0)}, 0.1, &velocities);
+  pieces.apply({targetIn(0)}, 0.1, &velocities);
   EXPECT_EQ(velocities.topRows(count), before.topRows(count));
   EXPECT_TRUE(velocities.bottomRows(count).isApprox(0.5 * before.bottomRows(count), 1e-12));
 }
 
-TEST(UnseenPieces, GoOnWhereNothingIsSeenAtAllOrAllIs) {
+TEST(OccludedPieceDamping, GoOnWhereNothingIsSeenAtAllOrAllIs) {
   std::mt19937 random(3);
   const TetTopology topology = testing::twoBoxes({2, 2, 2}, {0.1, 0.1, 0.1});
   const Points before = randomPoints(topology.rest_vertices.rows(), 1.0, &random);
-  UnseenPieces pieces(topology);
+  OccludedPieceDamping pieces(topology);
   Points velocities = before;
-  pieces.slow({}, 0.1, &velocities);
+  pieces.apply({}, 0.1, &velocities);
   const int last = static_cast<int>(topology.tets.rows()) - 1;
-  pieces.slow({targetIn(0), targetIn(last)}, 0.1, &velocities);
+  pieces.apply({targetIn(0), targetIn(last)}, 0.1, &velocities);
   EXPECT_EQ(velocities, before);
 }
 
-TEST(UnseenPieces, AnUncutBodyIsLeftAlone) {
+TEST(OccludedPieceDamping, AnUncutBodyIsLeftAlone) {
   const TetTopology topology = testing::boxTopology({2, 2, 2}, {0.1, 0.1, 0.1});
   Points velocities = Points::Ones(topology.rest_vertices.rows(), 3);
-  UnseenPieces(topology).slow({targetIn(0)}, 0.1, &velocities);
+  OccludedPieceDamping(topology).apply({targetIn(0)}, 0.1, &velocities);
   EXPECT_EQ(velocities, Points::Ones(velocities.rows(), 3));
 }
 

@@ -1,4 +1,4 @@
-#include "time_step/step_rows.h"
+#include "time_step/packed_potential.h"
 
 namespace softbody {
 namespace {
@@ -25,14 +25,14 @@ TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d&
 }  // namespace
 
 template <typename T>
-StepRows<T>::StepRows(Eigen::Index vertex_count, Simd simd)
+PackedPotential<T>::PackedPotential(Eigen::Index vertex_count, Simd simd)
     : inertia_(Rows<T>::Zero(paddedRows(vertex_count), 4)),
       prediction_(inertia_),
       loads_(inertia_),
-      kernel_(stepKernel<T>(simd)) {}
+      kernel_(potentialKernel<T>(simd)) {}
 
 template <typename T>
-void StepRows<T>::set(const StepPotential& potential, const Eigen::RowVector3d& origin) {
+void PackedPotential<T>::set(const IncrementalPotential& potential, const Eigen::RowVector3d& origin) {
   origin_ = origin;
   for (Eigen::Index v = 0; v < potential.inertia.size(); ++v) {
     inertia_.row(v).setConstant(static_cast<T>(potential.inertia[v]));
@@ -46,28 +46,28 @@ void StepRows<T>::set(const StepPotential& potential, const Eigen::RowVector3d& 
 }
 
 template <typename T>
-double StepRows<T>::evaluate(const Rows<T>& x, Rows<T>* gradient) const {
-  const StepView<T> view{static_cast<std::size_t>(inertia_.size()),
-                         inertia_.data(),
-                         prediction_.data(),
-                         loads_.data(),
-                         targets_.data(),
-                         targets_.size()};
+double PackedPotential<T>::evaluate(const Rows<T>& x, Rows<T>* gradient) const {
+  const PotentialView<T> view{static_cast<std::size_t>(inertia_.size()),
+                              inertia_.data(),
+                              prediction_.data(),
+                              loads_.data(),
+                              targets_.data(),
+                              targets_.size()};
   return kernel_(view, x.data(), gradient->data());
 }
 
 template <typename T>
-void StepRows<T>::toRows(const Points& points, Rows<T>* rows) const {
+void PackedPotential<T>::toRows(const Points& points, Rows<T>* rows) const {
   rows->col(3).setZero();
   rows->topLeftCorner(points.rows(), 3) = (points.rowwise() - origin_).template cast<T>();
 }
 
 template <typename T>
-void StepRows<T>::fromRows(const Rows<T>& rows, Points* points) const {
+void PackedPotential<T>::fromRows(const Rows<T>& rows, Points* points) const {
   *points = rows.topLeftCorner(points->rows(), 3).template cast<double>().rowwise() + origin_;
 }
 
-template class StepRows<float>;
-template class StepRows<double>;
+template class PackedPotential<float>;
+template class PackedPotential<double>;
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "dynamics/load_estimate.h"
+#include "dynamics/load_estimator.h"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -27,7 +27,7 @@ TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& ma
 
 }  // namespace
 
-LoadEstimate::LoadEstimate(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s)
+LoadEstimator::LoadEstimator(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s)
     : masses_(masses),
       pieces_(verticesOfBodies(topology.tets, masses.size())),
       fade_s_(fade_s),
@@ -36,7 +36,7 @@ LoadEstimate::LoadEstimate(const TetTopology& topology, const Eigen::VectorXd& m
 }
 
 /// Takes away what would accelerate the piece as a rigid body.
-void LoadEstimate::balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const {
+void LoadEstimator::balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const {
   double mass = 0.0;
   Eigen::Vector3d center = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero();
   for (int v : piece) {
@@ -59,11 +59,11 @@ void LoadEstimate::balancePiece(const std::vector<int>& piece, const Points& ver
   }
 }
 
-void LoadEstimate::balance(const Points& vertices, Points* loads) const {
+void LoadEstimator::balance(const Points& vertices, Points* loads) const {
   for (const std::vector<int>& piece : pieces_) balancePiece(piece, vertices, loads);
 }
 
-void LoadEstimate::update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads) {
+void LoadEstimator::update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads) {
   if (fade_s_ <= 0.0) return;
   smoother_.solve(springs, &spread_);
   *loads = std::exp(-elapsed_s / fade_s_) * *loads + spread_;
