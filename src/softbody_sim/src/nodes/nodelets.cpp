@@ -1,7 +1,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
-#include "nodes/simulator_node.h"
-#include "nodes/surface_node.h"
+#include "nodes/simulator/simulator_node.h"
+#include "nodes/surface/surface_node.h"
 #include "softbody_common/ros/node_nodelet.h"
 
 namespace softbody {

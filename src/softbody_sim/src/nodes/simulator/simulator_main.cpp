@@ -1,4 +1,4 @@
-#include "nodes/simulator_node.h"
+#include "nodes/simulator/simulator_node.h"
 #include "softbody_common/ros/run_node.h"
 
 int main(int argc, char** argv) {

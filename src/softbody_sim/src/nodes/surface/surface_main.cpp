@@ -1,4 +1,4 @@
-#include "nodes/surface_node.h"
+#include "nodes/surface/surface_node.h"
 #include "softbody_common/ros/run_node.h"
 
 int main(int argc, char** argv) { return softbody::runNode<softbody::SurfaceNode>(argc, argv, "surface"); }

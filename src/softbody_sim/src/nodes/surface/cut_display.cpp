@@ -1,4 +1,4 @@
-#include "nodes/cut_display.h"
+#include "nodes/surface/cut_display.h"
 
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -21,23 +21,23 @@ CutDisplay::CutDisplay(ros::NodeHandle node)
     : lines_publisher_(node.advertise<visualization_msgs::Marker>(topics::kCutMarker, 1)),
       preview_publisher_(node.advertise<visualization_msgs::MarkerArray>(topics::kPreviewMarker, 1)) {}
 
-void CutDisplay::preview(const CutPreview& preview, const TetTopology& volume) {
+void CutDisplay::startPreview(const CutPreview& preview, const TetTopology& volume) {
   if (preview_publisher_.getNumSubscribers() == 0 || !preview.refusal.empty()) return;
   preview_ =
       Preview{preview.pieces, cutLines(preview.pieces), volume, bindSurface(preview.pieces, volume), {}};
 }
 
-void CutDisplay::show(const MeshTopology& mesh, const MeshState& surface, const MeshState& volume,
-                      const std_msgs::Header& header) {
+void CutDisplay::publish(const MeshTopology& mesh, const MeshState& surface, const MeshState& volume,
+                         const std_msgs::Header& header) {
   if (lines_publisher_.getNumSubscribers() > 0) {
     if (!lines_) lines_ = cutLines(mesh);
     lines_publisher_.publish(boost::make_shared<visualization_msgs::Marker>(
         makeCutLinesMarker(*lines_, surface.vertices, header)));
   }
-  if (preview_) showPreview(volume, header);
+  if (preview_) publishPreview(volume, header);
 }
 
-void CutDisplay::showPreview(const MeshState& volume, const std_msgs::Header& header) {
+void CutDisplay::publishPreview(const MeshState& volume, const std_msgs::Header& header) {
   if (!preview_->begin) preview_->begin = header.stamp;
   const double age = (header.stamp - *preview_->begin).toSec();
   const bool same_tets = volume.revision == preview_->volume.revision &&

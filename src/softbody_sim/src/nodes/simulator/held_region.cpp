@@ -1,0 +1,67 @@
+#include "nodes/simulator/held_region.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace softbody {
+namespace {
+
+/// Ascending.
+std::vector<int> verticesIn(const PinRegion& region, const Points& rest_vertices) {
+  std::vector<int> vertices;
+  for (int v = 0; v < rest_vertices.rows(); ++v) {
+    const Eigen::Array3d p = rest_vertices.row(v).transpose().array();
+    if ((p >= region.min.array()).all() && (p <= region.max.array()).all()) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+}  // namespace
+
+HeldRegion::HeldRegion(PinRegion region, const Points& rest_vertices)
+    : region_(std::move(region)), vertices_(verticesIn(region_, rest_vertices)) {
+  if (vertices_.empty())
+    throw std::invalid_argument(
+        fmt::format("the box of pin '{}' contains no vertex of the volume", region_.name));
+}
+
+void HeldRegion::hold(const Eigen::Isometry3d& frame_pose, const Points& vertices) {
+  positions_.emplace(static_cast<Eigen::Index>(vertices_.size()), 3);
+  for (std::size_t k = 0; k < vertices_.size(); ++k) {
+    positions_->row(static_cast<Eigen::Index>(k)) =
+        frame_pose.inverse() * Eigen::Vector3d(vertices.row(vertices_[k]));
+  }
+}
+
+void HeldRegion::updateVertices(const Points& rest_vertices, const Points& vertices) {
+  const std::vector<int> before = std::exchange(vertices_, verticesIn(region_, rest_vertices));
+  if (vertices.rows() == 0) positions_.reset();
+  if (!positions_) return;
+  Points positions(static_cast<Eigen::Index>(vertices_.size()), 3);
+  for (std::size_t k = 0; k < vertices_.size(); ++k) {
+    const auto known = std::lower_bound(before.begin(), before.end(), vertices_[k]);
+    const auto row = static_cast<Eigen::Index>(k);
+    if (known != before.end() && *known == vertices_[k])
+      positions.row(row) = positions_->row(known - before.begin());
+    else
+      positions.row(row) = frame_pose_.inverse() * Eigen::Vector3d(vertices.row(vertices_[k]));
+  }
+  positions_ = std::move(positions);
+}
+
+void HeldRegion::setFramePose(const std::optional<Eigen::Isometry3d>& pose) {
+  acts_ = positions_ && (pose || acts_);
+  if (acts_ && pose) frame_pose_ = *pose;
+}
+
+void HeldRegion::appendPins(std::vector<Pin>* pins) const {
+  for (std::size_t k = 0; k < vertices_.size(); ++k) {
+    const Eigen::Vector3d position = positions_->row(static_cast<Eigen::Index>(k));
+    pins->push_back({vertices_[k], frame_pose_ * position});
+  }
+}
+
+}  // namespace softbody

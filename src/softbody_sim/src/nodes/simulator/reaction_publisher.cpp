@@ -1,0 +1,39 @@
+#include "nodes/simulator/reaction_publisher.h"
+
+#include <geometry_msgs/WrenchStamped.h>
+
+#include "softbody_common/topics.h"
+
+namespace softbody {
+namespace {
+
+geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+}  // namespace
+
+Wrench aboutOrigin(const Wrench& wrench, const Eigen::Vector3d& place) {
+  return {wrench.force, wrench.torque + place.cross(wrench.force)};
+}
+
+void ReactionPublisher::publish(const std::string& name, const std::string& frame,
+                                const Eigen::Isometry3d& frame_pose, const Wrench& about_origin,
+                                const ros::Time& stamp) {
+  ros::Publisher& publisher = publishers_[name];
+  if (!publisher) publisher = node_.advertise<geometry_msgs::WrenchStamped>(topics::kReaction + name, 10);
+  const Eigen::Matrix3d to_frame = frame_pose.linear().transpose();
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  message.wrench.force = toMessage(to_frame * about_origin.force);
+  message.wrench.torque =
+      toMessage(to_frame * (about_origin.torque - frame_pose.translation().cross(about_origin.force)));
+  publisher.publish(message);
+}
+
+}  // namespace softbody

@@ -1,0 +1,51 @@
+#include "nodes/simulator/simulator_diagnostics.h"
+
+#include <fmt/format.h>
+
+namespace softbody {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+SimulatorDiagnostics::SimulatorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                                           const Simulator* simulator)
+    : simulator_(simulator), updater_(node, private_node) {
+  updater_.setHardwareID("none");
+  updater_.add("simulation", [this](DiagnosticStatusWrapper& status) { report(&status); });
+  // A timer in wall time instead of the updater's own: with use_sim_time that one stops when a bag starts
+  // again.
+  timer_ = ros::NodeHandle(node).createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+}
+
+void SimulatorDiagnostics::countStep() {
+  ++steps_;
+  if (!simulator_->report().converged) ++steps_not_converged_;
+}
+
+void SimulatorDiagnostics::summarize(DiagnosticStatusWrapper* status) const {
+  if (refused_ > 0)
+    status->summary(DiagnosticStatus::WARN, fmt::format("{} messages with targets were not used", refused_));
+  else if (!simulator_->placed())
+    status->summary(DiagnosticStatus::WARN, "the body is not placed yet: waiting for targets");
+  else if (steps_not_converged_ > 0)
+    status->summary(DiagnosticStatus::WARN,
+                    fmt::format("{} of {} steps did not converge", steps_not_converged_, steps_));
+  else
+    status->summary(DiagnosticStatus::OK, fmt::format("all {} steps converged", steps_));
+}
+
+void SimulatorDiagnostics::report(DiagnosticStatusWrapper* status) {
+  summarize(status);
+  const StepReport& last = simulator_->report();
+  status->add("steps", steps_);
+  status->add("steps not converged", steps_not_converged_);
+  status->add("messages refused", refused_);
+  status->add("iterations of the last step", last.iterations);
+  status->add("last step converged", last.converged);
+  status->add("residual of the last step [N]", fmt::format("{:.3g}", last.residual_n));
+  status->add("last move [mm]", fmt::format("{:.4f}", 1e3 * last.last_move_m));
+  steps_ = steps_not_converged_ = refused_ = 0;
+}
+
+}  // namespace softbody

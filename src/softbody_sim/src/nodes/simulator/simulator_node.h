@@ -1,0 +1,60 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <softbody_msgs/Cut.h>
+#include <softbody_msgs/PinRegion.h>
+#include <softbody_msgs/Targets.h>
+
+#include "nodes/simulator/simulator_diagnostics.h"
+#include "nodes/simulator/simulator_options.h"
+#include "nodes/simulator/surroundings_tracker.h"
+#include "nodes/simulator/volume_publisher.h"
+#include "softbody_common/stage_timer.h"
+#include "softbody_sim/dynamics/simulator.h"
+
+namespace softbody {
+
+/// Subscribes to targets, cuts and pins; publishes states of the volumetric model. If the targets stop, for
+/// example because the camera stalls, it continues at its own rate. Parameters: ~object, ~body_frame,
+/// ~obstacles, ~free_run_rate_hz, ~stall_timeout_s and those of SimulatorConfig.
+class SimulatorNode {
+ public:
+  /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
+  SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+ private:
+  SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                const SimulatorOptions& options);
+  SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const SimulatorOptions& options,
+                const SimulatedObject& object);
+
+  void onTargets(const softbody_msgs::TargetsConstPtr& message);
+  void onCut(const softbody_msgs::CutConstPtr& message);
+  void onPin(const softbody_msgs::PinRegionConstPtr& message);
+  void onFreeRun();
+
+  void step(const softbody_msgs::Targets& message);
+  void restartIfTimeJumpedBack(const ros::Time& stamp);
+  bool applyCut(const softbody_msgs::Cut& message, std::string* reason);
+  void publishState(const std_msgs::Header& header);
+
+  /// The last targets that were used.
+  struct LastTargets {
+    TargetSet set;
+    std_msgs::Header header;
+    ros::Time arrival;  ///< 0: none since the simulation started
+  };
+
+  const double stall_timeout_s_;
+  StageTimer timer_;
+  Simulator simulator_;
+  SurroundingsTracker surroundings_;
+  LastTargets last_;
+  VolumePublisher publisher_;
+  SimulatorDiagnostics diagnostics_;
+  // Last, so that callbacks end before the members that they use.
+  ros::Subscriber targets_subscriber_, cut_subscriber_, pin_subscriber_;
+  ros::Timer free_run_timer_;
+};
+
+}  // namespace softbody

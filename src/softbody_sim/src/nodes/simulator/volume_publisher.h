@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <softbody_msgs/TetTopology.h>
+
+#include <string>
+#include <vector>
+
+#include "softbody_common/stage_timer.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Publishes the volume's topology, state and stage times. The topology is latched and sent again every
+/// second.
+class VolumePublisher {
+ public:
+  VolumePublisher(ros::NodeHandle node, std::string body_frame, const TetTopology& topology);
+
+  /// @param stamp of the first frame with this topology; 0: the body is not placed.
+  void publishTopology(const TetTopology& topology, const ros::Time& stamp);
+  /// Whether the published topology has the stamp of a frame.
+  bool topologyHasStamp() const { return !topology_->header.stamp.isZero(); }
+
+  void publishState(const MeshState& state, const std_msgs::Header& header);
+  void publishTiming(const std::vector<StageTime>& stages, const std_msgs::Header& header);
+
+ private:
+  std::string body_frame_;
+  softbody_msgs::TetTopologyPtr topology_;
+  ros::Publisher topology_publisher_, state_publisher_, timing_publisher_;
+  ros::Timer topology_timer_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,91 @@
+#include "nodes/surface/blade_input.h"
+
+#include <fmt/format.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <cmath>
+#include <utility>
+
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/topics.h"
+
+namespace softbody {
+namespace {
+
+/// Blade and state further apart in time do not belong together.
+constexpr double kSameInstant = 0.1;  // [s]
+/// States come later than blades, on a slow machine by many frames. After this time no state is expected.
+constexpr double kLongestWait = 5.0;        // [s]
+constexpr std::size_t kMostWaiting = 5000;  // bounds memory for any stamps
+constexpr int kBladeQueue = 100;            // a fast tool sends many poses while one cut is made
+/// Fewer skipped blades also occur when a bag starts again; they need no warning.
+constexpr int kMostSkipped = 5;
+
+}  // namespace
+
+BladeInput::BladeInput(ros::NodeHandle node, Callback on_blade) : on_blade_(std::move(on_blade)) {
+  subscriber_ = node.subscribe(topics::kToolBlade, kBladeQueue, &BladeInput::onBlade, this,
+                               ros::TransportHints().tcpNoDelay());
+}
+
+void BladeInput::reset() {
+  state_.reset();
+  waiting_.clear();
+}
+
+void BladeInput::onState(const std_msgs::Header& header) {
+  state_ = header;
+  geometry_msgs::PolygonStampedConstPtr last;
+  while (!waiting_.empty() && waiting_.front()->header.stamp <= header.stamp) {
+    last = waiting_.front();
+    waiting_.pop_front();
+  }
+  if (last) passOn(*last);
+}
+
+void BladeInput::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
+  const ros::Time& stamp = message->header.stamp;
+  if (!waiting_.empty() && stamp < waiting_.back()->header.stamp) waiting_.clear();
+  if (state_ && stamp <= state_->stamp) return passOn(*message);
+  waiting_.push_back(message);
+  while ((stamp - waiting_.front()->header.stamp).toSec() > kLongestWait || waiting_.size() > kMostWaiting) {
+    skip(*waiting_.front());
+    waiting_.pop_front();
+  }
+}
+
+void BladeInput::passOn(const geometry_msgs::PolygonStamped& blade) {
+  if (std::abs((state_->stamp - blade.header.stamp).toSec()) > kSameInstant) return skip(blade);
+  skipped_ = 0;
+  const std::optional<Points> polygon = toStateFrame(blade);
+  if (polygon) on_blade_(*polygon, blade.header.stamp);
+}
+
+void BladeInput::skip(const geometry_msgs::PolygonStamped& blade) {
+  if (!state_ || ++skipped_ < kMostSkipped) return;
+  const double ahead = (blade.header.stamp - state_->stamp).toSec();
+  ROS_WARN_STREAM_THROTTLE(
+      5.0,
+      fmt::format("the blade cannot cut: its stamp {:.3f} s is {:.3f} s {} the body's last state; a blade "
+                  "needs the stamp of an image in which the body is tracked",
+                  blade.header.stamp.toSec(), std::abs(ahead), ahead > 0.0 ? "after" : "before"));
+}
+
+std::optional<Points> BladeInput::toStateFrame(const geometry_msgs::PolygonStamped& blade) {
+  Points points = fromMessage(blade.polygon);
+  if (blade.header.frame_id == state_->frame_id) return points;
+  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
+  try {
+    const Eigen::Isometry3d T(
+        tf2::transformToEigen(
+            buffer_.lookupTransform(state_->frame_id, blade.header.frame_id, blade.header.stamp))
+            .matrix());
+    return transformed(points, T);
+  } catch (const tf2::TransformException& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "tf does not give the blade's pose: " << error.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <geometry_msgs/PolygonStamped.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Subscribes to the blade. A blade waits for the body's state of its stamp and is then transformed to the
+/// state's frame.
+class BladeInput {
+ public:
+  /// @param polygon #P by 3, in the frame of the last state [m].
+  using Callback = std::function<void(const Points& polygon, const ros::Time& stamp)>;
+
+  BladeInput(ros::NodeHandle node, Callback on_blade);
+
+  /// A state of the body has come: passes on the last blade up to its stamp.
+  void onState(const std_msgs::Header& header);
+  /// Another body starts: forgets the last state and all waiting blades.
+  void reset();
+
+ private:
+  void onBlade(const geometry_msgs::PolygonStampedConstPtr& message);
+  void passOn(const geometry_msgs::PolygonStamped& blade);
+  void skip(const geometry_msgs::PolygonStamped& blade);
+  std::optional<Points> toStateFrame(const geometry_msgs::PolygonStamped& blade);
+
+  Callback on_blade_;
+  std::optional<std_msgs::Header> state_;                      ///< of the last state
+  std::deque<geometry_msgs::PolygonStampedConstPtr> waiting_;  ///< for their states
+  int skipped_ = 0;  ///< consecutive blades without a state of their time
+  tf2_ros::Buffer buffer_;
+  std::unique_ptr<tf2_ros::TransformListener>
+      listener_;  ///< only if the blade is in another frame than the body
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace softbody

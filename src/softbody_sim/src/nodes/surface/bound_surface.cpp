@@ -1,0 +1,32 @@
+#include "nodes/surface/bound_surface.h"
+
+#include <boost/make_shared.hpp>
+
+#include "cutting/patch/cut_patch.h"
+#include "softbody_common/ros/conversions.h"
+
+namespace softbody {
+
+BoundSurface bindTo(const softbody_msgs::TetTopologyConstPtr& volume, const VisualSurface& surface,
+                    const std::string& body_frame) {
+  const auto topology = boost::make_shared<softbody_msgs::MeshTopology>(toMessage(surface.topology()));
+  topology->header.frame_id = body_frame;
+  topology->header.stamp = volume->header.stamp;
+  return {volume, surface, topology};
+}
+
+bool sameMesh(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopology& b) {
+  return a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.tets == b.tets &&
+         a.surface_triangles == b.surface_triangles;
+}
+
+bool sameTets(const TetTopology& volume, const softbody_msgs::TetTopology& message) {
+  if (volume.revision != message.revision ||
+      static_cast<std::size_t>(volume.tets.rows()) != message.tets.size())
+    return false;
+  const TetTopology other = fromMessage(message);
+  return volume.rest_vertices.rows() == other.rest_vertices.rows() &&
+         inSinglePrecision(volume.rest_vertices) == other.rest_vertices && volume.tets == other.tets;
+}
+
+}  // namespace softbody

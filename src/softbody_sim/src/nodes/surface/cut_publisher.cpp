@@ -1,0 +1,52 @@
+#include "nodes/surface/cut_publisher.h"
+
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/topics.h"
+
+namespace softbody {
+namespace {
+
+/// A simulator that publishes without the cut for this long will not make it.
+constexpr double kLongestLag = 3.0;  // [s]
+
+}  // namespace
+
+CutPublisher::CutPublisher(ros::NodeHandle node, std::string body_frame)
+    : body_frame_(std::move(body_frame)), publisher_(node.advertise<softbody_msgs::Cut>(topics::kCut, 20)) {}
+
+void CutPublisher::publish(const Cut& cut, const ros::Time& stamp) {
+  pending_ = boost::make_shared<softbody_msgs::Cut>(toMessage(cut));
+  pending_->header.stamp = stamp;
+  pending_->header.frame_id = body_frame_;
+  publisher_.publish(pending_);
+}
+
+void CutPublisher::confirm(std::uint32_t revision) {
+  if (pending_ && pending_->revision <= revision) pending_.reset();
+}
+
+void CutPublisher::resend(std::uint32_t simulator_revision) {
+  if (!pending_ || pending_->revision != simulator_revision + 1) return;
+  ROS_WARN("the simulator has not made the cut of revision %u; it is sent again", pending_->revision);
+  publisher_.publish(boost::make_shared<softbody_msgs::Cut>(*pending_));
+}
+
+bool CutPublisher::isOverdue(std::uint32_t surface_revision, std::uint32_t simulator_revision) {
+  if (surface_revision <= simulator_revision) {
+    lag_.reset();
+    return false;
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  if (!lag_ || lag_->simulator_revision != simulator_revision) lag_ = Lag{now, simulator_revision};
+  return (now - lag_->since).toSec() > kLongestLag;
+}
+
+void CutPublisher::reset() {
+  pending_.reset();
+  lag_.reset();
+}
+
+}  // namespace softbody

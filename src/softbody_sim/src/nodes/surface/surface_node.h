@@ -1,0 +1,64 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/TetTopology.h>
+
+#include <optional>
+#include <string>
+
+#include "nodes/surface/bound_surface.h"
+#include "nodes/surface/cut_display.h"
+#include "nodes/surface/cut_services.h"
+#include "nodes/surface/surface_editor.h"
+#include "nodes/surface/surface_publisher.h"
+#include "softbody_common/stage_timer.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Subscribes to states of the volumetric model; publishes states of the visual mesh; cuts both. Parameters:
+/// ~object, ~body_frame and those of CuttingConfig.
+class SurfaceNode {
+ public:
+  /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
+  SurfaceNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+ private:
+  struct Options {
+    std::string body_frame;
+    CuttingConfig cutting;
+    MeshTopology visual;
+  };
+  static Options readOptions(const ros::NodeHandle& private_node);
+  SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, Options options);
+
+  void onTopology(const softbody_msgs::TetTopologyConstPtr& message);
+  void onState(const softbody_msgs::MeshStateConstPtr& message);
+
+  bool updateStamp(const softbody_msgs::TetTopology& message);
+  bool useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool cut_is_late);
+  void useEdit(const softbody_msgs::TetTopologyConstPtr& message);
+  void waitForCut(const softbody_msgs::TetTopologyConstPtr& message);
+  void startBody(const softbody_msgs::TetTopologyConstPtr& message);
+  void useWaitingTopology();
+  void setBinding(BoundSurface binding);
+  void publishState(const softbody_msgs::MeshState& volume);
+
+  const std::string body_frame_;
+  const MeshTopology visual_;
+  StageTimer timer_;
+  SurfacePublisher publisher_;
+  CutDisplay cut_display_;
+  std::optional<BoundSurface> binding_;                  ///< published
+  std::optional<BoundSurface> next_binding_;             ///< of an edit that no state has come for yet
+  softbody_msgs::TetTopologyConstPtr waiting_topology_;  ///< its cut has not come yet
+  softbody_msgs::MeshStateConstPtr waiting_state_;       ///< its topology has not come yet
+  // Last, so that callbacks end before the members that they use.
+  SurfaceEditor editor_;        ///< may be ahead of what is published
+  CutServices services_;
+  ros::WallTimer cut_timeout_;  ///< ends the wait of waiting_topology_
+  ros::Subscriber topology_subscriber_, state_subscriber_;
+};
+
+}  // namespace softbody

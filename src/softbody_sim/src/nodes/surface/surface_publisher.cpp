@@ -1,0 +1,53 @@
+#include "nodes/surface/surface_publisher.h"
+
+#include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/StageTiming.h>
+#include <visualization_msgs/Marker.h>
+
+#include <boost/make_shared.hpp>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/topics.h"
+#include "softbody_sim/ros/conversions.h"
+
+namespace softbody {
+
+SurfacePublisher::SurfacePublisher(ros::NodeHandle node)
+    : topology_publisher_(node.advertise<softbody_msgs::MeshTopology>(topics::kSurfaceTopology, 1, true)),
+      state_publisher_(node.advertise<softbody_msgs::MeshState>(topics::kSurfaceState, 1)),
+      marker_publisher_(node.advertise<visualization_msgs::Marker>(topics::kSurfaceMarker, 1)),
+      timing_publisher_(node.advertise<softbody_msgs::StageTiming>(topics::kTiming, 10)),
+      topology_timer_(
+          node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); })) {}
+
+void SurfacePublisher::setTopology(const softbody_msgs::MeshTopologyConstPtr& topology) {
+  topology_ = topology;
+  publishTopology();
+}
+
+void SurfacePublisher::publishTopology() {
+  // A copy: the stamp may change while nodelets read the message.
+  if (topology_) topology_publisher_.publish(boost::make_shared<softbody_msgs::MeshTopology>(*topology_));
+}
+
+void SurfacePublisher::publishState(const MeshTopology& topology, const MeshState& state,
+                                    const std_msgs::Header& header) {
+  const auto message = boost::make_shared<softbody_msgs::MeshState>(toMessage(state));
+  message->header = header;
+  state_publisher_.publish(message);
+  if (marker_publisher_.getNumSubscribers() == 0) return;
+  const auto marker = boost::make_shared<visualization_msgs::Marker>(makeSurfaceMarker(topology, state));
+  marker->header = header;
+  marker_publisher_.publish(marker);
+}
+
+void SurfacePublisher::publishTiming(std::vector<StageTime> stages, const std_msgs::Header& header) {
+  // Only valid if the clock runs with the stamps; with a bag on the wall clock it does not.
+  const double latency = (ros::Time::now() - header.stamp).toSec();
+  if (latency >= 0.0 && latency < 10.0) stages.push_back({"camera-to-mesh latency", 1e3 * latency, false});
+  const auto timing = boost::make_shared<softbody_msgs::StageTiming>(timingMessage("surface", stages));
+  timing->header = header;
+  timing_publisher_.publish(timing);
+}
+
+}  // namespace softbody

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <softbody_msgs/MeshTopology.h>
+
+#include <vector>
+
+#include "softbody_common/stage_timer.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Publishes the visual mesh: topology, state, marker and stage times. The topology is latched and sent again
+/// every second.
+class SurfacePublisher {
+ public:
+  explicit SurfacePublisher(ros::NodeHandle node);
+
+  /// Publishes a topology, now and every second. @param topology its stamp may change afterwards.
+  void setTopology(const softbody_msgs::MeshTopologyConstPtr& topology);
+
+  /// The marker is published only while somebody subscribes to it.
+  void publishState(const MeshTopology& topology, const MeshState& state, const std_msgs::Header& header);
+
+  /// Adds the latency from the camera to now.
+  void publishTiming(std::vector<StageTime> stages, const std_msgs::Header& header);
+
+ private:
+  void publishTopology();
+
+  softbody_msgs::MeshTopologyConstPtr topology_;  ///< null: none yet
+  ros::Publisher topology_publisher_, state_publisher_, marker_publisher_, timing_publisher_;
+  ros::Timer topology_timer_;
+};
+
+}  // namespace softbody
