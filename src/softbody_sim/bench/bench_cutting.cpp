@@ -9,7 +9,7 @@ namespace {
 
 using namespace softbody;
 
-/// From the patch to the cut tets: a plane through the middle, a little oblique.
+/// Cuts the tets along a slightly oblique plane through the middle.
 void cutInHalf(benchmark::State& state, const TetTopology& body) {
   const std::vector<bool> uncut(static_cast<std::size_t>(body.surface.rows()), false);
   const Eigen::Vector3d center = body.rest_vertices.colwise().mean();
@@ -23,7 +23,7 @@ void cutInHalf(benchmark::State& state, const TetTopology& body) {
   }
 }
 
-/// One frame of a blade on its way: 5 mm further into a body that is cut halfway.
+/// One frame of a blade: 5 mm further into a body that is cut halfway.
 void deepenCut(benchmark::State& state, const TetTopology& body) {
   const Eigen::Vector3d low = body.rest_vertices.colwise().minCoeff(),
                         high = body.rest_vertices.colwise().maxCoeff();

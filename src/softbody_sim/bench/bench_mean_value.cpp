@@ -9,8 +9,8 @@
 #include "softbody_sim/interpolation/mean_value_coordinates.h"
 #include "softbody_sim/interpolation/tiled_weights.h"
 
-/// Mean value coordinates of the doll of Kang et al. 2022 (18,650 points, 252 faces), one thread. The ratios
-/// are of times taken turn by turn in one run, so that a busy machine slows both alike.
+/// Mean value coordinates of the doll of Kang et al. 2022 (18,650 points, 252 faces), one thread. For the
+/// ratios both programs take turns in one run, so that the machine's load affects both.
 namespace {
 
 using namespace softbody;
@@ -43,7 +43,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// The largest, of each row's largest weight.
+/// Largest difference, relative to the largest weight of its row.
 double relativeDifference(const WeightRows& weights, const WeightRows& exact) {
   const Eigen::VectorXd difference = (weights - exact).cwiseAbs().rowwise().maxCoeff();
   return difference.cwiseQuotient(exact.cwiseAbs().rowwise().maxCoeff()).maxCoeff();

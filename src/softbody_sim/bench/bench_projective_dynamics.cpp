@@ -17,12 +17,12 @@
 #include "tets/tet_matrix.h"
 #include "time_step/projective_dynamics.h"
 
-/// Projective dynamics against a plain implementation, one thread, bent bodies: `frame` (ten iterations of
-/// each, with and without the volume term), `converged` (as many as bring every vertex within 1e-6 mean edge
-/// lengths of the minimum), and of the fast one in single precision `local` and `global` (one step of
-/// them), `factor` (a new matrix) and `update` (a matrix that differs by a few targets). `smoothed/` before a
-/// name: with the strain smoothing that the simulator has by default, against a plain solver of that energy;
-/// otherwise without. `global`, `factor` and `update` do not depend on it.
+/// Compares projective dynamics with a plain implementation, on bent bodies with one thread. `frame`: ten
+/// iterations, with and without the volume term. `converged`: iterations until every vertex is within 1e-6
+/// mean edge lengths of the minimum. Of the fast solver in single precision: `local` and `global` (one such
+/// step), `factor` (a new matrix), `update` (a matrix with a few other targets). The prefix `smoothed/` means
+/// the simulator's default strain smoothing, compared with a plain solver of the same energy. `global`,
+/// `factor` and `update` do not depend on it.
 namespace {
 
 using namespace softbody;
@@ -31,14 +31,14 @@ using benchmark::State;
 
 constexpr int kFrameIterations = 10;
 
-/// Of strain smoothing: none, or SimulatorConfig's.
+/// No strain smoothing, or that of SimulatorConfig.
 enum class Strains { kOfTets, kSmoothed };
 
 double smoothingOf(Strains strains) {
   return strains == Strains::kSmoothed ? SimulatorConfig().strain_smoothing : 0.0;
 }
 
-/// What tells a row or a key of the summary from the one without smoothing.
+/// Prefix of rows and summary keys with smoothing.
 std::string prefixOf(Strains strains, const std::string& separator) {
   return strains == Strains::kSmoothed ? "smoothed" + separator : "";
 }
@@ -59,7 +59,7 @@ ProjectiveDynamicsOptions options(Strains strains, bool single, Simd simd, int i
   return chosen;
 }
 
-/// The vector widths of this processor, the widest first.
+/// Vector instructions of this processor, widest first.
 std::vector<Simd> widths() {
   std::vector<Simd> found;
   for (Simd simd : {Simd::kAvx512, Simd::kAvx2, Simd::kSse4}) {
@@ -75,8 +75,8 @@ double usedMemory() {
 
 using Run = std::function<void()>;
 
-/// Least wall time of each run [s], one after the other in every round, so that all see the same machine, and
-/// for a millisecond at least, so that each finds its own data in the cache.
+/// Minimum wall time of each run [s]. The runs take turns, so that the machine's load affects all. A turn
+/// lasts at least one millisecond, so that each run has its data in the cache.
 std::vector<double> leastTimes(const std::vector<Run>& runs) {
   constexpr double kLongest_s = 4.0, kTurn_s = 1e-3;
   constexpr int kFewest = 3, kMost = 200;
@@ -115,12 +115,13 @@ Run fastFrame(const BentBody& body, const ProjectiveDynamicsOptions& chosen) {
     solver->minimize(body.potential, &x);
     benchmark::DoNotOptimize(x.data());
   };
-  // As after a few frames: the factor is made, and inverted where that pays.
+  // As after a few frames: the matrix is factored, and inverted if it is small.
   for (int k = 0; k < (body.start.rows() > 500 ? 1 : 30); ++k) frame();
   return frame;
 }
 
-/// Fewest iterations after which `run(iterations)` is within 1e-6 mean edge lengths of the minimum.
+/// Minimum number of iterations after which `run(iterations)` is within 1e-6 mean edge lengths of the
+/// minimum.
 int iterationsToMinimum(const BentBody& body, Strains strains, const std::function<Points(int)>& run) {
   Points minimum = body.start;
   ProjectiveDynamics(body.topology, body.lame, options(strains, false, Simd::kAuto, 2000, 5))
@@ -132,7 +133,7 @@ int iterationsToMinimum(const BentBody& body, Strains strains, const std::functi
   return 1000;
 }
 
-/// One column a solver: microseconds, and how many times faster than the plain one.
+/// One column per solver: time [us], and speed relative to the plain solver.
 void report(State& state, const std::vector<std::string>& names, const std::vector<double>& times) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     state.counters[names[i] + " us"] = 1e6 * times[i];
@@ -226,14 +227,14 @@ void globalStep(State& state, const BentBody& body, Simd simd) {
   for (auto _ : state) solver.solve(b, &x);
 }
 
-void factorAnew(State& state, const BentBody& body) {
+void factorize(State& state, const BentBody& body) {
   const TetMatrix metric = metricOf(body);
   MetricSolver<float> solver(metric.lower(), Simd::kAuto);
   for (auto _ : state) solver.factorize(metric.lower());
 }
 
-/// Targets that come and go: how long an update of the factor by so many takes, and by how many it takes as
-/// long as factoring anew.
+/// Times updates of the factor for a number of changed targets. Also reports the largest number for which an
+/// update is faster than a new factorisation.
 void updates(State& state, const std::string& name) {
   const BentBody& body = bodyOf(name, true);
   const TetMatrix metric = metricOf(body);
@@ -282,7 +283,7 @@ void addBody(const std::string& name) {
   for (const Strains strains : {Strains::kOfTets, Strains::kSmoothed})
     add(prefixOf(strains, "/") + "local/" + name, [=](State& s) { localStep(s, body(), strains); });
   add("global/" + name, [body](State& s) { globalStep(s, body(), Simd::kAuto); });
-  add("factor/" + name, [body](State& s) { factorAnew(s, body()); });
+  add("factor/" + name, [body](State& s) { factorize(s, body()); });
   add("update/" + name, [name](State& s) { updates(s, name); })->Iterations(1);
 }
 

@@ -13,10 +13,10 @@
 #include "softbody_common/tet_locator.h"
 #include "softbody_sim/dynamics/simulator.h"
 
-/// A frame of the simulator as the tracker drives it: while the body bends to and fro, 1500 depth targets
-/// on its upper side, each with a normal, elsewhere in every frame, so that the matrix is another one each
-/// time. Processor time, which other processes lengthen little; one thread, parameters as shipped, but
-/// `iterations` has no tolerance to stop on before all 20 iterations.
+/// Times frames of the simulator with the tracker's kind of input. The body bends to and fro under 1500 depth
+/// targets with normals on its upper side. Their places change in every frame, so the matrix changes, too.
+/// Measures processor time of one thread, with the default parameters; `iterations` always runs all 20
+/// iterations.
 namespace {
 
 using namespace softbody;
@@ -26,20 +26,20 @@ constexpr int kTargets = 1500, kFrames = 60, kRuns = 5;
 constexpr Nanoseconds kFrame = 33333333;
 constexpr double kDepthNoise_m = 5e-4;
 
-/// Corners of a surface triangle, one a row.
+/// Corners of a surface triangle, one per row.
 Eigen::Matrix3d cornersOf(const TetTopology& body, const Points& x, Eigen::Index f) {
   Eigen::Matrix3d corners;
   for (int k = 0; k < 3; ++k) corners.row(k) = x.row(body.surface(f, k));
   return corners;
 }
 
-/// Twice the area, along the outward normal.
+/// Outward normal with twice the area as length [m^2].
 Eigen::Vector3d areaVector(const Eigen::Matrix3d& corners) {
   const Eigen::Vector3d a = corners.row(1) - corners.row(0), b = corners.row(2) - corners.row(0);
   return a.cross(b);
 }
 
-/// Random points of the surface that shows upward where its vertices are x.
+/// Targets at random points of the upward-facing surface, for vertices x [m].
 std::vector<Target> depthTargets(const TetTopology& body, const TetLocator& locator, const Points& x,
                                  std::mt19937* random) {
   std::vector<double> areas;
@@ -61,7 +61,7 @@ std::vector<Target> depthTargets(const TetTopology& body, const TetLocator& loca
     target.place = locator.locate((shares * cornersOf(body, body.rest_vertices, f)).transpose());
     target.normal = areaVector(cornersOf(body, x, f)).normalized();
     target.position = (shares * cornersOf(body, x, f)).transpose() + noise(*random) * target.normal;
-    target.weight = visible / (kTargets * edge * edge);  // as depth targets have it: by area
+    target.weight = visible / (kTargets * edge * edge);  // proportional to area, like depth targets
   }
   return targets;
 }
@@ -78,7 +78,7 @@ std::vector<TargetSet> bending(const TetTopology& body) {
   return frames;
 }
 
-/// Of this thread.
+/// Processor time of this thread [ms].
 double processorTime_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -86,11 +86,11 @@ double processorTime_ms() {
 }
 
 struct Times {
-  double mean_ms = 0.0, longest_ms = 0.0;  ///< of a frame, in the best of some runs
+  double mean_ms = 0.0, longest_ms = 0.0;  ///< of a frame, minimum over several runs
   double iterations = 0.0;                 ///< mean
 };
 
-/// The first two frames, which allocate, are left out.
+/// Leaves out the first two frames, which allocate.
 Times timesOf(const std::string& name, const SimulatorConfig& config) {
   const TetTopology body = bodyTopology(name);
   const std::vector<TargetSet> frames = bending(body);

@@ -16,7 +16,7 @@ using namespace softbody;
 
 const std::string kConfig = SOFTBODY_SOURCE_DIR "/../softbody_bringup/config/";
 
-/// A plane through the middle, a little oblique, that ends a metre beyond it (1) or there (0).
+/// A slightly oblique plane that ends in the middle of the body (reach 0) or a metre beyond (1).
 CutPatch planeThrough(const MeshTopology& mesh, double reach) {
   const Eigen::Vector3d center = mesh.rest_vertices.colwise().mean();
   const Eigen::Vector3d normal = Eigen::Vector3d(1.0, 0.2, 0.1).normalized();
@@ -29,7 +29,7 @@ CutPatch planeThrough(const MeshTopology& mesh, double reach) {
 
 Sheets sheetsOf(const MeshTopology& mesh) { return partSheets(listOf(mesh.triangles), mesh.rest_vertices); }
 
-/// From the patch to the cut visual mesh.
+/// Cuts the visual mesh.
 void cutVisualMesh(benchmark::State& state, const std::string& name, double reach) {
   const MeshTopology mesh = testing::loadMesh(kConfig + name);
   const Sheets sheets = sheetsOf(mesh);
@@ -41,7 +41,7 @@ void cutVisualMesh(benchmark::State& state, const std::string& name, double reac
   }
 }
 
-/// From the patch to tets, visual mesh and its binding, and from the cut tets and mesh to the binding alone.
+/// A body to cut: tets, visual mesh and its binding.
 struct CutBody {
   CutBody(const std::string& name, double reach)
       : model(buildObjectModel(loadObjectDescription(kConfig + name))),
@@ -90,7 +90,7 @@ void bindCutMesh(benchmark::State& state, const std::string& name, double reach)
 
 constexpr double kBladeHeight = 0.045;  // [m]
 
-/// Simulator and surface of a body at rest, and a blade across its middle.
+/// Simulator and surface of a body at rest, with a blade across its middle.
 class BodyUnderBlade {
  public:
   explicit BodyUnderBlade(const ObjectModel& model)
@@ -102,14 +102,14 @@ class BodyUnderBlade {
     simulator_.step(targets, 0);
   }
 
-  /// The blade 5 mm over the body's top, which is whole again.
+  /// Undoes all cuts and moves the blade 5 mm above the body.
   void lift() {
     edit(surface_.edit(CutKind::kReset));
     surface_.lift();
     if (surface_.follow(bladeAt(-0.005), simulator_.state(), 0)) throw std::runtime_error("cut from above");
   }
 
-  /// From the blade's pose to what is published: the new topologies, and the visual mesh's state.
+  /// Cuts with a new blade pose. @return state of the cut visual mesh.
   MeshState moveTo(double share_of_height) {
     const double depth = share_of_height * (rest_.col(2).maxCoeff() - rest_.col(2).minCoeff());
     const auto cut = surface_.follow(bladeAt(depth), simulator_.state(), 0);
@@ -144,7 +144,7 @@ class BodyUnderBlade {
   CuttableSurface surface_;
 };
 
-/// A frame in which the blade goes on from one depth to another, in shares of the body's height.
+/// A frame in which the blade moves from one depth to another, as fractions of the body's height.
 void bladeContact(benchmark::State& state, const std::string& name, double from, double to) {
   BodyUnderBlade body(buildObjectModel(loadObjectDescription(kConfig + name)));
   for (auto _ : state) {

@@ -9,7 +9,7 @@
 
 namespace softbody::bench {
 
-/// A body in a bent and disordered state, under a hundred targets that bend it further.
+/// A bent body with random displacements, and a hundred targets that bend it further.
 struct BentBody {
   std::string name;
   TetTopology topology;
@@ -19,11 +19,11 @@ struct BentBody {
   Points start;
 };
 
-/// @param name sponge, doll (of the shipped doll, with a cage of about 150 vertices), 1k, 10k or 100k (boxes
-/// of about as many tets).
+/// @param name sponge, doll (the shipped doll with about 150 cage vertices), or 1k, 10k, 100k (boxes with
+/// about that many tets).
 TetTopology bodyTopology(const std::string& name);
 
-/// Bent about y to a curvature [1/m]. @param rest #V by 3 [m].
+/// The rest shape bent about y. @param rest #V by 3 [m]. @param curvature [1/m].
 Points bent(const Points& rest, double curvature);
 
 /// @param name as bodyTopology's. @param poisson_ratio 0: no volume term.

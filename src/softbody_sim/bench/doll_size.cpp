@@ -47,7 +47,8 @@ DollSize makeDollSize() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   DollSize doll{makeCage(), Points(kPointRings * kRingPoints, 3)};
-  // Ring by ring, as neighbours mostly follow each other in a mesh's file; below the cage's facets.
+  // Ring by ring, because neighbours mostly follow each other in a mesh file. Depths stay below the cage's
+  // facets.
   for (Eigen::Index p = 0; p < doll.points.rows(); ++p) {
     const Eigen::Index ring = p / kRingPoints, k = p % kRingPoints;
     const double depth = 0.78 + 0.12 * uniform(random);

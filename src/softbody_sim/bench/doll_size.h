@@ -4,8 +4,9 @@
 
 namespace softbody::bench {
 
-/// As many points and cage faces as the doll of Kang et al. 2022 has: a bumpy ball of 128 vertices and 252
-/// faces, 200 mm wide, and 18,650 points spread over a like surface 3 to 15 % inside of it.
+/// A body with as many points and cage faces as the doll of Kang et al. 2022. The cage is a bumpy ball, 200
+/// mm wide, with 128 vertices and 252 faces. The 18,650 points lie on a similar surface, 3 to 15 % inside of
+/// it.
 struct DollSize {
   TriangleMesh cage;
   Points points;

@@ -24,8 +24,8 @@ struct Corners {
   Scalar distance[3];
 };
 
-/// Computes one triangle's weights. @return true if the point lies on the triangle, whose weights are then
-/// all.
+/// Computes one triangle's weights. @return true if the point lies on the triangle; then other triangles have
+/// no weight.
 template <typename Scalar>
 bool triangleWeights(const Corners<Scalar>& t, Scalar (&weights)[3]) {
   using std::abs, std::asin, std::sin, std::sqrt;

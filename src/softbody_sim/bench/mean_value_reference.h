@@ -4,10 +4,10 @@
 
 namespace softbody::bench {
 
-/// Mean value coordinates straight from the pseudo-code of Ju, Schaefer and Warren (2005), figure 4, one
-/// point and one triangle at a time: what the product's are compared with.
-/// @tparam Scalar double, to compare the time with; long double, to compare the weights with (the formula
-/// loses half of the digits where a point is nearly in the plane of a triangle).
+/// Reference for mean value coordinates: the pseudo-code of Ju, Schaefer and Warren (2005), figure 4, for one
+/// point and one triangle at a time.
+/// @tparam Scalar double to compare times, long double to compare weights. The formula loses half of the
+/// digits if a point is almost in the plane of a triangle.
 template <typename Scalar>
 void referenceMeanValueCoordinates(const Points& points, const Points& cage_vertices,
                                    const Triangles& cage_triangles, WeightRows* weights);

@@ -26,7 +26,7 @@ class Projector {
     const Eigen::Matrix3d R = U * svd_.matrixV().transpose();
     Eigen::Matrix3d sum = 2.0 * lame_.mu * R;
     if (lame_.lambda > 0.0) {
-      // The nearest singular values that sum to 3.
+      // The nearest singular values with sum 3.
       const Eigen::Vector3d nearest = sigma.array() - (sigma.sum() - 3.0) / 3.0;
       sum += 3.0 * lame_.lambda * U * nearest.asDiagonal() * svd_.matrixV().transpose();
     }

@@ -10,17 +10,16 @@
 
 namespace softbody::bench {
 
-/// Projective dynamics as Bouaziz et al. 2014 write it down, without acceleration: each deformation gradient,
-/// of a tet or smoothed around a vertex, is projected by a singular value decomposition, then one sparse
-/// system that was factored once is solved. The energy is the product's, in double. The yardstick of
-/// bench_projective_dynamics.
+/// Reference for bench_projective_dynamics: projective dynamics as in Bouaziz et al. 2014, without
+/// acceleration. A singular value decomposition projects each deformation gradient of a tet or a smoothed
+/// patch; then one prefactored sparse system is solved. The energy is that of ProjectiveDynamics, in double.
 class PlainProjectiveDynamics {
  public:
-  /// Factors the system for the potential's inertia and targets. @param smoothing as in CorotatedElasticity.
+  /// Factors the system of the potential's inertia and targets. @param smoothing as in CorotatedElasticity.
   PlainProjectiveDynamics(const TetTopology& topology, const Lame& lame,
                           const IncrementalPotential& potential, double smoothing = 0.0);
 
-  /// One local and one global step, from x to x. Targets without normals only.
+  /// One local and one global step. Supports only targets without normals. @param x start, then result [m].
   void iterate(const IncrementalPotential& potential, Points* x);
 
   void localStep(const Points& x);
@@ -31,12 +30,12 @@ class PlainProjectiveDynamics {
   struct Patch {
     std::vector<int> vertices;
     Eigen::Matrix3Xd gradients;  ///< #vertices [1/m]
-    double volume;               ///< the smoothed share of it [m^3]
+    double volume;               ///< part with smoothed strains [m^3]
     Eigen::Matrix3d projection;
   };
   void addTets(const Points& rest_vertices);
   void addPatches(const Points& rest_vertices, double smoothing);
-  /// Adds a strain's part of the matrix.
+  /// Adds the matrix of one deformation gradient.
   template <typename Vertices, typename Gradients>
   void addToMatrix(const Vertices& vertices, double volume, const Gradients& gradients);
 
@@ -45,7 +44,7 @@ class PlainProjectiveDynamics {
   Eigen::VectorXd volumes_;
   std::vector<Patch> patches_;
   Lame lame_;
-  std::vector<Eigen::Matrix3d> projections_;  ///< weighted sum over a tet's constraints
+  std::vector<Eigen::Matrix3d> projections_;  ///< per tet: weighted sum over its constraints
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::MatrixX3d right_side_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver_;

@@ -32,8 +32,8 @@ std_msgs::ColorRGBA colorMessage(const Eigen::Vector3f& rgb) {
 visualization_msgs::Marker makeSurfaceMarker(const MeshTopology& topology, const MeshState& state) {
   if (state.revision != topology.revision || state.vertices.rows() != topology.rest_vertices.rows()) {
     throw std::invalid_argument(
-        fmt::format("state of revision {} with {} vertices, topology of revision {} with {}", state.revision,
-                    state.vertices.rows(), topology.revision, topology.rest_vertices.rows()));
+        fmt::format("state has revision {} and {} vertices, but topology has revision {} and {} vertices",
+                    state.revision, state.vertices.rows(), topology.revision, topology.rest_vertices.rows()));
   }
   visualization_msgs::Marker marker;
   marker.ns = "surface";

@@ -12,18 +12,18 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double kLineWidth = 0.0012, kPreviewLineWidth = 0.002;  // [m]
-constexpr double kLifetime = 1.0;                                 // of a preview's markers [s]
-constexpr double kLift = 0.005;                                   // of a preview off the surface [body sizes]
+constexpr double kLifetime = 1.0;                                 // of preview markers [s]
+constexpr double kLift = 0.005;  // of a preview above the surface, relative to the body's size
 
-/// Told apart by people who see colours differently, too (Okabe and Ito 2008).
-Eigen::Vector3f pieceColor(std::uint32_t body) {
+/// Colours that colour-blind people can distinguish (Okabe and Ito 2008).
+Eigen::Vector3f pieceColor(std::uint32_t piece) {
   static const std::array<Eigen::Vector3f, 6> colors{{{0.34f, 0.71f, 0.91f},
                                                       {0.90f, 0.62f, 0.00f},
                                                       {0.00f, 0.62f, 0.45f},
                                                       {0.80f, 0.47f, 0.65f},
                                                       {0.94f, 0.89f, 0.26f},
                                                       {0.00f, 0.45f, 0.70f}}};
-  return colors[body % colors.size()];
+  return colors[piece % colors.size()];
 }
 
 Marker makeMarker(const char* name, std::int32_t type, const std_msgs::Header& header) {
@@ -47,7 +47,7 @@ Marker makeLines(const char* name, const Edges& lines, const Points& vertices, d
   return marker;
 }
 
-/// As by a lamp at the frame's origin, on both sides: rviz does not light coloured triangles.
+/// Two-sided light of a lamp at the frame's origin: rviz does not light coloured triangles.
 Eigen::Vector3f shaded(const Eigen::Vector3f& rgb, const Eigen::Vector3d& position,
                        const Eigen::Vector3d& normal) {
   return static_cast<float>(0.35 + 0.65 * std::abs(normal.dot(position.normalized()))) * rgb;

@@ -35,34 +35,34 @@ void addMaterialOptions(CLI::App& app, Options& o) {
   app.add_option("--poisson", o.material.poisson_ratio, "Poisson's ratio")
       ->check(CLI::Range(0.0, 0.495))
       ->capture_default_str();
-  app.add_option("--density", o.material.density_kg_m3, "[kg/m^3]")
+  app.add_option("--density", o.material.density_kg_m3, "density [kg/m^3]")
       ->check(CLI::Range(0.1, 30000.0))
       ->capture_default_str();
-  app.add_option("--damping", o.material.damping, "share of the velocity lost per 1/30 s")
+  app.add_option("--damping", o.material.damping, "fraction of the velocity lost per 1/30 s")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_option("--elasticity", o.elasticity, "neo_hookean needs the solver fem")
+  app.add_option("--elasticity", o.elasticity, "material model; neo_hookean needs the solver fem")
       ->check(CLI::IsMember({"corotated", "neo_hookean"}))
       ->capture_default_str();
-  app.add_option(
-         "--strain-smoothing", o.strain_smoothing,
-         "share of the energy with strains smoothed around vertices; needs the solver pd; the graph's is 0.7")
+  app.add_option("--strain-smoothing", o.strain_smoothing,
+                 "fraction of the energy with strains smoothed around the vertices; needs the solver pd; the "
+                 "ROS node uses 0.7")
       ->check(CLI::Range(0.0, 0.95))
       ->capture_default_str();
 }
 
 void addProblemOptions(CLI::App& app, Options& o) {
-  app.add_option("--gravity", o.gravity, "X Y Z [m/s^2]")->expected(3);
+  app.add_option("--gravity", o.gravity, "gravity X Y Z [m/s^2]")->expected(3);
   app.add_option("--pin", o.pins,
-                 "holds the vertices where, in the rest shape, all conditions are met, as "
+                 "holds the vertices of a region of the rest shape, for example "
                  "\"x<0.01 & z>0\" [m]; may be repeated");
   app.add_option("--load", o.region_loads,
-                 "REGION FX FY FZ: a force [N] shared by the region's vertices; may be repeated")
+                 "REGION FX FY FZ: a force [N], divided among the region's vertices; may be repeated")
       ->type_size(4);
-  app.add_option("--loads", o.loads, "CSV with rows vertex,fx,fy,fz [N], vertices from 0")
+  app.add_option("--loads", o.loads, "CSV file with rows vertex,fx,fy,fz [N]; the first vertex is 0")
       ->check(CLI::ExistingFile);
-  app.add_option("--ground", o.ground, "height z [m] of a plane that the body cannot go below");
-  app.add_option("--start", o.start, "shape at the start")
+  app.add_option("--ground", o.ground, "height z [m] of a ground plane");
+  app.add_option("--start", o.start, "initial shape")
       ->check(CLI::IsMember({"rest", "flat", "inside_out", "random"}))
       ->capture_default_str();
   app.add_option("--probe", o.probe,
@@ -71,14 +71,21 @@ void addProblemOptions(CLI::App& app, Options& o) {
 }
 
 void addSolverOptions(CLI::App& app, Options& o) {
-  app.add_option("--solver", o.solver, "")->check(CLI::IsMember({"pd", "fem"}))->capture_default_str();
-  app.add_flag("--static", o.until_rest, "static equilibrium instead of steps in time");
-  app.add_option("--steps", o.steps, "")->check(CLI::Range(1, 1000000))->capture_default_str();
-  app.add_option("--time-step", o.time_step_s, "[s]")->check(CLI::Range(1e-6, 10.0))->capture_default_str();
-  app.add_option("--iterations", o.iterations, "a step at most")
+  app.add_option("--solver", o.solver, "pd: projective dynamics; fem: finite elements")
+      ->check(CLI::IsMember({"pd", "fem"}))
+      ->capture_default_str();
+  app.add_flag("--static", o.until_rest, "static equilibrium instead of time steps");
+  app.add_option("--steps", o.steps, "number of time steps")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  app.add_option("--time-step", o.time_step_s, "time step [s]")
+      ->check(CLI::Range(1e-6, 10.0))
+      ->capture_default_str();
+  app.add_option("--iterations", o.iterations, "maximum number of iterations per step")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--tolerance", o.tolerance, "largest last move of a vertex [mean edge lengths]")
+  app.add_option("--tolerance", o.tolerance,
+                 "a step has converged when no vertex moves further [mean edge lengths]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
 }
@@ -98,11 +105,11 @@ SimulatorConfig configOf(const Options& o) {
 double toNumber(const std::string& text) {
   double value = 0.0;
   if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value))
-    throw CLI::ValidationError("--load", "'" + text + "' is no number");
+    throw CLI::ValidationError("--load", "'" + text + "' is not a number");
   return value;
 }
 
-/// @throw CLI::ValidationError for what the options' own checks cannot see.
+/// Checks options together. @throw CLI::ValidationError.
 void requireUsable(const Options& o) {
   try {
     requireConsistent(configOf(o));
@@ -138,8 +145,9 @@ void addLoadsOfFile(const std::string& path, Points* loads) {
     double x = 0.0, y = 0.0, z = 0.0;
     if (std::sscanf(line.c_str(), "%d,%lf,%lf,%lf", &vertex, &x, &y, &z) != 4 || vertex < 0 ||
         vertex >= loads->rows()) {
-      throw std::invalid_argument(fmt::format("{}:{}: '{}' is not vertex,fx,fy,fz with a vertex of 0 to {}",
-                                              path, number, line, loads->rows() - 1));
+      throw std::invalid_argument(
+          fmt::format("{}:{}: '{}'; allowed: vertex,fx,fy,fz with a vertex from 0 to {}", path, number, line,
+                      loads->rows() - 1));
     }
     loads->row(vertex) += Eigen::RowVector3d(x, y, z);
   }
@@ -204,7 +212,7 @@ std::string row(int step, double time_s, const Simulator& simulator, const std::
                      report.converged ? 1 : 0);
 }
 
-/// Leaves an earlier file alone until the new one is complete.
+/// An earlier file stays until the new one is complete.
 void writeOutput(const std::string& path, const std::string& table, const TetMesh& mesh) {
   const std::string partial = path + ".partial";
   if (std::filesystem::path(path).extension() == ".vtu") {
@@ -240,7 +248,7 @@ int run(const Options& o) {
   }
   if (!o.output.empty()) writeOutput(o.output, table, {simulator.state().vertices, topology.tets});
   if (o.until_rest && !simulator.report().converged)
-    throw std::runtime_error("no equilibrium found within --iterations");
+    throw std::runtime_error("no equilibrium after the maximum number of iterations (--iterations)");
   return 0;
 }
 
@@ -248,9 +256,11 @@ int run(const Options& o) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Simulates one tet mesh under gravity, loads, pins and a ground, in time or to rest, and prints a CSV "
-      "row a step: mean displacement of the probe, elastic energy, largest unbalanced force, volume, "
-      "force on the pins, iterations."};
+      "Simulates a tet mesh under gravity, loads, pins and a ground plane, in time steps or to static "
+      "equilibrium. "
+      "Prints one CSV row per step: mean displacement of the probe, elastic energy, largest unbalanced "
+      "force, "
+      "volume, force on the pins, iterations."};
   Options options;
   app.add_option("MESH", options.mesh, "VTU, MSH, TetGen .node/.ele or VEG")->required();
   app.add_option("--unit", options.unit, "unit of the mesh")
@@ -259,7 +269,7 @@ int main(int argc, char** argv) {
   app.add_option("--output", options.output, "the table as .csv, or the last state as .vtu")
       ->check([](const std::string& path) {
         const auto extension = std::filesystem::path(path).extension();
-        return extension == ".csv" || extension == ".vtu" ? "" : "ends neither in .csv nor in .vtu";
+        return extension == ".csv" || extension == ".vtu" ? "" : "allowed: a name that ends in .csv or .vtu";
       });
   addMaterialOptions(app, options);
   addProblemOptions(app, options);

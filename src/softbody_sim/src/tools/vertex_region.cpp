@@ -28,7 +28,7 @@ Condition parseCondition(const std::string& text) {
   std::smatch match;
   if (!std::regex_match(text, match, kForm)) {
     throw std::invalid_argument(fmt::format(
-        "'{}' is no condition; allowed: x, y or z, then <, <=, > or >=, then a number [m]", text));
+        "'{}' is not a condition; allowed: x, y or z, then <, <=, > or >=, then a number [m]", text));
   }
   return {match[1].str()[0] - 'x', match[2].str(), std::stod(match[3].str())};
 }

@@ -7,12 +7,11 @@
 
 namespace softbody {
 
-/// @throw std::invalid_argument with what cannot be read of a text as verticesWhere takes it.
+/// Checks the syntax of a region. @throw std::invalid_argument with the condition that cannot be read.
 void requireRegion(const std::string& region);
 
-/// Vertices that meet every one of the conditions in a text such as "x<0.01" or "x>=0.9 & z>0.05" [m], or
-/// "all".
-/// @throw std::invalid_argument with the condition that cannot be read, or if no vertex meets all.
+/// Vertices in a region: "all", or conditions that all hold, such as "x<0.01" or "x>=0.9 & z>0.05" [m].
+/// @throw std::invalid_argument with the condition that cannot be read, or if the region has no vertex.
 std::vector<int> verticesWhere(const std::string& region, const Points& vertices);
 
 }  // namespace softbody

@@ -14,7 +14,7 @@ std::vector<Obstacle> someObstacles() {
           Obstacle::box({0.04, 0.06, 0.02}, 0.004)};
 }
 
-TEST(Obstacle, NormalIsTheGradientOfTheDistanceAndLeadsToTheSurface) {
+TEST(Obstacle, NormalIsTheGradientOfTheDistanceAndPointsToTheSurface) {
   std::mt19937 random(1);
   for (const Obstacle& obstacle : someObstacles()) {
     for (int k = 0; k < 200; ++k) {
@@ -30,7 +30,7 @@ TEST(Obstacle, NormalIsTheGradientOfTheDistanceAndLeadsToTheSurface) {
   EXPECT_THROW(Obstacle::box({0.1, 0.1, 0.1}, 0.06), std::invalid_argument);
 }
 
-TEST(ContactPoints, ShareTheWholeSurface) {
+TEST(ContactPoints, CoverTheWholeSurface) {
   const TetTopology topology = testing::sponge();
   for (double spacing : {1.0, 0.01, 0.004}) {
     const std::vector<ContactPoint> points = sampleContactPoints(topology, spacing);
@@ -69,7 +69,7 @@ TEST(FindContacts, StopsAPointBeforeAnObstacleThatPassedThroughIt) {
   }
 }
 
-TEST(KeepEarlier, AddsWhatWasNotFoundAgainInOrder) {
+TEST(AddEarlierContacts, AddsContactsThatWereNotFoundAgainInOrder) {
   const auto contact = [](int obstacle, int point, double height) {
     return Contact{point, obstacle, Eigen::Vector3d(0.0, 0.0, height), Eigen::Vector3d::UnitZ()};
   };

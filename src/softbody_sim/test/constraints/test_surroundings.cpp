@@ -14,7 +14,7 @@ constexpr Nanoseconds kFrame = 33333333;
 constexpr double kGravity = 9.81;
 const double kWeight = 30.0 * 0.2 * 0.1 * 0.03 * kGravity;  // [N]
 
-/// Pins and contact under both solvers.
+/// Pins and contact with both solvers.
 class UnderBothSolvers : public ::testing::TestWithParam<SolverKind> {
  protected:
   void SetUp() override {
@@ -29,7 +29,7 @@ class UnderBothSolvers : public ::testing::TestWithParam<SolverKind> {
     reset.reset = true;
     simulator->step(reset, 0);
   }
-  /// Pins at the vertices that a condition on their rest positions picks, moved.
+  /// Pins at the displaced rest positions that a condition selects.
   template <typename Condition>
   std::vector<Pin> pinsWhere(Condition condition, const Eigen::Vector3d& move = Eigen::Vector3d::Zero()) {
     std::vector<Pin> pins;
@@ -105,7 +105,7 @@ TEST_P(UnderBothSolvers, TheGroundCarriesABodyThatLiesOnIt) {
   EXPECT_LT(deepest(surroundings.obstacles[0], simulator.state().vertices), 1e-4);
 }
 
-TEST_P(UnderBothSolvers, MovingPinsTakeTheBodyAlong) {
+TEST_P(UnderBothSolvers, MovingPinsMoveTheBody) {
   config_.gravity.setZero();
   Simulator simulator(topology_, material_, config_);
   place(&simulator);
@@ -122,7 +122,7 @@ TEST_P(UnderBothSolvers, MovingPinsTakeTheBodyAlong) {
   EXPECT_LT((move - Eigen::RowVector3d(0.0, 0.0, 0.33)).norm(), 1e-3);
 }
 
-TEST_P(UnderBothSolvers, AToolAtOneMetreASecondDoesNotGetThrough) {
+TEST_P(UnderBothSolvers, AToolAtOneMetrePerSecondDoesNotPassThrough) {
   config_.gravity.setZero();
   for (const Obstacle& shape :
        {Obstacle::sphere(0.01), Obstacle::capsule(0.006, 0.04), Obstacle::box({0.02, 0.02, 0.01}, 0.002)}) {
@@ -137,14 +137,14 @@ TEST_P(UnderBothSolvers, AToolAtOneMetreASecondDoesNotGetThrough) {
       simulator.step({}, (frame + 1) * kFrame, surroundings);
       EXPECT_LT(deepest(surroundings.obstacles[0], simulator.state().vertices), 0.002) << frame;
     }
-    // The free body is pushed ahead, and is before the tool's axis; smoothed, and so softer in bending, it
-    // tips off the box's edge, its middle at most its thickness behind, of the 0.4 m that the tool has gone.
+    // The free body is pushed 0.4 m and stays before the tool's axis. With smoothing it is softer in bending
+    // and tips off the box's edge; then its middle is behind by at most its thickness.
     const double behind = GetParam() == SolverKind::kFem ? 0.0 : 0.03;
     EXPECT_LT(simulator.state().vertices.col(2).mean(), 0.08 - 0.033 * 12 + behind);
   }
 }
 
-TEST_P(UnderBothSolvers, ATableThatJumpsTakesTheBodyAlong) {
+TEST_P(UnderBothSolvers, ATableThatJumpsMovesTheBody) {
   config_.gravity.setZero();
   Simulator simulator(topology_, material_, config_);
   place(&simulator);
@@ -191,7 +191,7 @@ TEST_P(UnderBothSolvers, UnobservedStepsKeepTheTargetsAndLoseConfidence) {
     EXPECT_NEAR(simulator.state().confidence[v], 0.5f * seen.confidence[v], 1e-3f);
 }
 
-TEST_P(UnderBothSolvers, TheDefaultsSufficeToHangAndToLie) {
+TEST_P(UnderBothSolvers, DefaultParametersSupportHangingAndLyingBodies) {
   SimulatorConfig config;
   config.solver = GetParam();
   config.gravity = config_.gravity;
@@ -209,7 +209,7 @@ TEST_P(UnderBothSolvers, TheDefaultsSufficeToHangAndToLie) {
   }
 }
 
-TEST_P(UnderBothSolvers, ABodyThatIsPlacedAnewMeetsObstaclesWhereTheyAre) {
+TEST_P(UnderBothSolvers, ABodyThatIsPlacedAgainMeetsObstaclesAtTheirPoses) {
   config_.gravity.setZero();
   Simulator simulator(topology_, material_, config_);
   Surroundings surroundings;
@@ -223,7 +223,7 @@ TEST_P(UnderBothSolvers, ABodyThatIsPlacedAnewMeetsObstaclesWhereTheyAre) {
   }
 }
 
-TEST_P(UnderBothSolvers, RefuseSurroundingsThatMakeNoSense) {
+TEST_P(UnderBothSolvers, RefuseUnusableSurroundings) {
   Simulator simulator(topology_, material_, config_);
   place(&simulator);
   const Points before = simulator.state().vertices;

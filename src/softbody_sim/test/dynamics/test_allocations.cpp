@@ -16,7 +16,7 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-// Eigen and CHOLMOD allocate by malloc, not by operator new, which itself ends here.
+// Eigen and CHOLMOD call malloc directly; operator new calls it, too.
 extern "C" void* malloc(std::size_t size) {
   ++allocations;
   return __libc_malloc(size);
@@ -68,7 +68,7 @@ TEST(Allocations, AFrameAfterTheFirstMakesNone) {
   }
 }
 
-/// The production path, simulator steps: refactored, updated and unchanged systems, in each precision.
+/// Simulator steps with refactored, updated and unchanged systems, in each precision.
 class StepAllocations : public ::testing::TestWithParam<bool> {
  protected:
   static constexpr Nanoseconds kFrame = 33333334;  // even: a step of half of it takes as long as the other
@@ -86,7 +86,7 @@ class StepAllocations : public ::testing::TestWithParam<bool> {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// On the tets' upper faces or so, mostly with a normal, near where the body lies at rest.
+  /// Targets near the tets' upper faces, most of them with a normal.
   std::vector<Target> someTargets(int count) {
     std::vector<Target> targets(static_cast<std::size_t>(count));
     for (Target& target : targets) {
@@ -102,8 +102,8 @@ class StepAllocations : public ::testing::TestWithParam<bool> {
                        testing::randomPoints(1, 0.002, &random_).transpose();
   }
 
-  /// Steps under the targets that `next` makes; what each allocates after the first that takes time is
-  /// counted.
+  /// Steps under the targets that `next` makes. Counts the allocations of each step after the first with
+  /// elapsed time.
   template <typename Next>
   void expectNone(TargetSet targets, const Surroundings& surroundings, Next next) {
     Simulator simulator(topology_, Material(), config());
@@ -140,7 +140,7 @@ TEST_P(StepAllocations, NoneUnderChangingTargets) {
   TargetSet targets;
   targets.targets = someTargets(1500);
   expectNone(targets, {}, [this](std::vector<Target>* all) {
-    // By turns a few appear and vanish, or all change.
+    // In turns, a few targets appear and vanish, or all change.
     if (random_() % 2 == 0)
       *all = someTargets(static_cast<int>(random_() % 1500));
     else

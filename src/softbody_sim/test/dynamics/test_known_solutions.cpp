@@ -29,7 +29,7 @@ TargetSet placing() {
   return targets;
 }
 
-/// Motions and equilibria that are known exactly, or in the limit.
+/// Motions and equilibria with known solutions.
 class KnownSolutions : public ::testing::TestWithParam<Solver> {
  protected:
   KnownSolutions() {
@@ -44,7 +44,7 @@ class KnownSolutions : public ::testing::TestWithParam<Solver> {
     simulator->step(placing(), 0);
     return simulator;
   }
-  /// About the centre of a sponge that was set spinning by a couple, per unit of density.
+  /// Angular momentum of a spinning sponge about its centre, per unit of density.
   static double spinOf(const Simulator& simulator, const Points& velocity) {
     const Points& x = simulator.state().vertices;
     const Eigen::VectorXd volumes = tetVolumes(simulator.topology().rest_vertices, simulator.topology().tets);
@@ -57,7 +57,7 @@ class KnownSolutions : public ::testing::TestWithParam<Solver> {
     }
     return spin.norm();
   }
-  /// Share of the angular momentum that a freely spinning sponge loses in 0.2 s.
+  /// Fraction of the angular momentum that a freely spinning sponge loses in 0.2 s.
   double spinLost(int steps_per_second) const {
     const TetTopology topology = sponge();
     const auto simulator = placed(topology);
@@ -153,7 +153,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Solver{"FemNeoHookean", SolverKind::kFem, Elasticity::kNeoHookean}),
     [](const auto& info) { return std::string(info.param.name); });
 
-/// Tip deflection of a 1 x 0.1 x 0.1 m beam at Poisson 0 under a small load, over Euler and Bernoulli's.
+/// Tip deflection of a 1 x 0.1 x 0.1 m beam with Poisson's ratio 0 under a small load, relative to
+/// Euler-Bernoulli theory.
 double cantileverRatio(int cells_across, const SimulatorConfig& config) {
   constexpr double kDeflection = 1e-3;
   const TetTopology topology = boxTopology({10 * cells_across, cells_across, cells_across}, {1.0, 0.1, 0.1});
@@ -186,8 +187,8 @@ TEST(Cantilever, ConvergesToEulerAndBernoulli) {
   EXPECT_GT(std::log2(medium / fine), 1.7);  // on the way to the second order of linear tets
 }
 
-/// Two cells across reach but 0.55 of it by tets alone.
-TEST(Cantilever, SmoothedStrainsBendACoarseBeamAsAFineOne) {
+/// Without smoothing, two cells across the beam reach only 0.55 of the deflection.
+TEST(Cantilever, WithSmoothedStrainsACoarseBeamBendsLikeAFineOne) {
   SimulatorConfig pd;
   pd.iterations = 20000;
   pd.tolerance = 1e-9;

@@ -35,7 +35,7 @@ TEST(LoadEstimator, BalancesOnEveryPiece) {
   }
 }
 
-TEST(LoadEstimator, OnePieceFeelsNothingOfAnother) {
+TEST(LoadEstimator, PiecesDoNotActOnEachOther) {
   const TetTopology topology = testing::twoBoxes({4, 3, 2}, {0.2, 0.1, 0.04});
   const Eigen::Index count = topology.rest_vertices.rows();
   LoadEstimator estimate(topology, Eigen::VectorXd::Ones(count), 0.3);
@@ -46,7 +46,7 @@ TEST(LoadEstimator, OnePieceFeelsNothingOfAnother) {
   EXPECT_EQ(loads.bottomRows(count / 2).norm(), 0.0);
 }
 
-/// A box that is stretched as a whole but seen from above: how far off the unseen vertices are.
+/// A stretched box that is observed only from above.
 class StretchedBox {
  public:
   explicit StretchedBox(double load_fade_s) : simulator_(topology_, Material(), config(load_fade_s)) {
@@ -63,7 +63,7 @@ class StretchedBox {
 
   Points stretched() const { return topology_.rest_vertices * Eigen::Vector3d(1.1, 0.97, 0.97).asDiagonal(); }
 
-  /// Mean distance of the vertices below from a shape [m].
+  /// Mean distance of the hidden vertices from a shape [m].
   double hiddenError(const Points& shape) const {
     double sum = 0.0;
     int count = 0;
@@ -101,14 +101,14 @@ class StretchedBox {
   int frame_ = 0;
 };
 
-TEST(LoadEstimator, FindsTheUnseenSideOfABodyThatIsPulledAtItsEnds) {
+TEST(LoadEstimator, FindsTheHiddenSideOfABodyThatIsPulledAtItsEnds) {
   StretchedBox without(0.0), with(0.3);
   without.observe(20, true);
   with.observe(20, true);
   EXPECT_LT(with.hiddenError(with.stretched()), 0.6 * without.hiddenError(without.stretched()));
 }
 
-TEST(LoadEstimator, ABodyOutOfSightGoesBackToItsShapeWhereItIs) {
+TEST(LoadEstimator, AnOccludedBodyReturnsToItsShapeInPlace) {
   StretchedBox box(0.3);
   box.observe(20, true);
   const Eigen::RowVector3d center = box.vertices().colwise().mean();

@@ -15,7 +15,7 @@ Target targetIn(int tet) {
   return target;
 }
 
-TEST(OccludedPieceDamping, ComeToRestWhileOthersAreSeen) {
+TEST(OccludedPieceDamping, StopsAPieceWhileOthersAreObserved) {
   std::mt19937 random(3);
   const TetTopology topology = testing::twoBoxes({2, 2, 2}, {0.1, 0.1, 0.1});
   const Eigen::Index count = topology.rest_vertices.rows() / 2;
@@ -27,7 +27,7 @@ TEST(OccludedPieceDamping, ComeToRestWhileOthersAreSeen) {
   EXPECT_TRUE(velocities.bottomRows(count).isApprox(0.5 * before.bottomRows(count), 1e-12));
 }
 
-TEST(OccludedPieceDamping, GoOnWhereNothingIsSeenAtAllOrAllIs) {
+TEST(OccludedPieceDamping, ChangesNothingWhenNoPieceOrEveryPieceIsObserved) {
   std::mt19937 random(3);
   const TetTopology topology = testing::twoBoxes({2, 2, 2}, {0.1, 0.1, 0.1});
   const Points before = randomPoints(topology.rest_vertices.rows(), 1.0, &random);
@@ -39,7 +39,7 @@ TEST(OccludedPieceDamping, GoOnWhereNothingIsSeenAtAllOrAllIs) {
   EXPECT_EQ(velocities, before);
 }
 
-TEST(OccludedPieceDamping, AnUncutBodyIsLeftAlone) {
+TEST(OccludedPieceDamping, ChangesNothingOfAnUncutBody) {
   const TetTopology topology = testing::boxTopology({2, 2, 2}, {0.1, 0.1, 0.1});
   Points velocities = Points::Ones(topology.rest_vertices.rows(), 3);
   OccludedPieceDamping(topology).apply({targetIn(0)}, 0.1, &velocities);

@@ -36,7 +36,7 @@ Eigen::VectorXd massesOf(const TetTopology& topology, double density) {
   return masses;
 }
 
-/// Targets at the surface's vertices, each counting along the surface's normal alone.
+/// Targets at the surface's vertices that act only along the surface's normal.
 std::vector<Target> slidingTargets(const TetTopology& topology, const Points& positions) {
   const Points normals = vertexNormals(positions, topology.surface);
   std::vector<Target> targets = vertexTargets(topology, positions);
@@ -99,8 +99,7 @@ TEST(Simulator, SlidesAlongTargetsWithNormals) {
   const TetTopology topology = sponge();
   Simulator simulator(topology, undamped(), accurate());
   simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
-  // A plane through every vertex of the bottom holds z; pulling one corner sideways takes the whole body
-  // along.
+  // Planes hold z at every bottom vertex; one corner pulled sideways moves the whole body.
   TargetSet targets;
   for (Target target : vertexTargets(topology, topology.rest_vertices)) {
     if (target.position.z() > 1e-9) continue;
@@ -161,7 +160,7 @@ TEST(Simulator, KeepsLinearMomentum) {
   }
 }
 
-TEST(Simulator, DampingTakesItsShareOfTheVelocity) {
+TEST(Simulator, DampingReducesTheVelocity) {
   const TetTopology topology = sponge();
   Material material;
   material.damping = 0.25;
@@ -179,7 +178,7 @@ TEST(Simulator, DampingTakesItsShareOfTheVelocity) {
   }
 }
 
-TEST(Simulator, ClampsLongGapsAndTakesNoTimeForARepeatedStamp) {
+TEST(Simulator, ClampsLongGapsAndElapsesNoTimeForARepeatedStamp) {
   const TetTopology topology = sponge();
   SimulatorConfig config;
   config.gravity = {0.0, 0.0, -10.0};
@@ -192,7 +191,7 @@ TEST(Simulator, ClampsLongGapsAndTakesNoTimeForARepeatedStamp) {
   EXPECT_LT(largestDistance(simulator.state().vertices, fallen), 1e-12);
 }
 
-TEST(Simulator, DoesNotFlyOnAfterAGap) {
+TEST(Simulator, KeepsNoExcessVelocityAfterAGap) {
   const TetTopology topology = sponge();
   Simulator simulator(topology, undamped(), accurate());
   simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
@@ -206,7 +205,7 @@ TEST(Simulator, DoesNotFlyOnAfterAGap) {
   const double reached = (before - topology.rest_vertices).col(0).mean();
   EXPECT_GT(reached, 0.045);
   simulator.step({}, kGap + kFrame);
-  // On at the gap's mean speed.
+  // It continues at the mean speed of the gap.
   const double on = (simulator.state().vertices - before).col(0).mean();
   EXPECT_NEAR(on, reached * static_cast<double>(kFrame) / static_cast<double>(kGap), 1e-6);
 }

@@ -13,7 +13,7 @@ using testing::vertexTargets;
 
 constexpr Nanoseconds kFrame = 33333333;
 
-TEST(Simulator, RefusesWhatItCannotUseAndKeepsItsState) {
+TEST(Simulator, RefusesUnusableTargetsAndKeepsItsState) {
   const TetTopology topology = sponge();
   Simulator simulator(topology, Material(), SimulatorConfig());
   EXPECT_FALSE(simulator.placed());
@@ -51,7 +51,7 @@ TEST(Simulator, RefusesWhatItCannotUseAndKeepsItsState) {
   EXPECT_EQ(simulator.state().vertices.rows(), 0);
 }
 
-/// Were they stiffer, rounding would move the body about.
+/// With stiffer targets, rounding would move the body.
 TEST(Simulator, TheStiffestTargetsLeaveABodyAtRestWhereItIs) {
   const TetTopology topology = sponge();
   std::mt19937 random(6);
@@ -77,7 +77,7 @@ TEST(Simulator, TheStiffestTargetsLeaveABodyAtRestWhereItIs) {
   }
 }
 
-TEST(Simulator, AStepThatFailsOnTheWayLeavesNoTrace) {
+TEST(Simulator, AFailedStepChangesNothing) {
   const TetTopology topology = sponge();
   SimulatorConfig config;
   config.gravity = {0.0, 0.0, -9.81};

@@ -21,7 +21,7 @@ double valueOf(const Energy& energy, const Points& x) {
   return energy(x, &unused);
 }
 
-/// The directional derivative in random directions against central differences.
+/// Compares the directional derivative in random directions with central differences.
 void expectGradientMatchesDifferences(const Energy& energy, const Points& x, double step,
                                       std::mt19937* random) {
   Points gradient = Points::Zero(x.rows(), 3);
@@ -65,7 +65,7 @@ TEST(CorotatedEnergy, StressIsTheDerivative) {
 TEST(CorotatedEnergy, IsLinearElasticityForSmallStrains) {
   const double strain = 1e-5;
   Eigen::Matrix3d stress;
-  // Uniaxial strain: the modulus is lambda + 2 mu along, lambda across.
+  // Uniaxial strain: the modulus is lambda + 2 mu along the strain, lambda across.
   corotatedEnergy(Eigen::Vector3d(1.0 + strain, 1.0, 1.0).asDiagonal(), kLame, &stress);
   EXPECT_NEAR(stress(0, 0), (kLame.lambda + 2.0 * kLame.mu) * strain, 1e-9 * kLame.mu);
   EXPECT_NEAR(stress(1, 1), kLame.lambda * strain, 1e-9 * kLame.mu);
@@ -76,7 +76,7 @@ TEST(CorotatedEnergy, IsLinearElasticityForSmallStrains) {
   EXPECT_NEAR(stress(0, 1), kLame.mu * strain, 1e-9 * kLame.mu);
 }
 
-TEST(LameParameters, RefuseWhatIsNoMaterial) {
+TEST(LameParameters, RefuseAnImpossibleMaterial) {
   EXPECT_THROW(lameParameters(0.0, 0.3), std::invalid_argument);
   EXPECT_THROW(lameParameters(1e4, 0.5), std::invalid_argument);
   EXPECT_THROW(lameParameters(1e4, -0.1), std::invalid_argument);
@@ -85,7 +85,7 @@ TEST(LameParameters, RefuseWhatIsNoMaterial) {
   EXPECT_DOUBLE_EQ(lame.lambda, 8000.0);
 }
 
-/// @param the share of smoothed strains.
+/// @param fraction of the energy with smoothed strains.
 class Energies : public ::testing::TestWithParam<double> {
  protected:
   TetTopology topology_ = boxTopology({3, 2, 2}, {0.06, 0.04, 0.05});
@@ -106,7 +106,7 @@ TEST_P(Energies, RigidMotionCostsNothingAndChangesNothing) {
   EXPECT_NEAR(valueOf(elastic_, transformed(deformed_, testing::somePose())), energy, 1e-10 * energy);
 }
 
-TEST_P(Energies, ElasticForcesHaveNeitherResultantNorMoment) {
+TEST_P(Energies, ElasticForcesHaveNoResultantAndNoMoment) {
   Points gradient = Points::Zero(deformed_.rows(), 3);
   elastic_(deformed_, &gradient);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -184,7 +184,7 @@ TEST_P(Energies, RefuseTetsWithoutVolume) {
                std::invalid_argument);
 }
 
-/// Where the strain is the same everywhere it is its own mean, and only the boundary is pulled at.
+/// A uniform strain equals its mean, and forces act only on the boundary.
 TEST_P(Energies, UniformStrainHasTheEnergyOfTheWholeBodyAndNoForceInside) {
   const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + 0.2 * randomPoints(3, 1.0, &random_);
   const Points x = topology_.rest_vertices * F.transpose();
@@ -204,7 +204,7 @@ TEST_P(Energies, UniformStrainHasTheEnergyOfTheWholeBodyAndNoForceInside) {
   EXPECT_EQ(inside, 2);
 }
 
-/// Two pieces of a cut body: what each does is nothing to the other.
+/// Two pieces of a cut body do not act on each other.
 TEST_P(Energies, PiecesTurnFreelyAgainstEachOther) {
   const Eigen::Index count = topology_.rest_vertices.rows();
   Points rest(2 * count, 3);

@@ -70,14 +70,14 @@ TEST(Rotation, AgreesWithTheSvdFromSmallToLargeStrains) {
   }
 }
 
-TEST(Rotation, IsAsGoodAtAnyScale) {
+TEST(Rotation, IsAccurateAtAnyScale) {
   std::mt19937 random(3);
   for (double scale : {1e-30, 1e-6, 1e6, 1e30}) {
     for (int k = 0; k < 100; ++k) expectRotationOf(scale * randomMatrix(&random));
   }
 }
 
-TEST(Rotation, OfDegenerateMatricesIsSomeBestRotation) {
+TEST(Rotation, OfDegenerateMatricesIsOneOfTheBestRotations) {
   std::mt19937 random(4);
   const std::vector<Eigen::Vector3d> singular_values = {
       {0, 0, 0},       {1, 0, 0}, {1, 1, 0}, {1, 1e-9, 0}, {1, 1, -1}, {1, 0.5, -0.5}, {1, 0.3, -0.3 + 1e-10},
@@ -89,7 +89,7 @@ TEST(Rotation, OfDegenerateMatricesIsSomeBestRotation) {
   }
 }
 
-TEST(Rotation, TurnsWithTheBody) {
+TEST(Rotation, RotatesWithTheBody) {
   std::mt19937 random(5);
   for (int k = 0; k < 1000; ++k) {
     const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + 0.2 * randomMatrix(&random),

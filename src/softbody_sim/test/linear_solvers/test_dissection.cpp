@@ -35,7 +35,7 @@ std::vector<TetTopology> bodies() {
   return {tet, testing::sponge(), cube, twoBoxes(cube, testing::sponge()), twoBoxes(tet, tet)};
 }
 
-TEST(Dissection, LeavesNothingThatCouplesThePartsAndKeepsEveryRow) {
+TEST(Dissection, DecouplesThePartsAndKeepsEveryRow) {
   for (const TetTopology& body : bodies()) {
     const auto count = static_cast<int>(body.rest_vertices.rows());
     const TetMatrix matrix(body.tets, count);
@@ -56,7 +56,7 @@ TEST(Dissection, LeavesNothingThatCouplesThePartsAndKeepsEveryRow) {
   }
 }
 
-TEST(Dissection, HalvesALongBodyAndPartsTwoBodiesWithoutASeparator) {
+TEST(Dissection, HalvesALongBodyAndNeedsNoSeparatorForTwoBodies) {
   const TetTopology bar = boxTopology({20, 2, 2}, {0.4, 0.04, 0.04});
   const Dissection halves = dissect(TetMatrix(bar.tets, bar.rest_vertices.rows()).lower());
   EXPECT_LE(halves.separator, 12);
@@ -68,7 +68,7 @@ TEST(Dissection, HalvesALongBodyAndPartsTwoBodiesWithoutASeparator) {
   EXPECT_EQ(parts.first, parts.second);
 }
 
-TEST(SplitInverse, SolvesAsTheSparseFactorDoesWhateverTheBody) {
+TEST(SplitInverse, SolvesLikeTheSparseFactorForEveryBody) {
   std::mt19937 random(3);
   for (const TetTopology& body : bodies()) {
     const Eigen::Index count = body.rest_vertices.rows();

@@ -38,10 +38,11 @@ Material withDamping(double damping) {
   return material;
 }
 
-/// What every solver owes.
+/// Properties of every solver.
 class Solvers : public ::testing::TestWithParam<Solver> {
  protected:
-  /// Steps without targets from somewhere at rest. @return how far the shape stays from the rest shape [m].
+  /// Steps without targets from a shape without velocity. @return distance of the final shape from the rest
+  /// shape [m].
   double misshapedAfter(int frames, const Points& start) {
     const TetTopology topology = sponge();
     Simulator simulator(topology, withDamping(0.3), configOf(GetParam()));

@@ -21,7 +21,7 @@ using testing::randomPoints;
 
 const Lame kLame{8000.0, 5000.0};
 
-/// Every width that this processor has.
+/// All vector instructions of this processor.
 std::vector<Simd> widths() {
   std::vector<Simd> found;
   for (Simd simd : {Simd::kSse4, Simd::kAvx2, Simd::kAvx512}) {
@@ -46,7 +46,7 @@ class VectorKernels : public ::testing::Test {
     rows.topLeftCorner(points.rows(), 3) = points.cast<T>();
     return rows;
   }
-  /// As the rows hold them, rounding included.
+  /// The points as rounded in the rows.
   Points toPoints(const Rows<T>& rows) const { return rows.topLeftCorner(count_, 3).template cast<double>(); }
 
   void expectElasticityMatches(const Points& x, const std::string& what) {
@@ -57,7 +57,7 @@ class VectorKernels : public ::testing::Test {
     const Rows<T> rows = toRows(x);
     Points expected = Points::Zero(count_, 3);
     const double energy = reference.addTo(toPoints(rows), &expected);
-    // Forces of a strain of 1 set the scale of rounding.
+    // Forces at a strain of 1 give the scale of rounding errors.
     const double scale = kLame.mu * 0.02 * 0.02 + expected.cwiseAbs().maxCoeff();
     for (Simd simd : widths()) {
       ElasticBlocks<T> blocks(topology_.rest_vertices, reference, simd);
@@ -86,7 +86,7 @@ TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeOnEveryWidth) {
   this->expectElasticityMatches(rest * Eigen::Vector3d(1.7, 0.5, 0.8).asDiagonal(), "stretched");
 }
 
-TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeHoweverManyTetsAreLeftOver) {
+TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeForAnyNumberOfUnusedLanes) {
   for (int cells : {1, 3, 6, 9, 11}) {  // one to five blocks
     this->topology_ = boxTopology({cells, 1, 1}, {0.02 * cells, 0.02, 0.02});
     this->count_ = this->topology_.rest_vertices.rows();
@@ -96,7 +96,7 @@ TYPED_TEST(VectorKernels, ElasticityIsThatOfTheScalarCodeHoweverManyTetsAreLeftO
   }
 }
 
-/// Where the rotation is not unique the energy still is; it is all that can be compared.
+/// If the rotation is not unique, only the energy can be compared.
 TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodesEnergy) {
   constexpr double kSmoothing = 0.7;
   const CorotatedElasticity reference(this->topology_.rest_vertices, this->topology_.tets, kLame, kSmoothing);
@@ -117,14 +117,14 @@ TYPED_TEST(VectorKernels, ElasticityOfDegenerateAndInvertedTetsHasTheScalarCodes
   }
 }
 
-/// Standard errors of the energy [J] and of the gradient of all vertices together [N] where every number is
-/// rounded by a share `unit`: to first order, as if each rounding were independent of the others.
+/// Standard errors of the energy [J] and of the whole gradient [N] if every number has a relative rounding
+/// error `unit`: to first order, for independent errors.
 struct Rounding {
   double unit;
   double energy = 0.0, gradient = 0.0;
 
-  /// Of an F that is a sum of products of these magnitudes, all added. Forces are stress times `lever`. From
-  /// F to energy and stress it is a closed form of some ten numbers about 1.
+  /// Adds the errors of one F, a sum of products with the total magnitude `products`. Forces are stress times
+  /// `lever`. Energy and stress follow from F by a closed form of about ten numbers near 1.
   void add(double volume, const Eigen::Matrix3d& F, double products, double lever) {
     constexpr double kClosedForm = 10.0;
     Eigen::Matrix3d stress;
@@ -156,7 +156,7 @@ void addPatches(const CorotatedElasticity& elasticity, const Points& x, Rounding
   }
 }
 
-/// A box whose vertices are out of line, so that the same rounding does not come again all over, and bent.
+/// A bent box with irregular vertices, so that rounding errors do not repeat.
 struct LargeBody {
   TetTopology topology;
   Points x;
@@ -171,7 +171,7 @@ LargeBody largeBody(const Eigen::Vector3i& cells, std::mt19937* random) {
   return body;
 }
 
-/// 1,080 and 10,368 tets: long sums, and places that are many edges away from the origin.
+/// 1,080 and 10,368 tets: long sums, and positions many edge lengths away from the origin.
 TYPED_TEST(VectorKernels, ElasticityOfLargeBodiesIsThatOfTheScalarCodeWithinRounding) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   for (const Eigen::Vector3i& cells : {Eigen::Vector3i(6, 6, 5), Eigen::Vector3i(12, 12, 12)}) {

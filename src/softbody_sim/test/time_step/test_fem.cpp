@@ -16,7 +16,7 @@ using testing::randomPoints;
 
 const Lame kLame{8000.0, 5000.0};
 
-/// What every elastic energy owes, for the two of them.
+/// Properties of every elastic energy, tested for both.
 class FemEnergies : public ::testing::TestWithParam<Elasticity> {
  protected:
   double valueOf(const Points& x) const {
@@ -85,7 +85,7 @@ TEST_P(FemEnergies, RigidMotionCostsNothingAndChangesNothing) {
   EXPECT_NEAR(valueOf(transformed(deformed_, testing::somePose())), energy, 1e-10 * energy);
 }
 
-TEST_P(FemEnergies, ForcesHaveNeitherResultantNorMoment) {
+TEST_P(FemEnergies, ForcesHaveNoResultantAndNoMoment) {
   const Points gradient = gradientAt(deformed_);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (Eigen::Index v = 0; v < gradient.rows(); ++v)
@@ -95,7 +95,7 @@ TEST_P(FemEnergies, ForcesHaveNeitherResultantNorMoment) {
 }
 
 TEST_P(FemEnergies, AreLinearElasticityForSmallStrains) {
-  // Uniaxial strain: the modulus is lambda + 2 mu along, lambda across.
+  // Uniaxial strain: the modulus is lambda + 2 mu along the strain, lambda across.
   constexpr double kStrain = 1e-6;
   const IsotropicEnergy density = isotropicEnergy(GetParam(), {1.0 + kStrain, 1.0, 1.0}, kLame);
   EXPECT_NEAR(density.gradient[0] / kStrain, kLame.lambda + 2.0 * kLame.mu, 1e-4 * kLame.mu);

@@ -62,7 +62,7 @@ TEST(ProjectiveDynamics, EnergyNeverRisesInAnIteration) {
   }
 }
 
-TEST(ProjectiveDynamics, EveryWidthAndPrecisionGoesTheSameWay) {
+TEST(ProjectiveDynamics, EveryWidthAndPrecisionGivesTheSamePath) {
   std::mt19937 random(4);
   Step step;
   step.pullTo(transformed(step.topology.rest_vertices, testing::somePose()), true, &random);
@@ -88,7 +88,7 @@ TEST(ProjectiveDynamics, EveryWidthAndPrecisionGoesTheSameWay) {
   }
 }
 
-TEST(ProjectiveDynamics, SaysWhetherToleranceOrCapEndedItAndWhatIsLeft) {
+TEST(ProjectiveDynamics, ReportsConvergenceAndResidual) {
   std::mt19937 random(5);
   Step step;
   step.pullTo(step.topology.rest_vertices + randomPoints(step.count, 0.005, &random), false, &random);
@@ -114,7 +114,7 @@ TEST(ProjectiveDynamics, SaysWhetherToleranceOrCapEndedItAndWhatIsLeft) {
   }
 }
 
-TEST(ProjectiveDynamics, FactorsAnewWhenTargetsChange) {
+TEST(ProjectiveDynamics, RefactorsWhenTargetsChange) {
   std::mt19937 random(6);
   Step step;
   ProjectiveDynamics kept(step.topology, step.lame, withHistory(0, 10));
@@ -133,8 +133,8 @@ TEST(ProjectiveDynamics, FactorsAnewWhenTargetsChange) {
   }
 }
 
-/// Few changes at a time, of which the factor is updated; more now and then.
-TEST(ProjectiveDynamics, FollowsTargetsThatComeGoAndChangeWeight) {
+/// Mostly few changes, which update the factor; sometimes more.
+TEST(ProjectiveDynamics, HandlesTargetsThatAppearVanishAndChangeWeight) {
   std::mt19937 random(7);
   const auto below = [&random](std::size_t n) { return random() % n; };
   Step step;
@@ -160,7 +160,7 @@ TEST(ProjectiveDynamics, FollowsTargetsThatComeGoAndChangeWeight) {
   }
 }
 
-TEST(TargetEnergy, NamesTheFewChangesThatMakeOneMetricAnother) {
+TEST(TargetEnergy, ListsTheChangesBetweenTwoMetrics) {
   std::mt19937 random(8);
   const Step step;
   std::vector<Target> targets = testing::vertexTargets(step.topology, step.topology.rest_vertices);

@@ -13,7 +13,7 @@ namespace {
 
 using testing::randomPoints;
 
-/// One body's energy with everything that minimising it needs.
+/// The energy of a body, with its metric.
 struct Problem {
   TetTopology topology = testing::boxTopology({4, 3, 2}, {0.08, 0.06, 0.04});
   Eigen::Index count = topology.rest_vertices.rows();
@@ -112,7 +112,7 @@ TEST(QuasiNewton, NeverRaisesTheEnergy) {
   }
 }
 
-/// A tilted washboard for the first vertex: it falls on and on, and half of the way its curvature is
+/// A tilted washboard potential for the first vertex: it falls without end, and half of its curvature is
 /// negative.
 double washboard(const Points& x, Points* gradient) {
   Eigen::Matrix3d waves;
@@ -134,7 +134,7 @@ TEST(QuasiNewton, FallsInEveryIterationAcrossNegativeCurvature) {
   for (int start = 0; start < 1000; ++start) {
     const Points x0 = randomPoints(problem.count, 10.0, &random);
     double previous = washboard(x0, &unused);
-    // Far down the waves drown in rounding.
+    // Far down, the waves are lost in rounding.
     for (int iterations = 1; previous > -1e8 && iterations <= 50; ++iterations) {
       Points x = x0;
       problem.minimizer.minimize(washboard, Problem::solving(metric), {iterations, 0.0}, &x);
@@ -161,7 +161,7 @@ TEST(QuasiNewton, ReportsConvergenceHonestly) {
   EXPECT_LT(gradient.norm(), 1e-4 * start_gradient.norm());
 }
 
-/// Quasi-static steps: each starts at rest where the last one ended.
+/// Quasi-static steps: each starts without velocity at the end of the last one.
 void expectReturnsToRest(Points x, const char* what) {
   Problem problem;
   for (int step = 0; step < 60; ++step) {
@@ -177,7 +177,7 @@ void expectReturnsToRest(Points x, const char* what) {
       << what;
 }
 
-TEST(QuasiNewton, BringsAnyShapeBackToRest) {
+TEST(QuasiNewton, ReturnsAnyShapeToRest) {
   std::mt19937 random(4);
   const Points rest = Problem().topology.rest_vertices;
   const Eigen::RowVector3d center = rest.colwise().mean();

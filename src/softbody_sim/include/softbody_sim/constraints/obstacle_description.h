@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// An obstacle as parameters describe it.
+/// An obstacle as the parameters describe it.
 struct ObstacleDescription {
   std::string name;   ///< of its reaction's topic
   std::string frame;  ///< that it follows; empty: the targets' frame
@@ -16,11 +16,12 @@ struct ObstacleDescription {
 };
 
 /// The parameter `obstacles`: a list of maps with name, frame, shape (plane, sphere, capsule or box), pose,
-/// and radius_m, length_m, size_m, rounding_m as the shape needs. Adds keys that nobody knows to `unknown`.
-/// @throw std::invalid_argument with key, value and what is allowed.
+/// and the sizes of its shape (radius_m, length_m, size_m, rounding_m).
+/// @param unknown receives unknown keys.
+/// @throw std::invalid_argument with key, value and allowed values.
 std::vector<ObstacleDescription> readObstacles(Parameters& parameters, std::vector<std::string>* unknown);
 
-/// @throw std::invalid_argument unless a name can be part of a topic's.
+/// @throw std::invalid_argument if a name cannot be part of a topic name.
 void requireTopicName(const std::string& name);
 
 }  // namespace softbody

@@ -12,12 +12,12 @@
 
 namespace softbody {
 
-/// The volumetric model under the soft constraints of one frame after another: implicit Euler by projective
-/// dynamics (Bouaziz et al. 2014) accelerated by L-BFGS (Liu, Bouaziz, Kavan 2017), or by finite elements
+/// Simulates the volumetric model under each frame's soft constraints. Implicit Euler, solved by projective
+/// dynamics (Bouaziz et al. 2014) accelerated with L-BFGS (Liu, Bouaziz, Kavan 2017), or by finite elements
 /// with Newton's method.
 class Simulator {
  public:
-  /// @throw std::invalid_argument if topology, material or config make no body.
+  /// @throw std::invalid_argument if topology, material or config do not describe a body.
   Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config);
   ~Simulator();
 
@@ -26,42 +26,39 @@ class Simulator {
   /// False until the first TargetSet with `reset` has placed the body.
   bool placed() const;
 
-  /// Advances to `stamp` under the targets. Before anything else a TargetSet with `reset` places the rest
-  /// shape at body_pose at rest. A stamp not after the last one advances by no time, only the targets act.
-  /// Leaves the state as it was where it throws. Allocates nothing, projective dynamics that is, but where
-  /// there are more targets or contacts than ever before, and in the first steps after a change of topology.
-  /// @throw std::invalid_argument if the revision is neither the topology's nor one of the last few, a target
-  /// names a tet beyond it, a number is not finite, a barycentric coordinate is beyond 100, a weight is not
-  /// above 0 or beyond largestStiffness, or the body has not been placed; std::runtime_error if loads or
-  /// targets leave a system that cannot be solved or has no finite solution.
+  /// Advances to `stamp` under the targets. A TargetSet with `reset` first places the rest shape at
+  /// body_pose, without velocity. If `stamp` is not after the last one, no time elapses and only the targets
+  /// act. If it throws, the state does not change. With projective dynamics it allocates only in the first
+  /// steps after a change of topology, and when the number of targets or contacts exceeds all earlier ones.
+  /// @throw std::invalid_argument if the body is not placed, the revision is neither the topology's nor one
+  /// of the last few, or a target cannot be used (tet, finite numbers, barycentric coordinates within 100,
+  /// weight within largestStiffness). @throw std::runtime_error if the step has no finite solution.
   void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
 
-  /// As step, without a new observation: targets seen earlier still hold (their `reset` does not), `observed`
-  /// stays, and confidence halves with every half second.
+  /// Like step, but without a new observation. Earlier targets still act, without their `reset`. `observed`
+  /// stays, and the confidence halves every 0.5 s.
   void stepUnobserved(const TargetSet& earlier, Nanoseconds stamp, const Surroundings& surroundings = {});
 
-  /// Static equilibrium under targets, gravity and surroundings, which have to hold the body: a step that
-  /// takes forever. Stamp and velocity: as before, and none.
+  /// Static equilibrium under targets, gravity and surroundings, which must hold the body. The stamp stays,
+  /// the velocity becomes zero.
   /// @throw as step does.
   void settle(const TargetSet& targets, const Surroundings& surroundings = {});
 
-  /// Puts a placed body's vertices somewhere, at rest, whatever shape that is. @param vertices #V by 3 [m].
-  /// @throw std::invalid_argument if the body has not been placed, or not that many finite vertices are
-  /// given.
+  /// Sets the vertices of a placed body to any shape, without velocity. @param vertices #V by 3 [m].
+  /// @throw std::invalid_argument if the body is not placed, or the vertices are not #V finite points.
   void setVertices(const Points& vertices);
 
-  /// Edits the topology. Positions, velocities and confidences go over without a jump; targets of the few
-  /// revisions before are still understood. Nothing changes where it returns false.
-  /// A patch that crosses no tet edge changes the revision only.
-  /// @param reason why the cut is not made: it is not for the next revision, or there is nothing to undo or
-  /// redo.
-  /// @throw std::invalid_argument if the patch is not finite or names a vertex that it does not have.
+  /// Edits the topology. Positions, velocities and confidences are continuous. Targets of the last few
+  /// revisions are still accepted. A patch that crosses no tet edge changes only the revision.
+  /// @return false if the cut is refused; then nothing changes.
+  /// @param reason of the refusal: the cut is not for the next revision, or there is nothing to undo or redo.
+  /// @throw std::invalid_argument if the patch is not finite or has an invalid index.
   bool apply(const Cut& cut, std::string* reason);
-  /// Targets of one of the last few revisions, for the present one; others as they are. Who keeps targets
-  /// through more edits than that brings them up to date at each.
+  /// Converts targets of one of the last few revisions to the current one; other targets stay as they are. To
+  /// keep targets through many edits, convert them after each edit.
   TargetSet toCurrentRevision(TargetSet targets) const;
 
-  /// Back to "not placed" and not cut, at the first revision.
+  /// Returns to the uncut body of the first revision, not placed.
   void reset();
 
   const MeshState& state() const;

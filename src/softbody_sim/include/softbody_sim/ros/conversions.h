@@ -4,15 +4,15 @@
 
 #include "softbody_common/types.h"
 
-/// Between the core's structs and messages, beyond softbody_common/conversions.h. Headers are the caller's.
+/// Conversions from the core's structs to messages. The caller sets the headers.
 namespace softbody {
 
 /// Opaque. @param rgb 0 to 1.
 std_msgs::ColorRGBA colorMessage(const Eigen::Vector3f& rgb);
 
-/// The mesh as a TRIANGLE_LIST, shaded as by a lamp at the frame's origin (rviz does not light coloured
-/// triangles): warm where it was observed, paler where it is inferred.
-/// @throw std::invalid_argument if the state is not of the topology's revision and size.
+/// The mesh as a TRIANGLE_LIST: orange where it was observed, grey where it is inferred. Colours include the
+/// light of a lamp at the frame's origin, because rviz does not light coloured triangles.
+/// @throw std::invalid_argument if revision or size of state and topology differ.
 visualization_msgs::Marker makeSurfaceMarker(const MeshTopology& topology, const MeshState& state);
 
 }  // namespace softbody

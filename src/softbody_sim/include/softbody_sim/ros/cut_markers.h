@@ -5,21 +5,21 @@
 
 #include "softbody_sim/cutting/cut_lines.h"
 
-/// Cuts as rviz shows them.
+/// Markers that show cuts in rviz.
 namespace softbody {
 
-/// The lines at which cuts meet the skin; a marker that deletes where there are none.
+/// The lines where cuts meet the outer surface. Without lines, a marker that deletes them.
 /// @param vertices of the mesh that the edges are of [m].
 visualization_msgs::Marker makeCutLinesMarker(const Edges& lines, const Points& vertices,
                                               const std_msgs::Header& header);
 
-/// The pieces that a cut would leave, each in its colour and a hair's breadth outside of the surface, and the
-/// lines of all cuts. They vanish if they are not renewed within a second.
-/// @param vertices where the would-be mesh is now [m].
+/// The pieces that a cut would leave, each in its own colour and slightly above the surface, and the lines of
+/// all cuts. They disappear after one second.
+/// @param vertices of the mesh after the cut, at the present shape [m].
 visualization_msgs::MarkerArray makePreviewMarkers(const MeshTopology& pieces, const Edges& lines,
                                                    const Points& vertices, const std_msgs::Header& header);
 
-/// Takes a preview away.
+/// Deletes a preview.
 visualization_msgs::MarkerArray endOfPreview(const std_msgs::Header& header);
 
 }  // namespace softbody

@@ -12,7 +12,7 @@
 namespace softbody {
 namespace {
 
-/// A place on the surface: vertices and their weights in units of 1/n, those without weight left out.
+/// A point on the surface: vertices with weights in units of 1/n. Vertices without weight are left out.
 using LatticePlace = std::vector<std::pair<int, int>>;
 
 LatticePlace latticePlace(const Triangles& triangles, Eigen::Index triangle,
@@ -25,7 +25,7 @@ LatticePlace latticePlace(const Triangles& triangles, Eigen::Index triangle,
   return place;
 }
 
-/// Per triangle of the lattice in one surface triangle: its three corners.
+/// The lattice triangles of one surface triangle, each with its three corners.
 std::vector<std::array<std::array<int, 3>, 3>> latticeTriangles(int n) {
   std::vector<std::array<std::array<int, 3>, 3>> triangles;
   const auto at = [n](int i, int j) { return std::array<int, 3>{n - i - j, i, j}; };
@@ -53,7 +53,7 @@ double triangleArea(const Points& vertices, const Triangles& triangles, Eigen::I
   return 0.5 * (vertices.row(triangles(f, 1)) - a).cross(vertices.row(triangles(f, 2)) - a).norm();
 }
 
-/// The tet that has a surface triangle, by the triangle's sorted vertices.
+/// The tet of each surface triangle; the key is the triangle's sorted vertices.
 std::map<std::array<int, 3>, int> tetsOfFaces(const Tets& tets) {
   std::map<std::array<int, 3>, int> owners;
   for (int t = 0; t < tets.rows(); ++t) {
@@ -79,8 +79,8 @@ MaterialPoint materialPoint(const LatticePlace& place, int n, int tet, const Tet
   return point;
 }
 
-/// Where the way from a to b, in the obstacle's frame, first meets it (sphere tracing); b if it never does.
-/// A way that starts inside has met it at its start.
+/// First point on the path from a to b, in the obstacle's frame, that touches it (sphere tracing). Gives b if
+/// the path does not touch it, and a if the path starts inside.
 Eigen::Vector3d firstMeeting(const Obstacle& obstacle, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   constexpr int kMaxSteps = 100;
   constexpr double kTouching = 1e-7;  // [m]

@@ -7,17 +7,17 @@
 
 namespace softbody {
 
-/// A point of the body's surface that feels contact.
+/// A point of the body's surface that is tested for contact.
 struct ContactPoint {
   MaterialPoint place;
-  double area = 0.0;  ///< its share of the rest surface [m^2]
+  double area = 0.0;  ///< of the rest surface that it represents [m^2]
 };
 
-/// A lattice of points on the surface, finer than `spacing_m` (at most 8 to an edge), its vertices among
-/// them.
+/// Samples the surface with a lattice of points, vertices included, with at most 8 intervals per edge.
+/// @param spacing_m upper limit of the spacing, if 8 intervals suffice.
 std::vector<ContactPoint> sampleContactPoints(const TetTopology& topology, double spacing_m);
 
-/// A contact as an energy sees it: the point may not cross the plane, which is the obstacle's tangent plane.
+/// A contact as a constraint: the point must not cross the obstacle's tangent plane.
 struct Contact {
   int point = -1;                                      ///< index into the contact points
   int obstacle = -1;                                   ///< index into the obstacles
@@ -25,19 +25,19 @@ struct Contact {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< outward
 };
 
-/// One contact for each pair of point and obstacle closer than `reach_m`, obstacle by obstacle and point by
-/// point. A point that was outside is stopped where its way meets the obstacle, seen from the obstacle as
-/// both move, so that nothing gets through a thin or fast one between two steps; any other belongs to the
-/// nearest place on the surface.
-/// @param before, after vertices at the step's start and as they are now; @param before_poses of the
-/// obstacles at the step's start.
+/// One contact for each pair of point and obstacle closer than `reach_m`, sorted by obstacle, then by point.
+/// Detection is continuous: a point that was outside touches where its path, relative to the moving obstacle,
+/// first meets it. So no point passes through a thin or fast obstacle between two steps. A point that was
+/// inside touches the nearest surface point.
+/// @param before, after vertices at the start of the step and now [m].
+/// @param before_poses of the obstacles at the start of the step.
 void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, const Points& before,
                   const Points& after, const std::vector<Obstacle>& obstacles,
                   const std::vector<Eigen::Isometry3d>& before_poses, double reach_m,
                   std::vector<Contact>* contacts);
 
-/// Adds those of `earlier` that were not found again: a point that a contact has pushed out of the obstacle's
-/// way would otherwise fall back into it. Both as findContacts orders them.
+/// Adds the contacts of `earlier` that were not found again. Otherwise a point that a contact has pushed out
+/// of the obstacle's path would fall back. Both lists are ordered as by findContacts.
 void addEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
 
 /// The order of findContacts.

@@ -8,26 +8,26 @@
 
 namespace softbody {
 
-/// Contact without friction as one-sided springs: a point that is in by d feels the pressure k d.
+/// Frictionless contact by one-sided springs: a penetration depth d gives the pressure k d.
 class ContactModel {
  public:
-  /// @param topology outlives this; @param pressure_stiffness k [Pa/m]; @param reach_m contacts that are
-  /// farther apart are left out.
+  /// @param topology outlives this; @param pressure_stiffness k [Pa/m]; @param reach_m larger distances are
+  /// no contact.
   ContactModel(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m);
 
-  /// The contacts of a step from `before`, as its vertices are now. The first obstacles make the contact
-  /// points. @param before_poses as in findContacts.
+  /// Finds the contacts of a step. The first call with obstacles creates the contact points.
+  /// @param before, now, before_poses as in findContacts.
   void find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
             const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts);
 
   void addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const;
 
-  /// Largest change between two lists in how deep a point is in its obstacle [m]: how far one is from
-  /// describing contact as the other does. Both as findContacts orders them.
+  /// Largest difference between two lists in a point's penetration depth [m]. Both are ordered as by
+  /// findContacts.
   double largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
                             const Points& x) const;
 
-  /// What the body does to each obstacle.
+  /// The body's force and torque on each obstacle.
   void wrenches(const std::vector<Contact>& contacts, const Points& x, const std::vector<Obstacle>& obstacles,
                 std::vector<Wrench>* wrenches) const;
 

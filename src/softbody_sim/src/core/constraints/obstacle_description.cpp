@@ -26,8 +26,8 @@ Obstacle readShape(Parameters& parameters, const std::string& name) {
   const std::vector<double> sizes = parameters.numbers("size_m", {0.1, 0.1, 0.1});
   const auto [smallest, largest] = std::minmax_element(sizes.begin(), sizes.end());
   if (!(*smallest > 0.0 && *largest <= kLargestSize)) {
-    throw std::invalid_argument(fmt::format("obstacle '{}': its size_m is [{}]; allowed: above 0, up to {}",
-                                            name, fmt::join(sizes, ", "), kLargestSize));
+    throw std::invalid_argument(fmt::format("obstacle '{}': size_m is [{}]; allowed: above 0, up to {}", name,
+                                            fmt::join(sizes, ", "), kLargestSize));
   }
   return Obstacle::box(Eigen::Vector3d(sizes.data()),
                        parameters.number("rounding_m", 0.0, 0.0, 0.5 * *smallest));
@@ -37,10 +37,10 @@ Eigen::Isometry3d readPose(Parameters& parameters, const std::string& name) {
   const std::vector<double> p = parameters.numbers("pose", {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0});
   const Eigen::Quaterniond rotation(p[6], p[3], p[4], p[5]);
   if (!(std::abs(rotation.norm() - 1.0) <= 0.01)) {
-    throw std::invalid_argument(
-        fmt::format("obstacle '{}': the quaternion of its pose (the last four: x y z w) has length {:.4g}; "
-                    "allowed: 0.99 to 1.01",
-                    name, rotation.norm()));
+    throw std::invalid_argument(fmt::format(
+        "obstacle '{}': the quaternion of its pose (last four numbers: x y z w) has length {:.4g}; "
+        "allowed: 0.99 to 1.01",
+        name, rotation.norm()));
   }
   return Eigen::Translation3d(p[0], p[1], p[2]) * rotation.normalized();
 }
@@ -51,7 +51,7 @@ void requireTopicName(const std::string& name) {
   static const std::regex kForm("[A-Za-z][A-Za-z0-9_]*");
   if (!std::regex_match(name, kForm))
     throw std::invalid_argument(
-        fmt::format("name '{}'; allowed: letters, digits and _, a letter first", name));
+        fmt::format("name is '{}'; allowed: letters, digits and _, starting with a letter", name));
 }
 
 std::vector<ObstacleDescription> readObstacles(Parameters& parameters, std::vector<std::string>* unknown) {

@@ -15,9 +15,9 @@ TetVector metricVector(const Spring& spring, double stiffness) {
   return {spring.vertices, std::sqrt(stiffness) * spring.barycentric};
 }
 
-/// Whether the spring's place comes up within the next `most`.
-bool soonFollows(SpringIterator first, SpringIterator end, const Spring& spring, std::size_t most) {
-  const auto last = first + std::min<std::ptrdiff_t>(end - first, static_cast<std::ptrdiff_t>(most) + 1);
+/// Whether one of the next `max_count` springs has the same place.
+bool soonFollows(SpringIterator first, SpringIterator end, const Spring& spring, std::size_t max_count) {
+  const auto last = first + std::min<std::ptrdiff_t>(end - first, static_cast<std::ptrdiff_t>(max_count) + 1);
   return std::any_of(first, last, [&](const Spring& other) { return samePlace(other, spring); });
 }
 
@@ -37,7 +37,7 @@ void TargetEnergy::addOneSided(const MaterialPoint& place, const Tets& tets, con
       {place.tet, tets.row(place.tet), place.barycentric, position, normal.normalized(), stiffness, true});
 }
 
-/// The way from the spring's position to its point that costs energy.
+/// Offset of the point from the spring's position, as far as it costs energy [m].
 Eigen::Vector3d TargetEnergy::offsetOf(const Spring& spring, const Points& x) {
   Eigen::Vector3d offset = -spring.position;
   for (int k = 0; k < 4; ++k) offset += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
@@ -81,20 +81,21 @@ void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
   }
 }
 
-bool TargetEnergy::metricChanges(const TargetEnergy& earlier, std::size_t most, std::vector<TetVector>* added,
-                                 std::vector<TetVector>* removed) const {
+bool TargetEnergy::metricChanges(const TargetEnergy& earlier, std::size_t max_count,
+                                 std::vector<TetVector>* added, std::vector<TetVector>* removed) const {
   added->clear();
   removed->clear();
   const auto count = [&] { return added->size() + removed->size(); };
   auto before = earlier.springs_.begin(), now = springs_.begin();
   const auto before_end = earlier.springs_.end(), now_end = springs_.end();
-  while ((before != before_end || now != now_end) && count() <= most) {
+  while ((before != before_end || now != now_end) && count() <= max_count) {
     if (before != before_end && now != now_end && samePlace(*before, *now)) {
       const double change = now->stiffness - before->stiffness;
       if (change != 0.0) (change > 0.0 ? added : removed)->push_back(metricVector(*now, std::abs(change)));
       ++before;
       ++now;
-    } else if (now != now_end && (before == before_end || !soonFollows(before, before_end, *now, most))) {
+    } else if (now != now_end &&
+               (before == before_end || !soonFollows(before, before_end, *now, max_count))) {
       added->push_back(metricVector(*now, now->stiffness));
       ++now;
     } else {
@@ -102,7 +103,7 @@ bool TargetEnergy::metricChanges(const TargetEnergy& earlier, std::size_t most, 
       ++before;
     }
   }
-  return count() <= most;
+  return count() <= max_count;
 }
 
 }  // namespace softbody

@@ -9,9 +9,9 @@
 
 namespace softbody {
 
-/// Springs between material points and where they were measured: k/2 |S x - p|^2, or k/2 (n . (S x - p))^2
-/// where a normal is given. One-sided ones, which contacts are, push along the normal and never pull. S
-/// interpolates barycentrically.
+/// Springs between material points and their measured positions: k/2 |S x - p|^2, or k/2 (n . (S x - p))^2
+/// with a normal n. S interpolates barycentrically. Contacts are one-sided springs: they push along the
+/// normal and never pull.
 class TargetEnergy {
  public:
   struct Spring {
@@ -24,10 +24,10 @@ class TargetEnergy {
     bool one_sided = false;
   };
 
-  /// @param unit_stiffness of a target of weight 1 [N/m]. Indices and numbers must have been checked.
+  /// Replaces all springs. Does not check the targets. @param unit_stiffness of a target of weight 1 [N/m].
   void set(const std::vector<Target>& targets, const Tets& tets, double unit_stiffness);
 
-  /// Adds a one-sided spring: its point may be anywhere on the normal's side of the plane through `position`.
+  /// Adds a one-sided spring. It acts when its point is behind the plane through `position` with the normal.
   void addOneSided(const MaterialPoint& place, const Tets& tets, const Eigen::Vector3d& position,
                    const Eigen::Vector3d& normal, double stiffness);
 
@@ -41,10 +41,10 @@ class TargetEnergy {
   /// Adds the exact Hessian.
   void addHessian(const Points& x, BlockTetMatrix* matrix) const;
 
-  /// What this adds to a metric and `earlier` does not, and the other way round, as vectors v of v v^T.
-  /// Targets that stay are known by their place and order. @return false, and both unfinished, if there are
-  /// more than `most`.
-  bool metricChanges(const TargetEnergy& earlier, std::size_t most, std::vector<TetVector>* added,
+  /// Rank-one terms v v^T by which this metric differs from that of `earlier`. Targets are matched by place
+  /// and order.
+  /// @return false if there are more than `max_count`; then both lists are incomplete.
+  bool metricChanges(const TargetEnergy& earlier, std::size_t max_count, std::vector<TetVector>* added,
                      std::vector<TetVector>* removed) const;
 
   const std::vector<Spring>& springs() const { return springs_; }

@@ -14,7 +14,7 @@ namespace {
 
 /// A quarter of each tet's mass to each of its vertices [kg].
 Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) {
-  if (topology.tets.rows() == 0) throw std::invalid_argument("the topology has no tet");
+  if (topology.tets.rows() == 0) throw std::invalid_argument("the topology has no tets");
   const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
@@ -22,7 +22,7 @@ Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) 
   }
   for (Eigen::Index v = 0; v < masses.size(); ++v) {
     if (!(masses[v] > 0.0))
-      throw std::invalid_argument(fmt::format("vertex {} has no mass: no tet uses it", v));
+      throw std::invalid_argument(fmt::format("vertex {} has no mass: it belongs to no tet", v));
   }
   return masses;
 }
@@ -51,7 +51,7 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
   return std::make_unique<ProjectiveDynamics>(topology, lame, options);
 }
 
-/// Held vertices are stiffer than the body by so much, which leaves rounding enough digits.
+/// Stiffness of a pin relative to the body. Larger values would lose too many digits to rounding.
 constexpr double kPinStiffness = 1e5;
 
 ConstrainedStep makeStep(const TetTopology& topology, const Material& material, const SimulatorConfig& config,

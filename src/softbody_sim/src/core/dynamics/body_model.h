@@ -11,10 +11,10 @@
 
 namespace softbody {
 
-/// All that is computed once for a topology of the volume.
+/// Everything that is computed once per topology of the volume.
 struct BodyModel {
-  /// @param edge_length of the uncut body [m], which targets, contact and tolerances are measured by.
-  /// @throw std::invalid_argument if topology, material or config make no body.
+  /// @param edge_length mean of the uncut body [m]: the unit of length for targets, contact and tolerances.
+  /// @throw std::invalid_argument if topology, material or config do not describe a body.
   BodyModel(TetTopology topology_in, const Material& material, const SimulatorConfig& config,
             double edge_length);
 

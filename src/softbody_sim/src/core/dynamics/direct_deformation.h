@@ -6,9 +6,8 @@
 
 namespace softbody {
 
-/// Deformation without simulation (Kang et al. 2022, Fig. 6): every surface vertex in a target's tet moves by
-/// the mean of its targets' offsets, weighted with the targets' weights and barycentric coordinates. No other
-/// vertex moves.
+/// Deformation without simulation (Kang et al. 2022, Fig. 6). Each surface vertex of a target's tet moves by
+/// the mean offset of its targets, weighted by target weight and barycentric coordinate. Other vertices stay.
 void moveToTargets(const std::vector<Target>& targets, const TetTopology& topology, Points* vertices);
 
 }  // namespace softbody

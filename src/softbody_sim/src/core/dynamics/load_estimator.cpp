@@ -10,7 +10,7 @@
 namespace softbody {
 namespace {
 
-/// M + l^2 L, the Laplacian with the density of each tet. l is the side of a cube of the body's volume.
+/// M + l^2 L, with the Laplacian weighted by density. l is the edge of a cube with the body's volume.
 TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& masses) {
   const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
   const double length = std::cbrt(volumes.sum()), density = masses.sum() / volumes.sum();
@@ -35,7 +35,7 @@ LoadEstimator::LoadEstimator(const TetTopology& topology, const Eigen::VectorXd&
   if (fade_s_ > 0.0) smoother_.factorize(screenedPoisson(topology, masses).lower());
 }
 
-/// Takes away what would accelerate the piece as a rigid body.
+/// Removes the loads that would accelerate the piece as a rigid body.
 void LoadEstimator::balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const {
   double mass = 0.0;
   Eigen::Vector3d center = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero();

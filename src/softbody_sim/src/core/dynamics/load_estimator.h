@@ -7,33 +7,32 @@
 
 namespace softbody {
 
-/// The forces from outside that an observed body is under. Nobody measures them, but the springs to what was
-/// observed pull with what the known forces fail to explain. Springs act where the camera sees the body;
-/// hands and grippers act anywhere. So the springs' forces are spread smoothly over the body's mass, f <- M
-/// (M + l^2 L)^-1 f with the Laplacian L of the tets and a length l of the body's size (a screened Poisson
-/// equation: totals stay), and added up from frame to frame until the springs are slack. It is the integral
-/// action of a controller, and a gradient step towards the smallest forces that explain the observations. The
-/// estimate balances on every connected piece: how it moves as a whole is left to the springs, so that a body
-/// out of sight stays where it was.
+/// Estimates the unknown external loads on an observed body. The springs of the targets carry the forces that
+/// the known loads do not explain. They act where the camera sees the body, but hands and grippers act
+/// anywhere. So the spring forces are smoothed over the body, f <- M (M + l^2 L)^-1 f, with the Laplacian L
+/// of the tets and the body's size l (a screened Poisson equation, which keeps the total force). The result
+/// is added up over the frames until the springs are slack. This is a controller's integral action, and a
+/// gradient step towards the smallest forces that explain the observations. The estimate is balanced on each
+/// connected piece: rigid motion is left to the springs, so an occluded body stays in place.
 class LoadEstimator {
  public:
-  /// @param masses lumped, #V [kg]. @param fade_s in which remembered loads fall to 1/e; 0: none are
+  /// @param masses lumped, #V [kg]. @param fade_s time in which loads fall to 1/e; 0: loads are not
   /// estimated.
   LoadEstimator(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s);
 
   /// Allocates on the first call only. @param springs forces of the springs on the vertices, #V by 3 [N].
   /// @param vertices #V by 3 [m].
-  /// @param loads as estimated so far, per mass, #V by 3 [m/s^2].
+  /// @param loads previous estimate, then the new one, per mass, #V by 3 [m/s^2].
   void update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads);
 
-  /// Makes loads of before a cut balance on every piece.
+  /// Removes net force and torque from each piece, for loads from before a cut.
   void balance(const Points& vertices, Points* loads) const;
 
  private:
   void balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const;
 
   Eigen::VectorXd masses_;
-  std::vector<std::vector<int>> pieces_;  ///< vertices of each
+  std::vector<std::vector<int>> pieces_;  ///< vertices of each piece
   double fade_s_;
   PositiveDefiniteSolver smoother_;
   Points spread_;

@@ -6,19 +6,18 @@
 
 namespace softbody {
 
-/// The pieces of a cut body that the camera does not see, as behind the blade. Nothing tells where such a
-/// piece goes, and the last speed that was measured of it is mostly noise: while other pieces are observed it
-/// comes to rest where it is.
+/// Damps the pieces of a cut body without targets, for example behind the blade. The last measured velocity
+/// of an occluded piece is mostly noise. So it comes to rest while other pieces are observed.
 class OccludedPieceDamping {
  public:
   explicit OccludedPieceDamping(const TetTopology& topology);
 
-  /// Slows the pieces without targets; the speed halves in 0.1 s. @param velocities #V by 3.
+  /// Halves the velocity of pieces without targets every 0.1 s. @param velocities #V by 3 [m/s].
   void apply(const std::vector<Target>& targets, double elapsed_s, Points* velocities);
 
  private:
-  std::vector<std::uint32_t> tet_bodies_, vertex_bodies_;
-  std::vector<bool> seen_;  ///< of each piece, in this step
+  std::vector<std::uint32_t> tet_pieces_, vertex_pieces_;
+  std::vector<bool> observed_;  ///< of each piece, in this step
 };
 
 }  // namespace softbody

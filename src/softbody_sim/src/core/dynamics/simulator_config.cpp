@@ -9,7 +9,7 @@
 namespace softbody {
 
 double largestStiffness(const SimulatorConfig& config) {
-  // Rounding then leaves the body's own stiffness three digits in single precision, nine in double.
+  // Then three digits of the body's own stiffness remain in single precision, nine in double precision.
   return config.single_precision ? 1e4 : 1e7;
 }
 
@@ -17,7 +17,7 @@ void requireConsistent(const SimulatorConfig& config) {
   const double largest = largestStiffness(config) / kLargestTargetWeight;
   if (config.target_stiffness > largest) {
     throw std::invalid_argument(fmt::format(
-        "target_stiffness is {}: in {} precision at most {}, since targets have weights of up to {}",
+        "target_stiffness is {}; allowed in {} precision: up to {}, because targets have weights up to {}",
         config.target_stiffness, config.single_precision ? "single" : "double", largest,
         kLargestTargetWeight));
   }

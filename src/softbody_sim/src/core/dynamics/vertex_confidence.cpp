@@ -9,7 +9,7 @@
 namespace softbody {
 namespace {
 
-/// Each once, from its lower vertex, ascending.
+/// Each edge once, lower vertex first, sorted.
 std::vector<std::pair<int, int>> edgesOf(const Tets& tets) {
   std::vector<std::pair<int, int>> edges;
   edges.reserve(static_cast<std::size_t>(6 * tets.rows()));
@@ -39,10 +39,11 @@ VertexConfidence::VertexConfidence(const Points& rest_vertices, const Tets& tets
   decay_length_ = count > 0 ? 2.0 * sum / count : 0.0;
   support_.reserve(neighbors_.size());
   distance_.reserve(neighbors_.size());
-  queue_.reserve(neighbors_.size() + 2 * static_cast<std::size_t>(count));  // each edge once from each end
+  queue_.reserve(neighbors_.size() +
+                 2 * static_cast<std::size_t>(count));  // each edge is pushed once from each end
 }
 
-/// Dijkstra from all observed vertices at once.
+/// Dijkstra's algorithm from all observed vertices.
 void VertexConfidence::findDistances() {
   constexpr double kObserved = 0.25;
   const auto push = [this](double distance, int vertex) {

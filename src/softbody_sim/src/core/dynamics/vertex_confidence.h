@@ -7,14 +7,13 @@
 
 namespace softbody {
 
-/// How far each vertex's position rests on this frame's measurements: 1 where targets act on the vertex
-/// itself, and exp(-d / (2 mean edge lengths)) at the distance d along the tets' rest edges from the nearest
-/// such vertex.
+/// Confidence of each vertex's position: 1 if targets observe the vertex, otherwise exp(-d / (2 mean edge
+/// lengths)) with the distance d to the nearest observed vertex along the tets' rest edges.
 class VertexConfidence {
  public:
   VertexConfidence(const Points& rest_vertices, const Tets& tets);
 
-  /// A vertex is observed when its barycentric shares, times the targets' weights, sum to at least 1/4.
+  /// A vertex is observed if its barycentric coordinates, times the targets' weights, sum to at least 1/4.
   /// Allocates nothing. @param confidence #V.
   void compute(const std::vector<Target>& targets, std::vector<float>* confidence);
 
@@ -23,7 +22,7 @@ class VertexConfidence {
     int vertex;
     double distance;  ///< [m]
   };
-  /// From where support_ is enough.
+  /// From the vertices with enough support.
   void findDistances();
 
   const Tets tets_;

@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace softbody::HWY_NAMESPACE {
 
-/// By columns.
+/// A matrix by columns.
 template <class V>
 struct Mat3 {
   Vec3<V> c0, c1, c2;
@@ -62,14 +62,14 @@ HWY_INLINE Vec3<V> combine(const Mat3<V>& M, V a, V b, V c) {
           hn::MulAdd(M.c0.z, a, hn::MulAdd(M.c1.z, b, hn::Mul(M.c2.z, c)))};
 }
 
-/// By the upper triangle.
+/// A symmetric matrix by its upper triangle.
 template <class V>
 struct Symmetric3 {
   V m00, m01, m02, m11, m12, m22;
 };
 
-/// A vector of deformation gradients F with what their nearest rotations R are made of:
-/// zeta R = ((s^2 + |F|^2) I - 2 F^T F) from the right on F, plus 2 s cof(F).
+/// A vector of deformation gradients F with the terms of their nearest rotations R:
+/// zeta R = F ((s^2 + |F|^2) I - 2 F^T F) + 2 s cof(F).
 template <class V>
 struct Deformation {
   Mat3<V> F, cofactors;
@@ -81,7 +81,7 @@ struct Deformation {
   V slope, step;          ///< of its last iteration
 };
 
-/// 1 / v to a few thousandths in single precision, where that is many times quicker than a division.
+/// 1 / v. In single precision only accurate to a few thousandths, but much faster than a division.
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
 HWY_INLINE V roughReciprocal(D d, V v) {
   if constexpr (sizeof(T) == 4)
@@ -100,7 +100,7 @@ HWY_INLINE V reciprocal(D d, V v) {
     return rough;
 }
 
-/// sqrt(v), as rough as roughReciprocal().
+/// sqrt(v), as accurate as roughReciprocal().
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
 HWY_INLINE V roughSqrt(D, V v) {
   if constexpr (sizeof(T) == 4)
@@ -124,15 +124,15 @@ HWY_INLINE Deformation<V> deformation(D d, const Mat3<V>& F) {
   return result;
 }
 
-/// Where an iteration of findTraces() has arrived: a step of a share r of s leaves about 2 r^2 (near rest).
-/// False for NaN, too.
+/// Whether an iteration of findTraces() has converged: a step of relative size r leaves an error of about 2
+/// r^2 near rest. False for NaN.
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
-HWY_INLINE hn::Mask<D> arrived(D d, const Deformation<V>& a) {
+HWY_INLINE hn::Mask<D> converged(D d, const Deformation<V>& a) {
   return hn::Lt(hn::Abs(a.step), hn::Mul(hn::Set(d, sizeof(T) == 4 ? T(3e-4) : T(2e-8)), a.trace));
 }
 
-/// The largest root of extractRotation()'s quartic. One iteration waits for itself at every operation:
-/// several vectors side by side fill the gaps.
+/// The largest root of the quartic in extractRotation(). Each operation waits for the one before; several
+/// vectors at once fill the gaps.
 template <std::size_t kVectors, class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
 HWY_INLINE void findTraces(D d, Deformation<V>* all) {
   const V three = hn::Set(d, T{3}), four = hn::Set(d, T{4});
@@ -147,9 +147,9 @@ HWY_INLINE void findTraces(D d, Deformation<V>* all) {
       a.step = hn::Mul(value, roughReciprocal(d, a.slope));
       a.trace = hn::Sub(a.trace, a.step);
     }
-    auto all_arrived = arrived(d, all[0]);
-    for (std::size_t k = 1; k < kVectors; ++k) all_arrived = hn::And(all_arrived, arrived(d, all[k]));
-    if (hn::AllTrue(d, all_arrived)) break;
+    auto all_converged = converged(d, all[0]);
+    for (std::size_t k = 1; k < kVectors; ++k) all_converged = hn::And(all_converged, converged(d, all[k]));
+    if (hn::AllTrue(d, all_converged)) break;
   }
 }
 
@@ -192,7 +192,7 @@ struct Response {
   Mat3<V> stress;
 };
 
-/// The lanes whose rotation is nearly not unique, one by one.
+/// Recomputes lane by lane those whose rotation is nearly not unique.
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
 HWY_NOINLINE void respondOneByOne(D d, hn::Mask<D> wanted, T mu, T lambda, V volume, const Mat3<V>& F,
                                   Response<V>* response) {
@@ -230,9 +230,9 @@ HWY_INLINE Response<V> respond(D d, T mu, T lambda, V volume, const Deformation<
   response.energy = hn::Mul(hn::Set(d, T(0.5)), hn::MulAdd(stiffness, squared, hn::Mul(pressure, dilation)));
   // stiffness (F - R) + pressure R
   response.stress = blend(hn::Sub(stiffness, pressure), strain, pressure, deformation.F);
-  // As in extractRotation().
+  // The limit of extractRotation().
   const V least_slope = hn::Mul(hn::Set(d, T(1e-2)), hn::Mul(deformation.squared_norm, deformation.trace));
-  const auto unique = hn::And(hn::Gt(deformation.slope, least_slope), arrived(d, deformation));
+  const auto unique = hn::And(hn::Gt(deformation.slope, least_slope), converged(d, deformation));
   if (HWY_UNLIKELY(!hn::AllTrue(d, unique))) {
     respondOneByOne(d, hn::Not(unique), mu, lambda, volume, deformation.F, &response);
   }

@@ -10,25 +10,24 @@
 namespace softbody {
 
 /// Energy density [J/m^3] of the corotated material, mu |F - R|^2 + lambda/2 tr^2(R^T F - I), and its
-/// derivative by F. The second term is the projective-dynamics distance 3/2 lambda |F - T|^2 to the nearest T
-/// whose singular values sum to 3. Finite for every finite F, inverted ones included.
+/// derivative with respect to F. The second term equals the projective-dynamics distance 3/2 lambda |F - T|^2
+/// to the nearest T whose singular values sum to 3. Finite for every finite F, also for inverted ones.
 double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix3d* stress);
 
-/// The elastic energy of linear tets, a share of it of strains smoothed around the vertices, which takes away
-/// much of their locking (the alpha finite element method of Liu, Nguyen-Thoi, Lam 2008). Arrays are one
-/// contiguous column per quantity and component.
+/// Elastic energy of linear tets. A fraction of it uses strains smoothed around the vertices, which reduces
+/// locking (the alpha finite element method of Liu, Nguyen-Thoi, Lam 2008).
 class CorotatedElasticity {
  public:
-  /// @param smoothing the share, from 0 to below 1.
-  /// @throw std::invalid_argument if a rest tet has no positive volume.
+  /// @param smoothing fraction of the energy with smoothed strains, in [0, 1).
+  /// @throw std::invalid_argument if the volume of a rest tet is not positive.
   CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
                       double smoothing = 0.0);
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
 
-  /// Adds the constant metric sum_t k_t G_t^T G_t that bounds the energy's curvature near rest: smoothed,
-  /// too, since the square of a mean is at most the mean of the squares.
+  /// Adds the constant metric sum_t k_t G_t^T G_t, an upper bound of the energy's curvature near rest. It
+  /// also bounds the smoothed energy: the square of a mean is at most the mean of the squares.
   void addMetric(TetMatrix* matrix) const;
 
   const Eigen::Matrix<int, Eigen::Dynamic, 4>& tets() const { return tets_; }

@@ -9,7 +9,7 @@
 namespace softbody {
 namespace {
 
-/// U^-1 of edges = Q U with a rotation Q and an upper triangle U with positive diagonal.
+/// U^-1 of edges = Q U, with a rotation Q and an upper triangular U with positive diagonal.
 Eigen::Matrix3d inverseTriangle(const Eigen::Matrix3d& edges) {
   Eigen::Matrix3d U = Eigen::HouseholderQR<Eigen::Matrix3d>(edges).matrixQR().triangularView<Eigen::Upper>();
   for (int row = 0; row < 3; ++row) {
@@ -34,8 +34,8 @@ ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const CorotatedElas
   const double smoothing = elasticity.smoothing();
   const auto count = static_cast<Eigen::Index>(blocks_.size());
   for (Eigen::Index i = 0; i < count * TetBlock<T>::kLanes; ++i) {
-    // Neighbouring tets go into different blocks: a vertex that occurs twice in a block makes its sums wait
-    // for each other. The lanes left over hold the last tet, without volume.
+    // Neighbouring tets go into different blocks: sums into the same vertex would wait for each other. Unused
+    // lanes hold the last tet with volume 0.
     const Eigen::Index t = std::min(i, elasticity.tets().rows() - 1);
     const Eigen::RowVector4i tet = elasticity.tets().row(t);
     const Eigen::Matrix3d inverse = inverseTriangle(edgesOf(rest_vertices, tet));

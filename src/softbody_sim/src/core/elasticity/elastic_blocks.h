@@ -15,7 +15,7 @@ namespace softbody {
 template <typename T>
 class ElasticBlocks {
  public:
-  /// @param rest_vertices those that the elasticity was made of.
+  /// @param rest_vertices of the elasticity.
   ElasticBlocks(const Points& rest_vertices, const CorotatedElasticity& elasticity, Simd simd);
 
   /// Energy [J]; adds its gradient [N].

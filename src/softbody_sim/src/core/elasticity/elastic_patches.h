@@ -9,11 +9,11 @@
 
 namespace softbody {
 
-/// The share of CorotatedElasticity whose strains are smoothed, for the vector kernels, in the precision T.
+/// The part of CorotatedElasticity with smoothed strains, for the vector kernels, in the precision T.
 template <typename T>
 class ElasticPatches {
  public:
-  /// @param share of the volumes, above 0.
+  /// @param share fraction of the volume, above 0.
   ElasticPatches(const SmoothedGradients& smoothed, double share, const Lame& lame, Simd simd);
 
   /// Energy [J]; adds its gradient [N].
@@ -22,7 +22,7 @@ class ElasticPatches {
  private:
   std::vector<int> first_, rows_, columns_;
   std::vector<T> gradients_, gradients_there_, volumes_;
-  std::vector<T> deformations_, stresses_;  ///< room for the kernel
+  std::vector<T> deformations_, stresses_;  ///< buffers of the kernel
   T mu_, lambda_;
   SmoothingKernel<T> kernel_;
 };

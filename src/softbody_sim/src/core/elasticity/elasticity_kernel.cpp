@@ -35,7 +35,7 @@ HWY_INLINE void addForces(D d, const TetBlock<T>& block, std::size_t lane, const
   addRows(d, negatedSum(f1, f2, f3), gradient, block.corners[0] + lane);
 }
 
-/// kVectors vectors of tets side by side, from lane `first` of all blocks' on.
+/// kVectors vectors of tets at once, starting at lane `first` counted over all blocks.
 template <std::size_t kVectors, class D, typename T = hn::TFromD<D>>
 HWY_INLINE double addVectors(D d, const TetBlock<T>* blocks, std::size_t first, T mu, T lambda, const T* x,
                              T* gradient) {

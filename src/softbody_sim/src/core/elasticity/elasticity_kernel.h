@@ -6,15 +6,15 @@
 
 namespace softbody {
 
-/// Tets in blocks of 16, each number of a block in 16 neighbouring lanes, whatever the vector width.
+/// A block of 16 tets. Each quantity lies in 16 adjacent lanes, for every vector width.
 template <typename T>
 struct alignas(64) TetBlock {
   static constexpr int kLanes = 16;
-  /// Of the rest edge matrices, each turned until it is upper triangular, which an isotropic energy does not
-  /// notice: (0,0), (0,1), (1,1), (0,2), (1,2), (2,2) [1/m].
+  /// Inverse rest edge matrices: (0,0), (0,1), (1,1), (0,2), (1,2), (2,2) [1/m]. Each is rotated to upper
+  /// triangular form, which does not change an isotropic energy.
   T inverse_edges[6][kLanes];
-  T volume[kLanes];        ///< [m^3]; 0: a lane that only fills the block
-  int corners[4][kLanes];  ///< where the vertices' rows begin
+  T volume[kLanes];        ///< [m^3]; 0: unused lane
+  int corners[4][kLanes];  ///< offsets of the vertices' rows
 };
 
 /// Energy [J] of the corotated material over `count` blocks; adds its gradient [N]. @param x, gradient rows

@@ -12,13 +12,13 @@ namespace softbody {
 /// Elastic energy of linear tets with its gradient and Hessian (Kang et al. 2022, section 5.1).
 class FemElasticity {
  public:
-  /// @throw std::invalid_argument if a rest tet has no positive volume.
+  /// @throw std::invalid_argument if the volume of a rest tet is not positive.
   FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame);
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
 
-  /// Adds the Hessian, each tet's projected onto the positive semidefinite matrices unless told otherwise.
+  /// Adds the Hessian. @param project projects each tet's Hessian onto the positive semidefinite matrices.
   void addHessian(const Points& x, BlockTetMatrix* matrix, bool project = true) const;
 
  private:

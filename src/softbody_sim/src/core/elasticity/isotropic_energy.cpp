@@ -19,7 +19,7 @@ IsotropicEnergy corotatedIsotropicEnergy(const Eigen::Vector3d& stretches, const
   density.gradient = 2.0 * lame.mu * strain + Eigen::Vector3d::Constant(lame.lambda * dilation);
   density.hessian = Eigen::Matrix3d::Constant(lame.lambda);
   density.hessian.diagonal().array() += 2.0 * lame.mu;
-  // The rotation is not unique, and the energy has a kink, where two stretches cancel.
+  // If two stretches sum to zero, the rotation is not unique and the energy has a kink.
   constexpr double kSmallestSum = 1e-6;
   const Eigen::Vector3d sums = sumsOfOthers(stretches).cwiseMax(kSmallestSum);
   density.twist.array() = 2.0 * lame.mu + (2.0 * lame.lambda * dilation - 4.0 * lame.mu) / sums.array();

@@ -38,8 +38,8 @@ double extractRotation(const Eigen::Matrix3d& F, Eigen::Matrix3d* R) {
   const double determinant = F.col(0).dot(C.col(0));
   const double norm = std::sqrt(squared_norm);
 
-  // Newton from above goes down monotonically to the largest root, tr(R^T F) <= sqrt(3) |F|, of
-  // (s^2 - |F|^2)^2 - 8 det(F) s - 4 |cof F|^2 = 0.
+  // (s^2 - |F|^2)^2 - 8 det(F) s - 4 |cof F|^2 = 0 has the largest root tr(R^T F) <= sqrt(3) |F|. Newton's
+  // method from above converges to it monotonically.
   constexpr int kMaxIterations = 12;
   const double cofactor_term = 4.0 * C.squaredNorm();
   double s = std::sqrt(3.0) * norm;
@@ -47,8 +47,8 @@ double extractRotation(const Eigen::Matrix3d& F, Eigen::Matrix3d* R) {
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const double gap = s * s - squared_norm;
     slope = 4.0 * s * gap - 8.0 * determinant;
-    // A slope of zero, within rounding, is a double root: two singular values cancel, and any turn of their
-    // plane serves.
+    // A slope of zero, within rounding, is a double root: two singular values sum to zero, and any rotation
+    // in their plane is optimal.
     if (!(slope > 1e-2 * squared_norm * norm)) return extractByEigenvector(F, R);
     const double step = (gap * gap - 8.0 * determinant * s - cofactor_term) / slope;
     s -= step;

@@ -4,11 +4,11 @@
 
 namespace softbody {
 
-/// The rotation nearest to a deformation gradient (its polar decomposition, never a reflection): the R that
-/// maximises tr(R^T F). Depends on F alone, not on a previous frame, so that energies built on it are
-/// functions of positions. Closed form by the largest root of a quartic (Markley 1993, "Attitude
-/// determination using vector observations: a fast optimal matrix algorithm"); where R is not unique or
-/// nearly so, by the quaternion eigenproblem of Horn 1987.
+/// The rotation nearest to a deformation gradient (polar decomposition, never a reflection): the R that
+/// maximises tr(R^T F). It depends only on F, not on the previous frame, so energies that use it are
+/// functions of positions. Closed form from the largest root of a quartic (Markley 1993, "Attitude
+/// determination using vector observations: a fast optimal matrix algorithm"). If R is not unique, or nearly
+/// so, by the quaternion eigenproblem of Horn 1987.
 /// @return tr(R^T F): the sum of the singular values, the smallest one negative if F is inverted.
 double extractRotation(const Eigen::Matrix3d& F, Eigen::Matrix3d* R);
 

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace softbody::HWY_NAMESPACE {
 namespace {
 
-/// F_v = sum_i x_i g_i^T, by columns in rows of four; the identity where a patch only fills a block.
+/// F_v = sum_i x_i g_i^T, each column in a row of four numbers; the identity for padding patches.
 template <typename T>
 HWY_INLINE void findDeformations(const PatchView<T>& patches, const T* x, T* deformations) {
   for (std::size_t v = 0; v < patches.vertex_count; ++v) {
@@ -36,7 +36,7 @@ HWY_INLINE Mat3<hn::Vec<D>> loadColumns(D d, const T* base, const int* columns) 
   return {loadRows(d, base, columns), loadRows(d, base + 4, columns), loadRows(d, base + 8, columns)};
 }
 
-/// Energy [J]; sets the stresses times volume.
+/// Energy [J]; sets stress times volume.
 template <typename T>
 HWY_INLINE double findStresses(const PatchView<T>& patches, T mu, T lambda, const T* deformations,
                                T* stresses) {

@@ -14,7 +14,7 @@ SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tet
   const Eigen::VectorXd tet_volumes = tetVolumes(rest_vertices, tets);
   SmoothedGradients smoothed;
   smoothed.volumes.setZero(count);
-  std::array<std::vector<Eigen::Triplet<double>>, 3> weighted;  // of row v: the gradients times volumes
+  std::array<std::vector<Eigen::Triplet<double>>, 3> weighted;  // row v: gradients times volumes
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     const double share = 0.25 * tet_volumes[t];
     const Eigen::Matrix<double, 4, 3> gradients =

@@ -19,7 +19,7 @@ Neighbors neighborsOf(const Eigen::SparseMatrix<double>& lower) {
   return neighbors;
 }
 
-/// Breadth-first levels from `start` on. After each connected piece, an empty level.
+/// Levels of the breadth-first search from `start`. An empty level follows each connected component.
 Levels levelsFrom(int start, const Neighbors& neighbors) {
   const int count = static_cast<int>(neighbors.size());
   std::vector<bool> seen(neighbors.size());
@@ -44,7 +44,7 @@ Levels levelsFrom(int start, const Neighbors& neighbors) {
   return levels;
 }
 
-/// Numbers in the three dense blocks of SplitInverse.
+/// Size of the three dense blocks of SplitInverse.
 double blockSizes(double first, double separator, double second) {
   return separator * (first + separator + second) + first * (first + separator) +
          second * (second + separator);
@@ -57,7 +57,7 @@ Dissection dissect(const Eigen::SparseMatrix<double>& lower) {
   const int count = static_cast<int>(neighbors.size());
   Dissection best;
   if (count == 0) return best;
-  // The last level but the empty one holds what lies farthest.
+  // The last level before the empty one holds the farthest vertices.
   const Levels rough = levelsFrom(0, neighbors);
   const Levels levels = levelsFrom(rough[rough.size() - 2].back(), neighbors);
   best.first = count;

@@ -5,14 +5,15 @@
 
 namespace softbody {
 
-/// Rows of a symmetric matrix in two parts and a separator: no entry couples one part with the other.
+/// Partition of a symmetric matrix's rows into two parts and a separator. No entry couples the two parts.
 struct Dissection {
-  std::vector<int> order;                    ///< the first part's rows, the separator's, the second part's
-  int first = 0, separator = 0, second = 0;  ///< how many of each
+  std::vector<int> order;                    ///< rows of the first part, the separator, the second part
+  int first = 0, separator = 0, second = 0;  ///< number of rows
 };
 
-/// The level of a breadth-first search from the graph's far end (George and Liu 1981) that makes products
-/// with the inverses of both parts cheapest. @param lower compressed lower triangle, for its pattern.
+/// Separates by a level of a breadth-first search from a peripheral vertex (George and Liu 1981): the one
+/// that makes products with the inverses of both parts cheapest. @param lower compressed lower triangle, for
+/// its pattern.
 Dissection dissect(const Eigen::SparseMatrix<double>& lower);
 
 }  // namespace softbody

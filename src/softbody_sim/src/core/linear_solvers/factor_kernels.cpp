@@ -68,7 +68,7 @@ void solvePanels(const PanelFactor<T>& factor, T* y) {
   }
 }
 
-/// kVectors vectors of the result's rows from `first` on.
+/// Computes kVectors vectors of result rows.
 template <int kVectors, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void multiplyRows(D d, const T* A, int count, int stride, const T* b, T* x) {
   using V = hn::Vec<D>;
@@ -91,7 +91,8 @@ HWY_INLINE void multiplyRows(D d, const T* A, int count, int stride, const T* b,
 
 template <typename T>
 void multiply(const T* A, int count, int stride, const T* b, T* x) {
-  // Wider vectors gain nothing here: the product waits for A, and nine vectors of sums fill the registers.
+  // Wider vectors do not help: memory bandwidth for A is the limit, and nine vectors of sums fill the
+  // registers.
   const hn::CappedTag<T, 32 / sizeof(T)> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   int row = 0;

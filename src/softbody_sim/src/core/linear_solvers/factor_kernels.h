@@ -6,22 +6,22 @@
 
 namespace softbody {
 
-/// A Cholesky factor in panels of one, two or four neighbouring columns with the same rows below them.
+/// A Cholesky factor in panels of one, two or four adjacent columns with the same rows below them.
 template <typename T>
 struct PanelFactor {
   struct Panel {
     int first_column;
     int width;
-    int row_begin, row_end;  ///< in rows
-    int value_begin;         ///< in values
-    T triangle[4][4];        ///< lower, the diagonal's reciprocals in place of the diagonal
+    int row_begin, row_end;  ///< in `rows`
+    int value_begin;         ///< in `values`
+    T triangle[4][4];        ///< lower triangle, with reciprocals on the diagonal
   };
   std::vector<Panel> panels;
   std::vector<int> rows;  ///< below the panels' triangles
-  std::vector<T> values;  ///< for each of those rows the panel's columns side by side
+  std::vector<T> values;  ///< for each of those rows, the values of the panel's columns
 };
 
-/// y := L^-T L^-1 y for three right-hand sides at once; y has rows (x, y, z, 0).
+/// y := L^-T L^-1 y for three right-hand sides; y has rows (x, y, z, 0).
 template <typename T>
 using PanelSolve = void (*)(const PanelFactor<T>& factor, T* y);
 template <typename T>

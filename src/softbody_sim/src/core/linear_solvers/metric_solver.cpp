@@ -6,10 +6,10 @@
 namespace softbody {
 namespace {
 
-/// Above it a dense product takes longer than two sparse triangular solves.
+/// For larger matrices a dense product takes longer than two sparse triangular solves.
 constexpr int kLargestInverse = 500;
 
-/// Whether column j + 1 has the rows of column j, without j itself: then both belong to one supernode.
+/// Whether column j + 1 has the rows of column j except j: then both belong to one supernode.
 bool sameRows(const CholeskyView& L, int j) {
   return j + 1 < L.count && L.row_counts[j] == L.row_counts[j + 1] + 1 && L.rows[L.starts[j] + 1] == j + 1;
 }
@@ -27,7 +27,7 @@ void appendPanel(const CholeskyView& L, int first, int width, PanelFactor<T>* fa
   panel.width = width;
   panel.row_begin = static_cast<int>(factor->rows.size());
   panel.value_begin = static_cast<int>(factor->values.size());
-  double scale[4];  // of a column of L, which makes it one of L sqrt(D)
+  double scale[4];  // turns a column of L into one of L sqrt(D)
   for (int c = 0; c < width; ++c) {
     const double* column = L.values + L.starts[first + c];
     scale[c] = std::sqrt(column[0]);
@@ -97,7 +97,7 @@ void MetricSolver<T>::solve(const Rows<T>& B, Rows<T>* X) {
   scatterRows(permuted_.data(), order, count, X->data());
 }
 
-/// Four columns at a time: the four numbers of a row are four right-hand sides.
+/// Four columns at once: the four numbers of a row are four right-hand sides.
 template <typename T>
 void MetricSolver<T>::invert() {
   const int* order = factorization_.factor().order;
@@ -112,7 +112,7 @@ void MetricSolver<T>::invert() {
     }
   }
   inverted_ = inverse_->split();
-  if (!inverted_) inverse_.reset();  // too stiff for T; the factor in double goes on
+  if (!inverted_) inverse_.reset();  // too stiff for T: use the factor in double
 }
 
 template class MetricSolver<float>;

@@ -11,14 +11,14 @@
 
 namespace softbody {
 
-/// The global step of projective dynamics: solves A X = B for one matrix after another of one pattern, in the
-/// precision T, from CHOLMOD's factor in double. A small A whose factor has served often is inverted: from
-/// then on a solve is dense products.
+/// The global step of projective dynamics: solves A X = B for matrices of one pattern, in the precision T,
+/// with CHOLMOD's factor in double. If A is small and its factor is used often, A is inverted; then a solve
+/// is a dense product.
 template <typename T>
 class MetricSolver {
  public:
-  /// Rank-one changes up to which updating a factor costs less than factoring anew, whatever the body: about
-  /// 24 for 300 tets, 50 for a thousand, more beyond (bench_projective_dynamics, `update`).
+  /// With up to this many rank-one changes an update is faster than a new factorisation, for every body. The
+  /// limit is about 24 for 300 tets, 50 for 1000, and larger for more (bench_projective_dynamics, `update`).
   static constexpr std::size_t kMaxUpdates = 16;
 
   /// @param lower compressed lower triangle of A, for its pattern.
@@ -27,7 +27,7 @@ class MetricSolver {
   /// @throw std::runtime_error if A is not positive definite.
   void factorize(const Eigen::SparseMatrix<double>& lower);
 
-  /// As PositiveDefiniteSolver's. Cheaper than factorize() for up to kMaxUpdates.
+  /// As PositiveDefiniteSolver::update. Faster than factorize() for up to kMaxUpdates vectors.
   void update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed);
 
   /// X = A^-1 B, both paddedRows(#V).
@@ -42,9 +42,9 @@ class MetricSolver {
   int count_;
   PanelFactor<T> factor_;
   Rows<T> permuted_;
-  int solves_ = 0;  ///< with the present factor
+  int solves_ = 0;  ///< with the current factor
   bool inverted_ = false;
-  std::optional<SplitInverse<T>> inverse_;  ///< where A is small
+  std::optional<SplitInverse<T>> inverse_;  ///< only for a small A
 };
 
 }  // namespace softbody

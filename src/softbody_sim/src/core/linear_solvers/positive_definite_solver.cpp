@@ -10,10 +10,10 @@
 namespace softbody {
 namespace {
 
-/// Three right-hand sides, and zeros that make a row whole vectors.
+/// Three right-hand sides, padded by zeros to whole vectors.
 using SubstitutedRows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
-/// CHOLMOD's view of a compressed triangle; it borrows the memory and does not write to it.
+/// CHOLMOD's view of a compressed triangle. CHOLMOD does not write to the memory.
 /// @param triangle -1: lower, 1: upper.
 cholmod_sparse view(const Eigen::SparseMatrix<double>& matrix, int triangle) {
   cholmod_sparse A{};
@@ -37,10 +37,10 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& matrix, int triangle) {
 struct PositiveDefiniteSolver::Implementation {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
-  /// A in the factor's order: CHOLMOD copies a matrix that it has to permute or transpose itself.
+  /// A in the factor's order. CHOLMOD would copy a matrix that it has to permute or transpose.
   Eigen::SparseMatrix<double> upper;
-  std::vector<int> slots;         ///< where the values of A's lower triangle are among those of upper
-  std::vector<int> order, place;  ///< vertex by place in the factor's order, and the other way round
+  std::vector<int> slots;         ///< positions of the values of A's lower triangle in `upper`
+  std::vector<int> order, place;  ///< vertex at each position of the factor's order, and its inverse
   std::vector<int> starts, rows;
   std::vector<double> values;  ///< of an update's columns
   SubstitutedRows substituted;
@@ -49,7 +49,7 @@ struct PositiveDefiniteSolver::Implementation {
     cholmod_start(&common);
     common.print = 0;
     common.supernodal = CHOLMOD_SIMPLICIAL;
-    common.final_ll = 0;  // L D L', which alone can be updated
+    common.final_ll = 0;  // only L D L' can be updated
     common.final_pack = 1;
     common.final_monotonic = 1;
   }
@@ -117,7 +117,7 @@ void PositiveDefiniteSolver::Implementation::findOrder(const Eigen::SparseMatrix
   for (std::size_t k = 0; k < A.nrow; ++k) place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
 }
 
-/// The pattern of upper, and slots.
+/// Sets the pattern of `upper`, and `slots`.
 void PositiveDefiniteSolver::Implementation::permute(const Eigen::SparseMatrix<double>& lower) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int column = 0; column < lower.cols(); ++column) {
@@ -181,7 +181,7 @@ CholeskyView PositiveDefiniteSolver::factor() const {
           static_cast<const int*>(L.nz), static_cast<const int*>(L.i),  static_cast<const double*>(L.x)};
 }
 
-/// By the factor itself: cholmod_solve2 allocates at every call.
+/// Uses the factor directly: cholmod_solve2 allocates in every call.
 void PositiveDefiniteSolver::solve(const Points& B, Points* X) {
   const CholeskyView L = factor();
   SubstitutedRows& y = implementation_->substituted;

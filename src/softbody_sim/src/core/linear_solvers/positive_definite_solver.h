@@ -9,38 +9,38 @@
 
 namespace softbody {
 
-/// Borrowed view of a factor: A(order, order) = L D L^T, L with a diagonal of ones. Each column of L has its
-/// rows ascending, with D in the place of the diagonal.
+/// View of a factor: A(order, order) = L D L^T, where L has ones on the diagonal. The rows of each column
+/// ascend, and the diagonal entries hold D.
 struct CholeskyView {
   int count;
   const int* order;       ///< #V
-  const int* starts;      ///< per column, in rows and values
+  const int* starts;      ///< per column: first index in `rows` and `values`
   const int* row_counts;  ///< per column
   const int* rows;
   const double* values;
 };
 
-/// Solves A X = B for sparse symmetric positive definite matrices A of one pattern (CHOLMOD). The same on
-/// every run: no threads, no BLAS. Allocates on the first factorize() only, and where an update is wider than
+/// Solves A X = B for sparse symmetric positive definite matrices A of one pattern (CHOLMOD). Results are
+/// reproducible: no threads, no BLAS. Allocates only in the first factorize(), and in updates larger than
 /// reserved.
 class PositiveDefiniteSolver {
  public:
-  /// Orders and analyses the pattern, once. @param lower compressed lower triangle of A.
+  /// Orders and analyses the pattern. @param lower compressed lower triangle of A.
   explicit PositiveDefiniteSolver(const Eigen::SparseMatrix<double>& lower);
   ~PositiveDefiniteSolver();
 
   /// @param lower of the analysed pattern. @throw std::runtime_error if A is not positive definite.
   void factorize(const Eigen::SparseMatrix<double>& lower);
 
-  /// For updates by so many vectors.
+  /// Allocates the memory for updates by `count` vectors.
   void reserveUpdates(std::size_t count);
 
-  /// Makes it the factor of A plus the sum of v v^T over `added`, minus that over `removed`, whose entries
-  /// the pattern must hold (Davis and Hager 1999). @throw std::runtime_error if that is not positive
+  /// Adds v v^T to A for each vector of `added` and subtracts it for each of `removed` (Davis and Hager
+  /// 1999). The entries must be in the pattern. @throw std::runtime_error if the result is not positive
   /// definite.
   void update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed);
 
-  /// Of the last factorize() or update(), until the next.
+  /// The factor of the last factorize() or update(), valid until the next.
   CholeskyView factor() const;
 
   /// X = A^-1 B, both #V by 3.

@@ -39,7 +39,7 @@ SplitInverse<T>::SplitInverse(const Eigen::SparseMatrix<double>& lower, Simd sim
   for (int k = 0; k < static_cast<int>(dissection_.order.size()); ++k) {
     const auto vertex = static_cast<std::size_t>(dissection_.order[static_cast<std::size_t>(k)]);
     places_[vertex] = k;
-    // Each block's results begin with whole Lanes.
+    // The results of each block start at whole Lanes.
     if (k < dissection_.first)
       result_rows_[vertex] = k;
     else if (k < after_first)

@@ -9,20 +9,20 @@
 
 namespace softbody {
 
-/// A^-1 of a small symmetric positive definite A in three dense blocks, less than two thirds of the numbers
-/// of a whole one where a few vertices S part the others in P and Q: x_S = (A^-1)_S b first, then each part
-/// by itself, x_P = A_PP^-1 (b_P - A_PS x_S).
+/// Inverse of a small symmetric positive definite A in three dense blocks. A few vertices S separate the
+/// others into P and Q; then the blocks hold less than two thirds of the numbers of A^-1. First x_S =
+/// (A^-1)_S b, then each part alone, x_P = A_PP^-1 (b_P - A_PS x_S).
 template <typename T>
 class SplitInverse {
  public:
   /// @param lower compressed lower triangle of A, for its pattern.
   SplitInverse(const Eigen::SparseMatrix<double>& lower, Simd simd);
 
-  /// Where a vertex's row and column are in inverse().
+  /// Row and column of a vertex in inverse().
   int placeOf(int vertex) const { return places_[static_cast<std::size_t>(vertex)]; }
-  /// A^-1, both triangles, to be filled in before split().
+  /// A^-1, both triangles; fill it before split().
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>& inverse() { return inverse_; }
-  /// Makes the blocks. @return false where a part is not positive definite within rounding.
+  /// Computes the blocks. @return false if a part is not positive definite, within rounding.
   bool split();
 
   /// X = A^-1 B, both paddedRows(#V).
@@ -33,9 +33,9 @@ class SplitInverse {
   struct alignas(32) Lanes {
     T lane[8];
   };
-  /// Dense, its columns padded to whole Lanes.
+  /// A dense matrix with columns padded to whole Lanes.
   struct Block {
-    int rows, columns, lanes;  ///< lanes: of a column
+    int rows, columns, lanes;  ///< `lanes` per column
     std::vector<Lanes> values;
     Block(int row_count, int column_count);
     template <typename Values>

@@ -25,7 +25,7 @@ Simd supportedSimd(Simd wanted) {
     return Simd::kAuto;
   }
   if (!supported(wanted))
-    throw std::invalid_argument(fmt::format("this processor has no {}", nameOf(wanted)));
+    throw std::invalid_argument(fmt::format("this processor does not support {}", nameOf(wanted)));
   return wanted;
 }
 
@@ -38,7 +38,7 @@ Simd simdFromName(const std::string& name) {
   for (Simd simd : {Simd::kAuto, Simd::kSse4, Simd::kAvx2, Simd::kAvx512}) {
     if (name == nameOf(simd)) return simd;
   }
-  throw std::invalid_argument(fmt::format("simd is '{}': must be auto, sse4, avx2 or avx512", name));
+  throw std::invalid_argument(fmt::format("simd is '{}'; allowed: auto, sse4, avx2, avx512", name));
 }
 
 }  // namespace softbody

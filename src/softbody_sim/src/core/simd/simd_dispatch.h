@@ -6,8 +6,8 @@
 
 namespace softbody {
 
-/// Where Highway's tables (HWY_DISPATCH_TABLE) hold the function for a width. Chosen per object, not per
-/// process as HWY_DYNAMIC_DISPATCH does. To be called from the file that fills the table.
+/// Index of a width's function in Highway's tables (HWY_DISPATCH_TABLE). HWY_DYNAMIC_DISPATCH would choose
+/// once per process; this chooses per object. Call it from the file that fills the table.
 inline std::size_t dispatchIndex(Simd simd) {
   hwy::ChosenTarget chosen;
   switch (supportedSimd(simd)) {

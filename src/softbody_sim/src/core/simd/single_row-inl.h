@@ -1,4 +1,4 @@
-// One vertex, a row (x, y, z, 0), in registers. Included once per vector width (Highway).
+// A vertex as a row (x, y, z, 0) in registers. Included once per vector width (Highway).
 #if defined(SOFTBODY_SINGLE_ROW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOFTBODY_SINGLE_ROW_INL_H_
 #undef SOFTBODY_SINGLE_ROW_INL_H_

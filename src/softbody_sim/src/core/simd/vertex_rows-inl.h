@@ -1,6 +1,6 @@
-// Vertices as rows of four numbers (x, y, z, 0), loaded and added by whole rows of 128 bits (float) or 256
-// (double) and transposed in registers: many times quicker than gathers. `rows` says where rows begin, four
-// times a vertex. Included once per vector width (Highway).
+// Vertices as rows (x, y, z, 0), loaded and added as whole rows of 128 bits (float) or 256 bits (double) and
+// transposed in registers. This is much faster than gather instructions. `rows` holds the offsets of the
+// rows, four times the vertex. Included once per vector width (Highway).
 #if defined(SOFTBODY_VERTEX_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOFTBODY_VERTEX_ROWS_INL_H_
 #undef SOFTBODY_VERTEX_ROWS_INL_H_
@@ -24,7 +24,7 @@ constexpr std::size_t bytesOf() {
   return hn::MaxLanes(D()) * sizeof(hn::TFromD<D>);
 }
 
-/// One 128-bit block from each of `rows[0], rows[stride], ...`, at `offset` into the row.
+/// One 128-bit block from each of the rows `rows[0], rows[stride], ...`, at `offset` in the row.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE hn::Vec<D> loadBlocks(D d, const T* base, const int* rows, int stride, int offset) {
   if constexpr (bytesOf<D>() == 16) {
@@ -50,7 +50,7 @@ HWY_INLINE void addBlocks(D d, V v, T* base, const int* rows, int stride, int of
   }
 }
 
-/// Component vectors of the rows[0 .. lanes).
+/// The x, y and z vectors of the rows[0 .. lanes).
 template <class D>
 HWY_INLINE Vec3<hn::Vec<D>> loadRows(D d, const float* base, const int* rows) {
   const hn::Repartition<double, D> d64;
@@ -72,7 +72,7 @@ HWY_INLINE Vec3<hn::Vec<D>> loadRows(D d, const double* base, const int* rows) {
   return {hn::InterleaveLower(d, xy0, xy1), hn::InterleaveUpper(d, xy0, xy1), hn::InterleaveLower(d, z0, z1)};
 }
 
-/// Adds component vectors to the rows[0 .. lanes), one after the other: a vertex may occur twice.
+/// Adds x, y and z vectors to the rows[0 .. lanes), one row after the other: a vertex may occur twice.
 template <class D, class V>
 HWY_INLINE void addRows(D d, const Vec3<V>& v, float* base, const int* rows) {
   const hn::Repartition<double, D> d64;

@@ -5,7 +5,7 @@
 namespace softbody {
 namespace {
 
-/// A held vertex goes where its pin is, as if it were far too heavy to go elsewhere.
+/// Gives a held vertex a very large inertia at its pin.
 void hold(const std::vector<Pin>& pins, double stiffness, IncrementalPotential* potential) {
   for (const Pin& pin : pins) {
     potential->inertia[pin.vertex] = stiffness;
@@ -20,7 +20,7 @@ ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel conta
                                  StepSolver* solver)
     : topology_(&topology), contact_(std::move(contact)), options_(options), solver_(solver) {}
 
-/// What is given.
+/// The input of solve().
 struct ConstrainedStep::Problem {
   const IncrementalPotential& free;
   const std::vector<Target>& targets;
@@ -52,7 +52,7 @@ void ConstrainedStep::setPotential(const Problem& problem) {
   if (problem.surroundings.loads.size() > 0) potential_.loads += problem.surroundings.loads;
 }
 
-/// A body that hangs or lies is nearer to its end where it was than where the loads alone take it.
+/// For a body that hangs or lies, its earlier shape is a better start than the prediction from the loads.
 void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   const Surroundings& surroundings = problem.surroundings;
   if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
@@ -98,12 +98,12 @@ void ConstrainedStep::setSprings(const Problem& problem) {
   contact_.addSprings(contacts_, &potential_.targets);
 }
 
-/// A held vertex would follow the rest of its forces; the pin takes them up.
+/// A pin carries all other forces on its vertex.
 void ConstrainedStep::findPinForces(const Problem& problem, const Points& x) {
   const std::vector<Pin>& pins = problem.surroundings.pins;
   result_.reactions.pins.assign(pins.size(), Wrench());
   if (pins.empty()) return;
-  setPotential(problem);  // nothing held
+  setPotential(problem);  // without pins
   potential_.evaluate(x, &gradient_);
   solver_->addElasticity(x, &gradient_);
   for (std::size_t k = 0; k < pins.size(); ++k)

@@ -8,13 +8,13 @@
 
 namespace softbody {
 
-/// A step under pins, contact and loads. Contacts are found again where the solution has moved on, until what
-/// they say of it no longer changes.
+/// A step with pins, contacts and loads. Detects contacts and solves in turns, until the contacts no longer
+/// change.
 class ConstrainedStep {
  public:
   struct Options {
     double target_stiffness = 0.0;  ///< of a target of weight 1 [N/m]
-    double pin_stiffness = 0.0;     ///< far above all else [N/m]
+    double pin_stiffness = 0.0;     ///< far above all other stiffnesses [N/m]
     double contact_tolerance_m = 0.0;
   };
   struct Result {
@@ -26,9 +26,10 @@ class ConstrainedStep {
   ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
                   StepSolver* solver);
 
-  /// Allocates only where there are more targets or contacts than ever before.
-  /// @param free the step without targets and surroundings; @param before vertices at its start;
-  /// @param before_poses of the obstacles then; @param x start, then result. @return until the next call.
+  /// Allocates only when the number of targets or contacts exceeds all earlier ones.
+  /// @param free the step without targets and surroundings; @param before vertices at its start [m];
+  /// @param before_poses of the obstacles then; @param x start, then result [m]. @return valid until the next
+  /// call.
   const Result& solve(const IncrementalPotential& free, const std::vector<Target>& targets,
                       const Surroundings& surroundings, const Points& before,
                       const std::vector<Eigen::Isometry3d>& before_poses, Points* x);
@@ -48,9 +49,9 @@ class ConstrainedStep {
   ContactModel contact_;
   Options options_;
   StepSolver* solver_;
-  IncrementalPotential potential_;  ///< with pins held, and the springs of contacts_
-  std::vector<Contact> contacts_;   ///< under which the result was found
-  std::vector<Contact> found_;      ///< where the result is
+  IncrementalPotential potential_;  ///< with pins and the springs of contacts_
+  std::vector<Contact> contacts_;   ///< that the result was computed with
+  std::vector<Contact> found_;      ///< at the result
   Points still_, gradient_;
   Result result_;
 };

@@ -31,12 +31,12 @@ StepReport FemSolver::minimize(const IncrementalPotential& potential, Points* x)
   double step = 0.0;
   while (report.iterations < options_.max_iterations && !report.converged) {
     ++report.iterations;
-    // Near the end the exact Hessian converges quadratically, which the projected one may not.
+    // Near the end the exact Hessian converges quadratically; the projected one may not.
     if (step < 1.0 || !findDirection(potential, *x, Hessian::kExact))
       findDirection(potential, *x, Hessian::kProjected);
     step = 1.0;
     report.last_move_m = direction_.rowwise().norm().maxCoeff();
-    // Where no step along a descent direction gains anything it is a minimum within rounding.
+    // If no step along a descent direction lowers the energy, this is a minimum within rounding.
     report.converged = !searchLine(potential, x, &step) || report.last_move_m < options_.tolerance_m;
     report.last_move_m *= step;
   }
@@ -53,8 +53,8 @@ double FemSolver::evaluate(const IncrementalPotential& potential, const Points& 
   return energy + elasticity_.addTo(x, gradient);
 }
 
-/// False if the exact Hessian is not positive definite. The projected one is singular only where nothing
-/// holds a body that has no inertia; a growing shift makes it definite, as in the method of Levenberg.
+/// False if the exact Hessian is not positive definite. The projected one is singular only for a body without
+/// inertia that nothing holds; then a growing shift makes it definite (Levenberg's method).
 bool FemSolver::findDirection(const IncrementalPotential& potential, const Points& x, Hessian kind) {
   hessian_.setZero();
   hessian_.addToDiagonal(potential.inertia);
@@ -78,7 +78,7 @@ bool FemSolver::solveShifted(double shift) {
   return direction_.allFinite();
 }
 
-/// Halves the step until the energy falls enough (Armijo); false, x as it was, if it never does.
+/// Halves the step until the energy falls enough (Armijo). If it never does, returns false and leaves x.
 bool FemSolver::searchLine(const IncrementalPotential& potential, Points* x, double* step) {
   constexpr double kArmijo = 1e-4;
   constexpr int kMaxHalvings = 20;

@@ -8,9 +8,9 @@
 
 namespace softbody {
 
-/// Backward Euler by Newton's method on the projected Hessian, the exact one near the end, with a
-/// backtracking line search (Kang et al. 2022, eq. 5-9, solved to the end instead of linearised once):
-/// accuracy before speed. The linear systems go to CHOLMOD, which analyses their pattern once.
+/// Implicit Euler by Newton's method with a backtracking line search (Kang et al. 2022, eq. 5-9, iterated to
+/// convergence instead of one linearised step). Uses the projected Hessian, near the end the exact one.
+/// CHOLMOD solves the linear systems and analyses their pattern once. Accurate rather than fast.
 class FemSolver : public StepSolver {
  public:
   struct Options {
@@ -18,7 +18,7 @@ class FemSolver : public StepSolver {
     double tolerance_m = 1e-6;  ///< converged when a full Newton step moves no vertex further
   };
 
-  /// @throw std::invalid_argument if a rest tet has no positive volume.
+  /// @throw std::invalid_argument if the volume of a rest tet is not positive.
   FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame, const Options& options);
   ~FemSolver() override;
 

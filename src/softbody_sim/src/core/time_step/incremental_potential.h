@@ -7,13 +7,13 @@
 
 namespace softbody {
 
-/// What one step of implicit Euler minimises beside elasticity (Bouaziz et al. 2014, eq. 4; Kang et al. 2022,
-/// section 5.2): 1/(2 h^2) |x - prediction|_M^2 - loads . (x - prediction) + targets. A held vertex has an
-/// inertia far above all else, and its place as prediction.
+/// The incremental potential of an implicit Euler step, without the elastic energy (Bouaziz et al. 2014, eq.
+/// 4; Kang et al. 2022, section 5.2): 1/(2 h^2) |x - prediction|_M^2 - loads . (x - prediction) + targets. A
+/// pinned vertex has a very large inertia and its pin as prediction.
 struct IncrementalPotential {
   Eigen::VectorXd inertia;  ///< #V: lumped masses / h^2 [N/m]
-  Points prediction;        ///< #V by 3: where the vertices go without forces [m]
-  Points loads;             ///< #V by 3: forces from outside, gravity among them [N]
+  Points prediction;        ///< #V by 3: positions without forces [m]
+  Points loads;             ///< #V by 3: external forces, including gravity [N]
   TargetEnergy targets;
 
   /// Energy [J]; sets its gradient [N], #V by 3.

@@ -10,7 +10,7 @@ TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d&
     row.corners[k] = 4 * spring.vertices[k];
     row.barycentric[k] = static_cast<T>(spring.barycentric[k]);
   }
-  // Barycentric coordinates that do not quite sum to 1 move the origin, too.
+  // The coordinates sum to 1 only within rounding: subtract the origin times their sum.
   const Eigen::Vector3d position = spring.position - spring.barycentric.sum() * origin.transpose();
   for (int k = 0; k < 3; ++k) {
     row.position[k] = static_cast<T>(position[k]);

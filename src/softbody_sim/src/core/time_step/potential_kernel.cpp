@@ -17,7 +17,7 @@ namespace {
 template <typename T>
 HWY_INLINE double setInertialTerms(const PotentialView<T>& step, const T* x, T* gradient) {
   const hn::CappedTag<T, 16> d;
-  constexpr std::size_t kChunk = 256;  // numbers whose energies are summed in the precision T
+  constexpr std::size_t kChunk = 256;  // length of partial sums in the precision T
   const auto half = hn::Set(d, T(0.5));
   double energy = 0.0;
   for (std::size_t begin = 0; begin < step.size; begin += kChunk) {
@@ -35,7 +35,7 @@ HWY_INLINE double setInertialTerms(const PotentialView<T>& step, const T* x, T* 
   return energy;
 }
 
-/// Adds to twice the energy, too, by components.
+/// Adds a target's gradient, and its energy times two, by components.
 template <typename T>
 HWY_INLINE void addTarget(const TargetRow<T>& target, const T* x, T* gradient, Row<T>* energy) {
   Row<T> offset = Row<T>::load(x + target.corners[0]).times(target.barycentric[0]);
@@ -58,7 +58,7 @@ HWY_INLINE void addTarget(const TargetRow<T>& target, const T* x, T* gradient, R
 
 template <typename T>
 double evaluate(const PotentialView<T>& step, const T* x, T* gradient) {
-  constexpr std::size_t kChunk = 32;  // targets whose energies are summed in the precision T
+  constexpr std::size_t kChunk = 32;  // length of partial sums in the precision T
   double energy = setInertialTerms(step, x, gradient);
   for (std::size_t begin = 0; begin < step.target_count; begin += kChunk) {
     const std::size_t end = begin + kChunk < step.target_count ? begin + kChunk : step.target_count;

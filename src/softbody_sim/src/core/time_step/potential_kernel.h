@@ -6,19 +6,19 @@
 
 namespace softbody {
 
-/// A target as TargetEnergy has it, in rows (x, y, z, 0).
+/// A spring of TargetEnergy in rows (x, y, z, 0).
 template <typename T>
 struct TargetRow {
-  int corners[4];  ///< where the vertices' rows begin
+  int corners[4];  ///< offsets of the vertices' rows
   T barycentric[4];
   T position[4];
   T normal[4];  ///< unit, or zero
   T stiffness;
   bool has_normal;
-  bool one_sided;  ///< pushes along the normal only
+  bool one_sided;  ///< only pushes along the normal
 };
 
-/// A IncrementalPotential in rows (x, y, z, 0).
+/// View of an IncrementalPotential in rows (x, y, z, 0).
 template <typename T>
 struct PotentialView {
   std::size_t size;  ///< numbers in all rows, a multiple of 64

@@ -21,29 +21,29 @@ TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& 
   return metric;
 }
 
-/// Updates in a row, so that their rounding does not pile up.
-constexpr int kMostUpdatedFrames = 100;
+/// Limit of consecutive updates, because their rounding errors add up.
+constexpr int kMaxUpdatedFrames = 100;
 
-/// The matrix of the global step, M / h^2 + elasticity + targets, which changes with h and with where targets
-/// are and how much they weigh, not with their positions.
+/// The matrix of the global step, M / h^2 + elasticity + targets. It changes with h, with the targets' places
+/// in the body and with their weights, but not with their positions.
 class StepMetric {
  public:
   StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity)
       : metric_(elasticMetric(topology, elasticity)), elastic_(metric_.values()) {
-    added_.reserve(kMost + 1);
-    removed_.reserve(kMost + 1);
+    added_.reserve(kMaxUpdates + 1);
+    removed_.reserve(kMaxUpdates + 1);
   }
 
   const Eigen::SparseMatrix<double>& lower() const { return metric_.lower(); }
 
-  /// Brings the solver's factor up to date.
+  /// Updates the solver's factor to the potential.
   template <typename T>
-  void set(const IncrementalPotential& potential, MetricSolver<T>* solver) {
+  void updateFactor(const IncrementalPotential& potential, MetricSolver<T>* solver) {
     const bool few = has_factor_ && inertia_ == potential.inertia &&
-                     potential.targets.metricChanges(targets_, kMost, &added_, &removed_);
+                     potential.targets.metricChanges(targets_, kMaxUpdates, &added_, &removed_);
     if (few && added_.empty() && removed_.empty()) return;
-    has_factor_ = false;  // until it is made
-    if (few && updated_frames_ < kMostUpdatedFrames) {
+    has_factor_ = false;  // until the factor is complete
+    if (few && updated_frames_ < kMaxUpdatedFrames) {
       ++updated_frames_;
       solver->update(added_, removed_);
     } else {
@@ -59,10 +59,10 @@ class StepMetric {
   }
 
  private:
-  static constexpr std::size_t kMost = MetricSolver<double>::kMaxUpdates;
+  static constexpr std::size_t kMaxUpdates = MetricSolver<double>::kMaxUpdates;
 
   TetMatrix metric_;
-  const Eigen::VectorXd elastic_;  ///< the values that never change
+  const Eigen::VectorXd elastic_;  ///< constant part of the values
   bool has_factor_ = false;
   Eigen::VectorXd inertia_;  ///< of the factor
   TargetEnergy targets_;     ///< of the factor
@@ -84,7 +84,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
         x_(Rows<T>::Zero(paddedRows(topology.rest_vertices.rows()), 4)) {}
 
   StepReport minimize(const IncrementalPotential& potential, Points* x) override {
-    metric_.set(potential, &solver_);
+    metric_.updateFactor(potential, &solver_);
     step_.set(potential, potential.prediction.colwise().mean());
     step_.toRows(*x, &x_);
     const auto energy = [this](const Rows<T>& trial, Rows<T>* gradient) {

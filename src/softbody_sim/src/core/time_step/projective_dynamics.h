@@ -11,24 +11,24 @@ namespace softbody {
 
 struct ProjectiveDynamicsOptions {
   MinimizerOptions minimizer;
-  bool single_precision = false;  ///< positions to about 0.1 um, at twice the speed
+  bool single_precision = false;  ///< twice as fast, positions accurate to about 0.1 um
   Simd simd = Simd::kAuto;
   double strain_smoothing = 0.0;  ///< as in CorotatedElasticity
 };
 
 /// Projective dynamics (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz,
-/// Kavan 2017). The local step runs over tets side by side in vector registers; the global step's matrix is
-/// factored only when it changes.
+/// Kavan 2017). The local step processes several tets at once in vector registers. The matrix of the global
+/// step is factored only when it changes.
 class ProjectiveDynamics : public StepSolver {
  public:
-  /// @throw std::invalid_argument if a rest tet has no positive volume.
+  /// @throw std::invalid_argument if the volume of a rest tet is not positive.
   ProjectiveDynamics(const TetTopology& topology, const Lame& lame, const ProjectiveDynamicsOptions& options);
   ~ProjectiveDynamics() override;
 
   StepReport minimize(const IncrementalPotential& potential, Points* x) override;
   double addElasticity(const Points& x, Points* gradient) const override;
 
-  class Precision;  ///< all that depends on single or double precision
+  class Precision;  ///< everything that depends on the precision
 
  private:
   CorotatedElasticity elasticity_;

@@ -19,7 +19,7 @@ double dot(const Positions& a, const Positions& b) {
 template <typename Positions>
 double longestRow(const Positions& points) {
   using Scalar = typename Positions::Scalar;
-  // Side by side: one maximum waits for the one before.
+  // Four maxima in parallel, because each step of one maximum waits for the step before.
   constexpr Eigen::Index kSideBySide = 4;
   std::array<Scalar, kSideBySide> longest{};
   const auto include = [&](Eigen::Index v, Eigen::Index k) {
@@ -34,7 +34,7 @@ double longestRow(const Positions& points) {
   return std::sqrt(static_cast<double>(*std::max_element(longest.begin(), longest.end())));
 }
 
-/// Longest row; not a number where any number is not finite.
+/// Longest row; NaN if any number is not finite.
 template <typename Positions>
 double residualOf(const Positions& gradient) {
   return gradient.allFinite() ? longestRow(gradient) : std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +67,7 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
     findDirection(metric);
     double step = 1.0;
     if (!searchLine(energy, x, &step)) {
-      // Nothing to gain along the steepest direction of the metric: a minimum within rounding.
+      // No gain along the steepest direction of the metric: a minimum within rounding.
       report.converged = pair_count_ == 0;
       pair_count_ = 0;
       continue;
@@ -80,7 +80,7 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
 }
 
 /// Local and global steps of projective dynamics. They need no line search: the metric bounds the curvature
-/// of every term, so that no iteration can raise the energy (Bouaziz et al. 2014, section 3).
+/// of every term, so no iteration can raise the energy (Bouaziz et al. 2014, section 3).
 template <typename Positions>
 StepReport QuasiNewton<Positions>::iterate(const Energy& energy, const Metric& metric,
                                            const MinimizerOptions& options, Positions* x) {
@@ -117,7 +117,7 @@ void QuasiNewton<Positions>::findDirection(const Metric& metric) {
   direction_ = -direction_;
 }
 
-/// Halves the step until the energy falls enough; false, x as it was, if it never does.
+/// Halves the step until the energy falls enough. If it never does, returns false and leaves x.
 template <typename Positions>
 bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, double* step) {
   constexpr int kMaxHalvings = 12;
@@ -129,7 +129,7 @@ bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, doub
     if (fallsEnough(trial_energy, slope, *step)) {
       energy_ = trial_energy;
       residual_ = trial_ - *x;
-      remember();
+      storeMove();
       x->swap(trial_);
       gradient_.swap(trial_gradient_);
       return true;
@@ -138,9 +138,9 @@ bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, doub
   return false;
 }
 
-/// Armijo's condition. In single precision the difference of two energies drowns in rounding long before the
-/// minimum does; there the slope at the end of the step tells (the approximate Wolfe condition of Hager and
-/// Zhang 2005).
+/// Armijo's condition. In single precision the difference of two energies is lost in rounding long before the
+/// minimum; then the slope at the end of the step decides (approximate Wolfe condition, Hager and Zhang
+/// 2005).
 template <typename Positions>
 bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, double step) const {
   constexpr double kArmijo = 1e-4;
@@ -150,9 +150,9 @@ bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, doub
          dot(trial_gradient_, direction_) <= (2.0 * kArmijo - 1.0) * slope;
 }
 
-/// Keeps the accepted move (in residual_) where the curvature along it is positive, as the update needs.
+/// Stores the accepted move (in residual_) if the curvature along it is positive, as L-BFGS needs.
 template <typename Positions>
-void QuasiNewton<Positions>::remember() {
+void QuasiNewton<Positions>::storeMove() {
   trial_gradient_change_ = trial_gradient_ - gradient_;
   const double product = dot(residual_, trial_gradient_change_);
   if (!(product > 1e-12 * residual_.norm() * trial_gradient_change_.norm())) return;

@@ -10,26 +10,26 @@ namespace softbody {
 
 struct MinimizerOptions {
   int max_iterations = 20;
-  double tolerance_m = 1e-6;  ///< converged when no vertex moves further in a full iteration
-  int history = 5;  ///< moves that L-BFGS remembers; 0: plain projective dynamics, without line search
+  double tolerance_m = 1e-6;  ///< converged if no vertex moves further in a full iteration
+  int history = 5;            ///< moves that L-BFGS keeps; 0: plain projective dynamics without line search
 };
 
-/// Minimises energies of vertex positions, a row a vertex, by L-BFGS whose initial Hessian is a constant
-/// metric: without history one iteration is exactly the local and global step of projective dynamics, with it
-/// large rotations and sliding converge (Liu, Bouaziz, Kavan 2017). A backtracking line search keeps the
-/// energy from ever rising.
+/// Minimises an energy of vertex positions (one row per vertex) by L-BFGS with a constant metric as initial
+/// Hessian. Without history an iteration is one local and one global step of projective dynamics. With
+/// history large rotations and sliding converge, too (Liu, Bouaziz, Kavan 2017). A backtracking line search
+/// ensures that the energy never rises.
 template <typename Positions>
 class QuasiNewton {
  public:
-  /// Energy, and its gradient.
+  /// Returns the energy [J]; sets its gradient [N].
   using Energy = std::function<double(const Positions& x, Positions* gradient)>;
   /// X = A^-1 B with the metric A.
   using Metric = std::function<void(const Positions& B, Positions* X)>;
 
-  /// @param rows of the positions.
+  /// @param rows number of rows of the positions.
   explicit QuasiNewton(Eigen::Index rows);
 
-  /// Allocates nothing but what `energy` and `metric` do. @param x start, then result.
+  /// Allocates nothing, apart from `energy` and `metric`. @param x start, then result.
   StepReport minimize(const Energy& energy, const Metric& metric, const MinimizerOptions& options,
                       Positions* x);
 
@@ -47,7 +47,7 @@ class QuasiNewton {
   void findDirection(const Metric& metric);
   bool searchLine(const Energy& energy, Positions* x, double* step);
   bool fallsEnough(double trial_energy, double slope, double step) const;
-  void remember();
+  void storeMove();
   Pair& recent(int age) { return pairs_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)]; }
 
   std::vector<Pair> pairs_;

@@ -6,12 +6,12 @@
 
 namespace softbody {
 
-/// Finds where one step of implicit Euler leads: the vertices that minimise elasticity and step potential.
+/// Solves one step of implicit Euler: minimises elastic energy plus incremental potential.
 class StepSolver {
  public:
   virtual ~StepSolver() = default;
 
-  /// @param x start, then result, #V by 3 [m]. @throw std::runtime_error if a system cannot be solved.
+  /// @param x start, then result, #V by 3 [m]. @throw std::runtime_error if a linear system cannot be solved.
   virtual StepReport minimize(const IncrementalPotential& potential, Points* x) = 0;
 
   /// Elastic energy [J]; adds its gradient [N], #V by 3.

@@ -55,7 +55,7 @@ class SurfaceNode {
   softbody_msgs::TetTopologyConstPtr waiting_topology_;  ///< its cut has not come yet
   softbody_msgs::MeshStateConstPtr waiting_state_;       ///< its topology has not come yet
   // Last, so that callbacks end before the members that they use.
-  SurfaceEditor editor_;        ///< may be ahead of what is published
+  SurfaceEditor editor_;  ///< may be ahead of what is published
   CutServices services_;
   ros::WallTimer cut_timeout_;  ///< ends the wait of waiting_topology_
   ros::Subscriber topology_subscriber_, state_subscriber_;
