@@ -6,8 +6,8 @@
 
 #include "bench/doll_size.h"
 #include "bench/mean_value_reference.h"
-#include "softbody_sim/interpolation/mean_value_coordinates.h"
 #include "softbody_sim/interpolation/tiled_weights.h"
+#include "softbody_sim/mean_value/mean_value_coordinates.h"
 
 /// Mean value coordinates of the doll of Kang et al. 2022 (18,650 points, 252 faces), one thread. For the
 /// ratios both programs take turns in one run, so that the machine's load affects both.

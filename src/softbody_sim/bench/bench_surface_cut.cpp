@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "cutting/binding/surface_swap.h"
+#include "cutting/binding/surface_rebinding.h"
 #include "cutting/fixtures/surface_meshes.h"
 #include "cutting/volume/tet_cutter.h"
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/object/object_model.h"
 
@@ -27,15 +27,17 @@ CutPatch planeThrough(const MeshTopology& mesh, double reach) {
   return ruledPatch(before, now);
 }
 
-Sheets sheetsOf(const MeshTopology& mesh) { return partSheets(listOf(mesh.triangles), mesh.rest_vertices); }
+ManifoldMesh manifoldOf(const MeshTopology& mesh) {
+  return splitNonManifold(listOf(mesh.triangles), mesh.rest_vertices);
+}
 
 /// Cuts the visual mesh.
 void cutVisualMesh(benchmark::State& state, const std::string& name, double reach) {
   const MeshTopology mesh = testing::loadMesh(kConfig + name);
-  const Sheets sheets = sheetsOf(mesh);
+  const ManifoldMesh manifold = manifoldOf(mesh);
   const CutPatch patch = planeThrough(mesh, reach);
   for (auto _ : state) {
-    const SurfaceCut cut = cutSurface(mesh, sheets, patch);
+    const SurfaceCut cut = cutSurface(mesh, manifold, patch);
     if (cut.outcome != CutOutcome::kCut) throw std::runtime_error(cut.reason);
     benchmark::DoNotOptimize(cut.mesh.triangles.data());
   }
@@ -47,7 +49,7 @@ struct CutBody {
       : model(buildObjectModel(loadObjectDescription(kConfig + name))),
         surface(model.visual, model.volume),
         sources(ownSources(model.visual)),
-        sheets(sheetsOf(model.visual)),
+        manifold(manifoldOf(model.visual)),
         uncut(static_cast<std::size_t>(model.volume.surface.rows()), false),
         patch(planeThrough(model.visual, reach)) {
     bent.vertices = model.volume.rest_vertices;
@@ -65,7 +67,7 @@ struct CutBody {
   ObjectModel model;
   VisualSurface surface;
   MeshSources sources;
-  Sheets sheets;
+  ManifoldMesh manifold;
   std::vector<bool> uncut;
   CutPatch patch;
   MeshState bent;
@@ -75,17 +77,17 @@ void cutAll(benchmark::State& state, const std::string& name, double reach) {
   const CutBody body(name, reach);
   for (auto _ : state) {
     const TetEdit edit = body.cutTetsOnce();
-    SurfaceCut cut = cutSurface(body.model.visual, body.sheets, body.patch);
-    benchmark::DoNotOptimize(swapSurface(body.surface, body.sources, std::move(cut), edit, body.bent));
+    SurfaceCut cut = cutSurface(body.model.visual, body.manifold, body.patch);
+    benchmark::DoNotOptimize(rebindSurface(body.surface, body.sources, std::move(cut), edit, body.bent));
   }
 }
 
 void bindCutMesh(benchmark::State& state, const std::string& name, double reach) {
   const CutBody body(name, reach);
   const TetEdit edit = body.cutTetsOnce();
-  const SurfaceCut cut = cutSurface(body.model.visual, body.sheets, body.patch);
+  const SurfaceCut cut = cutSurface(body.model.visual, body.manifold, body.patch);
   for (auto _ : state)
-    benchmark::DoNotOptimize(swapSurface(body.surface, body.sources, cut, edit, body.bent));
+    benchmark::DoNotOptimize(rebindSurface(body.surface, body.sources, cut, edit, body.bent));
 }
 
 constexpr double kBladeHeight = 0.045;  // [m]

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody_sim/interpolation/mean_value_coordinates.h"
+#include "softbody_sim/mean_value/mean_value_coordinates.h"
 
 namespace softbody::bench {
 

@@ -10,7 +10,7 @@
 #include "softbody_evaluation/ros/bags.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/replay.h"
-#include "softbody_sim/cutting/cut_shapes.h"
+#include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"

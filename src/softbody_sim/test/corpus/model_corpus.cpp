@@ -9,6 +9,8 @@
 
 #include "cage/enclosure.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/io/tet_files.h"
 
 namespace softbody::test {
 namespace {

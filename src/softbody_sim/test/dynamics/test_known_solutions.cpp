@@ -9,7 +9,7 @@
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
 #include "softbody_sim/dynamics/simulator.h"
-#include "softbody_sim/io/mesh_files.h"
+#include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
 namespace {

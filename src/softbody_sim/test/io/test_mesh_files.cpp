@@ -5,7 +5,8 @@
 
 #include "fixtures/model_files.h"
 #include "softbody_common/tet_geometry.h"
-#include "softbody_sim/io/mesh_files.h"
+#include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
 namespace {

@@ -5,7 +5,8 @@
 
 #include "fixtures/model_files.h"
 #include "softbody_common/tet_geometry.h"
-#include "softbody_sim/object/object_model.h"
+#include "softbody_sim/object/object_description.h"
+#include "softbody_sim/object/visual_mesh.h"
 #include "surface_mesh/hole_caps.h"
 #include "surface_mesh/surface_repair.h"
 

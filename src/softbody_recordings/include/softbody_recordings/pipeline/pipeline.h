@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "softbody_common/stage_timer.h"
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/object/object_model.h"
 #include "softbody_tracking/tool/tool_mask.h"

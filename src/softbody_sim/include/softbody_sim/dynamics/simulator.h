@@ -7,7 +7,7 @@
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/dynamics/simulator_config.h"
-#include "softbody_sim/object/object_model.h"
+#include "softbody_sim/object/material.h"
 #include "softbody_sim/time_step/step_report.h"
 
 namespace softbody {

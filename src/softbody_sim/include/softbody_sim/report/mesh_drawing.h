@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "softbody_common/pinhole.h"
-#include "softbody_sim/cutting/cut_lines.h"
+#include "softbody_sim/surface_mesh/cut_lines.h"
 
 /// Pictures of meshes, drawn without a display.
 namespace softbody {

@@ -3,7 +3,7 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "softbody_sim/cutting/cut_lines.h"
+#include "softbody_sim/surface_mesh/cut_lines.h"
 
 /// Markers that show cuts in rviz.
 namespace softbody {

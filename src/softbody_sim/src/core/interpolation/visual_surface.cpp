@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "softbody_common/tet_locator.h"
-#include "softbody_sim/interpolation/mean_value_coordinates.h"
+#include "softbody_sim/mean_value/mean_value_coordinates.h"
 
 namespace softbody {
 namespace {

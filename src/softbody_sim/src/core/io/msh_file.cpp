@@ -1,9 +1,8 @@
+#include "io/msh_file.h"
+
 #include <fmt/format.h>
 
-#include "io/mesh_formats.h"
 #include "io/numbered_vertices.h"
-
-// Gmsh reference manual, "MSH file format version 1 (Legacy)" and "version 2 (Legacy)".
 
 namespace softbody {
 namespace {

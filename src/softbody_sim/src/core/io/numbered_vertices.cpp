@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/mesh_formats.h"
+#include "io/stack_rows.h"
 
 namespace softbody {
 

@@ -1,3 +1,5 @@
+#include "io/obj_file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "io/mesh_formats.h"
+#include "io/stack_rows.h"
 #include "io/text_reader.h"
 
 namespace softbody {
@@ -134,27 +136,5 @@ class ObjReader {
 }  // namespace
 
 SurfaceFile readObj(const std::string& path, Warnings* warnings) { return ObjReader(path).read(warnings); }
-
-void writeObj(const std::string& path, const TriangleMesh& mesh, const Points& texture_coordinates) {
-  std::ofstream stream(path);
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    stream << fmt::format("v {:.17g} {:.17g} {:.17g}\n", mesh.vertices(v, 0), mesh.vertices(v, 1),
-                          mesh.vertices(v, 2));
-  }
-  for (Eigen::Index t = 0; t < texture_coordinates.rows(); ++t) {
-    stream << fmt::format("vt {:.9g} {:.9g}\n", texture_coordinates(t, 0), texture_coordinates(t, 1));
-  }
-  const bool textured = texture_coordinates.rows() > 0;
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    stream << 'f';
-    for (int k = 0; k < 3; ++k) {
-      stream << fmt::format(" {}", mesh.triangles(f, k) + 1);
-      if (textured) stream << fmt::format("/{}", 3 * f + k + 1);
-    }
-    stream << '\n';
-  }
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": cannot be written");
-}
 
 }  // namespace softbody

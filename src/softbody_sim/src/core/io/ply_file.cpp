@@ -1,3 +1,5 @@
+#include "io/ply_file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "io/mesh_formats.h"
+#include "io/stack_rows.h"
 #include "io/text_reader.h"
-
-// PLY after Turk 1994: "The PLY Polygon File Format".
 
 namespace softbody {
 namespace {

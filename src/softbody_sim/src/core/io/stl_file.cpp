@@ -1,3 +1,5 @@
+#include "io/stl_file.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,7 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "io/mesh_formats.h"
+#include "io/stack_rows.h"
 #include "io/text_reader.h"
 
 namespace softbody {

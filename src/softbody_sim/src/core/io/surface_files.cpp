@@ -1,29 +1,18 @@
+#include "softbody_sim/io/surface_files.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
-#include "io/mesh_formats.h"
+#include "io/obj_file.h"
+#include "io/off_file.h"
+#include "io/ply_file.h"
+#include "io/stl_file.h"
 #include "io/text_reader.h"
 
 namespace softbody {
 namespace {
-
-void addFanOff(const TextReader& reader, int vertex_count, std::vector<Eigen::RowVector3i>* triangles) {
-  const int corners = reader.integer(0);
-  if (corners < 3) reader.fail(fmt::format("a face of {} corners", corners));
-  for (int k = 1; k <= corners; ++k) {
-    const int vertex = reader.integer(static_cast<std::size_t>(k));
-    if (vertex < 0 || vertex >= vertex_count) {
-      reader.fail(fmt::format("a face names vertex {}; the file has 0 to {}", vertex, vertex_count - 1));
-    }
-  }
-  for (int k = 3; k <= corners; ++k) {
-    const auto corner = [&reader](int i) { return reader.integer(static_cast<std::size_t>(i)); };
-    triangles->emplace_back(corner(1), corner(k - 1), corner(k));
-  }
-}
 
 SurfaceFile readByExtension(const std::string& path, Warnings* warnings) {
   const std::string extension = extensionOf(path);
@@ -37,36 +26,6 @@ SurfaceFile readByExtension(const std::string& path, Warnings* warnings) {
 
 }  // namespace
 
-std::string extensionOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
-SurfaceFile readOff(const std::string& path) {
-  TextReader reader(path);
-  reader.require("the word OFF");
-  if (reader.keyword() != "OFF") reader.fail(fmt::format("'{}' where OFF should be", reader.keyword()));
-  // The counts may stand on the line of the keyword.
-  const std::size_t first = reader.fields().size() > 1 ? 1 : 0;
-  if (first == 0) reader.require("the counts of vertices and faces");
-  const int vertex_count = reader.count(first);
-  const int face_count = reader.count(first + 1);
-  std::vector<Eigen::RowVector3d> vertices;
-  for (int v = 0; v < vertex_count; ++v) {
-    reader.require(fmt::format("vertex {} of {}", v + 1, vertex_count));
-    vertices.push_back(reader.point(0));
-  }
-  std::vector<Eigen::RowVector3i> triangles;
-  for (int f = 0; f < face_count; ++f) {
-    reader.require(fmt::format("face {} of {}", f + 1, face_count));
-    addFanOff(reader, vertex_count, &triangles);
-  }
-  return {{stackRows<Points>(vertices), stackRows<Triangles>(triangles)}, {}};
-}
-
 SurfaceFile readSurfaceFile(const std::string& path, Warnings* warnings) {
   SurfaceFile file = readByExtension(path, warnings);
   if (file.mesh.triangles.rows() == 0) {
@@ -74,6 +33,28 @@ SurfaceFile readSurfaceFile(const std::string& path, Warnings* warnings) {
                                             file.mesh.vertices.rows()));
   }
   return file;
+}
+
+void writeObj(const std::string& path, const TriangleMesh& mesh, const Points& texture_coordinates) {
+  std::ofstream stream(path);
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    stream << fmt::format("v {:.17g} {:.17g} {:.17g}\n", mesh.vertices(v, 0), mesh.vertices(v, 1),
+                          mesh.vertices(v, 2));
+  }
+  for (Eigen::Index t = 0; t < texture_coordinates.rows(); ++t) {
+    stream << fmt::format("vt {:.9g} {:.9g}\n", texture_coordinates(t, 0), texture_coordinates(t, 1));
+  }
+  const bool textured = texture_coordinates.rows() > 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    stream << 'f';
+    for (int k = 0; k < 3; ++k) {
+      stream << fmt::format(" {}", mesh.triangles(f, k) + 1);
+      if (textured) stream << fmt::format("/{}", 3 * f + k + 1);
+    }
+    stream << '\n';
+  }
+  stream.close();
+  if (!stream) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace softbody

@@ -1,12 +1,20 @@
+#include "softbody_sim/io/tet_files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <map>
 #include <set>
 #include <stdexcept>
 
-#include "io/mesh_formats.h"
+#include "io/msh_file.h"
+#include "io/stack_rows.h"
+#include "io/tetgen_file.h"
+#include "io/text_reader.h"
+#include "io/veg_file.h"
+#include "io/vtu_file.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -20,7 +28,7 @@ TetMesh readByExtension(const std::string& path, Warnings* warnings) {
   if (extension == "vtu") return readVtu(path, warnings);
   if (extension == "msh") return readMsh(path, warnings);
   if (extension == "veg") return readVeg(path, warnings);
-  if (extension == "node" || extension == "ele") return readTetGen(path, warnings);
+  if (extension == "node" || extension == "ele") return readTetGen(path);
   throw std::invalid_argument(
       fmt::format("{}: '.{}' is no tet mesh; known: .vtu, .msh, .node and .ele, .veg", path, extension));
 }
@@ -116,6 +124,34 @@ TetMesh readTetFile(const std::string& path, Warnings* warnings) {
   if (mesh.tets.rows() == 0) throw std::invalid_argument(path + ": no tet of positive volume");
   checkFaces(path, mesh.tets);
   return withoutUnusedVertices(path, mesh, warnings);
+}
+
+void writeVtu(const std::string& path, const TetMesh& mesh) {
+  std::ofstream stream(path);
+  const auto array = [&stream](const char* attributes, Eigen::Index rows, const auto& row) {
+    stream << fmt::format("<DataArray {} format=\"ascii\">\n", attributes);
+    for (Eigen::Index r = 0; r < rows; ++r) stream << row(r) << '\n';
+    stream << "</DataArray>\n";
+  };
+  stream << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+            "byte_order=\"LittleEndian\">\n"
+         << fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
+                        mesh.vertices.rows(), mesh.tets.rows());
+  array(R"(type="Float64" NumberOfComponents="3")", mesh.vertices.rows(), [&mesh](Eigen::Index v) {
+    return fmt::format("{:.17g} {:.17g} {:.17g}", mesh.vertices(v, 0), mesh.vertices(v, 1),
+                       mesh.vertices(v, 2));
+  });
+  stream << "</Points>\n<Cells>\n";
+  array(R"(type="Int32" Name="connectivity")", mesh.tets.rows(), [&mesh](Eigen::Index t) {
+    return fmt::format("{} {} {} {}", mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3));
+  });
+  array(R"(type="Int32" Name="offsets")", mesh.tets.rows(),
+        [](Eigen::Index t) { return fmt::format("{}", 4 * (t + 1)); });
+  array(R"(type="UInt8" Name="types")", mesh.tets.rows(),
+        [](Eigen::Index) { return fmt::format("{}", kVtkTetra); });
+  stream << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  stream.close();
+  if (!stream) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace softbody

@@ -1,14 +1,14 @@
+#include "io/tetgen_file.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
 
-#include "io/mesh_formats.h"
 #include "io/numbered_vertices.h"
 
 namespace softbody {
 
-// TetGen manual, "File formats: .node, .ele".
-TetMesh readTetGen(const std::string& path, Warnings* /*warnings*/) {
+TetMesh readTetGen(const std::string& path) {
   const std::filesystem::path base(path);
   NumberedVertices mesh;
   TextReader nodes(std::filesystem::path(base).replace_extension(".node").string());

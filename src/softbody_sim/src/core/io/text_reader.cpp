@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -42,6 +44,14 @@ std::string readFile(const std::string& path) {
   // A directory opens, but reading from it fails.
   if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
   return text;
+}
+
+std::string extensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
 }
 
 double parseNumber(std::string_view text) {

@@ -11,6 +11,9 @@ namespace softbody {
 /// The whole file. @throw std::invalid_argument if it cannot be read.
 std::string readFile(const std::string& path);
 
+/// The extension of a path in lower case, without its dot.
+std::string extensionOf(const std::string& path);
+
 /// A finite number, or NaN if the text is none.
 double parseNumber(std::string_view text);
 

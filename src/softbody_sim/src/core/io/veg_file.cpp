@@ -1,6 +1,7 @@
+#include "io/veg_file.h"
+
 #include <fmt/format.h>
 
-#include "io/mesh_formats.h"
 #include "io/numbered_vertices.h"
 
 namespace softbody {
@@ -26,7 +27,6 @@ void readTets(TextReader& reader, NumberedVertices* mesh) {
 
 }  // namespace
 
-// Vega FEM user's manual, "Volumetric mesh file format (.veg)". Materials are taken from the object YAML.
 TetMesh readVeg(const std::string& path, Warnings* warnings) {
   TextReader reader(path);
   NumberedVertices mesh;

@@ -1,3 +1,5 @@
+#include "io/vtu_file.h"
+
 #include <fmt/format.h>
 
 #include <boost/property_tree/ptree.hpp>
@@ -6,15 +8,13 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "io/mesh_formats.h"
+#include "io/stack_rows.h"
 #include "io/text_reader.h"
 
 namespace softbody {
 namespace {
 
 namespace pt = boost::property_tree;
-
-constexpr int kVtkTetra = 10;
 
 class VtuReader {
  public:
@@ -151,33 +151,5 @@ class VtuReader {
 }  // namespace
 
 TetMesh readVtu(const std::string& path, Warnings* warnings) { return VtuReader(path, warnings).read(); }
-
-void writeVtu(const std::string& path, const TetMesh& mesh) {
-  std::ofstream stream(path);
-  const auto array = [&stream](const char* attributes, Eigen::Index rows, const auto& row) {
-    stream << fmt::format("<DataArray {} format=\"ascii\">\n", attributes);
-    for (Eigen::Index r = 0; r < rows; ++r) stream << row(r) << '\n';
-    stream << "</DataArray>\n";
-  };
-  stream << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
-            "byte_order=\"LittleEndian\">\n"
-         << fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
-                        mesh.vertices.rows(), mesh.tets.rows());
-  array(R"(type="Float64" NumberOfComponents="3")", mesh.vertices.rows(), [&mesh](Eigen::Index v) {
-    return fmt::format("{:.17g} {:.17g} {:.17g}", mesh.vertices(v, 0), mesh.vertices(v, 1),
-                       mesh.vertices(v, 2));
-  });
-  stream << "</Points>\n<Cells>\n";
-  array(R"(type="Int32" Name="connectivity")", mesh.tets.rows(), [&mesh](Eigen::Index t) {
-    return fmt::format("{} {} {} {}", mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3));
-  });
-  array(R"(type="Int32" Name="offsets")", mesh.tets.rows(),
-        [](Eigen::Index t) { return fmt::format("{}", 4 * (t + 1)); });
-  array(R"(type="UInt8" Name="types")", mesh.tets.rows(),
-        [](Eigen::Index) { return fmt::format("{}", kVtkTetra); });
-  stream << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": cannot be written");
-}
 
 }  // namespace softbody

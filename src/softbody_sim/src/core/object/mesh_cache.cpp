@@ -10,6 +10,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "softbody_sim/io/tet_files.h"
+
 namespace softbody {
 namespace {
 

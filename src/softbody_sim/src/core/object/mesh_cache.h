@@ -3,7 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "softbody_sim/io/mesh_files.h"
+#include "softbody_common/types.h"
+#include "softbody_sim/io/warnings.h"
 
 namespace softbody {
 

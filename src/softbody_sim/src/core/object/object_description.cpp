@@ -1,3 +1,5 @@
+#include "softbody_sim/object/object_description.h"
+
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
@@ -5,7 +7,6 @@
 #include <stdexcept>
 
 #include "softbody_common/yaml_map_reader.h"
-#include "softbody_sim/object/object_model.h"
 
 namespace softbody {
 namespace {

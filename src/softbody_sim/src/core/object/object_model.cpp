@@ -13,6 +13,8 @@
 #include "io/text_reader.h"
 #include "object/mesh_cache.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_sim/io/tet_files.h"
+#include "softbody_sim/object/visual_mesh.h"
 #include "surface_mesh/surface_repair.h"
 
 namespace softbody {

@@ -1,7 +1,8 @@
+#include "softbody_sim/object/visual_mesh.h"
+
 #include <fmt/format.h>
 
 #include "softbody_common/tet_geometry.h"
-#include "softbody_sim/object/object_model.h"
 #include "surface_mesh/surface_repair.h"
 
 namespace softbody {

@@ -14,6 +14,8 @@
 #include "report/model_picture.h"
 #include "report/model_quality.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
 namespace {

@@ -8,7 +8,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "io/mesh_formats.h"
 #include "surface_mesh/orientation.h"
 #include "surface_mesh/weld.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_sim/io/mesh_files.h"
+#include "softbody_sim/io/surface_files.h"
 
 namespace softbody {
 

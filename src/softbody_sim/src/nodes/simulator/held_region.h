@@ -6,7 +6,7 @@
 
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
-#include "softbody_sim/object/object_model.h"
+#include "softbody_sim/object/pin_region.h"
 
 namespace softbody {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "softbody_sim/cutting/cut_lines.h"
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/surface_mesh/cut_lines.h"
 
 namespace softbody {
 

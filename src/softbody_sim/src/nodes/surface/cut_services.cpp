@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody_sim/cutting/cut_shapes.h"
+#include "softbody_sim/cutting/patch/cut_shapes.h"
 
 namespace softbody {
 

@@ -9,7 +9,7 @@
 
 #include "nodes/surface/blade_input.h"
 #include "nodes/surface/cut_publisher.h"
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_surface.h"
 
 namespace softbody {
 

@@ -5,7 +5,8 @@
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_sim/object/object_model.h"
+#include "softbody_sim/object/object_description.h"
+#include "softbody_sim/object/visual_mesh.h"
 
 namespace softbody {
 namespace {

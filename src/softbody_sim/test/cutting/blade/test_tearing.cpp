@@ -7,7 +7,7 @@
 #include "cutting/blade/tearing.h"
 #include "cutting/fixtures/surface_meshes.h"
 #include "cutting/fixtures/visual_sponge.h"
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {

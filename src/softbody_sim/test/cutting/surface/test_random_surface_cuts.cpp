@@ -12,7 +12,7 @@
 #include "cutting/fixtures/cut_visual_body.h"
 #include "cutting/fixtures/surface_meshes.h"
 #include "fixtures/model_files.h"
-#include "softbody_sim/io/mesh_files.h"
+#include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
 namespace {

@@ -10,7 +10,8 @@
 #include "cutting/volume/cut_history.h"
 #include "cutting/volume/manifold.h"
 #include "fixtures/model_files.h"
-#include "softbody_sim/io/mesh_files.h"
+#include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
 namespace {

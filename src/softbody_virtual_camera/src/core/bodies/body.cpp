@@ -11,7 +11,7 @@
 
 #include "bodies/obj_materials.h"
 #include "softbody_common/tet_geometry.h"
-#include "softbody_sim/io/mesh_files.h"
+#include "softbody_sim/io/surface_files.h"
 
 namespace softbody::virtual_camera {
 namespace {

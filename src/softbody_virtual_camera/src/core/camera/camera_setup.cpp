@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "softbody_sim/object/object_model.h"
+#include "softbody_sim/object/object_description.h"
 #include "softbody_virtual_camera/bodies/body.h"
 #include "softbody_virtual_camera/motion/camera_motion.h"
 

@@ -1,4 +1,4 @@
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_surface.h"
 
 #include <algorithm>
 #include <deque>
@@ -80,15 +80,6 @@ bool Models::move(const Cut& cut, std::string* reason) {
 }
 
 }  // namespace
-
-CuttingConfig readCuttingConfig(Parameters& parameters) {
-  CuttingConfig config;
-  config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
-  config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
-  config.max_gap_s = parameters.number("max_gap_s", config.max_gap_s, 0.0, 60.0);
-  config.tear_strain = parameters.number("tear_strain", config.tear_strain, 0.0, 100.0);
-  return config;
-}
 
 struct CuttableSurface::Implementation {
   Implementation(const MeshTopology& visual, const TetTopology& volume, const CuttingConfig& config_in)

@@ -8,9 +8,9 @@ namespace softbody {
 namespace {
 
 /// An open mesh is followed as well as a closed one; only cutting it says what is wrong.
-std::optional<Sheets> sheetsOf(const MeshTopology& mesh) {
+std::optional<ManifoldMesh> manifoldOf(const MeshTopology& mesh) {
   try {
-    return partSheets(listOf(mesh.triangles), mesh.rest_vertices);
+    return splitNonManifold(listOf(mesh.triangles), mesh.rest_vertices);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -19,8 +19,8 @@ std::optional<Sheets> sheetsOf(const MeshTopology& mesh) {
 }  // namespace
 
 SurfaceHistory::SurfaceHistory(VisualSurface uncut) {
-  std::optional<Sheets> sheets = sheetsOf(uncut.topology());
-  versions_.push_back(std::make_shared<Version>(Version{std::move(uncut), std::move(sheets)}));
+  std::optional<ManifoldMesh> manifold = manifoldOf(uncut.topology());
+  versions_.push_back(std::make_shared<Version>(Version{std::move(uncut), std::move(manifold)}));
 }
 
 CutPatch SurfaceHistory::strokeWith(const CutPatch& patch, std::uint32_t stroke) const {
@@ -31,7 +31,7 @@ SurfaceCut SurfaceHistory::preview(const CutPatch& patch, std::uint32_t stroke) 
   const Version& start = *versions_[hasVersion(stroke) ? at_ - 1 : at_];
   const MeshTopology& mesh = start.surface.topology();
   const CutPatch whole = strokeWith(patch, stroke);
-  return start.sheets ? cutSurface(mesh, *start.sheets, whole) : cutSurface(mesh, whole);
+  return start.manifold ? cutSurface(mesh, *start.manifold, whole) : cutSurface(mesh, whole);
 }
 
 void SurfaceHistory::advance(const CutPatch& patch, std::uint32_t stroke) {
@@ -45,11 +45,11 @@ void SurfaceHistory::cut(const CutPatch& patch, std::uint32_t stroke, SurfaceCut
   advance(patch, stroke);
   if (!stroke_has_version_) sources_ = ownSources(surface().topology());
   MeshSources sources{cut.vertex_sources, cut.triangle_sources};
-  Sheets sheets = std::move(cut.sheets);
-  VisualSurface swapped = swapSurface(surface(), sources_, std::move(cut), edit, volume);
+  ManifoldMesh manifold = std::move(cut.manifold);
+  VisualSurface rebound = rebindSurface(surface(), sources_, std::move(cut), edit, volume);
   versions_.erase(versions_.begin() + static_cast<std::ptrdiff_t>(stroke_has_version_ ? at_ : at_ + 1),
                   versions_.end());
-  versions_.push_back(std::make_shared<Version>(Version{std::move(swapped), std::move(sheets)}));
+  versions_.push_back(std::make_shared<Version>(Version{std::move(rebound), std::move(manifold)}));
   at_ = versions_.size() - 1;
   sources_ = std::move(sources);
   stroke_has_version_ = true;

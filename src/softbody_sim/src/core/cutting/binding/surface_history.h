@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cutting/binding/surface_swap.h"
+#include "cutting/binding/surface_rebinding.h"
 
 namespace softbody {
 
@@ -43,7 +43,7 @@ class SurfaceHistory {
 
   struct Version {
     VisualSurface surface;
-    std::optional<Sheets> sheets;  ///< of its mesh; none if that is not closed
+    std::optional<ManifoldMesh> manifold;  ///< of its mesh; none if that is not closed
   };
   std::vector<std::shared_ptr<const Version>> versions_;  ///< the uncut surface, then after each stroke
   std::size_t at_ = 0;

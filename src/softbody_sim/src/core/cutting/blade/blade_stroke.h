@@ -7,7 +7,7 @@
 #include "cutting/blade/blade_outline.h"
 #include "cutting/blade/rest_map.h"
 #include "cutting/patch/cut_patch.h"
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/cutting_config.h"
 
 namespace softbody {
 

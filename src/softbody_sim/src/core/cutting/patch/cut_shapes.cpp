@@ -1,4 +1,4 @@
-#include "softbody_sim/cutting/cut_shapes.h"
+#include "softbody_sim/cutting/patch/cut_shapes.h"
 
 #include <fmt/format.h>
 

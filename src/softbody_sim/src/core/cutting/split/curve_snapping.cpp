@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "cutting/split/surface_edits.h"
+
 namespace softbody {
 namespace {
 

@@ -1,7 +1,6 @@
-// Changes of a split surface that keep it a closed manifold.
-#include <algorithm>
+#include "cutting/split/surface_edits.h"
 
-#include "cutting/split/split_surface.h"
+#include <algorithm>
 
 namespace softbody {
 namespace {

@@ -1,6 +1,6 @@
-// Changes of a cut's faces that keep their rim.
+#include "cutting/surface/fill_edits.h"
+
 #include "cutting/split/curve_snapping.h"
-#include "cutting/surface/wall_fill.h"
 
 namespace softbody {
 namespace {

@@ -103,23 +103,23 @@ void Compaction::writeTriangles() {
   mesh.triangles.resize(triangle_count_, 3);
   mesh.cut.resize(count);
   cut_.triangle_sources.resize(count);
-  Sheets& sheets = cut_.sheets;
-  sheets.triangles.resize(count);
-  sheets.mates.resize(3 * count);
+  ManifoldMesh& manifold = cut_.manifold;
+  manifold.triangles.resize(count);
+  manifold.mates.resize(3 * count);
   for (std::size_t t = 0; t < stitched_.triangles.size(); ++t) {
     const int row = triangles_[t];
     if (row < 0) continue;
     for (int k = 0; k < 3; ++k) {
       const int mate = stitched_.mates[3 * t + static_cast<std::size_t>(k)];
-      mesh.triangles(row, k) = sheets.triangles[row][k] = vertices_[stitched_.triangles[t][k]];
-      sheets.mates[3 * row + k] = 3 * triangles_[mate / 3] + mate % 3;
+      mesh.triangles(row, k) = manifold.triangles[row][k] = vertices_[stitched_.triangles[t][k]];
+      manifold.mates[3 * row + k] = 3 * triangles_[mate / 3] + mate % 3;
     }
     const bool of_surface = t < surface_.triangles.size();
     const int source = of_surface ? surface_.sources[t] : -1;
     cut_.triangle_sources[row] = source;
     mesh.cut[row] = of_surface ? before_.cut[source] : true;
   }
-  mesh.bodies = numberBodies(sheets.triangles.size(), sheets.mates);
+  mesh.bodies = numberBodies(manifold.triangles.size(), manifold.mates);
 }
 
 void Compaction::writeTexture() {

@@ -8,9 +8,10 @@
 #include "cutting/split/curve_snapping.h"
 #include "cutting/split/cut_curve.h"
 #include "cutting/split/cut_refused.h"
+#include "cutting/split/manifold_mesh.h"
 #include "cutting/split/split_surface.h"
-#include "cutting/surface/grazing.h"
-#include "cutting/surface/sheets.h"
+#include "cutting/surface/coplanar_faces.h"
+#include "cutting/surface/fill_edits.h"
 #include "cutting/surface/surface_compaction.h"
 #include "cutting/surface/surface_stitching.h"
 #include "cutting/surface/wall_fill.h"
@@ -22,7 +23,7 @@ namespace {
 constexpr double kSnapDistance = 1.0 / 20000.0;
 constexpr double kLowestTriangle = 1.0 / 400000.0;
 constexpr double kFlatness = 1.0 / 100000.0;
-constexpr double kGrazingDistance = 3.0 * kSnapDistance;
+constexpr double kCoplanarDistance = 3.0 * kSnapDistance;
 constexpr double kOfLowTriangle = 0.01;
 constexpr int kAttempts = 6;
 
@@ -84,8 +85,8 @@ void checkPieces(const MeshTopology& mesh, double snap_distance) {
 }
 
 /// The patch comes to lie along the surface: it has to be moved outward.
-struct CutGrazes : CutRefused {
-  explicit CutGrazes(const Eigen::Vector3d& normal)
+struct CutIsCoplanar : CutRefused {
+  explicit CutIsCoplanar(const Eigen::Vector3d& normal)
       : CutRefused("the patch runs along the surface"), outward(normal) {}
   Eigen::Vector3d outward;
 };
@@ -93,10 +94,10 @@ struct CutGrazes : CutRefused {
 class SurfaceCutter {
  public:
   /// Keeps references to both.
-  SurfaceCutter(const MeshTopology& mesh, const Sheets& sheets)
+  SurfaceCutter(const MeshTopology& mesh, const ManifoldMesh& manifold)
       : mesh_(mesh),
-        triangles_(sheets.triangles),
-        mates_(sheets.mates),
+        triangles_(manifold.triangles),
+        mates_(manifold.mates),
         diagonal_(diagonalOf(mesh.rest_vertices)) {}
 
   SurfaceCut cut(const CutPatch& patch) const;
@@ -123,11 +124,11 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   }
   WallFill fill = fillWalls(surface, curve, facets, snap_distance);
   raiseLowTriangles(0.5 * snap_distance, facets, &fill);
-  const Grazing grazing = findGrazing(surface, fill, facets, kGrazingDistance * diagonal_);
-  if (grazing.triangles == fill.triangles.size()) {
+  const CoplanarFaces coplanar = findCoplanarFaces(surface, fill, facets, kCoplanarDistance * diagonal_);
+  if (coplanar.count == fill.triangles.size()) {
     return uncut(mesh_, CutOutcome::kMissed, "the patch only grazes the surface");
   }
-  if (grazing.triangles > 0) throw CutGrazes(grazing.outward);
+  if (coplanar.count > 0) throw CutIsCoplanar(coplanar.outward);
   const StitchedSurface stitched = stitch(surface, fill);
   checkHeights(mesh_, surface, stitched, kLowestTriangle * diagonal_);
   SurfaceCut result = compacted(mesh_, surface, stitched);
@@ -144,8 +145,8 @@ SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
     Eigen::Vector3d shift = (k % 2 == 0 ? k : -k) * Eigen::Vector3d(0.61, -0.43, 0.67);
     try {
       return attempt(moved);
-    } catch (const CutGrazes& grazing) {
-      if (k == 1) reason = grazing.what(), shift = grazing.outward;
+    } catch (const CutIsCoplanar& refusal) {
+      if (k == 1) reason = refusal.what(), shift = refusal.outward;
     } catch (const CutRefused& refusal) {
       if (k == 1) reason = refusal.what();
     }
@@ -155,16 +156,16 @@ SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
 }
 
 /// The mesh with the vertices that its sheets do not share any more.
-MeshTopology withSheets(MeshTopology mesh, const Sheets& sheets) {
-  const auto own = mesh.rest_vertices.rows(), copies = static_cast<Eigen::Index>(sheets.copied_from.size());
+MeshTopology withCopies(MeshTopology mesh, const ManifoldMesh& manifold) {
+  const auto own = mesh.rest_vertices.rows(), copies = static_cast<Eigen::Index>(manifold.copied_from.size());
   mesh.rest_vertices.conservativeResize(own + copies, Eigen::NoChange);
   for (Eigen::Index v = own; v < own + copies; ++v) {
-    const int source = sheets.copied_from[static_cast<std::size_t>(v - own)];
+    const int source = manifold.copied_from[static_cast<std::size_t>(v - own)];
     mesh.rest_vertices.row(v) = mesh.rest_vertices.row(source).eval();
     mesh.vertex_parents.push_back(mesh.vertex_parents[static_cast<std::size_t>(source)]);
   }
-  for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(t), k) = sheets.triangles[t][k];
+  for (std::size_t t = 0; t < manifold.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(t), k) = manifold.triangles[t][k];
   }
   return mesh;
 }
@@ -172,17 +173,17 @@ MeshTopology withSheets(MeshTopology mesh, const Sheets& sheets) {
 }  // namespace
 
 SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch) {
-  return cutSurface(mesh, partSheets(listOf(mesh.triangles), mesh.rest_vertices), patch);
+  return cutSurface(mesh, splitNonManifold(listOf(mesh.triangles), mesh.rest_vertices), patch);
 }
 
-SurfaceCut cutSurface(const MeshTopology& mesh, const Sheets& sheets, const CutPatch& patch) {
-  if (sheets.copied_from.empty()) return SurfaceCutter(mesh, sheets).cut(patch);
-  const MeshTopology parted = withSheets(mesh, sheets);
-  SurfaceCut cut = SurfaceCutter(parted, sheets).cut(patch);
+SurfaceCut cutSurface(const MeshTopology& mesh, const ManifoldMesh& manifold, const CutPatch& patch) {
+  if (manifold.copied_from.empty()) return SurfaceCutter(mesh, manifold).cut(patch);
+  const MeshTopology parted = withCopies(mesh, manifold);
+  SurfaceCut cut = SurfaceCutter(parted, manifold).cut(patch);
   if (cut.outcome != CutOutcome::kCut) return uncut(mesh, cut.outcome, cut.reason);
   const auto own = static_cast<int>(mesh.rest_vertices.rows());
   for (int& source : cut.vertex_sources) {
-    if (source >= own) source = sheets.copied_from[static_cast<std::size_t>(source - own)];
+    if (source >= own) source = manifold.copied_from[static_cast<std::size_t>(source - own)];
   }
   return cut;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cutting/patch/cut_patch.h"
-#include "cutting/surface/sheets.h"
+#include "cutting/split/manifold_mesh.h"
 
 namespace softbody {
 
@@ -21,7 +21,7 @@ struct SurfaceCut {
   MeshTopology mesh;
   std::vector<int> vertex_sources;    ///< per vertex the one before that it is or was copied from; -1: new
   std::vector<int> triangle_sources;  ///< per triangle the one before that it is a part of; -1: of a new wall
-  Sheets sheets;                      ///< of the mesh, if it is cut
+  ManifoldMesh manifold;              ///< of the mesh, if it is cut
 };
 
 /// Cuts a closed triangle mesh along a patch: triangles are divided along the curve of intersection, the mesh
@@ -34,6 +34,6 @@ struct SurfaceCut {
 SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch);
 
 /// The same for a mesh whose sheets are known, which spares looking at all of it again.
-SurfaceCut cutSurface(const MeshTopology& mesh, const Sheets& sheets, const CutPatch& patch);
+SurfaceCut cutSurface(const MeshTopology& mesh, const ManifoldMesh& manifold, const CutPatch& patch);
 
 }  // namespace softbody

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cutting/split/cut_refused.h"
+#include "cutting/surface/fill_edits.h"
 
 namespace softbody {
 namespace {

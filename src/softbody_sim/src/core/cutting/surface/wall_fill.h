@@ -24,11 +24,4 @@ struct WallFill {
 WallFill fillWalls(const SplitSurface& surface, const CutCurve& curve, const PatchFacets& facets,
                    double snap_distance);
 
-/// Flips the longest edges of triangles that are lower than a limit [m], where that makes the lower one of
-/// two higher: on a finely sampled rim the Delaunay triangulation cuts off ears that hardly have a height.
-void raiseLowTriangles(double limit, const PatchFacets& facets, WallFill* fill);
-
-/// Inserts a point in the middle of an edge between two triangles.
-void splitFillEdge(int half_edge, WallFill* fill);
-
 }  // namespace softbody

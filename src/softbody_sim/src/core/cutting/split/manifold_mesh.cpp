@@ -1,4 +1,4 @@
-#include "cutting/surface/sheets.h"
+#include "cutting/split/manifold_mesh.h"
 
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ void pairSpokes(const std::vector<Spoke>& spokes, std::vector<int>* mates) {
   }
 }
 
-std::vector<int> pairSheets(const TriangleList& triangles, const Points& vertices) {
+std::vector<int> pairAll(const TriangleList& triangles, const Points& vertices) {
   const Arrows arrows(triangles, static_cast<std::size_t>(vertices.rows()));
   std::vector<int> mates(3 * triangles.size(), -1);
   for (int h = 0; h < static_cast<int>(mates.size()); ++h) {
@@ -111,25 +111,25 @@ std::vector<int> pairSheets(const TriangleList& triangles, const Points& vertice
 
 }  // namespace
 
-Sheets partSheets(const TriangleList& triangles, const Points& vertices) {
-  Sheets sheets{triangles, pairSheets(triangles, vertices), {}};
+ManifoldMesh splitNonManifold(const TriangleList& triangles, const Points& vertices) {
+  ManifoldMesh manifold{triangles, pairAll(triangles, vertices), {}};
   const auto count = static_cast<int>(vertices.rows());
-  std::vector<bool> taken(static_cast<std::size_t>(count), false), named(sheets.mates.size(), false);
+  std::vector<bool> taken(static_cast<std::size_t>(count), false), named(manifold.mates.size(), false);
   for (int corner = 0; corner < static_cast<int>(named.size()); ++corner) {
     if (named[corner]) continue;
     const int vertex = startOf(triangles, corner);
     int name = vertex;
     if (taken[vertex]) {
-      name = count + static_cast<int>(sheets.copied_from.size());
-      sheets.copied_from.push_back(vertex);
+      name = count + static_cast<int>(manifold.copied_from.size());
+      manifold.copied_from.push_back(vertex);
     }
     taken[vertex] = true;
-    for (int h = corner; !named[h]; h = sheets.mates[previousHalfEdge(h)]) {
+    for (int h = corner; !named[h]; h = manifold.mates[previousHalfEdge(h)]) {
       named[h] = true;
-      sheets.triangles[h / 3][h % 3] = name;
+      manifold.triangles[h / 3][h % 3] = name;
     }
   }
-  return sheets;
+  return manifold;
 }
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "softbody_sim/cutting/cut_lines.h"
+#include "softbody_sim/surface_mesh/cut_lines.h"
 
 #include <algorithm>
 #include <set>

@@ -4,7 +4,7 @@
 #include "bench/doll_size.h"
 #include "bench/mean_value_reference.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_sim/interpolation/mean_value_coordinates.h"
+#include "softbody_sim/mean_value/mean_value_coordinates.h"
 
 namespace softbody {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_sim/interpolation/mean_value_coordinates.h"
+#include "softbody_sim/mean_value/mean_value_coordinates.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "interpolation/mean_value_kernel.h"
+#include "mean_value/mean_value_kernel.h"
 
 namespace softbody {
 namespace {

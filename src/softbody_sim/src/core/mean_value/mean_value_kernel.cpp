@@ -1,11 +1,11 @@
-#include "interpolation/mean_value_kernel.h"
+#include "mean_value/mean_value_kernel.h"
 
 #include <hwy/aligned_allocator.h>
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "interpolation/mean_value_kernel.cpp"
+#define HWY_TARGET_INCLUDE "mean_value/mean_value_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -20,7 +20,7 @@ MeshSources ownSources(const MeshTopology& mesh);
 /// surface had before keep their positions, and new ones on it lie where it was. At rest all are at rest.
 /// @param now the surface before the edit; @param sources its mesh's in the mesh before the current stroke;
 /// @param cut that mesh along all of the stroke; @param volume a state of the tets before the edit.
-VisualSurface swapSurface(const VisualSurface& now, const MeshSources& sources, SurfaceCut cut,
-                          const TetEdit& edit, const MeshState& volume);
+VisualSurface rebindSurface(const VisualSurface& now, const MeshSources& sources, SurfaceCut cut,
+                            const TetEdit& edit, const MeshState& volume);
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "cutting/binding/own_side.h"
+#include "cutting/binding/side_placement.h"
 
 #include <algorithm>
 #include <queue>
@@ -29,9 +29,9 @@ std::size_t countOf(const std::vector<std::uint32_t>& bodies) {
   return bodies.empty() ? 0 : *std::max_element(bodies.begin(), bodies.end()) + 1;
 }
 
-class OwnSide {
+class SidePlacement {
  public:
-  OwnSide(const SurfaceCut& surface, const TetTopology& before, const TetEdit& edit)
+  SidePlacement(const SurfaceCut& surface, const TetTopology& before, const TetEdit& edit)
       : surface_(surface),
         mesh_(surface.mesh),
         before_(before),
@@ -68,13 +68,13 @@ class OwnSide {
   std::vector<double> distances_;  ///< along the mesh, from the vertices whose side is sure
 };
 
-MaterialPoint OwnSide::placeAfter(const MaterialPoint& place) const {
+MaterialPoint SidePlacement::placeAfter(const MaterialPoint& place) const {
   const std::vector<int>& successors = edit_.successors[at(place.tet)];
   if (successors.size() == 1) return {successors.front(), place.barycentric};
   return edit_.placeAfter(place, before_);
 }
 
-void OwnSide::placeSureOnes(const std::vector<MaterialPoint>& known) {
+void SidePlacement::placeSureOnes(const std::vector<MaterialPoint>& known) {
   const std::vector<bool> crack = crackVertices(before_, edit_);
   for (std::size_t v = 0; v < known.size(); ++v) {
     if (known[v].tet < 0) continue;
@@ -88,7 +88,7 @@ void OwnSide::placeSureOnes(const std::vector<MaterialPoint>& known) {
 }
 
 /// Of the pieces of tets that a piece of the mesh has places in, the one with most of them counts.
-void OwnSide::keepOnePieceEach() {
+void SidePlacement::keepOnePieceEach() {
   const std::size_t piece_count = countOf(edit_.topology.bodies);
   std::vector<int> counts(countOf(bodies_) * piece_count, 0);
   for (std::size_t v = 0; v < places_.size(); ++v) {
@@ -105,7 +105,7 @@ void OwnSide::keepOnePieceEach() {
 }
 
 /// A piece of the mesh without any place gets its first vertex placed, from where its middle is.
-void OwnSide::placeWithoutNeighbours() {
+void SidePlacement::placeWithoutNeighbours() {
   struct Piece {
     int first = -1, count = 0;
     bool placed = false;
@@ -128,7 +128,7 @@ void OwnSide::placeWithoutNeighbours() {
 }
 
 /// Sorted by where they start.
-std::vector<OwnSide::Link> OwnSide::linksToUnplaced(bool over_new_walls) const {
+std::vector<SidePlacement::Link> SidePlacement::linksToUnplaced(bool over_new_walls) const {
   std::vector<Link> links;
   for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
     if (!over_new_walls && surface_.triangle_sources[at(t)] < 0) continue;
@@ -145,7 +145,7 @@ std::vector<OwnSide::Link> OwnSide::linksToUnplaced(bool over_new_walls) const {
 }
 
 /// Shortest ways first (Dijkstra 1959), so that a place comes from this side of a slit, not round its end.
-void OwnSide::spread(bool over_new_walls) {
+void SidePlacement::spread(bool over_new_walls) {
   const std::vector<Link> links = linksToUnplaced(over_new_walls);
   using Step = std::tuple<double, int, int>;  // distance, to, from
   std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
@@ -171,9 +171,9 @@ void OwnSide::spread(bool over_new_walls) {
 
 }  // namespace
 
-std::vector<MaterialPoint> placesOnOwnSide(const SurfaceCut& surface, const std::vector<MaterialPoint>& known,
+std::vector<MaterialPoint> placesByCutSide(const SurfaceCut& surface, const std::vector<MaterialPoint>& known,
                                            const TetTopology& before, const TetEdit& edit) {
-  OwnSide sides(surface, before, edit);
+  SidePlacement sides(surface, before, edit);
   sides.placeSureOnes(known);
   sides.keepOnePieceEach();
   sides.placeWithoutNeighbours();

@@ -3,9 +3,9 @@
 #include <map>
 
 #include "cutting/fixtures/visual_sponge.h"
-#include "softbody_sim/cutting/cut_lines.h"
-#include "softbody_sim/cutting/cut_shapes.h"
-#include "softbody_sim/cutting/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/patch/cut_shapes.h"
+#include "softbody_sim/surface_mesh/cut_lines.h"
 
 namespace softbody {
 namespace {

@@ -6,21 +6,10 @@
 #include <vector>
 
 #include "softbody_common/cut.h"
-#include "softbody_common/parameters.h"
+#include "softbody_sim/cutting/cutting_config.h"
 #include "softbody_sim/interpolation/visual_surface.h"
 
 namespace softbody {
-
-/// How a blade's motion becomes cuts, and stretch becomes tears.
-struct CuttingConfig {
-  double min_advance_m = 0.005;     ///< the blade cuts when its edge is so far beyond the front of the cut
-  double slit_tolerance_m = 0.005;  ///< a blade that comes so near to an earlier cut is in its slit
-  double max_gap_s = 0.5;           ///< a blade not followed for longer has been lifted
-  double tear_strain = 0.0;  ///< the body tears where it is longer than at rest by this share; 0: never
-};
-
-/// @throw std::invalid_argument as Parameters does.
-CuttingConfig readCuttingConfig(Parameters& parameters);
 
 /// What a cut would do.
 struct CutPreview {

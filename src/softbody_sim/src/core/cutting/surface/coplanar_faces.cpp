@@ -1,4 +1,4 @@
-#include "cutting/surface/grazing.h"
+#include "cutting/surface/coplanar_faces.h"
 
 #include <algorithm>
 
@@ -62,22 +62,22 @@ std::vector<FlatTriangle> candidates(const SplitSurface& surface, const WallFill
 
 }  // namespace
 
-Grazing findGrazing(const SplitSurface& surface, const WallFill& fill, const PatchFacets& facets,
-                    double distance) {
+CoplanarFaces findCoplanarFaces(const SplitSurface& surface, const WallFill& fill, const PatchFacets& facets,
+                                double distance) {
   std::vector<Eigen::Vector3d> normals;
   for (const PlaneFrame& frame : facets.frames) normals.push_back(frame.x_axis.cross(frame.y_axis));
   const std::vector<FlatTriangle> near = candidates(surface, fill, normals, distance);
-  Grazing grazing;
+  CoplanarFaces coplanar;
   for (std::size_t t = 0; t < fill.triangles.size(); ++t) {
     const Eigen::Vector3d& normal = normals[fill.facets[t]];
     const Eigen::Vector3d middle = FlatTriangle(fill.points, fill.triangles[t]).middle();
     for (const FlatTriangle& other : near) {
       if (normal.cross(other.normal).norm() > kParallel || !other.isNear(middle, distance)) continue;
-      if (grazing.triangles++ == 0) grazing.outward = other.normal;
+      if (coplanar.count++ == 0) coplanar.outward = other.normal;
       break;
     }
   }
-  return grazing;
+  return coplanar;
 }
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "cutting/binding/surface_swap.h"
+#include "cutting/binding/surface_rebinding.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "cutting/binding/own_side.h"
+#include "cutting/binding/side_placement.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 
@@ -58,10 +58,10 @@ class Counterparts {
   std::map<std::array<double, 3>, std::vector<int>> made_;
 };
 
-class Swap {
+class Rebinding {
  public:
-  Swap(const VisualSurface& now, const MeshSources& sources, const SurfaceCut& cut, const TetEdit& edit,
-       const MeshState& volume)
+  Rebinding(const VisualSurface& now, const MeshSources& sources, const SurfaceCut& cut, const TetEdit& edit,
+            const MeshState& volume)
       : now_(now),
         sources_(sources),
         cut_(cut),
@@ -70,7 +70,7 @@ class Swap {
         shown_(now.apply(volume).vertices) {
     const TetTopology& before = now.binding().volume();
     vertices_ = applyBinding(edit.vertex_origins, volume.vertices, before.tets);
-    places_ = placesOnOwnSide(cut, knownPlaces(), before, edit);
+    places_ = placesByCutSide(cut, knownPlaces(), before, edit);
     positions_ = applyBinding(places_, vertices_, edit.topology.tets);
   }
 
@@ -115,7 +115,7 @@ class Swap {
   Points positions_;
 };
 
-std::vector<MaterialPoint> Swap::knownPlaces() const {
+std::vector<MaterialPoint> Rebinding::knownPlaces() const {
   std::vector<MaterialPoint> known(cut_.vertex_sources.size());
   for (std::size_t v = 0; v < known.size(); ++v) {
     const Counterparts::Range candidates = counterpartsOf(static_cast<Eigen::Index>(v));
@@ -127,7 +127,7 @@ std::vector<MaterialPoint> Swap::knownPlaces() const {
 }
 
 /// Of several counterparts, the one that is shown nearest to where the vertex's own side is.
-void Swap::placeOldVertices() {
+void Rebinding::placeOldVertices() {
   for (Eigen::Index v = 0; v < positions_.rows(); ++v) {
     double nearest = std::numeric_limits<double>::infinity();
     Eigen::RowVector3d position = positions_.row(v);
@@ -142,7 +142,7 @@ void Swap::placeOldVertices() {
 }
 
 /// Per triangle of the mesh before the stroke the vertices that the cut has made on it.
-std::vector<std::vector<int>> Swap::newVerticesBySource() const {
+std::vector<std::vector<int>> Rebinding::newVerticesBySource() const {
   std::vector<std::vector<int>> made;
   for (Eigen::Index t = 0; t < cut_.mesh.triangles.rows(); ++t) {
     const int source = cut_.triangle_sources[static_cast<std::size_t>(t)];
@@ -158,7 +158,7 @@ std::vector<std::vector<int>> Swap::newVerticesBySource() const {
 
 /// On the triangle of the surface before that has the vertex at rest; of two beside a slit, on the one shown
 /// nearest to where the vertex's own side is.
-void Swap::placeNewVertices() {
+void Rebinding::placeNewVertices() {
   const MeshTopology& before = now_.topology();
   const std::vector<std::vector<int>> made = newVerticesBySource();
   std::map<int, Spot> spots;
@@ -174,7 +174,7 @@ void Swap::placeNewVertices() {
   for (const auto& [v, spot] : spots) positions_.row(v) = spot.position;
 }
 
-Swap::Spot Swap::spotOn(const Eigen::RowVector3i& triangle, int v) const {
+Rebinding::Spot Rebinding::spotOn(const Eigen::RowVector3i& triangle, int v) const {
   const Points& rest = now_.topology().rest_vertices;
   Eigen::Matrix<double, 3, 2> edges;
   edges << (rest.row(triangle[1]) - rest.row(triangle[0])).transpose(),
@@ -200,9 +200,9 @@ MeshSources ownSources(const MeshTopology& mesh) {
   return sources;
 }
 
-VisualSurface swapSurface(const VisualSurface& now, const MeshSources& sources, SurfaceCut cut,
-                          const TetEdit& edit, const MeshState& volume) {
-  TetBinding binding = Swap(now, sources, cut, edit, volume).binding();
+VisualSurface rebindSurface(const VisualSurface& now, const MeshSources& sources, SurfaceCut cut,
+                            const TetEdit& edit, const MeshState& volume) {
+  TetBinding binding = Rebinding(now, sources, cut, edit, volume).binding();
   cut.mesh.revision = edit.topology.revision;
   return {std::move(cut.mesh), std::move(binding)};
 }

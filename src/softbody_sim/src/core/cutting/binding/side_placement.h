@@ -16,7 +16,7 @@ namespace softbody {
 /// of the tets.
 /// @param known per vertex of the mesh its place in the tets before, on its side of all earlier cuts; tet -1:
 /// none.
-std::vector<MaterialPoint> placesOnOwnSide(const SurfaceCut& surface, const std::vector<MaterialPoint>& known,
+std::vector<MaterialPoint> placesByCutSide(const SurfaceCut& surface, const std::vector<MaterialPoint>& known,
                                            const TetTopology& before, const TetEdit& edit);
 
 }  // namespace softbody

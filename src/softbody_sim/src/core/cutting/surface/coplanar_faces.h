@@ -6,14 +6,14 @@
 namespace softbody {
 
 /// How the faces of a cut lie in the surface that is cut.
-struct Grazing {
-  std::size_t triangles = 0;                          ///< of the fill, that lie along the surface
+struct CoplanarFaces {
+  std::size_t count = 0;                              ///< of the fill, that lie along the surface
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< the surface's normal at the first of them
 };
 
 /// The fill's triangles whose middle is within a distance of a triangle that is nearly parallel: between them
 /// would be a sheet without thickness.
-Grazing findGrazing(const SplitSurface& surface, const WallFill& fill, const PatchFacets& facets,
-                    double distance);
+CoplanarFaces findCoplanarFaces(const SplitSurface& surface, const WallFill& fill, const PatchFacets& facets,
+                                double distance);
 
 }  // namespace softbody

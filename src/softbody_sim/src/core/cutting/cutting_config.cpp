@@ -1,0 +1,14 @@
+#include "softbody_sim/cutting/cutting_config.h"
+
+namespace softbody {
+
+CuttingConfig readCuttingConfig(Parameters& parameters) {
+  CuttingConfig config;
+  config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
+  config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
+  config.max_gap_s = parameters.number("max_gap_s", config.max_gap_s, 0.0, 60.0);
+  config.tear_strain = parameters.number("tear_strain", config.tear_strain, 0.0, 100.0);
+  return config;
+}
+
+}  // namespace softbody

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "softbody_sim/io/tet_files.h"
+
+namespace softbody {
+
+/// The type number of a tet in VTK files.
+constexpr int kVtkTetra = 10;
+
+/// VTK unstructured grid, ascii. Tets come in any orientation, with checked indices.
+/// @throw std::invalid_argument with file, cell and error.
+TetMesh readVtu(const std::string& path, Warnings* warnings);
+
+}  // namespace softbody
