@@ -138,7 +138,7 @@ class Cutting(unittest.TestCase):
         self.expect_revision(first + 4, 1)
         answer = self.service("undo", Trigger)()
         self.assertFalse(answer.success)
-        self.assertEqual(answer.message, "there is no cut to take back")
+        self.assertEqual(answer.message, "there is no cut to undo")
         away = self.service("cut", CutBody)(point=Point(*(middle + 9.0)), normal=Vector3(1.0, 0.0, 0.0))
         self.assertFalse(away.success)
         self.assertNotEqual(away.message, "")

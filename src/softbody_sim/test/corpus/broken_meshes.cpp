@@ -99,7 +99,7 @@ TriangleMesh turned(TriangleMesh mesh, Eigen::Index every) {
 
 TriangleMesh withTriangles(const Triangles& triangles) { return {smallTorus().vertices, triangles}; }
 
-/// Every triangle has corners of its own, off by rounding.
+/// Every triangle has its own corners, with rounding errors.
 TriangleMesh unwelded() {
   const TriangleMesh torus = smallTorus();
   TriangleMesh mesh{Points(torus.triangles.size(), 3), Triangles(torus.triangles.rows(), 3)};
@@ -137,14 +137,14 @@ void addRefused(std::vector<BrokenFile>* files) {
       {"infinite.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e999 0\n3 0 1 2\n", "is not a finite number"});
   files->push_back({"ten_million.off", "OFF\n3 10000000 0\n0 0 0\n", "announces 10000000"});
   files->push_back({"ten_million.ply", many, "10000000"});
-  files->push_back({"ten_million.stl", many_stl, "announces 10000000 facets and ends after 0"});
+  files->push_back({"ten_million.stl", many_stl, "announces 10000000 facets, but ends after 0"});
   files->push_back({"flat_corners.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "no triangle has an area"});
   files->push_back({"index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ":4"});
   files->push_back({"cut.ply", ply.substr(0, ply.size() / 2), "cut.ply"});
   files->push_back({"cut_binary.ply", binary_ply.substr(0, binary_ply.size() / 2), "cut_binary.ply"});
   files->push_back({"cut.stl", stl.substr(0, stl.size() / 2), "cut.stl"});
   files->push_back({"cut_binary.stl", binary_stl.substr(0, binary_stl.size() / 2), "ends after"});
-  files->push_back({"what.xyz", "0 0 0\n", "'.xyz' is no surface mesh"});
+  files->push_back({"what.xyz", "0 0 0\n", "'.xyz' is not a surface mesh"});
 }
 
 void addRepaired(std::vector<BrokenFile>* files) {

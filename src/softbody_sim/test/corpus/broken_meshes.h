@@ -8,24 +8,24 @@
 
 namespace softbody::test {
 
-/// The bytes of a mesh file that something is wrong with.
+/// A defective mesh file.
 struct BrokenFile {
   std::string name;  ///< with the format's extension
   std::string bytes;
-  std::string sentence;  ///< part of the refusal; empty: the mesh is repaired, and a model is made of it
+  std::string sentence;  ///< part of the error message; empty: the mesh is repaired and gives a model
 };
 
-/// What users' meshes suffer from, one file each.
+/// Typical defects of users' meshes, one file each.
 std::vector<BrokenFile> brokenFiles();
 
-/// A small sound mesh in every surface format, binary ones too, as a start for mutations.
+/// A small valid mesh in every surface format, also binary, to be mutated.
 std::vector<BrokenFile> soundFiles();
 
-/// A few bytes flipped, removed, doubled or cut off, or a number replaced.
+/// Flips, removes, duplicates or cuts off a few bytes, or replaces a number.
 std::string mutated(std::string bytes, std::mt19937* random);
 
-/// Reads and repairs a file. @return the refusal, or nothing. @throw std::runtime_error if the refusal says
-/// neither file nor reason, or anything but a refusal comes out.
+/// Reads and repairs a file. @return the error message, or nothing. @throw std::runtime_error if the message
+/// lacks file or reason, or another exception is thrown.
 std::string readOrRefuse(const std::string& path);
 
 }  // namespace softbody::test

@@ -6,7 +6,7 @@
 
 #include "corpus/model_corpus.h"
 
-/// Prepares a model of every mesh under a folder and prints what came out. Exit code 1 if any has a fault.
+/// Prepares a model of every mesh under a folder and prints the results. Exit code 1 if a model has a fault.
 int main(int argc, char** argv) {
   using namespace softbody;
   if (argc < 2) {

@@ -8,8 +8,8 @@
 
 #include "corpus/broken_meshes.h"
 
-/// Reads mutated mesh files of every format with little memory. A file that is neither read nor refused with
-/// a sentence is kept and named; exit code 1. A crash leaves the last file.
+/// Reads mutated mesh files of every format with little memory. A file that is neither read nor rejected with
+/// a message is kept and named; exit code 1. A crash leaves the last file.
 int main(int argc, char** argv) {
   using namespace softbody;
   if (argc < 3) {

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kAccuracy = 1e-6;      ///< of mean value coordinates [size]
-constexpr double kSmallestAngle = 2.0;  ///< a sliver has a smaller dihedral angle [degrees]
+constexpr double kSmallestAngle = 2.0;  ///< smallest allowed dihedral angle [degrees]
 
 std::string writeBoundary(const CorpusMesh& mesh, const std::string& scratch) {
   Warnings warnings;

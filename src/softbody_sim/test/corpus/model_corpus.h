@@ -15,18 +15,17 @@ struct CorpusMesh {
   bool is_tet_mesh = false;
 };
 
-/// All of them under a folder, in order of their names: surfaces in files of their own, boundaries of tet
-/// meshes.
+/// All of them under a folder, in the order of their names.
 std::vector<CorpusMesh> modelCorpus(const std::string& folder);
 
 struct PreparedModel {
   ModelQuality quality;
   double seconds = 0.0;
-  std::vector<std::string> faults;  ///< what a prepared model must not have; empty: it is as it should be
+  std::vector<std::string> faults;  ///< faults of the prepared model; empty: none
 };
 
 /// Prepares a model with default settings and looks for faults. Files go to `scratch`.
-/// @param cage_vertices 0: by default.
+/// @param cage_vertices 0: the default.
 PreparedModel prepareAndCheck(const CorpusMesh& mesh, const std::string& scratch, int cage_vertices = 0);
 
 }  // namespace softbody::test

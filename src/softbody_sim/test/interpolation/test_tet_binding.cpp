@@ -11,7 +11,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kMissing = 1e-3;  // how far the points are from where their tets carry them [m]
+constexpr double kMissing = 1e-3;  // distance of the points from their uncorrected positions [m]
 
 /// A point in the middle of every tet, corrected by a random millimetre in a deformed state.
 struct Bound {
@@ -19,7 +19,7 @@ struct Bound {
     std::mt19937 random(3);
     positions = applyBinding(plain.places(), met, volume.tets);
     positions += testing::randomPoints(positions.rows(), kMissing, &random);
-    corrected.meet(met, positions);
+    corrected.correctTo(met, positions);
   }
 
   static std::vector<MaterialPoint> middles(const TetTopology& volume) {
@@ -47,7 +47,7 @@ struct Bound {
   Points vertices, positions;
 };
 
-/// The sponge, bent, with a vertex of one tet pressed to `height` times its height over the opposite face.
+/// The bent sponge, with one tet flattened to `height` times its height.
 Points withFlatTet(int tet, double height) {
   const TetTopology sponge = testing::sponge();
   Points x = sponge.rest_vertices;

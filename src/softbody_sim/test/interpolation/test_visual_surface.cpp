@@ -12,7 +12,7 @@ class Binding : public ::testing::Test {
     visual_.rest_vertices =
         testing::randomPoints(400, 0.5, &random_) * Eigen::Vector3d(0.22, 0.12, 0.05).asDiagonal();
     visual_.rest_vertices.rowwise() += Eigen::RowVector3d(0.1, 0.05, 0.015);
-    // On the volume's boundary too, and on its vertices.
+    // Also on the boundary of the volume and on its vertices.
     visual_.rest_vertices.topRows(132) = volume_.rest_vertices;
     visual_.revision = 3;
   }

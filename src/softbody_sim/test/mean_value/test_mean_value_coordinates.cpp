@@ -62,7 +62,7 @@ TEST_F(MeanValueCoordinates, AreLinearOnFacesEdgesAndVertices) {
     const Points points = randomPointsOf(corners, 300);
     expectReproduces(points, 1e-11);
     const WeightRows weights = weightsOf(points);
-    // Only the corners of the triangle that the point is on have a weight.
+    // Only the corners of the triangle with the point have non-zero weights.
     for (Eigen::Index p = 0; p < points.rows(); ++p) {
       EXPECT_LE((weights.row(p).array().abs() > 1e-6).count(), corners);
       EXPECT_GT(weights.row(p).minCoeff(), -1e-9);
@@ -117,7 +117,7 @@ TEST_F(MeanValueCoordinates, WindingNumberTellsInsideFromOutside) {
   EXPECT_GT(inside, 20);
 }
 
-/// Every tenth point of the doll-size problem, by the formulas as published.
+/// Every tenth point of the doll-size problem, by the published formulas.
 class DollSizeWeights : public ::testing::Test {
  protected:
   DollSizeWeights() : cage_(doll_.cage.vertices, doll_.cage.triangles) {
@@ -127,7 +127,7 @@ class DollSizeWeights : public ::testing::Test {
   }
   ~DollSizeWeights() override { useTargets(0); }
 
-  /// Vector registers to choose from; 0: all that there are.
+  /// Allowed SIMD targets; 0: all.
   static void useTargets(std::int64_t targets) {
     hwy::SetSupportedTargetsForTest(targets);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -158,7 +158,7 @@ TEST_F(DollSizeWeights, OfAFewPointsAreThoseOfMany) {
   for (const Eigen::Index count : {1, 3, 7, 9}) {
     EXPECT_EQ(cage_.coordinates(doll_.points.topRows(count), &few),
               std::vector<int>(turns.begin(), turns.begin() + count));
-    // Which polynomial a point gets depends on its neighbours in the vector.
+    // The polynomial of a point depends on its neighbours in the SIMD vector.
     EXPECT_LT((few - all.topRows(count)).cwiseAbs().maxCoeff(), 1e-13);
   }
   EXPECT_TRUE(cage_.coordinates(Points(0, 3), &few).empty());

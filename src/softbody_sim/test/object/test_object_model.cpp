@@ -19,7 +19,7 @@ namespace {
 using test::complaint;
 using test::TemporaryFolder;
 
-/// Keeps the user's own cache out of the tests.
+/// Uses a temporary cache instead of the user's.
 class ObjectModelTest : public testing::Test {
  protected:
   ObjectModelTest() { setenv("XDG_CACHE_HOME", folder_.file("cache").c_str(), 1); }
@@ -121,7 +121,7 @@ TEST_F(ObjectModelTest, AnUnusableCacheIsAWarning) {
   const ObjectModel model = buildObjectModel(describe(test::torus(0.1, 0.03, 60, 24)));
   expectSound(model);
   ASSERT_EQ(model.warnings.size(), 1U);
-  EXPECT_NE(model.warnings[0].find("not kept"), std::string::npos);
+  EXPECT_NE(model.warnings[0].find("there is no model cache"), std::string::npos);
 }
 
 TEST_F(ObjectModelTest, AGivenCageIsFilled) {
@@ -218,7 +218,7 @@ TEST_F(ObjectModelTest, AFolderWhereAFileShouldGoLeavesTheOthersAsTheyWere) {
   std::ostringstream progress;
   const std::string said =
       complaint([&] { prepareModel(description.visual_mesh, "m", folder_.file("out"), {}, progress); });
-  EXPECT_NE(said.find("out/tets.vtu: is a folder where a file should go"), std::string::npos) << said;
+  EXPECT_NE(said.find("out/tets.vtu: is a folder; a file must be written there"), std::string::npos) << said;
   EXPECT_EQ(std::filesystem::file_size(folder_.file("out/visual.obj")), 4U);
 }
 

@@ -18,7 +18,7 @@ double lengthOf(const Edges& lines, const Points& vertices) {
   return length;
 }
 
-/// Every line that comes to a vertex leaves it again.
+/// Lines are closed: every vertex has an even number of edges.
 void expectClosed(const Edges& lines) {
   std::map<int, int> ends;
   for (const int vertex : lines.reshaped()) ++ends[vertex];
@@ -64,7 +64,7 @@ TEST(CutLines, RunAlongBothSidesOfASlit) {
   const Edges lines = cutLines(slit);
   expectClosed(lines);
   const double top = visualSponge().rest_vertices.col(2).maxCoeff(), width = 0.096;
-  // Both rims on the top and down the sides; where they meet at the front the slit has no face.
+  // Both rims on the top and down the sides. They meet at the front, where the slit ends.
   EXPECT_NEAR(lengthOf(lines, slit.rest_vertices), 2.0 * (width + 2.0 * (top - 0.015)), 1e-6);
   for (const int vertex : lines.reshaped()) EXPECT_GE(slit.rest_vertices(vertex, 2), 0.015 - 1e-6);
 }

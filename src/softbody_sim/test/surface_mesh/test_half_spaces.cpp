@@ -25,7 +25,7 @@ double violation(const std::vector<HalfSpace>& half_spaces, const Eigen::Vector3
   return worst;
 }
 
-/// Dykstra's alternating projections: another way to the same point.
+/// Dykstra's alternating projections converge to the same point.
 Eigen::Vector3d byProjections(const std::vector<HalfSpace>& half_spaces, Eigen::Vector3d x) {
   std::vector<Eigen::Vector3d> corrections(half_spaces.size(), Eigen::Vector3d::Zero());
   for (int iteration = 0; iteration < 20000; ++iteration) {

@@ -13,7 +13,7 @@
 namespace softbody {
 namespace {
 
-/// Every triangle with three vertices of its own, as STL has it.
+/// Gives every triangle its own three vertices, as in STL.
 SurfaceFile exploded(const TriangleMesh& mesh) {
   SurfaceFile file;
   file.mesh.vertices.resize(3 * mesh.triangles.rows(), 3);

@@ -7,11 +7,10 @@
 
 namespace softbody {
 
-/// Points that follow tets. At rest each is at its place; a correction can make them meet given positions in
-/// one deformed state. A correction is kept in the material of the point's tet, so that it turns and
-/// stretches with it, or of a neighbouring one where that is too flat to hold it; and is scaled by the strain
-/// of the tet's piece over that in the state that it was made for: to nothing at rest, never above what it
-/// was made with.
+/// Points that move with tets. At rest each point is at its material place. Corrections can shift the points
+/// to given positions in one deformed state. A correction is stored in the material frame of the point's tet,
+/// so that it turns and stretches with it; if that tet is too flat, in the frame of a neighbour. It scales
+/// with the strain of the piece, relative to the state that it was made in: 0 at rest, at most 1.
 class TetBinding {
  public:
   TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places);
@@ -20,27 +19,27 @@ class TetBinding {
   const std::vector<MaterialPoint>& places() const { return places_; }
   void setRevision(std::uint32_t revision) { volume_.revision = revision; }
 
-  /// Corrects the points so that they are at `positions` when the volume's vertices are at `vertices`.
-  void meet(const Points& vertices, const Points& positions);
+  /// Makes corrections: the points are at `positions` when the vertices of the volume are at `vertices`.
+  void correctTo(const Points& vertices, const Points& positions);
 
-  /// Positions and confidences of the points named by `which`, into their rows of `state`.
+  /// Writes positions and confidences of the points `which` into their rows of `state`.
   void apply(const MeshState& volume, const std::vector<int>& which, MeshState* state) const;
 
  private:
-  /// To be added to a point's position: the barycentric coordinates in a tet, which sum to 0.
+  /// An offset of a point, as barycentric coordinates in a tet. They sum to 0.
   struct Correction {
     int tet = -1;
     Eigen::Vector4d barycentric = Eigen::Vector4d::Zero();
   };
-  class Meeting;
+  class Corrector;
 
   std::vector<double> squaredStrains(const Points& vertices) const;
   std::vector<double> correctionScales(const Points& vertices) const;
 
   TetTopology volume_;
   std::vector<MaterialPoint> places_;
-  std::vector<Correction> corrections_;  ///< per point, or none
-  std::vector<double> strains_;          ///< per piece, squared, in the state that was met
+  std::vector<Correction> corrections_;  ///< per point; empty: no corrections
+  std::vector<double> strains_;          ///< per piece, squared, in the state of the corrections
 };
 
 }  // namespace softbody

@@ -5,8 +5,8 @@
 
 namespace softbody {
 
-/// A dense matrix of weights, kept for fast products with few columns: single precision, tiles of 32 rows
-/// side by side, so that each weight is loaded once and serves four columns (Highway, chosen at run time).
+/// A dense matrix of weights for fast products with four columns. Single precision, in tiles of 32 rows: each
+/// weight is loaded once for all four columns (Highway, dispatched at run time).
 class TiledWeights {
  public:
   using Values = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
@@ -20,8 +20,8 @@ class TiledWeights {
   Eigen::Index rows() const { return rows_; }
   Eigen::Index columns() const { return columns_; }
 
-  /// Weights times values; the rows beyond rows() are zero. The result's memory is reused when the size fits.
-  /// @throw std::invalid_argument unless there is a row of values for each column.
+  /// Weights times values; the rows beyond rows() are zero. Reuses the memory of the result if its size fits.
+  /// @throw std::invalid_argument if values do not have one row per column.
   void multiply(const Values& values, Products* products) const;
 
  private:

@@ -9,30 +9,30 @@
 
 namespace softbody {
 
-/// The high-resolution mesh driven by the low-resolution surface: mean value coordinates (Ju et al. 2005) for
-/// the visual vertices inside of it, the nearest tet for those outside. On the low-resolution surface both
-/// agree, so the binding is continuous. After a cut all follow tets: near a slit, whose two walls coincide,
-/// mean value coordinates are unusable.
+/// The high-resolution mesh, driven by the low-resolution surface. Visual vertices inside of it have mean
+/// value coordinates (Ju et al. 2005), those outside follow the nearest tet. Both agree on the low-resolution
+/// surface, so the binding is continuous. After a cut all vertices follow tets: mean value coordinates are
+/// undefined where the two walls of a slit coincide.
 class VisualSurface {
  public:
   /// Computes the weights, once. @throw std::invalid_argument if the volume's surface is not closed.
   VisualSurface(MeshTopology visual, const TetTopology& volume);
 
-  /// A surface all of whose vertices follow tets.
+  /// A surface with a tet for every vertex.
   VisualSurface(MeshTopology visual, TetBinding binding);
 
   const MeshTopology& topology() const { return visual_; }
-  /// Of all vertices, though in an uncut body only those outside follow their tets.
+  /// Covers all vertices; an uncut body uses it for the outside ones only.
   const TetBinding& binding() const { return binding_; }
 
-  /// Gives mesh and binding another revision, the same for both.
+  /// Sets the revision of mesh and binding.
   void setRevision(std::uint32_t revision);
 
   /// Number of visual vertices that lie outside the low-resolution surface by more than rounding.
   int outsideCount() const;
 
   /// Visual vertices, and their confidences, for a state of the volume.
-  /// @throw std::invalid_argument if the revision or the number of vertices is not the volume's.
+  /// @throw std::invalid_argument if the revision or the number of vertices differs from the volume's.
   MeshState apply(const MeshState& volume) const;
 
  private:
@@ -43,7 +43,7 @@ class VisualSurface {
   TetBinding binding_;
   std::vector<int> surface_vertices_;  ///< of the volume, in ascending order
   std::vector<int> inside_;            ///< visual vertices
-  /// #inside by #surface vertices, rows sum to 1; shared by copies. Null: none is inside.
+  /// #inside by #surface vertices, rows sum to 1; shared by copies. Null: no vertex is inside.
   std::shared_ptr<const TiledWeights> inside_weights_;
   std::vector<int> by_tet_;  ///< visual vertices
 };

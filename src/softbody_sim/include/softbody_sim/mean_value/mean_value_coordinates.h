@@ -12,10 +12,10 @@ namespace softbody {
 using WeightRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Mean value coordinates of points with respect to a closed triangle mesh (Ju et al. 2005; Kang et al. 2022,
-/// eq. 12-14). Exact on vertices, edges and faces too, where they are the linear interpolation over the
-/// triangle. In double precision, several points at once by SIMD.
-/// @param points #P by 3 [m], same frame as the cage, inside of it, on it, or outside.
-/// @param cage_vertices #C by 3 [m]; those that no triangle uses get the weight 0. @param cage_triangles
+/// eq. 12-14). On vertices, edges and faces they equal the linear interpolation over the triangle. Double
+/// precision, vectorised over the points.
+/// @param points #P by 3 [m], inside, on or outside of the cage, in its frame.
+/// @param cage_vertices #C by 3 [m]; vertices without a triangle get the weight 0. @param cage_triangles
 /// outward.
 /// @return #P by #C, rows sum to 1. @throw std::invalid_argument if the cage is not closed.
 WeightRows meanValueCoordinates(const Points& points, const Points& cage_vertices,
@@ -23,7 +23,7 @@ WeightRows meanValueCoordinates(const Points& points, const Points& cage_vertice
 
 struct CageMesh;
 
-/// The same for one set of points after another: finds the cage's edges once.
+/// Mean value coordinates for several sets of points: finds the edges of the cage once.
 class MeanValueCage {
  public:
   /// @throw std::invalid_argument if an index is out of range or the triangles are not closed.

@@ -10,24 +10,24 @@
 /// Pictures of meshes, drawn without a display.
 namespace softbody {
 
-/// From where a picture is taken.
+/// Pose and intrinsics of the camera of a picture.
 struct View {
   Eigen::Isometry3d T_camera_mesh = Eigen::Isometry3d::Identity();
   Pinhole camera;
 };
 
-/// From the front, the left and above (z points up), such that the points just fit into a picture.
+/// A view from the front left and above (z points up) in which the points fill the picture.
 View viewOf(const Points& points, const cv::Size& size);
 
-/// What is drawn of a mesh. Colours are BGR, 0 to 255.
+/// Colours (BGR, 0 to 255) and lines of a drawn mesh.
 struct MeshPaint {
-  std::vector<cv::Vec3d> colors;  ///< #F, or one for all
-  bool edges = false;             ///< of the triangles
-  Edges lines;                    ///< that are drawn upon the surface
+  std::vector<cv::Vec3d> colors;  ///< one per triangle, or one for all
+  bool edges = false;             ///< whether to draw the edges of the triangles
+  Edges lines;                    ///< drawn on the surface
   cv::Vec3d line_color = cv::Vec3d(40.0, 20.0, 230.0);
 };
 
-/// The mesh on white, in the size of the view's camera. Faces that look away are drawn too, darker.
+/// The mesh on a white background, in the size of the view's camera. Back faces are drawn darker.
 cv::Mat3b drawMesh(const Points& vertices, const Triangles& triangles, const MeshPaint& paint,
                    const View& view);
 

@@ -7,7 +7,7 @@ namespace softbody {
 /// #E by 2 indices of vertices.
 using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-/// Where cuts run over a mesh: the edges at which a face of a cut meets the skin.
+/// The edges at which the faces of cuts meet the outer surface of a mesh.
 Edges cutLines(const MeshTopology& mesh);
 
 }  // namespace softbody

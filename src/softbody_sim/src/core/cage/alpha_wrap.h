@@ -4,8 +4,8 @@
 
 namespace softbody {
 
-/// A closed, oriented 2-manifold that encloses every triangle at about the offset (Portaneri et al. 2022,
-/// "Alpha Wrapping with an Offset"). Holes and gaps narrower than alpha are closed.
+/// A closed, oriented 2-manifold around all triangles, at about the offset from them (Portaneri et al. 2022,
+/// "Alpha Wrapping with an Offset"). Closes holes and gaps narrower than alpha.
 TriangleMesh alphaWrap(const TriangleMesh& mesh, double alpha_m, double offset_m);
 
 }  // namespace softbody

@@ -15,10 +15,10 @@ namespace softbody {
 namespace {
 
 constexpr int kSweeps = 6;
-constexpr double kLeastGain = 4e-3;    ///< of the volume, that a further sweep must be worth
-constexpr double kMargin = 1e-5;       ///< of the size: how far within the planes the points stay
-constexpr double kLeastTurn = 0.7;     ///< cosine between a triangle's normals before and after a move
-constexpr double kLeastHeight = 0.25;  ///< of a triangle, of its longest edge
+constexpr double kMinGain = 4e-3;       ///< relative decrease of the volume below which fitting stops
+constexpr double kMargin = 1e-5;        ///< distance of the points from the planes, over the size
+constexpr double kMinTurnCosine = 0.7;  ///< cosine of the angle by which a move may turn a triangle
+constexpr double kMinHeight = 0.25;     ///< height of a triangle over its longest edge
 
 struct Corner {
   Eigen::Index triangle;
@@ -38,8 +38,8 @@ class CageFitter {
     }
   }
 
-  /// Moves every vertex once. Those whose move leaves a point outside, as it can beside a triangle that the
-  /// point was not counted for, go back.
+  /// Moves every vertex once. A move can leave a point outside, beside a triangle that the point is not
+  /// assigned to. Such moves are undone.
   TriangleMesh sweep() {
     const Points before = cage_.vertices;
     assignPoints();
@@ -47,12 +47,12 @@ class CageFitter {
     for (;;) {
       const std::vector<Eigen::Index> beyond = pointsBeyond(points_, cage_);
       if (beyond.empty()) return cage_;
-      if (!takeBack(beyond, before)) cage_.vertices = before;
+      if (!undoMoves(beyond, before)) cage_.vertices = before;
     }
   }
 
  private:
-  /// Each point counts for the triangle nearest to it.
+  /// Assigns each point to the nearest triangle.
   void assignPoints() {
     const ClosestPointQuery query(cage_.vertices, cage_.triangles);
     below_.assign(static_cast<std::size_t>(cage_.triangles.rows()), {});
@@ -62,7 +62,7 @@ class CageFitter {
   }
 
   /// @return whether any vertex near the points had moved.
-  bool takeBack(const std::vector<Eigen::Index>& beyond, const Points& before) {
+  bool undoMoves(const std::vector<Eigen::Index>& beyond, const Points& before) {
     const ClosestPointQuery query(cage_.vertices, cage_.triangles);
     bool any = false;
     for (const Eigen::Index p : beyond) {
@@ -76,8 +76,8 @@ class CageFitter {
 
   Eigen::Vector3d vertex(int v) const { return cage_.vertices.row(v); }
 
-  /// Where the vertex must be for no point below the triangle to pass its plane, which turns about the
-  /// opposite edge: beyond the plane of the edge and the point that is highest as seen from it.
+  /// Where the vertex must be so that all points below the triangle stay behind its plane, which turns about
+  /// the opposite edge: beyond the plane through that edge and the steepest point.
   std::optional<HalfSpace> bound(const Corner& corner, const Eigen::Vector3d& x) const {
     const Eigen::Vector3d a = vertex(corner.next), b = vertex(corner.last);
     const Eigen::Vector3d normal = (a - x).cross(b - x).normalized();
@@ -125,12 +125,12 @@ class CageFitter {
     for (const Corner& corner : corners_[static_cast<std::size_t>(v)]) {
       const Eigen::Vector3d a = vertex(corner.next), b = vertex(corner.last);
       const Eigen::Vector3d before = (a - x).cross(b - x), after = (a - moved).cross(b - moved);
-      if (before.dot(after) < kLeastTurn * before.norm() * after.norm()) return false;
+      if (before.dot(after) < kMinTurnCosine * before.norm() * after.norm()) return false;
       const auto height = [&](const Eigen::Vector3d& tip, const Eigen::Vector3d& normal) {
         return normal.norm() /
                std::max({(a - tip).squaredNorm(), (b - tip).squaredNorm(), (b - a).squaredNorm()});
       };
-      if (height(moved, after) < std::min(kLeastHeight, height(x, before))) return false;
+      if (height(moved, after) < std::min(kMinHeight, height(x, before))) return false;
     }
     return true;
   }
@@ -168,7 +168,7 @@ TriangleMesh fitCage(const TriangleMesh& cage, const Points& points) {
     const double gain = 1.0 - enclosedVolume(next.vertices, next.triangles) /
                                   enclosedVolume(fitted.vertices, fitted.triangles);
     fitted = next;
-    if (gain < kLeastGain) break;
+    if (gain < kMinGain) break;
   }
   return fitted;
 }

@@ -6,12 +6,12 @@
 
 namespace softbody {
 
-/// Draws a cage in towards points that it encloses, as far as it keeps enclosing them: each vertex goes where
-/// no point passes the planes of its triangles, as near to the points below it as that allows.
-/// @param cage closed, outward, without self-intersection; so is the result, with the same triangles.
+/// Shrinks a cage around the points that it encloses. Each vertex moves as close to the points below it as
+/// possible, while all points stay behind the planes of its triangles.
+/// @param cage closed, outward, without self-intersection. The result is too; only its vertices have moved.
 TriangleMesh fitCage(const TriangleMesh& cage, const Points& points);
 
-/// The rows of the points that are outside of a closed mesh, by its winding number.
+/// The indices of the points outside of a closed mesh, by its winding number.
 std::vector<Eigen::Index> pointsBeyond(const Points& points, const TriangleMesh& mesh);
 
 }  // namespace softbody

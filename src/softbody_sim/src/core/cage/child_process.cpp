@@ -31,8 +31,8 @@ std::string readAll(int file) {
   }
 }
 
-/// Never returns; none of the exit handlers of the parent run.
-[[noreturn]] void serve(const std::function<std::string()>& work, int file) {
+/// Never returns. Skips the exit handlers of the parent.
+[[noreturn]] void runAndExit(const std::function<std::string()>& work, int file) {
   std::signal(SIGSEGV, SIG_DFL);
   try {
     _exit(writeAll(file, work()) ? 0 : 1);
@@ -45,16 +45,16 @@ std::string readAll(int file) {
 
 std::optional<std::string> outputOfChild(const std::function<std::string()>& work) {
   int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("no pipe to a further process");
+  if (pipe(ends) != 0) throw std::runtime_error("cannot open a pipe to a child process");
   const pid_t child = fork();
   if (child < 0) {
     close(ends[0]);
     close(ends[1]);
-    throw std::runtime_error("no further process can be started");
+    throw std::runtime_error("cannot start a child process");
   }
   if (child == 0) {
     close(ends[0]);
-    serve(work, ends[1]);
+    runAndExit(work, ends[1]);
   }
   close(ends[1]);
   const std::string bytes = readAll(ends[0]);

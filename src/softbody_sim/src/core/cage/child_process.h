@@ -6,9 +6,9 @@
 
 namespace softbody {
 
-/// Runs work of a library that may crash in a forked process of its own, so that a crash is an answer.
-/// @return what the work returned, or nothing if it threw or crashed.
-/// @throw std::runtime_error if there can be no further process.
+/// Runs work in a forked process, for libraries that may crash: the caller survives.
+/// @return the result, or nothing if the work threw or crashed.
+/// @throw std::runtime_error if no process can be started.
 std::optional<std::string> outputOfChild(const std::function<std::string()>& work);
 
 }  // namespace softbody

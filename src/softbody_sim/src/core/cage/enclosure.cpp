@@ -10,7 +10,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kTouching = 1e-9;  ///< of the size: as good as inside
+constexpr double kTouching = 1e-9;  ///< distance over the size that counts as inside
 
 }  // namespace
 

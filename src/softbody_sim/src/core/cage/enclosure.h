@@ -18,7 +18,7 @@ struct OutsidePoint {
 /// @param boundary of the tets.
 std::vector<OutsidePoint> pointsOutside(const Points& points, const TetMesh& mesh, const Triangles& boundary);
 
-/// Largest distance, 0 for none [m].
+/// Largest distance, 0 if the list is empty [m].
 double largestDistance(const std::vector<OutsidePoint>& outside);
 
 }  // namespace softbody

@@ -19,9 +19,9 @@ namespace simplification = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
-constexpr double kMargin = 1e-6;       ///< of the size: how far outside of the replaced triangles
-constexpr double kLeastTurn = 0.2;     ///< cosine between a triangle's normals before and after
-constexpr double kLeastHeight = 0.15;  ///< of a triangle's longest edge
+constexpr double kMargin = 1e-6;        ///< distance from the replaced triangles, over the size
+constexpr double kMinTurnCosine = 0.2;  ///< cosine of the angle by which a collapse may turn a triangle
+constexpr double kMinHeight = 0.15;     ///< height of a triangle over its longest edge
 
 Eigen::Vector3d toVector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -65,8 +65,8 @@ struct Placement {
                                               (p[0] - p[2]).squaredNorm()});
       };
       const Eigen::Vector3d n0 = normalOf(before).normalized(), n1 = normalOf(after).normalized();
-      if (n0.dot(n1) < kLeastTurn) return false;
-      if (shapeOf(after) < std::min(kLeastHeight, shapeOf(before))) return false;
+      if (n0.dot(n1) < kMinTurnCosine) return false;
+      if (shapeOf(after) < std::min(kMinHeight, shapeOf(before))) return false;
     }
     return true;
   }

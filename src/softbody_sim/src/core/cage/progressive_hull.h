@@ -4,11 +4,11 @@
 
 namespace softbody {
 
-/// A coarse, near uniform closed mesh around a fine one: edges collapse, shortest first, and each new vertex
-/// lies outside of all triangles that it replaces (progressive hulls, Sander et al. 2000), so that the volume
-/// only grows. Collapses that would fold the surface or leave needles are not made.
-/// @param mesh closed 2-manifold, outward. @param vertices to stop at; more are left where no collapse keeps
-/// enclosing.
+/// A coarse, nearly uniform closed mesh around a fine one (progressive hulls, Sander et al. 2000). Edges
+/// collapse, shortest first. Each new vertex lies outside of all triangles that it replaces, so the volume
+/// only grows. Collapses that would fold the surface or make needles are skipped.
+/// @param mesh closed 2-manifold, outward. @param vertices wanted; more are left if no collapse can keep the
+/// mesh enclosed.
 TriangleMesh progressiveHull(const TriangleMesh& mesh, int vertices);
 
 }  // namespace softbody

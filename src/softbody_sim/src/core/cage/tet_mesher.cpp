@@ -17,11 +17,11 @@
 namespace softbody {
 namespace {
 
-constexpr double kRadiusEdgeRatio = 1.4;  ///< of a tet, bound that refinement aims at
-constexpr double kSmallestAngle = 15.0;   ///< dihedral angle that refinement aims at [degrees]
+constexpr double kRadiusEdgeRatio = 1.4;  ///< bound for the refinement
+constexpr double kSmallestAngle = 15.0;   ///< dihedral angle, bound for the refinement [degrees]
 constexpr double kLargestVolume = 2.0;    ///< of a tet, in regular tets of the surface's edge length
 
-/// TetGen frees with delete[] what it is given.
+/// TetGen frees its input with delete[].
 void setFacet(const Eigen::RowVector3i& corners, tetgenio::facet* facet) {
   tetgenio::init(facet);
   facet->numberofpolygons = 1;
@@ -74,7 +74,7 @@ TetMesh fromBytes(const std::string& bytes) {
   return mesh;
 }
 
-/// What TetGen makes of the surface. @throw int as TetGen does.
+/// Runs TetGen. @throw int as TetGen does.
 TetMesh fill(const TriangleMesh& surface, double largest_volume, bool keep_surface) {
   tetgenio input, output;
   setSurface(surface, &input);
@@ -88,12 +88,12 @@ TetMesh fill(const TriangleMesh& surface, double largest_volume, bool keep_surfa
 
 TetMesh meshInside(const TriangleMesh& surface, double edge_length_m, bool keep_surface) {
   const double volume = kLargestVolume * std::pow(edge_length_m, 3) / (6.0 * std::sqrt(2.0));
-  // TetGen 1.5 crashes on its way out when it gives up.
+  // TetGen 1.5 can crash when it fails.
   const std::optional<std::string> bytes =
       outputOfChild([&] { return toBytes(fill(surface, volume, keep_surface)); });
   if (!bytes) throw std::runtime_error("TetGen cannot fill the surface; does it touch or cross itself?");
   TetMesh mesh = fromBytes(*bytes);
-  if (mesh.tets.rows() == 0) throw std::runtime_error("no tet fits into the surface");
+  if (mesh.tets.rows() == 0) throw std::runtime_error("TetGen made no tet inside the surface");
   return mesh;
 }
 

@@ -21,24 +21,24 @@
 namespace softbody {
 namespace {
 
-constexpr int kFewestVertices = 100;  ///< a given box of eight corners could not bend
+constexpr int kFewestVertices = 100;  ///< a box of eight corners could not bend
 constexpr int kFewestByShape = 180, kMostByShape = 400;
 constexpr int kFittingRounds = 3;
-constexpr double kEdgePerThickness = 0.8;  ///< the paper's sponge: 20 mm at a thickness of 25 mm
+constexpr double kEdgePerThickness = 0.8;  ///< as the sponge of Kang et al. 2022: 20 mm edges, 25 mm thick
 
 struct Wrapping {
   double alpha;   ///< gaps narrower than this are closed [edge lengths]
   double offset;  ///< from the mesh to its wrap [edge lengths]
 };
-/// A tight cage first; a finer wrap, or one further out, where that cannot be filled.
+/// In the order of attempts: a tight cage first, then finer wraps and larger offsets.
 constexpr Wrapping kWrappings[] = {{0.5, 0.03}, {0.33, 0.03}, {0.33, 0.1}, {0.5, 0.3}};
 
-/// Edge length at which near regular triangles, two per vertex, cover the area.
+/// Edge length of nearly regular triangles, two per vertex, that cover the area.
 double edgeLengthFor(double area, int vertices) {
   return std::sqrt(area / (std::sqrt(3.0) / 2.0 * vertices));
 }
 
-/// As many vertices as make edges a little shorter than the body's mean thickness 2 V / A.
+/// The number of vertices for edges slightly shorter than the body's mean thickness 2 V / A.
 int verticesByShape(const TriangleMesh& visual) {
   const double area = areaOf(visual);
   const double coarse = edgeLengthFor(area, kFewestByShape);
@@ -54,8 +54,8 @@ Points stacked(const Points& a, const Points& b) {
   return both;
 }
 
-/// A cage drawn in around the wrap's vertices, which are many but fewer than the visual ones; these join
-/// where they would be left outside, in the end all of them.
+/// Fits the cage around the vertices of the wrap first, which are fewer than the visual ones. Visual vertices
+/// that are still outside are added, in the last round all of them.
 TriangleMesh fitAround(const TriangleMesh& hull, const TriangleMesh& wrap, const Points& visual) {
   Points enclosed = wrap.vertices;
   for (int round = 0; round < kFittingRounds; ++round) {
@@ -82,8 +82,8 @@ TetMesh wrapAndFill(const TriangleMesh& visual, int cage_vertices, const Wrappin
   if (boundary.rows() != cage.triangles.rows()) throw std::runtime_error("the tets do not fill the cage");
   const auto outside = pointsOutside(visual.vertices, mesh, boundary);
   if (!outside.empty()) {
-    throw std::runtime_error(fmt::format("{} of {} vertices would be outside of the cage", outside.size(),
-                                         visual.vertices.rows()));
+    throw std::runtime_error(
+        fmt::format("{} of {} vertices are outside of the cage", outside.size(), visual.vertices.rows()));
   }
   progress(1.0);
   return mesh;

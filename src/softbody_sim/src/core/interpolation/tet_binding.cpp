@@ -14,16 +14,16 @@ namespace softbody {
 TetBinding::TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places)
     : volume_(volume), places_(std::move(places)) {}
 
-/// Per piece the integral of |F^T F - I|^2, but for a factor.
+/// Per piece the integral of |F^T F - I|^2, up to a constant factor.
 std::vector<double> TetBinding::squaredStrains(const Points& vertices) const {
   std::vector<double> strains;
   for (Eigen::Index t = 0; t < volume_.tets.rows(); ++t) {
-    const std::size_t body = volume_.bodies[static_cast<std::size_t>(t)];
-    if (body >= strains.size()) strains.resize(body + 1, 0.0);
+    const std::size_t piece = volume_.bodies[static_cast<std::size_t>(t)];
+    if (piece >= strains.size()) strains.resize(piece + 1, 0.0);
     const Eigen::RowVector4i tet = volume_.tets.row(t);
     const Eigen::Matrix3d rest = edgesOf(volume_.rest_vertices, tet);
     const Eigen::Matrix3d F = edgesOf(vertices, tet) * rest.inverse();
-    strains[body] += rest.determinant() * (F.transpose() * F - Eigen::Matrix3d::Identity()).squaredNorm();
+    strains[piece] += rest.determinant() * (F.transpose() * F - Eigen::Matrix3d::Identity()).squaredNorm();
   }
   return strains;
 }
@@ -36,13 +36,13 @@ std::vector<double> TetBinding::correctionScales(const Points& vertices) const {
   return scales;
 }
 
-/// Corrections in one state of the volume.
-class TetBinding::Meeting {
+/// Computes corrections in one state of the volume.
+class TetBinding::Corrector {
  public:
-  Meeting(const TetTopology& volume, const Points& vertices)
+  Corrector(const TetTopology& volume, const Points& vertices)
       : volume_(volume), vertices_(vertices), frames_(static_cast<std::size_t>(volume.tets.rows())) {}
 
-  /// Moves a point that follows `tet` by `offset`.
+  /// The correction that moves a point of `tet` by `offset`.
   Correction correction(int tet, const Eigen::Vector3d& offset) {
     Candidate best = candidate(tet, offset);
     if (best.reach <= kLongestReach * offset.norm()) return best.correction;
@@ -54,7 +54,7 @@ class TetBinding::Meeting {
   }
 
  private:
-  static constexpr double kLongestReach = 6.0;  // in offsets; about 1 in a well-shaped tet
+  static constexpr double kLongestReach = 6.0;  // over the offset; about 1 in a well-shaped tet
 
   struct Frame {
     Eigen::PartialPivLU<Eigen::Matrix3d> edges;
@@ -62,7 +62,7 @@ class TetBinding::Meeting {
   };
   struct Candidate {
     Correction correction;
-    double reach;  ///< how far it might move its point once the tet has another shape [m]
+    double reach;  ///< how far the correction can move its point when the tet deforms [m]
   };
 
   Frame frameOf(int tet) const {
@@ -89,7 +89,7 @@ class TetBinding::Meeting {
     return candidate;
   }
 
-  /// The tets that share a vertex with one; they are of its piece.
+  /// The tets that share a vertex with a tet; they belong to the same piece.
   const std::vector<int>& neighboursOf(int tet) {
     if (tets_at_.empty()) {
       tets_at_.resize(static_cast<std::size_t>(volume_.rest_vertices.rows()));
@@ -108,19 +108,19 @@ class TetBinding::Meeting {
 
   const TetTopology& volume_;
   const Points& vertices_;
-  std::vector<std::optional<Frame>> frames_;    ///< per tet, once it is asked for
-  std::vector<std::vector<int>> tets_at_;       ///< per vertex, once a flat tet has come
+  std::vector<std::optional<Frame>> frames_;    ///< per tet, computed at first use
+  std::vector<std::vector<int>> tets_at_;       ///< per vertex, computed for the first flat tet
   std::map<int, std::vector<int>> neighbours_;  ///< of flat tets
 };
 
-void TetBinding::meet(const Points& vertices, const Points& positions) {
+void TetBinding::correctTo(const Points& vertices, const Points& positions) {
   strains_ = squaredStrains(vertices);
   corrections_.resize(places_.size());
-  Meeting meeting(volume_, vertices);
+  Corrector corrector(volume_, vertices);
   for (std::size_t p = 0; p < places_.size(); ++p) {
     const Eigen::Vector3d missing = positions.row(static_cast<Eigen::Index>(p)).transpose() -
                                     positionOf(places_[p], vertices, volume_.tets);
-    corrections_[p] = meeting.correction(places_[p].tet, missing);
+    corrections_[p] = corrector.correction(places_[p].tet, missing);
   }
 }
 

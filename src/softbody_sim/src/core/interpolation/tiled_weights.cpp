@@ -68,7 +68,8 @@ void TiledWeights::append(const Eigen::Ref<const Eigen::RowVectorXd>& row) {
 }
 
 void TiledWeights::multiply(const Values& values, Products* products) const {
-  if (values.rows() != columns_) throw std::invalid_argument("TiledWeights: one row of values per column");
+  if (values.rows() != columns_)
+    throw std::invalid_argument("TiledWeights: values must have one row per column");
   const Eigen::Index padded = (rows_ + kTileRows - 1) / kTileRows * kTileRows;
   products->resize(padded, 4);
   HWY_DYNAMIC_DISPATCH(multiplyTiles)(tiles_.data(), padded, columns_, values.data(), products->data());

@@ -19,7 +19,7 @@ std::vector<int> verticesOf(const Triangles& triangles) {
   return vertices;
 }
 
-/// The surface over its own vertices alone: those inside the volume would only be columns of zeros.
+/// The surface without the inner vertices of the volume, whose weights are all 0.
 MeanValueCage compactCage(const TetTopology& volume, const std::vector<int>& surface_vertices) {
   Points vertices(static_cast<Eigen::Index>(surface_vertices.size()), 3);
   std::vector<int> numbers(static_cast<std::size_t>(volume.rest_vertices.rows()), -1);
@@ -69,7 +69,8 @@ void VisualSurface::setRevision(std::uint32_t revision) {
 }
 
 int VisualSurface::outsideCount() const {
-  constexpr double kRounding = 1e-5;  // of a tet's height; single-precision coordinates are off by less
+  constexpr double kRounding =
+      1e-5;  // over the height of a tet; above the error of single-precision coordinates
   return static_cast<int>(std::count_if(by_tet_.begin(), by_tet_.end(), [this](int v) {
     return binding_.places()[static_cast<std::size_t>(v)].barycentric.minCoeff() < -kRounding;
   }));
@@ -97,7 +98,7 @@ MeshState VisualSurface::apply(const MeshState& volume) const {
 
 void VisualSurface::applyInside(const MeshState& volume, MeshState* state) const {
   if (inside_.empty()) return;
-  // Relative to the centre: single precision then costs nothing that shows, wherever the body is.
+  // Relative to the centre, single precision is exact enough wherever the body is.
   const Eigen::RowVector3d center = volume.vertices.colwise().mean();
   TiledWeights::Values values(inside_weights_->columns(), 4);
   for (std::size_t k = 0; k < surface_vertices_.size(); ++k) {

@@ -18,7 +18,7 @@ std::size_t firstVertexField(const TextReader& reader, bool version_1) {
   return 3 + static_cast<std::size_t>(tags);
 }
 
-/// Number of elements that are no tets.
+/// @return the number of skipped elements, which are not tets.
 int readElements(TextReader& reader, bool version_1, NumberedVertices* mesh) {
   const int count = reader.count(0);
   int skipped = 0;
@@ -37,8 +37,8 @@ void checkFormat(TextReader& reader) {
   reader.require("the format's version");
   const double version = reader.number(0);
   if (!(version >= 1.0 && version < 3.0))
-    reader.fail(fmt::format("MSH version {}; versions 1 and 2 are read", version));
-  if (reader.integer(1) != 0) reader.fail("a binary MSH file; only ascii is read");
+    reader.fail(fmt::format("MSH version {} is not supported; supported: 1 and 2", version));
+  if (reader.integer(1) != 0) reader.fail("binary MSH files are not supported; save as ascii");
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ TetMesh readMsh(const std::string& path, Warnings* warnings) {
   if (!has_vertices) reader.fail("the file ends without a $Nodes or $NOD section");
   if (!has_elements) reader.fail("the file ends without an $Elements or $ELM section");
   if (skipped > 0)
-    warnings->push_back(fmt::format("{}: {} elements that are no tets were skipped", path, skipped));
+    warnings->push_back(fmt::format("{}: {} elements other than tets were skipped", path, skipped));
   return mesh.mesh();
 }
 

@@ -11,7 +11,7 @@ void NumberedVertices::readVertices(TextReader& reader, int count) {
     reader.require(fmt::format("vertex {} of {}", v + 1, count));
     const int id = reader.integer(0);
     if (!index_of_id_.emplace(id, static_cast<int>(vertices_.size())).second) {
-      reader.fail(fmt::format("vertex {} is there twice", id));
+      reader.fail(fmt::format("two vertices have the id {}", id));
     }
     vertices_.push_back(reader.point(1));
   }
@@ -23,7 +23,7 @@ void NumberedVertices::addTet(const TextReader& reader, std::size_t first_field)
     const int id = reader.integer(first_field + k);
     const auto index = index_of_id_.find(id);
     if (index == index_of_id_.end())
-      reader.fail(fmt::format("a tet names vertex {}, which the file does not have", id));
+      reader.fail(fmt::format("a tet refers to vertex {}, which does not exist", id));
     tet[static_cast<int>(k)] = index->second;
   }
   tets_.push_back(tet);

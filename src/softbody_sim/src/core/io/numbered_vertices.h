@@ -7,7 +7,7 @@
 
 namespace softbody {
 
-/// Vertices under the ids that a file gives them, which need not be consecutive, and the tets that name them.
+/// Vertices by the ids of a file, which need not be consecutive, and tets that refer to those ids.
 class NumberedVertices {
  public:
   /// Reads `count` lines "id x y z". The ids must differ.

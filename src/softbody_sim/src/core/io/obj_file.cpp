@@ -18,7 +18,7 @@ namespace {
 
 struct Corner {
   int vertex = 0;
-  int texture = -1;  ///< -1: none named
+  int texture = -1;  ///< -1: none
 };
 
 struct Face {
@@ -85,7 +85,7 @@ class ObjReader {
     return corner;
   }
 
-  /// From 1 upwards, or from -1 downwards: counted from the end of what has been read so far.
+  /// 1 is the first entry; -1 is the last entry read so far.
   int index(std::string_view digits, std::size_t so_far, std::string_view corner) const {
     int value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -100,13 +100,13 @@ class ObjReader {
   void checkVertices(const Face& face) const {
     for (const Corner& corner : face.corners) {
       if (static_cast<std::size_t>(corner.vertex) >= vertices_.size()) {
-        reader_.failAt(face.line, fmt::format("a face names vertex {}; the file has {}", corner.vertex + 1,
-                                              vertices_.size()));
+        reader_.failAt(face.line, fmt::format("a face refers to vertex {}; the file has {} vertices",
+                                              corner.vertex + 1, vertices_.size()));
       }
     }
   }
 
-  /// Empty with a warning unless every corner has its own.
+  /// Empty, with a warning, if a corner has no texture coordinate.
   Points textureCoordinates(Warnings* warnings) const {
     if (texture_.empty()) return {};
     Points coordinates(static_cast<Eigen::Index>(3 * faces_.size()), 3);

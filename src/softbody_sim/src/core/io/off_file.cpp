@@ -16,7 +16,7 @@ void addFan(const TextReader& reader, int vertex_count, std::vector<Eigen::RowVe
   for (int k = 1; k <= corners; ++k) {
     const int vertex = reader.integer(static_cast<std::size_t>(k));
     if (vertex < 0 || vertex >= vertex_count) {
-      reader.fail(fmt::format("a face names vertex {}; the file has 0 to {}", vertex, vertex_count - 1));
+      reader.fail(fmt::format("a face refers to vertex {}; the file has 0 to {}", vertex, vertex_count - 1));
     }
   }
   for (int k = 3; k <= corners; ++k) {
@@ -30,8 +30,8 @@ void addFan(const TextReader& reader, int vertex_count, std::vector<Eigen::RowVe
 SurfaceFile readOff(const std::string& path) {
   TextReader reader(path);
   reader.require("the word OFF");
-  if (reader.keyword() != "OFF") reader.fail(fmt::format("'{}' where OFF should be", reader.keyword()));
-  // The counts may stand on the line of the keyword.
+  if (reader.keyword() != "OFF") reader.fail(fmt::format("'{}' instead of OFF", reader.keyword()));
+  // The counts may follow the keyword on its line.
   const std::size_t first = reader.fields().size() > 1 ? 1 : 0;
   if (first == 0) reader.require("the counts of vertices and faces");
   const int vertex_count = reader.count(first);

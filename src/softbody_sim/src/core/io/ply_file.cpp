@@ -85,7 +85,7 @@ class PlyReader {
   }
 
   void readHeader() {
-    if (headerLine() != "ply") fail("line 1", "'ply' should stand here");
+    if (headerLine() != "ply") fail("line 1", "the first line must be 'ply'");
     for (std::string line = headerLine(); line != "end_header"; line = headerLine()) readHeaderLine(line);
     if (format_.empty()) fail("header", "no format line");
   }
@@ -112,10 +112,11 @@ class PlyReader {
     } else if (keyword == "element") {
       Element element;
       if (!(words >> element.name >> element.count) || element.count < 0) badHeaderLine(line);
-      // Whatever is counted takes at least a byte: guards against counts without data.
+      // Each element takes at least one byte: guards against counts without data.
       if (static_cast<unsigned long long>(element.count) > text_.size()) {
-        fail(fmt::format("line {}", line_), fmt::format("announces {} of '{}'; the file has {} bytes",
-                                                        element.count, element.name, text_.size()));
+        fail(fmt::format("line {}", line_),
+             fmt::format("announces {} elements '{}', but the file has {} bytes", element.count, element.name,
+                         text_.size()));
       }
       elements_.push_back(element);
     } else if (keyword == "property") {
@@ -189,10 +190,10 @@ class PlyReader {
 
   std::vector<double> readList(const Property& property) {
     const double count = readValue(property.count_type);
-    // An entry in words takes a space and a digit; no more is reserved than the file can hold.
+    // An ascii entry takes a space and a digit: guards against reserving more than the file can hold.
     const double bytes = format_ == "ascii" ? 2.0 : kBytes[static_cast<int>(property.type)];
     if (!(count >= 0.0 && bytes * count <= static_cast<double>(text_.size() - position_))) {
-      fail(where_, fmt::format("a list of {} entries, which the rest of the file cannot hold", count));
+      fail(where_, fmt::format("a list of {} entries does not fit into the rest of the file", count));
     }
     std::vector<double> list;
     list.reserve(static_cast<std::size_t>(count));
@@ -237,7 +238,7 @@ class PlyReader {
       const int largest = triangles_[f].maxCoeff();
       if (static_cast<std::size_t>(largest) < vertices_.size()) continue;
       fail(fmt::format("triangle {}", f),
-           fmt::format("names vertex {}; the file has {}", largest, vertices_.size()));
+           fmt::format("refers to vertex {}; the file has {} vertices", largest, vertices_.size()));
     }
   }
 

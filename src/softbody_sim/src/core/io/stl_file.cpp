@@ -34,7 +34,7 @@ std::uint32_t facetCount(const std::string& bytes) {
   return count;
 }
 
-/// "solid" at the beginning is no proof of ascii: some programs write it into binary headers.
+/// A file may start with "solid" and be binary: some programs write it into binary headers.
 bool isBinary(const std::string& bytes) {
   if (bytes.compare(0, 5, "solid") != 0) return true;
   if (bytes.size() < kHeaderBytes) return false;
@@ -44,14 +44,13 @@ bool isBinary(const std::string& bytes) {
 
 SurfaceFile readBinary(const std::string& path, const std::string& bytes) {
   if (bytes.size() < kHeaderBytes) {
-    throw std::invalid_argument(
-        fmt::format("{}: {} bytes are too short for an STL file", path, bytes.size()));
+    throw std::invalid_argument(fmt::format("{}: {} bytes are too few for an STL file", path, bytes.size()));
   }
   const std::uint32_t count = facetCount(bytes);
   const std::size_t present = (bytes.size() - kHeaderBytes) / kFacetBytes;
   if (present < count) {
     throw std::invalid_argument(
-        fmt::format("{}: announces {} facets and ends after {}", path, count, present));
+        fmt::format("{}: announces {} facets, but ends after {}", path, count, present));
   }
   std::vector<Eigen::RowVector3d> corners;
   for (std::size_t f = 0; f < count; ++f) {
@@ -79,7 +78,7 @@ SurfaceFile readAscii(const std::string& path) {
     ended = reader.keyword() == "endsolid";
   }
   if (!ended) reader.fail("the file ends without endsolid");
-  if (corners.size() % 3 != 0) reader.fail("the last facet has not three vertices");
+  if (corners.size() % 3 != 0) reader.fail("the last facet does not have three vertices");
   return fromCorners(corners);
 }
 

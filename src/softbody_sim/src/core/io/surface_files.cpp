@@ -20,8 +20,8 @@ SurfaceFile readByExtension(const std::string& path, Warnings* warnings) {
   if (extension == "off") return readOff(path);
   if (extension == "ply") return readPly(path);
   if (extension == "stl") return readStl(path);
-  throw std::invalid_argument(
-      fmt::format("{}: '.{}' is no surface mesh; known: .obj, .off, .ply, .stl", path, extension));
+  throw std::invalid_argument(fmt::format(
+      "{}: '.{}' is not a surface mesh format; supported: .obj, .off, .ply, .stl", path, extension));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 namespace softbody {
 namespace {
 
-/// A tet flatter than this share of a regular one with its longest edge has no volume to speak of.
+/// Volume over cubed longest edge, below which a tet counts as flat.
 constexpr double kFlat = 1e-9;
 
 TetMesh readByExtension(const std::string& path, Warnings* warnings) {
@@ -29,8 +29,8 @@ TetMesh readByExtension(const std::string& path, Warnings* warnings) {
   if (extension == "msh") return readMsh(path, warnings);
   if (extension == "veg") return readVeg(path, warnings);
   if (extension == "node" || extension == "ele") return readTetGen(path);
-  throw std::invalid_argument(
-      fmt::format("{}: '.{}' is no tet mesh; known: .vtu, .msh, .node and .ele, .veg", path, extension));
+  throw std::invalid_argument(fmt::format(
+      "{}: '.{}' is not a tet mesh format; supported: .vtu, .msh, .node and .ele, .veg", path, extension));
 }
 
 std::array<int, 4> sortedCorners(const Eigen::RowVector4i& tet) {
@@ -48,7 +48,7 @@ double longestEdge(const Points& vertices, const Eigen::RowVector4i& tet) {
   return longest;
 }
 
-/// Positive tets, each once; those without volume are dropped.
+/// The tets with positive orientation. Flat and repeated ones are dropped.
 std::vector<Eigen::RowVector4i> soundTets(const std::string& path, const TetMesh& mesh, Warnings* warnings) {
   const Eigen::VectorXd volumes = tetVolumes(mesh.vertices, mesh.tets);
   std::vector<Eigen::RowVector4i> kept;
@@ -61,7 +61,7 @@ std::vector<Eigen::RowVector4i> soundTets(const std::string& path, const TetMesh
       if (flat++ == 0) warnings->push_back(fmt::format("{}: tet {} has no volume and was dropped", path, t));
     } else if (!seen.insert(sortedCorners(tet)).second) {
       if (repeated++ == 0)
-        warnings->push_back(fmt::format("{}: tet {} is there twice; once is enough", path, t));
+        warnings->push_back(fmt::format("{}: tet {} is repeated and was dropped", path, t));
     } else {
       if (volumes[t] < 0.0) {
         std::swap(tet[2], tet[3]);
@@ -71,13 +71,13 @@ std::vector<Eigen::RowVector4i> soundTets(const std::string& path, const TetMesh
     }
   }
   if (flat > 1)
-    warnings->push_back(fmt::format("{}: {} tets without volume were dropped in all", path, flat));
+    warnings->push_back(fmt::format("{}: {} tets without volume were dropped in total", path, flat));
   if (repeated > 1)
-    warnings->push_back(fmt::format("{}: {} repeated tets were dropped in all", path, repeated));
-  // A file that has all of them the other way round merely follows the other convention.
+    warnings->push_back(fmt::format("{}: {} repeated tets were dropped in total", path, repeated));
+  // If all tets are negative the file just follows the other convention: no warning.
   if (reordered > 0 && reordered < static_cast<int>(kept.size())) {
-    warnings->push_back(
-        fmt::format("{}: {} of {} tets were inside out and were turned", path, reordered, kept.size()));
+    warnings->push_back(fmt::format("{}: {} of {} tets had negative volume and were reordered", path,
+                                    reordered, kept.size()));
   }
   return kept;
 }
@@ -93,12 +93,12 @@ TetMesh withoutUnusedVertices(const std::string& path, const TetMesh& mesh, Warn
   }
   if (used.size() == index.size()) return mesh;
   warnings->push_back(
-      fmt::format("{}: {} vertices belong to no tet and were dropped", path, index.size() - used.size()));
+      fmt::format("{}: {} vertices without a tet were dropped", path, index.size() - used.size()));
   return {stackRows<Points>(used),
           mesh.tets.unaryExpr([&index](int v) { return index[static_cast<std::size_t>(v)]; })};
 }
 
-/// No triangle may belong to more than two tets.
+/// @throw std::invalid_argument if a face belongs to more than two tets.
 void checkFaces(const std::string& path, const Tets& tets) {
   std::map<std::array<int, 3>, int> uses;
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {

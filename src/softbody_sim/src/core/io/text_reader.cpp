@@ -59,7 +59,7 @@ double parseNumber(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || text.empty()) return kNan;
-  // Numbers too small to hold are out of range too; they are good enough as the nearest one.
+  // from_chars also rejects denormal numbers; strtod gives the nearest double.
   if (error == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
   return std::isfinite(value) && error != std::errc::invalid_argument ? value : kNan;
 }
@@ -92,11 +92,11 @@ bool TextReader::next() {
 }
 
 void TextReader::require(const std::string& expected) {
-  if (!next()) fail("the file ends where " + expected + " should come");
+  if (!next()) fail("the file ends before " + expected);
 }
 
 std::string_view TextReader::field(std::size_t k) const {
-  if (k >= fields_.size()) fail(fmt::format("{} fields where at least {} should be", fields_.size(), k + 1));
+  if (k >= fields_.size()) fail(fmt::format("{} fields instead of at least {}", fields_.size(), k + 1));
   return fields_[k];
 }
 
@@ -119,7 +119,7 @@ int TextReader::integer(std::size_t k) const {
 
 int TextReader::count(std::size_t k) const {
   const int value = integer(k);
-  // Whatever is counted takes at least two characters.
+  // Each entry takes at least two characters.
   const std::size_t most = (text_.size() - position_ + 1) / 2;
   if (value < 0 || static_cast<std::size_t>(value) > most) {
     fail(fmt::format("announces {} entries; the rest of the file cannot hold them", value));

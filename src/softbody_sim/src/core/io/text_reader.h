@@ -14,19 +14,19 @@ std::string readFile(const std::string& path);
 /// The extension of a path in lower case, without its dot.
 std::string extensionOf(const std::string& path);
 
-/// A finite number, or NaN if the text is none.
+/// The number in a text, or NaN if the text is not a finite number.
 double parseNumber(std::string_view text);
 
 /// Reads a text file line by line; errors carry "file:line: ".
 class TextReader {
  public:
-  /// Comments run from '#' to the end of the line; a line that ends with '\' goes on with the next.
+  /// Comments run from '#' to the end of the line. A '\' at the end of a line joins it with the next line.
   /// @throw std::invalid_argument if the file cannot be read.
   explicit TextReader(std::string path);
 
   /// Goes to the next line that has fields. False at the end of the file.
   bool next();
-  /// As next(), but the end of the file is an error that says what was expected.
+  /// Like next(), but throws at the end of the file. @param expected named in the error.
   void require(const std::string& expected);
 
   const std::vector<std::string_view>& fields() const { return fields_; }
@@ -34,10 +34,10 @@ class TextReader {
   int line() const { return line_; }
   const std::string& path() const { return path_; }
 
-  /// The k-th field. @throw std::invalid_argument if it is missing or not what is asked for.
+  /// The k-th field. @throw std::invalid_argument if it is missing or of another type.
   double number(std::size_t k) const;
   int integer(std::size_t k) const;
-  /// A count of things still to come: at least 0 and not more than the rest of the file could hold.
+  /// A number of entries that follow: at least 0, at most what the rest of the file can hold.
   int count(std::size_t k) const;
   Eigen::RowVector3d point(std::size_t first_field) const;
 

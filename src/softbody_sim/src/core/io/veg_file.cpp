@@ -15,7 +15,7 @@ void readVertices(TextReader& reader, NumberedVertices* mesh) {
 void readTets(TextReader& reader, NumberedVertices* mesh) {
   reader.require("the kind of elements");
   if (reader.keyword() != "TET" && reader.keyword() != "TETS") {
-    reader.fail(fmt::format("elements of kind {}; only TET is read", reader.keyword()));
+    reader.fail(fmt::format("elements of kind {}; only TET is supported", reader.keyword()));
   }
   reader.require("the number of elements");
   const int count = reader.count(0);
@@ -33,7 +33,7 @@ TetMesh readVeg(const std::string& path, Warnings* warnings) {
   bool has_elements = false, has_material = false;
   while (reader.next()) {
     if (reader.keyword() == "*INCLUDE")
-      reader.fail("*INCLUDE is not followed; put the sections into one file");
+      reader.fail("*INCLUDE is not supported; put the sections into one file");
     if (reader.keyword() == "*VERTICES") readVertices(reader, &mesh);
     if (reader.keyword() == "*ELEMENTS") {
       readTets(reader, &mesh);
@@ -42,8 +42,7 @@ TetMesh readVeg(const std::string& path, Warnings* warnings) {
     has_material = has_material || reader.keyword() == "*MATERIAL";
   }
   if (!has_elements) reader.fail("the file ends without an *ELEMENTS section");
-  if (has_material)
-    warnings->push_back(path + ": its *MATERIAL is ignored; the object YAML gives the material");
+  if (has_material) warnings->push_back(path + ": *MATERIAL is ignored; the object YAML gives the material");
   return mesh.mesh();
 }
 

@@ -23,7 +23,7 @@ class VtuReader {
   TetMesh read() {
     const pt::ptree file = parse();
     const auto grid = file.get_child_optional("VTKFile.UnstructuredGrid");
-    if (!grid) fail("no <UnstructuredGrid>; only unstructured VTU files are read");
+    if (!grid) fail("no <UnstructuredGrid>; only unstructured grids are supported");
     int pieces = 0;
     for (const auto& [name, piece] : *grid) {
       if (name == "Piece") {
@@ -33,9 +33,8 @@ class VtuReader {
     }
     if (pieces == 0) fail("no <Piece>");
     if (skipped_ > 0) {
-      warnings_->push_back(
-          fmt::format("{}: {} cells that are no tets (the first of VTK type {}) were skipped", path_,
-                      skipped_, first_skipped_type_));
+      warnings_->push_back(fmt::format("{}: {} cells other than tets (the first of VTK type {}) were skipped",
+                                       path_, skipped_, first_skipped_type_));
     }
     return {stackRows<Points>(vertices_), stackRows<Tets>(tets_)};
   }
@@ -81,7 +80,7 @@ class VtuReader {
     double begin = 0.0;
     for (std::size_t c = 0; c < types.size(); ++c) {
       if (!(offsets[c] >= begin && offsets[c] <= static_cast<double>(connectivity.size()))) {
-        fail(fmt::format("cell {}: offset {} does not lie between {} and {}", c, offsets[c], begin,
+        fail(fmt::format("cell {}: offset {} is not between {} and {}", c, offsets[c], begin,
                          connectivity.size()));
       }
       addCell(c, types[c], connectivity, begin, offsets[c], first_vertex);
@@ -101,7 +100,7 @@ class VtuReader {
       const double vertex = connectivity[static_cast<std::size_t>(begin) + static_cast<std::size_t>(k)];
       const double count = static_cast<double>(vertices_.size()) - first_vertex;
       if (!(vertex >= 0.0 && vertex < count && vertex == std::floor(vertex))) {
-        fail(fmt::format("cell {}: names point {}; there are {}", cell, vertex, count));
+        fail(fmt::format("cell {}: refers to point {}; there are {}", cell, vertex, count));
       }
       tet[k] = first_vertex + static_cast<int>(vertex);
     }
@@ -118,7 +117,7 @@ class VtuReader {
       if (!name.empty() && array.get<std::string>("<xmlattr>.Name", "") != name) continue;
       const std::string label = fmt::format("<{}> {}", section, name);
       const auto format = array.get<std::string>("<xmlattr>.format", "ascii");
-      if (format != "ascii") fail(fmt::format("{}: format is '{}'; only ascii is read", label, format));
+      if (format != "ascii") fail(fmt::format("{}: format is '{}'; only ascii is supported", label, format));
       return parseNumbers(array.data(), label);
     }
     fail(fmt::format("no DataArray {} in <{}>", name, section));

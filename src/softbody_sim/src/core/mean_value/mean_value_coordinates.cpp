@@ -35,7 +35,7 @@ class CageBuilder {
       const int a = corners[k], b = corners[(k + 1) % 3];
       if (a < 0 || a >= mesh_.vertices.rows()) {
         throw std::invalid_argument(
-            fmt::format("triangle {} names vertex {} of {}", f, a, mesh_.vertices.rows()));
+            fmt::format("triangle {} refers to vertex {}; there are {}", f, a, mesh_.vertices.rows()));
       }
       face.corners[k] = a;
       face.edges[k] = edgeNumber(a, b);
@@ -57,7 +57,7 @@ class CageBuilder {
 
   CageMesh mesh_;
   std::map<std::pair<int, int>, int> numbers_;
-  std::vector<int> balance_;  ///< uses forwards minus uses backwards
+  std::vector<int> balance_;  ///< forward minus backward uses of each edge
 };
 
 /// Barycentric coordinates of a point on a face: the areas of the triangles that it spans with the edges.

@@ -19,11 +19,12 @@ using Vector = hn::Vec<Lanes>;
 constexpr Lanes kLanes;
 constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kOnVertex = 1e-10;      ///< distance [size]
-constexpr double kNearPlane = 1e-4;      ///< determinant below which a face is looked at again
-constexpr double kOnPlane = 1e-12;       ///< determinant without a meaning
+constexpr double kNearPlane = 1e-4;      ///< determinant below which a face may contain the point
+constexpr double kOnPlane = 1e-12;       ///< determinant that is only rounding
 constexpr double kMissingAngle = 4e-12;  ///< the angles around a point on a face sum to 2 pi
 
-/// Even and odd powers apart: half as long a chain of dependent operations as Horner's. Highest power first.
+/// Even and odd powers separately: the chain of dependent operations is half as long as in Horner's scheme.
+/// Highest power first.
 template <std::size_t kCount>
 Vector polynomial(const double (&coefficients)[kCount], Vector z) {
   static_assert(kCount % 2 == 1);
@@ -54,7 +55,8 @@ Vector arctangentRatio(Vector z) {
 }
 
 /// Half the angle between two unit vectors over the angle's sine.
-/// tan(angle / 2) = sine / (1 + cosine); of an obtuse angle the supplement is taken, so that it is at most 1.
+/// tan(angle / 2) = sine / (1 + cosine); for an obtuse angle the supplement is used, so that the tangent is
+/// at most 1.
 Vector halfAngleOverSine(Vector squared_sine, Vector cosine) {
   const Vector q = hn::Div(hn::Set(kLanes, 1.0), hn::Add(hn::Set(kLanes, 1.0), hn::Abs(cosine)));
   const Vector acute = hn::Mul(q, arctangentRatio(hn::Mul(squared_sine, hn::Mul(q, q))));
@@ -65,17 +67,17 @@ Vector halfAngleOverSine(Vector squared_sine, Vector cosine) {
   return hn::IfThenElse(is_obtuse, obtuse, acute);
 }
 
-/// Turns of a product of complex numbers around 0, without an arctangent: a turn is complete where two
-/// factors of like sign meet on the other side. A factor 0, of a point on an edge, leaves no meaning.
+/// Winding of a product of complex numbers around 0, without an arctangent: it changes when the imaginary
+/// part changes its sign. Undefined if a factor is 0, for a point on an edge.
 class TurnCounter {
  public:
-  // Not left to the compiler, which would make it for the baseline's registers.
+  // Explicit: the compiler would generate the default constructor for the baseline target.
   TurnCounter() : real_(hn::Set(kLanes, 1.0)), imaginary_(hn::Zero(kLanes)), turns_(hn::Zero(Integers())) {}
 
   void multiply(Vector real, Vector imaginary) {
     const Vector next_real = hn::NegMulAdd(imaginary_, imaginary, hn::Mul(real_, real));
     const Vector next = hn::MulAdd(imaginary_, real, hn::Mul(real_, imaginary));
-    // Of these only the sign bits count.
+    // Only the sign bits of these are used.
     const Vector up = hn::AndNot(hn::Or(imaginary_, imaginary), next);
     const Vector down = hn::AndNot(next, hn::And(imaginary_, imaginary));
     turns_ = hn::Sub(hn::Add(turns_, signBit(up)), signBit(down));
@@ -127,13 +129,13 @@ class Batch {
   }
 
   void store(int count, double* weights, int* turns, CageContact* contacts) {
-    HWY_ALIGN double told[3][HWY_MAX_BYTES / sizeof(double)];
-    hn::Store(turns_, kLanes, told[0]);
-    hn::Store(on_vertex_, kLanes, told[1]);
-    hn::Store(on_face_, kLanes, told[2]);
+    HWY_ALIGN double lanes[3][HWY_MAX_BYTES / sizeof(double)];
+    hn::Store(turns_, kLanes, lanes[0]);
+    hn::Store(on_vertex_, kLanes, lanes[1]);
+    hn::Store(on_face_, kLanes, lanes[2]);
     for (int p = 0; p < count; ++p) {
-      turns[p] = static_cast<int>(told[0][p]);
-      contacts[p] = {static_cast<int>(told[1][p]), static_cast<int>(told[2][p])};
+      turns[p] = static_cast<int>(lanes[0][p]);
+      contacts[p] = {static_cast<int>(lanes[1][p]), static_cast<int>(lanes[2][p])};
     }
     normalizeWeights();
     const Eigen::Index columns = cage_.vertices.rows();
@@ -199,7 +201,8 @@ class Batch {
     addWeights(face, edges, inverse);
   }
 
-  /// The triangle's mean vector m = sum theta/2 n over its edges is also sum w_k (p_k - x); take it apart.
+  /// The mean vector of the triangle, m = sum theta/2 n over its edges, equals sum w_k (p_k - x): solve for
+  /// w_k.
   void addWeights(const CageMesh::Face& face, const double* const (&edges)[3], Vector inverse_determinant) {
     Vector x = hn::Zero(kLanes), y = x, z = x, sign[3];
     for (int k = 0; k < 3; ++k) {
@@ -218,7 +221,7 @@ class Batch {
     }
   }
 
-  /// The angles at a point on the face sum to 2 pi; they fall short of it quadratically with the distance.
+  /// The angles at a point on the face sum to 2 pi; the deficit grows with the squared distance.
   void noteContact(int f, const double* const (&edges)[3], Vector determinant) {
     Vector missing = hn::Set(kLanes, 2.0 * kHalfPi);
     for (const double* e : edges) {

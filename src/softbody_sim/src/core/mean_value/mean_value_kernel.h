@@ -6,7 +6,7 @@
 
 namespace softbody {
 
-/// The edges and faces of a closed triangle mesh, as the kernel goes through them.
+/// The edges and faces of a closed triangle mesh, in the order of the kernel.
 struct CageMesh {
   struct Edge {
     int from, to;
@@ -23,15 +23,15 @@ struct CageMesh {
   std::vector<Face> faces;
 };
 
-/// What a point's weights are made from where the general formula does not hold.
+/// A point on the cage, for which the general formula does not hold.
 struct CageContact {
   int vertex = -1;  ///< the point is on it
   int face = -1;    ///< the point is on it
 };
 
-/// Mean value coordinates of many points, as many at once as a vector register holds (Highway, chosen at run
+/// Mean value coordinates of many points. A SIMD vector holds one point per lane (Highway, dispatched at run
 /// time).
-/// @param weights #P by #C, row-major, overwritten; rows sum to 1. Meaningless where a contact is told.
+/// @param weights #P by #C, row-major, overwritten; rows sum to 1. Undefined for points with a contact.
 /// @param turns #P, the cage's winding number around each point. @param contacts #P.
 void meanValueKernel(const CageMesh& cage, const double* points, int count, double* weights, int* turns,
                      CageContact* contacts);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// @throw std::runtime_error if there is no place for a cache.
+/// @throw std::runtime_error if no environment variable names a folder.
 fs::path cacheFolder() {
   const char* cache_home = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
@@ -26,31 +26,31 @@ fs::path cacheFolder() {
   throw std::runtime_error("neither XDG_CACHE_HOME nor HOME is set");
 }
 
-/// Where a mesh is kept; nothing, with a warning, if there can be no cache.
+/// The cache file of a mesh; nothing, with a warning, if there is no usable cache.
 std::optional<fs::path> cacheFile(const std::string& name, Warnings* warnings) {
   try {
     const fs::path folder = cacheFolder();
     fs::create_directories(folder);
     return folder / (name + ".vtu");
   } catch (const std::runtime_error& error) {
-    warnings->push_back(fmt::format("prepared models are not kept: {}", error.what()));
+    warnings->push_back(fmt::format("there is no model cache: {}", error.what()));
     return std::nullopt;
   }
 }
 
-std::optional<TetMesh> readKept(const fs::path& file, Warnings* warnings) {
+std::optional<TetMesh> readCached(const fs::path& file, Warnings* warnings) {
   if (!fs::exists(file)) return std::nullopt;
   try {
     Warnings ignored;
     return readTetFile(file.string(), &ignored);
   } catch (const std::invalid_argument& error) {
-    warnings->push_back(fmt::format("a kept mesh is damaged and is made anew: {}", error.what()));
+    warnings->push_back(fmt::format("a cached mesh is damaged and is made again: {}", error.what()));
     return std::nullopt;
   }
 }
 
-/// Renamed into place when complete, so that no reader ever sees half a file.
-void keep(const fs::path& file, const TetMesh& mesh, Warnings* warnings) {
+/// Written under another name and renamed, so that no reader sees an incomplete file.
+void writeCached(const fs::path& file, const TetMesh& mesh, Warnings* warnings) {
   const fs::path temporary = fmt::format("{}.{}", file.string(), getpid());
   try {
     writeVtu(temporary.string(), mesh);
@@ -58,7 +58,7 @@ void keep(const fs::path& file, const TetMesh& mesh, Warnings* warnings) {
   } catch (const std::runtime_error& error) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    warnings->push_back(fmt::format("the prepared model is not kept: {}", error.what()));
+    warnings->push_back(fmt::format("the prepared model is not cached: {}", error.what()));
   }
 }
 
@@ -71,10 +71,10 @@ std::string contentName(const std::string& content) {
 TetMesh cachedTetMesh(const std::string& name, const std::function<TetMesh()>& make, Warnings* warnings) {
   const std::optional<fs::path> file = cacheFile(name, warnings);
   if (file) {
-    if (std::optional<TetMesh> kept = readKept(*file, warnings)) return *kept;
+    if (std::optional<TetMesh> cached = readCached(*file, warnings)) return *cached;
   }
   TetMesh made = make();
-  if (file) keep(*file, made, warnings);
+  if (file) writeCached(*file, made, warnings);
   return made;
 }
 

@@ -8,11 +8,11 @@
 
 namespace softbody {
 
-/// A name for a content: equal contents have equal names.
+/// A hash of a content, as a file name.
 std::string contentName(const std::string& content);
 
-/// The tet mesh kept under this name in $XDG_CACHE_HOME/softbody or ~/.cache/softbody; made and kept if there
-/// is none. Without a usable cache it is made every time, with a warning.
+/// The tet mesh of this name in $XDG_CACHE_HOME/softbody or ~/.cache/softbody. A missing one is made and
+/// stored. Without a usable cache it is made every time, with a warning.
 TetMesh cachedTetMesh(const std::string& name, const std::function<TetMesh()>& make, Warnings* warnings);
 
 }  // namespace softbody

@@ -20,7 +20,7 @@
 namespace softbody {
 namespace {
 
-/// Changes whenever the same inputs give another mesh, so that older ones in the cache are left alone.
+/// To be changed with the algorithm: meshes in the cache from older versions are then ignored.
 constexpr const char* kMakerVersion = "softbody volume 2";
 
 TriangleMesh loadCage(const ObjectDescription& description, Warnings* warnings) {
@@ -29,8 +29,8 @@ TriangleMesh loadCage(const ObjectDescription& description, Warnings* warnings) 
   if (!edges.closed() || edges.inconsistent > 0) {
     throw std::invalid_argument(fmt::format(
         "{}: the cage must be closed; {} edges have one triangle, {} more than two (one between vertices {} "
-        "and {}), {} are "
-        "twisted",
+        "and {}), {} have "
+        "inconsistent orientation",
         description.cage_mesh, edges.open, edges.branching,
         edges.example[0] < 0 ? -1 : cage.vertex_parents[static_cast<std::size_t>(edges.example[0])],
         edges.example[1] < 0 ? -1 : cage.vertex_parents[static_cast<std::size_t>(edges.example[1])],
@@ -58,7 +58,7 @@ TetMesh wrapVisual(const ObjectDescription& description, const MeshTopology& vis
   }
 }
 
-/// Everything that a made volume depends on.
+/// All inputs of a volume, for the cache.
 std::string volumeContent(const ObjectDescription& description, int cage_vertices) {
   const std::string cage = description.cage_mesh.empty() ? "" : readFile(description.cage_mesh);
   const std::string visual = readFile(description.visual_mesh);
@@ -86,12 +86,12 @@ TetMesh loadTets(const ObjectDescription& description, Warnings* warnings) {
 TetMesh loadOrMakeVolume(const ObjectDescription& description, const MeshTopology& visual,
                          const VolumeSettings& settings, Warnings* warnings) {
   if (!description.tet_mesh.empty()) return loadTets(description, warnings);
-  // What a cage's repair has to say is not kept; it is said once, here, so that a kept volume warns like a
-  // new one.
+  // Warnings about the cage are not cached. They are given here, so that a cached volume warns like a new
+  // one.
   if (!description.cage_mesh.empty()) loadCage(description, warnings);
   const auto make = [&] {
-    Warnings said_above;
-    if (!description.cage_mesh.empty()) return fillCage(description, &said_above);
+    Warnings already_given;
+    if (!description.cage_mesh.empty()) return fillCage(description, &already_given);
     return wrapVisual(description, visual, settings);
   };
   if (!settings.use_cache) return make();

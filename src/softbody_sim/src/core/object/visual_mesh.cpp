@@ -8,14 +8,14 @@
 namespace softbody {
 namespace {
 
-// Beyond these the unit is more likely wrong than the object remarkable.
+// Outside of this range the unit is probably wrong.
 constexpr double kSmallest_m = 0.005;
 constexpr double kLargest_m = 10.0;
 
 void warnOfSize(const std::string& name, const Points& vertices, Warnings* warnings) {
   const double size = sizeOf(vertices);
   if (size > kSmallest_m && size < kLargest_m) return;
-  warnings->push_back(fmt::format("{}: is {:.4g} m large; is object/unit right?", name, size));
+  warnings->push_back(fmt::format("{}: the size is {:.4g} m; check object/unit", name, size));
 }
 
 void warnOfEdges(const std::string& name, const Triangles& triangles, Warnings* warnings) {
@@ -27,7 +27,7 @@ void warnOfEdges(const std::string& name, const Triangles& triangles, Warnings* 
   }
   if (edges.inconsistent > 0) {
     warnings->push_back(
-        fmt::format("{}: cannot be oriented, {} edges remain twisted", name, edges.inconsistent));
+        fmt::format("{}: cannot be oriented: {} edges are inconsistent", name, edges.inconsistent));
   }
 }
 

@@ -11,13 +11,13 @@
 namespace softbody {
 namespace {
 
-constexpr int kOversampling = 2;       ///< drawn larger, then averaged
-constexpr double kDistance = 4.0;      ///< of the camera from the middle [size]
-constexpr double kEdgeWidth_px = 1.6;  ///< half of a drawn edge, oversampled
-constexpr double kFullInk_px = 16.0;   ///< height of a triangle whose edges are drawn in full, oversampled
+constexpr int kOversampling = 2;       ///< factor by which the picture is drawn larger, then averaged
+constexpr double kDistance = 4.0;      ///< of the camera from the middle, over the size of the mesh
+constexpr double kEdgeWidth_px = 1.6;  ///< half width of a drawn edge, oversampled
+constexpr double kFullInk_px = 16.0;   ///< triangle height from which edges are drawn in full, oversampled
 constexpr int kLineWidth_px = 5;       ///< oversampled
-constexpr double kBehind = 0.004;      ///< that a line may lie behind what is seen [depth]
-constexpr double kInside = 0.3;        ///< brightness of what looks away
+constexpr double kBehind = 0.004;      ///< relative depth by which a line may lie behind the surface
+constexpr double kInside = 0.3;        ///< brightness of back faces
 constexpr double kInk = 0.25;          ///< brightness of edges
 
 /// Rest frame in the frame of a camera that looks at the middle.
@@ -32,7 +32,7 @@ Eigen::Isometry3d cameraPose(const Points& points) {
   return pose;
 }
 
-/// The same rays in a picture that is larger by a factor.
+/// The camera of a picture enlarged by a factor.
 Pinhole enlarged(Pinhole camera, int factor) {
   camera.width *= factor;
   camera.height *= factor;
@@ -77,10 +77,10 @@ struct SeenTriangle {
 
   Eigen::Vector2d corners[3];
   double brightness;
-  double ink;  ///< of its edges, 0 to 1: fine meshes would be all edges
+  double ink;  ///< opacity of its edges, 0 to 1: lower in fine meshes
 };
 
-/// Whether a vertex is seen, or lies no further than a hair behind what is.
+/// Whether a vertex is visible, with a tolerance in depth.
 bool isSeen(const Eigen::Vector3d& p, const Pinhole& camera, const cv::Mat1f& depth) {
   const Eigen::Vector2d pixel = camera.project(p);
   if (!camera.contains(pixel.x(), pixel.y())) return false;

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kShareOfMaking = 0.8;  // of the time
+constexpr double kModelProgress = 0.8;  // fraction of the time for making the model
 constexpr std::array<const char*, 6> kFiles{"visual.obj",        "cage.obj",         "tets.vtu",
                                             "report/models.png", "report/report.md", "object.yaml"};
 
@@ -38,8 +38,8 @@ std::string objectYaml(const std::string& mesh, const Material& material) {
       "# Made by prepare_model from {}. The material is a guess (soft foam); set it to yours.\n"
       "object:\n  visual_mesh: visual.obj\n  cage_mesh: cage.obj\n  tet_mesh: tets.vtu\n"
       "  material: {{youngs_modulus_pa: {}, poisson_ratio: {}, density_kg_m3: {}, damping: {}}}\n"
-      "  # initial_pose: [x, y, z, qx, qy, qz, qw]   # in the colour optical frame, roughly; without it "
-      "the object is looked for\n",
+      "  # initial_pose: [x, y, z, qx, qy, qz, qw]   # in the colour optical frame, approximate; without it "
+      "the object is searched for\n",
       fs::path(mesh).filename().string(), material.youngs_modulus_pa, material.poisson_ratio,
       material.density_kg_m3, material.damping);
 }
@@ -82,7 +82,7 @@ std::string report(const std::string& mesh, const ObjectModel& model, const Mode
   return text;
 }
 
-/// A folder beside the target that vanishes when done.
+/// A temporary folder beside the target.
 class StagingFolder {
  public:
   explicit StagingFolder(const fs::path& target)
@@ -98,11 +98,11 @@ class StagingFolder {
 
   const fs::path& path() const { return path_; }
 
-  /// object.yaml comes last: whoever finds it finds what it names.
+  /// object.yaml comes last: the files that it names then exist.
   void moveInto(const fs::path& target) const {
     for (const char* file : kFiles) {
       if (fs::is_directory(target / file)) {
-        throw std::runtime_error((target / file).string() + ": is a folder where a file should go");
+        throw std::runtime_error((target / file).string() + ": is a folder; a file must be written there");
       }
     }
     fs::create_directories(target / "report");
@@ -116,12 +116,12 @@ class StagingFolder {
 }  // namespace
 
 void prepareModel(const std::string& mesh, const std::string& unit, const std::string& folder,
-                  const VolumeSettings& settings, std::ostream& told) {
+                  const VolumeSettings& settings, std::ostream& output) {
   ObjectDescription description;
   description.visual_mesh = mesh;
   description.unit_m = metresPer(unit);
   VolumeSettings making = settings;
-  making.progress = [&](double share) { settings.progress(kShareOfMaking * share); };
+  making.progress = [&](double fraction) { settings.progress(kModelProgress * fraction); };
   const ObjectModel model = buildObjectModel(description, making);
   const TriangleMesh cage = cageOf(model.volume);
 
@@ -139,7 +139,7 @@ void prepareModel(const std::string& mesh, const std::string& unit, const std::s
   writeText(staging.path() / "object.yaml", objectYaml(mesh, model.material));
   staging.moveInto(target);
   settings.progress(1.0);
-  told << text << "written to " << target.string() << '\n';
+  output << text << "written to " << target.string() << '\n';
 }
 
 }  // namespace softbody

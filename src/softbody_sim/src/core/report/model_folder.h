@@ -8,10 +8,10 @@
 namespace softbody {
 
 /// Writes FOLDER/{object.yaml, visual.obj, cage.obj, tets.vtu, report/report.md, report/models.png} in
-/// metres. Other files in the folder stay; if anything fails the folder is as it was.
-/// @param unit of the mesh: m, cm, mm or inch. @param told gets the report.
+/// metres. Other files in the folder stay. If anything fails, the folder is unchanged.
+/// @param unit of the mesh: m, cm, mm or inch. @param output gets the report.
 /// @throw std::invalid_argument if the mesh is refused; std::runtime_error if the folder cannot be written.
 void prepareModel(const std::string& mesh, const std::string& unit, const std::string& folder,
-                  const VolumeSettings& settings, std::ostream& told);
+                  const VolumeSettings& settings, std::ostream& output);
 
 }  // namespace softbody

@@ -4,8 +4,7 @@
 
 namespace softbody {
 
-/// Measures of a prepared model. Everything is measured on the model as it is, nothing taken from how it was
-/// made.
+/// Quality measures of a prepared model, all measured on its final meshes.
 struct ModelQuality {
   int visual_vertices = 0, visual_triangles = 0;
   int cage_vertices = 0, cage_triangles = 0;
@@ -19,11 +18,11 @@ struct ModelQuality {
   double largest_margin = 0.0;       ///< [m]
   double smallest_tet = 0.0;         ///< signed volume [m^3]
   double smallest_dihedral = 0.0;    ///< [degrees]
-  double dihedral_percentile = 0.0;  ///< of the tets, 1 in 100 has a smaller smallest angle [degrees]
+  double dihedral_percentile = 0.0;  ///< 1st percentile of the smallest angles of the tets [degrees]
   double largest_dihedral = 0.0;     ///< [degrees]
-  double edge_spread = 0.0;          ///< of the cage: its 95th percentile of edge lengths over the 5th
-  double partition_error = 0.0;      ///< mean value coordinates: largest distance of their sum from 1
-  double reproduction_error = 0.0;   ///< of a visual vertex by its mean value coordinates, largest [m]
+  double edge_spread = 0.0;          ///< 95th over 5th percentile of the edge lengths of the cage
+  double partition_error = 0.0;      ///< mean value coordinates: largest deviation of their sum from 1
+  double reproduction_error = 0.0;   ///< largest error of a visual vertex from its mean value coordinates [m]
 };
 
 /// @throw std::invalid_argument if the volume's boundary is not closed.
@@ -32,7 +31,7 @@ ModelQuality measureModel(const ObjectModel& model);
 /// The smallest and the largest dihedral angle of each tet, #T by 2 [degrees].
 Eigen::MatrixX2d dihedralAngles(const TetMesh& mesh);
 
-/// The boundary's vertices alone, and its triangles.
+/// The boundary of the tets, without inner vertices.
 TriangleMesh cageOf(const TetTopology& volume);
 
 }  // namespace softbody

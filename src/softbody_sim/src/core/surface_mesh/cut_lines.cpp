@@ -8,7 +8,7 @@
 namespace softbody {
 namespace {
 
-/// Calls `use` with the edges, lower index first, of the triangles that fill cuts, or of the others.
+/// Calls `use` with the edges, lower index first, of the triangles with or without the cut flag.
 template <typename Use>
 void forEachEdge(const MeshTopology& mesh, bool of_cuts, Use use) {
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
@@ -27,7 +27,7 @@ Edges cutLines(const MeshTopology& mesh) {
     of_cuts.insert(edge);
     on_cut[static_cast<std::size_t>(edge.first)] = true;
   });
-  // Few edges of a fine skin are worth a look.
+  // The flag per vertex spares most edges of a fine surface the lookup.
   forEachEdge(mesh, false, [&](const std::pair<int, int>& edge) {
     if (on_cut[static_cast<std::size_t>(edge.first)] && of_cuts.count(edge) != 0) lines.insert(edge);
   });

@@ -8,7 +8,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kDependent = 1e-6;  ///< sine of the angle between normals that count as one direction
+constexpr double kDependent = 1e-6;  ///< sine of the angle below which two normals count as parallel
 
 double violation(const std::vector<HalfSpace>& half_spaces, const Eigen::Vector3d& x) {
   double worst = -std::numeric_limits<double>::infinity();
@@ -16,8 +16,8 @@ double violation(const std::vector<HalfSpace>& half_spaces, const Eigen::Vector3
   return worst;
 }
 
-/// The point's projection onto the intersection of 1 to 3 of the planes, if that is the nearest point of all
-/// (it pulls from each of them, and no other half-space is missed).
+/// The point's projection onto the intersection of 1 to 3 planes, if it is optimal (Karush-Kuhn-Tucker: no
+/// multiplier is negative, no half-space is violated).
 template <std::size_t kPlanes>
 std::optional<Eigen::Vector3d> solution(const std::vector<HalfSpace>& half_spaces,
                                         const Eigen::Vector3d& point,
@@ -32,9 +32,9 @@ std::optional<Eigen::Vector3d> solution(const std::vector<HalfSpace>& half_space
   }
   const Eigen::Matrix<double, n, n> gram = normals.transpose() * normals;
   if (gram.determinant() < kDependent * kDependent) return std::nullopt;
-  const Eigen::Matrix<double, n, 1> pulls = gram.inverse() * gaps;
-  if (pulls.minCoeff() < 0.0) return std::nullopt;
-  const Eigen::Vector3d candidate = point + normals * pulls;
+  const Eigen::Matrix<double, n, 1> multipliers = gram.inverse() * gaps;
+  if (multipliers.minCoeff() < 0.0) return std::nullopt;
+  const Eigen::Vector3d candidate = point + normals * multipliers;
   if (violation(half_spaces, candidate) > tolerance) return std::nullopt;
   return candidate;
 }
@@ -44,7 +44,7 @@ std::optional<Eigen::Vector3d> solution(const std::vector<HalfSpace>& half_space
 std::optional<Eigen::Vector3d> nearestPointIn(const std::vector<HalfSpace>& half_spaces,
                                               const Eigen::Vector3d& point, double tolerance) {
   if (violation(half_spaces, point) <= tolerance) return point;
-  // Few half-spaces: all sets of up to three planes that can hold the nearest point are tried.
+  // There are few half-spaces, so all active sets of up to three planes are tried.
   const std::size_t count = half_spaces.size();
   std::optional<Eigen::Vector3d> found;
   for (std::size_t i = 0; i < count && !found; ++i) found = solution<1>(half_spaces, point, {i}, tolerance);

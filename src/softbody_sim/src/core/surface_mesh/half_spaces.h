@@ -12,8 +12,9 @@ struct HalfSpace {
   double offset;
 };
 
-/// The point nearest to a given one that lies in all half-spaces, or nothing if there is none.
-/// @param tolerance by which a half-space may be missed [m].
+/// The point in all half-spaces that is nearest to a given one; nothing if the half-spaces have no common
+/// point.
+/// @param tolerance how far the result may lie outside of a half-space [m].
 std::optional<Eigen::Vector3d> nearestPointIn(const std::vector<HalfSpace>& half_spaces,
                                               const Eigen::Vector3d& point, double tolerance);
 

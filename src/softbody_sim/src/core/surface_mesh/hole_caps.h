@@ -4,8 +4,8 @@
 
 namespace softbody {
 
-/// The mesh with its holes covered: each open edge gets a triangle to the middle of the hole that it is on.
-/// The caps may cross other triangles; they are for what only needs to know inside from outside.
+/// The mesh with its holes covered: a triangle joins each open edge with the centre of its hole. The caps may
+/// intersect other triangles, so they serve inside-outside tests only.
 TriangleMesh withHolesCovered(const TriangleMesh& mesh);
 
 }  // namespace softbody

@@ -26,8 +26,8 @@ Edges edgesOf(const Triangles& triangles) {
   return edges;
 }
 
-/// Per triangle its neighbours, and whether they run through the common edge in the same direction (so
-/// disagree).
+/// Per triangle its neighbours, and whether their orientations disagree: both run through the common edge in
+/// the same direction.
 std::vector<std::vector<std::pair<int, bool>>> neighbours(const Triangles& triangles) {
   std::vector<std::vector<std::pair<int, bool>>> result(static_cast<std::size_t>(triangles.rows()));
   for (const auto& [edge, uses] : edgesOf(triangles)) {
@@ -39,7 +39,7 @@ std::vector<std::vector<std::pair<int, bool>>> neighbours(const Triangles& trian
   return result;
 }
 
-/// Turns the minority of every patch that is connected across proper edges.
+/// Flips the minority of every patch of triangles that is connected across edges with two triangles.
 std::vector<bool> agreeWithNeighbours(const Triangles& triangles) {
   const auto adjacent = neighbours(triangles);
   std::vector<bool> turn(adjacent.size(), false), reached(adjacent.size(), false);
@@ -74,11 +74,11 @@ Triangles turned(Triangles triangles, const std::vector<bool>& turn) {
 
 }  // namespace
 
-std::vector<bool> trianglesToTurn(const TriangleMesh& mesh) {
+std::vector<bool> trianglesToFlip(const TriangleMesh& mesh) {
   std::vector<bool> turn = agreeWithNeighbours(mesh.triangles);
   const std::vector<std::uint32_t> pieces =
       triangleBodies(mesh.triangles, static_cast<int>(mesh.vertices.rows()));
-  // A point near the mesh keeps open pieces meaningful: the hole's own share is small.
+  // Relative to the centre, the volume of an open piece changes little with its hole.
   const Points centred = mesh.vertices.rowwise() - mesh.vertices.colwise().mean();
   const Triangles agreed = turned(mesh.triangles, turn);
   std::map<std::uint32_t, double> volumes;

@@ -6,8 +6,8 @@
 
 namespace softbody {
 
-/// Which triangles to turn so that neighbours agree and every piece encloses a positive volume. Within a
-/// piece the majority keeps its orientation. Across edges with more than two triangles nothing is concluded.
-std::vector<bool> trianglesToTurn(const TriangleMesh& mesh);
+/// Which triangles to flip so that neighbours agree and every piece encloses a positive volume. The majority
+/// of a piece keeps its orientation. Edges with more than two triangles are ignored.
+std::vector<bool> trianglesToFlip(const TriangleMesh& mesh);
 
 }  // namespace softbody

@@ -4,7 +4,7 @@
 
 namespace softbody {
 
-/// Whether two triangles of a mesh meet anywhere but in their common vertices and edges, exactly (CGAL).
+/// Whether two triangles of a mesh meet outside of their common vertices and edges (exact predicates, CGAL).
 bool intersectsItself(const TriangleMesh& mesh);
 
 }  // namespace softbody

@@ -15,7 +15,7 @@ namespace softbody {
 namespace {
 
 constexpr double kWeldShare = 1e-7;  ///< of the mesh's size
-constexpr double kFlatShare = 1e-9;  ///< height of a triangle, of its longest edge
+constexpr double kFlatShare = 1e-9;  ///< height of a triangle over its longest edge
 
 void weld(WeldedSurface* surface, const std::string& name, Warnings* warnings) {
   Points& vertices = surface->mesh.vertices;
@@ -70,7 +70,7 @@ void dropUseless(WeldedSurface* surface, const std::string& name, Warnings* warn
 }
 
 void orient(WeldedSurface* surface, const std::string& name, Warnings* warnings) {
-  const std::vector<bool> turn = trianglesToTurn(surface->mesh);
+  const std::vector<bool> turn = trianglesToFlip(surface->mesh);
   for (std::size_t t = 0; t < turn.size(); ++t) {
     if (!turn[t]) continue;
     const auto f = static_cast<Eigen::Index>(t);
@@ -82,7 +82,7 @@ void orient(WeldedSurface* surface, const std::string& name, Warnings* warnings)
   const auto count = std::count(turn.begin(), turn.end(), true);
   if (count > 0) {
     warnings->push_back(
-        fmt::format("{}: {} of {} triangles faced inward and were turned", name, count, turn.size()));
+        fmt::format("{}: {} of {} triangles faced inward and were flipped", name, count, turn.size()));
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace softbody {
 
-/// A triangle mesh whose coincident vertices are one, and where its vertices were in the file.
+/// A triangle mesh without coincident vertices, and the index of each vertex in the file.
 struct WeldedSurface {
   TriangleMesh mesh;
   Points texture_coordinates;       ///< empty, or 3 #F rows
@@ -18,7 +18,7 @@ struct WeldedSurface {
 struct EdgeReport {
   int open = 0;          ///< edges with one triangle
   int branching = 0;     ///< edges with more than two triangles
-  int inconsistent = 0;  ///< edges whose two triangles run through them in the same direction
+  int inconsistent = 0;  ///< edges that both triangles run through in the same direction
   Eigen::Vector2i example = Eigen::Vector2i::Constant(-1);  ///< one of the open or branching edges
 
   bool closed() const { return open == 0 && branching == 0; }
@@ -26,9 +26,9 @@ struct EdgeReport {
 
 EdgeReport examineEdges(const Triangles& triangles);
 
-/// Welds vertices within 1e-7 of the mesh's size, drops triangles without area and repeated ones, and orients
-/// the rest outward as far as it can be oriented. @param name is used in warnings.
-/// @throw std::invalid_argument if no triangle is left.
+/// Welds vertices within 1e-7 of the mesh's size, drops flat and repeated triangles, and orients the others
+/// outward where possible. @param name of the mesh, for warnings. @throw std::invalid_argument if no triangle
+/// is left.
 WeldedSurface repairSurface(const SurfaceFile& file, const std::string& name, Warnings* warnings);
 
 /// Reads a surface, scales it to metres and repairs it.

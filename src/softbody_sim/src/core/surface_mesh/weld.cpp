@@ -10,7 +10,8 @@ namespace {
 
 using Cell = std::array<long long, 3>;
 
-/// Vertices met so far, in cells of twice the tolerance: whatever is near enough lies in one of eight cells.
+/// The vertices so far, in cells of twice the tolerance: all vertices within the tolerance lie in eight
+/// cells.
 class CoincidenceGrid {
  public:
   explicit CoincidenceGrid(double tolerance) : tolerance_(tolerance) {}

@@ -6,7 +6,7 @@
 
 namespace softbody {
 
-/// For every vertex the index of the first vertex within the tolerance (its own if there is none before).
+/// Per vertex, the index of the first vertex within the tolerance: its own index if no earlier vertex is.
 std::vector<int> firstCoincident(const Points& vertices, double tolerance);
 
 }  // namespace softbody

@@ -17,7 +17,7 @@ class BlockTetMatrix {
   BlockTetMatrix(const Tets& tets, Eigen::Index vertex_count);
 
   void setZero();
-  /// Adds the same to the three coordinates of each vertex. @param diagonal #V.
+  /// Adds a value per vertex to the diagonal entries of its three coordinates. @param diagonal #V.
   void addToDiagonal(const Eigen::VectorXd& diagonal);
   /// Adds a symmetric block over the coordinates of the tet's four vertices.
   void addToTet(int tet, const TetBlock& block);
@@ -26,10 +26,10 @@ class BlockTetMatrix {
   const Eigen::SparseMatrix<double>& lower() const { return lower_; }
 
  private:
-  /// Where the columns of the block of vertices (row, column) start in the values; a diagonal block has its
-  /// lower triangle only.
+  /// Where the columns of the block of vertices (row, column) start in the value array. Only the lower
+  /// triangle of a diagonal block is stored.
   struct Slot {
-    int a, b;  ///< corners: the row's and the column's
+    int a, b;  ///< corners of the row and of the column
     std::array<int, 3> columns;
   };
   Slot slotOf(int row_vertex, int column_vertex, int a, int b) const;

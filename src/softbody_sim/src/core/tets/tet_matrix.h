@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// A #V vector that is zero but at a tet's four vertices.
+/// A #V vector whose only non-zero entries are at a tet's four vertices.
 struct TetVector {
   Eigen::Vector4i vertices;
   Eigen::Vector4d values;

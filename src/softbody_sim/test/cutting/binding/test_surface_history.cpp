@@ -31,7 +31,7 @@ TEST(SurfaceHistory, CutsWithoutAJump) {
   EXPECT_LT((body.atRest() - mesh.rest_vertices).cwiseAbs().maxCoeff(), kRounding);
 }
 
-/// By how much an edge of the mesh is stretched at most where the pieces of tets are moved apart [m].
+/// Largest elongation of an edge of the mesh when the pieces of tets are moved apart [m].
 double stretchWhenApart(const CutBody& body, double distance) {
   const TetTopology& tets = body.tets.topology();
   Points apart = tets.rest_vertices;
@@ -60,9 +60,9 @@ TEST(SurfaceHistory, PiecesDoNotMixAtRandomCuts) {
   for (int k = 0; k < 80; ++k) {
     CutBody body;
     if (!body.cut(cuts.planeCut(), 1)) continue;
-    const auto& bodies = body.tets.topology().bodies;
+    const auto& pieces = body.tets.topology().bodies;
     const auto& visual = body.surface.surface().topology().bodies;
-    const auto tet_pieces = *std::max_element(bodies.begin(), bodies.end()) + 1;
+    const auto tet_pieces = *std::max_element(pieces.begin(), pieces.end()) + 1;
     const auto visual_pieces = *std::max_element(visual.begin(), visual.end()) + 1;
     parted += tet_pieces > 1;
     counts_differ += tet_pieces != visual_pieces;
@@ -74,7 +74,7 @@ TEST(SurfaceHistory, PiecesDoNotMixAtRandomCuts) {
   EXPECT_GT(parted, 40);
 }
 
-/// Half of a plane: what a blade leaves that went in as far as `center`, along `way`.
+/// A half plane: the cut of a blade that has entered up to `center`, along `way`.
 CutPatch halfPlane(const Eigen::Vector3d& center, const Eigen::Vector3d& normal, const Eigen::Vector3d& way) {
   const Eigen::Vector3d across = normal.cross(way);
   Points before(2, 3), now(2, 3);
@@ -83,8 +83,8 @@ CutPatch halfPlane(const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
   return ruledPatch(before, now);
 }
 
-/// Which side of a plane the vertices belong to, 1 or -1: that of the triangles at them, or, where those lie
-/// in the plane, of the triangles' backs.
+/// The side of a plane of each vertex, 1 or -1: the side of its triangles, or of their backs if they lie in
+/// the plane.
 std::vector<int> sidesOf(const MeshTopology& mesh, const Eigen::Vector3d& center,
                          const Eigen::Vector3d& normal) {
   const Points normals = vertexNormals(mesh.rest_vertices, mesh.triangles);
@@ -103,7 +103,7 @@ std::vector<int> sidesOf(const MeshTopology& mesh, const Eigen::Vector3d& center
   return signs;
 }
 
-/// A slit's tets moved apart, the farther from its front the more; nothing moves within `margin` of it.
+/// Opens a slit: displacements grow with the distance from its front and are 0 within `margin` of it.
 Points opened(const TetTopology& tets, const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
               const Eigen::Vector3d& way, double margin) {
   std::vector<double> sides(static_cast<std::size_t>(tets.rest_vertices.rows()), 0.0);
@@ -125,7 +125,7 @@ Points opened(const TetTopology& tets, const Eigen::Vector3d& center, const Eige
 TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
   const TetTopology sponge = testing::sponge();
   testing::RandomCuts cuts(sponge, 7);
-  constexpr double kMargin = 0.04;  // more than a tet's edge
+  constexpr double kMargin = 0.04;  // larger than the edge of a tet
   int slits = 0, checked = 0, other_side = 0;
   for (int k = 0; k < 80; ++k) {
     const Eigen::Vector3d center = cuts.point(), normal = cuts.direction();
@@ -147,7 +147,7 @@ TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
   }
   EXPECT_GT(slits, 40);
   EXPECT_GT(checked, 5000);
-  // Flaps of some millimetres, thinner than what the tets resolve, stay with what they lie on.
+  // Flaps of a few millimetres, thinner than the tets, stay with the material below.
   EXPECT_LE(other_side, checked / 1000);
 }
 
@@ -165,7 +165,7 @@ TEST(SurfaceHistory, StrokesGoOnWithoutAJump) {
       const MeshTopology& after = body.surface.surface().topology();
       EXPECT_LT(worstJump(shown, mesh, body.shown(), after), 1e-9) << "stroke " << k;
       EXPECT_LT((body.atRest() - after.rest_vertices).cwiseAbs().maxCoeff(), kRounding);
-      // The body goes on moving while it is cut.
+      // The body continues to move during the cut.
       body.vertices.col(2) += 0.02 * body.vertices.col(0).cwiseAbs2() / 0.2;
     }
   }
@@ -185,7 +185,7 @@ TEST(SurfaceHistory, FollowsAffineDeformationsExactly) {
   EXPECT_LT((shown - surface.topology().rest_vertices * A.transpose()).cwiseAbs().maxCoeff(), 1e-7);
 }
 
-/// All that a surface consists of but its revision.
+/// Compares everything except the revision.
 void expectSame(const VisualSurface& surface, const VisualSurface& other, const Points& shown,
                 const Points& shown_other) {
   EXPECT_EQ(surface.topology().rest_vertices, other.topology().rest_vertices);

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kLength = 0.2;  // of a prism [m]
 
-/// A prism along x round the origin; its section is a regular polygon with an even number of sides.
+/// A prism along x around the origin. Its section is a regular polygon with an even number of sides.
 MeshTopology prism(int sides, double half_width) {
   constexpr int kRings = 11;
   const double radius = half_width / std::cos(M_PI / sides);
-  const int ends = kRings * sides;  // the middles of both ends follow the rings
+  const int ends = kRings * sides;  // the centres of both ends come after the rings
   TriangleMesh mesh{Points(ends + 2, 3), Triangles(2 * ends, 3)};
   mesh.vertices.row(ends) << -0.5 * kLength, 0.0, 0.0;
   mesh.vertices.row(ends + 1) << 0.5 * kLength, 0.0, 0.0;
@@ -41,7 +41,7 @@ MeshTopology prism(int sides, double half_width) {
   return testing::meshTopology({inSinglePrecision(mesh.vertices), mesh.triangles});
 }
 
-/// A prism's tets: a box a little larger.
+/// The tets of a prism: a slightly larger box.
 TetTopology boxRound(double half_width) {
   const int cells = std::max(1, static_cast<int>(half_width / 0.01));
   const double width = 2.04 * half_width, length = 1.02 * kLength;
@@ -75,7 +75,7 @@ struct Body {
     const int steps = static_cast<int>(std::ceil(way.norm() / step));
     for (int k = 0; k < steps; ++k) move(*pose = Eigen::Translation3d(way / steps) * *pose);
   }
-  /// How far the cut is from the plane x = 0.
+  /// Largest distance of the cut from the plane x = 0.
   double aside() const {
     const MeshTopology& mesh = surface.surface().topology();
     double most = 0.0;
@@ -85,7 +85,7 @@ struct Body {
     }
     return most;
   }
-  /// Of the cut along y.
+  /// Extent of the cut along y.
   std::pair<double, double> span() const {
     const MeshTopology& mesh = surface.surface().topology();
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -98,7 +98,7 @@ struct Body {
     }
     return {low, high};
   }
-  std::size_t pieces() const { return testing::bodyVolumes(surface.surface().topology()).size(); }
+  std::size_t pieces() const { return testing::pieceVolumes(surface.surface().topology()).size(); }
 
   CuttableSurface surface;
   Nanoseconds stamp = 0;
@@ -112,7 +112,7 @@ Eigen::Isometry3d at(double x, double y, double z) {
 Body limb() { return {prism(4, 0.006), boxRound(0.006)}; }
 Body sponge() { return {testing::visualSponge(), testing::sponge()}; }
 
-/// A cylinder whose upper side rises along x: it bulges into a straight edge between two samples.
+/// A cylinder whose upper side rises along x: a straight edge touches it between two samples.
 Body risingBack(double slope) {
   MeshTopology mesh = prism(48, 0.04);
   TetTopology tets = boxRound(0.04);
@@ -121,7 +121,7 @@ Body risingBack(double slope) {
         *points * Eigen::AngleAxisd(-slope, Eigen::Vector3d::UnitY()).toRotationMatrix().transpose());
   return {mesh, tets};
 }
-/// Of a straight edge that rests on it at x, turned about the vertical from across.
+/// Pose of a straight edge that rests on it at x, turned about the vertical.
 double backHeight(double slope, double x, double turn = 0.0) {
   return x * std::tan(slope) + 0.04 * std::hypot(std::tan(slope) * std::tan(turn), 1.0 / std::cos(slope));
 }
@@ -157,7 +157,7 @@ TEST(BladeContact, ABladeTurnedOnABackCutsWhereItIsThen) {
   }
 }
 
-/// What it does before it goes in leaves nothing uncut.
+/// Motion before the blade enters does not leave uncut material.
 TEST(BladeContact, ABladeThatFumblesOnABackCutsThroughIt) {
   for (unsigned seed = 1; seed <= 26; ++seed) {
     std::mt19937 random(seed);
@@ -190,7 +190,7 @@ TEST(BladeContact, ABladeThatGoesInTipFirstCutsWithItsEdge) {
       Eigen::Isometry3d pose = at(0.0, 0.0, 0.06) *
                                Eigen::AngleAxisd(std::copysign(tilt, -end), Eigen::Vector3d::UnitX()) *
                                at(0.0, -end, 0.0);
-      body.go(&pose, {0.0, 0.0, -0.028});  // the tip 8 mm deep, and no other sample in
+      body.go(&pose, {0.0, 0.0, -0.028});  // only the tip is in the body, 8 mm deep
       EXPECT_GT(body.cuts, 0u) << "end " << end << ", tilt " << tilt;
     }
   }
@@ -217,7 +217,7 @@ TEST(BladeContact, ALimbBetweenTwoSamplesIsCut) {
 
 TEST(BladeContact, ABladeThatRubsAlongAFlankCutsWhenItGoesIn) {
   const auto rub = [](double depth, double start, std::vector<double> ways) {
-    Body body = sponge();  // its flank is at y = 0.098
+    Body body = sponge();  // its side is at y = 0.098
     Eigen::Isometry3d pose = at(0.083, 0.193 - depth, start);
     body.go(&pose, {0.0, -0.02, 0.0});
     for (const double way : ways) body.go(&pose, {0.0, 0.0, way});
@@ -262,7 +262,7 @@ TEST(BladeContact, ABladeLiftedWhileItOnlyTouchesCutsOn) {
   }
 }
 
-/// A triangle whose tip is at the origin, 80 mm high, in the plane x = 0. @param slope half its width by its
+/// A triangle with its tip at the origin, 80 mm high, in the plane x = 0. @param slope half width over
 /// height.
 Points pointedBlade(double slope) {
   constexpr double kHeight = 0.08;
@@ -274,7 +274,7 @@ Points pointedBlade(double slope) {
 
 TEST(BladeContact, APointedBladeCutsAsWideAsItIs) {
   constexpr double kTop = 0.0294, kLow = 0.002, kHigh = 0.098;  // the sponge's faces
-  constexpr double kDeepest = 0.05, kBehind = 0.0051;           // the cut stays less than an advance behind
+  constexpr double kDeepest = 0.05, kBehind = 0.0051;  // the cut is less than an advance behind the blade
   for (double degrees = 30.0; degrees <= 120.0; degrees += 15.0) {
     for (const double y : {0.05, 0.053}) {
       Body body = sponge();

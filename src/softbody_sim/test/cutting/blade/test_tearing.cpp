@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kVisualVolume = 0.96 * 0.96 * 0.96 * 6e-4;  // [m^3]
 
-/// From a place at rest to where it is.
+/// Maps rest positions to deformed positions.
 using Deformation = std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>;
 
-/// The sponge's part from x = 80 to 120 mm stretched to `factor` times its length, where `where` says so.
+/// Stretches the sponge from x = 80 to 120 mm by `factor`, at the points selected by `where`.
 Deformation stretchedMiddle(double factor, double only_below_y = 1.0) {
   return [=](const Eigen::RowVector3d& rest) -> Eigen::RowVector3d {
     const double share = rest.y() < only_below_y ? 1.0 : 0.0;
@@ -27,7 +27,7 @@ Deformation stretchedMiddle(double factor, double only_below_y = 1.0) {
   };
 }
 
-/// A body that is shown in one deformed state after the other.
+/// A body in a sequence of deformed states.
 struct Scene {
   explicit Scene(double tear_strain, const TetTopology& volume = testing::sponge(),
                  const MeshTopology& visual = testing::visualSponge())
@@ -46,7 +46,7 @@ struct Scene {
     state.confidence.assign(static_cast<std::size_t>(state.vertices.rows()), 1.0f);
     return state;
   }
-  /// @return the states until the body tears; 0: it does not.
+  /// @return the number of states until the body tears; 0: it does not tear.
   int statesUntilTear(const Deformation& deformation, int most = 20) {
     for (int k = 1; k <= most; ++k) {
       last = surface.tear(stateOf(deformation));
@@ -54,7 +54,7 @@ struct Scene {
     }
     return 0;
   }
-  std::size_t pieces() const { return testing::bodyVolumes(surface.surface().topology()).size(); }
+  std::size_t pieces() const { return testing::pieceVolumes(surface.surface().topology()).size(); }
   void expectSound() const {
     EXPECT_EQ(testing::faultOf(surface.surface().topology(), kVisualVolume), "");
     const TetTopology& volume = surface.volume();
@@ -141,7 +141,7 @@ TEST(Tearing, ATearCrossesASlit) {
   scene.expectSound();
 }
 
-/// A bar of cells that are two thirds of a hundredth of it, stretched in one cell at its end or further in.
+/// A bar of 150 cells, stretched in one cell, at its end or further inside.
 TEST(Tearing, NoCrumbIsTorn) {
   const TetTopology bar = testing::boxTopology({150, 1, 1}, {0.3, 0.02, 0.02});
   const MeshTopology mesh = testing::meshTopology({bar.rest_vertices, bar.surface});
@@ -157,7 +157,7 @@ TEST(Tearing, NoCrumbIsTorn) {
   EXPECT_EQ(scene.pieces(), 2u);
 }
 
-/// Patches of which none becomes a cut.
+/// Patches that do not become cuts.
 TEST(Tearing, ATetAsksOnceUntilItHasBeenWithinTheLimit) {
   Scene scene(0.4);
   const MeshState pulled = scene.stateOf(stretchedMiddle(1.5)), slack = scene.stateOf(stretchedMiddle(1.1));
@@ -192,7 +192,7 @@ TEST(Tearing, ATetAsksAgainOnceItIsStretchedATenthFurther) {
   EXPECT_EQ(asks(1.83), first);
 }
 
-/// Bodies that are pulled apart again and again stay sound.
+/// Repeatedly torn bodies stay valid.
 TEST(Tearing, RandomStretchLeavesSoundPieces) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

@@ -12,7 +12,7 @@ namespace {
 using testing::boxTopology;
 using testing::randomPoints;
 
-/// Whether a segment passes a triangle, by solving for the crossing.
+/// Reference test: solves for the crossing of a segment and a triangle.
 bool crosses(const TriangleMesh& mesh, Eigen::Index f, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   Eigen::Matrix3d system;
   const Eigen::Vector3d p = mesh.vertices.row(mesh.triangles(f, 0));
@@ -85,7 +85,7 @@ TEST(RuledPatch, LiesBetweenItsEdgesAndAgreesInOrientation) {
     const std::vector<PatchHit> hits = intersector.hits({0.5, -1.0, z}, {0.5, 1.0, z});
     ASSERT_EQ(hits.size(), 1u) << z;
     EXPECT_EQ(hits[0].along_normal, intersector.hits({0.5, -1.0, 0.5}, {0.5, 1.0, 0.5})[0].along_normal);
-    // Two triangles leave a quadrilateral whose edges turn by 0.2 by a quarter of that at most.
+    // Two triangles deviate from a quadrilateral twisted by 0.2 by at most a quarter of that.
     EXPECT_NEAR(-1.0 + 2.0 * hits[0].t, 0.1 * z, 0.05 + 1e-12);
   }
   EXPECT_THROW(ruledPatch(before, now.topRows<2>()), std::invalid_argument);

@@ -19,11 +19,11 @@ namespace {
 
 using testing::CutBody;
 
-std::uint32_t piecesOf(const std::vector<std::uint32_t>& bodies) {
-  return *std::max_element(bodies.begin(), bodies.end()) + 1;
+std::uint32_t pieceCountOf(const std::vector<std::uint32_t>& pieces) {
+  return *std::max_element(pieces.begin(), pieces.end()) + 1;
 }
 
-/// Per piece of the mesh the pieces of tets that its vertices follow.
+/// Per piece of the mesh, the pieces of tets that its vertices are bound to.
 std::map<std::uint32_t, std::set<std::uint32_t>> followed(const CutBody& body) {
   const VisualSurface& surface = body.surface.surface();
   const MeshTopology& mesh = surface.topology();
@@ -55,17 +55,18 @@ bool isBetween(const CutPatch& plane, const Eigen::Vector3d& a, const Eigen::Vec
   return normal.dot(a - p) * normal.dot(b - p) < 0.0;
 }
 
-/// Pairs of pieces of the mesh, each more than a hundredth of the body, that follow the same piece of tets.
+/// Pairs of pieces of the mesh, each larger than 1 % of the body, that are bound to the same piece of tets.
 struct Tied {
-  int side_by_side = 0;  ///< on the same side of every cut: limbs whose tets the cage has joined
-  int across = 0;        ///< parted by a cut that did not part the tets
+  int side_by_side = 0;  ///< on the same side of every cut: limbs connected by the cage
+  int across = 0;        ///< separated by a cut that did not separate the tets
 };
 
 Tied tiedPieces(const CutBody& body, const std::vector<CutPatch>& planes) {
   const MeshTopology& mesh = body.surface.surface().topology();
-  std::map<std::uint32_t, double> volumes = testing::bodyVolumes(mesh);
+  std::map<std::uint32_t, double> volumes = testing::pieceVolumes(mesh);
   const double least = 0.01 * testing::volumeOf(mesh);
-  std::map<std::uint32_t, std::vector<Eigen::Vector3d>> middles;  // of the large pieces, by what they follow
+  std::map<std::uint32_t, std::vector<Eigen::Vector3d>>
+      middles;  // centres of the large pieces, by their piece of tets
   for (const auto& [piece, tet_pieces] : followed(body)) {
     if (volumes[piece] > least) middles[*tet_pieces.begin()].push_back(middleOf(mesh, piece));
   }
@@ -102,14 +103,14 @@ void cutBoth(const CutPatch& patch, std::uint32_t stroke, CutBody* body, std::ve
   EXPECT_LT(testing::worstJump(shown, before, body->shown(), mesh), 1e-9);
   EXPECT_LT((body->atRest() - mesh.rest_vertices).cwiseAbs().maxCoeff(), 1e-7);
   for (const auto& [piece, tet_pieces] : followed(*body)) EXPECT_EQ(tet_pieces.size(), 1u);
-  tally->differ += piecesOf(body->tets.topology().bodies) != piecesOf(mesh.bodies);
+  tally->differ += pieceCountOf(body->tets.topology().bodies) != pieceCountOf(mesh.bodies);
   planes->push_back(patch);
   const Tied tied = tiedPieces(*body, *planes);
   EXPECT_EQ(tied.across, 0);
   tally->tied += tied.side_by_side > 0;
 }
 
-/// Cuts tets and mesh together, by planes through the body, one to three one after the other.
+/// Cuts tets and mesh together, by one to three planes through the body in sequence.
 void cutBothAtRandom(const TetTopology& tets, const MeshTopology& mesh, unsigned seed) {
   const char* many = std::getenv("SOFTBODY_CUTS_PER_BODY");
   const int count = many != nullptr ? std::atoi(many) / 5 : 20;

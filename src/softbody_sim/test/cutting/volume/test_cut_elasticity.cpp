@@ -8,7 +8,7 @@
 #include "elasticity/elastic_blocks.h"
 #include "time_step/projective_dynamics.h"
 
-/// Strains smoothed around the vertices of a body that was cut: none is averaged across the cut.
+/// Strain smoothing around the vertices of a cut body: strains are not averaged across the cut.
 namespace softbody {
 namespace {
 
@@ -17,7 +17,7 @@ using testing::randomPoints;
 const Lame kLame{8000.0, 5000.0};
 constexpr double kSmoothing = 0.7;
 
-/// A sponge of two layers cut askew, through tets and past vertices.
+/// A sponge of two layers, cut obliquely through tets and close to vertices.
 TetTopology cutInTwo() {
   const TetTopology whole = testing::boxTopology({10, 5, 2}, {0.2, 0.1, 0.03});
   const std::vector<bool> uncut(static_cast<std::size_t>(whole.surface.rows()), false);
@@ -29,7 +29,7 @@ TetTopology cutInTwo() {
   return edit->topology;
 }
 
-/// A piece as a body of its own; its tets keep their order.
+/// A piece as a separate body. Its tets keep their order.
 struct Piece {
   std::vector<int> vertices;  ///< of the cut body
   Points rest;
@@ -62,7 +62,7 @@ class CutElasticity : public ::testing::Test {
   CorotatedElasticity elasticity_{body_.rest_vertices, body_.tets, kLame, kSmoothing};
   std::mt19937 random_{5};
   Points deformed_ = body_.rest_vertices + randomPoints(count_, 5e-4, &random_);
-  /// Far from one another and turned against each other.
+  /// The pieces moved apart and rotated.
   std::vector<Eigen::Isometry3d> poses_{
       testing::somePose(), Eigen::Translation3d(-0.3, 0.1, 0.2) *
                                Eigen::AngleAxisd(-1.1, Eigen::Vector3d(0.3, -1.0, 2.0).normalized())};
@@ -100,7 +100,7 @@ TEST_F(CutElasticity, IsThatOfTwoPiecesWithWallsOfVertexPairs) {
   ASSERT_EQ(*std::max_element(body_.bodies.begin(), body_.bodies.end()), 1u);
   EXPECT_GT(pieces_[0].tets.rows(), 200);
   EXPECT_GT(pieces_[1].tets.rows(), 200);
-  EXPECT_GE(verticesOfTheWalls().size(), 2u * 6u * 3u);  // as many pairs as lines of edges are cut, or more
+  EXPECT_GE(verticesOfTheWalls().size(), 2u * 6u * 3u);  // at least one pair per line of cut edges
 }
 
 TEST_F(CutElasticity, PiecesTurnAndMoveFreely) {
@@ -157,7 +157,7 @@ TEST_F(CutElasticity, VectorKernelsLetPiecesTurnFreelyToo) {
   EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9 * force());
 }
 
-/// A step of time that takes the pieces apart, each turning, is one of rigid motions.
+/// A time step that moves the pieces apart, with rotation, is a rigid motion of each.
 TEST_F(CutElasticity, PiecesInFlightGoWhereTheirInertiaTakesThem) {
   IncrementalPotential potential;
   potential.inertia = Eigen::VectorXd::Constant(count_, 1.0);

@@ -9,7 +9,7 @@ namespace {
 
 using testing::RandomCuts;
 
-/// Bit for bit, but for the revision.
+/// Equal bit for bit, except for the revision.
 void expectSame(const TetTopology& one, const TetTopology& other) {
   EXPECT_EQ(one.rest_vertices, other.rest_vertices);
   EXPECT_EQ(one.tets, other.tets);
@@ -18,7 +18,7 @@ void expectSame(const TetTopology& one, const TetTopology& other) {
   EXPECT_EQ(one.bodies, other.bodies);
 }
 
-/// Positions that a bent and turned body might have.
+/// Positions of a bent and rotated body.
 Points deformed(const Points& rest) {
   Points x = rest;
   for (Eigen::Index v = 0; v < x.rows(); ++v) {
@@ -27,7 +27,7 @@ Points deformed(const Points& rest) {
   return x;
 }
 
-/// Each place of the topology before keeps its position through the edit, at rest and deformed.
+/// Each place of the earlier topology keeps its position through the edit, at rest and deformed.
 void expectPlacesKept(const TetEdit& edit, const TetTopology& before) {
   const Points x = deformed(before.rest_vertices);
   const Points x_after = applyBinding(edit.vertex_origins, x, before.tets);

@@ -40,22 +40,22 @@ std::unique_ptr<Simulator> swinging() {
   return simulator;
 }
 
-std::vector<int> verticesOfBody(const TetTopology& topology, std::uint32_t body) {
+std::vector<int> verticesOfPiece(const TetTopology& topology, std::uint32_t piece) {
   std::vector<int> vertices;
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    if (topology.bodies[static_cast<std::size_t>(t)] != body) continue;
+    if (topology.bodies[static_cast<std::size_t>(t)] != piece) continue;
     for (const int v : topology.tets.row(t)) vertices.push_back(v);
   }
   return vertices;
 }
 
-/// Over a piece's material.
-Eigen::Vector3d meanOfBody(const TetTopology& topology, std::uint32_t body, const Points& values) {
+/// Mean over the material of a piece.
+Eigen::Vector3d meanOfPiece(const TetTopology& topology, std::uint32_t piece, const Points& values) {
   const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double all = 0.0;
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    if (topology.bodies[static_cast<std::size_t>(t)] != body) continue;
+    if (topology.bodies[static_cast<std::size_t>(t)] != piece) continue;
     all += volumes[t];
     for (const int v : topology.tets.row(t)) sum += 0.25 * volumes[t] * values.row(v).transpose();
   }
@@ -106,7 +106,7 @@ TEST(CutSimulation, PiecesMoveOnTheirOwn) {
   std::string reason;
   ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
   const TetTopology& topology = simulator.topology();
-  const std::vector<int> moved = verticesOfBody(topology, 0), still = verticesOfBody(topology, 1);
+  const std::vector<int> moved = verticesOfPiece(topology, 0), still = verticesOfPiece(topology, 1);
   ASSERT_FALSE(still.empty());
   const Points before = simulator.state().vertices;
   Points goal = before;
@@ -123,7 +123,7 @@ TEST(CutSimulation, PiecesMoveOnTheirOwn) {
             1e-6);
 }
 
-/// The loads that are estimated of a body pulled at both ends balance on the whole, not on its halves.
+/// Estimated loads of a body pulled at both ends are balanced over the whole body, not over its halves.
 TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
   Simulator simulator(testing::sponge(), Material(), {});
   simulator.step(atRest(simulator), kFrame);
@@ -140,8 +140,8 @@ TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
   none.revision = 1;
   for (int k = 22; k < 32; ++k) simulator.step(none, k * kFrame);
   const Points way = simulator.state().vertices - before;
-  for (const std::uint32_t body : {0u, 1u})
-    EXPECT_LT(meanOfBody(simulator.topology(), body, way).norm(), 1e-4) << "piece " << body;
+  for (const std::uint32_t piece : {0u, 1u})
+    EXPECT_LT(meanOfPiece(simulator.topology(), piece, way).norm(), 1e-4) << "piece " << piece;
 }
 
 TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
@@ -150,7 +150,7 @@ TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
   std::string reason;
   ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
   const TetTopology& topology = simulator.topology();
-  const std::vector<int> hidden = verticesOfBody(topology, 1);
+  const std::vector<int> hidden = verticesOfPiece(topology, 1);
   TargetSet targets;
   targets.revision = 1;
   Points goal = simulator.state().vertices;
@@ -168,7 +168,7 @@ TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
   for (int k = 8; k < 38; ++k) simulator.step(targets, k * kFrame);
   const double way = (simulator.state().vertices - before)(hidden, 2).mean();
   EXPECT_GT(way, 0.005);
-  EXPECT_LT(way, 0.04);  // the material's damping alone lets it go 0.09 m
+  EXPECT_LT(way, 0.04);  // with the damping of the material only: 0.09 m
 }
 
 TEST(CutSimulation, TargetsOfTheRevisionBeforeAreStillUnderstood) {
@@ -196,7 +196,7 @@ TEST(CutSimulation, AResetBeginsUncutAndOtherRevisionsAreRefused) {
   Simulator& simulator = *swinging_body;
   std::string reason;
   EXPECT_FALSE(simulator.apply(throughTheMiddle(2), &reason));
-  EXPECT_EQ(reason, "it leads to revision 2, but the body is at 0");
+  EXPECT_EQ(reason, "its revision is 2, but the body is at revision 0");
   EXPECT_FALSE(simulator.apply({1, 1, CutKind::kUndo, {}}, &reason));
   ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
   EXPECT_THROW(

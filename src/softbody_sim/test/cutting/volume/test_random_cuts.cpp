@@ -18,7 +18,7 @@ namespace {
 
 using testing::RandomCuts;
 
-/// Planes, sweeps and repeated cuts of each body together: few in `make test`, all in `make cuts`.
+/// Total number of planes, sweeps and repeated cuts of each body: few in `make test`, all in `make cuts`.
 int cutsPerBody() {
   const char* wanted = std::getenv("SOFTBODY_CUTS_PER_BODY");
   return wanted != nullptr ? std::atoi(wanted) : 60;
@@ -26,11 +26,11 @@ int cutsPerBody() {
 
 struct Tally {
   int made = 0, missed = 0, refused = 0;
-  double worst_quality = 1.0;  ///< of tets that are parts of others
+  double worst_quality = 1.0;  ///< of tets that are parts of cut tets
   double worst_volume = 0.0;   ///< relative change
 };
 
-/// What must hold for the topology as published, in single precision, after any cut.
+/// Checks the published topology, in single precision, after any cut.
 void expectSound(const TetEdit& edit, const TetTopology& before, Tally* tally) {
   const TetTopology& after = edit.topology;
   EXPECT_EQ(after.rest_vertices, inSinglePrecision(after.rest_vertices));
@@ -52,7 +52,7 @@ void expectSound(const TetEdit& edit, const TetTopology& before, Tally* tally) {
   }
 }
 
-/// Whether no piece reaches beyond the plane on both sides by more than its longest edge.
+/// Whether no piece extends to both sides of the plane by more than its longest edge.
 bool isParted(const TetTopology& after, const RandomCuts::Plane& plane) {
   struct Reach {
     double below = 0.0, above = 0.0, longest_edge = 0.0;
@@ -113,7 +113,7 @@ void cutRepeatedly(const TetTopology& body, RandomCuts* cuts, Tally* tally) {
   }
 }
 
-/// Ten turns of five planes, one sweep and, as one turn, five cuts one after another.
+/// Ten rounds of five planes and one sweep, and one round of five cuts in sequence.
 void cutAtRandom(const TetTopology& body, const std::string& name) {
   RandomCuts cuts(body, 20221121);
   Tally tally;

@@ -21,7 +21,7 @@ struct Body {
   std::vector<bool> cut = std::vector<bool>(static_cast<std::size_t>(topology.surface.rows()), false);
 };
 
-/// Volume, orientation, slivers, manifold surface, bodies: all that a cut body must be.
+/// Checks a cut body: volume, orientation, slivers, manifold surface, pieces.
 void expectSound(const TetEdit& edit, const TetTopology& before) {
   const TetTopology& after = edit.topology;
   const double volume = tetVolumes(before.rest_vertices, before.tets).sum();
@@ -38,7 +38,7 @@ void expectSound(const TetEdit& edit, const TetTopology& before) {
   EXPECT_EQ(used.size(), static_cast<std::size_t>(after.rest_vertices.rows()));
 }
 
-/// New tets are no slivers, fill their parents, and vertices lie where their origins say.
+/// Checks that new tets are not slivers and fill their parents, and that vertices lie at their origins.
 void expectDescended(const TetEdit& edit, const TetTopology& before) {
   const TetTopology& after = edit.topology;
   const Eigen::VectorXd old_volumes = tetVolumes(before.rest_vertices, before.tets);
@@ -60,7 +60,7 @@ void expectDescended(const TetEdit& edit, const TetTopology& before) {
   }
 }
 
-/// Whether no body has material well off the plane on both sides.
+/// Whether no piece has material on both sides of the plane, off the plane.
 bool isParted(const TetTopology& after, const std::vector<bool>& on_cut, const RandomCuts::Plane& plane) {
   std::map<std::uint32_t, bool> sides;
   for (Eigen::Index t = 0; t < after.tets.rows(); ++t) {

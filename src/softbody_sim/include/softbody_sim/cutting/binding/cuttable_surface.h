@@ -11,16 +11,16 @@
 
 namespace softbody {
 
-/// What a cut would do.
+/// The result that a cut would have.
 struct CutPreview {
-  std::string refusal;          ///< why it cannot be made; empty if it can
+  std::string refusal;          ///< why the cut is impossible; empty if it is possible
   std::vector<double> volumes;  ///< of the pieces of the visual mesh, largest first [m^3]
-  MeshTopology pieces;          ///< the visual mesh as it would be; empty if it cannot be cut
+  MeshTopology pieces;          ///< the visual mesh after the cut; empty if the cut is impossible
 };
 
-/// The visual mesh of a body that is cut, and the tets that it follows. A cut is made where the visual mesh
-/// can be cut; the tets, which are coarser, follow as far as they go. A simulator that is given the same cuts
-/// has the same tets.
+/// The visual mesh of a body that is cut, and the tets that it is bound to. A cut is made if the visual mesh
+/// can be cut; the coarser tets follow as far as possible. A simulator that gets the same cuts has the same
+/// tets.
 class CuttableSurface {
  public:
   /// @throw std::invalid_argument if the volume's surface is not closed.
@@ -32,40 +32,39 @@ class CuttableSurface {
   const VisualSurface& surface() const;
   const TetTopology& volume() const;
 
-  /// The cut that the blade's motion since the last call asks for, already carried out.
-  /// @param blade polygon in the frame of the volume's state, the same one every time [m].
-  /// @param volume state of the volume at that time; nothing is cut if it is of another revision.
-  /// @param stamp of the blade. After a gap, or where time jumps back, no cut leads from where it was to
-  /// where it is.
+  /// Cuts along the motion of the blade since the last call. @return the cut that was made, if any.
+  /// @param blade polygon in the frame of the volume's state, the same in every call [m].
+  /// @param volume state of the volume at that time; nothing is cut if its revision differs.
+  /// @param stamp of the blade. Motion across a gap or a jump back in time cuts nothing.
   std::optional<Cut> follow(const Points& blade, const MeshState& volume, Nanoseconds stamp);
 
-  /// The blade is not seen.
+  /// To be called when the blade is not seen.
   void lift();
 
-  /// The cut that overstretched material asks for, already carried out: call it with every state. A tear is a
-  /// stroke of its own. None leaves a piece of less than a hundredth of the body.
-  /// @param volume its state; nothing tears if it is of another revision.
+  /// Tears overstretched material; to be called with every state. @return the cut that was made, if any. A
+  /// tear is a separate stroke. It never leaves a piece smaller than 1 % of the body. @param volume its
+  /// state; nothing tears if its revision differs.
   std::optional<Cut> tear(const MeshState& volume);
 
-  /// A cut of a stroke of its own; for apply(). The patch is rounded as it is published.
+  /// A cut as a separate stroke, for apply(). The patch is rounded as it is published.
   Cut separateCut(const TriangleMesh& patch) const;
-  /// Undo, redo or reset; for apply().
+  /// Undo, redo or reset, for apply().
   Cut edit(CutKind kind) const;
 
-  /// Carries out a cut. Nothing changes where it returns false, `reason` then says why, or throws.
-  /// @param volume state of the volume before the cut: in it the visual mesh does not jump.
-  /// @throw std::invalid_argument if the patch is no oriented surface.
+  /// Makes a cut. If it returns false, with a `reason`, or throws, nothing has changed. @param volume state
+  /// of the volume before the cut, in which the visual mesh does not jump. @throw std::invalid_argument if
+  /// the patch is not an oriented surface.
   bool apply(const Cut& cut, const MeshState& volume, std::string* reason);
 
-  /// The simulator has come to this revision, too: what was before is not needed for rollBack any more.
-  /// Who never confirms keeps all of it.
+  /// To be called when the simulator has reached this revision: rollBack can then no longer return to earlier
+  /// ones, and their memory is freed.
   void confirm(std::uint32_t revision);
 
-  /// Takes back the cuts after a revision that the simulator has not come beyond, as if they had never been
-  /// made. @return false, and nothing is changed, if it is a later one or one before a confirmed one.
+  /// Removes the cuts after the revision that the simulator has reached, as if they had never been made.
+  /// @return false, without any change, if the revision is in the future or earlier than a confirmed one.
   bool rollBack(std::uint32_t revision);
 
-  /// What separateCut(patch) would do. @throw std::invalid_argument if the patch is no oriented surface.
+  /// The result of separateCut(patch). @throw std::invalid_argument if the patch is not an oriented surface.
   CutPreview preview(const TriangleMesh& patch) const;
 
  private:

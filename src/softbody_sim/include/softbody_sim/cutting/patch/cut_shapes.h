@@ -2,15 +2,15 @@
 
 #include "softbody_common/types.h"
 
-/// Patches for cuts without a blade, in rest space [m].
+/// Cut patches that do not come from a blade, in rest space [m].
 namespace softbody {
 
-/// A square in a plane that reaches beyond the body all round. @throw std::invalid_argument if a number is
-/// not finite or the normal is zero.
+/// A square in a plane, larger than the body. @throw std::invalid_argument if a number is not finite or the
+/// normal is zero.
 TriangleMesh planePatch(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, const Points& body);
 
-/// @param corners in order. @throw std::invalid_argument unless they are the corners of a planar, convex
-/// polygon.
+/// A planar, convex polygon. @param corners in order. @throw std::invalid_argument if it is not planar or not
+/// convex.
 TriangleMesh polygonPatch(const Points& corners);
 
 }  // namespace softbody

@@ -16,14 +16,15 @@
 namespace softbody {
 namespace {
 
-constexpr double kLeastTorn = 0.01;  // of the body's volume, that a tear may leave
-constexpr double kNear = 0.1;  // from the body's bounding box; a blade further away is not looked at [m]
+constexpr double kLeastTorn = 0.01;  // smallest piece that a tear may leave, over the body's volume
+constexpr double kNear = 0.1;  // distance from the body's bounding box beyond which a blade is ignored [m]
 
 Eigen::AlignedBox3d boxOf(const Points& points) {
   return {Eigen::Vector3d(points.colwise().minCoeff()), Eigen::Vector3d(points.colwise().maxCoeff())};
 }
 
-/// How far the tets reach beyond the visual mesh: no vertex of their surface is further from one of its.
+/// Overhang of the tets over the visual mesh: the largest distance of a surface vertex from the nearest
+/// visual one.
 double overhangOf(const TetTopology& volume, const MeshTopology& visual) {
   double most = 0.0;
   for (const int v : volume.surface.reshaped()) {
@@ -34,7 +35,7 @@ double overhangOf(const TetTopology& volume, const MeshTopology& visual) {
   return std::sqrt(most);
 }
 
-/// Enclosed by the pieces, largest first.
+/// Volumes of the pieces, largest first.
 std::vector<double> volumesOf(const MeshTopology& mesh) {
   std::vector<double> volumes;
   const Eigen::Vector3d origin = mesh.rest_vertices.row(0);
@@ -42,15 +43,15 @@ std::vector<double> volumesOf(const MeshTopology& mesh) {
     const auto corner = [&](int k) -> Eigen::Vector3d {
       return mesh.rest_vertices.row(mesh.triangles(t, k)).transpose() - origin;
     };
-    const std::size_t body = mesh.bodies[static_cast<std::size_t>(t)];
-    if (body >= volumes.size()) volumes.resize(body + 1, 0.0);
-    volumes[body] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
+    const std::size_t piece = mesh.bodies[static_cast<std::size_t>(t)];
+    if (piece >= volumes.size()) volumes.resize(piece + 1, 0.0);
+    volumes[piece] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
   }
   std::sort(volumes.begin(), volumes.end(), std::greater<>());
   return volumes;
 }
 
-/// What cuts change. Copies share all that an edit leaves alone.
+/// The state that cuts change. Copies share everything that an edit does not change.
 struct Models {
   CutHistory tets;
   SurfaceHistory surface;
@@ -94,14 +95,15 @@ struct CuttableSurface::Implementation {
 
   CuttingConfig config;
   Models models;
-  std::deque<Models> unconfirmed;  ///< before each cut that the simulator may still refuse, oldest first
+  std::deque<Models>
+      unconfirmed;  ///< state before each cut that the simulator has not confirmed, oldest first
   RestSolid solid;
   BladeStroke blade;
   TearWatch tears;
   std::optional<Nanoseconds> followed;  ///< stamp of the last blade
 };
 
-/// On a copy, so that tets and surface stay in step whatever is thrown between their edits.
+/// Works on a copy, so that tets and surface stay consistent if an edit throws.
 bool CuttableSurface::Implementation::apply(const Cut& cut, const MeshState& state, std::string* reason) {
   Models next = models;
   if (!(cut.kind == CutKind::kCut ? next.cut(cut, state, reason) : next.move(cut, reason))) return false;
@@ -182,7 +184,7 @@ Cut CuttableSurface::edit(CutKind kind) const {
 bool CuttableSurface::apply(const Cut& cut, const MeshState& volume, std::string* reason) {
   Implementation& s = *implementation_;
   if (!s.apply(cut, volume, reason)) return false;
-  // A blade that is still in the body must not make its way since it came in again.
+  // A blade that is still in the body must not repeat its motion since it entered.
   s.blade.forgetStrokes();
   s.blade.lift();
   return true;
@@ -203,7 +205,7 @@ bool CuttableSurface::rollBack(std::uint32_t revision) {
   s.models = std::move(*kept);
   s.unconfirmed.erase(kept, s.unconfirmed.end());
   s.blade.forgetStrokes();
-  s.blade.lift();  // the same cut is not asked for again at once
+  s.blade.lift();  // avoids the same cut again at once
   return true;
 }
 

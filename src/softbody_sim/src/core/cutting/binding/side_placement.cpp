@@ -11,7 +11,7 @@
 namespace softbody {
 namespace {
 
-/// Per vertex after the edit: new, or copied where the crack opened.
+/// Per vertex after the edit: true if it is new, or was duplicated by the crack.
 std::vector<bool> crackVertices(const TetTopology& before, const TetEdit& edit) {
   const auto count = static_cast<std::size_t>(before.rest_vertices.rows());
   std::vector<bool> crack(edit.vertex_origins.size(), true);
@@ -25,8 +25,8 @@ std::vector<bool> crackVertices(const TetTopology& before, const TetEdit& edit) 
   return crack;
 }
 
-std::size_t countOf(const std::vector<std::uint32_t>& bodies) {
-  return bodies.empty() ? 0 : *std::max_element(bodies.begin(), bodies.end()) + 1;
+std::size_t pieceCountOf(const std::vector<std::uint32_t>& pieces) {
+  return pieces.empty() ? 0 : *std::max_element(pieces.begin(), pieces.end()) + 1;
 }
 
 class SidePlacement {
@@ -37,25 +37,25 @@ class SidePlacement {
         before_(before),
         edit_(edit),
         walk_(edit.topology.rest_vertices, edit.topology.tets),
-        bodies_(static_cast<std::size_t>(mesh_.rest_vertices.rows())),
-        places_(bodies_.size()),
-        distances_(bodies_.size(), 0.0) {
+        mesh_pieces_(static_cast<std::size_t>(mesh_.rest_vertices.rows())),
+        places_(mesh_pieces_.size()),
+        distances_(mesh_pieces_.size(), 0.0) {
     for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
-      for (const int v : mesh_.triangles.row(t)) bodies_[at(v)] = mesh_.bodies[at(t)];
+      for (const int v : mesh_.triangles.row(t)) mesh_pieces_[at(v)] = mesh_.bodies[at(t)];
     }
   }
 
-  void placeSureOnes(const std::vector<MaterialPoint>& known);
-  void keepOnePieceEach();
-  void placeWithoutNeighbours();
+  void placeKnownSides(const std::vector<MaterialPoint>& known);
+  void keepMostFrequentPiece();
+  void seedUnplacedPieces();
   void spread(bool over_new_walls);
   const std::vector<MaterialPoint>& places() const { return places_; }
 
  private:
-  using Link = std::pair<int, int>;  ///< from a vertex to a neighbour
+  using Link = std::pair<int, int>;  ///< from a vertex to a neighbour without a place
   static std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
   MaterialPoint placeAfter(const MaterialPoint& place) const;
-  std::uint32_t pieceOf(std::size_t v) const { return edit_.topology.bodies[at(places_[v].tet)]; }
+  std::uint32_t tetPieceOf(std::size_t v) const { return edit_.topology.bodies[at(places_[v].tet)]; }
   std::vector<Link> linksToUnplaced(bool over_new_walls) const;
 
   const SurfaceCut& surface_;
@@ -63,9 +63,9 @@ class SidePlacement {
   const TetTopology& before_;
   const TetEdit& edit_;
   TetWalk walk_;
-  std::vector<std::uint32_t> bodies_;  ///< per vertex of the mesh
+  std::vector<std::uint32_t> mesh_pieces_;  ///< per vertex of the mesh
   std::vector<MaterialPoint> places_;
-  std::vector<double> distances_;  ///< along the mesh, from the vertices whose side is sure
+  std::vector<double> distances_;  ///< along the mesh, from the vertices of known side
 };
 
 MaterialPoint SidePlacement::placeAfter(const MaterialPoint& place) const {
@@ -74,7 +74,7 @@ MaterialPoint SidePlacement::placeAfter(const MaterialPoint& place) const {
   return edit_.placeAfter(place, before_);
 }
 
-void SidePlacement::placeSureOnes(const std::vector<MaterialPoint>& known) {
+void SidePlacement::placeKnownSides(const std::vector<MaterialPoint>& known) {
   const std::vector<bool> crack = crackVertices(before_, edit_);
   for (std::size_t v = 0; v < known.size(); ++v) {
     if (known[v].tet < 0) continue;
@@ -87,12 +87,12 @@ void SidePlacement::placeSureOnes(const std::vector<MaterialPoint>& known) {
   }
 }
 
-/// Of the pieces of tets that a piece of the mesh has places in, the one with most of them counts.
-void SidePlacement::keepOnePieceEach() {
-  const std::size_t piece_count = countOf(edit_.topology.bodies);
-  std::vector<int> counts(countOf(bodies_) * piece_count, 0);
+/// A piece of the mesh keeps its places in one piece of the tets only: the one with most places.
+void SidePlacement::keepMostFrequentPiece() {
+  const std::size_t piece_count = pieceCountOf(edit_.topology.bodies);
+  std::vector<int> counts(pieceCountOf(mesh_pieces_) * piece_count, 0);
   for (std::size_t v = 0; v < places_.size(); ++v) {
-    if (places_[v].tet >= 0) ++counts[bodies_[v] * piece_count + pieceOf(v)];
+    if (places_[v].tet >= 0) ++counts[mesh_pieces_[v] * piece_count + tetPieceOf(v)];
   }
   std::vector<std::uint32_t> most;
   for (auto row = counts.begin(); row != counts.end(); row += static_cast<std::ptrdiff_t>(piece_count)) {
@@ -100,20 +100,20 @@ void SidePlacement::keepOnePieceEach() {
     most.push_back(static_cast<std::uint32_t>(std::max_element(row, end) - row));
   }
   for (std::size_t v = 0; v < places_.size(); ++v) {
-    if (places_[v].tet >= 0 && pieceOf(v) != most[bodies_[v]]) places_[v] = {};
+    if (places_[v].tet >= 0 && tetPieceOf(v) != most[mesh_pieces_[v]]) places_[v] = {};
   }
 }
 
-/// A piece of the mesh without any place gets its first vertex placed, from where its middle is.
-void SidePlacement::placeWithoutNeighbours() {
+/// Places the first vertex of each piece of the mesh without places, starting at the centre of the piece.
+void SidePlacement::seedUnplacedPieces() {
   struct Piece {
     int first = -1, count = 0;
     bool placed = false;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   };
-  std::vector<Piece> pieces(countOf(bodies_));
+  std::vector<Piece> pieces(pieceCountOf(mesh_pieces_));
   for (std::size_t v = 0; v < places_.size(); ++v) {
-    Piece& piece = pieces[bodies_[v]];
+    Piece& piece = pieces[mesh_pieces_[v]];
     if (piece.first < 0) piece.first = static_cast<int>(v);
     piece.placed = piece.placed || places_[v].tet >= 0;
     piece.sum += mesh_.rest_vertices.row(static_cast<Eigen::Index>(v)).transpose();
@@ -127,7 +127,7 @@ void SidePlacement::placeWithoutNeighbours() {
   }
 }
 
-/// Sorted by where they start.
+/// Sorted by their start.
 std::vector<SidePlacement::Link> SidePlacement::linksToUnplaced(bool over_new_walls) const {
   std::vector<Link> links;
   for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
@@ -144,7 +144,7 @@ std::vector<SidePlacement::Link> SidePlacement::linksToUnplaced(bool over_new_wa
   return links;
 }
 
-/// Shortest ways first (Dijkstra 1959), so that a place comes from this side of a slit, not round its end.
+/// Shortest paths first (Dijkstra 1959), so that a place comes from its side of a slit, not around its end.
 void SidePlacement::spread(bool over_new_walls) {
   const std::vector<Link> links = linksToUnplaced(over_new_walls);
   using Step = std::tuple<double, int, int>;  // distance, to, from
@@ -174,9 +174,9 @@ void SidePlacement::spread(bool over_new_walls) {
 std::vector<MaterialPoint> placesByCutSide(const SurfaceCut& surface, const std::vector<MaterialPoint>& known,
                                            const TetTopology& before, const TetEdit& edit) {
   SidePlacement sides(surface, before, edit);
-  sides.placeSureOnes(known);
-  sides.keepOnePieceEach();
-  sides.placeWithoutNeighbours();
+  sides.placeKnownSides(known);
+  sides.keepMostFrequentPiece();
+  sides.seedUnplacedPieces();
   sides.spread(false);
   sides.spread(true);
   return sides.places();

@@ -7,7 +7,7 @@ namespace softbody {
 
 namespace {
 
-/// An open mesh is followed as well as a closed one; only cutting it says what is wrong.
+/// Nothing for an open mesh: it can be simulated, but cutting it throws.
 std::optional<ManifoldMesh> manifoldOf(const MeshTopology& mesh) {
   try {
     return splitNonManifold(listOf(mesh.triangles), mesh.rest_vertices);

@@ -9,29 +9,29 @@
 
 namespace softbody {
 
-/// The visual surface of a body through strokes of the blade, undo and redo: CutHistory's companion, to be
-/// given the same strokes, undos and redos. An undone surface is the one from before, mesh and binding, bit
-/// for bit, but for its revision. Copies share the surfaces.
+/// The visual surface of a body through strokes of the blade, undo and redo. It must be given the same
+/// strokes, undos and redos as CutHistory. Undo restores mesh and binding bit for bit, except for the
+/// revision. Copies share the surfaces.
 class SurfaceHistory {
  public:
   explicit SurfaceHistory(VisualSurface uncut);
 
   const VisualSurface& surface() const { return versions_[at_]->surface; }
 
-  /// The mesh after the next part of a stroke: the mesh from before the stroke, cut along all of the stroke.
-  /// Nothing is changed. @throw std::invalid_argument as cutSurface.
+  /// The mesh after the next part of a stroke: the mesh before the stroke, cut along the whole stroke.
+  /// Changes nothing. @throw std::invalid_argument as cutSurface.
   SurfaceCut preview(const CutPatch& patch, std::uint32_t stroke) const;
 
-  /// Goes on to the tets after their edit and to what preview gave for the same patch and stroke. A mesh that
-  /// was missed or refused is as before the stroke. A new stroke begins as in CutHistory.
-  /// @param volume state of the tets before the edit, in which nothing is to jump.
+  /// Takes over the edit of the tets and the result of preview for the same patch and stroke. A missed or
+  /// refused mesh is as before the stroke. A new stroke begins as in CutHistory.
+  /// @param volume state of the tets before the edit, in which the surface must not jump.
   void cut(const CutPatch& patch, std::uint32_t stroke, SurfaceCut cut, const TetEdit& edit,
            const MeshState& volume);
 
-  /// Adds to the stroke a part that changes nothing yet: no tet is cut.
+  /// Adds a part to the stroke that does not cut anything yet.
   void advance(const CutPatch& patch, std::uint32_t stroke);
 
-  /// @param revision the tets' after theirs. @return false if there is no stroke to undo, or to redo.
+  /// @param revision of the tets after the same step. @return false if there is no stroke to undo or redo.
   bool undo(std::uint32_t revision);
   bool redo(std::uint32_t revision);
   bool reset(std::uint32_t revision);
@@ -43,12 +43,12 @@ class SurfaceHistory {
 
   struct Version {
     VisualSurface surface;
-    std::optional<ManifoldMesh> manifold;  ///< of its mesh; none if that is not closed
+    std::optional<ManifoldMesh> manifold;  ///< form of its mesh; nothing if the mesh is not closed
   };
   std::vector<std::shared_ptr<const Version>> versions_;  ///< the uncut surface, then after each stroke
   std::size_t at_ = 0;
   MeshSources sources_;  ///< of the surface, in the mesh before the current stroke
-  CutPatch stroke_;      ///< all of the current one
+  CutPatch stroke_;      ///< whole current stroke
   std::optional<std::uint32_t> stroke_number_;
   bool stroke_has_version_ = false;
 };

@@ -14,8 +14,8 @@
 namespace softbody {
 namespace {
 
-/// Which vertices of the surface before a vertex after may be: those of the same source; the cut's own are
-/// known by their places at rest. On the two walls of a cut there are several.
+/// The earlier vertices that correspond to a vertex after the cut: those with the same source. Vertices made
+/// by the cut are found by their rest positions. On the two walls of a cut there are several.
 class Counterparts {
  public:
   struct Range {
@@ -78,16 +78,16 @@ class Rebinding {
     placeOldVertices();
     placeNewVertices();
     TetBinding binding(edit_.topology, std::move(places_));
-    binding.meet(vertices_, positions_);
+    binding.correctTo(vertices_, positions_);
     return binding;
   }
 
  private:
-  /// A vertex's place on a triangle of the surface before.
+  /// A position of a vertex on a triangle of the earlier surface.
   struct Spot {
-    double outside = 0.0;         ///< how far beyond the triangle's border, in barycentric coordinates
-    Eigen::RowVector3d position;  ///< where that is shown
-    double distance = 0.0;        ///< from where the vertex's side is
+    double outside = 0.0;         ///< distance beyond the triangle's border, in barycentric coordinates
+    Eigen::RowVector3d position;  ///< in the given state
+    double distance = 0.0;        ///< from the position by the vertex's tet
     bool isBetterThan(const Spot& other) const {
       constexpr double kRounding = 1e-3;
       if (std::max(outside, other.outside) > kRounding) return outside < other.outside;
@@ -109,7 +109,7 @@ class Rebinding {
   const SurfaceCut& cut_;
   const TetEdit& edit_;
   Counterparts counterparts_;
-  Points shown_;     ///< the surface before, in the given state
+  Points shown_;     ///< vertices of the earlier surface, in the given state
   Points vertices_;  ///< of the tets after the edit, likewise
   std::vector<MaterialPoint> places_;
   Points positions_;
@@ -126,7 +126,7 @@ std::vector<MaterialPoint> Rebinding::knownPlaces() const {
   return known;
 }
 
-/// Of several counterparts, the one that is shown nearest to where the vertex's own side is.
+/// Of several counterparts, takes the one nearest to the position by the vertex's tet, which is on its side.
 void Rebinding::placeOldVertices() {
   for (Eigen::Index v = 0; v < positions_.rows(); ++v) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -141,7 +141,7 @@ void Rebinding::placeOldVertices() {
   }
 }
 
-/// Per triangle of the mesh before the stroke the vertices that the cut has made on it.
+/// Per triangle of the mesh before the stroke, the new vertices on it.
 std::vector<std::vector<int>> Rebinding::newVerticesBySource() const {
   std::vector<std::vector<int>> made;
   for (Eigen::Index t = 0; t < cut_.mesh.triangles.rows(); ++t) {
@@ -156,8 +156,8 @@ std::vector<std::vector<int>> Rebinding::newVerticesBySource() const {
   return made;
 }
 
-/// On the triangle of the surface before that has the vertex at rest; of two beside a slit, on the one shown
-/// nearest to where the vertex's own side is.
+/// Puts each new vertex on the earlier triangle that contains it at rest. Of two triangles beside a slit,
+/// takes the one nearest to the position by the vertex's tet.
 void Rebinding::placeNewVertices() {
   const MeshTopology& before = now_.topology();
   const std::vector<std::vector<int>> made = newVerticesBySource();

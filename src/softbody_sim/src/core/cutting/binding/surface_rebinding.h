@@ -8,18 +8,19 @@
 
 namespace softbody {
 
-/// Where a mesh's vertices and triangles come from in another, as in SurfaceCut.
+/// The sources of a mesh's vertices and triangles in another mesh, as in SurfaceCut.
 struct MeshSources {
   std::vector<int> vertices, triangles;
 };
 
-/// A mesh's own vertices and triangles.
+/// The identity: a mesh as its own source.
 MeshSources ownSources(const MeshTopology& mesh);
 
-/// The visual surface over the tets after an edit, without a jump: in the given state, vertices that the
-/// surface had before keep their positions, and new ones on it lie where it was. At rest all are at rest.
-/// @param now the surface before the edit; @param sources its mesh's in the mesh before the current stroke;
-/// @param cut that mesh along all of the stroke; @param volume a state of the tets before the edit.
+/// Binds the cut visual surface to the tets after an edit, without a jump: in the given state, earlier
+/// vertices keep their positions, and new ones lie on the earlier surface. At rest all vertices are at their
+/// rest positions.
+/// @param now the surface before the edit; @param sources of its mesh in the mesh before the current stroke;
+/// @param cut of that mesh along the whole stroke; @param volume a state of the tets before the edit.
 VisualSurface rebindSurface(const VisualSurface& now, const MeshSources& sources, SurfaceCut cut,
                             const TetEdit& edit, const MeshState& volume);
 

@@ -27,14 +27,14 @@ TetWalk::TetWalk(const Points& vertices, const Tets& tets) : vertices_(vertices)
   }
 }
 
-/// Beyond the face that has the point farthest beyond it, of those that lead on; -1: none does.
-int TetWalk::nextTet(const MaterialPoint& place, const std::vector<int>& passed) const {
+/// The neighbour at the face that the point is farthest beyond; -1 if there is none.
+int TetWalk::nextTet(const MaterialPoint& place, const std::vector<int>& visited) const {
   int next = -1;
   double least = 0.0;
   for (int k = 0; k < 4; ++k) {
     const int tet = neighbours_[static_cast<std::size_t>(place.tet)][static_cast<std::size_t>(k)];
     if (tet < 0 || place.barycentric[k] >= least) continue;
-    if (std::find(passed.begin(), passed.end(), tet) != passed.end()) continue;
+    if (std::find(visited.begin(), visited.end(), tet) != visited.end()) continue;
     least = place.barycentric[k];
     next = tet;
   }
@@ -43,14 +43,14 @@ int TetWalk::nextTet(const MaterialPoint& place, const std::vector<int>& passed)
 
 MaterialPoint TetWalk::towards(int tet, const Eigen::Vector3d& point) const {
   MaterialPoint best;
-  std::vector<int> passed;
+  std::vector<int> visited;
   while (tet >= 0) {
     const MaterialPoint place{tet, barycentricCoordinates(point, vertices_, tets_.row(tet))};
     const double inside = place.barycentric.minCoeff();
     if (best.tet < 0 || inside > best.barycentric.minCoeff()) best = place;
     if (inside >= 0.0) break;
-    passed.push_back(tet);
-    tet = nextTet(place, passed);
+    visited.push_back(tet);
+    tet = nextTet(place, visited);
   }
   return best;
 }

@@ -81,7 +81,7 @@ int BladeOutline::sideFrom(int sample) const {
 int BladeOutline::sideTo(int sample) const { return sideFrom(sample + static_cast<int>(points_.rows()) - 1); }
 
 std::vector<int> BladeOutline::leadingEdge(const Eigen::Vector3d& way) const {
-  constexpr double kFacing = 0.6;  // of the foremost side's cosine: two sides of a tip or a diagonal lead
+  constexpr double kFacing = 0.6;  // of the cosine of the foremost side: both sides of a tip lead
   const Eigen::VectorXd facing = side_normals_ * way;
   Eigen::Index foremost = 0;
   facing.maxCoeff(&foremost);

@@ -6,33 +6,35 @@
 
 namespace softbody {
 
-/// Per side of a polygon, in how many parts samples at most `spacing` apart divide it; further apart where
-/// they would be more than some hundreds, as on a blade that is much larger than the body.
+/// Per side of a polygon, the number of parts between samples at most `spacing` apart. A very large blade
+/// gets a wider spacing, so that it has at most some hundred samples.
 std::vector<int> partsOfSides(const Points& polygon, double spacing);
 
-/// Samples along a closed polygon, from its first corner on.
+/// Samples along a closed polygon, beginning at its first corner.
 Points sampleOutline(const Points& polygon, const std::vector<int>& parts);
 
-/// A blade's outline, sampled and hardly bent.
+/// The sampled outline of a blade. In rest space it can be slightly bent.
 class BladeOutline {
  public:
-  /// @param points as sampleOutline gave them, wherever they are now.
+  /// @param points of sampleOutline, in any frame.
   BladeOutline(Points points, std::vector<int> parts);
 
   const Points& points() const { return points_; }
   const Eigen::Vector3d& normal() const { return normal_; }
 
-  /// The outline of a blade smaller by a distance all round, nearly: at a corner by some less [m].
+  /// The outline moved inward by a distance [m], at a corner by slightly less.
   Points setBack(double distance) const;
 
-  int sideFrom(int sample) const;  ///< that goes on from the sample
-  int sideTo(int sample) const;    ///< that comes to it: another one at a corner
+  int sideFrom(int sample) const;  ///< the side that begins or continues at the sample
+  int sideTo(int sample) const;    ///< the side that ends or continues at the sample
   Eigen::Vector3d sideNormal(int side) const { return side_normals_.row(side); }
 
-  /// Samples, in order, of the sides that face a way, unit and in the blade's plane.
+  /// Samples, in order, of the sides that face a direction of motion. @param way unit vector in the blade's
+  /// plane.
   std::vector<int> leadingEdge(const Eigen::Vector3d& way) const;
 
-  /// In the blade's plane, of samples of an edge, #edge by 3; of a corner the mean of its sides'.
+  /// Outward normals of samples of an edge, in the blade's plane, #edge by 3. A corner has the mean of its
+  /// sides.
   Points outwardNormals(const std::vector<int>& edge) const;
 
  private:

@@ -11,12 +11,12 @@
 namespace softbody {
 namespace {
 
-constexpr double kSameDirection = 0.85;  // cosine between normals of a slit and of a blade that is in it
-constexpr double kLeastRest = 0.3;       // of an advance, that is cut when the blade turns back
-constexpr double kTouch = 0.3;           // of an advance: a blade less deep in the body only touches it
+constexpr double kSameDirection = 0.85;  // cosine of the angle between a slit and a blade in it
+constexpr double kLeastRest = 0.3;       // of an advance: smallest cut when the blade turns back
+constexpr double kTouch = 0.3;           // of an advance: a blade less deep than this only touches the body
 
-/// Whether a patch lies within a distance of a point, and is turned there as a blade with this normal: one
-/// that crosses the slit is in it too, at first.
+/// Whether a patch is near a point and nearly parallel to the blade there. A blade that crosses a slit is
+/// near it too, but not parallel.
 bool lieNear(const std::vector<CutPatch>& patches, const Eigen::Vector3d& point,
              const Eigen::Vector3d& blade_normal, double tolerance) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -45,8 +45,8 @@ bool any(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
-/// Of each point on a row, whether it or the way to a neighbour is in the solid: a corner of the body can lie
-/// between two samples.
+/// Per point of a polyline, whether it or a segment to a neighbour meets the solid: a corner of the body can
+/// lie between two samples.
 std::vector<bool> inMaterial(const Points& row, const RestSolid& solid) {
   std::vector<bool> in = containedIn(solid, row);
   for (Eigen::Index i = 0; i + 1 < row.rows(); ++i) {
@@ -57,8 +57,8 @@ std::vector<bool> inMaterial(const Points& row, const RestSolid& solid) {
   return in;
 }
 
-/// Where an outline is in a solid: samples, and between two of them the middle of what they enclose. Numbers
-/// of samples; the fraction is a share of the way to the next one.
+/// Parameters of an outline inside a solid: samples, and between two samples the middle of the part inside.
+/// The integer part is the number of a sample, the fraction is the position on the segment to the next one.
 std::vector<double> placesIn(const Points& outline, const RestSolid& solid) {
   std::vector<double> places;
   for (Eigen::Index i = 0; i < outline.rows(); ++i) {
@@ -79,7 +79,7 @@ Eigen::Vector3d pointAt(const Points& outline, double place) {
   return (1.0 - share) * outline.row(i) + share * outline.row((i + 1) % outline.rows());
 }
 
-/// Points of the blade between its outline and its middle: a large blade's outline can enclose the body.
+/// Points between outline and centre of the blade: the outline of a large blade can enclose the body.
 Points withinOutline(const Points& outline) {
   const Eigen::RowVector3d middle = outline.colwise().mean();
   Points within(2 * outline.rows(), 3);
@@ -88,14 +88,14 @@ Points withinOutline(const Points& outline) {
   return within / 3.0;
 }
 
-/// The point moved on, unless that meets the solid.
+/// The point moved by `way`, or the point itself if it or the segment meets the solid.
 Eigen::RowVector3d movedOn(const Eigen::RowVector3d& point, const Eigen::RowVector3d& way,
                            const RestSolid& solid) {
   const Eigen::Vector3d from = point, to = point + way;
   return solid.contains(from) || solid.meets(from, to) ? point : to.transpose();
 }
 
-/// An edge and one more point at either end, further out by the overhang.
+/// An edge extended by one point at either end, by the overhang.
 Points withEnds(const Points& edge, double overhang, const RestSolid& solid) {
   const Eigen::Index last = edge.rows() - 1;
   Points row(edge.rows() + 2, 3);
@@ -110,8 +110,8 @@ Points withEnds(const Points& edge, double overhang, const RestSolid& solid) {
 
 struct BladeStroke::Contact {
   BladeOutline outline;
-  Points inner;                ///< the outline but for what only touches
-  std::vector<double> places;  ///< where that is in the body, as placesIn gives them
+  Points inner;                ///< the outline without the touching margin
+  std::vector<double> places;  ///< parameters of `inner` in the body, see placesIn
 };
 
 BladeStroke::BladeStroke(const CuttingConfig& config, double spacing, double overhang)
@@ -123,7 +123,7 @@ void BladeStroke::forgetStrokes() {
 }
 
 std::optional<BladeCut> BladeStroke::follow(const Points& blade, const RestMap& map, const RestSolid& solid) {
-  if (static_cast<Eigen::Index>(parts_.size()) != blade.rows()) {  // the first blade, or another one
+  if (static_cast<Eigen::Index>(parts_.size()) != blade.rows()) {  // the first blade, or another polygon
     parts_ = partsOfSides(blade, spacing_);
     forgetStrokes();
     lift();
@@ -156,9 +156,9 @@ bool BladeStroke::resume(const Contact& now) {
   return false;
 }
 
-/// Where the blade has gone since it was clear of the body, along the normals of its sides that are in it:
-/// neither up along a flank nor along an edge. As long as the furthest of these ways, or as the way went that
-/// they make together: a tip goes in further than its flanks do.
+/// The motion of the blade since it was last outside of the body, along the normals of its sides in the body.
+/// Motion along a side does not count. Its length is the largest advance of a side, or of the motion along
+/// the combined direction if that is longer: a tip advances further than its sides.
 Eigen::Vector3d BladeStroke::wayIn(const Contact& now) const {
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
   std::set<int> sides;
@@ -191,7 +191,7 @@ bool BladeStroke::enter(const Contact& now, const RestSolid& solid) {
   const Eigen::RowVector3d back = -way.normalized().transpose();
   const double margin = std::max(config_.min_advance_m, overhang_);
   for (Eigen::Index i = 0; i < start.rows(); ++i) {
-    // Straight back to where it was clear, whatever it did before aside of its way in.
+    // Straight back to the position outside, without earlier sideways motion.
     start.row(i) += std::max(0.0, (clear_.row(stroke.edge[i]) - start.row(i)).dot(back)) * back;
     start.row(i) = movedOn(start.row(i), margin * back, solid);
   }
@@ -212,7 +212,7 @@ std::optional<BladeCut> BladeStroke::advance(const BladeOutline& outline, const 
   Stroke& stroke = strokes_.back();
   const Points row = withEnds(outline.points()(stroke.edge, Eigen::all), overhang_, solid);
   const Points normals = outline.outwardNormals(stroke.edge);
-  double now = 0.0, most = 0.0;  // how far the blade is, and was, beyond the front where there is material
+  double now = 0.0, most = 0.0;  // advance now, and largest advance, where there is material
   Eigen::VectorXd ahead(row.rows());
   for (Eigen::Index i = 0; i < row.rows(); ++i) {
     const Eigen::Index k = std::clamp<Eigen::Index>(i - 1, 0, normals.rows() - 1);

@@ -11,36 +11,35 @@
 
 namespace softbody {
 
-/// What a blade cuts next.
+/// The next cut of a blade.
 struct BladeCut {
   std::uint32_t stroke = 0;
-  CutPatch patch;  ///< in single precision, as it is published
+  CutPatch patch;  ///< rounded to single precision, as it is published
 };
 
-/// From a blade's motion to patches. A blade that is in the body by less than a share of an advance only
-/// touches it. A stroke begins where sides of the blade's polygon enter the body, be it between two samples,
-/// and go on in it along their normals; the sides that face this way are its leading edge, and the edge's
-/// furthest advance so far is the front of the cut. Once some of the edge is far enough beyond the front, the
-/// patch ruled between both is to be cut. What does not advance cuts nothing: withdrawal, tremor, a blade
-/// that moves to its side or along its edge. A blade that comes back into a slit goes on with the stroke that
-/// made it.
+/// Turns the motion of a blade into cut patches. A blade that is less deep in the body than a fraction of an
+/// advance only touches it. A stroke begins when sides of the blade's polygon enter the body and advance
+/// along their normals. The sides that face this direction are the leading edge. The furthest position of the
+/// leading edge so far is the front of the cut. When a part of the edge is far enough beyond the front, the
+/// ruled patch between both is cut. Withdrawal, tremor, and motion sideways or along the edge cut nothing. A
+/// blade that returns into a slit continues the stroke that made it.
 class BladeStroke {
  public:
   /// @param spacing of the samples on the blade's outline [m]; @param overhang of the tets over the visual
-  /// mesh [m]: where the blade is outside of the one the patch goes on through the other.
+  /// mesh [m]: the patch continues through this layer, outside of the visual mesh.
   BladeStroke(const CuttingConfig& config, double spacing, double overhang);
 
-  /// @param blade polygon where it is now, the same one every time; @param map of the body as it is now.
-  /// @return the cut that the blade asks for now; it asks again, with its way since added, until accept() is
-  /// called.
+  /// @param blade polygon in its present pose, the same polygon in every call; @param map of the present
+  /// state. @return the next cut, if any. Until accept() is called, later calls return it again, extended by
+  /// the further motion.
   std::optional<BladeCut> follow(const Points& blade, const RestMap& map, const RestSolid& solid);
   void accept();
 
-  /// The blade is nowhere near, or not seen.
+  /// To be called when the blade is far away or not seen.
   void lift() { active_ = false, clear_.resize(0, 3); }
-  /// Strokes do not go on after cuts that others made, or took back.
+  /// Ends all strokes: after a cut that the blade did not make, or an undo.
   void forgetStrokes();
-  /// Numbers that others give to their strokes.
+  /// Reserves the number of another stroke.
   void noteNumber(std::uint32_t number) { last_number_ = std::max(last_number_, number); }
   std::uint32_t lastNumber() const { return last_number_; }
 
@@ -48,9 +47,9 @@ class BladeStroke {
   struct Stroke {
     std::uint32_t number = 0;
     std::vector<int> edge;    ///< samples of the outline
-    Points front;             ///< of the samples, with one more at either end
-    Points reach;             ///< furthest since
-    Eigen::VectorXd reached;  ///< how far that is beyond the front [m]
+    Points front;             ///< positions of the samples, and one more at either end
+    Points reach;             ///< furthest positions since then
+    Eigen::VectorXd reached;  ///< distance of `reach` beyond the front [m]
     std::vector<CutPatch> patches;
   };
 
@@ -64,11 +63,11 @@ class BladeStroke {
 
   CuttingConfig config_;
   double spacing_, overhang_;
-  std::vector<int> parts_;  ///< per side of the polygon, as many samples begin on it
-  Points clear_;            ///< outline but for what only touches, when it was out of the body last
+  std::vector<int> parts_;  ///< per side of the polygon, its number of parts
+  Points clear_;  ///< outline without the touching margin, when the blade was last outside of the body
   std::vector<Stroke> strokes_;
-  bool active_ = false;  ///< the last of strokes_
-  Points asked_;         ///< front after the cut that was asked for
+  bool active_ = false;  ///< the last one of strokes_ continues
+  Points asked_;         ///< front after the requested cut
   CutPatch asked_patch_;
   std::uint32_t last_number_ = 0;
 };

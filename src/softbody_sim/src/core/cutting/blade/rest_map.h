@@ -11,11 +11,11 @@ class RestSolid {
   explicit RestSolid(const MeshTopology& uncut);
 
   bool contains(const Eigen::Vector3d& point) const;
-  /// Where a segment crosses its surface, in ascending t.
+  /// Crossings of a segment with the surface, in ascending t.
   std::vector<PatchHit> crossings(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     return surface_.hits(a, b);
   }
-  /// Whether a segment meets its surface.
+  /// Whether a segment crosses the surface.
   bool meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const { return !crossings(a, b).empty(); }
 
  private:
@@ -23,8 +23,8 @@ class RestSolid {
   Eigen::Vector3d outside_;  ///< a point outside of the solid
 };
 
-/// From where a body's material is now to where it is at rest. Outside of the body the map goes on rigidly
-/// from the nearest tet. The gap between the walls of an open cut is no material: it maps to the wall.
+/// Maps points from the deformed body to its rest shape. Outside of the body the map continues rigidly from
+/// the nearest tet. Points in the gap of an open cut map to a wall of the cut.
 class RestMap {
  public:
   /// Keeps references to `volume` and `solid`. @throw std::invalid_argument if a deformed tet has no volume.

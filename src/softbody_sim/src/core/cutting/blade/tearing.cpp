@@ -11,10 +11,10 @@
 namespace softbody {
 namespace {
 
-/// So many states on end: neither one wrong measurement nor the swing after a cut tears.
+/// Consecutive states beyond the limit: one wrong measurement or the vibration after a cut does not tear.
 constexpr int kStates = 5;
-constexpr double kFurther = 1.1;   // times the stretch at which a tet asked in vain
-constexpr double kOverhang = 0.1;  // of a mean edge
+constexpr double kFurther = 1.1;   // factor over the stretch of a patch that was not cut
+constexpr double kOverhang = 0.1;  // over the mean edge length
 
 /// Of F^T F = V diag(stretch^2) V^T, F the deformation gradient.
 Eigen::Matrix3d rightCauchyGreen(const TetTopology& volume, const Points& vertices, int tet) {

@@ -27,8 +27,8 @@ CutPatch ruledPatch(const Points& before, const Points& now) {
   const int count = static_cast<int>(before.rows());
   if (count < 2 || now.rows() != before.rows()) {
     throw std::invalid_argument(fmt::format(
-        "a patch is ruled between two edges of equally many points, at least 2; they have {} and {}", count,
-        now.rows()));
+        "a ruled patch needs two edges with the same number of points, at least 2; they have {} and {}",
+        count, now.rows()));
   }
   CutPatch patch;
   patch.vertices.resize(before.rows() + now.rows(), 3);
@@ -60,8 +60,8 @@ CutPatch inGeneralPosition(CutPatch patch) {
   return patch;
 }
 
-// Rounded in memory: GCC 12 drops the rounding of a pair of numbers that
-// stays in a register (-O2, double to float to double).
+// Rounded in memory: GCC 12 drops the conversion of a pair of numbers that stays in a register (-O2, double
+// to float to double).
 Points inSinglePrecision(const Points& points) {
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> single = points.cast<float>();
   return single.cast<double>();

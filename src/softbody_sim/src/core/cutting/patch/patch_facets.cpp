@@ -22,7 +22,7 @@ Eigen::Vector3d areaVector(const CutPatch& patch, int triangle) {
   return 0.5 * (corner(patch, triangle, 1) - origin).cross(corner(patch, triangle, 2) - origin);
 }
 
-/// Patches of one stroke meet in vertices of equal coordinates.
+/// Welds vertices with equal coordinates: there the patches of one stroke meet.
 CutPatch welded(const CutPatch& patch) {
   std::map<std::tuple<double, double, double>, int> numbers;
   CutPatch result{patch.vertices, Triangles(patch.triangles.rows(), 3)};
@@ -77,7 +77,7 @@ bool fits(const PatchFacets& facets, int triangle, const PlaneFrame& frame, doub
   return true;
 }
 
-/// Takes the neighbours that lie in the first triangle's plane, and theirs.
+/// Grows a facet from a triangle over all connected triangles that lie in its plane.
 void growFacet(int first, double flatness, PatchFacets* facets) {
   const int facet = static_cast<int>(facets->frames.size());
   facets->frames.push_back(frameOf(facets->patch, first));
@@ -103,7 +103,7 @@ PatchFacets facetsOf(const CutPatch& patch, double flatness) {
   PatchFacets facets;
   facets.patch = welded(patch);
   findEdges(&facets);
-  // From the largest triangle on: its plane is the best known.
+  // The largest triangle first: its plane is the most accurate.
   const auto count = static_cast<std::size_t>(facets.patch.triangles.rows());
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);

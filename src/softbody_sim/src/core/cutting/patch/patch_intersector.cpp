@@ -9,8 +9,9 @@ namespace {
 
 constexpr int kLeafSize = 4;
 
-/// Six times the volume of the tet (a, b, p, q): on which side of the line p-q the line a-b passes. Computed
-/// with p before q by index, so that the two triangles at an edge get the same number with opposite signs.
+/// Six times the signed volume of the tet (a, b, p, q): its sign says on which side of the line p-q the line
+/// a-b passes. Computed in ascending order of p and q, so that both triangles at an edge get the same number
+/// with opposite signs.
 double passing(const Eigen::Vector3d& a, const Eigen::Vector3d& ab, const Points& vertices, int p, int q) {
   const Eigen::Vector3d low = vertices.row(std::min(p, q)).transpose() - a;
   const Eigen::Vector3d high = vertices.row(std::max(p, q)).transpose() - a;
@@ -18,7 +19,7 @@ double passing(const Eigen::Vector3d& a, const Eigen::Vector3d& ab, const Points
   return p < q ? volume : -volume;
 }
 
-/// Whether the line passes left of the directed edge; 0 counts for the edge's ascending direction alone.
+/// Whether the line passes left of the directed edge. 0 counts as left for the ascending direction only.
 bool passesLeft(double volume, int p, int q) { return volume > 0.0 || (volume == 0.0 && p < q); }
 
 std::optional<PatchHit> hitOf(const TriangleMesh& mesh, int triangle, const Eigen::Vector3d& a,
@@ -38,7 +39,7 @@ std::optional<PatchHit> hitOf(const TriangleMesh& mesh, int triangle, const Eige
   return PatchHit{height_a / (height_a - height_b), triangle, height_a < 0.0};
 }
 
-/// Whether the segment's own box and the slabs of the segment's line meet the box.
+/// Overlap test of a segment and a box, with separating axes.
 struct SegmentOverlap {
   SegmentOverlap(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
       : center(0.5 * (a + b)), half(0.5 * (b - a)), reach(half.cwiseAbs()) {}
@@ -46,7 +47,7 @@ struct SegmentOverlap {
   bool operator()(const Eigen::AlignedBox3d& box) const {
     const Eigen::Vector3d size = 0.5 * box.sizes(), offset = box.center() - center;
     if (((offset.cwiseAbs() - size - reach).array() > 0.0).any()) return false;
-    // Separating axes across the segment; the margin keeps what only rounding would drop.
+    // Axes perpendicular to the segment; the margin covers rounding.
     const Eigen::Vector3d across = offset.cross(half).cwiseAbs();
     const double margin = 1e-12 * (reach.sum() + size.sum()) * (reach.sum() + size.sum());
     return across.x() <= size.y() * reach.z() + size.z() * reach.y() + margin &&

@@ -7,25 +7,25 @@
 
 namespace softbody {
 
-/// Where a segment crosses a triangle.
+/// A crossing of a segment and a triangle.
 struct PatchHit {
   double t = 0.0;  ///< fraction of the way from the segment's first end, 0..1
   int triangle = -1;
   bool along_normal = false;  ///< the segment passes from the triangle's back to its front
 };
 
-/// Crossings of segments with triangles, behind a bounding-volume hierarchy. The test is Moeller and
-/// Trumbore's (1997) as signs of scalar triple products, each computed once for an edge in the same order
-/// whichever triangle asks: a segment never slips between two neighbours, and never meets both.
+/// Crossings of segments with the triangles of a mesh, with a bounding-volume hierarchy. The test (Moeller
+/// and Trumbore 1997) compares signs of scalar triple products. Both triangles at an edge compute the same
+/// product, so a segment never passes between two neighbours and never hits both.
 class PatchIntersector {
  public:
   explicit PatchIntersector(TriangleMesh mesh);
 
-  /// All crossings of the segment a-b, in ascending t. The same for b-a, but for t -> 1 - t and the
-  /// direction.
+  /// All crossings of the segment a-b, in ascending t. The segment b-a gives the same crossings with 1 - t
+  /// and the opposite direction.
   std::vector<PatchHit> hits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
-  /// Whether the segment crosses an odd number of times: its ends are on different sides.
+  /// Whether the ends of the segment are on different sides: the number of crossings is odd.
   bool separates(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   /// Triangles whose bounding box meets the given one.

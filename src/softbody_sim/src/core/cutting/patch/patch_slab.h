@@ -7,8 +7,8 @@
 
 namespace softbody {
 
-/// Two parallel planes with a patch between them, the closer the more planar the patch is: most of a body is
-/// known to be off the patch by one look at each of its vertices.
+/// Two parallel planes around a patch. They show quickly that most of a body is off the patch: one test per
+/// vertex.
 class PatchSlab {
  public:
   explicit PatchSlab(const TriangleMesh& patch);

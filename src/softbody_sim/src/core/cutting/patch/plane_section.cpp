@@ -21,7 +21,7 @@ class Section {
         x_(normal.unitOrthogonal()),
         y_(normal.normalized().cross(x_)),
         heights_(volume.rest_vertices.rows()) {
-    // One by one: as a product of matrices, coincident vertices might differ in their last digit.
+    // One by one: in a matrix product, coincident vertices could differ in their last digit.
     for (Eigen::Index v = 0; v < heights_.size(); ++v)
       heights_[v] = normal.dot(volume.rest_vertices.row(v).transpose() - point);
   }
@@ -31,7 +31,7 @@ class Section {
   CutPatch patch() const;
 
  private:
-  /// The points in which the plane passes a tet's edges, counter-clockwise.
+  /// The intersections of the plane with the edges of a tet, counter-clockwise.
   struct Polygon {
     std::vector<int> points;
     bool taken = false;
@@ -57,7 +57,8 @@ class Section {
   std::vector<std::array<int, 3>> triangles_;
 };
 
-/// The two walls of an earlier cut, which coincide at rest, share their points: the section passes over them.
+/// The two walls of an earlier cut coincide at rest and share their points: the section continues across
+/// them.
 int Section::pointOn(int a, int b) {
   Eigen::RowVector3d low = volume_.rest_vertices.row(a), high = volume_.rest_vertices.row(b);
   if (std::lexicographical_compare(high.data(), high.data() + 3, low.data(), low.data() + 3)) {
@@ -117,7 +118,7 @@ void Section::cutThrough(int first, const std::vector<bool>& wanted) {
   }
 }
 
-/// In the plane, away from the polygon that has the side counter-clockwise.
+/// The normal of a polygon's side in the plane, outward.
 Eigen::Vector3d Section::outwardOf(int from, int to) const {
   const Eigen::Vector2d along = (inPlane(to) - inPlane(from)).normalized();
   return along.y() * x_ - along.x() * y_;
@@ -137,7 +138,7 @@ void Section::extend(double overhang) {
   }
   std::map<int, int> beyond;
   for (const auto& [point, direction] : outward) {
-    if (direction.norm() < 1e-6) continue;  // the surface turns back on itself there
+    if (direction.norm() < 1e-6) continue;  // the border folds back on itself here
     beyond[point] = static_cast<int>(points_.size());
     points_.push_back(points_[point] + overhang * direction.normalized());
   }

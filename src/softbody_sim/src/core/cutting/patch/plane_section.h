@@ -6,9 +6,9 @@
 
 namespace softbody {
 
-/// Where a plane passes through some of a body's tets, at rest: of these the ones that it reaches from one
-/// tet, face by face. Where it comes to the body's surface it goes on a little.
-/// @param normal of the plane, which is the patch's; @param first the tet to start from;
+/// The section of a plane through wanted tets of a body, at rest: those that are connected with the first
+/// tet, face by face, along the plane. At the body's surface the section continues by the overhang.
+/// @param normal of the plane and of the patch; @param first the tet to start from;
 /// @param wanted per tet; @param overhang beyond the surface [m].
 CutPatch planeSection(const TetTopology& volume, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                       int first, const std::vector<bool>& wanted, double overhang);

@@ -19,7 +19,7 @@ class Snapping {
     for (int pass = 0; changed && pass < kMaxPasses; ++pass) {
       changed = false;
       const std::size_t count =
-          surface_.changed.size();  // bent edges change further triangles, for the next pass
+          surface_.changed.size();  // bent edges append further triangles, for the next pass
       for (std::size_t k = 0; k < count; ++k) {
         if (surface_.used(surface_.changed[k]) && improve(surface_.changed[k])) changed = true;
       }
@@ -53,8 +53,8 @@ bool Snapping::improve(int triangle) {
   return false;
 }
 
-/// The mesh's own vertices stay; of two new ones that which comes first by its coordinates, so that the two
-/// walls of an earlier cut are treated alike.
+/// The mesh's own vertices stay. Of two new ones the lower by coordinates stays, so that both walls of an
+/// earlier cut are treated alike.
 bool Snapping::collapse(int h) {
   int mate = surface_.mates[h];
   if (isOwn(h) && isOwn(mate)) return false;
@@ -79,7 +79,7 @@ bool Snapping::mayMove(int half_edge) const {
   return true;
 }
 
-/// Only where the lower one of the two triangles becomes higher, or it might go on for ever.
+/// Only if the lower one of the two triangles becomes higher: otherwise it might never end.
 bool Snapping::bend(int h) {
   const Eigen::Vector3d &a = start(h), &b = start(nextHalfEdge(h)), &apex = start(previousHalfEdge(h));
   const Eigen::Vector3d& opposite = start(previousHalfEdge(surface_.mates[h]));
@@ -105,15 +105,15 @@ double smallestHeight(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const 
 
 void snapCurve(double distance, SplitSurface* surface) { Snapping(distance, surface).run(); }
 
-void splitLonePieces(SplitSurface* surface) {
-  std::map<int, int> pieces_at;  // vertex -> number of pieces of the curve
-  const std::vector<int> pieces = halfEdgesOfCurve(*surface);
-  for (const int h : pieces) {
-    ++pieces_at[startOf(surface->triangles, h)];
-    ++pieces_at[endOf(surface->triangles, h)];
+void splitLoneSegments(SplitSurface* surface) {
+  std::map<int, int> segments_at;  // vertex -> number of segments of the curve
+  const std::vector<int> segments = halfEdgesOfCurve(*surface);
+  for (const int h : segments) {
+    ++segments_at[startOf(surface->triangles, h)];
+    ++segments_at[endOf(surface->triangles, h)];
   }
-  for (const int h : pieces) {
-    if (pieces_at[startOf(surface->triangles, h)] == 1 && pieces_at[endOf(surface->triangles, h)] == 1) {
+  for (const int h : segments) {
+    if (segments_at[startOf(surface->triangles, h)] == 1 && segments_at[endOf(surface->triangles, h)] == 1) {
       splitEdge(h, surface);
     }
   }

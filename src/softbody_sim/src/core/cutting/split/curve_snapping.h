@@ -4,14 +4,13 @@
 
 namespace softbody {
 
-/// Where the curve of a cut passes a vertex or an edge of the mesh within a distance, it is moved there: no
-/// needles and slivers are left beside it.
-/// @param distance: shortest new edge that is left [m]; a new triangle's height is at least half of it.
+/// Moves the curve of a cut to vertices and edges of the mesh that are within a distance. This avoids needles
+/// and slivers beside it.
+/// @param distance: smallest length of a new edge [m]; new triangles are at least half as high.
 void snapCurve(double distance, SplitSurface* surface);
 
-/// Splits the pieces of the curve that have no neighbour at either end: the slit needs a vertex that can
-/// open.
-void splitLonePieces(SplitSurface* surface);
+/// Splits the segments of the curve without a neighbour at either end: a slit needs a vertex that can open.
+void splitLoneSegments(SplitSurface* surface);
 
 /// The smallest of a triangle's three heights.
 double smallestHeight(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);

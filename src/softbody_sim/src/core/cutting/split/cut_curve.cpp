@@ -14,7 +14,7 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// On which side of the plane (a, b, c) the point d lies: +1 where the normal points, exactly.
+/// The side of the plane (a, b, c) on which d lies: +1 on the side of the normal, exactly.
 int side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
          const Eigen::Vector3d& d) {
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
@@ -32,7 +32,7 @@ std::array<int, 3> sidesOf(const Corners& plane, const Corners& points) {
 
 bool onOneSide(const std::array<int, 3>& sides) { return sides[0] == sides[1] && sides[1] == sides[2]; }
 
-/// Spares most pairs the exact predicates.
+/// A fast test that avoids the exact predicates for most pairs.
 bool clearlyOnOneSide(const Corners& plane, const Corners& points) {
   constexpr double kRounding = 1e-12;
   const Eigen::Vector3d first = plane[1] - plane[0], second = plane[2] - plane[0],
@@ -48,7 +48,7 @@ bool clearlyOnOneSide(const Corners& plane, const Corners& points) {
   return above == 3 || below == 3;
 }
 
-/// Whether a line that crosses the triangle's plane does so inside of the triangle.
+/// Whether a line that crosses the plane of a triangle passes through the triangle.
 bool passesThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Corners& triangle) {
   const int first = side(a, b, triangle[0], triangle[1]);
   return side(a, b, triangle[1], triangle[2]) == first && side(a, b, triangle[2], triangle[0]) == first;
@@ -58,8 +58,8 @@ bool precedes(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// Fraction of the way from a to b at which a plane is passed. The same number for the triangle's corners in
-/// any order: the two walls of an earlier cut are crossed in exactly the same places.
+/// The fraction at which the segment from a to b crosses a plane. Independent of the order of the corners:
+/// both walls of an earlier cut are crossed at exactly the same places.
 double crossingFraction(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Corners plane) {
   std::sort(plane.begin(), plane.end(), precedes);
   const Eigen::Vector3d normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]);
@@ -163,7 +163,7 @@ int Intersection::piercing(int patch_edge, int t, const Corners& mesh) {
   return entry->second;
 }
 
-/// Where an edge within a facet pierces the mesh, the curve goes straight on: one segment instead of two.
+/// At an edge inside a facet the curve is straight: joins the two segments there.
 void Intersection::joinOverFlatEdges() {
   const auto isFlat = [this](int node) {
     return curve_.nodes[node].patch_edge >= 0 && !facets_.edges[curve_.nodes[node].patch_edge].fold;

@@ -4,7 +4,7 @@
 
 namespace softbody {
 
-/// A cut that cannot be made, and why; thrown within the core of cutting only.
+/// Thrown for a cut that cannot be made, with the reason. Never leaves cutSurface.
 struct CutRefused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

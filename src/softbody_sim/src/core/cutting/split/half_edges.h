@@ -7,7 +7,7 @@
 
 namespace softbody {
 
-/// Triangles as a growing list; half-edge 3 t + k of triangle t runs from its corner k to corner k + 1.
+/// A list of triangles that can grow. Half-edge 3 t + k of triangle t runs from its corner k to corner k + 1.
 using TriangleList = std::vector<std::array<int, 3>>;
 
 inline int nextHalfEdge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -17,11 +17,11 @@ inline int endOf(const TriangleList& triangles, int h) { return startOf(triangle
 
 TriangleList listOf(const Triangles& triangles);
 
-/// Per half-edge the opposite one, which runs through the same edge the other way.
-/// @throw std::invalid_argument if the triangles are not closed, oriented and two at every edge.
+/// Per half-edge, the opposite one of the same edge. @throw std::invalid_argument if the triangles are not a
+/// closed, oriented manifold.
 std::vector<int> halfEdgeMates(const TriangleList& triangles, int vertex_count);
 
-/// Makes mates of those among the half-edges that run between the same vertices; there are two of each.
+/// Pairs half-edges between the same vertices. Each edge occurs exactly twice.
 void pairHalfEdges(const TriangleList& triangles, const std::vector<int>& half_edges,
                    std::vector<int>* mates);
 

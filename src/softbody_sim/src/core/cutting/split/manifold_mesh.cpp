@@ -11,11 +11,11 @@
 namespace softbody {
 namespace {
 
-/// The half-edges by their starts; those of vertex v begin at first[v].
-struct Arrows {
+/// The half-edges by their start vertices; those of vertex v begin at first[v].
+struct OutgoingHalfEdges {
   std::vector<int> first, half_edges;
 
-  Arrows(const TriangleList& triangles, std::size_t vertex_count) : first(vertex_count + 1, 0) {
+  OutgoingHalfEdges(const TriangleList& triangles, std::size_t vertex_count) : first(vertex_count + 1, 0) {
     const int count = 3 * static_cast<int>(triangles.size());
     for (int h = 0; h < count; ++h) ++first[startOf(triangles, h)];
     std::partial_sum(first.begin(), first.end(), first.begin());
@@ -23,7 +23,7 @@ struct Arrows {
     for (int h = count - 1; h >= 0; --h) half_edges[--first[startOf(triangles, h)]] = h;
   }
 
-  /// How many half-edges run from start to end, and the last of them.
+  /// Number of half-edges from start to end; `last` is set to the last one.
   int count(const TriangleList& triangles, int start, int end, int* last) const {
     int found = 0;
     for (int k = first[start]; k < first[start + 1]; ++k) {
@@ -43,11 +43,11 @@ struct Arrows {
   }
 };
 
-/// A half-edge at a crowded edge, by the angle of its triangle round the edge.
+/// A half-edge of a non-manifold edge, with the angle of its triangle around the edge.
 struct Spoke {
   double angle;
   int half_edge;
-  bool forward;  ///< from the edge's lower vertex: the body lies towards smaller angles
+  bool forward;  ///< along the axis: the body lies towards smaller angles
 };
 
 std::vector<Spoke> spokesOf(const TriangleList& triangles, const Points& vertices,
@@ -66,7 +66,7 @@ std::vector<Spoke> spokesOf(const TriangleList& triangles, const Points& vertice
   return spokes;
 }
 
-/// Pairs each backward half-edge with the forward one where the body behind it ends, like brackets.
+/// Pairs each backward half-edge with the forward one on the other side of the body, like brackets.
 void pairSpokes(const std::vector<Spoke>& spokes, std::vector<int>* mates) {
   std::vector<int> open;
   for (std::size_t turn = 0; turn < 2 * spokes.size(); ++turn) {
@@ -83,26 +83,26 @@ void pairSpokes(const std::vector<Spoke>& spokes, std::vector<int>* mates) {
 }
 
 std::vector<int> pairAll(const TriangleList& triangles, const Points& vertices) {
-  const Arrows arrows(triangles, static_cast<std::size_t>(vertices.rows()));
+  const OutgoingHalfEdges outgoing(triangles, static_cast<std::size_t>(vertices.rows()));
   std::vector<int> mates(3 * triangles.size(), -1);
   for (int h = 0; h < static_cast<int>(mates.size()); ++h) {
     if (mates[h] >= 0) continue;
     const int start = startOf(triangles, h), end = endOf(triangles, h);
     int last = h, mate = -1;
-    const int forward = arrows.count(triangles, start, end, &last),
-              backward = arrows.count(triangles, end, start, &mate);
+    const int forward = outgoing.count(triangles, start, end, &last),
+              backward = outgoing.count(triangles, end, start, &mate);
     if (forward != backward) {
       throw std::invalid_argument(fmt::format(
-          "the mesh is not a closed oriented surface: the edge from vertex {} to {} has {} triangles to one "
-          "side and {} to the other",
+          "the mesh is not a closed oriented surface: the edge from vertex {} to {} has {} triangles in "
+          "this direction and {} in the other",
           start, end, forward, backward));
     }
     if (forward == 1) {
       mates[h] = mate;
       mates[mate] = h;
     } else {
-      pairSpokes(spokesOf(triangles, vertices, arrows.between(triangles, start, end),
-                          arrows.between(triangles, end, start)),
+      pairSpokes(spokesOf(triangles, vertices, outgoing.between(triangles, start, end),
+                          outgoing.between(triangles, end, start)),
                  &mates);
     }
   }
@@ -114,19 +114,19 @@ std::vector<int> pairAll(const TriangleList& triangles, const Points& vertices) 
 ManifoldMesh splitNonManifold(const TriangleList& triangles, const Points& vertices) {
   ManifoldMesh manifold{triangles, pairAll(triangles, vertices), {}};
   const auto count = static_cast<int>(vertices.rows());
-  std::vector<bool> taken(static_cast<std::size_t>(count), false), named(manifold.mates.size(), false);
-  for (int corner = 0; corner < static_cast<int>(named.size()); ++corner) {
-    if (named[corner]) continue;
+  std::vector<bool> taken(static_cast<std::size_t>(count), false), numbered(manifold.mates.size(), false);
+  for (int corner = 0; corner < static_cast<int>(numbered.size()); ++corner) {
+    if (numbered[corner]) continue;
     const int vertex = startOf(triangles, corner);
-    int name = vertex;
+    int number = vertex;
     if (taken[vertex]) {
-      name = count + static_cast<int>(manifold.copied_from.size());
+      number = count + static_cast<int>(manifold.copied_from.size());
       manifold.copied_from.push_back(vertex);
     }
     taken[vertex] = true;
-    for (int h = corner; !named[h]; h = manifold.mates[previousHalfEdge(h)]) {
-      named[h] = true;
-      manifold.triangles[h / 3][h % 3] = name;
+    for (int h = corner; !numbered[h]; h = manifold.mates[previousHalfEdge(h)]) {
+      numbered[h] = true;
+      manifold.triangles[h / 3][h % 3] = number;
     }
   }
   return manifold;

@@ -7,16 +7,18 @@
 
 namespace softbody {
 
-/// A closed mesh as sheets that share no vertex.
+/// A closed mesh whose sheets share no vertex.
 struct ManifoldMesh {
-  TriangleList triangles;        ///< the mesh's, some with a copy instead of a vertex
-  std::vector<int> mates;        ///< per half-edge
-  std::vector<int> copied_from;  ///< per copy, numbered behind the mesh's vertices; none for a manifold
+  TriangleList triangles;  ///< of the mesh; some refer to the copy of a vertex
+  std::vector<int> mates;  ///< per half-edge
+  std::vector<int>
+      copied_from;  ///< per copy, its original; copies are numbered after the vertices of the mesh
 };
 
-/// Parts sheets of a mesh that touch in edges or vertices only, so that each is a 2-manifold. Round an edge
-/// with more than two triangles those are neighbours that have the body between them.
-/// @throw std::invalid_argument if an edge does not have as many triangles to one side as to the other.
+/// Makes a mesh manifold by duplicating non-manifold vertices: sheets that touch in edges or vertices are
+/// separated. At an edge with more than two triangles, two triangles with the body between them become
+/// neighbours. @throw std::invalid_argument if an edge does not have the same number of triangles in both
+/// directions.
 ManifoldMesh splitNonManifold(const TriangleList& triangles, const Points& vertices);
 
 }  // namespace softbody

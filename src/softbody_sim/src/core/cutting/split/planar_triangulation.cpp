@@ -34,7 +34,7 @@ bool insertConstraints(const std::vector<Triangulation::Vertex_handle>& handles,
   return true;
 }
 
-/// Numbers the faces that are connected without passing a constraint.
+/// Numbers the faces that are connected without crossing a constraint.
 void numberRegion(Triangulation::Face_handle first, int region, Triangulation* triangulation) {
   std::vector<Triangulation::Face_handle> open{first};
   first->info() = region;

@@ -11,7 +11,7 @@
 namespace softbody {
 namespace {
 
-/// The curve, sorted by where it meets the mesh.
+/// The curve, sorted by edges and triangles of the mesh.
 struct CurveByPlace {
   std::map<int, std::vector<int>> nodes;     ///< mesh edge -> nodes in ascending order
   std::map<int, std::vector<int>> segments;  ///< triangle -> segments
@@ -35,17 +35,17 @@ CurveByPlace sortByPlace(const CutCurve& curve) {
   return places;
 }
 
-/// One triangle with the curve's pieces in it. Everything is in an order that depends on positions alone: the
-/// two walls of an earlier cut, mirror images of each other, are divided alike and stay mirror images.
+/// One triangle with the segments of the curve in it. The order depends on positions only: the two walls of
+/// an earlier cut are mirror images, are divided alike and stay mirror images.
 struct DividedTriangle {
   std::array<int, 3> corners;                   ///< of the triangle, 0..2, in the order of their positions
-  bool reversed = false;                        ///< that order runs clockwise
-  std::vector<int> vertices;                    ///< of the surface: the border's in order, then inner ones
+  bool reversed = false;                        ///< this order is clockwise
+  std::vector<int> vertices;                    ///< of the surface: on the border in order, then inner ones
   std::vector<Eigen::Vector3d> weights;         ///< barycentric coordinates
   std::vector<Eigen::Vector2d> points;          ///< in the triangle's plane
   std::vector<std::array<int, 2>> constraints;  ///< the border first
   std::size_t border_size = 0;
-  std::map<std::array<int, 2>, int> facets;  ///< of the directed pieces of the curve
+  std::map<std::array<int, 2>, int> facets;  ///< per directed segment of the curve
 };
 
 class Splitter {
@@ -151,8 +151,8 @@ void Splitter::project(int triangle, DividedTriangle* divided) const {
   }
 }
 
-/// The triangles of the regions at the border and at the curve; the rest of the convex hull are gaps of
-/// rounding.
+/// The triangles of the regions at the border and at the curve. Other regions of the convex hull are rounding
+/// gaps.
 TriangleList Splitter::partsOf(const DividedTriangle& divided) const {
   const auto plane = triangulatePlane(divided.points, divided.constraints);
   if (!plane) throw CutRefused("the cut crosses itself on the surface");
@@ -186,7 +186,7 @@ void Splitter::divide(int triangle, const std::vector<int>& segments) {
   append(triangle, divided, partsOf(divided));
 }
 
-/// The first part takes the triangle's place, the others follow at the end.
+/// The first part replaces the triangle, the others are appended.
 void Splitter::append(int triangle, const DividedTriangle& divided, const TriangleList& parts) {
   const bool has_texture = !surface_.texture.empty();
   Eigen::Matrix<double, 2, 3> texture;
@@ -210,7 +210,8 @@ void Splitter::append(int triangle, const DividedTriangle& divided, const Triang
   }
 }
 
-/// The changed triangles meet each other and what bordered on the triangles in whose places they are.
+/// Pairs the half-edges of changed triangles with each other and with the neighbours of the replaced
+/// triangles.
 void pairChangedTriangles(const std::vector<int>& mates, SplitSurface* surface) {
   std::vector<bool> changed(surface->triangles.size(), false);
   for (const int t : surface->changed) changed[static_cast<std::size_t>(t)] = true;
@@ -250,7 +251,7 @@ SplitSurface splitAlong(const CutCurve& curve, const MeshTopology& mesh, Triangl
   surface.triangles = std::move(triangles);
   surface.sources.resize(surface.triangles.size());
   std::iota(surface.sources.begin(), surface.sources.end(), 0);
-  // A triangle with k pieces of the curve has 2 k + 1 parts or hardly more.
+  // A triangle with k segments of the curve has about 2 k + 1 parts.
   const std::size_t part_count = surface.triangles.size() + 3 * curve.segments.size();
   surface.triangles.reserve(part_count);
   surface.sources.reserve(part_count);

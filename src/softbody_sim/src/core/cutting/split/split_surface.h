@@ -7,18 +7,18 @@
 
 namespace softbody {
 
-/// A closed mesh whose triangles are divided along a cut's curve, still uncut: the curve is a set of its
-/// half-edges. Vertices and triangles that are no longer used stay in the lists until the end.
+/// A closed mesh with triangles divided along the curve of a cut, not yet opened: the curve is a set of its
+/// half-edges. Unused vertices and triangles stay in the lists until compaction.
 struct SplitSurface {
-  std::vector<Eigen::Vector3d> vertices;  ///< the mesh's own, then new ones
-  int own_vertices = 0;                   ///< number of the mesh's own
-  TriangleList triangles;                 ///< corners -1: no longer used
-  std::vector<int> sources;               ///< per triangle: the mesh's triangle that it is a part of
+  std::vector<Eigen::Vector3d> vertices;  ///< vertices of the mesh, then new ones
+  int own_vertices = 0;                   ///< number of vertices of the mesh
+  TriangleList triangles;                 ///< corners -1: unused
+  std::vector<int> sources;               ///< per triangle: the triangle of the mesh that contains it
   std::vector<int> mates;                 ///< per half-edge
-  std::vector<Eigen::Vector2d> texture;   ///< per half-edge, of its start; or empty
-  std::vector<int> curve;  ///< per half-edge: the facet if the curve runs along it, with the patch's front on
-                           ///< its triangle's side; else -1
-  std::vector<int> changed;        ///< triangles that are not the mesh's own
+  std::vector<Eigen::Vector2d> texture;   ///< per half-edge, at its start; or empty
+  std::vector<int> curve;  ///< per half-edge: the facet if the curve runs along it and its triangle is on the
+                           ///< front side of the patch; else -1
+  std::vector<int> changed;        ///< new triangles
   std::vector<int> node_vertices;  ///< per node of the curve
 
   bool used(int triangle) const { return triangles[triangle][0] >= 0; }
@@ -27,8 +27,8 @@ struct SplitSurface {
 /// The half-edges that the curve runs along, ascending.
 std::vector<int> halfEdgesOfCurve(const SplitSurface& surface);
 
-/// Divides each triangle that the curve passes by constrained Delaunay triangulation.
-/// @throw CutRefused if pieces of the curve cross each other.
+/// Divides each triangle that the curve crosses, by constrained Delaunay triangulation.
+/// @throw CutRefused if segments of the curve cross each other.
 SplitSurface splitAlong(const CutCurve& curve, const MeshTopology& mesh, TriangleList triangles,
                         const std::vector<int>& mates);
 

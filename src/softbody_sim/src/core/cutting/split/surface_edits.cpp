@@ -23,7 +23,7 @@ std::vector<int> neighboursOf(const SplitSurface& surface, int half_edge) {
   return neighbours;
 }
 
-/// How often the curve runs along the half-edge, its direction taken into account.
+/// Signed number of times that the curve runs along the half-edge.
 int flow(const SplitSurface& surface, int h) {
   return (surface.curve[h] >= 0 ? 1 : 0) - (surface.curve[surface.mates[h]] >= 0 ? 1 : 0);
 }
@@ -42,13 +42,13 @@ void makeMates(int h, int g, SplitSurface* surface) {
   surface->mates[g] = h;
 }
 
-/// The flow that a triangle's second and third edge have together once its first is collapsed, along the
-/// second's mate.
+/// The sum of the flows of a triangle's second and third edge, which coincide when its first edge is
+/// collapsed.
 int joinedFlow(const SplitSurface& surface, int h) {
   return flow(surface, previousHalfEdge(h)) - flow(surface, nextHalfEdge(h));
 }
 
-/// Makes one edge of a triangle's second and third.
+/// Removes a triangle: its second and third edge become one.
 void removeTriangle(int h, SplitSurface* surface) {
   const int second = nextHalfEdge(h), third = previousHalfEdge(h);
   const int joined = joinedFlow(*surface, h);
@@ -58,6 +58,17 @@ void removeTriangle(int h, SplitSurface* surface) {
   setFlow(kept, joined, facet, surface);
   surface->triangles[h / 3] = {-1, -1, -1};
   for (const int removed : {h, second, third}) surface->curve[removed] = -1;
+}
+
+/// Texture coordinates after bendEdgeToApex: the corner lies on the edge, in the texture of the edge's mate.
+void flipTexture(int h, double along, SplitSurface* surface) {
+  const int g = surface->mates[h], f = h / 3, e = g / 3;
+  auto& texture = surface->texture;
+  const Eigen::Vector2d at_a = texture[nextHalfEdge(g)], at_b = texture[g],
+                        at_opposite = texture[previousHalfEdge(g)];
+  const Eigen::Vector2d at_apex = (1.0 - along) * at_a + along * at_b;
+  texture[3 * f] = at_a, texture[3 * f + 1] = at_opposite, texture[3 * f + 2] = at_apex;
+  texture[3 * e] = at_b, texture[3 * e + 1] = at_apex, texture[3 * e + 2] = at_opposite;
 }
 
 }  // namespace
@@ -105,13 +116,7 @@ bool bendEdgeToApex(int half_edge, double along, SplitSurface* surface) {
     curves[k] = surface->curve[outer[k]];
     mate_curves[k] = surface->curve[mates[k]];
   }
-  if (!surface->texture.empty()) {
-    auto& texture = surface->texture;
-    const Eigen::Vector2d at_a = texture[g1], at_b = texture[g], at_opposite = texture[g2];
-    const Eigen::Vector2d at_apex = (1.0 - along) * at_a + along * at_b;
-    texture[slots[0]] = at_a, texture[slots[0] + 1] = at_opposite, texture[slots[1]] = at_apex;
-    texture[slots[2]] = at_b, texture[slots[2] + 1] = at_apex, texture[slots[3]] = at_opposite;
-  }
+  if (!surface->texture.empty()) flipTexture(h, along, surface);
   surface->triangles[f] = {a, opposite, apex};
   surface->triangles[e] = {b, apex, opposite};
   surface->sources[f] = surface->sources[e];
@@ -127,8 +132,8 @@ bool bendEdgeToApex(int half_edge, double along, SplitSurface* surface) {
 
 namespace {
 
-/// Cuts a triangle from the middle of its half-edge to the opposite corner. The triangle keeps the start, a
-/// new one gets the end. @return the new triangle, whose first half-edge runs from the middle to the end.
+/// Splits a triangle from the middle of its half-edge to the opposite corner. The triangle keeps the start, a
+/// new one gets the end. @return the new triangle; its first half-edge runs from the middle to the end.
 int halveTriangle(int h, int middle, SplitSurface* surface) {
   const int f = h / 3, second = nextHalfEdge(h), third = previousHalfEdge(h);
   const int end = endOf(surface->triangles, h), apex = startOf(surface->triangles, third);

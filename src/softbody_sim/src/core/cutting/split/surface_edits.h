@@ -5,14 +5,13 @@
 /// Edits of a split surface that keep it a closed manifold.
 namespace softbody {
 
-/// Merges the half-edge's start into its end. Where two pieces of the curve come to lie on each other,
-/// opposite ones cancel.
-/// @return false, and nothing is changed, if the surface would no longer be a manifold.
+/// Merges the start of the half-edge into its end. Opposite segments of the curve that coincide then cancel.
+/// @return false, without any change, if the surface would not stay a manifold.
 bool collapseEdge(int half_edge, SplitSurface* surface);
 
-/// Moves an edge, and the curve along it, to the third corner of the half-edge's triangle, which has hardly
-/// any height: the corner then lies on the edge. @param along: where on the half-edge, 0..1. @return false,
-/// and nothing is changed, if that cannot be.
+/// Flips the edge of a very flat triangle: the edge, and the curve along it, bends to the third corner.
+/// @param along: position of that corner on the half-edge, 0..1. @return false, without any change, if that
+/// is impossible.
 bool bendEdgeToApex(int half_edge, double along, SplitSurface* surface);
 
 /// Inserts a vertex in the middle of an edge.

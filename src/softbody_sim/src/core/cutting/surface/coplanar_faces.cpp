@@ -28,7 +28,7 @@ struct FlatTriangle {
   }
 };
 
-/// The surface's triangles that are parallel to one of the facets, and meet the fill's bounding box.
+/// The triangles of the surface that are parallel to a facet and meet the bounding box of the fill.
 std::vector<FlatTriangle> candidates(const SplitSurface& surface, const WallFill& fill,
                                      const std::vector<Eigen::Vector3d>& normals, double distance) {
   Eigen::AlignedBox3d box;
@@ -37,7 +37,7 @@ std::vector<FlatTriangle> candidates(const SplitSurface& surface, const WallFill
   }
   box.min().array() -= distance;
   box.max().array() += distance;
-  std::vector<unsigned char> beyond;  // per vertex a bit for each side of the box that it lies beyond
+  std::vector<unsigned char> beyond;  // per vertex, a bit for each side of the box that it is beyond
   beyond.reserve(surface.vertices.size());
   for (const Eigen::Vector3d& v : surface.vertices) {
     unsigned sides = 0;

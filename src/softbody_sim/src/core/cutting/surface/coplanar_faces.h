@@ -5,14 +5,14 @@
 
 namespace softbody {
 
-/// How the faces of a cut lie in the surface that is cut.
+/// The faces of a cut that coincide with the surface of the body.
 struct CoplanarFaces {
-  std::size_t count = 0;                              ///< of the fill, that lie along the surface
-  Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< the surface's normal at the first of them
+  std::size_t count = 0;                              ///< number of such triangles of the fill
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< normal of the surface at the first one
 };
 
-/// The fill's triangles whose middle is within a distance of a triangle that is nearly parallel: between them
-/// would be a sheet without thickness.
+/// The triangles of the fill that are nearly parallel and close to a triangle of the surface: the layer
+/// between them would have no thickness.
 CoplanarFaces findCoplanarFaces(const SplitSurface& surface, const WallFill& fill, const PatchFacets& facets,
                                 double distance);
 

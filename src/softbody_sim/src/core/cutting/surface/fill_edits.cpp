@@ -22,7 +22,7 @@ int longestEdge(const WallFill& fill, int triangle) {
   return longest;
 }
 
-/// A half-edge of the fill's rim or between two triangles.
+/// Sets mate and curve of a half-edge.
 void placeEdge(int h, int mate, int curve, WallFill* fill) {
   fill->mates[h] = mate;
   fill->curve[h] = curve;

@@ -5,31 +5,31 @@
 namespace softbody {
 namespace {
 
-std::vector<std::uint32_t> numberBodies(std::size_t triangle_count, const std::vector<int>& mates) {
+std::vector<std::uint32_t> numberPieces(std::size_t triangle_count, const std::vector<int>& mates) {
   constexpr auto kUnknown = static_cast<std::uint32_t>(-1);
-  std::vector<std::uint32_t> bodies(triangle_count, kUnknown);
+  std::vector<std::uint32_t> pieces(triangle_count, kUnknown);
   std::uint32_t count = 0;
   std::vector<int> open;
   for (std::size_t first = 0; first < triangle_count; ++first) {
-    if (bodies[first] != kUnknown) continue;
-    bodies[first] = count;
+    if (pieces[first] != kUnknown) continue;
+    pieces[first] = count;
     open.push_back(static_cast<int>(first));
     while (!open.empty()) {
       const int t = open.back();
       open.pop_back();
       for (int k = 0; k < 3; ++k) {
         const int neighbour = mates[3 * t + k] / 3;
-        if (bodies[neighbour] != kUnknown) continue;
-        bodies[neighbour] = count;
+        if (pieces[neighbour] != kUnknown) continue;
+        pieces[neighbour] = count;
         open.push_back(neighbour);
       }
     }
     ++count;
   }
-  return bodies;
+  return pieces;
 }
 
-/// New numbers of those that are used, in their order; -1: of the others. @return how many are used.
+/// Numbers the used entries in order; -1 for the others. @return the number of used entries.
 template <class Used>
 int numberUsed(std::size_t count, const Used& used, std::vector<int>* numbers) {
   int next = 0;
@@ -119,7 +119,7 @@ void Compaction::writeTriangles() {
     cut_.triangle_sources[row] = source;
     mesh.cut[row] = of_surface ? before_.cut[source] : true;
   }
-  mesh.bodies = numberBodies(manifold.triangles.size(), manifold.mates);
+  mesh.bodies = numberPieces(manifold.triangles.size(), manifold.mates);
 }
 
 void Compaction::writeTexture() {

@@ -6,12 +6,11 @@
 
 namespace softbody {
 
-/// A point as it is published, in Point32.
+/// A point rounded to Point32, as it is published.
 Eigen::Vector3d rounded(const Eigen::Vector3d& point);
 
-/// What is published of a cut mesh: without the vertices and triangles that are no longer used, its pieces
-/// numbered.
-/// @param before the mesh that `surface` divides and `stitched` opens.
+/// The published form of a cut mesh: without unused vertices and triangles, with numbered pieces.
+/// @param before the mesh of which `surface` is the divided and `stitched` the opened form.
 SurfaceCut compacted(const MeshTopology& before, const SplitSurface& surface,
                      const StitchedSurface& stitched);
 

@@ -37,7 +37,7 @@ void roundNewVertices(SplitSurface* surface) {
   }
 }
 
-SurfaceCut uncut(const MeshTopology& mesh, CutOutcome outcome, const std::string& reason) {
+SurfaceCut withoutCut(const MeshTopology& mesh, CutOutcome outcome, const std::string& reason) {
   SurfaceCut result{outcome, reason, mesh, {}, {}, {}};
   result.vertex_sources.resize(static_cast<std::size_t>(mesh.rest_vertices.rows()));
   result.triangle_sources.resize(static_cast<std::size_t>(mesh.triangles.rows()));
@@ -46,8 +46,8 @@ SurfaceCut uncut(const MeshTopology& mesh, CutOutcome outcome, const std::string
   return result;
 }
 
-/// Triangles that the cut has made, after rounding, are not too low; parts of a low triangle of the mesh may
-/// be as low.
+/// @throw CutRefused if a new triangle is too low after rounding. Parts of a low triangle of the mesh may be
+/// lower.
 void checkHeights(const MeshTopology& mesh, const SplitSurface& surface, const StitchedSurface& stitched,
                   double lowest) {
   const std::vector<Eigen::Vector3d>& vertices = stitched.vertices;
@@ -67,7 +67,7 @@ void checkHeights(const MeshTopology& mesh, const SplitSurface& surface, const S
   for (std::size_t t = surface.triangles.size(); t < stitched.triangles.size(); ++t) check(t, lowest);
 }
 
-/// Pieces are thicker than the snapping distance: their volume is more than that times half of their surface.
+/// @throw CutRefused if a piece is thinner than the snapping distance: volume / (area / 2).
 void checkPieces(const MeshTopology& mesh, double snap_distance) {
   std::vector<double> excess(
       mesh.bodies.empty() ? 0 : *std::max_element(mesh.bodies.begin(), mesh.bodies.end()) + 1);
@@ -84,7 +84,7 @@ void checkPieces(const MeshTopology& mesh, double snap_distance) {
   }
 }
 
-/// The patch comes to lie along the surface: it has to be moved outward.
+/// The patch coincides with the surface: it must be moved outward.
 struct CutIsCoplanar : CutRefused {
   explicit CutIsCoplanar(const Eigen::Vector3d& normal)
       : CutRefused("the patch runs along the surface"), outward(normal) {}
@@ -117,16 +117,16 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   const CutCurve curve = intersect(mesh_.rest_vertices, triangles_, mates_, facets);
   SplitSurface surface = splitAlong(curve, mesh_, triangles_, mates_);
   snapCurve(snap_distance, &surface);
-  splitLonePieces(&surface);
+  splitLoneSegments(&surface);
   roundNewVertices(&surface);
   if (halfEdgesOfCurve(surface).empty()) {
-    return uncut(mesh_, CutOutcome::kMissed, "the patch does not pass through the surface");
+    return withoutCut(mesh_, CutOutcome::kMissed, "the patch does not pass through the surface");
   }
   WallFill fill = fillWalls(surface, curve, facets, snap_distance);
   raiseLowTriangles(0.5 * snap_distance, facets, &fill);
   const CoplanarFaces coplanar = findCoplanarFaces(surface, fill, facets, kCoplanarDistance * diagonal_);
   if (coplanar.count == fill.triangles.size()) {
-    return uncut(mesh_, CutOutcome::kMissed, "the patch only grazes the surface");
+    return withoutCut(mesh_, CutOutcome::kMissed, "the patch only grazes the surface");
   }
   if (coplanar.count > 0) throw CutIsCoplanar(coplanar.outward);
   const StitchedSurface stitched = stitch(surface, fill);
@@ -136,8 +136,8 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   return result;
 }
 
-/// What fails because vertices, edges or faces of mesh and patch come to lie on each other is tried again
-/// with the patch moved by hardly more than the snapping would.
+/// A degenerate position of mesh and patch makes an attempt fail. The next attempt moves the patch by little
+/// more than the snapping distance.
 SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
   std::string reason;
   CutPatch moved = inGeneralPosition(patch);
@@ -152,10 +152,10 @@ SurfaceCut SurfaceCutter::cut(const CutPatch& patch) const {
     }
     moved.vertices = patch.vertices.rowwise() + 2.0 * kSnapDistance * diagonal_ * shift.transpose();
   }
-  return uncut(mesh_, CutOutcome::kRefused, reason);
+  return withoutCut(mesh_, CutOutcome::kRefused, reason);
 }
 
-/// The mesh with the vertices that its sheets do not share any more.
+/// The mesh with duplicated non-manifold vertices.
 MeshTopology withCopies(MeshTopology mesh, const ManifoldMesh& manifold) {
   const auto own = mesh.rest_vertices.rows(), copies = static_cast<Eigen::Index>(manifold.copied_from.size());
   mesh.rest_vertices.conservativeResize(own + copies, Eigen::NoChange);
@@ -178,9 +178,9 @@ SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch) {
 
 SurfaceCut cutSurface(const MeshTopology& mesh, const ManifoldMesh& manifold, const CutPatch& patch) {
   if (manifold.copied_from.empty()) return SurfaceCutter(mesh, manifold).cut(patch);
-  const MeshTopology parted = withCopies(mesh, manifold);
-  SurfaceCut cut = SurfaceCutter(parted, manifold).cut(patch);
-  if (cut.outcome != CutOutcome::kCut) return uncut(mesh, cut.outcome, cut.reason);
+  const MeshTopology separated = withCopies(mesh, manifold);
+  SurfaceCut cut = SurfaceCutter(separated, manifold).cut(patch);
+  if (cut.outcome != CutOutcome::kCut) return withoutCut(mesh, cut.outcome, cut.reason);
   const auto own = static_cast<int>(mesh.rest_vertices.rows());
   for (int& source : cut.vertex_sources) {
     if (source >= own) source = manifold.copied_from[static_cast<std::size_t>(source - own)];

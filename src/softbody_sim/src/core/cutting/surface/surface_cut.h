@@ -14,26 +14,26 @@ enum class CutOutcome {
   kRefused,  ///< the cut cannot be made
 };
 
-/// A visual mesh after a cut. Revision and rest shape are the mesh's before, unless it is cut.
+/// A visual mesh after a cut. Without a cut, revision and rest shape are unchanged.
 struct SurfaceCut {
   CutOutcome outcome = CutOutcome::kMissed;
-  std::string reason;  ///< of what was not cut
+  std::string reason;  ///< why the mesh was not cut
   MeshTopology mesh;
-  std::vector<int> vertex_sources;    ///< per vertex the one before that it is or was copied from; -1: new
-  std::vector<int> triangle_sources;  ///< per triangle the one before that it is a part of; -1: of a new wall
-  ManifoldMesh manifold;              ///< of the mesh, if it is cut
+  std::vector<int> vertex_sources;    ///< per vertex, its earlier vertex or the original of the copy; -1: new
+  std::vector<int> triangle_sources;  ///< per triangle, the earlier one that contains it; -1: on a new wall
+  ManifoldMesh manifold;              ///< form of the mesh, if it is cut
 };
 
-/// Cuts a closed triangle mesh along a patch: triangles are divided along the curve of intersection, the mesh
-/// is opened there and closed by the part of the patch inside of it, once for each side. Where the patch ends
-/// inside, the two walls meet. A patch that passes a vertex or an edge within a 20,000th of the body's
-/// diagonal passes through it. New coordinates are rounded to single precision, as they are published; no
-/// triangle that the cut makes is then lower than a 400,000th of the diagonal.
-/// @param mesh its sheets may touch in edges and vertices: these are parted first.
-/// @throw std::invalid_argument if the mesh is not closed, or the patch is no oriented surface.
+/// Cuts a closed triangle mesh along a patch. Triangles are divided along the curve of intersection. The mesh
+/// is opened there and closed by two copies of the inner part of the patch, the walls. Where the patch ends
+/// inside the body, the two walls meet. A patch within 1/20,000 of the body's diagonal of a vertex or an edge
+/// is moved there. New coordinates are rounded to single precision, as they are published. Rounded new
+/// triangles are at least 1/400,000 of the diagonal high.
+/// @param mesh may be non-manifold in edges and vertices: splitNonManifold separates its sheets first.
+/// @throw std::invalid_argument if the mesh is not closed or the patch is not an oriented surface.
 SurfaceCut cutSurface(const MeshTopology& mesh, const CutPatch& patch);
 
-/// The same for a mesh whose sheets are known, which spares looking at all of it again.
+/// The same for a mesh whose manifold form is known, which saves time.
 SurfaceCut cutSurface(const MeshTopology& mesh, const ManifoldMesh& manifold, const CutPatch& patch);
 
 }  // namespace softbody

@@ -26,11 +26,11 @@ class Stitching {
 
   StitchedSurface takeResult() { return std::move(result_); }
 
-  /// Half-edges of the fill that lie between the same two vertices as another edge.
-  std::vector<int> doubledFillEdges() const;
+  /// Half-edges of the fill with the same two ends as another edge.
+  std::vector<int> duplicateFillEdges() const;
 
  private:
-  /// The wall on the patch's back is made of the fill's triangles, that on its front of their mirror images.
+  /// The wall at the patch's back has the triangles of the fill, the wall at its front their mirror images.
   int onBack(int h) const { return back_ + h; }
   int onFront(int h) const { return front_ + 3 * (h / 3) + 2 - h % 3; }
   void pair(int h, int g) {
@@ -40,14 +40,14 @@ class Stitching {
   void pairEdges();
   void makeVertices();
   std::vector<int> cornersAtCurve() const;
-  void nameCorners(int corner, int vertex);
+  void setVertex(int corner, int vertex);
   std::vector<int> surfaceEdgesBetweenWalls() const;
 
   const SplitSurface& surface_;
   const WallFill& fill_;
   int back_, front_;  ///< first half-edges of the walls
   StitchedSurface result_;
-  std::vector<char> named_;  ///< per corner of the result: has its vertex
+  std::vector<char> is_set_;  ///< per corner of the result: its vertex is set
 };
 
 void Stitching::pairEdges() {
@@ -84,12 +84,12 @@ std::vector<int> Stitching::cornersAtCurve() const {
   return corners;
 }
 
-/// Gives a vertex to all corners round it.
-void Stitching::nameCorners(int corner, int vertex) {
+/// Sets the vertex of all corners around it.
+void Stitching::setVertex(int corner, int vertex) {
   int h = corner;
   do {
     result_.triangles[h / 3][h % 3] = vertex;
-    named_[h] = 1;
+    is_set_[h] = 1;
     h = result_.mates[previousHalfEdge(h)];
   } while (h != corner);
 }
@@ -100,30 +100,30 @@ void Stitching::makeVertices() {
   result_.vertices = surface_.vertices;
   result_.copied_from.resize(surface_.vertices.size());
   std::iota(result_.copied_from.begin(), result_.copied_from.end(), 0);
-  named_.assign(result_.mates.size(), 0);
+  is_set_.assign(result_.mates.size(), 0);
   const auto add = [this](const Eigen::Vector3d& position, int copied_from) {
     result_.vertices.push_back(position);
     result_.copied_from.push_back(copied_from);
     return static_cast<int>(result_.vertices.size()) - 1;
   };
-  // The first corners of a vertex on the curve keep its number, those beyond the cut get copies.
+  // The first corners of a vertex on the curve keep its number, corners beyond the cut get copies.
   std::vector<char> taken(surface_.vertices.size(), 0);
   for (const int h : cornersAtCurve()) {
-    if (named_[h] != 0) continue;
+    if (is_set_[h] != 0) continue;
     const int vertex = startOf(surface_.triangles, h);
     const bool is_first = std::exchange(taken[vertex], 1) == 0;
-    nameCorners(h, is_first ? vertex : add(surface_.vertices[vertex], vertex));
+    setVertex(h, is_first ? vertex : add(surface_.vertices[vertex], vertex));
   }
   for (int h = 0; h < front_ - back_; ++h) {
     const int start = startOf(fill_.triangles, h), end = endOf(fill_.triangles, h);
-    if (named_[onBack(h)] == 0) nameCorners(onBack(h), add(fill_.points[start], -1));
-    if (named_[onFront(h)] == 0) nameCorners(onFront(h), add(fill_.points[end], -1));
+    if (is_set_[onBack(h)] == 0) setVertex(onBack(h), add(fill_.points[start], -1));
+    if (is_set_[onFront(h)] == 0) setVertex(onFront(h), add(fill_.points[end], -1));
   }
 }
 
-std::vector<int> Stitching::doubledFillEdges() const {
+std::vector<int> Stitching::duplicateFillEdges() const {
   std::map<std::array<int, 2>, int> edges;
-  std::vector<int> doubled;
+  std::vector<int> duplicates;
   const auto examine = [&](int h, int fill_edge) {
     const std::array<int, 2> ends{startOf(result_.triangles, h), endOf(result_.triangles, h)};
     const auto [entry, is_new] = edges.emplace(ends, fill_edge);
@@ -131,7 +131,7 @@ std::vector<int> Stitching::doubledFillEdges() const {
     const int interior = fill_edge >= 0 ? fill_edge : entry->second;
     if (interior < 0)
       throw CutRefused("the cut would leave two edges of the surface between the same vertices");
-    doubled.push_back(interior);
+    duplicates.push_back(interior);
   };
   for (int h = 0; h < front_ - back_; ++h) {
     const int fill_edge = fill_.mates[h] >= 0 ? std::max(h, fill_.mates[h]) : -1;
@@ -139,9 +139,9 @@ std::vector<int> Stitching::doubledFillEdges() const {
     examine(onFront(h), fill_edge);
   }
   for (const int h : surfaceEdgesBetweenWalls()) examine(h, -1);
-  std::sort(doubled.begin(), doubled.end());
-  doubled.erase(std::unique(doubled.begin(), doubled.end()), doubled.end());
-  return doubled;
+  std::sort(duplicates.begin(), duplicates.end());
+  duplicates.erase(std::unique(duplicates.begin(), duplicates.end()), duplicates.end());
+  return duplicates;
 }
 
 /// Half-edges of the surface's triangles that run between vertices of the walls.
@@ -168,9 +168,9 @@ std::vector<int> Stitching::surfaceEdgesBetweenWalls() const {
 StitchedSurface stitch(const SplitSurface& surface, WallFill fill) {
   for (int repair = 0; repair < kMaxRepairs; ++repair) {
     Stitching stitching(surface, fill);
-    const std::vector<int> doubled = stitching.doubledFillEdges();
-    if (doubled.empty()) return stitching.takeResult();
-    for (const int h : doubled) splitFillEdge(h, &fill);
+    const std::vector<int> duplicates = stitching.duplicateFillEdges();
+    if (duplicates.empty()) return stitching.takeResult();
+    for (const int h : duplicates) splitFillEdge(h, &fill);
   }
   throw CutRefused("the cut would leave edges of its faces between the same vertices");
 }

@@ -5,21 +5,20 @@
 
 namespace softbody {
 
-/// A mesh that a cut has opened.
+/// A mesh opened by a cut.
 struct StitchedSurface {
   std::vector<Eigen::Vector3d> vertices;
-  TriangleList
-      triangles;  ///< the split surface's, then the walls on the patch's back, then those on its front
+  TriangleList triangles;  ///< of the split surface, then the wall at the back of the patch, then the wall at
+                           ///< its front
   std::vector<int> mates;
-  std::vector<int> copied_from;  ///< per vertex: the split surface's vertex that it is or was copied from;
-                                 ///< -1: the walls' own
+  std::vector<int> copied_from;  ///< per vertex: its vertex of the split surface, or the original of the
+                                 ///< copy; -1: a wall's own
 };
 
-/// Opens a surface along a cut's curve and closes it with two walls, one the mirror image of the other.
-/// Triangles are paired edge by edge; a vertex is then what the triangles round it share, so the result is a
-/// closed manifold whatever the cut looks like. The fill gets a point more where two of the walls' edges
-/// would have the same ends.
-/// @throw CutRefused if that does not help.
+/// Opens a surface along the curve of a cut and closes it with two walls, mirror images of each other.
+/// Half-edges are paired first. A vertex is then defined by the triangles around it, so the result is always
+/// a closed manifold. If two edges of the walls would have the same ends, the fill gets another point. @throw
+/// CutRefused if duplicate edges remain.
 StitchedSurface stitch(const SplitSurface& surface, WallFill fill);
 
 }  // namespace softbody

@@ -42,10 +42,11 @@ class Filling {
   double snap_distance_;
   WallFill fill_;
   std::map<std::tuple<double, double, double>, int> point_numbers_;
-  std::map<DirectedEdge, int> curve_edges_;  ///< -> the surface's half-edge
-  std::map<DirectedEdge, int> borders_;      ///< where facets meet or the patch ends -> the facet on the left
+  std::map<DirectedEdge, int> curve_edges_;  ///< -> half-edge of the surface
+  std::map<DirectedEdge, int>
+      borders_;  ///< edges where facets meet or the patch ends -> the facet on the left
   std::vector<Facet> parts_;
-  int curve_point_count_ = 0;  ///< the first points are the curve's
+  int curve_point_count_ = 0;  ///< the points of the curve come first
   int region_count_ = 0;
 };
 
@@ -58,7 +59,7 @@ WallFill Filling::run() {
   return std::move(fill_);
 }
 
-/// Vertices of the surface at the same place, on the two walls of an earlier cut, are one point.
+/// Vertices at the same place, on the two walls of an earlier cut, become one point.
 int Filling::pointAt(const Eigen::Vector3d& p) {
   const auto [entry, is_new] =
       point_numbers_.emplace(std::make_tuple(p.x(), p.y(), p.z()), static_cast<int>(fill_.points.size()));
@@ -83,13 +84,13 @@ void Filling::addCurve() {
     const DirectedEdge edge{pointAt(surface_.vertices[startOf(surface_.triangles, h)]),
                             pointAt(surface_.vertices[endOf(surface_.triangles, h)])};
     if (!curve_edges_.emplace(edge, h).second)
-      throw CutRefused("the cut meets the surface twice in one place");
+      throw CutRefused("the cut meets the surface twice at one place");
     parts_[surface_.curve[h]].constraints.push_back(edge);
   }
   curve_point_count_ = static_cast<int>(fill_.points.size());
 }
 
-/// Every edge at which facets meet or end, piece by piece between the places where it pierces the surface.
+/// Every edge at which facets meet or end, in parts between the points where it pierces the surface.
 void Filling::addFolds() {
   std::map<int, std::vector<int>> piercings;  // patch edge -> nodes
   for (int node = 0; node < static_cast<int>(curve_.nodes.size()); ++node) {
@@ -155,7 +156,7 @@ void Filling::forEachEdge(const Visit& visit) const {
   }
 }
 
-/// Regions to the left of the curve are inside of the body, and those that they meet at a fold.
+/// Regions to the left of the curve are inside of the body, and so are their neighbours across folds.
 std::vector<bool> Filling::findInside() const {
   std::map<DirectedEdge, int> border_regions;
   std::vector<bool> inside(static_cast<std::size_t>(region_count_), false);
@@ -198,7 +199,7 @@ void Filling::collect(const std::vector<bool>& inside) {
   std::map<DirectedEdge, int> half_edges;
   for (int h = 0; h < count; ++h) {
     if (!half_edges.emplace(DirectedEdge{startOf(fill_.triangles, h), endOf(fill_.triangles, h)}, h).second) {
-      throw CutRefused("the cut's faces lie on each other");
+      throw CutRefused("the cut's faces overlap");
     }
   }
   fill_.curve.assign(count, -1);

@@ -5,21 +5,21 @@
 
 namespace softbody {
 
-/// The part of a patch inside a body, triangulated; its triangles face as the patch does. One wall of the cut
-/// is made of them, the other of the same triangles turned round.
+/// The triangulated part of a patch inside a body, with the orientation of the patch. One wall of the cut has
+/// these triangles, the other wall the same triangles reversed.
 struct WallFill {
   std::vector<Eigen::Vector3d> points;
   TriangleList triangles;
   std::vector<int> facets;  ///< per triangle
   std::vector<int>
-      curve;  ///< per half-edge: the surface's half-edge of the curve that bounds it there; else -1
+      curve;  ///< per half-edge: the half-edge of the surface that the curve follows there; else -1
   std::vector<int>
-      mates;  ///< per half-edge: its neighbour's; -1 at the curve and where the patch ends inside the body
+      mates;  ///< per half-edge: the opposite one; -1 at the curve and where the patch ends inside the body
 };
 
-/// Constrained Delaunay triangulation in the plane of each facet. There are no vertices but the curve's and,
-/// where the patch folds or ends inside the body, its own.
-/// @param snap_distance: corners of the patch that are nearer to a vertex of the curve lie on it [m].
+/// Constrained Delaunay triangulation in the plane of each facet. Its points are the vertices of the curve,
+/// and the patch's own where it folds or ends inside the body.
+/// @param snap_distance: corners of the patch closer than this to a vertex of the curve are moved there [m].
 /// @throw CutRefused if the curve does not bound a part of the patch.
 WallFill fillWalls(const SplitSurface& surface, const CutCurve& curve, const PatchFacets& facets,
                    double snap_distance);

@@ -6,13 +6,13 @@
 namespace softbody {
 namespace {
 
-/// A tet's corner at the vertex under consideration.
+/// A corner of a tet at the current vertex.
 struct Corner {
   int tet;
   int corner;
 };
 
-/// The corners at each vertex of the cut faces; none at other vertices.
+/// The corners at each vertex of the cut faces; empty for other vertices.
 std::vector<std::vector<Corner>> cornersAt(const Tets& tets, int vertex_count,
                                            const std::vector<Face>& cut_faces) {
   std::vector<bool> wanted(static_cast<std::size_t>(vertex_count), false);
@@ -29,7 +29,7 @@ std::vector<std::vector<Corner>> cornersAt(const Tets& tets, int vertex_count,
   return corners;
 }
 
-/// A face at the vertex: its other two vertices, and which corner's tet has it.
+/// A face at the vertex: its other two vertices, and the corner whose tet it belongs to.
 struct Wing {
   int low, high, owner;
 };
@@ -39,7 +39,7 @@ std::vector<Wing> wingsOf(const Tets& tets, const std::vector<Corner>& star) {
   wings.reserve(3 * star.size());
   for (int s = 0; s < static_cast<int>(star.size()); ++s) {
     const auto [tet, corner] = star[static_cast<std::size_t>(s)];
-    for (int k = 1; k < 4; ++k) {  // the face without the corner's k-th companion
+    for (int k = 1; k < 4; ++k) {  // the face without the k-th other vertex of the tet
       const int a = tets(tet, (corner + (k == 1 ? 2 : 1)) % 4),
                 b = tets(tet, (corner + (k == 3 ? 2 : 3)) % 4);
       wings.push_back({std::min(a, b), std::max(a, b), s});
@@ -88,15 +88,15 @@ OpenedTets openCrack(const Tets& tets, int vertex_count, const std::vector<Face>
   for (int vertex = 0; vertex < vertex_count; ++vertex) {
     const std::vector<Corner>& star = corners[static_cast<std::size_t>(vertex)];
     const std::vector<int> groups = groupsOf(tets, vertex, star, cut_faces);
-    std::vector<int> names(star.size(), -1);  // of the groups, by their first corner
+    std::vector<int> copies(star.size(), -1);  // per group, at its first corner
     for (std::size_t s = 0; s < star.size(); ++s) {
       if (groups[s] == 0) continue;
-      int& name = names[static_cast<std::size_t>(groups[s])];
-      if (name < 0) {
-        name = vertex_count + static_cast<int>(result.copied_from.size());
+      int& copy = copies[static_cast<std::size_t>(groups[s])];
+      if (copy < 0) {
+        copy = vertex_count + static_cast<int>(result.copied_from.size());
         result.copied_from.push_back(vertex);
       }
-      result.tets(star[s].tet, star[s].corner) = name;
+      result.tets(star[s].tet, star[s].corner) = copy;
     }
   }
   return result;

@@ -10,14 +10,14 @@
 namespace softbody {
 namespace {
 
-/// A tet's face, by the corner opposite to it.
+/// A face of a tet and the opposite corner.
 struct FaceUse {
   Face face;
   int tet, corner;
   bool operator<(const FaceUse& other) const { return std::tie(face, tet) < std::tie(other.face, other.tet); }
 };
 
-/// The faces of all tets for which `wanted` holds, those of the same vertices side by side.
+/// The faces of all tets for which `wanted` is true; faces with the same vertices are adjacent.
 template <class Wanted>
 std::vector<FaceUse> faceUses(const Tets& tets, const Wanted& wanted) {
   std::vector<FaceUse> uses;
@@ -46,7 +46,7 @@ bool touchesAny(const Face& face, const std::vector<int>& vertices) {
                      [&vertices](int v) { return std::binary_search(vertices.begin(), vertices.end(), v); });
 }
 
-/// The non-manifold vertices that opening made, by the vertices that they copy; ascending.
+/// The new non-manifold vertices after opening; of copies, their originals; ascending.
 std::vector<int> newlyNonManifold(const Triangles& surface, const std::vector<int>& before, int vertex_count,
                                   const std::vector<int>& copied_from) {
   std::vector<int> found = nonManifoldVertices(surface);
@@ -60,7 +60,7 @@ std::vector<int> newlyNonManifold(const Triangles& surface, const std::vector<in
   return made;
 }
 
-/// The faces of `all` that are still shared by two tets after opening, under their new names.
+/// The faces of `all` that two tets still share after opening, by their new vertices.
 std::vector<Face> stillShared(const std::vector<Face>& all, const Tets& before, const Tets& after) {
   std::vector<Face> shared;
   const auto uses = faceUses(

@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// Inner faces that follow the patch: their vertices are on the cut and the patch separates their two tets.
+/// Inner faces along the patch: their vertices are on the cut and the patch separates their two tets.
 /// Ascending. @param on_cut per vertex.
 std::vector<Face> facesAlong(const PatchIntersector& patch, const Points& vertices, const Tets& tets,
                              const std::vector<bool>& on_cut);
@@ -17,12 +17,11 @@ std::vector<Face> facesAlong(const PatchIntersector& patch, const Points& vertic
 struct ManifoldCrack {
   OpenedTets opened;
   Triangles surface;               ///< of the opened tets
-  std::vector<Face> closed_faces;  ///< still inside the body, by their vertices after opening; ascending
-  std::vector<int>
-      pinches;  ///< vertices whose faces stayed closed since the surface would touch itself there
+  std::vector<Face> closed_faces;  ///< not opened, by their vertices after opening; ascending
+  std::vector<int> pinches;        ///< vertices with closed faces, where the surface would touch itself
 };
 
-/// Opens a crack. Where the surface would touch itself at a vertex, the faces at it stay closed.
+/// Opens a crack. The faces at a vertex stay closed if the surface would touch itself there.
 /// @param cut_faces ascending; @param known vertices at which the uncut surface is non-manifold; ascending.
 ManifoldCrack openManifoldCrack(const Tets& tets, int vertex_count, std::vector<Face> cut_faces,
                                 const std::vector<int>& known);

@@ -6,7 +6,7 @@
 namespace softbody {
 namespace {
 
-/// Per tet after a cut the tet before that contains it.
+/// Per tet after a cut, the earlier tet that contains it.
 std::vector<int> parentsOf(const TetEdit& edit) {
   std::vector<int> parents(static_cast<std::size_t>(edit.topology.tets.rows()), -1);
   for (std::size_t t = 0; t < edit.successors.size(); ++t) {
@@ -15,8 +15,8 @@ std::vector<int> parentsOf(const TetEdit& edit) {
   return parents;
 }
 
-/// Two cuts as one. A vertex of a part lies on the smallest face of the part's ancestor that holds it, so its
-/// origin's vertices are among the ancestor's.
+/// Composes two cuts. A vertex of a part lies in the smallest face of the part's ancestor that contains it,
+/// so the vertices of its origin are vertices of the ancestor.
 TetEdit composed(const TetTopology& start, const TetEdit& first, TetEdit second) {
   const std::vector<int> parents = parentsOf(first);
   for (MaterialPoint& origin : second.vertex_origins) {
@@ -45,7 +45,7 @@ TetEdit composed(const TetTopology& start, const TetEdit& first, TetEdit second)
   return second;
 }
 
-/// A cut taken back. Cuts keep the numbers of vertices, so every vertex before is the same one after.
+/// The inverse of a cut. Cuts keep the indices of vertices, so every earlier vertex still exists.
 TetEdit inverted(const TetEdit& cut, const TetEdit& before) {
   TetEdit edit{before.topology, before.cut, {}, {}};
   edit.vertex_origins = placesOfVertices(cut.topology);
@@ -54,7 +54,7 @@ TetEdit inverted(const TetEdit& cut, const TetEdit& before) {
   return edit;
 }
 
-/// No change, as an edit.
+/// An edit without changes.
 TetEdit unchanged(const TetTopology& topology, const std::vector<bool>& cut) {
   TetEdit edit{topology, cut, placesOfVertices(topology), {}};
   for (int t = 0; t < static_cast<int>(topology.tets.rows()); ++t) edit.successors.push_back({t});

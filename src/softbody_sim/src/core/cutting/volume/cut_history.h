@@ -10,34 +10,35 @@
 namespace softbody {
 
 /// The tets of a body through strokes of the blade, undo and redo. A stroke is one undo step, whatever the
-/// number of its cuts. An undone topology is the one from before, bit for bit, but for its revision: that
-/// only rises.
+/// number of its cuts. Undo restores the earlier topology bit for bit, except for its revision, which only
+/// increases.
 class CutHistory {
  public:
   explicit CutHistory(const TetTopology& uncut, const SubdivisionSettings& settings = {});
 
   const TetTopology& topology() const { return versions_[at_]->topology; }
-  /// Per triangle of the topology's surface: was inside the uncut body.
+  /// Per triangle of the topology's surface: true if it was inside the uncut body.
   const std::vector<bool>& cut() const { return versions_[at_]->cut; }
-  /// The topology with the edit that led to it from the version before, or, uncut, none.
+  /// The topology and the edit that made it from the previous version. The uncut body has an edit without
+  /// changes.
   std::shared_ptr<const TetEdit> version() const { return versions_[at_]; }
 
-  /// Cuts along a patch. Another stroke number than in the last call begins a new stroke, and so does the
-  /// same one after undo, redo or reset. Nothing but the stroke's progress changes if there is no edit, whose
-  /// `reason` is then given. What was undone can no longer be redone after an edit.
+  /// Cuts along a patch. A stroke number that differs from the last call begins a new stroke, and so does any
+  /// number after undo, redo or reset. Without an edit only the progress of the stroke changes, and `reason`
+  /// says why. After an edit, undone strokes cannot be redone.
   /// @throw std::invalid_argument as cutTets.
   std::optional<TetEdit> cut(const CutPatch& patch, std::uint32_t stroke, std::string* reason);
 
-  /// As cut, but a patch that crosses nothing of the tets is an edit too, which changes only the revision:
-  /// the visual mesh, which is finer, may be cut by it.
+  /// Like cut. A patch that crosses no tet is also an edit, which changes only the revision: it can cut the
+  /// finer visual mesh.
   TetEdit cutOrAdvance(const CutPatch& patch, std::uint32_t stroke);
 
-  /// What cut would do, without doing it.
+  /// The result of cut, without changing anything.
   std::optional<TetEdit> preview(const CutPatch& patch, std::uint32_t stroke, std::string* reason) const;
 
-  std::optional<TetEdit> undo();   ///< nothing if there is no stroke before
-  std::optional<TetEdit> redo();   ///< nothing if no stroke is undone
-  std::optional<TetEdit> reset();  ///< to the uncut body; can be redone stroke by stroke
+  std::optional<TetEdit> undo();   ///< nothing if there is no stroke to undo
+  std::optional<TetEdit> redo();   ///< nothing if there is no stroke to redo
+  std::optional<TetEdit> reset();  ///< to the uncut body; strokes can be redone one by one
 
  private:
   CutStroke strokeFor(std::uint32_t number) const;
@@ -46,7 +47,7 @@ class CutHistory {
   std::optional<TetEdit> moveTo(std::size_t version);
 
   SubdivisionSettings settings_;
-  /// The uncut body, then after each stroke as an edit of the version before. Copies of the history share
+  /// The uncut body, then one version per stroke, as an edit of the previous one. Copies of the history share
   /// them.
   std::vector<std::shared_ptr<const TetEdit>> versions_;
   std::size_t at_ = 0;

@@ -12,8 +12,8 @@ using Flags = std::vector<bool>;
 
 std::size_t nearEndOf(const EdgeCrossing& crossing) { return static_cast<std::size_t>(crossing.nearEnd()); }
 
-CutSubdivision splitWhatIsNotTaken(const Points& vertices, const Tets& tets,
-                                   const std::vector<EdgeCrossing>& crossings, const Flags& on_cut) {
+CutSubdivision splitOffCutEdges(const Points& vertices, const Tets& tets,
+                                const std::vector<EdgeCrossing>& crossings, const Flags& on_cut) {
   CutSubdivision result;
   std::vector<EdgeSplit> splits;
   for (const EdgeCrossing& crossing : crossings) {
@@ -33,7 +33,7 @@ CutSubdivision splitWhatIsNotTaken(const Points& vertices, const Tets& tets,
   return result;
 }
 
-/// The shortest cut-off among the crossings that gave a part its new vertices.
+/// Among the crossings of a part's new vertices, the one nearest to an end of its edge.
 const EdgeCrossing& tightestSplit(const CutSubdivision& subdivision, Eigen::Index part, int old_count) {
   const EdgeCrossing* tightest = nullptr;
   for (const int vertex : subdivision.parts.tets.row(part)) {
@@ -44,9 +44,9 @@ const EdgeCrossing& tightestSplit(const CutSubdivision& subdivision, Eigen::Inde
   return *tightest;
 }
 
-/// Takes an end for every part that came out a sliver. @return whether there was one.
-bool takeSplitsOfSlivers(const CutSubdivision& subdivision, int old_count,
-                         const SubdivisionSettings& settings, const Flags& spared, Flags* on_cut) {
+/// Puts an end of an edge on the cut for every sliver. @return whether there was a sliver.
+bool snapSlivers(const CutSubdivision& subdivision, int old_count, const SubdivisionSettings& settings,
+                 const Flags& spared, Flags* on_cut) {
   bool any = false;
   for (Eigen::Index part = 0; part < subdivision.parts.tets.rows(); ++part) {
     const Eigen::RowVector4i tet = subdivision.parts.tets.row(part);
@@ -84,9 +84,9 @@ CutSubdivision subdivide(const Points& vertices, const Tets& tets, const std::ve
     if (crossing.fraction() < settings.snap_fraction && !spared[end]) on_cut[end] = true;
   }
   const auto old_count = static_cast<int>(vertices.rows());
-  CutSubdivision result = splitWhatIsNotTaken(vertices, tets, crossings, on_cut);
-  while (takeSplitsOfSlivers(result, old_count, settings, spared, &on_cut)) {
-    result = splitWhatIsNotTaken(vertices, tets, crossings, on_cut);
+  CutSubdivision result = splitOffCutEdges(vertices, tets, crossings, on_cut);
+  while (snapSlivers(result, old_count, settings, spared, &on_cut)) {
+    result = splitOffCutEdges(vertices, tets, crossings, on_cut);
   }
   on_cut.resize(static_cast<std::size_t>(result.vertices.rows()), true);
   result.on_cut = std::move(on_cut);

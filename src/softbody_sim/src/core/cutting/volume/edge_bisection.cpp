@@ -10,7 +10,7 @@ std::uint64_t edgeKey(int a, int b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
-/// The positions in `splits` of a tet's split edges, ascending.
+/// Finds the split edges of a tet: their indices in `splits`, ascending.
 class SplitsOfTet {
  public:
   explicit SplitsOfTet(const std::vector<EdgeSplit>& splits) {
@@ -47,7 +47,7 @@ class SplitsOfTet {
   std::vector<bool> touched_;  ///< per vertex: end of a split edge
 };
 
-/// The tet with one corner moved to another vertex, if it has both ends of the edge.
+/// Moves a corner of the tet to another vertex if the tet has both ends of the edge. @return whether it has.
 bool moveCorner(Eigen::RowVector4i* tet, int from, int other, int to) {
   int* corner = std::find(tet->data(), tet->data() + 4, from);
   if (corner == tet->data() + 4 || std::find(tet->data(), tet->data() + 4, other) == tet->data() + 4)

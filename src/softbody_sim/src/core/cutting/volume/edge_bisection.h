@@ -13,14 +13,14 @@ struct EdgeSplit {
   int vertex = -1;
 };
 
-/// Tets after bisection, and the tet that each is a part of.
+/// Tets after bisection, and their parents.
 struct BisectedTets {
-  Tets tets;                 ///< the first part of tet t is tet t; further parts follow all
+  Tets tets;                 ///< the first part of tet t is tet t; further parts come after all first parts
   std::vector<int> parents;  ///< #tets
 };
 
-/// Bisects all tets round every split edge, edges in the given order. A face's parts depend on that order
-/// alone, not on the tet that asks: the mesh stays conforming. Every part has a positive share of its tet.
+/// Bisects all tets around every split edge, in the given order of edges. The parts of a face depend on that
+/// order only, the same for both of its tets: the mesh stays conforming. Every part has positive volume.
 BisectedTets bisectEdges(const Tets& tets, const std::vector<EdgeSplit>& splits);
 
 }  // namespace softbody

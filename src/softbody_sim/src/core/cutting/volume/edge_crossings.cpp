@@ -8,7 +8,7 @@
 namespace softbody {
 namespace {
 
-/// The edges that reach into the slab and have no end on the cut, each once.
+/// The edges that meet the slab and have no end on the cut, each once.
 std::vector<EdgeCrossing> candidates(const Tets& tets, const std::vector<bool>& on_cut,
                                      const std::vector<signed char>& sides) {
   std::vector<EdgeCrossing> edges;

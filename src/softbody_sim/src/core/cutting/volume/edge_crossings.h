@@ -7,7 +7,7 @@
 
 namespace softbody {
 
-/// Where a patch crosses an edge of a tet mesh.
+/// A crossing of a patch and an edge of a tet mesh.
 struct EdgeCrossing {
   int a = -1;
   int b = -1;      ///< a < b
@@ -17,8 +17,8 @@ struct EdgeCrossing {
   double fraction() const { return t < 0.5 ? t : 1.0 - t; }  ///< from the near end
 };
 
-/// The edges whose ends the patch separates, the longest first: one answer an edge, whichever tet asks.
-/// Edges with an end in `on_cut` are not asked. @param on_cut per vertex.
+/// The edges whose ends the patch separates, the longest first, each once. Edges with an end in `on_cut` are
+/// skipped. @param on_cut per vertex.
 std::vector<EdgeCrossing> edgeCrossings(const Points& vertices, const Tets& tets,
                                         const std::vector<bool>& on_cut, const PatchIntersector& patch);
 

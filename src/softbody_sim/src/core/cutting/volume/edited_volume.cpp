@@ -8,17 +8,17 @@
 namespace softbody {
 namespace {
 
-/// Targets are late by a frame or two, and a stroke edits at most once a frame.
+/// Targets are one or two frames late, and a stroke edits at most once per frame.
 constexpr std::size_t kRemembered = 4;
 
-/// Of a barycentric coordinate, either way.
+/// Absolute value of a barycentric coordinate above which a target is dropped.
 constexpr double kFarOutside = 20.0;
 
 std::vector<Target> mapped(std::vector<Target> targets, const TetTopology& before, const TetEdit& edit) {
   const auto tet_count = static_cast<int>(before.tets.rows());
   for (Target& target : targets) {
     if (target.place.tet < 0 || target.place.tet >= tet_count || !target.place.barycentric.allFinite())
-      continue;  // the simulator says what is wrong with it
+      continue;  // the simulator reports the error
     target.place = edit.placeAfter(target.place, before);
   }
   const auto far_outside = [](const Target& target) {
@@ -33,7 +33,7 @@ std::vector<Target> mapped(std::vector<Target> targets, const TetTopology& befor
 std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string* reason) {
   const std::uint32_t revision = history->topology().revision;
   if (cut.revision != revision + 1) {
-    *reason = fmt::format("it leads to revision {}, but the body is at {}", cut.revision, revision);
+    *reason = fmt::format("its revision is {}, but the body is at revision {}", cut.revision, revision);
     return std::nullopt;
   }
   std::optional<TetEdit> edit;
@@ -42,18 +42,18 @@ std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string
       return history->cutOrAdvance(cut.patch, cut.stroke);
     case CutKind::kUndo:
       edit = history->undo();
-      if (!edit) *reason = "there is no cut to take back";
+      if (!edit) *reason = "there is no cut to undo";
       return edit;
     case CutKind::kRedo:
       edit = history->redo();
-      if (!edit) *reason = "no cut is taken back";
+      if (!edit) *reason = "there is no cut to redo";
       return edit;
     case CutKind::kReset:
       edit = history->reset();
       if (!edit) *reason = "the body is not cut";
       return edit;
   }
-  *reason = "it is of no known kind";
+  *reason = "its kind is unknown";
   return std::nullopt;
 }
 

@@ -10,12 +10,12 @@
 
 namespace softbody {
 
-/// Carries out a Cut on the strokes of a body. @return nothing, and nothing is changed, if its revision is
-/// not the next one or there is nothing to undo or redo; `reason` then says which.
+/// Applies a Cut to the history of a body. @return nothing, without any change, if its revision is not the
+/// next one or there is nothing to undo or redo; `reason` then says why.
 /// @throw std::invalid_argument as cutTets.
 std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string* reason);
 
-/// The tets of a body that is being cut, and the way from its recent revisions to the present one.
+/// The tets of a body that is being cut, with its recent revisions.
 class EditedVolume {
  public:
   explicit EditedVolume(const TetTopology& uncut);
@@ -23,17 +23,16 @@ class EditedVolume {
   const TetTopology& topology() const { return history_.topology(); }
   const CutHistory& history() const { return history_; }
 
-  /// As applyCut.
+  /// See applyCut.
   std::optional<TetEdit> apply(const Cut& cut, std::string* reason);
 
-  /// Targets that name tets of a recent revision, by the tets that took their room since. Those that lie far
-  /// outside of such a tet say nothing of it and are left out. Targets of no recent revision are returned as
-  /// they are.
+  /// Converts targets on tets of a recent revision to tets of the present one. Drops targets that are far
+  /// outside of their new tet. Returns targets of other revisions unchanged.
   TargetSet broughtUpToDate(TargetSet targets) const;
 
  private:
   struct Step {
-    std::shared_ptr<const TetEdit> before;  ///< its topology
+    std::shared_ptr<const TetEdit> before;  ///< with the earlier topology
     std::shared_ptr<const TetEdit> edit;
   };
   CutHistory history_;

@@ -6,7 +6,7 @@
 namespace softbody {
 namespace {
 
-/// A triangle seen from one of its vertices: the step that it makes along the border of the vertex's fan.
+/// A triangle at one of its vertices: its edge on the border of the vertex's fan.
 struct FanStep {
   int vertex, from, to;
   bool operator<(const FanStep& other) const {
@@ -16,7 +16,7 @@ struct FanStep {
 
 using Steps = std::vector<FanStep>::const_iterator;
 
-/// Whether the steps of one vertex, ascending, are one closed walk that visits nothing twice.
+/// Whether the steps of one vertex, ascending, form one closed loop without repetition.
 bool isOneLoop(Steps begin, Steps end) {
   Steps at = begin;
   for (Steps counter = begin; counter != end; ++counter) {

@@ -6,8 +6,8 @@
 
 namespace softbody {
 
-/// Vertices at which a triangle mesh is no closed, consistently oriented 2-manifold: their triangles are not
-/// one closed fan. Ascending; empty for a mesh that is one everywhere. Vertices without triangles pass.
+/// Vertices at which a triangle mesh is not a closed, consistently oriented 2-manifold: their triangles are
+/// not one closed fan. Ascending. Vertices without triangles are ignored.
 std::vector<int> nonManifoldVertices(const Triangles& triangles);
 
 }  // namespace softbody

@@ -15,10 +15,10 @@ void requireUsable(const CutPatch& patch) {
   if (!patch.vertices.allFinite()) throw std::invalid_argument("the cut's patch is not finite");
   const auto count = patch.vertices.rows();
   if (patch.triangles.size() > 0 && (patch.triangles.minCoeff() < 0 || patch.triangles.maxCoeff() >= count))
-    throw std::invalid_argument("the cut's patch names a vertex that it does not have");
+    throw std::invalid_argument("the cut's patch refers to a vertex that does not exist");
 }
 
-/// What is cut and where: the same in every attempt.
+/// The inputs that all attempts share.
 struct Crossed {
   const Points& vertices;
   const TetTopology& topology;
@@ -47,7 +47,7 @@ Attempt attemptCut(const Crossed& crossed, const CutStroke& stroke, const PatchI
   return attempt;
 }
 
-/// Marks the pinches that were not on the cut before. @return whether there is a new one.
+/// Spares the pinched vertices that were not on the cut before. @return whether one is new.
 bool spare(const std::vector<int>& pinches, const std::vector<bool>& on_cut, std::vector<bool>* spared) {
   bool any = false;
   for (const int vertex : pinches) {
@@ -58,7 +58,7 @@ bool spare(const std::vector<int>& pinches, const std::vector<bool>& on_cut, std
   return any;
 }
 
-/// Cuts; where a vertex that was taken for one of the cut pinches the surface, again without taking it.
+/// Cuts. If a vertex that was put on the cut pinches the surface, cuts again without it.
 Attempt cutWithoutPinches(const Crossed& crossed, const CutStroke& stroke) {
   constexpr int kAttempts = 4;
   const PatchIntersector patch(stroke.patch);

@@ -17,7 +17,7 @@ MaterialPoint placeOf(const EdgeCrossing& split, const Tets& tets) {
   return place;
 }
 
-/// The topology before, its subdivision and its opening: what the edit is made of.
+/// The steps of an edit: the earlier topology, its subdivision and its opening.
 struct CutSteps {
   const TetTopology& before;
   const std::vector<bool>& cut_before;
@@ -34,7 +34,7 @@ std::vector<MaterialPoint> vertexOrigins(const CutSteps& steps) {
   return origins;
 }
 
-/// A surface triangle's vertices in the topology before: those that its own vertices lie between; ascending.
+/// The earlier vertices that span a surface triangle; ascending.
 std::vector<int> spanBefore(const Eigen::RowVector3i& triangle, const CutSteps& steps) {
   const auto old_count = static_cast<int>(steps.before.rest_vertices.rows());
   const auto subdivided_count = static_cast<int>(steps.subdivision.vertices.rows());
@@ -54,7 +54,7 @@ std::vector<int> spanBefore(const Eigen::RowVector3i& triangle, const CutSteps& 
   return span;
 }
 
-/// Per surface triangle whether a cut made it: it is no part of a triangle that was there and was no cut.
+/// Per surface triangle, whether a cut made it: it is not a part of an earlier uncut triangle.
 std::vector<bool> cutTriangles(const CutSteps& steps) {
   std::vector<std::vector<int>> uncut;
   for (std::size_t f = 0; f < steps.cut_before.size(); ++f) {

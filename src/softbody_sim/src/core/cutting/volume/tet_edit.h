@@ -8,22 +8,22 @@
 
 namespace softbody {
 
-/// A topological edit of the tets and what whoever holds something of the topology before needs.
+/// A topological edit of the tets, with the maps from the earlier topology.
 struct TetEdit {
-  TetTopology topology;                       ///< after: vertices and tets of before keep their numbers
-  std::vector<bool> cut;                      ///< per triangle of its surface: was inside the uncut body
-  std::vector<MaterialPoint> vertex_origins;  ///< per vertex: its place in the topology before
-  std::vector<std::vector<int>> successors;   ///< per tet before: the tets that took its room
+  TetTopology topology;   ///< after the edit; earlier vertices and tets keep their indices
+  std::vector<bool> cut;  ///< per triangle of its surface: true if it was inside the uncut body
+  std::vector<MaterialPoint> vertex_origins;  ///< per vertex: its place in the earlier topology
+  std::vector<std::vector<int>> successors;   ///< per earlier tet: the tets that replace it
 
-  /// A place of the topology before, in the successor that contains it or is nearest.
+  /// A place of the earlier topology, in the successor that contains it or is nearest.
   MaterialPoint placeAfter(const MaterialPoint& place, const TetTopology& before) const;
 };
 
-/// Per vertex of a topology its place at a corner of its lowest tet.
+/// Per vertex of a topology, its place: a corner of its lowest tet.
 std::vector<MaterialPoint> placesOfVertices(const TetTopology& topology);
 
 /// The edit that subdivided and opened the tets of a topology.
-/// @param cut per triangle of its surface: was inside the uncut body.
+/// @param cut per triangle of the earlier surface: true if it was inside the uncut body.
 TetEdit assembleEdit(const TetTopology& before, const std::vector<bool>& cut,
                      const CutSubdivision& subdivision, const ManifoldCrack& crack);
 
