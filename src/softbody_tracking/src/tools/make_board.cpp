@@ -5,6 +5,7 @@
 
 #include "softbody_common/run_tool.h"
 #include "softbody_tracking/marker_board/marker_board.h"
+#include "softbody_tracking/marker_board/marker_board_drawing.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 namespace {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "softbody_tracking/marker_board/marker_board.h"
+#include "softbody_tracking/marker_board/marker_board_drawing.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 namespace softbody {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
@@ -27,12 +25,6 @@ MarkerBoard boardPaper(const std::string& paper);
 /// the paper.
 MarkerBoard layOutBoard(const std::string& dictionary, const std::vector<int>& ids, double size_m,
                         const std::string& paper);
-
-/// Draws the sheet to scale, with a ruler to check the print. @throw std::runtime_error if the file cannot be
-/// written.
-void writeBoardPdf(const MarkerBoard& board, const std::filesystem::path& path);
-void writeBoardSvg(const MarkerBoard& board, const std::filesystem::path& path);
-cv::Mat1b boardImage(const MarkerBoard& board, double dots_per_inch);
 
 /// A tool YAML with the board's markers and without a blade.
 std::string boardYaml(const MarkerBoard& board);

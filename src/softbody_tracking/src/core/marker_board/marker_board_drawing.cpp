@@ -1,3 +1,5 @@
+#include "softbody_tracking/marker_board/marker_board_drawing.h"
+
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>
@@ -7,7 +9,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "softbody_tracking/marker_board/marker_board.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 namespace softbody {
