@@ -141,12 +141,12 @@ TEST(LoadVisualMesh, ScalesAndFillsTheTopology) {
 }
 
 TEST(LoadVisualMesh, ItsHolesAndBranchingEdgesAreNamedAndStay) {
-  const TriangleMesh cube = test::torus(1.0, 0.3, 24, 12);
-  TriangleMesh mesh{Points(cube.vertices.rows() + 1, 3), Triangles(cube.triangles.rows(), 3)};
-  mesh.vertices << cube.vertices, Eigen::RowVector3d(2.0, 0.0, 0.0);
+  const TriangleMesh ring = test::torus(1.0, 0.3, 24, 12);
+  TriangleMesh mesh{Points(ring.vertices.rows() + 1, 3), Triangles(ring.triangles.rows(), 3)};
+  mesh.vertices << ring.vertices, Eigen::RowVector3d(2.0, 0.0, 0.0);
   // A fin on one edge, and a hole where the last triangle was.
-  mesh.triangles << cube.triangles.topRows(cube.triangles.rows() - 1),
-      Eigen::RowVector3i(cube.triangles(0, 0), cube.triangles(0, 1), static_cast<int>(cube.vertices.rows()));
+  mesh.triangles << ring.triangles.topRows(ring.triangles.rows() - 1),
+      Eigen::RowVector3i(ring.triangles(0, 0), ring.triangles(0, 1), static_cast<int>(ring.vertices.rows()));
   const test::TemporaryFolder folder;
   writeObj(folder.file("fin.obj"), exploded(mesh).mesh);
   ObjectDescription description;
