@@ -20,7 +20,7 @@ using test::complaint;
 using test::TemporaryFolder;
 
 /// Uses a temporary cache instead of the user's.
-class ObjectModelTest : public testing::Test {
+class ObjectModelTest : public ::testing::Test {
  protected:
   ObjectModelTest() { setenv("XDG_CACHE_HOME", folder_.file("cache").c_str(), 1); }
   ~ObjectModelTest() override { unsetenv("XDG_CACHE_HOME"); }
