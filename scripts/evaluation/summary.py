@@ -1,7 +1,7 @@
 """The ten figures of README.md, with those of Kang et al. 2022 beside them, from the reports of `evaluate`."""
-from evaluation_figures import NOISE_FREE, PAPER_FRAME_MS, PAPER_MEAN_ERROR_MM, PAPER_TIMES_MS, get, number, worst
-from evaluation_goals import verdict
-from evaluation_tables import median_times
+from evaluation.figures import NOISE_FREE, PAPER_FRAME_MS, PAPER_MEAN_ERROR_MM, PAPER_TIMES_MS, get, number, worst
+from evaluation.goals import verdict
+from evaluation.tables import median_times
 from markdown_lines import table
 
 

@@ -1,7 +1,7 @@
 """The tables of docs/evaluation.md, each with its introduction, from the reports of `evaluate`."""
 import statistics
 
-from evaluation_figures import (PAPER_TIMES_MS, WRONG_MATCH_SEEDS, fault_times, frames, get, moving_times, number,
+from evaluation.figures import (PAPER_TIMES_MS, WRONG_MATCH_SEEDS, fault_times, frames, get, moving_times, number,
                                 of_kind, percent, tracking_share, worst)
 from markdown_lines import paragraph, table
 

@@ -2,9 +2,9 @@
 import datetime
 import subprocess
 
-from evaluation_goals import goal_table
-from evaluation_summary import summary_table
-from evaluation_tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, stage_times, toys,
+from evaluation.goals import goal_table
+from evaluation.summary import summary_table
+from evaluation.tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, stage_times, toys,
                                volumes)
 from markdown_lines import paragraph
 

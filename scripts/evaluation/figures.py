@@ -75,7 +75,7 @@ def fault_times(reports, scene, fault):
     return None if base is None or faulty is None else faulty / base
 
 
-def in_words(reports):
+def summary_line(reports):
     """One line with the mean error of each scene and fault."""
     words = []
     for (kind, name), report in reports.items():

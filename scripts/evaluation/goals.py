@@ -1,7 +1,7 @@
 """The goals, and whether they are reached."""
 import math
 
-from evaluation_figures import (DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, fault_times, get,
+from evaluation.figures import (DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, fault_times, get,
                                 moving_times, number, worst, wrong_matches)
 from markdown_lines import table
 

@@ -1,0 +1,178 @@
+"""Records, tracks and measures the scenes. Every run returns reports of `evaluate` by (kind, name)."""
+import json
+import pathlib
+import re
+import subprocess
+
+from evaluation.figures import DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, wrong_matches
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+DEVEL = ROOT / "catkin_ws/devel"
+OUTPUT = ROOT / "evaluation"
+TOY = ROOT.parent / "shared/data/toys"
+TOY_POSE = "[0.059, -0.038, 0.630, 0.611, -0.488, 0.171, 0.599]"  # rough, from the data set's README
+LONG_S = "60"
+LONG = ("still", "bend")
+MOTION, WORLD = ("--camera-motion", "orbit"), ("--output-frame", "world")
+# Faults as arguments of inject: one for every scene with faults, more for one of them.
+HOLES = {DEPTH_HOLES: ["--holes", "0.3"]}
+MORE_FAULTS = {"bend": {
+    "occluder in front of half of the body for 2 s": ["--occluder", "0.15", "--occluder-u", "0.72",
+                                                      "--occluder-from", "1.5", "--occluder-for", "2"],
+    "20 % dropped": ["--drop", "0.2"],
+    "20 % reordered": ["--reorder", "0.2"],
+    "20 % twice": ["--duplicate", "0.2"],
+    "20 % late by 0.1 s": ["--delay", "0.2"],
+    "2 % with a stamp 0.1 s off": ["--wrong-stamp", "0.02"],
+}}
+FINE_CAGE = "300"  # vertices; the shipped sponge has the paper's 132
+# Scenes in which a hand hides the body. Their normal error is that without the hand.
+HIDDEN = ("occlude", "doll_occlude")
+PARAMETERS = {FEW_FEATURES: "feature_tracker: {max_features: 50}\n"}
+
+
+class ToolFailed(Exception):
+    """The output of a tool that failed."""
+
+
+def tool(name, *arguments, package="softbody_bringup"):
+    """Standard output of a tool."""
+    command = [DEVEL / "env.sh", DEVEL / "lib" / package / name, *arguments]
+    run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    if run.returncode != 0:
+        raise ToolFailed(f"{' '.join(map(str, command[1:]))}\n{run.stderr}")
+    return run.stdout
+
+
+def all_scenes():
+    return re.search(r"--scene \S*?\{([^}]*)\}", tool("virtual_camera", "--help"))[1].split(",")
+
+
+def track(name, recording, config, *more):
+    """The result of `replay`."""
+    result = OUTPUT / f"{name}_result.bag"
+    tool("replay", recording, "--object", config, "--output", result, "--timing", *more)
+    return result
+
+
+def measure(name, recording, config, *against, more=()):
+    """Tracks a recording, with more arguments for `replay`; the report of `evaluate`."""
+    result = track(name, recording, config, *more)
+    text = tool("evaluate", result, *against, "--report", OUTPUT / name)
+    (OUTPUT / f"{name}.json").write_text(text)
+    return json.loads(text)
+
+
+def object_of(scene):
+    """The object that a scene's body is made from: the longest prefix that names one, otherwise the sponge."""
+    shipped = [path for path in (ROOT / "config").glob("*.yaml") if scene.startswith(path.stem + "_")]
+    return max(shipped, key=lambda path: len(path.stem), default=ROOT / "config/sponge.yaml")
+
+
+def tool_of(scene):
+    """Arguments of `replay` for a scene with a knife."""
+    return ("--tool", ROOT / "config/knife.yaml") if re.search(r"(^|_)cut", scene) else ()
+
+
+def scene_run(kind, scene, *camera_arguments, replay_arguments=()):
+    """Records and measures one scene; {(kind, scene): report}. Faults are put into the same recording."""
+    name = scene if kind == "scene" else f"{scene}_{kind.replace(' ', '_')}"
+    recording = OUTPUT / f"{name}.bag"
+    tool("virtual_camera", "--scene", scene, "--output", recording, *camera_arguments)
+    config = object_of(scene)
+    unhidden = ("--unhidden", unhidden_result(scene, config)) if kind == "scene" and scene in HIDDEN else ()
+    reports = {(kind, scene): measure(name, recording, config, "--truth", recording, *unhidden,
+                                      more=(*tool_of(scene), *replay_arguments))}
+    if kind == "scene" and scene in WRONG_MATCH_SEEDS:
+        reports.update(fault_runs(scene, recording, config))
+    if kind == "scene" and scene in NOISE_FREE:
+        reports.update(model_runs(scene, recording, config))
+    recording.unlink()  # some 1.2 MB a frame
+    return reports
+
+
+def model_runs(scene, recording, config):
+    """The same scene with a finer volume, and both volumes simulated from the exact visible vertices."""
+    fine = fine_sponge(scene)
+    return {("fine", scene): measure(f"{scene}_fine", recording, fine, "--truth", recording),
+            ("exact", scene): simulate(f"{scene}_exact", recording, config),
+            ("fine exact", scene): simulate(f"{scene}_fine_exact", recording, fine)}
+
+
+def fine_sponge(scene):
+    folder = OUTPUT / f"{scene}_fine_sponge"
+    tool("prepare_model", ROOT / "config/sponge.obj", "--output", folder, "--cage-vertices", FINE_CAGE,
+         package="softbody_sim")
+    description = folder / "object.yaml"
+    pose = re.search(r"^ *initial_pose:.*$", (ROOT / "config/sponge.yaml").read_text(), re.MULTILINE)[0]
+    description.write_text(f"{description.read_text().rstrip()}\n{pose}\n")
+    return description
+
+
+def simulate(name, truth, config):
+    """The report of `evaluate` on `simulate_truth`."""
+    result = OUTPUT / f"{name}.bag"
+    tool("simulate_truth", truth, "--object", config, "--output", result)
+    report = json.loads(tool("evaluate", result, "--truth", truth))
+    result.unlink()
+    return report
+
+
+def unhidden_result(scene, config):
+    """Result for the same motion without the hand."""
+    recording = OUTPUT / f"{scene}_unhidden.bag"
+    tool("virtual_camera", "--scene", scene, "--no-hands", "--output", recording)
+    result = track(f"{scene}_unhidden", recording, config)
+    recording.unlink()
+    return result
+
+
+def faults_of(scene):
+    drawn = {wrong_matches(seed): ["--misplaced", "0.2", "--seed", str(seed)] for seed in WRONG_MATCH_SEEDS[scene]}
+    return {**HOLES, **drawn, **MORE_FAULTS.get(scene, {})}
+
+
+def fault_runs(scene, recording, config):
+    """The same recording with faults, and with other parameters; {("fault", (scene, fault)): report}."""
+    reports = {}
+    for number, (fault, arguments) in enumerate(faults_of(scene).items(), 1):
+        name = f"{scene}_fault_{number}"
+        faulty = OUTPUT / f"{name}.bag"
+        tool("inject", recording, "--output", faulty, *arguments)
+        reports[("fault", (scene, fault))] = measure(name, faulty, config, "--truth", recording, "--recording", faulty)
+        faulty.unlink()
+    for number, (change, text) in enumerate(PARAMETERS.items(), 1):
+        name = f"{scene}_parameters_{number}"
+        parameters = OUTPUT / f"{name}.yaml"
+        parameters.write_text(text)
+        reports[("fault", (scene, change))] = measure(name, recording, config, "--truth", recording,
+                                                     more=("--parameters", parameters))
+    return reports
+
+
+def toy_run():
+    """Report of the recorded toy, depth only; empty if the recording is missing."""
+    if not TOY.is_dir():
+        return {("toys", "toys"): {}}
+    recording, config = OUTPUT / "toys.bag", OUTPUT / "toys.yaml"
+    body = f"object:\n  visual_mesh: {TOY}/toy_surface.obj\n  tet_mesh: {TOY}/toy_tets.vtu\n"
+    tool("import_images", TOY, "--output", recording)
+    reports = {}
+    for kind, pose in (("toys", f"  initial_pose: {TOY_POSE}\n"), ("no pose", "")):
+        config.write_text(body + pose)
+        reports[(kind, "toys")] = measure(kind.replace(" ", "_"), recording, config, "--recording", recording)
+    recording.unlink()
+    return reports
+
+
+def runs(scenes):
+    """Every piece of work as (words, function), the longest first."""
+    work = [(f"{scene}, {LONG_S} s", lambda scene=scene: scene_run("long", scene, "--duration", LONG_S))
+            for scene in LONG if scene in scenes]
+    work += [(scene, lambda scene=scene: scene_run("scene", scene)) for scene in scenes if scene != "toys"]
+    work += [(f"{scene}, noise off", lambda scene=scene: scene_run("noise off", scene, "--noise", "off"))
+             for scene in NOISE_FREE if scene in scenes]
+    work += [(f"{scene}, moving camera",
+              lambda scene=scene: scene_run("moving camera", scene, *MOTION, replay_arguments=WORLD))
+             for scene in MOVING if scene in scenes]
+    return work + ([("toys", toy_run)] if "toys" in scenes else [])

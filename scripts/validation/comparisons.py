@@ -1,0 +1,108 @@
+"""Comparisons on single meshes: between solvers, with beam theory and with another formulation."""
+import itertools
+import math
+import sys
+
+import numpy as np
+
+from validation.corotational_reference import beam_tip
+from validation.simulate_tool import OUTPUT, ROOT, SOLVERS, box, run_tool, simulate
+from validation.vtu_tets import cells, positions, second_moment
+
+MESHES = ROOT / "../shared/data/meshes/tet"
+
+
+def agreement_rows():
+    """Static equilibria of PD and FEM with the same corotated energy, on published meshes."""
+    rows = []
+    for path in sorted([*MESHES.glob("*/*.ele"), *MESHES.glob("*/*.msh"), *MESHES.glob("*/*.vtu"),
+                        *MESHES.glob("*/*.veg")]):
+        print(f"== agreement {path.name}", file=sys.stderr)
+        probe = OUTPUT / "rest.vtu"
+        if run_tool(path, "--steps", 1, "--output", probe)[1].returncode != 0:
+            continue  # no tets; the tool has reported it
+        rest = positions(probe)
+        low, high = rest.min(axis=0), rest.max(axis=0)
+        limit = low[2] + 0.25 * (high[2] - low[2])
+        if (rest[:, 2] <= limit).sum() < 3:
+            continue  # it can turn about what holds it, so the equilibrium is not unique
+        gravity = 0.005 * 2e4 / (30.0 * (high[2] - low[2]))
+        arguments = ["--static", "--poisson", 0.3, "--gravity", 0, 0, -gravity, "--pin",
+                     f"z<={limit!r}", "--tolerance", 1e-9]
+        ends = []
+        for solver in ("PD", "FEM corotated"):
+            simulate(path, *arguments, *SOLVERS[solver], "--output", probe)
+            ends.append(positions(probe))
+        size = np.linalg.norm(high - low)
+        moved, apart = (np.linalg.norm(ends[1] - x, axis=1).max() / size for x in (rest, ends[0]))
+        rows.append((f"{path.parent.name}/{path.name}", len(rest), moved, apart))
+    return rows
+
+
+def prism_rows():
+    """Published beam meshes, clamped at one end, under a small gravity, against bending and shear."""
+    rows = []
+    for name, along, down in (("vega/beam3_tet.veg", 1, 0), ("sofa/truthcylinder1.msh", 1, 0), ("sofa/cylinder.msh", 2, 0)):
+        path = MESHES / name
+        if not path.exists():
+            continue
+        print(f"== prism {name}", file=sys.stderr)
+        result = OUTPUT / "prism.vtu"
+        held = simulate(path, "--static", "--pin", "all", "--output", result)[-1]
+        rest, tets = positions(result), cells(result)
+        low, high = rest.min(axis=0), rest.max(axis=0)
+        length = high[along] - low[along]
+        area = held["volume_m3"] / length
+        inertia = second_moment(rest, tets, down) / length
+        young, density = 1e6, 1000.0
+        bending, shear = length**4 / (8.0 * young * inertia / area), length**2 / (2.0 * 0.9 * 0.5 * young)
+        gravity = 1e-3 * length / (density * (bending + shear))
+        axis, end = "xyz"[along], high[along] - 1e-6 * length
+        row = simulate(path, "--static", "--young", young, "--poisson", 0, "--density", density, "--gravity",
+                       *(-gravity * np.eye(3)[down]), "--pin", f"{axis}<{float(low[along] + 1e-6 * length)!r}", "--probe",
+                       f"{axis}>{float(end)!r}", "--tolerance", 1e-9)[-1]
+        rows.append((name, len(tets), f"{length * math.sqrt(area / inertia):.1f}",
+                     f"{-row['probe_' + 'xyz'[down] + '_m'] / (1e-3 * length):.4f}"))
+    return rows
+
+
+def formulation_rows():
+    mesh, rest = box("beam", (12, 2, 2), lambda x, y, z: (0.16 * x, 0.03 * y, 0.03 * z))
+    tets = np.loadtxt(mesh.with_suffix(".ele"), skiprows=1, dtype=int)[:, 1:]
+    rows = []
+    for young, poisson, density in ((1e6, 0.3, 1000.0), (2e4, 0.3, 200.0), (3e3, 0.45, 200.0)):
+        print(f"== formulation {young}", file=sys.stderr)
+        other = beam_tip(rest, tets, young, poisson, density, 9.81)
+        for solver in ("PD", "FEM corotated"):
+            row = simulate(mesh, "--static", "--young", young, "--poisson", poisson, "--density", density, "--gravity", 0, 0,
+                           -9.81, "--pin", "x<1e-9", "--probe", "x>0.159999", "--tolerance", 1e-9, *SOLVERS[solver])[-1]
+            tip = np.array([row[f"probe_{axis}_m"] for axis in "xyz"])
+            rows.append((f"{young:g}", poisson, solver, f"{1e3 * tip[0]:.4f}, {1e3 * tip[2]:.4f}",
+                         f"{np.linalg.norm(tip - other) / np.linalg.norm(other):.0e}"))
+    return rows
+
+
+def bending_rows():
+    mesh, _ = box("bar", (20, 10, 3), lambda x, y, z: (0.2 * x, 0.1 * y, 0.03 * z))
+    rows = []
+    for name, options in SOLVERS.items():
+        print(f"== bending {name}", file=sys.stderr)
+        row = simulate(mesh, "--static", "--poisson", 0.45, "--pin", "x<1e-9", "--load", "x>0.199999", 0, 0, -0.35,
+                       "--probe", "x>0.199999", "--tolerance", 1e-7, *options)[-1]
+        rows.append((name, -1e3 * row["probe_z_m"], 100.0 * (row["volume_m3"] / (0.2 * 0.1 * 0.03) - 1.0)))
+    return rows
+
+
+def recovery_rows():
+    mesh, rest = box("sponge", (10, 5, 1), lambda x, y, z: (0.2 * x, 0.1 * y, 0.03 * z))
+    rows = []
+    for (name, options), start in itertools.product(SOLVERS.items(), ("flat", "inside_out", "random")):
+        print(f"== recovery {name} {start}", file=sys.stderr)
+        result = OUTPUT / "recovered.vtu"
+        table = simulate(mesh, "--start", start, "--steps", 150, "--damping", 0.3, *options, "--output", result)
+        a, b = rest - rest.mean(axis=0), positions(result) - positions(result).mean(axis=0)
+        u, _, v = np.linalg.svd(b.T @ a)
+        rotation = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v
+        distance = np.linalg.norm(b - a @ rotation.T, axis=1).max()
+        rows.append((name, start, table[0]["elastic_energy_j"], table[-1]["elastic_energy_j"], 1e3 * distance))
+    return rows

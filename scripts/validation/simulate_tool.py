@@ -1,0 +1,51 @@
+"""Runs `rosrun softbody_sim simulate`, and makes the boxes that it simulates."""
+import csv
+import io
+import itertools
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+WORKSPACE = ROOT / "catkin_ws/devel"
+OUTPUT = ROOT / "validation"
+SOLVERS = {"PD": ["--solver", "pd", "--iterations", "20000"], "FEM corotated": ["--solver", "fem"],
+           "FEM neo-Hookean": ["--solver", "fem", "--elasticity", "neo_hookean"]}
+
+
+def run_tool(mesh, *arguments):
+    command = [WORKSPACE / "env.sh", WORKSPACE / "lib/softbody_sim/simulate", mesh, *map(str, arguments)]
+    return command, subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+
+
+def simulate(mesh, *arguments):
+    """The rows of one run of the tool, as maps of numbers."""
+    command, run = run_tool(mesh, *arguments)
+    if run.returncode != 0:
+        sys.exit(f"validate: {' '.join(map(str, command))} ended with {run.returncode}")
+    return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(io.StringIO(run.stdout))]
+
+
+def box(name, cells, place):
+    """A grid of cells of six tets each as TetGen files; `place` maps the unit cube. @return the path, vertices."""
+    shape = [n + 1 for n in cells]
+    grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, n) for n in shape], indexing="ij"), axis=-1).reshape(-1, 3)
+    vertices = np.array([place(*p) for p in grid])
+    tets = []
+    for corner in itertools.product(*map(range, cells)):
+        for order in itertools.permutations(range(3)):
+            path = [np.array(corner)]
+            for axis in order:
+                path.append(path[-1] + np.eye(3, dtype=int)[axis])
+            tet = [int(np.ravel_multi_index(p, shape)) for p in path]
+            if np.linalg.det(vertices[tet[1:]] - vertices[tet[0]]) < 0.0:
+                tet[2], tet[3] = tet[3], tet[2]
+            tets.append(tet)
+    path = OUTPUT / f"{name}.node"
+    path.write_text(f"{len(vertices)} 3 0 0\n" + "".join(f"{i} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in
+                                                          enumerate(vertices.tolist())))
+    path.with_suffix(".ele").write_text(f"{len(tets)} 4 0\n" + "".join(
+        f"{i} {' '.join(map(str, tet))}\n" for i, tet in enumerate(tets)))
+    return path, vertices
