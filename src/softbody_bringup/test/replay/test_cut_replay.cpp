@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "softbody_common/tet_geometry.h"
-#include "softbody_evaluation/ros/bags.h"
+#include "softbody_evaluation/ros/surface_reader.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/replay.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"

@@ -26,7 +26,7 @@ class SimulateTruthTest : public ::testing::Test {
 
   std::string failure() const {
     try {
-      simulateTruth(options_, [](double) {});
+      evaluation::simulateTruth(options_, [](double) {});
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -34,11 +34,11 @@ class SimulateTruthTest : public ::testing::Test {
   }
 
   fs::path folder_;
-  TruthSimulationOptions options_;
+  evaluation::TruthSimulationOptions options_;
 };
 
 TEST_F(SimulateTruthTest, PutsTheVisibleVerticesWhereTheyTrulyAre) {
-  simulateTruth(options_, [](double) {});
+  evaluation::simulateTruth(options_, [](double) {});
   evaluation::EvaluatorOptions evaluation;
   evaluation.result = options_.output;
   evaluation.truth = options_.truth;
@@ -51,7 +51,7 @@ TEST_F(SimulateTruthTest, PutsTheVisibleVerticesWhereTheyTrulyAre) {
 }
 
 TEST_F(SimulateTruthTest, SendsTheTopologyAgainAsTheSurfaceDoes) {
-  simulateTruth(options_, [](double) {});
+  evaluation::simulateTruth(options_, [](double) {});
   const rosbag::Bag bag(options_.output);
   ros::Time first, last, state;
   for (const rosbag::MessageInstance& instance : rosbag::View(bag)) {

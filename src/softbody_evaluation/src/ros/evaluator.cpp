@@ -5,10 +5,18 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "ros/evaluation_comparisons.h"
+#include "comparison/recording_comparison.h"
+#include "comparison/truth_comparison.h"
 #include "softbody_common/topics.h"
-#include "softbody_evaluation/report/plots.h"
+#include "softbody_evaluation/report/figures.h"
+#include "softbody_evaluation/report/html_page.h"
 #include "softbody_evaluation/report/report_folder.h"
+#include "softbody_evaluation/report/report_json.h"
+#include "softbody_evaluation/report/report_text.h"
+#include "softbody_evaluation/ros/frame_change.h"
+#include "softbody_evaluation/ros/recording_reader.h"
+#include "softbody_evaluation/ros/result_reader.h"
+#include "softbody_evaluation/ros/surface_reader.h"
 #include "softbody_virtual_camera/ros/messages.h"
 
 namespace softbody::evaluation {
@@ -67,7 +75,9 @@ void compareInCamera(const EvaluatorOptions& options, const std::string& recordi
   const SurfaceRecord* seen_truth = inFrame(camera, bags, truth, "states of the truth", &moved_truth);
   addNotes(seen->notes, &measured->report.notes);
   if (seen_truth != nullptr) addNotes(seen_truth->notes, &measured->report.notes);
-  compareWithRecording(options, recording, *seen, seen_truth, &measured->report, &measured->pictures);
+  RecordingComparison comparison(options, *seen, seen_truth);
+  readRecording(recording, options.camera, [&](const RecordedFrame& frame) { comparison.add(frame); });
+  comparison.finish(&measured->report, &measured->pictures);
 }
 
 VolumeReport volumeOf(const SurfaceRecord& surface) {
@@ -134,13 +144,9 @@ void addOther(const Measured& other, Pictures* pictures) {
 Report evaluate(const EvaluatorOptions& options) {
   const Measured measured = measure(options);
   if (!options.report_folder.empty()) {
-    std::vector<ComparedFigure> rows;
-    for (const Figure& figure : figures(measured.report))
-      rows.push_back({figure.name, figure.unit, figure.value, {}});
-    writeReportFolder(
-        options.report_folder, toJson(measured.report),
-        htmlPage("Evaluation of " + options.result, rows, toText(measured.report), measured.pictures),
-        measured.pictures);
+    const std::string page = htmlPage("Evaluation of " + options.result, tableRows(measured.report),
+                                      toText(measured.report), measured.pictures);
+    writeReportFolder(options.report_folder, toJson(measured.report), page, measured.pictures);
   }
   return measured.report;
 }

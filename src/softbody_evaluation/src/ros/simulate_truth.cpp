@@ -9,23 +9,22 @@
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
 #include "softbody_evaluation/measures/vertex_match.h"
-#include "softbody_evaluation/ros/bags.h"
+#include "softbody_evaluation/ros/surface_reader.h"
 #include "softbody_recordings/ros/atomic_bag.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/interpolation/visual_surface.h"
 #include "softbody_sim/object/object_model.h"
 #include "softbody_virtual_camera/ros/messages.h"
 
-namespace softbody {
+namespace softbody::evaluation {
 namespace {
 
 constexpr char kBodyFrame[] = "softbody";
 constexpr double kFirm = 100.0;  // weight of a target: what it holds gives way by hundredths of a millimetre
 
-evaluation::SurfaceRecord readTruth(const std::string& path) {
-  evaluation::SurfaceRecord truth =
-      evaluation::readSurface(path, std::string("/") + virtual_camera::kTruthTopologyTopic,
-                              std::string("/") + virtual_camera::kTruthStateTopic);
+SurfaceRecord readTruth(const std::string& path) {
+  SurfaceRecord truth = readSurface(path, std::string("/") + virtual_camera::kTruthTopologyTopic,
+                                    std::string("/") + virtual_camera::kTruthStateTopic);
   if (truth.topologies.size() != 1 || truth.topologies.begin()->first != 0)
     throw std::invalid_argument(path + ": the body is cut; only one that stays whole can be simulated");
   return truth;
@@ -33,7 +32,7 @@ evaluation::SurfaceRecord readTruth(const std::string& path) {
 
 void requireSame(const MeshTopology& object, const MeshTopology& truth,
                  const TruthSimulationOptions& options) {
-  if (evaluation::sameMesh(object, truth)) return;
+  if (sameMesh(object, truth)) return;
   throw std::invalid_argument(fmt::format(
       "{} is another mesh than that of the truth in {}: at rest, vertices of the same index lie at "
       "different places",
@@ -55,7 +54,7 @@ class TruthSimulation {
         surface_(model.visual, model.volume),
         bag_(options.output) {
     requireSame(surface_.topology(), seen(), options);
-    own_vertex_ = evaluation::matchVertices(seen().vertex_parents, surface_.topology().vertex_parents);
+    own_vertex_ = matchVertices(seen().vertex_parents, surface_.topology().vertex_parents);
   }
 
   void run(const std::function<void(double)>& progress) {
@@ -106,7 +105,7 @@ class TruthSimulation {
     bag_.writeLatched(std::string("/softbody/") + topics::kSurfaceTopology, stamp, topology);
   }
 
-  evaluation::SurfaceRecord truth_;
+  SurfaceRecord truth_;
   Simulator simulator_;
   VisualSurface surface_;
   AtomicBag bag_;
@@ -120,4 +119,4 @@ void simulateTruth(const TruthSimulationOptions& options, const std::function<vo
   TruthSimulation(options, buildObjectModel(loadObjectDescription(options.object))).run(progress);
 }
 
-}  // namespace softbody
+}  // namespace softbody::evaluation

@@ -157,7 +157,7 @@ TEST(Evaluator, ARecordingNeedsNoCameraInfoOfDepth) {
 TEST(Evaluator, WhatDoesNotFitIsSaidInASentence) {
   EvaluatorOptions options;
   options.result = recording();
-  EXPECT_NE(failure(options).find("there is nothing on /softbody/surface/topology"), std::string::npos);
+  EXPECT_NE(failure(options).find("there is no message on /softbody/surface/topology"), std::string::npos);
 
   options.result = resultFromTruth("late.bag", [](softbody_msgs::MeshState* s, int) {
     s->header.stamp += ros::Duration(0.001);

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-namespace softbody {
+namespace softbody::evaluation {
 
 struct TruthSimulationOptions {
   std::string truth;   ///< bag with /ground_truth/surface/...
@@ -11,9 +11,10 @@ struct TruthSimulationOptions {
   std::string output;  ///< bag to write: /softbody/surface/topology and /softbody/surface/state
 };
 
-/// What the simulation makes of a scene when every vertex that is seen is known exactly, and nothing of the
-/// others: the error that a tracker of this body is left with however well it sees.
+/// Simulates the body with exact targets for all vertices that the truth's camera sees, and no other targets.
+/// The error of the output is the error that remains with a perfect tracker.
+/// @param progress is called with the done share, 0..1.
 /// @throw std::invalid_argument if a file cannot be used, the object is not the truth's, or the truth is cut.
 void simulateTruth(const TruthSimulationOptions& options, const std::function<void(double)>& progress);
 
-}  // namespace softbody
+}  // namespace softbody::evaluation

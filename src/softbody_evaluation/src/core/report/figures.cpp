@@ -1,10 +1,10 @@
+#include "softbody_evaluation/report/figures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "softbody_evaluation/report/report.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -113,9 +113,14 @@ std::vector<Figure> figures(const Report& report) {
   return all;
 }
 
-std::vector<ComparedFigure> compare(const Report& first, const Report& second) {
+std::vector<ComparedFigure> tableRows(const Report& report) {
   std::vector<ComparedFigure> rows;
-  for (const Figure& figure : figures(first)) rows.push_back({figure.name, figure.unit, figure.value, {}});
+  for (const Figure& figure : figures(report)) rows.push_back({figure.name, figure.unit, figure.value, {}});
+  return rows;
+}
+
+std::vector<ComparedFigure> compare(const Report& first, const Report& second) {
+  std::vector<ComparedFigure> rows = tableRows(first);
   for (const Figure& figure : figures(second)) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const ComparedFigure& compared) {
       return compared.name == figure.name;

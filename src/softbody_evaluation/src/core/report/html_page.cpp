@@ -1,11 +1,11 @@
+#include "softbody_evaluation/report/html_page.h"
+
 #include <fmt/format.h>
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
-
-#include "softbody_evaluation/report/report_folder.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/report.h"
+#include "softbody_evaluation/report/report_json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/report.h"
+#include "softbody_evaluation/report/report_text.h"
 
 #include <fmt/format.h>
 

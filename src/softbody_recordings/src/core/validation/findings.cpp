@@ -1,9 +1,9 @@
+#include "softbody_recordings/validation/findings.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-
-#include "softbody_recordings/validation/checks.h"
 
 namespace softbody::validation {
 namespace {
@@ -25,17 +25,6 @@ nlohmann::json toJson(const StreamFacts& stream) {
 }
 
 }  // namespace
-
-Findings check(const RecordingFacts& facts, const CheckLimits& limits) {
-  Findings all;
-  for (const Findings& part : {checkTopics(facts), checkImages(facts), checkStamps(facts, limits),
-                               checkSync(facts, limits), checkDepth(facts, limits), checkIntrinsics(facts)}) {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  std::stable_partition(all.begin(), all.end(),
-                        [](const Finding& f) { return f.severity == Severity::kError; });
-  return all;
-}
 
 bool usable(const Findings& findings) { return countOf(findings, Severity::kError) == 0; }
 

@@ -1,9 +1,9 @@
+#include "validation/image_checks.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "softbody_recordings/validation/checks.h"
 
 namespace softbody::validation {
 namespace {

@@ -1,11 +1,11 @@
+#include "validation/time_checks.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <set>
-
-#include "softbody_recordings/validation/checks.h"
 
 namespace softbody::validation {
 namespace {

@@ -1,6 +1,6 @@
-#include <fmt/format.h>
+#include "validation/topic_checks.h"
 
-#include "softbody_recordings/validation/checks.h"
+#include <fmt/format.h>
 
 namespace softbody::validation {
 namespace {

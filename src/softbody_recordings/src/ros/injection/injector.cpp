@@ -1,3 +1,5 @@
+#include "softbody_recordings/ros/injector.h"
+
 #include <fmt/format.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -7,9 +9,9 @@
 #include <stdexcept>
 
 #include "ros/injection/faulty_images.h"
+#include "softbody_common/camera_topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/atomic_bag.h"
-#include "softbody_recordings/ros/injector.h"
 #include "softbody_recordings/ros/input_bag.h"
 
 namespace softbody::injection {
@@ -25,7 +27,7 @@ class ImageStream {
     for (const rosbag::MessageInstance& instance : view)
       received.push_back(toNanoseconds(instance.getTime()));
     if (received.empty())
-      throw std::invalid_argument(fmt::format("{}: there is nothing on {}", options.input, topic_));
+      throw std::invalid_argument(fmt::format("{}: there is no message on {}", options.input, topic_));
     const bool wanted = is_depth ? options.in_depth : options.in_color;
     deliveries_ = planDeliveries(received, wanted ? options.deliveries : DeliveryFaults());
   }
@@ -61,8 +63,9 @@ InjectionReport inject(const InjectorOptions& options, const std::function<void(
   if (std::filesystem::equivalent(options.input, options.output, ignored))
     throw std::invalid_argument(fmt::format("{} is the input; name another output", options.output));
   const rosbag::Bag input = openBag(options.input);
-  ImageStream color(options.camera + "/color/image_raw", false, input, options);
-  ImageStream depth(options.camera + "/aligned_depth_to_color/image_raw", true, input, options);
+  const CameraTopics topics(options.camera);
+  ImageStream color(topics.color, false, input, options);
+  ImageStream depth(topics.depth, true, input, options);
   AtomicBag output(options.output);
   rosbag::View view(input);
   InjectionReport report;

@@ -1,3 +1,5 @@
+#include "softbody_recordings/ros/facts_reader.h"
+
 #include <cv_bridge/cv_bridge.h>
 #include <fmt/format.h>
 #include <rosbag/bag.h>
@@ -10,8 +12,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "softbody_common/camera_topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_recordings/ros/facts_reader.h"
 #include "softbody_recordings/ros/input_bag.h"
 
 namespace softbody::validation {
@@ -114,10 +116,11 @@ RecordingFacts readFacts(const std::string& path, const std::string& camera,
   rosbag::View everything(bag);
   for (const rosbag::ConnectionInfo* connection : everything.getConnections())
     facts.topics[connection->topic] = connection->datatype;
-  facts.color.topic = camera + "/color/image_raw";
-  facts.color_info.topic = camera + "/color/camera_info";
-  facts.depth.topic = camera + "/aligned_depth_to_color/image_raw";
-  facts.depth_info.topic = camera + "/aligned_depth_to_color/camera_info";
+  const CameraTopics topics(camera);
+  facts.color.topic = topics.color;
+  facts.color_info.topic = topics.color_info;
+  facts.depth.topic = topics.depth;
+  facts.depth_info.topic = topics.depth_info;
   std::vector<std::string> names;
   for (StreamFacts* stream : {&facts.color, &facts.color_info, &facts.depth, &facts.depth_info}) {
     const auto found = facts.topics.find(stream->topic);

@@ -1,0 +1,230 @@
+#include "comparison/truth_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "softbody_evaluation/measures/vertex_match.h"
+#include "softbody_evaluation/report/plots.h"
+
+namespace softbody::evaluation {
+namespace {
+
+constexpr double kStill_m = 1e-4;  // how far the truth moves while it counts as still
+constexpr std::size_t kLeastStillFrames = 10;
+
+/// What is fixed while neither topology changes.
+struct TopologyPair {
+  std::vector<int> matches;
+  VertexGroups groups;
+  PieceMatch pieces;
+};
+
+/// Which vertices the camera sees in the first frame of this revision.
+std::vector<bool> seenAtFirst(const SurfaceRecord& truth, std::uint32_t revision) {
+  const auto first = std::find_if(truth.states.begin(), truth.states.end(), [revision](const auto& state) {
+    return state.second.revision == revision;
+  });
+  std::vector<bool> seen;
+  for (const float confidence : first->second.confidence) seen.push_back(confidence > 0.5f);
+  return seen;
+}
+
+class TopologyPairs {
+ public:
+  TopologyPairs(const EvaluatorOptions& options, const SurfaceRecord& result, const SurfaceRecord& truth)
+      : options_(options), result_(result), truth_(truth) {}
+
+  const TopologyPair& of(std::uint32_t result_revision, std::uint32_t truth_revision) {
+    const auto [pair, fresh] = pairs_.try_emplace({result_revision, truth_revision});
+    if (fresh)
+      pair->second = make(result_.topologies.at(result_revision), truth_.topologies.at(truth_revision));
+    return pair->second;
+  }
+
+ private:
+  TopologyPair make(const MeshTopology& result, const MeshTopology& truth) const {
+    TopologyPair pair;
+    pair.matches = matchVertices(result, truth, options_.cut_vertex_m);
+    pair.groups = {nearCut(truth, options_.near_cut_m), seenAtFirst(truth_, truth.revision),
+                   vertexPieces(truth)};
+    pair.pieces = matchPieces(result, truth, pair.matches);
+    return pair;
+  }
+
+  const EvaluatorOptions& options_;
+  const SurfaceRecord &result_, &truth_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, TopologyPair> pairs_;
+};
+
+std::optional<JitterReport> jitterWhereStill(const SurfaceRecord& result, const SurfaceRecord& truth) {
+  std::vector<const MeshState*> truths, answers;
+  for (const auto& [stamp, state] : truth.states) {
+    truths.push_back(&state);
+    const auto answer = result.states.find(stamp);
+    answers.push_back(answer == result.states.end() ? nullptr : &answer->second);
+  }
+  const std::vector<FrameRange> still = stillRanges(truths, kStill_m, kLeastStillFrames);
+  if (still.empty()) return std::nullopt;
+  return jitter(answers, still);
+}
+
+/// Sums over the frames after the first cut of either.
+class PiecesTally {
+ public:
+  void add(const PieceMatch& pieces) {
+    ++report_.frames;
+    report_.frames_right += pieces.result_pieces == pieces.true_pieces;
+    report_.vertices_right += pieces.vertices_right;
+    report_.result_pieces = pieces.result_pieces;
+    report_.true_pieces = pieces.true_pieces;
+  }
+
+  std::optional<PiecesReport> report() const {
+    if (report_.frames == 0) return std::nullopt;
+    PiecesReport means = report_;
+    means.frames_right /= static_cast<double>(means.frames);
+    means.vertices_right /= static_cast<double>(means.frames);
+    return means;
+  }
+
+ private:
+  PiecesReport report_;
+};
+
+/// What the truth alone says of every one of its frames.
+std::vector<FrameSight> sightsOf(const SurfaceRecord& truth) {
+  std::map<std::uint32_t, std::vector<bool>> seen_of;
+  std::vector<FrameSight> sights;
+  for (const auto& [stamp, state] : truth.states) {
+    const auto [entry, fresh] = seen_of.try_emplace(state.revision);
+    if (fresh) entry->second = seenAtFirst(truth, state.revision);
+    const std::vector<bool>& seen = entry->second;
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) covered += seen[i] && state.confidence[i] <= 0.5f;
+    const auto all = std::max<std::ptrdiff_t>(1, std::count(seen.begin(), seen.end(), true));
+    sights.emplace_back();
+    sights.back().time_s = 1e-9 * static_cast<double>(stamp - truth.states.begin()->first);
+    sights.back().covered_share = static_cast<double>(covered) / static_cast<double>(all);
+  }
+  return sights;
+}
+
+/// @throw std::invalid_argument
+void requireSameMesh(const SurfaceRecord& surface, const std::string& whose, const SurfaceRecord& truth,
+                     const std::string& truth_bag) {
+  if (sameMesh(surface.topologies.begin()->second, truth.topologies.begin()->second)) return;
+  throw std::invalid_argument(
+      fmt::format("{} is another mesh than that of the truth in {}: at rest, vertices of the same index in "
+                  "its file (vertex_parents) lie at different places",
+                  whose, truth_bag));
+}
+
+/// What the error of the same frames is where nothing ever hid the body.
+/// @return how many frames it does not have. @throw std::invalid_argument if it is another mesh, or has none.
+std::size_t addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden,
+                        const SurfaceRecord& truth, std::vector<FrameSight>* sights) {
+  requireSameMesh(unhidden, options.unhidden + ": the unhidden body", truth, options.truth);
+  TopologyPairs pairs(options, unhidden, truth);
+  std::size_t missing = 0;
+  auto sight = sights->begin();
+  for (const auto& [stamp, expected] : truth.states) {
+    FrameSight& shown = *sight++;
+    const auto answer = unhidden.states.find(stamp);
+    if (answer == unhidden.states.end()) {
+      ++missing;
+      continue;
+    }
+    const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
+    shown.unhidden_error = vertexError(answer->second, expected, pair.matches, pair.groups).mean();
+  }
+  if (missing == truth.states.size()) {
+    throw std::invalid_argument(
+        fmt::format("{}: the unhidden body has no state with the stamp of a frame of {}", options.unhidden,
+                    options.truth));
+  }
+  return missing;
+}
+
+/// Volumes frame by frame, where both surfaces are closed.
+std::optional<Change> volumeError(const SurfaceRecord& result, const SurfaceRecord& truth) {
+  std::vector<const MeshState*> answers, truths;
+  for (const auto& [stamp, state] : truth.states) {
+    const auto answer = result.states.find(stamp);
+    if (answer == result.states.end()) continue;
+    answers.push_back(&answer->second);
+    truths.push_back(&state);
+  }
+  const std::vector<double> mine = volumeDrift(result.topologies, answers).volumes,
+                            its = volumeDrift(truth.topologies, truths).volumes;
+  if (mine.empty() || its.empty()) return std::nullopt;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < mine.size(); ++i) errors.push_back(mine[i] / its[i] - 1.0);
+  return changeOf(errors);
+}
+
+/// As they are at the end, if the truth is cut at all.
+std::optional<CutSurfaceReport> cutSurface(const SurfaceRecord& result, const SurfaceRecord& truth) {
+  const MeshTopology& expected = truth.topologies.at(truth.states.rbegin()->second.revision);
+  if (std::find(expected.cut.begin(), expected.cut.end(), true) == expected.cut.end()) return std::nullopt;
+  return compareCutSurfaces(result.topologies.at(result.states.rbegin()->second.revision), expected);
+}
+
+void plotVertexErrors(const VertexErrorReport& report, const std::vector<FrameVertexError>& frames,
+                      Pictures* pictures) {
+  std::vector<double> means = report.frame_means;
+  for (double& mean : means) mean *= 1e3;
+  (*pictures)["vertex_error.png"] = linePlot("mean vertex error [mm]", "time [s]", report.times, means);
+  std::vector<float> all;
+  for (const FrameVertexError& frame : frames) {
+    all.insert(all.end(), frame.visible.begin(), frame.visible.end());
+    all.insert(all.end(), frame.hidden.begin(), frame.hidden.end());
+  }
+  (*pictures)["vertex_error_histogram.png"] = histogram("vertex error", "[mm]", all, 1e3);
+}
+
+}  // namespace
+
+void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
+                      const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
+                      Pictures* pictures) {
+  requireSameMesh(result, options.result + ": the body", truth, options.truth);
+  TopologyPairs pairs(options, result, truth);
+  std::vector<FrameVertexError> errors;
+  std::vector<FrameSight> sights = sightsOf(truth);
+  PiecesTally pieces;
+  auto sight = sights.begin();
+  for (const auto& [stamp, expected] : truth.states) {
+    FrameSight& shown = *sight++;
+    const auto answer = result.states.find(stamp);
+    if (answer == result.states.end()) continue;
+    const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
+    errors.push_back(vertexError(answer->second, expected, pair.matches, pair.groups));
+    errors.back().stamp = stamp;
+    shown.mean_error = errors.back().mean();
+    shown.covered_errors = errors.back().covered;
+    if (answer->second.revision > 0 || expected.revision > 0) pieces.add(pair.pieces);
+  }
+  report->frames.expected = truth.states.size();
+  report->frames.answered = errors.size();
+  if (errors.empty()) return;
+  report->vertex_error = summarize(errors);
+  const std::size_t missing = unhidden ? addUnhidden(options, *unhidden, truth, &sights) : 0;
+  if (missing > 0) {
+    report->notes.push_back(fmt::format(
+        "{} has no state for {} of {} frames; what is normal there is taken from the frames before "
+        "the body was hidden",
+        options.unhidden, missing, truth.states.size()));
+  }
+  report->absences = absences(sights);
+  report->jitter = jitterWhereStill(result, truth);
+  report->pieces = pieces.report();
+  report->cut_surface = cutSurface(result, truth);
+  report->volume.error = volumeError(result, truth);
+  plotVertexErrors(*report->vertex_error, errors, pictures);
+}
+
+}  // namespace softbody::evaluation

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "softbody_evaluation/comparison/evaluator_options.h"
+#include "softbody_evaluation/records/surface_record.h"
+#include "softbody_evaluation/report/pictures.h"
+#include "softbody_evaluation/report/report.h"
+
+namespace softbody::evaluation {
+
+/// Compares the result with the truth: frames answered, vertex errors, pieces, jitter, volume.
+/// @param result in the truth's frame.
+/// @param unhidden result for the same motion without occluders, in the truth's frame; may be null.
+/// @throw std::invalid_argument if the result is of another mesh.
+void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
+                      const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
+                      Pictures* pictures);
+
+}  // namespace softbody::evaluation

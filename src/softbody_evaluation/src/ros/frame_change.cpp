@@ -1,0 +1,99 @@
+#include "softbody_evaluation/ros/frame_change.h"
+
+#include <fmt/format.h>
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_recordings/ros/bag_transforms.h"
+
+namespace softbody::evaluation {
+namespace {
+
+/// Items by stamp with their transforms into another frame.
+class Transforms {
+ public:
+  /// @param target, source frames of every item that is moved.
+  Transforms(const std::vector<std::string>& bags, std::string target, std::string source)
+      : bags_(bags), target_(std::move(target)), source_(std::move(source)) {}
+
+  /// Replaces every item by `move(transform, item)`, and drops those without a transform.
+  template <typename Item, typename Move>
+  std::size_t apply(std::map<Nanoseconds, Item>* items, Move move) {
+    const std::size_t before = items->size();
+    for (auto item = items->begin(); item != items->end();) {
+      try {
+        move(bags_.at(target_, source_, toTime(item->first)), &item->second);
+        ++item;
+      } catch (const tf2::TransformException& error) {
+        reason_ = error.what();
+        reason_.erase(reason_.find_last_not_of(". ") + 1);  // tf2 ends some as a sentence
+        item = items->erase(item);
+      }
+    }
+    return before - items->size();
+  }
+
+  const std::string& reason() const { return reason_; }
+  std::vector<std::string> warnings() const { return bags_.warnings(target_, source_); }
+
+ private:
+  BagTransforms bags_;
+  std::string target_, source_, reason_;
+};
+
+/// What a reader of the figures should know. @param items of which some were left out, by name.
+std::vector<std::string> notesOf(const Transforms& transforms, std::size_t left_out, std::size_t left,
+                                 const std::string& items, const std::string& frame_id) {
+  std::vector<std::string> notes = transforms.warnings();
+  if (left_out > 0) {
+    notes.push_back(fmt::format("{} of {} {} have no transform to '{}' at their stamp and were left out: {}",
+                                left_out, left_out + left, items, frame_id, transforms.reason()));
+  }
+  return notes;
+}
+
+}  // namespace
+
+void addNotes(const std::vector<std::string>& more, std::vector<std::string>* notes) {
+  for (const std::string& note : more) {
+    if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
+  }
+}
+
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface,
+               const std::string& states) {
+  if (surface->frame_id == frame_id) return;
+  Transforms transforms(paths, frame_id, surface->frame_id);
+  const std::size_t left_out =
+      transforms.apply(&surface->states, [](const Eigen::Isometry3d& pose, MeshState* state) {
+        state->vertices =
+            ((state->vertices * pose.linear().transpose()).rowwise() + pose.translation().transpose()).eval();
+      });
+  if (surface->states.empty()) {
+    std::vector<std::string> reasons = transforms.warnings();
+    reasons.insert(reasons.begin(), transforms.reason());
+    throw std::invalid_argument(fmt::format(
+        "the surface is in frame '{0}' and /tf of {1} does not lead to '{2}': {3}. If both are names of one "
+        "frame, record beside the images a /tf_static that says so (rosrun tf2_ros "
+        "static_transform_publisher "
+        "0 0 0 0 0 0 {0} {2})",
+        surface->frame_id, fmt::join(paths, " and "), frame_id, fmt::join(reasons, ". ")));
+  }
+  addNotes(notesOf(transforms, left_out, surface->states.size(), states, frame_id), &surface->notes);
+  surface->frame_id = frame_id;
+}
+
+void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool) {
+  if (tool->poses.empty() || tool->frame_id == frame_id) return;
+  Transforms transforms(paths, frame_id, tool->frame_id);
+  const std::size_t left_out = transforms.apply(
+      &tool->poses, [](const Eigen::Isometry3d& pose, Eigen::Isometry3d* item) { *item = pose * *item; });
+  tool->notes = notesOf(transforms, left_out, tool->poses.size(), "poses of the tool", frame_id);
+  tool->frame_id = frame_id;
+}
+
+}  // namespace softbody::evaluation

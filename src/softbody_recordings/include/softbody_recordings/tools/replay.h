@@ -1,0 +1,9 @@
+#pragma once
+
+namespace softbody {
+
+/// The tool `replay`: the graph's cores over a bag, without a ROS master.
+/// @return the exit code: 0 done, 1 the data cannot be processed, 2 wrong usage.
+int runReplay(int argc, char** argv);
+
+}  // namespace softbody

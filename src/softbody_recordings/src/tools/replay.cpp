@@ -1,0 +1,99 @@
+#include "softbody_recordings/tools/replay.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/core/utility.hpp>
+
+#include "softbody_common/run_tool.h"
+#include "softbody_common/tracking_state.h"
+#include "softbody_recordings/ros/replay.h"
+
+namespace softbody {
+namespace {
+
+void declare(CLI::App* app, ReplayOptions* options) {
+  app->add_option("input", options->input, "bag with the camera topics")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app->add_option("--object", options->object, "object YAML")->required()->check(CLI::ExistingFile);
+  app->add_option("--output", options->output, "bag to write")->required();
+  app->add_option("--parameters", options->parameters, "YAML with a section of parameters for each node")
+      ->check(CLI::ExistingFile);
+  CLI::Option* tool =
+      app->add_option("--tool", options->tool, "tool YAML: the tool is tracked, and its blade cuts")
+          ->check(CLI::ExistingFile);
+  app->add_option("--journal", options->journal, "bag with cuts to repeat, instead of a tool")
+      ->check(CLI::ExistingFile)
+      ->excludes(tool);
+  app->add_option("--camera", options->camera, "namespace of the camera topics")->capture_default_str();
+  app->add_option("--namespace", options->topic_namespace, "namespace of the output topics")
+      ->capture_default_str();
+  app->add_option(
+      "--output-frame", options->output_frame,
+      "frame of targets and states, connected by the bag's tf; give a fixed frame if the camera moves; "
+      "default: the frame of the parameters, or else the colour optical frame");
+  app->add_option("--simd", options->simd, "vector instructions of the simulator; replaces the parameter")
+      ->check(CLI::IsMember({"auto", "sse4", "avx2", "avx512"}));
+  app->add_flag("--timing", options->timing,
+                "also write wall-clock times of the stages; the output then differs between runs");
+  app->callback([options] { requireOtherFile(options->input, options->output); });
+}
+
+int countOf(const ReplaySummary& summary, TrackingState state) {
+  const auto found = summary.frames_by_state.find(state);
+  return found == summary.frames_by_state.end() ? 0 : found->second;
+}
+
+void printFrames(const ReplaySummary& summary) {
+  fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", summary.read.frames,
+             summary.states, summary.read.without_depth, summary.read.unusable, summary.skipped);
+  const UnpairedImages& unpaired = summary.read.unpaired;
+  const std::pair<int, const char*> kinds[] = {
+      {unpaired.unstamped, "images without a stamp"},
+      {unpaired.colors_repeated, "colour images with the stamp of the image before"},
+      {unpaired.depths_repeated, "depth images with the stamp of the image before"},
+      {unpaired.colors_late, "colour images that arrived after a later one"},
+      {unpaired.depths_late, "depth images that arrived after a later one"},
+      {unpaired.colors_alone, "colour images without a depth image"},
+      {unpaired.depths_alone, "depth images without a colour image"}};
+  for (const auto& [images, kind] : kinds)
+    if (images > 0) fmt::print("left out: {} {}\n", images, kind);
+  fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
+             countOf(summary, TrackingState::kTracking), countOf(summary, TrackingState::kDegraded),
+             countOf(summary, TrackingState::kLost), countOf(summary, TrackingState::kRecovering),
+             countOf(summary, TrackingState::kInitializing));
+  for (const auto& [state, reason] : summary.reasons) {
+    if (!reason.empty()) fmt::print("{}: {}\n", nameOf(state), reason);
+  }
+}
+
+void print(const ReplaySummary& summary, const ReplayOptions& options) {
+  printFrames(summary);
+  if (summary.read.unusable > 0) fmt::print("last unusable frame: {}\n", summary.read.last_error);
+  if (!options.tool.empty() || !options.journal.empty())
+    fmt::print("frames with the tool {}, cuts {}, pieces {}\n", summary.tools, summary.cuts, summary.pieces);
+  if (!summary.tool_missed.empty()) fmt::print("tool not seen in {}\n", summary.tool_missed);
+  fmt::print(stderr, "replay: {:.1f} ms a frame; wrote {}\n",
+             summary.milliseconds / std::max(1, summary.read.frames), options.output);
+}
+
+}  // namespace
+
+int runReplay(int argc, char** argv) {
+  ReplayOptions options;
+  CLI::App app(
+      "Runs the graph's cores over a bag without a ROS master: every frame, in order, as fast as possible");
+  declare(&app, &options);
+  return runTool(&app, argc, argv, [&] {
+    // One thread: the order of floating-point sums must not depend on scheduling.
+    cv::setNumThreads(1);
+    const auto warn = [](const std::string& sentence) { fmt::print(stderr, "replay: {}\n", sentence); };
+    print(replay(options, warn, ProgressLine("replay")), options);
+    return 0;
+  });
+}
+
+}  // namespace softbody

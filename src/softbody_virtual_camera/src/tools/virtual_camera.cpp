@@ -1,0 +1,107 @@
+#include "softbody_virtual_camera/tools/virtual_camera.h"
+
+#include <fmt/format.h>
+#include <ros/init.h>
+#include <ros/package.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "softbody_virtual_camera/motion/camera_motion.h"
+#include "softbody_virtual_camera/ros/bag_writer.h"
+#include "softbody_virtual_camera/ros/node.h"
+
+namespace softbody::virtual_camera {
+namespace {
+
+struct Arguments {
+  CameraSetup setup;
+  std::string output;
+  double duration_s = 0.0;
+  bool noise = true;
+  bool small = false;
+  std::vector<std::string> without;
+};
+
+void declare(CLI::App* app, Arguments* arguments) {
+  CameraSetup& setup = arguments->setup;
+  const std::map<std::string, bool> on_off = {{"on", true}, {"off", false}};
+  app->add_option("--output", arguments->output, "bag to write; default: none, a live node publishes");
+  app->add_option("--scene", setup.scene, "motion of the body")
+      ->check(CLI::IsMember(sceneNames()))
+      ->capture_default_str();
+  app->add_option("--camera-motion", setup.camera_motion,
+                  "orbit: the camera moves around the body; the truth and /tf then have the frame world")
+      ->check(CLI::IsMember(cameraMotionNames()))
+      ->capture_default_str();
+  app->add_option("--body", setup.body,
+                  "soft body at rest: OBJ (with the images of its materials), PLY, STL or OFF; default: "
+                  "the scene's body")
+      ->check(CLI::ExistingFile);
+  app->add_option("--unit", setup.unit, "unit of the body's file")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
+      ->capture_default_str();
+  app->add_option("--seed", setup.seed, "seed of textures and noise")->capture_default_str();
+  app->add_option("--noise", arguments->noise, "sensor noise: on or off")
+      ->transform(CLI::CheckedTransformer(on_off));
+  app->add_option("--without", arguments->without, "parts of the noise to switch off")
+      ->check(CLI::IsMember(noiseParts()));
+  app->add_flag("!--no-hands", setup.hands, "hide the hands; the body moves as with them");
+  app->add_flag("--small", arguments->small, "compress with bz2: half the size, but slow");
+  app->add_option("--duration", arguments->duration_s, "length [s]; default: that of the scene")
+      ->check(CLI::Range(0.001, 36000.0));
+  app->add_option("--rate", setup.rate_hz, "frames per second [Hz]")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  app->add_option("--width", setup.width, "image width [px]")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  app->add_option("--height", setup.height, "image height [px]")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+}
+
+void write(const Arguments& arguments) {
+  std::vector<std::string> warnings;
+  VirtualCamera camera = makeCamera(arguments.setup, &warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "virtual_camera: warning: {}\n", warning);
+  const double duration_s = arguments.duration_s > 0.0 ? arguments.duration_s : camera.scene().duration_s;
+  const int frames = std::max(1, static_cast<int>(std::lround(duration_s * arguments.setup.rate_hz)));
+  writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz, arguments.small}, [&](int done) {
+    if (done % 30 == 0) fmt::print(stderr, "frame {} of {}\n", done, frames);
+  });
+  fmt::print(stderr, "{}: scene {}, {} frames\n", arguments.output, arguments.setup.scene, frames);
+}
+
+}  // namespace
+
+int runVirtualCamera(int argc, char** argv) {
+  std::vector<std::string> words;
+  ros::removeROSArgs(argc, argv, words);
+  words.erase(words.begin());
+  std::reverse(words.begin(), words.end());
+
+  Arguments arguments;
+  arguments.setup.config_folder = ros::package::getPath("softbody_bringup") + "/config";
+  CLI::App app("A virtual RGB-D camera in front of a deforming body, with exact ground truth",
+               "virtual_camera");
+  declare(&app, &arguments);
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (!arguments.noise) arguments.setup.noise = noNoise();
+    for (const std::string& part : arguments.without) switchOff(part, &arguments.setup.noise);
+    if (arguments.output.empty()) return runNode(argc, argv, arguments.setup);
+    write(arguments);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "virtual_camera: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace softbody::virtual_camera
