@@ -8,11 +8,11 @@
 
 namespace softbody {
 
-/// One node's parameters as a YAML map, from a ROS namespace (ros_parameters.h) or from a file. Every reader
-/// throws std::invalid_argument with the full key, the value and what is allowed.
+/// The parameters of one node as a YAML map, from a ROS namespace (ros_parameters.h) or from a file. Every
+/// reader throws std::invalid_argument with the full key, the value and the allowed values.
 class Parameters {
  public:
-  /// @param prefix is put before keys in messages, e.g. "/softbody/simulator/".
+  /// @param prefix of keys in messages, e.g. "/softbody/simulator/".
   explicit Parameters(YAML::Node values = YAML::Node(), std::string prefix = "");
 
   double number(const std::string& key, double fallback, double min, double max);
@@ -23,13 +23,13 @@ class Parameters {
   std::string choice(const std::string& key, const std::string& fallback,
                      const std::vector<std::string>& allowed);
   std::string requiredText(const std::string& key);
-  /// As many finite numbers as the fallback has.
+  /// A list of finite numbers, of the same length as the fallback.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback);
 
-  /// A list of maps; without one, none.
+  /// A list of maps; empty if the key is missing.
   std::vector<Parameters> maps(const std::string& key);
 
-  /// Full keys that were given but that no reader has asked for: worth a warning.
+  /// Full keys that were given but never read. The caller should warn about them.
   std::vector<std::string> unknown() const;
 
  private:

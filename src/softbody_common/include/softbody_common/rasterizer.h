@@ -8,25 +8,25 @@
 
 namespace softbody {
 
-/// Place in an image.
+/// A vertex in the image.
 struct ProjectedVertex {
   double u, v;       ///< [px]
   double inverse_z;  ///< [1/m]
 };
 
-/// What a pinhole camera sees of a triangle mesh. Images have the camera's size.
+/// A triangle mesh, rendered for a pinhole camera. The images have the camera's size.
 struct RasterImage {
   cv::Mat1f depth;                         ///< z at the pixel centre [m]; 0: nothing
   cv::Mat1i triangle;                      ///< index of the visible triangle; -1: nothing
-  cv::Rect region;                         ///< holds every covered pixel; may be a little larger
-  std::vector<ProjectedVertex> projected;  ///< the mesh's vertices; NaN where too near
+  cv::Rect region;                         ///< contains every covered pixel; may be a little larger
+  std::vector<ProjectedVertex> projected;  ///< the mesh's vertices; NaN if too near
 };
 
-/// What is drawn: of a closed mesh the faces that look away are hidden, and half of the work.
+/// The faces to draw. kFront is enough for a closed mesh, and takes half of the time.
 enum class Faces { kAll, kFront };
 
-/// Renders by z-buffer; triangles that reach nearer than 1 cm to the camera plane are left out. The image's
-/// memory is reused when the size fits. @throw std::invalid_argument if an index is out of range.
+/// Renders with a z-buffer. Leaves out triangles that are nearer than 1 cm to the camera plane. Reuses the
+/// image's memory if the size fits. @throw std::invalid_argument if an index is out of range.
 void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& triangles, RasterImage* image,
                Faces faces = Faces::kAll);
 

@@ -10,8 +10,8 @@
 
 namespace softbody {
 
-/// A tool's main: reads the command line and does the work, which returns the exit code. Says on stderr what
-/// the work throws.
+/// Runs a tool: reads the command line and calls `work`, which returns the exit code. Prints exceptions of
+/// the work on stderr.
 /// @return 0: done; 1: the data could not be processed; 2: wrong usage.
 template <typename Work>
 int runTool(CLI::App* app, int argc, char** argv, const Work& work) {
@@ -29,15 +29,15 @@ int runTool(CLI::App* app, int argc, char** argv, const Work& work) {
   }
 }
 
-/// For the callback of a tool's command line. @throw CLI::ValidationError if the output would replace the
-/// input.
+/// Checks two files of a command line, in the callback of a CLI::App.
+/// @throw CLI::ValidationError if the output is the input.
 inline void requireOtherFile(const std::string& input, const std::string& output) {
   std::error_code ignored;
   if (std::filesystem::equivalent(input, output, ignored))
     throw CLI::ValidationError("--output", "is the input " + input + "; name another file");
 }
 
-/// Shows on one line of a terminal how much is done; in a log it would be a hundred lines.
+/// Shows the progress on one line of a terminal. Prints nothing into a log file.
 class ProgressLine {
  public:
   explicit ProgressLine(std::string tool) : tool_(std::move(tool)) {}

@@ -10,10 +10,10 @@ namespace softbody {
 struct StageTime {
   std::string stage;
   double milliseconds = 0.0;
-  bool initialization = false;  ///< spent once, at start or after a reset
+  bool initialization = false;  ///< happens once, at the start or after a reset
 };
 
-/// Collects the wall-clock times of a frame's stages: one `stage(name)` scope each.
+/// Measures the wall-clock times of a frame's stages. Each stage is a scope, `stage(name)`.
 class StageTimer {
  public:
   class Scope {
@@ -35,12 +35,12 @@ class StageTimer {
     Clock::time_point start_;
   };
 
-  /// Times from now to the end of the returned object's life.
+  /// Measures from now until the returned object is destroyed.
   Scope stage(std::string name, bool initialization = false) {
     return {this, std::move(name), initialization};
   }
 
-  /// The rows so far, in order of completion; the timer is empty afterwards.
+  /// The rows since the last call, in the order of their ends.
   std::vector<StageTime> take() { return std::move(times_); }
 
  private:

@@ -2,7 +2,7 @@
 
 namespace softbody {
 
-/// The tracker gives no target a greater weight, and a simulator has to be able to take it.
+/// The largest weight that the tracker gives to a target. The simulator must accept it.
 constexpr double kLargestTargetWeight = 100.0;
 
 }  // namespace softbody

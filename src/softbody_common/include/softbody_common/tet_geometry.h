@@ -13,20 +13,20 @@ Eigen::VectorXd tetVolumes(const Points& vertices, const Tets& tets);
 /// Volume enclosed by a closed, outward triangle mesh [m^3] (divergence theorem).
 double enclosedVolume(const Points& vertices, const Triangles& triangles);
 
-/// Triangles that belong to exactly one tet, outward, for tets of positive volume.
+/// The triangles that belong to exactly one tet, outward. The tets must have positive volume.
 Triangles boundaryTriangles(const Tets& tets);
 
-/// Whether the triangles leave no gap: along every edge as many run one way as the other.
+/// Whether the triangles have no boundary: every edge is used equally often in both directions.
 bool isClosed(const Triangles& triangles);
 
-/// Connected piece of every tet (tets that share a vertex are connected), numbered from 0 in order of
-/// appearance.
+/// The connected piece of every tet, numbered from 0 in order of appearance. Tets that share a vertex are
+/// connected.
 std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count);
 
-/// Connected piece of every triangle, numbered from 0 in order of appearance.
+/// The connected piece of every triangle, numbered from 0 in order of appearance.
 std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex_count);
 
-/// Connected piece of every vertex, from those of the elements (tets or triangles) that hold it.
+/// The connected piece of every vertex, from the pieces of the elements (tets or triangles) around it.
 template <typename Elements>
 std::vector<std::uint32_t> vertexBodies(const Elements& elements, const std::vector<std::uint32_t>& bodies,
                                         Eigen::Index vertex_count) {
@@ -37,14 +37,14 @@ std::vector<std::uint32_t> vertexBodies(const Elements& elements, const std::vec
   return result;
 }
 
-/// Vertices of every connected piece of tets.
+/// The vertices of every connected piece of the tets.
 std::vector<std::vector<int>> verticesOfBodies(const Tets& tets, Eigen::Index vertex_count);
 
-/// Unit normals, area-weighted mean of the adjacent triangles, #V by 3; zero where no triangle touches the
-/// vertex.
+/// Unit normals, the area-weighted mean of the adjacent triangles, #V by 3. Zero for a vertex without
+/// triangles.
 Points vertexNormals(const Points& vertices, const Triangles& triangles);
 
-/// Barycentric coordinates of a point in a tet; they sum to 1 whether it lies inside or not.
+/// Barycentric coordinates of a point in a tet; they sum to 1, also for points outside of the tet.
 /// @throw std::invalid_argument if the tet has no volume.
 Eigen::Vector4d barycentricCoordinates(const Eigen::Vector3d& point, const Points& vertices,
                                        const Eigen::Vector4i& tet);
@@ -61,7 +61,7 @@ inline Eigen::Vector3d positionOf(const MaterialPoint& place, const Points& vert
 /// Mean length of the tets' edges [m].
 double meanEdgeLength(const Points& vertices, const Tets& tets);
 
-/// The point of the triangle (a, b, c) that is nearest to p.
+/// The point of the triangle (a, b, c) nearest to p.
 Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 

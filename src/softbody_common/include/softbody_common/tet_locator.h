@@ -6,18 +6,19 @@
 
 namespace softbody {
 
-/// Finds the tet that contains a point, or the nearest one, by a uniform grid over the tets' bounding boxes.
+/// Finds the tet that contains a point, or the nearest tet, with a uniform grid over the tets' bounding
+/// boxes.
 class TetLocator {
  public:
   /// @throw std::invalid_argument if there is no tet, an index is out of range or a tet has no volume.
   TetLocator(const Points& vertices, const Tets& tets);
 
-  /// The containing tet with barycentric coordinates; outside of the mesh the nearest tet, coordinates
-  /// extrapolated (they reproduce the point exactly). Ties go to the lowest tet index.
+  /// The tet that contains the point, with barycentric coordinates. For a point outside of the mesh: the
+  /// nearest tet with extrapolated coordinates, which reproduce the point. The lowest tet index wins a tie.
   /// @throw std::invalid_argument if the point is not finite.
   MaterialPoint locate(const Eigen::Vector3d& point) const;
 
-  /// Whether the point is in a tet; quick for points outside too.
+  /// Whether the point is in a tet; also fast for points outside.
   bool contains(const Eigen::Vector3d& point) const;
 
  private:
@@ -43,7 +44,7 @@ class TetLocator {
   std::vector<std::vector<int>> grid_;
 };
 
-/// Material points of many points, one each.
+/// The material point of each point.
 std::vector<MaterialPoint> bindPoints(const Points& points, const Points& vertices, const Tets& tets);
 
 /// Positions of material points for the given tet vertices, #places by 3 [m].

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Topic names relative to the graph's namespaces; launch files and remappings change them, nothing else
-/// does. Nodes run in the namespace "/softbody"; the camera's topics are remapped from "camera/...".
+/// Topic names, relative to the namespaces of the graph. Only launch files and remappings change them.
+/// Nodes run in the namespace "/softbody"; the camera's topics are remapped from "camera/...".
 namespace softbody::topics {
 
 constexpr char kCameraColor[] = "camera/color/image_raw";

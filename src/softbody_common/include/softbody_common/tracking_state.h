@@ -4,7 +4,7 @@
 
 namespace softbody {
 
-/// As users read it.
+/// The state's name in messages to the user.
 inline const char* nameOf(TrackingState state) {
   constexpr const char* kNames[] = {"initializing", "tracking", "degraded", "lost", "recovering"};
   return kNames[static_cast<int>(state)];

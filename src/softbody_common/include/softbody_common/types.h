@@ -28,17 +28,17 @@ struct TetMesh {
   Tets tets;
 };
 
-/// A place in the rest body: barycentric coordinates in a tet. They sum to 1; one below 0 means outside of
-/// the tet.
+/// A point of the rest body: barycentric coordinates in a tet. They sum to 1. A negative coordinate means
+/// that the point is outside of the tet.
 struct MaterialPoint {
   int tet = -1;
   Eigen::Vector4d barycentric = Eigen::Vector4d::Zero();
 };
 
-/// What a target was made from (softbody_msgs/Target).
+/// The measurement behind a target (softbody_msgs/Target).
 enum class TargetKind : std::uint8_t { kFeature = 0, kDepth = 1, kVertex = 2, kManual = 3 };
 
-/// A material point and where it was measured. A zero normal means that all three directions count.
+/// A material point and its measured position. With a normal, only the distance along the normal counts.
 struct Target {
   TargetKind kind = TargetKind::kManual;
   MaterialPoint place;
@@ -47,10 +47,10 @@ struct Target {
   double weight = 1.0;                                 ///< relative to the simulator's target_stiffness, > 0
 };
 
-/// One frame's soft constraints (softbody_msgs/Targets without its header).
+/// The soft constraints of one frame (softbody_msgs/Targets without its header).
 struct TargetSet {
   std::uint32_t revision = 0;
-  bool reset = false;                                           ///< forget the state, start from body_pose
+  bool reset = false;  ///< discard the state and start from body_pose
   Eigen::Isometry3d body_pose = Eigen::Isometry3d::Identity();  ///< rest frame in the targets' frame
   std::vector<Target> targets;
 };
@@ -79,10 +79,10 @@ struct MeshTopology {
   Points texture_coordinates;  ///< empty, or 3 #F rows (u, v, 0), in the order of the triangles' corners
 };
 
-/// Where a topology's vertices are (softbody_msgs/MeshState without its header).
+/// The positions of a topology's vertices (softbody_msgs/MeshState without its header).
 struct MeshState {
   std::uint32_t revision = 0;
-  Nanoseconds observed = 0;       ///< stamp of the last image that went in
+  Nanoseconds observed = 0;       ///< stamp of the last image that was used
   Points vertices;                ///< [m]
   std::vector<float> confidence;  ///< per vertex, 0..1
 };
@@ -95,7 +95,7 @@ enum class TrackingState : std::uint8_t {
   kRecovering = 4
 };
 
-/// How the tracker fares (softbody_msgs/TrackingStatus without its header).
+/// The tracker's state and its quality (softbody_msgs/TrackingStatus without its header).
 struct TrackingStatus {
   TrackingState state = TrackingState::kInitializing;
   std::uint32_t features_tracked = 0;

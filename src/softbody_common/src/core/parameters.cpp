@@ -12,7 +12,7 @@ namespace {
 
 template <typename Number>
 Number inRange(const std::string& name, Number value, Number min, Number max) {
-  // Negated so that NaN is refused too.
+  // Negated to refuse NaN too.
   if (!(value >= min && value <= max)) {
     throw std::invalid_argument(fmt::format("parameter {} is {}; allowed: {} to {}", name, value, min, max));
   }

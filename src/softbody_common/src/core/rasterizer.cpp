@@ -13,7 +13,7 @@ namespace softbody {
 namespace {
 
 constexpr double kNearPlane = 0.01;  // [m]
-// Pixel centres on a shared edge must not fall between its two triangles by rounding.
+// So that rounding leaves no pixel of a shared edge out of both triangles.
 constexpr double kRounding = 1e-9;
 
 using Corner = ProjectedVertex;
@@ -33,7 +33,7 @@ int floorOf(double x) {
   return i - static_cast<int>(x < i);
 }
 
-/// Integers from first to last.
+/// The integers from first to last.
 struct Range {
   int first, last;
 };
@@ -49,7 +49,7 @@ struct Linear {
   double at_first, slope;
 };
 
-/// The part of the row where the function is not below 0.
+/// Clips the row to the part where the function is not negative.
 void clip(const Linear& weight, double inverse_slope, double* first, double* last) {
   const double zero = (-kRounding - weight.at_first) * inverse_slope;
   if (weight.slope > 0.0) *first = std::max(*first, zero);
@@ -70,7 +70,7 @@ void drawSpan(const Linear& inverse_z, int first, int last, int index, float* de
 }
 
 constexpr int kFew = 4;           // pixels in a vector
-constexpr double kSliver = 0.01;  // [px^2], twice the area below which weights ask for double precision
+constexpr double kSliver = 0.01;  // [px^2], twice the area below which the weights need double precision
 
 /// A linear function at a row's first pixels.
 cv::v_float32x4 atFirstFew(const Linear& function) {
@@ -80,7 +80,7 @@ cv::v_float32x4 atFirstFew(const Linear& function) {
 
 void drawFew(const Linear& weight0, const Linear& weight1, const Linear& inverse_z,
              const cv::v_int32x4& index, float* depth, int* triangle) {
-  // What single precision may lose, so that pixel centres on a shared edge do not fall between.
+  // The rounding error of single precision, so that no pixel of a shared edge is left out.
   const double rounding = 4e-7 * (1.0 + kFew * (std::abs(weight0.slope) + std::abs(weight1.slope)));
   const cv::v_float32x4 one = cv::v_setall_f32(1.0f);
   const cv::v_float32x4 w0 = atFirstFew(weight0), w1 = atFirstFew(weight1);
@@ -92,7 +92,7 @@ void drawFew(const Linear& weight0, const Linear& weight1, const Linear& inverse
   cv::v_store(triangle, cv::v_select(cv::v_reinterpret_as_s32(drawn), index, cv::v_load(triangle)));
 }
 
-/// Most triangles of a fine mesh: a vector a row, without a branch. Clipping such rows would cost more.
+/// Draws a narrow triangle: one vector per row, without branches. Most triangles of a fine mesh are narrow.
 void drawSmall(const Corner (&c)[3], double area, int column, const Range& rows, int index,
                RasterImage* image) {
   const double inverse_area = 1.0 / area;
@@ -107,7 +107,7 @@ void drawSmall(const Corner (&c)[3], double area, int column, const Range& rows,
   }
 }
 
-/// Draws row by row: weights are linear along a row, so that it needs no test pixel by pixel.
+/// Draws row by row. The weights are linear along a row, so no test per pixel is needed.
 void drawRows(const Corner (&c)[3], double area, const Range& columns, const Range& rows, int index,
               RasterImage* image) {
   const double inverse_area = 1.0 / area;
@@ -131,7 +131,7 @@ void drawRows(const Corner (&c)[3], double area, const Range& columns, const Ran
   }
 }
 
-/// What the triangles drawn so far may cover.
+/// Bounds of all pixels drawn so far.
 struct Extent {
   int left = std::numeric_limits<int>::max(), top = left, right = -1, bottom = -1;
 
@@ -146,7 +146,7 @@ struct Extent {
 
 void drawTriangle(const Corner (&c)[3], bool front_only, int index, RasterImage* image, Extent* extent) {
   const double area = edge(c[0], c[1], c[2].u, c[2].v);
-  // Outward triangles that face the camera turn against the image's axes, of which v points down.
+  // Front faces have a negative area, because v points down.
   if (!(std::abs(area) <= std::numeric_limits<double>::max()) || area == 0.0 || (front_only && area > 0.0))
     return;
   const Range columns = centersBetween(std::min(std::min(c[0].u, c[1].u), c[2].u),
@@ -169,13 +169,13 @@ void clear(const cv::Size& size, RasterImage* image) {
     image->triangle.create(size);
     image->region = cv::Rect(cv::Point(), size);
   }
-  // Only what the last mesh covered needs wiping.
+  // Only the region of the last mesh is not clear.
   image->depth(image->region).setTo(0.0f);
   image->triangle(image->region).setTo(-1);
   image->region = cv::Rect();
 }
 
-/// Vertices that are too near have no place in the image (NaN), nor have their triangles.
+/// Vertices that are too near get NaN.
 void project(const Pinhole& camera, const Points& vertices, std::vector<ProjectedVertex>* projected) {
   projected->resize(static_cast<std::size_t>(vertices.rows()));
   for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
@@ -199,8 +199,8 @@ void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& t
                c = static_cast<std::size_t>(triangles(f, 2));
     if (a >= corners.size() || b >= corners.size() || c >= corners.size()) {
       image->region = extent.region();
-      throw std::invalid_argument("rasterize: a triangle names a vertex beyond the " +
-                                  std::to_string(corners.size()) + " given");
+      throw std::invalid_argument("rasterize: a triangle has a vertex index above the number of vertices, " +
+                                  std::to_string(corners.size()));
     }
     drawTriangle({corners[a], corners[b], corners[c]}, faces == Faces::kFront, static_cast<int>(f), image,
                  &extent);
@@ -210,7 +210,7 @@ void rasterize(const Pinhole& camera, const Points& vertices, const Triangles& t
 
 Eigen::Vector3d rayWeights(const Pinhole& camera, const Eigen::Matrix3d& corners, double u, double v) {
   const Eigen::Vector3d ray = camera.unproject(u, v, 1.0);
-  // The ray as a multiple of the corners (Cramer's rule): the weights up to scale.
+  // The ray as a sum of the corners by Cramer's rule gives the weights up to scale.
   Eigen::Vector3d weights;
   for (int k = 0; k < 3; ++k) weights[k] = ray.dot(corners.col((k + 1) % 3).cross(corners.col((k + 2) % 3)));
   return weights / weights.sum();

@@ -9,8 +9,10 @@
 namespace softbody {
 namespace {
 
-constexpr double kInwards = 0.1;  // of the mean tet edge: more than the tets' walls differ from the surface's
-constexpr double kTowardsCentroid = 1e-3;  // of the way
+// Shares of the mean tet edge, and of the way. kInwards is more than the distance between the walls of the
+// tets and the walls of the surface.
+constexpr double kInwards = 0.1;
+constexpr double kTowardsCentroid = 1e-3;
 
 using Bodies = std::vector<std::uint32_t>;
 
@@ -36,7 +38,7 @@ class Piece {
   TetLocator locator_;
 };
 
-/// Every vertex; those of cut faces moved a little into the body.
+/// The vertices; those of cut faces are moved by `depth` into the body.
 Points insidePoints(const MeshTopology& surface, double depth) {
   std::vector<Eigen::Index> walls;
   for (std::size_t f = 0; f < surface.cut.size(); ++f) {
@@ -46,7 +48,7 @@ Points insidePoints(const MeshTopology& surface, double depth) {
   return surface.rest_vertices - depth * vertexNormals(surface.rest_vertices, triangles);
 }
 
-/// The piece of tets in which most of a surface piece's vertices lie, for every surface piece.
+/// For every piece of the surface: the piece of the tets that contains most of its vertices.
 std::map<std::uint32_t, std::uint32_t> matchPieces(const Bodies& surface_bodies, const Bodies& tet_bodies,
                                                    const std::vector<int>& tets) {
   std::map<std::uint32_t, std::map<std::uint32_t, int>> votes;
@@ -60,7 +62,7 @@ std::map<std::uint32_t, std::uint32_t> matchPieces(const Bodies& surface_bodies,
   return matches;
 }
 
-/// Sends vertices that were located in another piece's tets to their own.
+/// Moves vertices that were located in tets of another piece to tets of their own piece.
 void keepToPieces(const MeshTopology& surface, const TetTopology& volume, const Points& inside,
                   std::vector<int>* tets) {
   const Bodies tet_bodies = tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()));
@@ -77,7 +79,7 @@ void keepToPieces(const MeshTopology& surface, const TetTopology& volume, const 
   }
 }
 
-/// Whether a tet has the same number and, at rest, the same corners in both.
+/// Whether both topologies have the same tet at this index, with the same corners at rest.
 bool isSameTet(int tet, const TetTopology& a, const TetTopology& b) {
   return tet < b.tets.rows() &&
          a.rest_vertices(a.tets.row(tet), Eigen::all) == b.rest_vertices(b.tets.row(tet), Eigen::all);

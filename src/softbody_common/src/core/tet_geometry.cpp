@@ -10,7 +10,7 @@
 namespace softbody {
 namespace {
 
-/// Union-find over vertices that numbers the connected pieces of elements.
+/// Numbers the connected pieces of elements, by union-find over the vertices.
 template <typename Elements>
 std::vector<std::uint32_t> connectedPieces(const Elements& elements, int vertex_count) {
   std::vector<int> parent(static_cast<std::size_t>(vertex_count));
@@ -42,7 +42,7 @@ struct TetFace {
   std::size_t place;
 };
 
-/// All faces of all tets, those with the same lowest vertex side by side (counting sort).
+/// All faces of all tets, sorted by their lowest vertex (counting sort).
 std::vector<TetFace> facesByLowestVertex(const Tets& tets) {
   std::vector<TetFace> faces;
   faces.reserve(4 * static_cast<std::size_t>(tets.rows()));
@@ -61,7 +61,8 @@ std::vector<TetFace> facesByLowestVertex(const Tets& tets) {
   return sorted;
 }
 
-/// Of edges with the same lower vertex the higher ones: 2 v where the edge runs upwards, 2 v + 1 downwards.
+/// Whether edges with the same lower vertex are used equally often in both directions.
+/// The range holds their higher vertices v: 2 v for an edge to v, 2 v + 1 for an edge from v.
 bool asManyUpAsDown(std::vector<int>::iterator begin, std::vector<int>::iterator end) {
   std::sort(begin, end);
   int surplus = 0;

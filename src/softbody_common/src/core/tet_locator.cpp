@@ -12,10 +12,10 @@
 namespace softbody {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of a squared distance; slivers magnify it
+constexpr double kRounding = 1e-6;  // of a squared distance; slivers magnify rounding errors
 
-/// From a point outside, whose nearest point is on a face that it sees: one opposite to a corner whose
-/// coordinate is negative.
+/// Squared distance of a point outside of the tet. The nearest point is on a face that is opposite to a
+/// corner with a negative coordinate.
 double squaredDistanceToTet(const Eigen::Vector3d& p, const Eigen::Vector4d& barycentric,
                             const Points& vertices, const Tets& tets, int t) {
   static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -36,7 +36,7 @@ double squaredDistanceToTet(const Eigen::Vector3d& p, const Eigen::Vector4d& bar
 TetLocator::TetLocator(const Points& vertices, const Tets& tets) : vertices_(vertices), tets_(tets) {
   if (tets.rows() == 0) throw std::invalid_argument("TetLocator: the mesh has no tet");
   if (tets.minCoeff() < 0 || tets.maxCoeff() >= vertices.rows()) {
-    throw std::invalid_argument("TetLocator: a tet names a vertex that is not there");
+    throw std::invalid_argument("TetLocator: a tet has a vertex index that is out of range");
   }
   inverse_edges_.resize(static_cast<std::size_t>(tets.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
@@ -50,7 +50,7 @@ TetLocator::TetLocator(const Points& vertices, const Tets& tets) : vertices_(ver
   }
   const Eigen::Vector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
   const Eigen::Vector3d extent = high - low;
-  // About one tet a cell; a floor keeps flat meshes from asking for endless cells.
+  // About one tet per cell. The lower limit bounds the number of cells of a flat mesh.
   const double volume = std::max(extent.prod(), std::pow(0.1 * extent.maxCoeff(), 3));
   cell_size_ = std::max(std::cbrt(volume / static_cast<double>(tets.rows())), extent.maxCoeff() / 64.0);
   origin_ = low;
@@ -74,7 +74,7 @@ TetLocator::TetLocator(const Points& vertices, const Tets& tets) : vertices_(ver
 }
 
 Eigen::Vector3i TetLocator::cellOf(const Eigen::Vector3d& point) const {
-  // Clamped as numbers: far points do not fit into an int.
+  // Clamped before the cast, because a far point does not fit into an int.
   const Eigen::Array3d cell = ((point - origin_) / cell_size_).array().floor();
   return cell.max(0.0).min((cells_.array() - 1).cast<double>()).cast<int>();
 }
@@ -95,7 +95,7 @@ bool TetLocator::contains(const Eigen::Vector3d& point) const {
                      [&](int tet) { return barycentricIn(tet, point).minCoeff() >= 0.0; });
 }
 
-/// The square of the greatest distance to the plane of a face that the point sees; the tet is no nearer.
+/// A lower bound of the squared distance: to the farthest plane of the faces that are visible from the point.
 double TetLocator::squaredDistanceToPlanes(int tet, const Eigen::Vector4d& barycentric) const {
   const Eigen::Matrix3d& gradients = inverse_edges_[tet];  // of the last three coordinates, in rows
   double most = 0.0;
@@ -118,7 +118,7 @@ void TetLocator::consider(const Eigen::Vector3d& point, int tet, Candidate* best
   }
 }
 
-/// The cells whose greatest distance from the center along an axis is `ring`.
+/// Considers the cells at a distance of `ring` cells from the center (largest over the axes).
 void TetLocator::considerRing(const Eigen::Vector3d& point, const Eigen::Vector3i& center, int ring,
                               Candidate* best) const {
   const Eigen::Vector3i first = (center.array() - ring).max(0);
@@ -126,7 +126,7 @@ void TetLocator::considerRing(const Eigen::Vector3d& point, const Eigen::Vector3
   for (int x = first.x(); x <= last.x(); ++x) {
     for (int y = first.y(); y <= last.y(); ++y) {
       const bool on_side = std::abs(x - center.x()) == ring || std::abs(y - center.y()) == ring;
-      // Within the sides only the two ends of the column belong to the ring.
+      // Inside of the ring's sides, only the two ends of the column belong to it.
       const int step = on_side || ring == 0 ? 1 : 2 * ring;
       for (int z = on_side ? first.z() : center.z() - ring; z <= last.z(); z += step) {
         if (z < first.z()) continue;
@@ -140,7 +140,7 @@ MaterialPoint TetLocator::locate(const Eigen::Vector3d& point) const {
   if (!point.allFinite()) throw std::invalid_argument("TetLocator: the point is not finite");
   Candidate best{-1, std::numeric_limits<double>::infinity(), Eigen::Vector4d::Zero()};
   const Eigen::Vector3i center = cellOf(point);
-  for (const int tet : tetsIn(center)) {  // in ascending order; distances are for points outside
+  for (const int tet : tetsIn(center)) {  // in ascending order of tets
     const Eigen::Vector4d barycentric = barycentricIn(tet, point);
     if (barycentric.minCoeff() >= 0.0) return {tet, barycentric};
   }
@@ -148,8 +148,7 @@ MaterialPoint TetLocator::locate(const Eigen::Vector3d& point) const {
       point.cwiseMax(origin_).cwiseMin(origin_ + cell_size_ * cells_.cast<double>());
   const int reach = cells_.maxCoeff();
   for (int ring = 0; ring <= reach; ++ring) {
-    // Cells of this ring are at least (ring - 1) cells away from the clamped point, and the point no nearer
-    // than that.
+    // Cells of this ring are at least (ring - 1) cells away from the clamped point.
     const double ring_distance = std::max(0, ring - 1) * cell_size_;
     if (best.tet >= 0 &&
         ring_distance * ring_distance + (point - clamped).squaredNorm() > best.squared_distance)

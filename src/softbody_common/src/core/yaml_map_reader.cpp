@@ -10,7 +10,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kQuaternionTolerance = 0.01;  ///< people round
+constexpr double kQuaternionTolerance = 0.01;  // users round numbers
 
 }  // namespace
 
@@ -33,7 +33,7 @@ bool YamlMapReader::has(const std::string& key) { return get(key).IsDefined(); }
 
 YAML::Node YamlMapReader::get(const std::string& key) {
   known_.insert(key);
-  const YAML::Node& map = map_;  // the const operator[] does not insert
+  const YAML::Node& map = map_;  // the const operator[] does not insert the key
   return map[key] ? map[key] : YAML::Node(YAML::NodeType::Undefined);
 }
 
@@ -52,7 +52,7 @@ double YamlMapReader::requiredNumber(const std::string& key, double min, double 
   const YAML::Node node = get(key);
   double value = 0.0;
   const bool readable = node.IsDefined() && node.IsScalar() && YAML::convert<double>::decode(node, value);
-  // Negated so that NaN is refused too.
+  // Negated to refuse NaN too.
   if (!readable || !(value >= min && value <= max)) {
     fail(node,
          fmt::format("{}{} is '{}'; allowed: a number from {} to {}", prefix_, key, shown(node), min, max));

@@ -9,7 +9,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;  // numbers went through float
+constexpr double kUnitTolerance = 1e-3;  // the values were rounded to float
 
 geometry_msgs::Point32 toPoint32(const Eigen::Vector3d& p) {
   geometry_msgs::Point32 message;
@@ -41,7 +41,7 @@ Points fromPoint32s(const std::vector<geometry_msgs::Point32>& message, const ch
   return points;
 }
 
-/// Fixed-size index tuples (MeshTriangle, Tetrahedron), both ways.
+/// Conversions of fixed-size index tuples (MeshTriangle, Tetrahedron).
 template <typename Element, typename Matrix>
 std::vector<Element> toElements(const Matrix& indices) {
   std::vector<Element> message(static_cast<std::size_t>(indices.rows()));
@@ -131,7 +131,7 @@ softbody_msgs::TetTopology toMessage(const TetTopology& topology) {
   message.surface_triangles = toElements<shape_msgs::MeshTriangle>(topology.surface);
   message.vertex_parents = topology.vertex_parents;
   message.tet_bodies = topology.bodies;
-  // The all-zero quaternion of a fresh message says "unknown".
+  // An all-zero quaternion, as in a new message, means "unknown".
   if (topology.has_initial_pose) message.initial_pose = toMessage(topology.initial_pose);
   return message;
 }

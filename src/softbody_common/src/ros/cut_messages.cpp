@@ -24,7 +24,7 @@ softbody_msgs::Cut toMessage(const Cut& cut) {
 
 Cut fromMessage(const softbody_msgs::Cut& message) {
   if (message.kind > softbody_msgs::Cut::RESET)
-    throw std::invalid_argument(fmt::format("kind is {}, which no cut has", message.kind));
+    throw std::invalid_argument(fmt::format("kind is {}; allowed: 0 to 3", message.kind));
   Cut cut;
   cut.revision = message.revision;
   cut.stroke = message.stroke;

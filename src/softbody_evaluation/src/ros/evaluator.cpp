@@ -48,14 +48,14 @@ SurfaceRecord readTruth(const EvaluatorOptions& options) {
   return truth;
 }
 
-/// The bags that may hold transforms. The result's own come last and win.
+/// The bags that can have transforms. Those of the result come last and have priority.
 std::vector<std::string> transformBags(const EvaluatorOptions& options, const std::string& recording) {
   std::vector<std::string> bags{recording.empty() ? options.truth : recording, options.result};
   if (bags.front() == bags.back()) bags.pop_back();
   return bags;
 }
 
-/// The surface in another frame: itself, or a copy in `moved`.
+/// The surface in another frame: the surface itself, or a copy in `moved`.
 const SurfaceRecord* inFrame(const std::string& frame_id, const std::vector<std::string>& bags,
                              const SurfaceRecord* surface, const std::string& states,
                              std::optional<SurfaceRecord>* moved) {
@@ -65,17 +65,17 @@ const SurfaceRecord* inFrame(const std::string& frame_id, const std::vector<std:
   return &**moved;
 }
 
-/// In the camera's frame, which moves where it is not that of the truth.
+/// Compares with the recording, in the camera's frame, which can move in the truth's frame.
 void compareInCamera(const EvaluatorOptions& options, const std::string& recording,
                      const SurfaceRecord& result, const SurfaceRecord* truth, Measured* measured) {
   const std::string camera = recordingFrame(recording, options.camera);
   const std::vector<std::string> bags = transformBags(options, recording);
   std::optional<SurfaceRecord> moved_result, moved_truth;
-  const SurfaceRecord* seen = inFrame(camera, bags, &result, "states", &moved_result);
-  const SurfaceRecord* seen_truth = inFrame(camera, bags, truth, "states of the truth", &moved_truth);
-  addNotes(seen->notes, &measured->report.notes);
-  if (seen_truth != nullptr) addNotes(seen_truth->notes, &measured->report.notes);
-  RecordingComparison comparison(options, *seen, seen_truth);
+  const SurfaceRecord* result_in_camera = inFrame(camera, bags, &result, "states", &moved_result);
+  const SurfaceRecord* truth_in_camera = inFrame(camera, bags, truth, "states of the truth", &moved_truth);
+  addNotes(result_in_camera->notes, &measured->report.notes);
+  if (truth_in_camera != nullptr) addNotes(truth_in_camera->notes, &measured->report.notes);
+  RecordingComparison comparison(options, *result_in_camera, truth_in_camera);
   readRecording(recording, options.camera, [&](const RecordedFrame& frame) { comparison.add(frame); });
   comparison.finish(&measured->report, &measured->pictures);
 }
@@ -86,14 +86,14 @@ VolumeReport volumeOf(const SurfaceRecord& surface) {
   return volumeDrift(surface.topologies, states);
 }
 
-/// What the error would be if nothing had ever hidden the body.
+/// The result for the same motion without occluders.
 std::optional<SurfaceRecord> readUnhidden(const EvaluatorOptions& options, const std::string& recording,
                                           const SurfaceRecord& truth) {
   if (options.unhidden.empty()) return std::nullopt;
-  EvaluatorOptions its = options;
-  its.result = options.unhidden;
-  SurfaceRecord result = readResult(its, its.result);
-  expressIn(truth.frame_id, transformBags(its, recording), &result, "states of the unhidden body");
+  EvaluatorOptions unhidden = options;
+  unhidden.result = options.unhidden;
+  SurfaceRecord result = readResult(unhidden, unhidden.result);
+  expressIn(truth.frame_id, transformBags(unhidden, recording), &result, "states of the unhidden body");
   return result;
 }
 
@@ -128,13 +128,13 @@ Measured measure(const EvaluatorOptions& options) {
     addTool(options, recording, &report);
   }
   if (report.frames.answered == 0) {
-    throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame of {}", options.result,
+    throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame in {}", options.result,
                                             options.truth.empty() ? recording : options.truth));
   }
   return measured;
 }
 
-/// Another result's figures and pictures under names of their own.
+/// Adds the pictures of another result under other names.
 void addOther(const Measured& other, Pictures* pictures) {
   for (const auto& [name, picture] : other.pictures) (*pictures)["other_" + name] = picture;
 }
@@ -160,10 +160,10 @@ Comparison evaluateBoth(const EvaluatorOptions& options, const std::string& othe
   Comparison comparison{first.report, other.report};
   if (!options.report_folder.empty()) {
     const std::vector<ComparedFigure> rows = compare(first.report, other.report);
-    const std::string words =
+    const std::string text =
         options.result + "\n" + toText(first.report) + "\n" + other_result + "\n" + toText(other.report);
     writeReportFolder(options.report_folder, toJson(comparison),
-                      htmlPage(options.result + " beside " + other_result, rows, words, first.pictures),
+                      htmlPage(options.result + " beside " + other_result, rows, text, first.pictures),
                       first.pictures);
   }
   return comparison;

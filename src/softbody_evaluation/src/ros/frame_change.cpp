@@ -13,14 +13,15 @@
 namespace softbody::evaluation {
 namespace {
 
-/// Items by stamp with their transforms into another frame.
+/// The transforms of items into another frame, by stamp.
 class Transforms {
  public:
-  /// @param target, source frames of every item that is moved.
+  /// @param target, source frames of all items.
   Transforms(const std::vector<std::string>& bags, std::string target, std::string source)
       : bags_(bags), target_(std::move(target)), source_(std::move(source)) {}
 
-  /// Replaces every item by `move(transform, item)`, and drops those without a transform.
+  /// Applies `move(transform, item)` to every item. Removes items without a transform, and returns their
+  /// number.
   template <typename Item, typename Move>
   std::size_t apply(std::map<Nanoseconds, Item>* items, Move move) {
     const std::size_t before = items->size();
@@ -30,7 +31,7 @@ class Transforms {
         ++item;
       } catch (const tf2::TransformException& error) {
         reason_ = error.what();
-        reason_.erase(reason_.find_last_not_of(". ") + 1);  // tf2 ends some as a sentence
+        reason_.erase(reason_.find_last_not_of(". ") + 1);  // some messages of tf2 end with a period
         item = items->erase(item);
       }
     }
@@ -45,7 +46,7 @@ class Transforms {
   std::string target_, source_, reason_;
 };
 
-/// What a reader of the figures should know. @param items of which some were left out, by name.
+/// Notes for the report. @param items name of the items.
 std::vector<std::string> notesOf(const Transforms& transforms, std::size_t left_out, std::size_t left,
                                  const std::string& items, const std::string& frame_id) {
   std::vector<std::string> notes = transforms.warnings();
@@ -76,12 +77,12 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
   if (surface->states.empty()) {
     std::vector<std::string> reasons = transforms.warnings();
     reasons.insert(reasons.begin(), transforms.reason());
-    throw std::invalid_argument(fmt::format(
-        "the surface is in frame '{0}' and /tf of {1} does not lead to '{2}': {3}. If both are names of one "
-        "frame, record beside the images a /tf_static that says so (rosrun tf2_ros "
-        "static_transform_publisher "
-        "0 0 0 0 0 0 {0} {2})",
-        surface->frame_id, fmt::join(paths, " and "), frame_id, fmt::join(reasons, ". ")));
+    throw std::invalid_argument(
+        fmt::format("the surface is in frame '{0}', and /tf of {1} has no transform to '{2}': {3}. If both "
+                    "frames are the "
+                    "same, record a /tf_static with the images (rosrun tf2_ros static_transform_publisher "
+                    "0 0 0 0 0 0 {0} {2})",
+                    surface->frame_id, fmt::join(paths, " and "), frame_id, fmt::join(reasons, ". ")));
   }
   addNotes(notesOf(transforms, left_out, surface->states.size(), states, frame_id), &surface->notes);
   surface->frame_id = frame_id;

@@ -26,14 +26,14 @@ cv::Mat1f depthInMetres(const sensor_msgs::Image& image) {
   const bool millimetres = image.encoding == encodings::TYPE_16UC1 || image.encoding == encodings::MONO16;
   if (!millimetres && image.encoding != encodings::TYPE_32FC1) {
     throw std::invalid_argument(
-        fmt::format("a depth image has encoding {}; 16UC1 or 32FC1 is needed", image.encoding));
+        fmt::format("a depth image has encoding {}; allowed: 16UC1, 32FC1", image.encoding));
   }
   cv::Mat1f depth;
   cv_bridge::toCvCopy(image)->image.convertTo(depth, CV_32F, millimetres ? 1e-3 : 1.0);
   return depth;
 }
 
-/// Removes the lens distortion of a camera_info from images of its size.
+/// Removes the lens distortion of a CameraInfo from images.
 class Undistortion {
  public:
   explicit Undistortion(const sensor_msgs::CameraInfo& info) : camera(pinholeFromMessage(info)) {
@@ -49,7 +49,7 @@ class Undistortion {
                                 map_u_, map_v_);
   }
 
-  /// @param interpolation nearest for depth: no mixture of two surfaces.
+  /// @param interpolation nearest for depth, because depth of two surfaces must not be mixed.
   cv::Mat apply(const cv::Mat& image, int interpolation) const {
     if (map_u_.empty()) return image;
     cv::Mat result;

@@ -20,23 +20,23 @@ namespace softbody::evaluation {
 namespace {
 
 constexpr char kBodyFrame[] = "softbody";
-constexpr double kFirm = 100.0;  // weight of a target: what it holds gives way by hundredths of a millimetre
+constexpr double kFirm = 100.0;  // weight of a target; errors are then hundredths of a millimetre
 
 SurfaceRecord readTruth(const std::string& path) {
   SurfaceRecord truth = readSurface(path, std::string("/") + virtual_camera::kTruthTopologyTopic,
                                     std::string("/") + virtual_camera::kTruthStateTopic);
   if (truth.topologies.size() != 1 || truth.topologies.begin()->first != 0)
-    throw std::invalid_argument(path + ": the body is cut; only one that stays whole can be simulated");
+    throw std::invalid_argument(path + ": the body is cut; only a body without cuts can be simulated");
   return truth;
 }
 
 void requireSame(const MeshTopology& object, const MeshTopology& truth,
                  const TruthSimulationOptions& options) {
   if (sameMesh(object, truth)) return;
-  throw std::invalid_argument(fmt::format(
-      "{} is another mesh than that of the truth in {}: at rest, vertices of the same index lie at "
-      "different places",
-      options.object, options.truth));
+  throw std::invalid_argument(
+      fmt::format("{} is not the mesh of the truth in {}: at rest, vertices of the same index have different "
+                  "positions",
+                  options.object, options.truth));
 }
 
 SimulatorConfig convergedConfig() {
@@ -53,8 +53,8 @@ class TruthSimulation {
         simulator_(model.volume, model.material, convergedConfig()),
         surface_(model.visual, model.volume),
         bag_(options.output) {
-    requireSame(surface_.topology(), seen(), options);
-    own_vertex_ = matchVertices(seen().vertex_parents, surface_.topology().vertex_parents);
+    requireSame(surface_.topology(), truthTopology(), options);
+    own_vertex_ = matchVertices(truthTopology().vertex_parents, surface_.topology().vertex_parents);
   }
 
   void run(const std::function<void(double)>& progress) {
@@ -68,12 +68,12 @@ class TruthSimulation {
   }
 
  private:
-  const MeshTopology& seen() const { return truth_.topologies.begin()->second; }
+  const MeshTopology& truthTopology() const { return truth_.topologies.begin()->second; }
 
   TargetSet exactTargets(const MeshState& truth, bool first) const {
     TargetSet set;
     set.reset = first;
-    set.body_pose = fitRigid(seen().rest_vertices, truth.vertices);
+    set.body_pose = fitRigid(truthTopology().rest_vertices, truth.vertices);
     for (std::size_t v = 0; v < truth.confidence.size(); ++v) {
       if (truth.confidence[v] <= 0.5f || own_vertex_[v] < 0) continue;
       Target target;

@@ -18,7 +18,7 @@ std::map<std::uint32_t, MeshTopology> readTopologies(const rosbag::Bag& bag, con
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instantiate<softbody_msgs::MeshTopology>(instance, bag);
-    if (topologies.count(message->revision) != 0) continue;  // latched ones are sent again and again
+    if (topologies.count(message->revision) != 0) continue;  // latched messages are repeated
     try {
       topologies[message->revision] = fromMessage(*message);
     } catch (const std::invalid_argument& error) {
@@ -32,20 +32,19 @@ std::map<std::uint32_t, MeshTopology> readTopologies(const rosbag::Bag& bag, con
 void requireOneFrame(const rosbag::Bag& bag, const std::string& topic, const std::string& frame_id,
                      const SurfaceRecord& record) {
   if (record.states.empty() || record.frame_id == frame_id) return;
-  throw std::invalid_argument(fmt::format("{}: states on {} are in frame '{}' and in '{}'", bag.getFileName(),
-                                          topic, record.frame_id, frame_id));
+  throw std::invalid_argument(fmt::format("{}: states on {} are in two frames, '{}' and '{}'",
+                                          bag.getFileName(), topic, record.frame_id, frame_id));
 }
 
-/// @throw std::invalid_argument if it has no topology, or values that are not finite.
+/// @throw std::invalid_argument if the topology is missing, or a value is not finite.
 MeshState usableState(const softbody_msgs::MeshState& message,
                       const std::map<std::uint32_t, MeshTopology>& topologies) {
   const auto topology = topologies.find(message.revision);
   if (topology == topologies.end())
-    throw std::invalid_argument(
-        fmt::format("it is of revision {}, of which no topology came", message.revision));
+    throw std::invalid_argument(fmt::format("the topology of revision {} is missing", message.revision));
   const auto vertices = static_cast<std::size_t>(topology->second.rest_vertices.rows());
   if (message.vertices.size() != vertices) {
-    throw std::invalid_argument(fmt::format("it has {} vertices of revision {}, whose topology has {}",
+    throw std::invalid_argument(fmt::format("it has {} vertices, but the topology of revision {} has {}",
                                             message.vertices.size(), message.revision, vertices));
   }
   return fromMessage(message);

@@ -81,7 +81,7 @@ TEST(Evaluator, StatesThatAreNoAnswersAreCountedAndSaid) {
     if (frame > 10) s->header.frame_id = "world";
     return true;
   });
-  EXPECT_NE(failure(options).find("'camera_color_optical_frame' and in 'world'"), std::string::npos);
+  EXPECT_NE(failure(options).find("'camera_color_optical_frame' and 'world'"), std::string::npos);
 }
 
 TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {

@@ -62,9 +62,9 @@ TEST(Evaluator, OtherFramesOfAnUnhiddenResultAndOtherMeshesAreRefused) {
   const std::string doll = testing::TempDir() + "evaluator_doll.bag";
   writeBag(&camera, {doll, 2, 4.0}, [](int) {});
   options.unhidden = resultFromTruth("other_mesh.bag", asItIs, doll);
-  EXPECT_NE(failure(options).find("other_mesh.bag: the unhidden body is another mesh"), std::string::npos);
+  EXPECT_NE(failure(options).find("other_mesh.bag: the unhidden body is not the mesh"), std::string::npos);
   options.result = std::exchange(options.unhidden, "");
-  EXPECT_NE(failure(options).find("other_mesh.bag: the body is another mesh"), std::string::npos);
+  EXPECT_NE(failure(options).find("other_mesh.bag: the body is not the mesh"), std::string::npos);
 }
 
 }  // namespace

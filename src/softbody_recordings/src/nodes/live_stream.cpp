@@ -9,7 +9,7 @@ namespace softbody::injection {
 namespace {
 
 constexpr std::uint32_t kQueue = 30;
-constexpr double kRestart_s = 1.0;  // stamps that go back by more: a bag starts again
+constexpr double kRestart_s = 1.0;  // a larger jump back means that the bag starts again
 constexpr double kWarningPeriod_s = 5.0;
 
 }  // namespace
@@ -29,39 +29,39 @@ LiveStream::LiveStream(ros::NodeHandle* handle, const std::string& in, const std
 void LiveStream::onImage(const sensor_msgs::ImageConstPtr& original) {
   if (original->header.stamp + ros::Duration(kRestart_s) < last_stamp_) restart();
   last_stamp_ = original->header.stamp;
-  const Fate fate = fateOf(images_.count(), deliveries_);
+  const ImageDelivery delivery = deliveryOf(images_.count(), deliveries_);
   try {
     const auto image = boost::make_shared<sensor_msgs::Image>(images_.next(*original));
-    image->header.stamp = toTime(toNanoseconds(image->header.stamp) + fate.stamp_shift);
-    const Held held{fate, image};
-    if (!fate.after_next) send(held);
+    image->header.stamp = toTime(toNanoseconds(image->header.stamp) + delivery.stamp_shift);
+    const Held held{delivery, image};
+    if (!delivery.after_next) send(held);
     if (overtaken_) send(*overtaken_);
     overtaken_.reset();
-    if (fate.after_next) overtaken_ = held;
+    if (delivery.after_next) overtaken_ = held;
   } catch (const std::invalid_argument& error) {
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s, error.what());
   }
 }
 
 void LiveStream::restart() {
-  ROS_INFO_STREAM(topic_ << " starts again: so do the faults");
+  ROS_INFO_STREAM(topic_ << " starts again, so the faults start again too");
   images_ = FaultyImages(topic_, is_depth_, faults_);
   overtaken_.reset();
   late_.clear();
 }
 
 void LiveStream::send(const Held& held) {
-  if (held.fate.delay <= 0) return publish(held);
+  if (held.delivery.delay <= 0) return publish(held);
   const std::size_t number = next_timer_++;
   const auto fire = [this, held, number](const ros::TimerEvent&) {
     publish(held);
     late_.erase(number);
   };
-  late_[number] = handle_.createTimer(ros::Duration().fromNSec(held.fate.delay), fire, true);
+  late_[number] = handle_.createTimer(ros::Duration().fromNSec(held.delivery.delay), fire, true);
 }
 
 void LiveStream::publish(const Held& held) {
-  for (int i = 0; i < held.fate.copies; ++i) publisher_.publish(held.image);
+  for (int i = 0; i < held.delivery.copies; ++i) publisher_.publish(held.image);
 }
 
 }  // namespace softbody::injection

@@ -12,7 +12,7 @@
 
 namespace softbody::injection {
 
-/// One stream of live images: takes them as they come, sends them on as the faults will have it.
+/// One stream of live images: publishes the images with their faults.
 class LiveStream {
  public:
   LiveStream(ros::NodeHandle* handle, const std::string& in, const std::string& out, bool is_depth,
@@ -20,13 +20,13 @@ class LiveStream {
 
  private:
   struct Held {
-    Fate fate;
+    ImageDelivery delivery;
     sensor_msgs::ImageConstPtr image;
   };
 
   void onImage(const sensor_msgs::ImageConstPtr& original);
   void restart();
-  /// Now, or later where the image is late.
+  /// Publishes now, or after the image's delay.
   void send(const Held& held);
   void publish(const Held& held);
 
@@ -37,8 +37,8 @@ class LiveStream {
   ImageFaults faults_;
   FaultyImages images_;
   ros::Time last_stamp_;
-  std::optional<Held> overtaken_;           ///< waits for the next image
-  std::map<std::size_t, ros::Timer> late_;  ///< by a number of their own
+  std::optional<Held> overtaken_;           ///< waits until the next image was sent
+  std::map<std::size_t, ros::Timer> late_;  ///< timers of delayed images, by number
   std::size_t next_timer_ = 0;
   ros::Publisher publisher_;
   ros::Subscriber subscriber_;

@@ -17,7 +17,8 @@ void addFaults(CLI::App* app, InjectorOptions* options) {
   for (const FaultOption& option : faultOptions(&options->deliveries, &options->images)) {
     std::string flag = "--" + option.name;
     std::replace(flag.begin(), flag.end(), '_', '-');
-    app->add_option(flag, *option.value, option.words + (option.unit.empty() ? "" : " [" + option.unit + "]"))
+    app->add_option(flag, *option.value,
+                    option.description + (option.unit.empty() ? "" : " [" + option.unit + "]"))
         ->check(CLI::Range(option.least, option.most))
         ->capture_default_str();
   }

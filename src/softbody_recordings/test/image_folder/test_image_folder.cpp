@@ -90,7 +90,7 @@ TEST_F(ImageFolderTest, PixelsSurviveReadingInEveryDepthUnit) {
 }
 
 TEST_F(ImageFolderTest, FailuresNameTheFile) {
-  EXPECT_NE(failure().find("color: there is no image"), std::string::npos);
+  EXPECT_NE(failure().find("color: the folder has no image"), std::string::npos);
   addColor("color/1.png");
   addDepth("depth/1.png");
   EXPECT_EQ(failure(), "");

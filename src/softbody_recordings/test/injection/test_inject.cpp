@@ -171,7 +171,7 @@ TEST(Inject, ReorderedFramesArriveJustAfterTheNextOneAndNothingIsLost) {
   for (const double share : {0.0, 0.1, 0.2, 0.5}) {
     faults.reorder_share = share;
     for (faults.seed = 1; faults.seed < 20; ++faults.seed) {
-      const std::vector<Delivery> deliveries = planDeliveries(received, faults);
+      const std::vector<Arrival> deliveries = planArrivals(received, faults);
       ASSERT_EQ(deliveries.size(), received.size());
       std::size_t overtaken = 0;
       for (std::size_t i = 0; i < deliveries.size(); ++i) {
@@ -186,13 +186,13 @@ TEST(Inject, ReorderedFramesArriveJustAfterTheNextOneAndNothingIsLost) {
   }
 }
 
-TEST(Fate, OfAnyTwentyInARowTheShareIsChosenWhateverTheLength) {
+TEST(ImageDelivery, OfAnyTwentyInARowTheShareIsChosenWhateverTheLength) {
   DeliveryFaults faults;
   faults.drop_share = 0.15;
   for (faults.seed = 1; faults.seed < 20; ++faults.seed) {
     int dropped = 0;
     for (std::size_t i = 0; i < 1000; ++i) {
-      dropped += fateOf(i, faults).copies == 0;
+      dropped += deliveryOf(i, faults).copies == 0;
       if (i % 20 != 19) continue;
       EXPECT_EQ(dropped, std::lround(0.15 * static_cast<double>(i + 1)));
     }

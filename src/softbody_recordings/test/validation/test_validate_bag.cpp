@@ -155,7 +155,7 @@ TEST(ValidateBag, EncodingsAndSizes) {
   expectOne(writeBag([](Frame* f, int k) {
               if (k == 3) f->color.data.resize(10);
             }),
-            Severity::kError, "sizes", kColor, "1 images whose bytes do not fit");
+            Severity::kError, "sizes", kColor, "1 images with a wrong number of bytes");
   expectOne(writeBag([](Frame* f, int k) {
               if (k == 3) halve(&f->color);
             }),

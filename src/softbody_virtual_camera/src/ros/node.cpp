@@ -65,12 +65,12 @@ void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& 
   truth_topology_.publish(topologyMessage(camera_->topology(revision), stamp));
 }
 
-bool VirtualCameraNode::watched() const {
+bool VirtualCameraNode::hasSubscribers() const {
   return color_.getNumSubscribers() + depth_.getNumSubscribers() + truth_state_.getNumSubscribers() > 0;
 }
 
 void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
-  if (!watched()) return;
+  if (!hasSubscribers()) return;
   const ros::Time stamp = ros::Time::now();
   const double t = std::max(0.0, frame_ / setup_.rate_hz - hold_s_);
   if (!loop_ && t >= camera_->scene().duration_s) {

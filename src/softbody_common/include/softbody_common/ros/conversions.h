@@ -18,9 +18,9 @@
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
 
-/// Between the core's structs and softbody_msgs, and nothing else. fromMessage throws std::invalid_argument,
-/// with the field and the index, where array sizes, indices or numbers do not make sense. Headers are the
-/// caller's.
+/// Conversions between the core's structs and softbody_msgs. fromMessage throws std::invalid_argument with
+/// field and index if array sizes, indices or numbers are not valid. The caller sets and reads the
+/// headers.
 namespace softbody {
 
 Nanoseconds toNanoseconds(const ros::Time& time);
@@ -45,16 +45,16 @@ softbody_msgs::MeshState toMessage(const MeshState& state);
 MeshState fromMessage(const softbody_msgs::MeshState& message);
 
 softbody_msgs::Targets toMessage(const TargetSet& targets);
-/// Indices are not checked against a topology here; see TargetSet's user.
+/// Does not check tet indices, because the topology is not known here; the simulator checks them.
 TargetSet fromMessage(const softbody_msgs::Targets& message);
 
 softbody_msgs::TrackingStatus toMessage(const TrackingStatus& status);
 
-/// A node's rows for one stamp.
+/// The times of a node's stages for one stamp.
 softbody_msgs::StageTiming timingMessage(const std::string& node, const std::vector<StageTime>& stages);
 
-/// The projection matrix P of a rectified image; K where P is zero. @throw std::invalid_argument if fx or fy
-/// <= 0.
+/// The camera of the projection matrix P, or of K if P is zero.
+/// @throw std::invalid_argument if fx or fy <= 0.
 Pinhole pinholeFromMessage(const sensor_msgs::CameraInfo& info);
 /// A CameraInfo without distortion.
 sensor_msgs::CameraInfo toMessage(const Pinhole& camera);

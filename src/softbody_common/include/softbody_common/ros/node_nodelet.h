@@ -7,7 +7,7 @@
 
 namespace softbody {
 
-/// A node class in a nodelet manager; its callbacks run one at a time, as in a process of its own.
+/// A node class as a nodelet. Its callbacks run one at a time, as in a separate process.
 template <typename Node>
 class NodeNodelet : public nodelet::Nodelet {
   void onInit() override {

@@ -6,10 +6,10 @@
 
 namespace softbody {
 
-/// A snapshot of a node's private parameters.
+/// The current private parameters of a node.
 Parameters readParameters(const ros::NodeHandle& private_handle);
 
-/// Logs a warning for every private parameter that nobody has asked for.
+/// Logs a warning for every private parameter that was never read.
 void warnUnknown(const Parameters& parameters);
 
 }  // namespace softbody

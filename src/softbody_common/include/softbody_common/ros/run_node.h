@@ -6,11 +6,11 @@
 
 namespace softbody {
 
-/// A node class as a process of its own. @return the exit code: 1, after a sentence, where it cannot start.
+/// Runs a node class as a process. @return the exit code: 1, with a log message, if it cannot start.
 template <typename Node>
 int runNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
-  // Outlives the node: with the last handle ROS shuts down, and with it the log.
+  // This handle outlives the node, because the last handle shuts down ROS and the log.
   const ros::NodeHandle handle;
   try {
     const Node node(handle, ros::NodeHandle("~"));

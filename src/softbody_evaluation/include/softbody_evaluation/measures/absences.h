@@ -8,29 +8,29 @@
 
 namespace softbody::evaluation {
 
-/// What a frame of the truth shows of the body, and how well it was followed.
-struct FrameSight {
+/// One frame of the truth: how much of the body is hidden, and the error of the result.
+struct FrameOcclusion {
   double time_s = 0.0;
-  double covered_share = 0.0;  ///< of the vertices seen at first, how many are hidden now, 0..1
-  double mean_error = std::numeric_limits<double>::infinity();  ///< [m]; infinite: no answer
-  std::optional<double> unhidden_error;  ///< the same if nothing had ever hidden the body, where known [m]
-  std::vector<float> covered_errors;     ///< of the vertices that are hidden now [m]
+  double covered_share = 0.0;  ///< hidden share of the vertices that were visible at first, 0..1
+  double mean_error = std::numeric_limits<double>::infinity();  ///< [m]; infinite without an answer
+  std::optional<double> unhidden_error;  ///< mean error for the same motion without occluders, if known [m]
+  std::vector<float> covered_errors;     ///< of the hidden vertices [m]
 };
 
-/// A time in which more than a quarter of what was seen at first is hidden: an occluder, or out of view.
+/// A time in which more than a quarter of the vertices visible at first are hidden or out of view.
 struct Absence {
   double begin_s = 0.0, end_s = 0.0;
-  double covered_share = 0.0;        ///< at most
-  double normal = kNothing;          ///< error at its end if nothing had hidden the body, where known;
-                                     ///< otherwise p95 of the frames' mean errors before any absence [m]
-  Summary covered;                   ///< errors of the hidden part meanwhile [m]
-  std::optional<double> recovery_s;  ///< from the end until the mean error is back; nothing: never
-  std::optional<double> recovery_to_before_s;  ///< the same, whatever is known of the body unhidden
+  double covered_share = 0.0;        ///< largest share
+  double normal = kNothing;          ///< error at its end for the same motion without occluders, if known;
+                                     ///< otherwise p95 of the mean errors before the first absence [m]
+  Summary covered;                   ///< errors of the hidden vertices [m]
+  std::optional<double> recovery_s;  ///< from the end until the error is normal; empty: never
+  std::optional<double> recovery_to_before_s;  ///< the same, always against the error before
 };
 
-/// Absences of at least 0.2 s. The error is back to normal when it is at most 1.2 times the normal one for
-/// 0.2 s on end: the same frame's if nothing had hidden the body, where that is known.
-/// @param frames in time order; the first is the reference.
-std::vector<Absence> absences(const std::vector<FrameSight>& frames);
+/// The absences of at least 0.2 s. The error is normal again when it is at most 1.2 times the normal error
+/// for 0.2 s. The normal error is that of the same frame without occluders, if known.
+/// @param frames in the order of time; the first frame is the reference.
+std::vector<Absence> absences(const std::vector<FrameOcclusion>& frames);
 
 }  // namespace softbody::evaluation

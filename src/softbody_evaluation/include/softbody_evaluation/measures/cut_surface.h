@@ -5,17 +5,17 @@
 
 namespace softbody::evaluation {
 
-/// The surface that the result's cuts have made against the true one, both in the rest body.
+/// The surface of the result's cuts compared with the true cut surface, both in the rest body.
 struct CutSurfaceReport {
-  Summary distance;            ///< from points of the result's surface to the true one [m]
-  Summary missed;              ///< from points of the true surface to the result's [m]
-  Summary angle;               ///< between the result's triangles and the true one nearest to each [rad]
-  double tilt_rad = kNothing;  ///< of the result's surface as a whole: roughness cancels out
-  double area_ratio = 0.0;     ///< the result's area by the true one
+  Summary distance;            ///< from the result's cut surface to the true one [m]
+  Summary missed;              ///< from the true cut surface to the result's [m]
+  Summary angle;               ///< between a triangle of the result and the nearest true one [rad]
+  double tilt_rad = kNothing;  ///< of the whole cut surface; roughness cancels out
+  double area_ratio = 0.0;     ///< area of the result / true area
 };
 
-/// Samples of equal area on the triangles that fill cuts, so that the figures do not depend on the
-/// triangulation. Empty summaries where one of the two has no cut.
+/// Compares samples of equal area on the triangles that fill cuts, so the triangulation does not matter. The
+/// summaries are empty if one of the two has no cut.
 CutSurfaceReport compareCutSurfaces(const MeshTopology& result, const MeshTopology& truth);
 
 }  // namespace softbody::evaluation

@@ -12,16 +12,16 @@ namespace softbody::evaluation {
 
 using PoseRecord = std::map<Nanoseconds, Eigen::Isometry3d>;  ///< by stamp
 
-/// A tool's poses out of a bag.
+/// A tool's poses, as a bag holds them.
 struct ToolRecord {
   std::string frame_id;  ///< of the poses
   PoseRecord poses;
   std::vector<std::string> notes;  ///< what was left out, in sentences
 };
 
-/// A tool's pose against the truth.
+/// Errors of a tool's poses.
 struct PoseErrorReport {
-  std::size_t expected = 0, answered = 0;  ///< true poses; of these with an answer of the same stamp
+  std::size_t expected = 0, answered = 0;  ///< true poses; true poses with a result of the same stamp
   Summary position;                        ///< [m]
   Summary rotation;                        ///< [rad]
 };

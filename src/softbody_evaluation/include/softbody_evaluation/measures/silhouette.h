@@ -11,18 +11,18 @@ namespace softbody::evaluation {
 /// @throw std::invalid_argument if the masks differ in size.
 double intersectionOverUnion(const cv::Mat1b& a, const cv::Mat1b& b);
 
-/// Where a rendered depth image shows something.
+/// The mask of a rendered depth image.
 cv::Mat1b silhouette(const cv::Mat1f& rendered_depth);
 
-/// Where something is measured at the model's depth, give or take `margin_m`, at most 15 pixels beside it: a
-/// body before a distant or unmeasured background. What touches the body at its depth counts as body.
+/// The mask of measured depth within `margin_m` of the model's depth range, up to 15 pixels beside the model.
+/// The background must be distant or unmeasured. Things that touch the body count as body.
 cv::Mat1b measuredSilhouette(const cv::Mat1f& measured, const cv::Mat1f& model, double margin_m);
 
 struct SilhouetteReport {
-  bool against_truth = false;  ///< otherwise against the measured depth
+  bool against_truth = false;  ///< if false, against the measured depth
   std::size_t frames = 0;
   double mean = 0.0, worst = 0.0;  ///< IoU, 0..1
-  std::vector<double> values;      ///< a frame
+  std::vector<double> values;      ///< per frame
 };
 
 SilhouetteReport summarizeSilhouettes(const std::vector<double>& values, bool against_truth);

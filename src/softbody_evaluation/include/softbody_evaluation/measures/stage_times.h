@@ -8,7 +8,7 @@
 
 namespace softbody::evaluation {
 
-/// A stage of a node; initialisations are rows of their own.
+/// A stage of a node. Initialisations have separate rows.
 struct StageName {
   std::string node, stage;
   bool initialization = false;
@@ -16,10 +16,10 @@ struct StageName {
 
 bool operator<(const StageName& a, const StageName& b);
 
-/// Milliseconds by stage, as the nodes measured them.
+/// Times by stage, as the nodes measured them [ms].
 using StageTimes = std::map<StageName, std::vector<float>>;
 
-/// Mean, p95 and so on of every stage [ms].
+/// Statistics of every stage [ms].
 std::map<StageName, Summary> summarize(const StageTimes& times);
 
 }  // namespace softbody::evaluation

@@ -9,21 +9,19 @@
 
 namespace softbody::evaluation {
 
-/// Whether every edge is used once in each direction by triangles between distinct places (welded duplicates
-/// count as one).
+/// Whether every edge is used equally often in both directions. Vertices at the same position count as one.
 bool isClosed(const Points& vertices, const Triangles& triangles);
 
-/// A mean and the value of largest magnitude, signed.
+/// The mean, and the value of largest magnitude with its sign.
 struct Change {
   double mean = 0.0, largest = 0.0;
 };
 
 struct VolumeReport {
-  bool closed = false;   ///< at every revision; otherwise nothing below is known
-  double rest_m3 = 0.0;  ///< as loaded: of the lowest revision
-  Change change;         ///< of the frames, relative to rest_m3
-  double cut_change =
-      0.0;  ///< of all pieces together at rest, relative to rest_m3; the largest of the revisions
+  bool closed = false;          ///< at every revision; if false, all values below are unknown
+  double rest_m3 = 0.0;         ///< of the lowest revision
+  Change change;                ///< of the frames, relative to rest_m3
+  double cut_change = 0.0;      ///< of all pieces at rest, relative to rest_m3; the largest of the revisions
   std::optional<Change> error;  ///< relative to the truth's volume of the same frame
   std::vector<double> volumes;  ///< per frame [m3]
 };
@@ -32,7 +30,7 @@ struct VolumeReport {
 VolumeReport volumeDrift(const std::map<std::uint32_t, MeshTopology>& topologies,
                          const std::vector<const MeshState*>& states);
 
-/// Of values around zero; not empty.
+/// @param values not empty.
 Change changeOf(const std::vector<double>& values);
 
 }  // namespace softbody::evaluation

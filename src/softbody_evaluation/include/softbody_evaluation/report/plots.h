@@ -13,8 +13,8 @@ namespace softbody::evaluation {
 cv::Mat3b linePlot(const std::string& title, const std::string& x_label, const std::vector<double>& x,
                    const std::vector<double>& y);
 
-/// A histogram from zero to the 99.5th percentile; what is beyond falls into the last bin.
-/// @param scale from the values' unit to the label's.
+/// A histogram from zero to the 99.5th percentile. Larger values are in the last bin.
+/// @param scale from the unit of the values to the unit of the label.
 cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values,
                     double scale);
 
@@ -22,7 +22,7 @@ cv::Mat3b histogram(const std::string& title, const std::string& x_label, const 
 void drawWireframe(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
                    cv::Mat3b* image);
 
-/// Pictures of one size side by side, `columns` a row.
+/// Pictures of equal size in rows of `columns` pictures.
 cv::Mat3b contactSheet(const std::vector<cv::Mat3b>& pictures, int columns);
 
 }  // namespace softbody::evaluation

@@ -13,17 +13,17 @@
 namespace softbody::evaluation {
 namespace {
 
-constexpr double kStill_m = 1e-4;  // how far the truth moves while it counts as still
+constexpr double kStill_m = 1e-4;  // largest motion of a still truth
 constexpr std::size_t kLeastStillFrames = 10;
 
-/// What is fixed while neither topology changes.
+/// Matches of a pair of topologies.
 struct TopologyPair {
   std::vector<int> matches;
   VertexGroups groups;
   PieceMatch pieces;
 };
 
-/// Which vertices the camera sees in the first frame of this revision.
+/// The vertices that the camera sees in the first frame of a revision.
 std::vector<bool> seenAtFirst(const SurfaceRecord& truth, std::uint32_t revision) {
   const auto first = std::find_if(truth.states.begin(), truth.states.end(), [revision](const auto& state) {
     return state.second.revision == revision;
@@ -72,8 +72,8 @@ std::optional<JitterReport> jitterWhereStill(const SurfaceRecord& result, const 
   return jitter(answers, still);
 }
 
-/// Sums over the frames after the first cut of either.
-class PiecesTally {
+/// Sums over the frames after the first cut of either surface.
+class PiecesSums {
  public:
   void add(const PieceMatch& pieces) {
     ++report_.frames;
@@ -95,10 +95,10 @@ class PiecesTally {
   PiecesReport report_;
 };
 
-/// What the truth alone says of every one of its frames.
-std::vector<FrameSight> sightsOf(const SurfaceRecord& truth) {
+/// The occlusions of the truth's frames, without errors.
+std::vector<FrameOcclusion> occlusionsOf(const SurfaceRecord& truth) {
   std::map<std::uint32_t, std::vector<bool>> seen_of;
-  std::vector<FrameSight> sights;
+  std::vector<FrameOcclusion> occlusions;
   for (const auto& [stamp, state] : truth.states) {
     const auto [entry, fresh] = seen_of.try_emplace(state.revision);
     if (fresh) entry->second = seenAtFirst(truth, state.revision);
@@ -106,11 +106,11 @@ std::vector<FrameSight> sightsOf(const SurfaceRecord& truth) {
     std::size_t covered = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) covered += seen[i] && state.confidence[i] <= 0.5f;
     const auto all = std::max<std::ptrdiff_t>(1, std::count(seen.begin(), seen.end(), true));
-    sights.emplace_back();
-    sights.back().time_s = 1e-9 * static_cast<double>(stamp - truth.states.begin()->first);
-    sights.back().covered_share = static_cast<double>(covered) / static_cast<double>(all);
+    occlusions.emplace_back();
+    occlusions.back().time_s = 1e-9 * static_cast<double>(stamp - truth.states.begin()->first);
+    occlusions.back().covered_share = static_cast<double>(covered) / static_cast<double>(all);
   }
-  return sights;
+  return occlusions;
 }
 
 /// @throw std::invalid_argument
@@ -118,21 +118,21 @@ void requireSameMesh(const SurfaceRecord& surface, const std::string& whose, con
                      const std::string& truth_bag) {
   if (sameMesh(surface.topologies.begin()->second, truth.topologies.begin()->second)) return;
   throw std::invalid_argument(
-      fmt::format("{} is another mesh than that of the truth in {}: at rest, vertices of the same index in "
-                  "its file (vertex_parents) lie at different places",
+      fmt::format("{} is not the mesh of the truth in {}: at rest, vertices of the same index in the file "
+                  "(vertex_parents) have different positions",
                   whose, truth_bag));
 }
 
-/// What the error of the same frames is where nothing ever hid the body.
-/// @return how many frames it does not have. @throw std::invalid_argument if it is another mesh, or has none.
-std::size_t addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden,
-                        const SurfaceRecord& truth, std::vector<FrameSight>* sights) {
+/// Adds the errors for the same motion without occluders, and a note about missing states.
+/// @throw std::invalid_argument if the mesh is another one, or no frame has a state.
+void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden, const SurfaceRecord& truth,
+                 std::vector<FrameOcclusion>* occlusions, std::vector<std::string>* notes) {
   requireSameMesh(unhidden, options.unhidden + ": the unhidden body", truth, options.truth);
   TopologyPairs pairs(options, unhidden, truth);
   std::size_t missing = 0;
-  auto sight = sights->begin();
+  auto occlusion = occlusions->begin();
   for (const auto& [stamp, expected] : truth.states) {
-    FrameSight& shown = *sight++;
+    FrameOcclusion& shown = *occlusion++;
     const auto answer = unhidden.states.find(stamp);
     if (answer == unhidden.states.end()) {
       ++missing;
@@ -146,10 +146,14 @@ std::size_t addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& un
         fmt::format("{}: the unhidden body has no state with the stamp of a frame of {}", options.unhidden,
                     options.truth));
   }
-  return missing;
+  if (missing > 0) {
+    notes->push_back(fmt::format(
+        "{} has no state for {} of {} frames; their normal error is that of the frames before the occlusion",
+        options.unhidden, missing, truth.states.size()));
+  }
 }
 
-/// Volumes frame by frame, where both surfaces are closed.
+/// Errors of the volume, if both surfaces are closed.
 std::optional<Change> volumeError(const SurfaceRecord& result, const SurfaceRecord& truth) {
   std::vector<const MeshState*> answers, truths;
   for (const auto& [stamp, state] : truth.states) {
@@ -166,7 +170,7 @@ std::optional<Change> volumeError(const SurfaceRecord& result, const SurfaceReco
   return changeOf(errors);
 }
 
-/// As they are at the end, if the truth is cut at all.
+/// Errors of the cut surface at the end, if the truth is cut.
 std::optional<CutSurfaceReport> cutSurface(const SurfaceRecord& result, const SurfaceRecord& truth) {
   const MeshTopology& expected = truth.topologies.at(truth.states.rbegin()->second.revision);
   if (std::find(expected.cut.begin(), expected.cut.end(), true) == expected.cut.end()) return std::nullopt;
@@ -194,11 +198,11 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
   requireSameMesh(result, options.result + ": the body", truth, options.truth);
   TopologyPairs pairs(options, result, truth);
   std::vector<FrameVertexError> errors;
-  std::vector<FrameSight> sights = sightsOf(truth);
-  PiecesTally pieces;
-  auto sight = sights.begin();
+  std::vector<FrameOcclusion> occlusions = occlusionsOf(truth);
+  PiecesSums pieces;
+  auto occlusion = occlusions.begin();
   for (const auto& [stamp, expected] : truth.states) {
-    FrameSight& shown = *sight++;
+    FrameOcclusion& shown = *occlusion++;
     const auto answer = result.states.find(stamp);
     if (answer == result.states.end()) continue;
     const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
@@ -212,14 +216,8 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
   report->frames.answered = errors.size();
   if (errors.empty()) return;
   report->vertex_error = summarize(errors);
-  const std::size_t missing = unhidden ? addUnhidden(options, *unhidden, truth, &sights) : 0;
-  if (missing > 0) {
-    report->notes.push_back(fmt::format(
-        "{} has no state for {} of {} frames; what is normal there is taken from the frames before "
-        "the body was hidden",
-        options.unhidden, missing, truth.states.size()));
-  }
-  report->absences = absences(sights);
+  if (unhidden != nullptr) addUnhidden(options, *unhidden, truth, &occlusions, &report->notes);
+  report->absences = absences(occlusions);
   report->jitter = jitterWhereStill(result, truth);
   report->pieces = pieces.report();
   report->cut_surface = cutSurface(result, truth);

@@ -33,20 +33,20 @@ std::vector<CutTriangle> cutTriangles(const MeshTopology& mesh) {
   return triangles;
 }
 
-/// A point of a triangle that stands for its part of the area.
+/// A sample point of a triangle, and its part of the area.
 struct Sample {
   Eigen::Vector3d point, normal;
   double area = 0.0;
 };
 
-/// Centres of n by n equal parts of every triangle.
+/// The centres of n by n equal parts of every triangle.
 std::vector<Sample> samples(const std::vector<CutTriangle>& triangles) {
   std::vector<Sample> all;
   for (const CutTriangle& t : triangles) {
     const int n = std::max(1, static_cast<int>(std::ceil(std::sqrt(2.0 * t.area) / kSampleSpacing_m)));
     for (int i = 0; i < n; ++i) {
       for (int k = 0; k < 2 * (n - i) - 1; ++k) {
-        // The parts of a row point up and down in turn; their centres lie a third or two thirds into it.
+        // The parts of a row alternately point up and down; their centres are at 1/3 or 2/3 of the row.
         const int square = k / 2;
         const double row = (i + (k % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
         const double column = (square + (k % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
@@ -85,8 +85,8 @@ CutSurfaceReport compareCutSurfaces(const MeshTopology& result, const MeshTopolo
   if (!its.empty()) report.area_ratio = areaOf(mine) / areaOf(its);
   if (mine.empty() || its.empty()) return report;
   std::vector<float> distances, missed, angles;
-  // Sine of the angle along the axis of rotation from the true surface to the result's: the same for both
-  // sides.
+  // The axis of rotation from the true surface to the result's, with the sine of the angle as length. It is
+  // equal for both sides of the cut.
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   double projected = 0.0;
   for (const Sample& sample : samples(mine)) {

@@ -9,8 +9,9 @@ namespace softbody::evaluation {
 
 FrameResidual depthResidual(const cv::Mat1f& model, const cv::Mat1f& measured, double occluder_m) {
   if (model.size() != measured.size()) {
-    throw std::invalid_argument(fmt::format("the depth image has {} x {} pixels, the camera_info {} x {}",
-                                            measured.cols, measured.rows, model.cols, model.rows));
+    throw std::invalid_argument(
+        fmt::format("the depth image has {} x {} pixels, but the camera_info has {} x {}", measured.cols,
+                    measured.rows, model.cols, model.rows));
   }
   FrameResidual frame;
   for (int v = 0; v < model.rows; ++v) {
@@ -45,7 +46,7 @@ ResidualReport summarize(const std::vector<FrameResidual>& frames, std::size_t f
   }
   report.within_10mm = shareWithin(residuals, 0.010);
   report.within_15mm = shareWithin(residuals, 0.015);
-  // A surface that lags behind the body looks occluded: the stricter share does not let it.
+  // A surface that lags behind the body looks occluded. Therefore the strict share counts occluded pixels.
   const double hits = residuals.empty() ? 0.0 : report.within_15mm * static_cast<double>(residuals.size());
   report.within_15mm_of_measured = hits / static_cast<double>(residuals.size() + occluded);
   report.residual = summarize(std::move(residuals));

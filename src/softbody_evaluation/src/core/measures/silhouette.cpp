@@ -10,7 +10,7 @@
 namespace softbody::evaluation {
 namespace {
 
-constexpr int kReach = 15;  // how far from the model something can still be the body [px]
+constexpr int kReach = 15;  // largest distance of the body from the model [px]
 
 }  // namespace
 

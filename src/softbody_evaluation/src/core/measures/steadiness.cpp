@@ -14,7 +14,7 @@ double largestMove(const MeshState& a, const MeshState& b) {
   return a.vertices.rows() == 0 ? 0.0 : (a.vertices - b.vertices).rowwise().norm().maxCoeff();
 }
 
-/// RMS distance of every vertex from its mean place.
+/// RMS distance of every vertex from its mean position.
 Eigen::VectorXd deviations(const std::vector<const MeshState*>& states) {
   Points mean = Points::Zero(states.front()->vertices.rows(), 3);
   for (const MeshState* state : states) mean += state->vertices / static_cast<double>(states.size());
@@ -23,7 +23,7 @@ Eigen::VectorXd deviations(const std::vector<const MeshState*>& states) {
   return (squares / static_cast<double>(states.size())).cwiseSqrt();
 }
 
-/// The range's answers; the result's topologies apart.
+/// The answers in a range, separated by the result's topologies.
 std::vector<std::vector<const MeshState*>> answeredRuns(const std::vector<const MeshState*>& states,
                                                         const FrameRange& range) {
   std::vector<std::vector<const MeshState*>> runs;

@@ -44,7 +44,7 @@ void addToPiece(float distance, std::size_t piece, std::vector<std::vector<float
   (*pieces)[piece].push_back(distance);
 }
 
-/// By true piece, over the frames in which there are several.
+/// Errors by true piece, of frames with several pieces.
 std::vector<Summary> summarizePieces(const std::vector<FrameVertexError>& frames) {
   std::vector<std::vector<float>> all;
   for (const FrameVertexError& frame : frames) {

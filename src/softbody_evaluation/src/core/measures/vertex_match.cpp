@@ -13,14 +13,14 @@
 namespace softbody::evaluation {
 namespace {
 
-/// What tells copies of one vertex apart: where the triangles around it lie, and where they face. Inside of a
-/// cut's surface only the latter differs, and on its rim the cut's own triangles say it best.
+/// Distinguishes the copies of a vertex: mean position and normal of the triangles around it. Inside of a cut
+/// surface only the normals differ. On its rim the triangles of the cut give the clearest normals.
 struct Fans {
   Points centres, normals;
 };
 
-/// Of the triangles that fill cuts, where a vertex has any; otherwise of all.
-Points facing(const MeshTopology& topology) {
+/// Vertex normals of the triangles that fill cuts; of all triangles for vertices without a cut triangle.
+Points sideNormals(const MeshTopology& topology) {
   std::vector<Eigen::Index> walls;
   for (std::size_t f = 0; f < topology.cut.size(); ++f) {
     if (topology.cut[f]) walls.push_back(static_cast<Eigen::Index>(f));
@@ -35,7 +35,7 @@ Points facing(const MeshTopology& topology) {
 }
 
 Fans fansOf(const MeshTopology& topology) {
-  Fans fans{Points::Zero(topology.rest_vertices.rows(), 3), facing(topology)};
+  Fans fans{Points::Zero(topology.rest_vertices.rows(), 3), sideNormals(topology)};
   Eigen::VectorXd count = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
   for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
     Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
@@ -62,11 +62,11 @@ std::size_t pieceCount(const MeshTopology& topology) {
   return topology.bodies.empty() ? 0 : 1 + *std::max_element(topology.bodies.begin(), topology.bodies.end());
 }
 
-/// The candidate of the same place and side. Copies lie at one place at rest; where they come from files of
-/// different welding, the place decides first, then the side.
+/// The candidate at the same position and side. Copies have the same position at rest. If the files were
+/// welded differently, the position decides first, then the side.
 int nearestCopy(const MeshTopology& mine, const Fans& my_fans, Eigen::Index vertex, const MeshTopology& its,
                 const Fans& its_fans, const std::vector<int>& candidates, double largest_m) {
-  constexpr double kFacing_m = 0.05;  // cost of facing at right angles; copies face opposite ways
+  constexpr double kFacing_m = 0.05;  // cost of perpendicular normals; copies have opposite normals
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const int candidate : candidates) {
@@ -128,7 +128,8 @@ std::vector<int> matchVertices(const MeshTopology& result, const MeshTopology& t
     const auto candidates = truth_vertices.find(result.vertex_parents[i]);
     if (candidates != truth_vertices.end()) matches[i] = nearestOf(i, candidates->second);
   }
-  // Where several cuts meet, a small fan may look like another side's; most of a piece says which it is.
+  // Where several cuts meet, a vertex can be matched to a wrong side. The majority of its piece corrects
+  // this.
   const PieceMatch pieces = matchPieces(result, truth, matches);
   const std::vector<int> result_pieces = vertexPieces(result), truth_pieces = vertexPieces(truth);
   for (std::size_t i = 0; i < matches.size(); ++i) {

@@ -13,7 +13,7 @@
 namespace softbody::evaluation {
 namespace {
 
-/// Index of the first vertex at the same place, per vertex.
+/// Per vertex, the index of the first vertex at the same position.
 std::vector<int> places(const Points& vertices) {
   std::map<std::array<double, 3>, int> first;
   std::vector<int> place;

@@ -35,7 +35,7 @@ Triangles skinOf(const MeshTopology& mesh) {
   return mesh.triangles(skin, Eigen::all);
 }
 
-/// First stamp of a state of each revision, in order.
+/// The first stamp of each revision, in order.
 std::vector<Nanoseconds> revisionBegins(const SurfaceRecord& result) {
   std::vector<Nanoseconds> begins;
   std::uint32_t last = 0;
@@ -44,11 +44,11 @@ std::vector<Nanoseconds> revisionBegins(const SurfaceRecord& result) {
     begins.push_back(stamp);
     last = state.revision;
   }
-  if (begins.size() < 2) throw std::invalid_argument("the body was not cut: there is nothing to draw");
+  if (begins.size() < 2) throw std::invalid_argument("the body was not cut, so there is nothing to draw");
   return begins;
 }
 
-/// The part of the camera's image in which the body is, in the picture's shape, as a camera of its own.
+/// The part of the image that shows the body, in the shape of a picture, with its own camera.
 struct Window {
   Window(const Pinhole& camera, const Points& vertices) {
     constexpr double kMargin = 1.5;  // body's extents
@@ -97,7 +97,7 @@ cv::Mat3b drawCutModels(const SurfaceRecord& result) {
   const MeshTopology& uncut = result.topologies.begin()->second;
   const MeshState& last = result.states.rbegin()->second;
   const MeshTopology& cut = topologyOf(result, last);
-  // Seen from where the body at rest is seen.
+  // The same view as of the body at rest.
   const Points deformed = transformed(last.vertices, fitRigid(last.vertices, cut.rest_vertices));
   const View view = viewOf(uncut.rest_vertices, kModelSize);
   std::vector<cv::Mat3b> pictures{
@@ -136,9 +136,9 @@ void CutStrip::add(const RecordedFrame& frame) {
 
 cv::Mat3b CutStrip::picture() const {
   if (images_.size() != shown_.size()) {
-    throw std::invalid_argument(
-        fmt::format("{} of the {} frames to be shown are not in the recording: is it that of the result?",
-                    shown_.size() - images_.size(), shown_.size()));
+    throw std::invalid_argument(fmt::format(
+        "{} of the {} frames to draw are not in the recording; check that it is the recording of the result",
+        shown_.size() - images_.size(), shown_.size()));
   }
   std::vector<cv::Mat3b> pictures = images_;
   pictures.insert(pictures.end(), meshes_.begin(), meshes_.end());

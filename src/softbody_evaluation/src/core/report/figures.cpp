@@ -33,8 +33,8 @@ void addVertexError(const VertexErrorReport& report, std::vector<Figure>* figure
   addLengths("vertices near a cut", report.near_cut, figures);
   for (std::size_t i = 0; i < report.pieces.size(); ++i)
     addLengths(fmt::format("piece {}", i), report.pieces[i], figures);
-  figures->push_back({"drift, last minus first seconds", "mm", 1e3 * report.drift_m});
-  figures->push_back({"drift, last by first seconds", "times", report.drift_ratio});
+  figures->push_back({"drift, last - first seconds", "mm", 1e3 * report.drift_m});
+  figures->push_back({"drift, last / first seconds", "ratio", report.drift_ratio});
 }
 
 void addCut(const Report& report, std::vector<Figure>* figures) {
@@ -44,7 +44,7 @@ void addCut(const Report& report, std::vector<Figure>* figures) {
   }
   if (report.cut_surface) {
     addLengths("cut surface from the true one", report.cut_surface->distance, figures);
-    addLengths("true cut surface from the result's", report.cut_surface->missed, figures);
+    addLengths("true cut surface from the result's one", report.cut_surface->missed, figures);
     figures->push_back({"cut surface, tilt", "deg", kDegrees * report.cut_surface->tilt_rad});
     figures->push_back({"cut surface, local angle, mean", "deg", kDegrees * report.cut_surface->angle.mean});
   }
@@ -54,10 +54,10 @@ void addAbsences(const std::vector<Absence>& absences, std::vector<Figure>* figu
   for (const Absence& absence : absences) {
     const std::string name = fmt::format("hidden at {:.1f} s", absence.begin_s);
     if (absence.covered.count > 0)
-      figures->push_back({name + ", hidden part meanwhile, mean", "mm", 1e3 * absence.covered.mean});
-    figures->push_back({name + ", back to normal after", "s", absence.recovery_s.value_or(kNothing)});
+      figures->push_back({name + ", hidden part, mean", "mm", 1e3 * absence.covered.mean});
+    figures->push_back({name + ", time until normal", "s", absence.recovery_s.value_or(kNothing)});
     figures->push_back(
-        {name + ", back to the error before after", "s", absence.recovery_to_before_s.value_or(kNothing)});
+        {name + ", time until the error before", "s", absence.recovery_to_before_s.value_or(kNothing)});
   }
 }
 
@@ -71,11 +71,11 @@ void addTool(const PoseErrorReport& tool, std::vector<Figure>* figures) {
 
 void addVolume(const VolumeReport& volume, std::vector<Figure>* figures) {
   figures->push_back({"volume change, mean", "%", 100.0 * volume.change.mean});
-  figures->push_back({"volume change, at most", "%", 100.0 * volume.change.largest});
+  figures->push_back({"volume change, largest", "%", 100.0 * volume.change.largest});
   figures->push_back({"volume change by cuts, at rest", "%", 100.0 * volume.cut_change});
   if (!volume.error) return;
   figures->push_back({"volume error, mean", "%", 100.0 * volume.error->mean});
-  figures->push_back({"volume error, at most", "%", 100.0 * volume.error->largest});
+  figures->push_back({"volume error, largest", "%", 100.0 * volume.error->largest});
 }
 
 std::string cell(const std::optional<double>& value) {

@@ -55,7 +55,7 @@ std::string table(const std::vector<ComparedFigure>& rows) {
 }
 
 std::string image(const std::string& name, const cv::Mat3b& picture) {
-  // JPEG only where it saves much, for photographs: it blurs lines.
+  // JPEG blurs lines, so it is used only if it is much smaller.
   std::vector<unsigned char> png, jpeg;
   cv::imencode(".png", picture, png);
   cv::imencode(".jpg", picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, 90});
@@ -65,7 +65,7 @@ std::string image(const std::string& name, const cv::Mat3b& picture) {
       escaped(name), as_png ? "png" : "jpeg", base64(as_png ? png : jpeg));
 }
 
-/// Each picture with the other result's beside it.
+/// Each picture of the first result beside the same picture of the other result.
 std::string inPairs(const Pictures& pictures) {
   const std::string other = "other_";
   std::string html;
@@ -84,7 +84,7 @@ std::string inPairs(const Pictures& pictures) {
 }  // namespace
 
 std::string htmlPage(const std::string& title, const std::vector<ComparedFigure>& rows,
-                     const std::string& words, const Pictures& pictures) {
+                     const std::string& text, const Pictures& pictures) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + escaped(title) +
       "</title>\n<style>body{font-family:sans-serif;margin:2em;max-width:75em}td,th{padding:.15em "
@@ -94,7 +94,7 @@ std::string htmlPage(const std::string& title, const std::vector<ComparedFigure>
       "max-width:100%}"
       "div{display:flex;gap:1em}figure{margin:1em "
       "0;min-width:0}pre{overflow-x:auto}</style></head>\n<body><h1>" +
-      escaped(title) + "</h1>\n" + table(rows) + "<pre>" + escaped(words) + "</pre>\n";
+      escaped(title) + "</h1>\n" + table(rows) + "<pre>" + escaped(text) + "</pre>\n";
   return page + inPairs(pictures) + "</body></html>\n";
 }
 

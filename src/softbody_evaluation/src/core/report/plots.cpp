@@ -52,7 +52,7 @@ cv::Mat3b drawAxes(const std::string& title, const std::string& x_label, const A
   return image;
 }
 
-/// A positive end of an axis, whatever the data.
+/// A positive end of an axis, for any data.
 double axisEnd(double largest) { return largest > 0.0 && std::isfinite(largest) ? largest : 1.0; }
 
 }  // namespace
@@ -80,7 +80,7 @@ cv::Mat3b histogram(const std::string& title, const std::string& x_label, const 
     shares[static_cast<std::size_t>(bin)] += 100.0 / static_cast<double>(values.size());
   }
   const Axes axes{end, 1.1 * axisEnd(*std::max_element(shares.begin(), shares.end()))};
-  cv::Mat3b image = drawAxes(title + ", percent a bin", x_label, axes);
+  cv::Mat3b image = drawAxes(title + ", percent per bin", x_label, axes);
   for (int bin = 0; bin < kBins; ++bin) {
     const cv::Point2d low = axes.place(end * bin / kBins, 0.0);
     const cv::Point2d high = axes.place(end * (bin + 1) / kBins, shares[static_cast<std::size_t>(bin)]);
@@ -110,7 +110,7 @@ void drawWireframe(const Pinhole& camera, const Points& vertices, const Triangle
       cv::polylines(lines, corners, true, cv::Scalar(60, 255, 60), 1, cv::LINE_AA, kFractionBits);
     }
   }
-  // Half transparent, so that the image can be judged below the lines.
+  // Half transparent, so that the image stays visible below the lines.
   cv::addWeighted(lines, 0.5, *image, 0.5, 0.0, *image);
 }
 

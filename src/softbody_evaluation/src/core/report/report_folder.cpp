@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A report is replaced as a whole; a folder of the user's must not be, even if it holds nothing but
-/// pictures.
+/// Only a report is replaced, never another folder of the user, even if it has only pictures.
+/// @throw std::invalid_argument
 void requireReplaceable(const fs::path& folder) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
@@ -26,7 +26,7 @@ void requireReplaceable(const fs::path& folder) {
         file.extension() == ".png" || file.filename() == "report.json" || file.filename() == "report.html";
     if (!is_report || !ours || !entry.is_regular_file()) {
       throw std::invalid_argument(
-          fmt::format("{} holds {}, which is not of a report; name a folder of its own", folder.string(),
+          fmt::format("{} has {}, which is not part of a report; choose another folder", folder.string(),
                       file.filename().string()));
     }
   }
@@ -52,7 +52,7 @@ void writeAll(const fs::path& folder, const nlohmann::json& document, const std:
 
 void writeReportFolder(const std::string& folder, const nlohmann::json& document, const std::string& page,
                        const Pictures& pictures) {
-  // "report/" names the same folder as "report", but its sibling would lie inside it.
+  // Without the trailing slash of "report/", so that "report.part" is beside the folder.
   const std::string absolute = fs::absolute(folder).lexically_normal().string();
   const fs::path target = absolute.back() == '/' ? absolute.substr(0, absolute.size() - 1) : absolute;
   requireReplaceable(target);

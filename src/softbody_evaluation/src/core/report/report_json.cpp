@@ -87,7 +87,7 @@ json toJson(const Absence& absence) {
   return document;
 }
 
-/// An array of what toJson makes of each.
+/// An array of the items' JSON.
 template <typename Items>
 json toJsonArray(const Items& items) {
   json array = json::array();

@@ -33,7 +33,7 @@ std::string vertexErrorTable(const VertexErrorReport& report) {
                      "median", "p95", "max") +
          row("all", report.all) + row("visible", report.visible) + row("hidden", report.hidden) + near_cut +
          pieces +
-         fmt::format("  drift {:+.3f} mm from the first to the last {:.1f} s ({:.2f} times), {:+.4f} mm/s\n",
+         fmt::format("  drift {:+.3f} mm from the first to the last {:.1f} s (ratio {:.2f}), {:+.4f} mm/s\n",
                      mm(report.drift_m), report.drift_window_s, report.drift_ratio, mm(report.drift_m_per_s));
 }
 
@@ -61,8 +61,9 @@ std::string cutLines(const Report& report) {
   std::string text;
   if (report.pieces) {
     text += fmt::format(
-        "pieces: {} of {} true ones at the end; as many as the truth in {:.1f} % of {} frames, {:.1f} % "
-        "of the vertices in the right one\n",
+        "pieces: {} at the end, {} are true; the right number in {:.1f} % of {} frames; {:.1f} % of the "
+        "vertices "
+        "in the right piece\n",
         report.pieces->result_pieces, report.pieces->true_pieces, 100.0 * report.pieces->frames_right,
         report.pieces->frames, 100.0 * report.pieces->vertices_right);
   }
@@ -71,8 +72,8 @@ std::string cutLines(const Report& report) {
   } else if (report.cut_surface) {
     const CutSurfaceReport& cut = *report.cut_surface;
     text += fmt::format(
-        "cut surface: {:.3f} mm mean, {:.3f} mm max from the true one, which is missed by {:.3f} mm at most; "
-        "tilted by {:.2f} degrees, {:.2f} degrees local mean\n",
+        "cut surface: distance to the true one {:.3f} mm mean, {:.3f} mm max, and back {:.3f} mm max; "
+        "tilt {:.2f} degrees, local angle {:.2f} degrees mean\n",
         mm(cut.distance.mean), mm(cut.distance.max), mm(cut.missed.max), kDegrees * cut.tilt_rad,
         kDegrees * cut.angle.mean);
   }
@@ -84,10 +85,11 @@ std::string backAfter(const std::optional<double>& recovery_s, const std::string
 }
 
 std::string absenceLine(const Absence& absence) {
-  return fmt::format("hidden from {:.2f} to {:.2f} s: {:.0f} % covered, {:.3f} mm mean there; {}; {}\n",
-                     absence.begin_s, absence.end_s, 100.0 * absence.covered_share, mm(absence.covered.mean),
-                     backAfter(absence.recovery_s, fmt::format("normal ({:.3f} mm)", mm(absence.normal))),
-                     backAfter(absence.recovery_to_before_s, "the error before"));
+  return fmt::format(
+      "hidden from {:.2f} to {:.2f} s: {:.0f} % of the surface, mean error there {:.3f} mm; {}; {}\n",
+      absence.begin_s, absence.end_s, 100.0 * absence.covered_share, mm(absence.covered.mean),
+      backAfter(absence.recovery_s, fmt::format("normal ({:.3f} mm)", mm(absence.normal))),
+      backAfter(absence.recovery_to_before_s, "the error before"));
 }
 
 std::string optionalLines(const Report& report) {
@@ -112,13 +114,13 @@ std::string optionalLines(const Report& report) {
 }
 
 std::string volumeLine(const VolumeReport& volume) {
-  if (!volume.closed) return "volume: unknown, the surface is not closed\n";
+  if (!volume.closed) return "volume: unknown, because the surface is not closed\n";
   std::string text =
-      fmt::format("volume: {:.1f} ml at rest, change {:+.3f} % on average, {:+.3f} % at most",
-                  1e6 * volume.rest_m3, 100.0 * volume.change.mean, 100.0 * volume.change.largest);
+      fmt::format("volume: {:.1f} ml at rest, change {:+.3f} % mean, {:+.3f} % largest", 1e6 * volume.rest_m3,
+                  100.0 * volume.change.mean, 100.0 * volume.change.largest);
   if (volume.error) {
-    text += fmt::format("; against the truth {:+.3f} % on average, {:+.3f} % at most",
-                        100.0 * volume.error->mean, 100.0 * volume.error->largest);
+    text += fmt::format("; error {:+.3f} % mean, {:+.3f} % largest", 100.0 * volume.error->mean,
+                        100.0 * volume.error->largest);
   }
   return text + (volume.cut_change != 0.0
                      ? fmt::format("; cuts changed {:+.4f} % at rest\n", 100.0 * volume.cut_change)

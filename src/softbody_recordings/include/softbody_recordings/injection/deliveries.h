@@ -8,42 +8,44 @@
 
 namespace softbody::injection {
 
-/// What goes wrong between the camera and the tracker. Shares are of a stream's images, 0..1: so many of
-/// every 20 in a row, chosen by the seed and the image's number alone, so that a live stream and a bag meet
-/// the same.
+/// Faults of the delivery from the camera to the tracker. A share is of the stream's images, 0..1, and holds
+/// in every run of 20 images. The choice depends only on the seed and the image's number, so a live stream
+/// and a bag get the same faults.
 struct DeliveryFaults {
   std::uint64_t seed = 1;
   double drop_share = 0.0;       ///< never arrive
   double duplicate_share = 0.0;  ///< arrive twice
-  double reorder_share = 0.0;    ///< arrive only after the next one; at most 0.5
-  double delay_share = 0.0;      ///< arrive late by delay_s
+  double reorder_share = 0.0;    ///< arrive after the next image; at most 0.5
+  double delay_share = 0.0;      ///< arrive delay_s late
   double delay_s = 0.1;
-  double stamp_share = 0.0;  ///< have a stamp that is off by stamp_s
+  double stamp_share = 0.0;  ///< have a stamp with an error of stamp_s
   double stamp_s = 0.1;      ///< positive: too late
 };
 
-/// What happens to one image.
-struct Fate {
-  int copies = 1;           ///< 0: it is dropped
-  bool after_next = false;  ///< it arrives just after the next one
-  Nanoseconds delay = 0;    ///< it arrives later by this
+/// The delivery faults of one image.
+struct ImageDelivery {
+  int copies = 1;           ///< 0: the image is dropped
+  bool after_next = false;  ///< the image arrives just after the next one
+  Nanoseconds delay = 0;    ///< additional delay
   Nanoseconds stamp_shift = 0;
 };
 
 /// @param image number in its stream, from 0.
-Fate fateOf(std::size_t image, const DeliveryFaults& faults);
+ImageDelivery deliveryOf(std::size_t image, const DeliveryFaults& faults);
 
 /// One arrival of an image.
-struct Delivery {
+struct Arrival {
   std::size_t image = 0;        ///< number in the stream
-  Nanoseconds received = 0;     ///< when it arrives
-  Nanoseconds stamp_shift = 0;  ///< what its stamp is off by
+  Nanoseconds received = 0;     ///< time of arrival
+  Nanoseconds stamp_shift = 0;  ///< error of its stamp
 };
 
-/// All arrivals of a stream's images, in the images' order. @param received when they arrived without fault.
-std::vector<Delivery> planDeliveries(const std::vector<Nanoseconds>& received, const DeliveryFaults& faults);
+/// All arrivals of a stream's images, in the order of the images. @param received their arrivals without
+/// faults.
+std::vector<Arrival> planArrivals(const std::vector<Nanoseconds>& received, const DeliveryFaults& faults);
 
-/// `round(share * count)` of `count` things. @param purpose tells independent choices of one seed apart.
+/// Chooses `round(share * count)` of `count` things. @param purpose makes choices of the same seed
+/// independent.
 std::vector<bool> choose(std::size_t count, double share, std::uint64_t seed, std::uint64_t purpose);
 
 }  // namespace softbody::injection

@@ -8,15 +8,15 @@
 
 namespace softbody::injection {
 
-/// One number that a user may set: "delay_by" in seconds is the tool's --delay-by and the node's delay_by_s.
+/// One value that a user can set. E.g. "delay_by" [s] is the tool's --delay-by and the node's delay_by_s.
 struct FaultOption {
-  std::string name, unit;  ///< unit empty: a share, or a place in the image
+  std::string name, unit;  ///< the unit is empty for a share or a place in the image
   double* value;
   double least, most;
-  std::string words;  ///< what it is
+  std::string description;
 };
 
-/// All of them; they point into the two structs.
+/// All options of the faults. They point into the two structs.
 std::vector<FaultOption> faultOptions(DeliveryFaults* deliveries, ImageFaults* images);
 
 }  // namespace softbody::injection

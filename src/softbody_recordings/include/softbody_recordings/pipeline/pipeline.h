@@ -14,15 +14,15 @@
 
 namespace softbody {
 
-/// What the graph's nodes publish for one frame.
+/// The output of the graph's nodes for one frame.
 struct FrameOutput {
   TrackingResult tracking;
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
-  std::optional<MeshState> volume;  ///< fixed frame, as the surface; nothing until the body has been found
+  std::optional<MeshState> volume;  ///< in the fixed frame, as the surface; empty until the body is found
   std::optional<MeshState> surface;
   std::optional<ToolObservation> tool;
-  std::vector<Cut> cuts;              ///< in this frame: the states are of the revision after them
-  std::vector<std::string> warnings;  ///< why a cut was not made, in sentences
+  std::vector<Cut> cuts;              ///< of this frame; the states are of the revision after them
+  std::vector<std::string> warnings;  ///< reasons why a cut was not made
   std::vector<StageTime> times;
 };
 
@@ -33,22 +33,23 @@ struct PipelineConfig {
   ToolTrackerConfig tool_tracker;
 };
 
-/// Trackers, simulator and surface in a row, without ROS: each frame sees exactly the previous frame's state.
+/// Trackers, simulator and surface in sequence, without ROS. Each frame uses exactly the previous frame's
+/// state.
 class Pipeline {
  public:
-  /// @param tool that is followed, and cuts; nothing: none.
+  /// @param tool to track; its blade cuts. Empty: no tool.
   Pipeline(const ObjectModel& model, const PipelineConfig& config,
            const std::optional<ToolDescription>& tool = std::nullopt);
 
   const TetTopology& volumeTopology() const { return simulator_.topology(); }
   const MeshTopology& surfaceTopology() const { return surface_.surface().topology(); }
 
-  /// @param cuts that happen in this frame beside the tool's own, as from a journal; where the body is not
-  /// tracked they wait for the next frame in which it is.
+  /// @param cuts of this frame in addition to the tool's, e.g. from a journal. They wait until the body is
+  /// tracked.
   FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
 
-  /// What a frame without a place in the fixed frame still shows: the tool, in the camera's frame. The body,
-  /// and a blade, need the place.
+  /// Tracks only the tool, in the camera's frame, for a frame without a camera pose. Body and blade need the
+  /// pose.
   std::optional<ToolObservation> processUnplaced(RgbdFrame frame);
 
   /// Nothing without a tool.

@@ -18,20 +18,21 @@ namespace softbody {
 /// or from a frame to itself, is left out.
 class BagTransforms {
  public:
-  /// @param paths of bags; of two transforms of one stamp that of the later bag counts, in one bag the
-  /// first, as for tf2, but of /tf_static the last.
+  /// @param paths of bags. If two transforms have the same stamp, the one of the later bag is used. Within
+  /// one bag it is the first, as in tf2; for /tf_static it is the last.
   /// @throw std::exception with the path if a bag cannot be read.
   explicit BagTransforms(const std::vector<std::string>& paths);
 
-  /// T_target_source at a stamp. @throw tf2::TransformException if the bags do not tell it: frames that are
-  /// not connected, a stamp before the first or after the last of /tf, or in a gap of more than half a second
-  /// in which a frame between the two has moved or got another parent.
+  /// T_target_source at a stamp.
+  /// @throw tf2::TransformException if the frames are not connected, if the stamp is before the first or
+  /// after the last transform, or if it is in a gap of more than half a second in which a frame has moved or
+  /// has got another parent.
   Eigen::Isometry3d at(const std::string& target_frame, const std::string& source_frame,
                        const ros::Time& stamp) const;
 
-  /// A sentence for each frame of which transforms were left out.
+  /// One sentence for each frame with transforms that were left out.
   std::vector<std::string> warnings() const;
-  /// Only for frames that may be between the two: either, and what they ever hung on.
+  /// The same, only for the two frames and all their ancestors.
   std::vector<std::string> warnings(const std::string& target, const std::string& source) const;
 
  private:
@@ -43,15 +44,15 @@ class BagTransforms {
   struct Refusal {
     std::string frame, sentence;
   };
-  using Samples = std::vector<Sample>;  ///< of one frame, in the order of their stamps
+  using Samples = std::vector<Sample>;  ///< of one frame, sorted by stamp
 
   void addBag(const std::string& path);
   void add(const geometry_msgs::TransformStamped& transform);
   std::size_t indexOf(const std::string& name);
   std::string parentOf(const std::string& frame, const ros::Time& stamp) const;
   void addAbove(const std::string& frame, std::set<std::string>* frames) const;
-  std::vector<std::string> wayUp(std::string frame, const ros::Time& stamp) const;
-  void tell(const std::string& frame, const ros::Time& stamp, tf2::BufferCore* buffer) const;
+  std::vector<std::string> ancestors(std::string frame, const ros::Time& stamp) const;
+  void addSamples(const std::string& frame, const ros::Time& stamp, tf2::BufferCore* buffer) const;
 
   std::vector<std::string> names_;                                ///< of parents
   std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< /tf_static by child

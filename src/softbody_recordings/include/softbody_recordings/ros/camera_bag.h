@@ -11,8 +11,8 @@
 
 namespace softbody {
 
-/// Writes a camera's topics into a bag (lz4, record time = header stamp). The file appears under its name
-/// when finish() is called; without that, nothing is left behind and an earlier file stays as it was.
+/// Writes a camera's topics into a bag (lz4, record time = header stamp). The file appears when finish() is
+/// called; until then an earlier file stays unchanged.
 class CameraBag {
  public:
   /// @param info without header. @throw rosbag::BagException if the file cannot be written.

@@ -10,14 +10,14 @@
 
 namespace softbody {
 
-/// Recorded cuts, to be made again at the same instants.
+/// Recorded cuts, to be repeated at the same stamps.
 class CutJournal {
  public:
   CutJournal() = default;
-  /// @throw std::invalid_argument if the bag has no such topic, or a cut is malformed.
+  /// @throw std::invalid_argument if the topic is missing, or a cut is malformed.
   CutJournal(const rosbag::Bag& bag, const std::string& topic);
 
-  /// The cuts up to an instant that have not been taken yet.
+  /// Removes and returns the cuts up to a stamp.
   std::vector<Cut> takeUntil(Nanoseconds stamp);
   std::size_t size() const { return entries_.size(); }
 

@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// Parameters of every node, from one file with a section a node, as launch files take it.
+/// The parameters of all nodes, from one file with a section for each node, as for the launch files.
 struct GraphConfig {
   PairingConfig pairing;
   CameraIngestConfig ingest;
@@ -16,10 +16,10 @@ struct GraphConfig {
   std::string output_frame;  ///< empty: the colour optical frame
 };
 
-/// What a replay uses of the nodes' parameters. What concerns only a live graph is known and unused.
-/// @param path of a YAML file; empty: every parameter has its default.
-/// @param warnings to which the keys are added that no node knows, and those that a replay misses.
-/// @throw std::invalid_argument if the file cannot be read, has a section that is no node's, or a value that
+/// Reads the parameters that a replay uses. Ignores parameters that concern only the live graph.
+/// @param path of a YAML file; if empty, all parameters have their defaults.
+/// @param warnings gets unknown keys, and keys that change the live graph but not a replay.
+/// @throw std::invalid_argument if the file cannot be read, a section is not the name of a node, or a value
 /// is not allowed.
 GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings);
 

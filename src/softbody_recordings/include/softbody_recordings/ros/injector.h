@@ -11,21 +11,20 @@ namespace softbody::injection {
 struct InjectorOptions {
   std::string input, output;  ///< bags
   std::string camera = "/camera";
-  bool in_color = true, in_depth = true;  ///< which stream's deliveries go wrong
+  bool in_color = true, in_depth = true;  ///< the streams with delivery faults
   DeliveryFaults deliveries;
   ImageFaults images;
 };
 
-/// What was written.
+/// Numbers of messages.
 struct InjectionReport {
   std::size_t color_read = 0, color_written = 0, depth_read = 0, depth_written = 0, copied = 0;
 };
 
-/// Writes the input with faults in the camera's colour and depth images; every other message is copied as it
-/// is. The same options give the same bytes. The output appears under its name when it is complete.
-/// @param progress is told the share that has been written (0..1).
-/// @throw std::invalid_argument if images are missing or have encodings that cannot be changed;
-/// rosbag::BagException.
+/// Copies a bag and adds faults to the camera's colour and depth images. All other messages stay unchanged.
+/// The same options give the same bytes. The output file appears when it is complete.
+/// @param progress called with the written share, 0..1.
+/// @throw std::invalid_argument if images are missing or have an unsupported encoding; rosbag::BagException.
 InjectionReport inject(const InjectorOptions& options, const std::function<void(double)>& progress);
 
 }  // namespace softbody::injection

@@ -18,9 +18,8 @@ namespace softbody::injection {
 
 class LiveStream;
 
-/// The injector between a live camera and the graph: camera/... in, camera_faulty/... out, with the same
-/// faults for the same seed as in a bag. Parameters: seed, stream, and those of faultOptions with their unit,
-/// as delay_by_s.
+/// Adds faults to a live camera: reads camera/..., publishes camera_faulty/.... The same seed gives the same
+/// faults as in a bag. Parameters: seed, stream, and those of faultOptions with their unit, e.g. delay_by_s.
 class InjectorNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
@@ -33,7 +32,7 @@ class InjectorNode {
 
   DeliveryFaults deliveries_;
   ImageFaults images_;
-  bool in_color_ = true, in_depth_ = true;  ///< which stream's deliveries go wrong
+  bool in_color_ = true, in_depth_ = true;  ///< the streams with delivery faults
   std::unique_ptr<LiveStream> color_, depth_;
   ros::Publisher color_info_, depth_info_;
   ros::Subscriber color_info_subscriber_, depth_info_subscriber_;

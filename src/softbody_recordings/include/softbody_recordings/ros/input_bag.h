@@ -6,7 +6,7 @@
 
 namespace softbody {
 
-/// A bag to read from. @throw std::invalid_argument with its name if it is no readable bag.
+/// Opens a bag for reading. @throw std::invalid_argument with the path if it is not a readable bag.
 rosbag::Bag openBag(const std::string& path);
 
 }  // namespace softbody

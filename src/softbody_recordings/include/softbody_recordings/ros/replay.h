@@ -14,26 +14,26 @@ struct ReplayOptions {
   std::string parameters, tool, journal;      ///< YAML, tool YAML, bag with cuts; empty: none
   std::string camera = "/camera";             ///< namespace of the camera's topics
   std::string topic_namespace = "/softbody";  ///< of the output topics
-  std::string output_frame;                   ///< of targets and states; empty: what the parameters say
-  std::string simd;                           ///< of the simulator; empty: what the parameters say
-  bool timing = false;                        ///< write wall-clock stage times too
+  std::string output_frame;                   ///< of targets and states; empty: from the parameters
+  std::string simd;                           ///< of the simulator; empty: from the parameters
+  bool timing = false;                        ///< also write wall-clock times of the stages
 };
 
-/// What came of a replay.
+/// The outcome of a replay.
 struct ReplaySummary {
   BagFramesReport read;
-  int states = 0, tools = 0, cuts = 0;  ///< frames with a surface, with the tool; edits made
-  int skipped = 0;                      ///< frames of which tf does not tell where the camera is
+  int states = 0, tools = 0, cuts = 0;  ///< frames with a surface; frames with the tool; cuts made
+  int skipped = 0;                      ///< frames without a camera pose in tf
   std::string tool_missed;              ///< ToolDropoutMonitor::missedFrames()
   std::size_t pieces = 1;               ///< at the end
   std::map<TrackingState, int> frames_by_state;
-  std::map<TrackingState, std::string> reasons;  ///< the last one of each state
+  std::map<TrackingState, std::string> reasons;  ///< the last reason of each state
   double milliseconds = 0.0;                     ///< of all frames
 };
 
-/// Runs the graph's cores over a bag, every frame in order. An earlier output stays as it was if it throws.
-/// @param warn called with sentences. @param progress called with the share that is done (0..1).
-/// @throw std::exception with a sentence if a file cannot be used, or no frame gave a surface.
+/// Runs the graph's cores over a bag, every frame in order. If it throws, an earlier output stays unchanged.
+/// @param warn called with warnings. @param progress called with the done share, 0..1.
+/// @throw std::exception if a file cannot be used, or no frame gave a surface.
 ReplaySummary replay(const ReplayOptions& options, const std::function<void(const std::string&)>& warn,
                      const std::function<void(double)>& progress);
 

@@ -10,27 +10,28 @@
 
 namespace softbody {
 
-/// Writes what the graph would publish into a bag (lz4, record time = header stamp, so that the same input
-/// gives the same bytes). The file appears under its name when finish() is called; without that an earlier
-/// file stays as it was.
+/// Writes the messages of the graph into a bag (lz4). The record time is the header stamp, so the same input
+/// gives the same bytes. The file appears when finish() is called; until then an earlier file stays
+/// unchanged.
 class ResultBag {
  public:
-  /// @param topic_namespace of the output topics, e.g. "/softbody". @param with_timing wall-clock rows too.
+  /// @param topic_namespace of the output topics, e.g. "/softbody". @param with_timing also write stage
+  /// times.
   /// @throw rosbag::BagException if the file cannot be written.
   ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
             bool with_timing);
 
-  /// Both topologies, latched; to be written before the first state of a revision and again every second.
-  /// Their stamp stays that of the revision's first.
+  /// Writes both topologies, latched. Call it before the first state of a revision, and again every second.
+  /// Their stamp stays that of the revision's first frame.
   void writeTopologies(const Pipeline& pipeline, const ros::Time& stamp);
-  /// @param frame_id of targets and states; empty, as before this call: the images'.
+  /// @param frame_id of targets and states; empty (default): the frame of the images.
   void setOutputFrame(std::string frame_id) { output_frame_ = std::move(frame_id); }
-  /// @param blade of the tool that is tracked, in its frame.
+  /// @param blade of the tracked tool, in the tool's frame [m].
   void setBlade(Points blade) { blade_ = std::move(blade); }
-  /// What there is of a frame in which the body is not tracked. @param header of the colour image, as below.
+  /// The output of a frame without a tracked body. @param header of the colour image, as below.
   void writeStatus(const TrackingStatus& status, const std_msgs::Header& header);
   void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
-  /// One frame.
+  /// All outputs of one frame.
   void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
   void finish() { bag_.finish(); }
 

@@ -12,14 +12,14 @@
 
 namespace softbody::validation {
 
-/// What one topic holds.
+/// The contents of one topic.
 struct StreamFacts {
-  std::string topic, type;                    ///< type empty: the topic is not there
+  std::string topic, type;                    ///< the type is empty if the topic is missing
   std::vector<Nanoseconds> stamps, received;  ///< header stamps and record times, in the bag's order
   std::set<std::string> frame_ids;
   std::map<std::string, std::size_t> encodings;      ///< images by encoding
   std::map<std::pair<int, int>, std::size_t> sizes;  ///< images by (width, height) [px]
-  std::size_t malformed = 0;                         ///< images whose bytes do not fit their size
+  std::size_t malformed = 0;                         ///< images with a wrong number of bytes
 
   bool present() const { return !type.empty(); }
 };
@@ -34,17 +34,17 @@ struct CameraFacts {
 
 bool operator==(const CameraFacts& a, const CameraFacts& b);
 
-/// Of some depth images, evenly spread, in the encoding's own unit.
+/// Statistics of depth images at equal intervals, in the unit of the encoding.
 struct DepthFacts {
   std::size_t images = 0;
   double valid_share = 0.0;  ///< of the pixels, 0..1
   double median = 0.0;       ///< of the valid pixels: millimetres if 16UC1, metres if 32FC1
 };
 
-/// What a bag holds of the camera's topics.
+/// The contents of a recording's camera topics.
 struct RecordingFacts {
   std::string path;
-  std::map<std::string, std::string> topics;  ///< all of the bag's, with their types
+  std::map<std::string, std::string> topics;  ///< all topics of the bag, with their types
   StreamFacts color, color_info, depth, depth_info;
   std::vector<CameraFacts> color_cameras, depth_cameras;  ///< different ones, in order of appearance
   DepthFacts depth_values;

@@ -62,7 +62,7 @@ double depthUnitsPerMetre(const YAML::Node& depth, const fs::path& file) {
   fail("{}: depth.unit is '{}'; allowed: mm, m", file.string(), unit);
 }
 
-/// The last run of digits in a file's name: "frame-000012.color.png" is number 12.
+/// The last run of digits in a file's name: the number of "frame-000012.color.png" is 12.
 long fileNumber(const fs::path& file) {
   const std::string name = file.stem().string();
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
@@ -72,7 +72,7 @@ long fileNumber(const fs::path& file) {
   const bool timestamp = first != name.rend() && *first == '.' && std::next(first) != name.rend() &&
                          is_digit(static_cast<unsigned char>(*std::next(first)));
   if (digits.empty() || digits.size() > 9 || timestamp)
-    fail("{}: the file's name must hold its frame number, not a time or nothing", file.string());
+    fail("{}: the file's name must contain its frame number", file.string());
   return std::stol(digits);
 }
 
@@ -89,8 +89,8 @@ std::string gapWarning(const fs::path& directory, const std::map<long, fs::path>
   const long span = numbered.rbegin()->first - numbered.begin()->first + 1;
   const long missing = span - static_cast<long>(numbered.size());
   return missing == 0 ? ""
-                      : fmt::format("{}: {} of {} numbers are missing: dropped frames", directory.string(),
-                                    missing, span);
+                      : fmt::format("{}: {} of {} numbers are missing; they count as dropped frames",
+                                    directory.string(), missing, span);
 }
 
 std::vector<ImageFile> numberedFiles(const fs::path& directory, double rate_hz,
@@ -104,7 +104,7 @@ std::vector<ImageFile> numberedFiles(const fs::path& directory, double rate_hz,
     const auto [other, inserted] = numbered.emplace(fileNumber(entry.path()), entry.path());
     if (!inserted) fail("{} and {} have the same number", other->second.string(), entry.path().string());
   }
-  if (numbered.empty()) fail("{}: there is no image in it", directory.string());
+  if (numbered.empty()) fail("{}: the folder has no image", directory.string());
   if (const std::string gap = gapWarning(directory, numbered); !gap.empty()) warnings->push_back(gap);
   std::vector<ImageFile> files;
   files.reserve(numbered.size());

@@ -5,31 +5,25 @@
 #include <numeric>
 #include <utility>
 
+#include "softbody_common/random.h"
+
 namespace softbody::injection {
 namespace {
 
 enum Purpose : std::uint64_t { kDrop = 1, kDuplicate, kReorder, kDelay, kStamp };
 
-/// SplitMix64 (Steele et al. 2014): the same numbers on every machine.
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
 constexpr std::size_t kRun = 20;
 constexpr Nanoseconds kJustAfter = 1000;
 
-/// Whether a thing of an endless stream is chosen: of every run of 20 as many as the share asks for, so that
-/// at the end of a run the whole stream has its share.
+/// Whether a thing of an endless stream is chosen. At the end of every run of 20, the share of the chosen
+/// things is right.
 bool chosenOf(std::size_t thing, double share, std::uint64_t seed, Purpose purpose) {
   const std::size_t run = thing / kRun;
   const auto until = [share](std::size_t runs) {
     return std::llround(share * static_cast<double>(kRun * runs));
   };
   const double wanted = static_cast<double>(until(run + 1) - until(run)) / kRun;
-  return choose(kRun, wanted, mix(seed) ^ run, purpose)[thing % kRun];
+  return choose(kRun, wanted, hash(seed) ^ run, purpose)[thing % kRun];
 }
 
 Nanoseconds nanoseconds(double seconds) { return static_cast<Nanoseconds>(std::llround(1e9 * seconds)); }
@@ -38,7 +32,7 @@ Nanoseconds nanoseconds(double seconds) { return static_cast<Nanoseconds>(std::l
 
 std::vector<bool> choose(std::size_t count, double share, std::uint64_t seed, std::uint64_t purpose) {
   std::vector<std::pair<std::uint64_t, std::size_t>> ranks(count);
-  for (std::size_t i = 0; i < count; ++i) ranks[i] = {mix(mix(mix(seed) ^ purpose) ^ i), i};
+  for (std::size_t i = 0; i < count; ++i) ranks[i] = {hash(hash(seed, purpose), i), i};
   std::sort(ranks.begin(), ranks.end());
   const auto wanted = static_cast<std::size_t>(std::llround(share * static_cast<double>(count)));
   std::vector<bool> chosen(count, false);
@@ -46,29 +40,31 @@ std::vector<bool> choose(std::size_t count, double share, std::uint64_t seed, st
   return chosen;
 }
 
-Fate fateOf(std::size_t image, const DeliveryFaults& faults) {
+ImageDelivery deliveryOf(std::size_t image, const DeliveryFaults& faults) {
   const auto chosen = [&](double share, Purpose purpose) {
     return chosenOf(image, share, faults.seed, purpose);
   };
-  Fate fate;
-  fate.copies = chosen(faults.drop_share, kDrop) ? 0 : (chosen(faults.duplicate_share, kDuplicate) ? 2 : 1);
-  // Of pairs of images the first may fall behind the second: twice the share of the pairs.
-  fate.after_next = image % 2 == 0 && chosenOf(image / 2, 2.0 * faults.reorder_share, faults.seed, kReorder);
-  if (chosen(faults.delay_share, kDelay)) fate.delay = nanoseconds(faults.delay_s);
-  if (chosen(faults.stamp_share, kStamp)) fate.stamp_shift = nanoseconds(faults.stamp_s);
-  return fate;
+  ImageDelivery delivery;
+  delivery.copies =
+      chosen(faults.drop_share, kDrop) ? 0 : (chosen(faults.duplicate_share, kDuplicate) ? 2 : 1);
+  // Only the first image of a pair can be reordered, so twice the share of the pairs is.
+  delivery.after_next =
+      image % 2 == 0 && chosenOf(image / 2, 2.0 * faults.reorder_share, faults.seed, kReorder);
+  if (chosen(faults.delay_share, kDelay)) delivery.delay = nanoseconds(faults.delay_s);
+  if (chosen(faults.stamp_share, kStamp)) delivery.stamp_shift = nanoseconds(faults.stamp_s);
+  return delivery;
 }
 
-std::vector<Delivery> planDeliveries(const std::vector<Nanoseconds>& received, const DeliveryFaults& faults) {
-  std::vector<Delivery> deliveries;
+std::vector<Arrival> planArrivals(const std::vector<Nanoseconds>& received, const DeliveryFaults& faults) {
+  std::vector<Arrival> arrivals;
   for (std::size_t i = 0; i < received.size(); ++i) {
-    const Fate fate = fateOf(i, faults);
-    const bool overtaken = fate.after_next && i + 1 < received.size();
+    const ImageDelivery delivery = deliveryOf(i, faults);
+    const bool overtaken = delivery.after_next && i + 1 < received.size();
     const Nanoseconds time = overtaken ? received[i + 1] + kJustAfter : received[i];
-    deliveries.insert(deliveries.end(), static_cast<std::size_t>(fate.copies),
-                      {i, time + fate.delay, fate.stamp_shift});
+    arrivals.insert(arrivals.end(), static_cast<std::size_t>(delivery.copies),
+                    {i, time + delivery.delay, delivery.stamp_shift});
   }
-  return deliveries;
+  return arrivals;
 }
 
 }  // namespace softbody::injection

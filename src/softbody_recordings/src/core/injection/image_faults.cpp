@@ -6,14 +6,15 @@
 #include <stdexcept>
 #include <vector>
 
+#include "softbody_common/random.h"
 #include "softbody_recordings/injection/deliveries.h"
 
 namespace softbody::injection {
 namespace {
 
 constexpr int kHoleBlock = 8, kMisplacedBlock = 24;  // [px]
-constexpr double kNearest = 4.0, kFarthest = 12.0;   // [px] that a block is misplaced by
-// Plus the frame's number:
+constexpr double kNearest = 4.0, kFarthest = 12.0;   // displacement of a block [px]
+// The frame's number is added to these.
 constexpr std::uint64_t kHolePurpose = 100, kMisplacedPurpose = 1ull << 40, kOffsetPurpose = 2ull << 40;
 const cv::Vec3b kSkinRgb(224, 172, 138);
 
@@ -39,16 +40,13 @@ std::vector<cv::Rect> chosenBlocks(const cv::Size& image, int side, double share
   return blocks;
 }
 
-/// 0..1, the same on every machine.
-double uniform(std::mt19937_64* random) { return static_cast<double>((*random)() >> 11) * 0x1.0p-53; }
-
 cv::Point randomOffset(std::mt19937_64* random) {
-  const double length = kNearest + (kFarthest - kNearest) * uniform(random),
-               angle = 2.0 * CV_PI * uniform(random);
+  const double length = kNearest + (kFarthest - kNearest) * unit((*random)()),
+               angle = 2.0 * CV_PI * unit((*random)());
   return {cvRound(length * std::cos(angle)), cvRound(length * std::sin(angle))};
 }
 
-/// The block, moved into the image.
+/// The block, shifted into the image.
 cv::Rect inside(cv::Rect block, const cv::Size& image) {
   block.x = std::clamp(block.x, 0, image.width - block.width);
   block.y = std::clamp(block.y, 0, image.height - block.height);

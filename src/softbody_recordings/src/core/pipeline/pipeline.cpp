@@ -64,11 +64,11 @@ void Pipeline::makeWaitingCuts(FrameOutput* output) {
       reason = error.what();
     }
     output->warnings.push_back(
-        fmt::format("the given cut of revision {} is not made: {}", given.revision, reason));
+        fmt::format("the cut of revision {} from the journal was not made: {}", given.revision, reason));
   }
 }
 
-/// Where a blade is only predicted it does not cut; it goes on from its last cut once it is seen again.
+/// A predicted blade does not cut. When it is seen again, it continues from its last cut.
 std::optional<Points> Pipeline::seenBlade(const RgbdFrame& frame, const FrameOutput& output) const {
   if (!output.tool || output.tool->bridged || tool_tracker_->tool().blade.rows() == 0) return std::nullopt;
   return transformed(tool_tracker_->tool().blade, frame.T_fixed_camera * output.tool->T_camera_tool);

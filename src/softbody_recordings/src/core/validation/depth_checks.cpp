@@ -18,8 +18,8 @@ Findings checkDepth(const RecordingFacts& facts, const CheckLimits& limits) {
     return {
         {Severity::kError, "depth", facts.depth.topic,
          fmt::format(
-             "is zero everywhere in {} images looked at; cover nothing, and stay beyond the camera's least "
-             "distance",
+             "is zero everywhere in {} sampled images; uncover the camera, and keep the object beyond its "
+             "smallest distance",
              depth.images)}};
   }
   Findings findings;
@@ -29,21 +29,21 @@ Findings checkDepth(const RecordingFacts& facts, const CheckLimits& limits) {
     findings.push_back(
         {Severity::kError, "depth scale", facts.depth.topic,
          fmt::format(
-             "has a median depth of {:.4g} as {}, that is {:.4g} m; {} must be in {}: scale the images",
+             "has a median depth of {:.4g} as {}, that is {:.4g} m; {} must be in {}; scale the images",
              depth.median, millimetres ? "16UC1" : "32FC1", metres, millimetres ? "16UC1" : "32FC1",
              millimetres ? "millimetres" : "metres")});
   } else if (metres > limits.usual_farthest_m) {
     findings.push_back(
         {Severity::kWarning, "depth scale", facts.depth.topic,
-         fmt::format("has a median depth of {:.2f} m; if the scene is nearer, the unit is not the {} that "
-                     "its encoding says",
+         fmt::format("has a median depth of {:.2f} m; if the scene is nearer, the unit is not the {} of "
+                     "the encoding",
                      metres, millimetres ? "millimetre" : "metre")});
   }
   if (depth.valid_share < limits.smallest_valid_share) {
     findings.push_back(
         {Severity::kWarning, "depth", facts.depth.topic,
          fmt::format("has a depth at only {:.0f} % of the pixels; light the scene, switch on the emitter, or "
-                     "move to 0.3-1 m",
+                     "move the camera to 0.3-1 m",
                      100.0 * depth.valid_share)});
   }
   return findings;

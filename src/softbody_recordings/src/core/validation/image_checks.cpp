@@ -8,7 +8,7 @@
 namespace softbody::validation {
 namespace {
 
-// What cv_bridge converts to bgr8.
+// The encodings that cv_bridge converts to bgr8.
 const std::set<std::string> kColorEncodings{"rgb8",        "bgr8",       "rgba8",       "bgra8",
                                             "mono8",       "yuv422",     "bayer_rggb8", "bayer_bggr8",
                                             "bayer_gbrg8", "bayer_grbg8"};
@@ -34,14 +34,15 @@ void checkSizes(const StreamFacts& stream, Findings* findings) {
     for (const auto& [size, count] : stream.sizes)
       sizes.push_back(fmt::format("{} of {}", count, sizeText(size)));
     findings->push_back({Severity::kError, "sizes", stream.topic,
-                         fmt::format("changes its size: {}; split the bag, or record with one resolution",
+                         fmt::format("changes its size: {}; split the bag, or record at one resolution",
                                      fmt::join(sizes, ", "))});
   }
   if (stream.malformed > 0) {
-    findings->push_back({Severity::kError, "sizes", stream.topic,
-                         fmt::format("has {} images whose bytes do not fit their size and encoding; the "
-                                     "driver or the conversion wrote them wrong",
-                                     stream.malformed)});
+    findings->push_back(
+        {Severity::kError, "sizes", stream.topic,
+         fmt::format("has {} images with a wrong number of bytes for their size and encoding; "
+                     "check the driver or the conversion",
+                     stream.malformed)});
   }
 }
 
@@ -72,11 +73,10 @@ void checkRegistration(const RecordingFacts& facts, Findings* findings) {
          fmt::format("has fx {:.1f} cx {:.1f} cy {:.1f}, {} has fx {:.1f} cx {:.1f} cy {:.1f}; {}", b.fx,
                      b.cx, b.cy, facts.color_info.topic, a.fx, a.cx, a.cy, remedy)});
   } else if (!color.frame_ids.empty() && !depth.frame_ids.empty() && color.frame_ids != depth.frame_ids) {
-    findings->push_back(
-        {Severity::kWarning, "frames", depth.topic,
-         fmt::format("is in frame '{}', {} in '{}'; if it is registered to colour, it should say "
-                     "colour's frame",
-                     *depth.frame_ids.begin(), color.topic, *color.frame_ids.begin())});
+    findings->push_back({Severity::kWarning, "frames", depth.topic,
+                         fmt::format("is in frame '{}', {} is in '{}'; if depth is registered to colour, use "
+                                     "the frame of colour",
+                                     *depth.frame_ids.begin(), color.topic, *color.frame_ids.begin())});
   }
 }
 
@@ -84,11 +84,11 @@ void checkFrameIds(const StreamFacts& stream, Findings* findings) {
   if (stream.frame_ids.count("") != 0) {
     findings->push_back(
         {Severity::kWarning, "frames", stream.topic,
-         "has an empty frame_id; the results have no frame then: set the driver's optical frame"});
+         "has an empty frame_id, so the results have no frame; set the optical frame in the driver"});
   } else if (stream.frame_ids.size() > 1) {
-    findings->push_back(
-        {Severity::kWarning, "frames", stream.topic,
-         fmt::format("changes its frame_id: {}; one camera a namespace", fmt::join(stream.frame_ids, ", "))});
+    findings->push_back({Severity::kWarning, "frames", stream.topic,
+                         fmt::format("changes its frame_id: {}; use one namespace for each camera",
+                                     fmt::join(stream.frame_ids, ", "))});
   }
 }
 

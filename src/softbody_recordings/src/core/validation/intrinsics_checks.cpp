@@ -20,30 +20,30 @@ void checkNumbers(const std::string& topic, const CameraFacts& camera, Findings*
   for (const double d : camera.distortion) finite = finite && std::isfinite(d);
   if (!finite || !(camera.fx > 0.0) || !(camera.fy > 0.0)) {
     add(Severity::kError,
-        fmt::format("has fx {} and fy {}; the camera is not calibrated: fill in K (camera_calibration)",
+        fmt::format("has fx {} and fy {}; the camera is not calibrated; set K (camera_calibration)",
                     camera.fx, camera.fy));
     return;
   }
   const double view = 2.0 * std::atan(0.5 * camera.width / camera.fx) * 180.0 / M_PI;
   if (view < 20.0 || view > 120.0) {
     add(Severity::kWarning,
-        fmt::format("sees {:.0f} degrees (fx {:.1f} at {} pixels); is K of another resolution?", view,
+        fmt::format("sees {:.0f} degrees (fx {:.1f} at {} pixels); check that K is of this resolution", view,
                     camera.fx, camera.width));
   }
   if (std::abs(camera.fx / camera.fy - 1.0) > 0.1)
     add(Severity::kWarning,
-        fmt::format("has fx {:.1f} but fy {:.1f}; pixels are square as a rule: calibrate again", camera.fx,
+        fmt::format("has fx {:.1f} but fy {:.1f}; pixels are usually square; calibrate again", camera.fx,
                     camera.fy));
   const double off_x = std::abs(camera.cx / camera.width - 0.5),
                off_y = std::abs(camera.cy / camera.height - 0.5);
   if (off_x > 0.2 || off_y > 0.2) {
     add(Severity::kWarning,
-        fmt::format("has its centre at ({:.1f}, {:.1f}) of {}x{} pixels; is K of another resolution?",
+        fmt::format("has its centre at ({:.1f}, {:.1f}) of {}x{} pixels; check that K is of this resolution",
                     camera.cx, camera.cy, camera.width, camera.height));
   }
   if (kDistortionModels.count(camera.distortion_model) == 0) {
     add(Severity::kError,
-        fmt::format("has distortion model '{}'; known are plumb_bob, rational_polynomial and equidistant: "
+        fmt::format("has distortion model '{}'; allowed: plumb_bob, rational_polynomial, equidistant; "
                     "rectify the images first",
                     camera.distortion_model));
   }
@@ -54,8 +54,9 @@ void checkCamera(const StreamFacts& info, const StreamFacts& images, const std::
   if (cameras.empty()) return;
   const CameraFacts& camera = cameras.front();
   if (cameras.size() > 1) {
-    findings->push_back({Severity::kWarning, "intrinsics", info.topic,
-                         fmt::format("changes {} times; one calibration a recording", cameras.size() - 1)});
+    findings->push_back(
+        {Severity::kWarning, "intrinsics", info.topic,
+         fmt::format("changes {} times; use one calibration for a recording", cameras.size() - 1)});
   }
   const bool one_size = images.sizes.size() == 1;
   const auto [width, height] =
@@ -65,7 +66,7 @@ void checkCamera(const StreamFacts& info, const StreamFacts& images, const std::
   } else {
     findings->push_back(
         {Severity::kError, "intrinsics", info.topic,
-         fmt::format("is for {}x{} pixels, {} has {}x{}; send the calibration of this resolution",
+         fmt::format("is for {}x{} pixels, but {} has {}x{}; record the calibration of this resolution",
                      camera.width, camera.height, images.topic, width, height)});
   }
 }

@@ -10,8 +10,8 @@
 namespace softbody::validation {
 namespace {
 
-constexpr double kGapInIntervals = 2.5;    // two frames missing, or jitter that looks like it
-constexpr double kRateTolerance = 1e-3;    // stamps are rounded
+constexpr double kGapInIntervals = 2.5;    // two missing frames, or strong jitter
+constexpr double kRateTolerance = 1e-3;    // because stamps are rounded
 constexpr double kClockTolerance_s = 1.0;  // between header stamp and record time
 
 double seconds(Nanoseconds time) { return 1e-9 * static_cast<double>(time); }
@@ -40,9 +40,8 @@ void checkOrder(const StreamFacts& stream, Findings* findings) {
   if (back > 0) {
     findings->push_back(
         {Severity::kWarning, "stamps", stream.topic,
-         fmt::format("goes back in time {} times, first by {:.3f} s at message {}: by less than a second, "
-                     "replay puts "
-                     "the image in its place and the live graph drops it; by more, tracking starts anew",
+         fmt::format("goes back in time {} times, first by {:.3f} s at message {}; after a jump of a second "
+                     "or more, tracking starts again",
                      back, seconds(stream.stamps[where - 1] - stream.stamps[where]), where)});
   }
   if (repeated > 0) {
@@ -62,8 +61,8 @@ void checkClock(const StreamFacts& stream, Findings* findings) {
   findings->push_back(
       {Severity::kWarning, "clock", stream.topic,
        fmt::format(
-           "was recorded {:.3f} s {} its stamps; transforms and latencies will be off: synchronise the "
-           "clocks, or record with use_sim_time as it was played",
+           "was recorded {:.3f} s {} its stamps, so transforms and latencies will be wrong; synchronise the "
+           "clocks, or set use_sim_time when you record a played bag",
            std::abs(delay), delay > 0.0 ? "after" : "before")});
 }
 
@@ -84,7 +83,7 @@ void checkRate(const StreamFacts& stream, const CheckLimits& limits, Findings* f
   if (rate < (1.0 - kRateTolerance) * limits.slowest_rate_hz) {
     findings->push_back(
         {Severity::kWarning, "rates", stream.topic,
-         fmt::format("comes at {:.1f} Hz; below {:.0f} Hz fast motion is lost: record at 30 Hz", rate,
+         fmt::format("comes at {:.1f} Hz; below {:.0f} Hz fast motion is lost; record at 30 Hz", rate,
                      limits.slowest_rate_hz)});
   }
   std::size_t gaps = 0, longest = 0;
@@ -98,7 +97,7 @@ void checkRate(const StreamFacts& stream, const CheckLimits& limits, Findings* f
   findings->push_back(
       {Severity::kWarning, "gaps", stream.topic,
        fmt::format("has {} gaps at {:.1f} Hz, the longest of {:.3f} s at {:.2f} s; the disk or the "
-                   "network was too slow: record lz4, or fewer topics",
+                   "network was too slow; record with lz4, or fewer topics",
                    gaps, rate, seconds(steps[longest]), seconds(before))});
 }
 
@@ -142,10 +141,9 @@ Findings checkSync(const RecordingFacts& facts, const CheckLimits& limits) {
   const Severity severity = share < 0.5 ? Severity::kError : Severity::kWarning;
   return {
       {severity, "sync", facts.depth.topic,
-       fmt::format(
-           "has an image within {:.0f} ms of only {:.0f} % of the colour images, {:+.1f} ms in the median; "
-           "switch on the driver's synchronisation (enable_sync), or raise sync_tolerance_s",
-           1e3 * limits.sync_tolerance_s, 100.0 * share, 1e3 * seconds(median(offsets)))}};
+       fmt::format("has an image within {:.0f} ms of only {:.0f} % of the colour images (median {:+.1f} ms); "
+                   "switch on the driver's synchronisation (enable_sync), or increase sync_tolerance_s",
+                   1e3 * limits.sync_tolerance_s, 100.0 * share, 1e3 * seconds(median(offsets)))}};
 }
 
 }  // namespace softbody::validation

@@ -16,23 +16,23 @@ std::vector<std::string> topicsOfType(const RecordingFacts& facts, const std::st
   return names;
 }
 
-/// What the user can do where `topic` is missing.
+/// What the user can do about a missing topic.
 std::string remedy(const RecordingFacts& facts, const std::string& topic, const std::string& type) {
   if (facts.topics.count(topic + "/compressed") != 0) {
     return fmt::format(
-        "there is {0}/compressed, which is not read: decompress it to {0} with image_transport's "
+        "there is {0}/compressed, which is not read; decompress it to {0} with image_transport's "
         "republish, or record raw images",
         topic);
   }
   const std::vector<std::string> candidates = topicsOfType(facts, type);
   if (!candidates.empty()) {
     return fmt::format(
-        "of that type the bag has {}; name the camera's namespace (camera:=, --camera) or remap",
+        "of that type the bag has {}; give the camera's namespace (camera:=, --camera) or remap the topics",
         fmt::join(candidates, ", "));
   }
   const std::vector<std::string> compressed = topicsOfType(facts, kCompressed);
   if (type == kImage && !compressed.empty()) {
-    return fmt::format("the bag has compressed images only ({}), which are not read: record raw images",
+    return fmt::format("the bag has only compressed images ({}), which are not read; record raw images",
                        fmt::join(compressed, ", "));
   }
   return "record it";
@@ -58,7 +58,7 @@ Findings checkTopics(const RecordingFacts& facts) {
   checkTopic(facts, facts.color, kImage, Severity::kError, &findings);
   checkTopic(facts, facts.color_info, kInfo, Severity::kError, &findings);
   checkTopic(facts, facts.depth, kImage, Severity::kError, &findings);
-  // The tracker takes colour's; evaluate and the checks of registration need depth's.
+  // The tracker uses the CameraInfo of colour. The check of registration needs that of depth.
   checkTopic(facts, facts.depth_info, kInfo, Severity::kWarning, &findings);
   return findings;
 }

@@ -17,12 +17,12 @@ namespace softbody {
 namespace {
 
 constexpr double kWholeBag_s = 1e6;
-constexpr double kLongestGap_s =
-    0.5;  // an arm that speeds up leaves a straight way of so long by centimetres
+// In this time an accelerating arm leaves the straight line between two samples by centimetres.
+constexpr double kLongestGap_s = 0.5;
 constexpr double kUnitTolerance = 1e-2;  // tf2's own, of the squared length
 constexpr double kMoved_m = 1e-4, kTurned_rad = 1e-4;
 
-/// What tf2 refuses, and infinity: told to it, one sample would hide what its neighbours tell.
+/// Whether tf2 refuses the transform, or a value is infinite. One such sample would spoil its neighbours.
 bool isUnusable(const geometry_msgs::TransformStamped& transform) {
   const std::string parent = withoutSlash(transform.header.frame_id),
                     child = withoutSlash(transform.child_frame_id);
@@ -48,7 +48,7 @@ auto firstFrom(const Samples& samples, const ros::Time& stamp) {
 }  // namespace
 
 BagTransforms::BagTransforms(const std::vector<std::string>& paths) {
-  // The last bag first: of one stamp the first transform that came stays, as for tf2.
+  // The last bag first, because tf2 keeps the first transform of a stamp.
   for (auto path = paths.rbegin(); path != paths.rend(); ++path) addBag(*path);
   for (auto& [child, samples] : moving_) {
     std::stable_sort(samples.begin(), samples.end(),
@@ -77,7 +77,7 @@ void BagTransforms::addBag(const std::string& path) {
       }
     }
   }
-  fixed_.merge(fixed);  // those of the bags before, which are later ones, stay
+  fixed_.merge(fixed);  // keeps the transforms of later bags, which were added before
   for (const auto& [child, count] : refused) {
     const std::string sentence = fmt::format(
         "{}: {} of frame '{}' left out: not finite, with a quaternion not of unit length, without a name, or "
@@ -99,7 +99,7 @@ std::size_t BagTransforms::indexOf(const std::string& name) {
   return index;
 }
 
-/// Empty at the root of a tree. A new parent counts from its first transform on, as for tf2.
+/// The parent of a frame; empty for a root. As in tf2, a new parent is valid from its first transform on.
 std::string BagTransforms::parentOf(const std::string& frame, const ros::Time& stamp) const {
   if (const auto fixed = fixed_.find(frame); fixed != fixed_.end())
     return withoutSlash(fixed->second.header.frame_id);
@@ -111,10 +111,10 @@ std::string BagTransforms::parentOf(const std::string& frame, const ros::Time& s
   return names_[(exact || after == samples.begin() ? after : std::prev(after))->parent];
 }
 
-/// A frame, its parent and so on.
-std::vector<std::string> BagTransforms::wayUp(std::string frame, const ros::Time& stamp) const {
+/// The frame, its parent, the parent's parent and so on.
+std::vector<std::string> BagTransforms::ancestors(std::string frame, const ros::Time& stamp) const {
   std::vector<std::string> way;
-  // A frame that comes again is a loop, of which tf2 knows what to say.
+  // Stop at a loop; tf2 reports it.
   for (; !frame.empty() && std::find(way.begin(), way.end(), frame) == way.end();
        frame = parentOf(frame, stamp)) {
     way.push_back(frame);
@@ -122,7 +122,7 @@ std::vector<std::string> BagTransforms::wayUp(std::string frame, const ros::Time
   return way;
 }
 
-/// A frame, and all that it hangs on at any time.
+/// Adds a frame, and its ancestors at any time.
 void BagTransforms::addAbove(const std::string& frame, std::set<std::string>* frames) const {
   if (!frames->insert(frame).second) return;
   if (const auto fixed = fixed_.find(frame); fixed != fixed_.end())
@@ -151,8 +151,9 @@ std::vector<std::string> BagTransforms::warnings(const std::string& target, cons
   return sentences;
 }
 
-/// What there is of a frame's place in its parent around a stamp.
-void BagTransforms::tell(const std::string& frame, const ros::Time& stamp, tf2::BufferCore* buffer) const {
+/// Adds a frame's transforms to its parent just before and after a stamp.
+void BagTransforms::addSamples(const std::string& frame, const ros::Time& stamp,
+                               tf2::BufferCore* buffer) const {
   if (const auto fixed = fixed_.find(frame); fixed != fixed_.end()) {
     buffer->setTransform(fixed->second, "bag", true);
     return;
@@ -176,23 +177,22 @@ void BagTransforms::tell(const std::string& frame, const ros::Time& stamp, tf2::
   const double gap_s = (after->stamp - first->stamp).toSec();
   const bool moved = first->parent != after->parent || differ(first->transform, after->transform);
   if (gap_s > kLongestGap_s && moved)
-    throw tf2::ExtrapolationException(fmt::format("/tf says nothing of {} for {:.3f} s", frame, gap_s));
+    throw tf2::ExtrapolationException(fmt::format("/tf has no transform of {} for {:.3f} s", frame, gap_s));
 }
 
-/// tf2 is told what lies between the two frames around the stamp, and no more: its own search through a whole
-/// bag is linear.
+/// Gives tf2 only the samples around the stamp, because its search through a whole bag is linear.
 Eigen::Isometry3d BagTransforms::at(const std::string& target_frame, const std::string& source_frame,
                                     const ros::Time& stamp) const {
   const std::string target = withoutSlash(target_frame), source = withoutSlash(source_frame);
   if (target == source) return Eigen::Isometry3d::Identity();
-  std::vector<std::string> from = wayUp(source, stamp), to = wayUp(target, stamp);
+  std::vector<std::string> from = ancestors(source, stamp), to = ancestors(target, stamp);
   while (!from.empty() && !to.empty() && from.back() == to.back()) {
     from.pop_back();
     to.pop_back();
   }
   tf2::BufferCore buffer{ros::Duration(kWholeBag_s)};
-  for (const std::string& frame : from) tell(frame, stamp, &buffer);
-  for (const std::string& frame : to) tell(frame, stamp, &buffer);
+  for (const std::string& frame : from) addSamples(frame, stamp, &buffer);
+  for (const std::string& frame : to) addSamples(frame, stamp, &buffer);
   return tf2::transformToEigen(buffer.lookupTransform(target, source, stamp));
 }
 

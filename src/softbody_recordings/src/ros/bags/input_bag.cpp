@@ -12,8 +12,8 @@ rosbag::Bag openBag(const std::string& path) try {
 } catch (const rosbag::BagUnindexedException&) {
   throw std::invalid_argument(fmt::format("{}: the bag was not closed; run rosbag reindex {}", path, path));
 } catch (const rosbag::BagException& error) {
-  throw std::invalid_argument(
-      fmt::format("{}: is not a whole bag ({}); rosbag reindex saves what can be read", path, error.what()));
+  throw std::invalid_argument(fmt::format(
+      "{} is not a complete bag ({}); rosbag reindex recovers the readable part", path, error.what()));
 }
 
 }  // namespace softbody

@@ -9,21 +9,21 @@
 
 namespace softbody::injection {
 
-/// One stream of images, as the faults let them look.
+/// Adds the image faults to one stream.
 class FaultyImages {
  public:
-  /// @param topic for messages to people.
+  /// @param topic for error messages.
   FaultyImages(std::string topic, bool is_depth, const ImageFaults& faults);
 
-  /// @throw std::invalid_argument if the image's encoding cannot be changed, or its bytes do not fit its
-  /// size.
+  /// The next image with its faults.
+  /// @throw std::invalid_argument if the encoding is not supported, or the number of bytes is wrong.
   sensor_msgs::Image next(const sensor_msgs::Image& original);
 
   std::size_t count() const { return count_; }
 
  private:
-  void spoilColor(bool occluded, sensor_msgs::Image* image) const;
-  void spoilDepth(bool occluded, sensor_msgs::Image* image) const;
+  void changeColor(bool occluded, sensor_msgs::Image* image) const;
+  void changeDepth(bool occluded, sensor_msgs::Image* image) const;
 
   std::string topic_;
   bool is_depth_;

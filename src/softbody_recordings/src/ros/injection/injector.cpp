@@ -17,7 +17,7 @@
 namespace softbody::injection {
 namespace {
 
-/// One stream: when its images arrive, and how they look.
+/// One stream with its delivery and image faults.
 class ImageStream {
  public:
   ImageStream(const std::string& topic, bool is_depth, const rosbag::Bag& bag, const InjectorOptions& options)
@@ -29,7 +29,7 @@ class ImageStream {
     if (received.empty())
       throw std::invalid_argument(fmt::format("{}: there is no message on {}", options.input, topic_));
     const bool wanted = is_depth ? options.in_depth : options.in_color;
-    deliveries_ = planDeliveries(received, wanted ? options.deliveries : DeliveryFaults());
+    arrivals_ = planArrivals(received, wanted ? options.deliveries : DeliveryFaults());
   }
 
   void write(const rosbag::MessageInstance& instance, AtomicBag* output) {
@@ -39,20 +39,20 @@ class ImageStream {
           fmt::format("{} is of type {} instead of sensor_msgs/Image", topic_, instance.getDataType()));
     const std::size_t number = images_.count();
     sensor_msgs::Image changed = images_.next(*original);
-    for (; next_ < deliveries_.size() && deliveries_[next_].image == number; ++next_) {
-      changed.header.stamp = toTime(toNanoseconds(original->header.stamp) + deliveries_[next_].stamp_shift);
-      output->write(topic_, toTime(deliveries_[next_].received), changed, instance.getConnectionHeader());
+    for (; next_ < arrivals_.size() && arrivals_[next_].image == number; ++next_) {
+      changed.header.stamp = toTime(toNanoseconds(original->header.stamp) + arrivals_[next_].stamp_shift);
+      output->write(topic_, toTime(arrivals_[next_].received), changed, instance.getConnectionHeader());
     }
   }
 
   const std::string& topic() const { return topic_; }
   std::size_t read() const { return images_.count(); }
-  std::size_t written() const { return deliveries_.size(); }
+  std::size_t written() const { return arrivals_.size(); }
 
  private:
   std::string topic_;
   FaultyImages images_;
-  std::vector<Delivery> deliveries_;
+  std::vector<Arrival> arrivals_;
   std::size_t next_ = 0;
 };
 
@@ -61,7 +61,7 @@ class ImageStream {
 InjectionReport inject(const InjectorOptions& options, const std::function<void(double)>& progress) try {
   std::error_code ignored;
   if (std::filesystem::equivalent(options.input, options.output, ignored))
-    throw std::invalid_argument(fmt::format("{} is the input; name another output", options.output));
+    throw std::invalid_argument(fmt::format("{} is the input; choose another output", options.output));
   const rosbag::Bag input = openBag(options.input);
   const CameraTopics topics(options.camera);
   ImageStream color(topics.color, false, input, options);

@@ -13,15 +13,15 @@ namespace softbody {
 CutJournal::CutJournal(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   if (view.size() == 0)
-    throw std::invalid_argument(fmt::format("{} holds no cuts on {}", bag.getFileName(), topic));
+    throw std::invalid_argument(fmt::format("{} has no cuts on {}", bag.getFileName(), topic));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<softbody_msgs::Cut>();
     if (!message) {
-      throw std::invalid_argument(
-          fmt::format("{} on {} is {}, no cut", bag.getFileName(), topic, instance.getDataType()));
+      throw std::invalid_argument(fmt::format("{} on {} is of type {} instead of softbody_msgs/Cut",
+                                              bag.getFileName(), topic, instance.getDataType()));
     }
     Entry entry{toNanoseconds(message->header.stamp), fromMessage(*message)};
-    // A cut that was taken back, or sent again, has the revision of the one that took its place.
+    // A cut that was undone or repeated is replaced by the next cut with its revision.
     while (!entries_.empty() && entries_.back().cut.revision >= entry.cut.revision) entries_.pop_back();
     entries_.push_back(std::move(entry));
   }

@@ -24,20 +24,19 @@ YAML::Node sectionsOf(const std::string& path) {
   for (const auto& section : file) {
     const std::string name = YamlMapReader::shown(section.first);
     if (std::find(kNodes.begin(), kNodes.end(), name) != kNodes.end()) continue;
-    throw std::invalid_argument(
-        fmt::format("{}:{}: '{}' is no node; parameters stand in the section of their node: {}", path,
-                    section.first.Mark().line + 1, name, fmt::join(kNodes, ", ")));
+    throw std::invalid_argument(fmt::format("{}:{}: '{}' is not a node; allowed sections: {}", path,
+                                            section.first.Mark().line + 1, name, fmt::join(kNodes, ", ")));
   }
   return file;
 }
 
-/// What a replay does not read of a node's section.
+/// The keys of a node's section that a replay does not read.
 struct LiveOnly {
   std::set<std::string> unused;
-  std::set<std::string> missed;  ///< without them something else comes out
+  std::set<std::string> missed;  ///< keys that change the result of the live graph
 };
 
-/// Reads one section; says which of its keys nobody knows, or a replay misses.
+/// Reads one section. Warns about unknown keys, and about keys without effect in a replay.
 template <typename Reader>
 auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly& live,
                  std::vector<std::string>* warnings, Reader reader) {

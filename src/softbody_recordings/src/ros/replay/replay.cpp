@@ -32,7 +32,7 @@ ObjectModel loadModel(const std::string& object, const Warn& warn) {
   const ObjectDescription description = loadObjectDescription(object);
   ObjectModel model = buildObjectModel(description);
   if (!description.pins.empty())
-    warn(fmt::format("{}: its pins hold nothing here, where there is no tf", object));
+    warn(fmt::format("{}: pins have no effect in a replay, because there is no live tf", object));
   warnAll(warn, object, model.warnings);
   return model;
 }
@@ -49,15 +49,15 @@ CutJournal loadJournal(const ReplayOptions& options) {
   return {openBag(options.journal), options.topic_namespace + "/cut"};
 }
 
-/// Where the camera is in the output frame.
+/// The camera's poses in the output frame.
 class CameraPoses {
  public:
-  /// @param output_frame empty: the camera's own.
+  /// @param output_frame if empty, the camera's frame.
   CameraPoses(const std::string& bag, std::string output_frame) : output_frame_(std::move(output_frame)) {
     if (!output_frame_.empty()) transforms_.emplace(std::vector<std::string>{bag});
   }
 
-  /// @throw tf2::TransformException where the bag does not tell it.
+  /// @throw tf2::TransformException if the bag has no pose for this stamp.
   Eigen::Isometry3d of(const std_msgs::Header& header) const {
     if (!transforms_) return Eigen::Isometry3d::Identity();
     return transforms_->at(output_frame_, header.frame_id, header.stamp);
@@ -73,7 +73,7 @@ class CameraPoses {
   std::optional<BagTransforms> transforms_;
 };
 
-/// Frames through the pipeline into the bag.
+/// Processes frames and writes the results into a bag.
 class Replay {
  public:
   Replay(const ReplayOptions& options, const ObjectModel& model, const GraphConfig& config,
@@ -115,7 +115,8 @@ class Replay {
   ReplaySummary finish() {
     const std::size_t left = journal_.size() + pipeline_.waitingCuts();
     if (left > 0)
-      warn_(fmt::format("{} cuts of the journal are not made: the body is not tracked after them", left));
+      warn_(fmt::format("{} cuts of the journal were not made, because the body was not tracked after them",
+                        left));
     output_.finish();
     const std::vector<std::uint32_t>& bodies = pipeline_.surfaceTopology().bodies;
     summary_.tool_missed = tool_dropouts_.missedFrames();

@@ -20,14 +20,14 @@ namespace softbody::validation {
 namespace {
 
 constexpr std::size_t kDepthSamples = 30;
-constexpr std::size_t kPixelStep = 7;  // every 7th pixel tells the median as well
+constexpr std::size_t kPixelStep = 7;  // every 7th pixel is enough for the median
 
 bool isMalformed(const sensor_msgs::Image& image) {
   namespace enc = sensor_msgs::image_encodings;
   std::size_t bytes = 0;
   try {
     bytes = static_cast<std::size_t>(enc::numChannels(image.encoding) * enc::bitDepth(image.encoding) / 8);
-  } catch (const std::runtime_error&) {  // an unknown encoding is a finding of its own
+  } catch (const std::runtime_error&) {  // another check finds unknown encodings
   }
   return image.step < image.width * bytes ||
          image.data.size() != static_cast<std::size_t>(image.step) * image.height;
@@ -50,7 +50,7 @@ CameraFacts factsOf(const sensor_msgs::CameraInfo& info) {
           info.D};
 }
 
-/// Gathers the values of sampled depth images.
+/// Collects the values of some depth images.
 class DepthSampler {
  public:
   explicit DepthSampler(std::size_t images) : step_(std::max<std::size_t>(1, images / kDepthSamples)) {}
@@ -89,7 +89,7 @@ class DepthSampler {
 
 void addImage(const rosbag::MessageInstance& instance, StreamFacts* stream, DepthSampler* sampler) {
   const auto image = instance.instantiate<sensor_msgs::Image>();
-  if (!image) return;  // its type is a finding
+  if (!image) return;  // another check finds wrong types
   addTimes(image->header, instance.getTime(), stream);
   ++stream->encodings[image->encoding];
   ++stream->sizes[{static_cast<int>(image->width), static_cast<int>(image->height)}];
@@ -142,7 +142,7 @@ RecordingFacts readFacts(const std::string& path, const std::string& camera,
   return facts;
 } catch (const rosbag::BagException& error) {
   throw std::runtime_error(
-      fmt::format("{}: is damaged ({}); rosbag reindex saves what can be read", path, error.what()));
+      fmt::format("{} is damaged ({}); rosbag reindex recovers the readable part", path, error.what()));
 }
 
 }  // namespace softbody::validation

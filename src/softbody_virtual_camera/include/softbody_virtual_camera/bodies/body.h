@@ -7,17 +7,17 @@
 
 namespace softbody::virtual_camera {
 
-/// A soft body at rest. The truth's vertices are the file's, one by one.
+/// A soft body at rest. Its vertices are those of the file, in the same order.
 struct Body {
   TriangleMesh rest;
-  UvTexture skin;  ///< where it covers nothing, the body is solid through and through
+  UvTexture skin;  ///< triangles without an image have the solid texture
 };
 
-/// The body's topology of revision 0.
+/// The body's topology at revision 0.
 MeshTopology topologyOf(const Body& body);
 
-/// Reads OBJ, PLY, STL or OFF; of an OBJ also the pictures that its materials name (mtllib, usemtl, map_Kd).
-/// @param unit_m metres per file unit. @param warnings gets what was ignored in the file.
+/// Reads OBJ, PLY, STL or OFF. For OBJ also the images of its materials (mtllib, usemtl, map_Kd).
+/// @param unit_m metres per file unit. @param warnings gets a sentence about each ignored part of the file.
 /// @throw std::invalid_argument with file, line and what is wrong or missing.
 Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings);
 

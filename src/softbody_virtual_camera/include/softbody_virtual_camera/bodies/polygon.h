@@ -6,9 +6,9 @@
 
 namespace softbody::virtual_camera {
 
-/// Triangles of a simple polygon, counter-clockwise, by its vertices alone (no new ones): ears are clipped,
-/// then edges flipped until none would make the lower of its triangles higher, so that no sliver is left.
-/// Vertices may lie on a line with their neighbours.
+/// Triangulates a simple, counter-clockwise polygon without new vertices. Clips ears, then flips edges as
+/// long as a flip increases the smaller height of its two triangles; this removes slivers. Vertices may be
+/// collinear with their neighbours.
 /// @throw std::invalid_argument if the polygon is clockwise or crosses itself.
 std::vector<std::array<int, 3>> triangulatePolygon(const std::vector<Eigen::Vector2d>& polygon);
 

@@ -10,17 +10,17 @@ namespace softbody::virtual_camera {
 TriangleMesh rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& edge_u,
                        const Eigen::Vector3d& edge_v);
 
-/// A cylinder from a to b with half spheres as ends, closed.
+/// A closed cylinder from a to b with hemispheres at its ends.
 TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_m);
 
-/// The meshes side by side, vertices and triangles in their order.
+/// All meshes in one, with vertices and triangles in their order.
 TriangleMesh merge(const std::vector<TriangleMesh>& meshes);
 
-/// A right hand of overlapping capsules, palm down: the fingers point along +x and end near the origin, the
-/// forearm reaches to x = -0.45; 100 mm wide along y, thickness along z.
+/// A right hand of overlapping capsules, palm down. The fingers point along +x and end near the origin; the
+/// forearm ends at x = -0.45. The hand is 100 mm wide along y.
 TriangleMesh hand();
 
-/// Rows of a rigid transform of rows.
+/// The points (rows), transformed by T.
 Points transformed(const Eigen::Isometry3d& T, const Points& points);
 
 }  // namespace softbody::virtual_camera

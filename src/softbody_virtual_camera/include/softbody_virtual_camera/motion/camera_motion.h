@@ -7,13 +7,13 @@
 
 namespace softbody::virtual_camera {
 
-/// Names of the motions that withCameraMotion knows: none, orbit.
+/// The names of the camera motions: none, orbit.
 std::vector<std::string> cameraMotionNames();
 
-/// The same scene before a camera that a robot's arm moves. `orbit` starts at rest at the scene's own place
-/// and goes around the body: 25 degrees to both sides and 8 up and down, from half a metre 5 cm farther away
-/// and nearer (the lengths scale with the distance), not always looking at the middle, at up to 0.3 m/s.
-/// @throw std::invalid_argument with the known names if there is no such motion.
+/// The same scene with a camera on a moving robot arm. `orbit` starts at rest at the scene's camera pose and
+/// moves around the body: 25 degrees to both sides, 8 degrees up and down, and 10 % nearer and farther, at up
+/// to 0.3 m/s for a distance of half a metre. The body is not always in the middle of the image.
+/// @throw std::invalid_argument with the known names if the motion is unknown.
 Scene withCameraMotion(const std::string& motion, const Scene& scene);
 
 }  // namespace softbody::virtual_camera

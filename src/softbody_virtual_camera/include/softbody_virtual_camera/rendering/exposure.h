@@ -5,7 +5,7 @@
 
 namespace softbody::virtual_camera {
 
-/// Automatic exposure and white balance that wander slowly, over all of the image.
+/// Slow drift of the automatic exposure and white balance, equal for the whole image.
 struct ExposureDriftOptions {
   bool enabled = true;
   double exposure = 0.06;       ///< largest change of the brightness [share]
@@ -16,7 +16,7 @@ struct ExposureDriftOptions {
 class ExposureDrift {
  public:
   ExposureDrift(const ExposureDriftOptions& options, std::uint64_t seed) : options_(options), seed_(seed) {}
-  /// @param t time of the scene [s].
+  /// @param t time in the scene [s].
   void apply(double t, cv::Mat3b* color) const;
 
  private:
@@ -24,16 +24,16 @@ class ExposureDrift {
   std::uint64_t seed_;
 };
 
-/// What moves while the shutter is open is smeared: the mean of several images within the exposure, around
-/// the stamp. Depth is of the stamp.
+/// Motion blur of the colour image: the mean of several images during the exposure, around the stamp. Depth
+/// is not blurred.
 struct MotionBlurOptions {
   bool enabled = true;
   double exposure_s = 0.008;
-  double step_px = 2.5;  ///< motion between two images, as long as there are fewer than max_images
+  double step_px = 2.5;  ///< motion between two images, limited by max_images
   int max_images = 4;
 };
 
-/// Number of images for a motion of this length on the image during the exposure.
+/// The number of images for a motion of this length in the image during the exposure.
 int blurImages(const MotionBlurOptions& options, double motion_px);
 
 }  // namespace softbody::virtual_camera

@@ -11,17 +11,17 @@
 
 namespace softbody::virtual_camera {
 
-/// An image that more can be drawn over.
+/// An image to draw over.
 struct Canvas {
   cv::Mat3b color;      ///< r, g, b
-  cv::Mat1f fine;       ///< inverse z [1/m] at the samples of colour, 2 by 2 a pixel; 0: nothing
+  cv::Mat1f fine;       ///< inverse z [1/m] at the samples of colour, 2 by 2 per pixel; 0: nothing
   cv::Mat1f inverse_z;  ///< at the pixels' centres [1/m]; 0: nothing
 };
 
-/// Nothing but a dark room.
+/// An empty, dark image.
 Canvas emptyCanvas(const Pinhole& camera);
 
-/// Actors that are drawn together over what is behind them: work is done only where they are.
+/// Actors that are drawn together over a background. Only their part of the image takes time.
 class Layer {
  public:
   explicit Layer(const Pinhole& camera) : camera_(camera) {}
@@ -34,11 +34,11 @@ class Layer {
   void drawColor(const Canvas& behind, cv::Mat3b* color);
   void drawDepth(const Canvas& behind, cv::Mat1f* inverse_z);
 
-  /// Draws all of a canvas.
+  /// Draws colour and depth.
   Canvas draw(const Canvas& behind);
 
-  /// 1 for those of the first vertices that are seen in the last depth, 0 for the others: a triangle at it
-  /// faces the camera and nothing lies before it.
+  /// Visibility of the first `count` vertices in the last depth: 1 if a triangle at the vertex faces the
+  /// camera and nothing is in front of it, otherwise 0.
   std::vector<float> visibility(int count, const cv::Mat1f& inverse_z) const;
 
  private:

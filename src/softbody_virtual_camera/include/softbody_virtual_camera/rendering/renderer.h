@@ -8,20 +8,20 @@
 namespace softbody::virtual_camera {
 
 struct RenderedImage {
-  cv::Mat3b color;                ///< r, g, b; anti-aliased by 2 by 2 samples a pixel
+  cv::Mat3b color;                ///< r, g, b; anti-aliased by 2 by 2 samples per pixel
   cv::Mat1f depth;                ///< z of the nearest surface at the pixel's centre [m]; 0: nothing
-  std::vector<float> visibility;  ///< per vertex of the first actor: 1 seen, 0 hidden
+  std::vector<float> visibility;  ///< per vertex of the first actor; 1: visible, 0: hidden
 };
 
-/// Renders a scene on the CPU: solid textures baked once, diffuse light, z-buffer. Actors that stand still
-/// are drawn once; only where the others are, a frame is drawn anew.
+/// Renders a scene on the CPU with baked textures, diffuse light and a z-buffer. Still actors are drawn once;
+/// each frame redraws only the regions of the moving actors.
 class Renderer {
  public:
   Renderer(const Scene& scene, const Pinhole& camera);
 
-  /// The vertices of still actors, and the light on them, are not looked at.
+  /// Ignores the vertices of still actors and the light on them.
   void render(const SceneState& state, RenderedImage* image);
-  /// One half of it each.
+  /// Only colour, or only depth and visibility.
   void renderColor(const SceneState& state, cv::Mat3b* color);
   void renderDepth(const SceneState& state, RenderedImage* image);
 

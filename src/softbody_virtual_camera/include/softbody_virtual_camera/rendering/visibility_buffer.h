@@ -15,21 +15,21 @@ struct Affine {
   double operator()(double u, double v) const { return a * u + b * v + c; }
 };
 
-/// The line of an edge on the image.
+/// The line of an edge in the image.
 struct EdgeLine {
-  double u = 0.0, v = 0.0;                                  ///< a place on it [px]
-  double slope = std::numeric_limits<double>::quiet_NaN();  ///< of u over v
+  double u = 0.0, v = 0.0;                                  ///< a point of the line [px]
+  double slope = std::numeric_limits<double>::quiet_NaN();  ///< du / dv
   double at(double row) const { return u + slope * (row - v); }
 };
 
-/// A triangle on the image plane.
+/// A triangle in the image plane.
 struct ProjectedTriangle {
-  EdgeLine left[2], right[2];  ///< its edges on either side; twice the same where there is but one
+  EdgeLine left[2], right[2];  ///< its edges on both sides; a single edge is in both entries
   Affine inverse_z;            ///< 1 / z [1/m]
   double min_u = 0.0, max_u = 0.0, min_v = 0.0, max_v = 0.0;
 };
 
-/// Where in the body a pixel of a triangle lies. Single precision, around the triangle's first corner.
+/// Barycentric weights at the pixels of a triangle, relative to its first corner, in single precision.
 struct PixelWeights {
   int index = 0;             ///< of the triangle in the mesh
   bool front = false;        ///< its counter-clockwise side faces the camera
@@ -39,33 +39,33 @@ struct PixelWeights {
   float brightness[3] = {};  ///< at the corners, 0..1
 };
 
-/// What of a mesh may be seen on the image.
+/// The part of a mesh that can be visible in the image.
 struct Projection {
   std::vector<Eigen::Vector3d> vertices;     ///< u, v [px], 1 / z [1/m]
-  std::vector<ProjectedTriangle> triangles;  ///< in front of the camera, on the image, not edge-on
+  std::vector<ProjectedTriangle> triangles;  ///< in front of the camera, in the image, not edge-on
   std::vector<PixelWeights> weights;         ///< of the same triangles
-  std::vector<std::vector<int>> bands;       ///< for every band of rows those that touch it, in their order
-  cv::Rect box;                              ///< all pixels that the triangles touch
+  std::vector<std::vector<int>> bands;       ///< per band of rows: the triangles that touch it, in order
+  cv::Rect box;                              ///< contains all pixels of the triangles
 };
 
-/// @param vertices in the camera's frame [m]. Triangles with a corner nearer than 1 cm are left out. @param
-/// one_sided per triangle: also left out where its back faces the camera.
+/// @param vertices in the camera's frame [m]. Triangles with a corner nearer than 1 cm are left out.
+/// @param one_sided per triangle: leave it out if its back faces the camera.
 void project(const Pinhole& camera, const Points& vertices, const Triangles& triangles,
              const std::vector<char>& one_sided, Projection* projection);
 
-/// The nearest triangle at every sample; samples lie on a regular grid, `samples` by `samples` in a pixel.
-/// Only those within the projection's box are up to date.
+/// The nearest triangle at every sample. Samples are a regular grid, `samples` by `samples` per pixel. Only
+/// samples in the projection's box are valid.
 struct VisibilityBuffer {
   int samples = 1;
   cv::Mat1f inverse_z;  ///< [1/m]; 0: nothing
-  cv::Mat1i triangle;   ///< of the projection, -1: what is behind it
+  cv::Mat1i triangle;   ///< index in the projection; -1: the background
 
-  /// Pixel coordinate of a sample's row or column; for one sample a pixel it is the pixel's centre.
+  /// Pixel coordinate of a sample's row or column; with one sample per pixel it is the pixel's centre.
   double pixelOf(int sample) const { return (sample + 0.5) / samples - 0.5; }
 };
 
-/// Rasterises in parallel bands of rows; the result does not depend on the number of threads. @param behind
-/// inverse z of the samples before anything is drawn, the size of the result.
+/// Rasterises bands of rows in parallel. The result does not depend on the number of threads.
+/// @param behind inverse z of the background at the samples, of the size of the result.
 void rasterize(const Projection& projection, int samples, const cv::Mat1f& behind, VisibilityBuffer* buffer);
 
 }  // namespace softbody::virtual_camera

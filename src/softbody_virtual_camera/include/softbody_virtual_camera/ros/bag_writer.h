@@ -14,11 +14,10 @@ struct BagOptions {
   bool small = false;  ///< bz2: half the size, but slow to write and to read; otherwise lz4
 };
 
-/// Writes the camera's topics, the truth and /tf as a bag. The record time is the header's stamp and the
-/// first stamp is fixed, so that the same camera gives the same bytes. The file appears only when it is
-/// complete.
-/// @param progress is told the number of frames written. @throw rosbag::BagException, std::runtime_error if
-/// it cannot be written.
+/// Writes the camera's topics, the truth and /tf into a bag. The record time is the header stamp, and the
+/// first stamp is constant, so the same camera gives the same bytes. The file appears when it is complete.
+/// @param progress called with the number of written frames. @throw rosbag::BagException, std::runtime_error
+/// if it cannot be written.
 void writeBag(VirtualCamera* camera, const BagOptions& options, const std::function<void(int)>& progress);
 
 }  // namespace softbody::virtual_camera

@@ -15,21 +15,21 @@ namespace softbody::virtual_camera {
 constexpr char kCameraFrame[] = "camera_link";
 constexpr char kOpticalFrame[] = "camera_color_optical_frame";
 constexpr char kBodyFrame[] = "ground_truth_softbody";
-constexpr char kWorldFrame[] = "world";  ///< only where the camera moves
+constexpr char kWorldFrame[] = "world";  ///< only with a moving camera
 
 constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
 constexpr char kTruthCutTopic[] = "ground_truth/cut";
 
-/// One frame as the camera's messages, all with one stamp.
+/// The messages of one frame, all with the same stamp.
 struct CaptureMessages {
   sensor_msgs::ImagePtr color, depth;  ///< rgb8; 16UC1 [mm], registered to colour
-  sensor_msgs::CameraInfoPtr info;     ///< of both
-  softbody_msgs::MeshStatePtr truth;   ///< optical frame, or that of the world if the camera moves
-  /// optical frame -> ground_truth_softbody, and of a camera that moves world -> camera_link
+  sensor_msgs::CameraInfoPtr info;     ///< of both images
+  softbody_msgs::MeshStatePtr truth;   ///< in the optical frame, or in the world if the camera moves
+  /// optical frame -> ground_truth_softbody; with a moving camera also world -> camera_link
   tf2_msgs::TFMessage transforms;
-  geometry_msgs::PoseStampedPtr tool;  ///< of the tool in the optical frame; empty without one
+  geometry_msgs::PoseStampedPtr tool;  ///< of the tool in the optical frame; null without a tool
 };
 
 CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,
@@ -38,7 +38,7 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
 /// The truth's topology in the body's frame.
 softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp);
 
-/// The cut that leads to a revision, in the body's frame; each is a stroke of its own.
+/// The cut of an edit, in the body's frame. Each cut is a separate stroke.
 softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp);
 
 /// camera_link (x forward, z up) -> camera_color_optical_frame (z forward, y down).

@@ -10,16 +10,16 @@
 
 namespace softbody::virtual_camera {
 
-/// The virtual camera live. Parameters: scene, body, unit, seed, noise, width, height, rate [Hz], loop,
+/// The virtual camera as a node. Parameters: scene, body, unit, seed, noise, width, height, rate [Hz], loop,
 /// publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...) and optical
 /// frame -> ground_truth_softbody.
 class VirtualCameraNode {
  public:
-  /// @param setup where the parameters are silent.
+  /// @param setup defaults of the parameters.
   VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const CameraSetup& setup);
 
  private:
-  bool watched() const;
+  bool hasSubscribers() const;
   void publishLatched(std::uint32_t revision, const ros::Time& stamp);
   void publishFrame(const ros::TimerEvent& event);
 
@@ -34,7 +34,7 @@ class VirtualCameraNode {
   std::uint32_t revision_ = 0;
 };
 
-/// ros::init, one VirtualCameraNode, ros::spin. @return the exit code.
+/// Runs a VirtualCameraNode until shutdown. @return the exit code.
 int runNode(int argc, char** argv, const CameraSetup& setup);
 
 }  // namespace softbody::virtual_camera

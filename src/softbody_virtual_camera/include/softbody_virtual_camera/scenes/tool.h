@@ -14,19 +14,19 @@ struct ToolMarker {
   Eigen::Isometry3d T_tool_marker = Eigen::Isometry3d::Identity();
 };
 
-/// What a tool YAML says.
+/// The contents of a tool YAML.
 struct Tool {
   std::vector<ToolMarker> markers;
   Points blade;  ///< planar polygon in the tool frame [m]
 };
 
-/// @throw std::invalid_argument with the file and what is wrong.
+/// @throw std::invalid_argument with the file and the error.
 Tool readTool(const std::string& path);
 
-/// All lengths times a factor.
+/// The tool with all lengths multiplied by a factor.
 Tool scaled(const Tool& tool, double factor);
 
-/// White plates with the markers, and a steel blade on a handle; coordinates are the tool frame's.
+/// White plates with the markers, and a steel blade with a handle, in the tool frame.
 std::vector<Actor> toolActors(const Tool& tool);
 
 }  // namespace softbody::virtual_camera

@@ -10,25 +10,25 @@
 
 namespace softbody::virtual_camera {
 
-/// Textures sampled on the triangles, for fast look-up: every triangle owns a square block of texels
-/// over its weights (w1, w2) of the second and third corner, wide enough for bilinear interpolation.
+/// Textures, sampled on the triangles for fast look-up. Every triangle has a square block of texels over the
+/// weights (w1, w2) of its second and third corner, with a margin for bilinear interpolation.
 class BakedTexture {
  public:
-  /// Appends a mesh's triangles. @param texture of those that the skin does not cover. @param texel_m largest
-  /// spacing of the texels [m].
+  /// Appends a mesh's triangles. @param texture of triangles that the skin does not cover.
+  /// @param texel_m largest spacing of the texels [m].
   void add(const TriangleMesh& rest, const Texture& texture, const UvTexture& skin, double texel_m);
 
   /// Spacing of a triangle's texels [m].
   float texel(int triangle) const { return blocks_[static_cast<std::size_t>(triangle)].texel_m; }
 
-  /// Begins to load a triangle's texels, which are scattered over more memory than the cache holds.
+  /// Prefetches a triangle's texels, because all texels do not fit into the cache.
   void prefetch(int triangle) const {
     constexpr std::size_t kLine = 64 / sizeof(cv::Vec4b);
     const cv::Vec4b* texel = texels_.data() + blocks_[static_cast<std::size_t>(triangle)].first;
     for (std::size_t line = 0; line < 3; ++line) __builtin_prefetch(texel + line * kLine);
   }
 
-  /// Colour (0..255; r, g, b, 0) in a triangle, counted over all meshes.
+  /// Colour (0..255; r, g, b, 0) in a triangle. @param triangle index over all meshes.
   cv::v_float32x4 at(int triangle, float w1, float w2) const {
     const Block& block = blocks_[static_cast<std::size_t>(triangle)];
     const float last = static_cast<float>(block.cells);

@@ -6,10 +6,10 @@
 
 namespace softbody::virtual_camera {
 
-/// A solid texture: the colour (r, g, b in 0..1) of a place in an actor's rest coordinates [m].
+/// A solid texture: colour (r, g, b in 0..1) as a function of an actor's rest coordinates [m].
 using Texture = std::function<Eigen::Vector3f(const Eigen::Vector3d& place)>;
 
-/// Colourful cells (Worley 1996) of 18, 8 and 4 mm with dark pores: many corners, no two places alike.
+/// Colourful cells (Worley 1996) of 18, 8 and 4 mm with dark pores: many corners, all different.
 Texture cellTexture(std::uint64_t seed);
 
 /// Pale wood: weak streaks along x, few corners.

@@ -28,9 +28,8 @@ BodyFrame frameOf(const Points& rest) {
   Eigen::Index axis = 0;
   const double length = (high - low).maxCoeff(&axis);
   if (!(length >= kShortest && length <= kLongest)) {
-    throw std::invalid_argument(
-        fmt::format("the body is {:.4g} m long; the scenes take {} to {} m: is its unit right?", length,
-                    kShortest, kLongest));
+    throw std::invalid_argument(fmt::format("the body is {:.4g} m long; allowed: {} to {} m; check its unit",
+                                            length, kShortest, kLongest));
   }
   BodyFrame frame;
   if (axis == 1) frame.turn << 0, 1, 0, -1, 0, 0, 0, 0, 1;
@@ -40,11 +39,11 @@ BodyFrame frameOf(const Points& rest) {
   return frame;
 }
 
-Points toPlayed(const BodyFrame& frame, const Points& own) {
+Points toSceneFrame(const BodyFrame& frame, const Points& own) {
   return (own.rowwise() - frame.center.transpose()) * frame.turn.transpose() / frame.scale;
 }
 
-Scene toOwn(const BodyFrame& frame, const Scene& played, const TriangleMesh& body) {
+Scene toBodyFrame(const BodyFrame& frame, const Scene& played, const TriangleMesh& body) {
   Scene scene = played;
   for (Actor& actor : scene.actors) {
     actor.rest.vertices *= frame.scale;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A line of an OBJ or MTL file: its keyword and the rest, a name that may hold blanks.
+/// A line of an OBJ or MTL file: its keyword, and the rest, a name that can contain blanks.
 struct Line {
   std::string keyword, rest;
   std::string place;  ///< file and line, for messages
@@ -35,7 +35,7 @@ void visitLines(const fs::path& path, const Visit& visit) {
   }
 }
 
-/// A file named in another one, if it is there.
+/// The path of a file that another file refers to. @throw std::invalid_argument if it is missing.
 fs::path namedFile(const Line& line, const fs::path& folder) {
   fs::path path = folder / line.rest;
   if (!fs::is_regular_file(path)) {
@@ -81,8 +81,8 @@ class MaterialReader {
   void use(const Line& line) {
     const auto found = images_.find(line.rest);
     if (found == images_.end()) {
-      throw std::invalid_argument(fmt::format(
-          "{}: there is no material '{}' in the files that mtllib names before", line.place, line.rest));
+      throw std::invalid_argument(
+          fmt::format("{}: the material '{}' is not in the mtllib files above", line.place, line.rest));
     }
     current_ = found->second;
   }

@@ -5,13 +5,13 @@
 
 namespace softbody::virtual_camera {
 
-/// Which image each triangle of an OBJ file shows.
+/// The image of each triangle of an OBJ file.
 struct ObjMaterials {
   std::vector<int> image;          ///< per triangle (polygons fanned), index into `files`; -1: none
-  std::vector<std::string> files;  ///< that the materials name by map_Kd, beside the MTL file or absolute
+  std::vector<std::string> files;  ///< images of map_Kd, with absolute paths or relative to the MTL file
 };
 
-/// @throw std::invalid_argument with file, line and what is wrong or missing.
+/// @throw std::invalid_argument with file, line and error.
 ObjMaterials readObjMaterials(const std::string& obj_path);
 
 }  // namespace softbody::virtual_camera

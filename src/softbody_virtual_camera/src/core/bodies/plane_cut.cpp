@@ -48,10 +48,10 @@ class Cutter {
     return builder_.addVertex(place);
   }
 
-  /// Where an edge meets the plane, as a share of the way from a to b.
+  /// Intersection of an edge with the plane, as a share of the way from a to b.
   double shareOf(int a, int b) const { return places_(a, 0) / (places_(a, 0) - places_(b, 0)); }
 
-  /// Of an edge's crossing above the front.
+  /// Height of an edge's crossing above the front.
   double heightAt(const PartCorner& a, const PartCorner& b) const {
     return places_(a.vertex, 2) + shareOf(a.vertex, b.vertex) * (places_(b.vertex, 2) - places_(a.vertex, 2));
   }
@@ -65,7 +65,7 @@ class Cutter {
     return cut_.through || height > 0.0;
   }
 
-  /// The near one of the two vertices at an edge's crossing; the one beyond comes right after it.
+  /// The vertex of the near side at an edge's crossing. The vertex beyond is the next one.
   int crossingVertex(int a, int b) {
     const auto [entry, is_new] = crossings_.try_emplace(std::minmax(a, b), 0);
     if (is_new) {
@@ -84,7 +84,7 @@ class Cutter {
             (1.0 - share) * a.weights + share * b.weights};
   }
 
-  /// Splits a triangle as far as it is cut.
+  /// Splits a triangle along the cut.
   void split(int f) {
     PartCorner corners[3];
     for (int k = 0; k < 3; ++k) corners[k] = {before_.triangles(f, k), Eigen::RowVector3d::Unit(k)};
@@ -107,7 +107,7 @@ class Cutter {
     isBeyond(a) ? addSegment(ba.vertex, ca.vertex) : addSegment(ac.vertex, ab.vertex);
   }
 
-  /// The cut comes in between a and b, and its front ends it within the triangle.
+  /// The cut enters between a and b, and ends at its front inside the triangle.
   void splitInPart(int f, const PartCorner& a, const PartCorner& b, const PartCorner& c) {
     const PartCorner own = crossing(a, b), other = crossing(b, a), tip = tipOf(a, b, c);
     builder_.addTriangle(a, own, tip, f);
@@ -118,7 +118,7 @@ class Cutter {
     tips_.insert(tip.vertex);
   }
 
-  /// The one vertex where the front leaves the body through a triangle.
+  /// The vertex at which the front leaves the body through a triangle.
   PartCorner tipOf(const PartCorner& a, const PartCorner& b, const PartCorner& c) {
     const PartCorner& opposite = isBeyond(c) == isBeyond(a) ? b : a;
     const double above = heightAt(a, b), share = above / (above - heightAt(c, opposite));
@@ -131,14 +131,15 @@ class Cutter {
     return {addVertex(place, false), weights};
   }
 
-  /// Of the section's outline, by vertices of the near side; the section is to the left, seen from beyond.
+  /// A segment of the section's outline, with vertices of the near side. The section is to its left, seen
+  /// from beyond.
   void addSegment(int from, int to) { next_[from] = to; }
 
   Eigen::Vector2d onPlane(int vertex) const {
     return (cut_.T_rest_cut.inverse() * builder_.place(vertex).transpose()).tail<2>();
   }
 
-  /// The front is the lower side of the section, from each second tip to the one after it.
+  /// The front is the lower side of the section, from every second tip to the next tip.
   void closeAlongFront() {
     std::vector<int> tips(tips_.begin(), tips_.end());
     std::sort(tips.begin(), tips.end(), [&](int a, int b) { return onPlane(a).x() < onPlane(b).x(); });
@@ -163,10 +164,10 @@ class Cutter {
       if (to == outline.front()) return outline;
       outline.push_back(to);
     }
-    throw std::invalid_argument("the body is not closed where it is cut");
+    throw std::invalid_argument("the body is not closed at the cut");
   }
 
-  /// A triangle of the near face and its twin beyond.
+  /// A triangle of the near face, and the same triangle of the face beyond.
   void fill(int a, int b, int c) {
     const auto beyond = [&](int vertex) { return PartCorner{vertex + (tips_.count(vertex) == 0 ? 1 : 0)}; };
     builder_.addTriangle({a}, {b}, {c}, -1);
@@ -175,12 +176,12 @@ class Cutter {
 
   const MeshTopology& before_;
   const PlaneCut& cut_;
-  Points places_;  ///< of the vertices before, in the cut's frame
+  Points places_;  ///< of the old vertices, in the cut's frame
   MeshBuilder builder_;
   std::vector<bool> beyond_;
   std::map<std::pair<int, int>, int> crossings_;  ///< by edge
   std::map<int, int> next_;                       ///< segments of the section's outline
-  std::set<int> tips_;                            ///< where the front leaves the body; both sides share them
+  std::set<int> tips_;  ///< points where the front leaves the body; shared by both sides
 };
 
 }  // namespace

@@ -18,14 +18,14 @@ double doubleArea(const Polygon& p, const Corners& t) {
   return ab.x() * ac.y() - ab.y() * ac.x();
 }
 
-/// Least height; below 0 for a clockwise triangle.
+/// The smallest height of a triangle; negative for a clockwise triangle.
 double height(const Polygon& p, const Corners& t) {
   const double longest = std::max({(p[t[1]] - p[t[0]]).squaredNorm(), (p[t[2]] - p[t[1]]).squaredNorm(),
                                    (p[t[0]] - p[t[2]]).squaredNorm()});
   return doubleArea(p, t) / std::sqrt(longest);
 }
 
-/// No other vertex that is left lies in the triangle or, up to rounding, on it.
+/// Whether no other remaining vertex is in the triangle or, up to rounding, on its edges.
 bool isEar(const Polygon& p, const std::vector<int>& left, const Corners& t) {
   const double rounding = -1e-10 * doubleArea(p, t);
   return std::none_of(left.begin(), left.end(), [&](int i) {
@@ -53,7 +53,7 @@ Corners clipEar(const Polygon& p, std::vector<int>* left) {
   throw std::invalid_argument("the polygon is not simple and counter-clockwise");
 }
 
-/// Flips the edge between two triangles if that makes the lower of the two higher.
+/// Flips the edge between two triangles if this increases the smaller height.
 bool improve(const Polygon& p, Corners* first, Corners* second) {
   for (int k = 0; k < 3; ++k) {
     const int a = (*first)[k], b = (*first)[(k + 1) % 3], c = (*first)[(k + 2) % 3];
@@ -72,7 +72,7 @@ bool improve(const Polygon& p, Corners* first, Corners* second) {
   return false;
 }
 
-/// Flips the first edge that it finds worth it. @return whether there was one.
+/// Flips the first edge that improves the triangles. @return whether there was one.
 bool improveOne(const Polygon& p, std::vector<Corners>* triangles) {
   std::map<std::pair<int, int>, std::size_t> owner;  // of a directed edge
   for (std::size_t f = 0; f < triangles->size(); ++f) {

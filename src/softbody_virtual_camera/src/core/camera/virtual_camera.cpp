@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "softbody_common/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/rendering/random.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -14,16 +14,16 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr char kNone[] = "none", kOrbit[] = "orbit";
 
-/// Time that starts slowly: an arm speeds up from rest.
+/// Time that starts slowly, because the arm accelerates from rest.
 double easedTime(double t) {
   constexpr double kEase = 0.5;  // [s]
   return t - kEase * std::tanh(t / kEase);
 }
 
-/// Where the camera is in its own first frame.
-/// @param center that it moves around, on the optical axis. @param up unit; both in that frame.
+/// The camera's pose relative to its first frame.
+/// @param center of the orbit, on the optical axis. @param up unit vector; both in the first frame.
 Eigen::Isometry3d orbitPose(const Eigen::Vector3d& center, const Eigen::Vector3d& up, double t) {
-  // Waves without a common period, so that body and camera meet in ever other phases.
+  // Waves without a common period, so that the phases of body and camera vary.
   constexpr double kTurn = 25.0 * kDegree, kLift = 8.0 * kDegree, kRoll = 5.0 * kDegree;
   constexpr double kFarther = 0.1, kAside = 0.05;  // of the distance
   const double phase = 1.25 * easedTime(t);        // [rad]

@@ -8,9 +8,9 @@
 namespace softbody::virtual_camera {
 namespace {
 
-constexpr float kAmbient = 0.40f;  // share of the light that comes from everywhere
+constexpr float kAmbient = 0.40f;  // share of the ambient light
 
-/// Normals with the length of twice the triangles' areas.
+/// Normals with twice the area of the triangle as length.
 Points areaNormals(const Points& vertices, const Triangles& triangles) {
   Points normals(triangles.rows(), 3);
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -21,7 +21,7 @@ Points areaNormals(const Points& vertices, const Triangles& triangles) {
   return normals;
 }
 
-/// Per vertex the triangles around it.
+/// The triangles around each vertex.
 std::vector<std::vector<int>> trianglesAround(const TriangleMesh& mesh) {
   std::vector<std::vector<int>> around(static_cast<std::size_t>(mesh.vertices.rows()));
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {

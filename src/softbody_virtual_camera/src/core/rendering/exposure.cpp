@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_virtual_camera/rendering/random.h"
+#include "softbody_common/random.h"
 
 namespace softbody::virtual_camera {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 
-/// Two waves without a common period; within -1..1.
+/// The sum of two waves without a common period, in -1..1.
 double wander(double t, double period_s, std::uint64_t seed) {
   const double slow = std::sin(kTwoPi * (t / period_s + unit(hash(seed, 1))));
   const double fast = std::sin(kTwoPi * (2.6180339887 * t / period_s + unit(hash(seed, 2))));

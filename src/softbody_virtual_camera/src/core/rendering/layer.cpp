@@ -7,12 +7,12 @@
 namespace softbody::virtual_camera {
 namespace {
 
-constexpr int kColorSamples = 2;            // by 2 a pixel
-constexpr int kAhead = 12;                  // pixels whose texels are on their way
+constexpr int kColorSamples = 2;            // per pixel, in each direction
+constexpr int kAhead = 12;                  // number of prefetched pixels
 constexpr double kVisibilityMargin = 1e-3;  // [m]
 const cv::Vec3b kBackground(40, 42, 45);
 
-/// Every edge is used as often in one direction as in the other, and the outside is in front.
+/// Whether the mesh is closed and oriented outward.
 bool isClosed(const TriangleMesh& mesh) {
   std::vector<std::pair<int, int>> edges, twins;
   double volume = 0.0;
@@ -36,7 +36,7 @@ cv::Vec3b toColor(const cv::v_float32x4& color) {
   return {bytes[0], bytes[1], bytes[2]};
 }
 
-/// Farthest depth of the pixels around (u, v) [m]; infinite where one of them sees nothing.
+/// The largest depth of the pixels around (u, v) [m]; infinite if one of them is empty.
 double farthestAround(const cv::Mat1f& inverse_z, double u, double v) {
   const int u0 = std::clamp(static_cast<int>(std::floor(u)), 0, inverse_z.cols - 2);
   const int v0 = std::clamp(static_cast<int>(std::floor(v)), 0, inverse_z.rows - 2);
@@ -149,7 +149,7 @@ cv::Vec3b Layer::pixelColor(const cv::Vec3b& behind, int u, int v) const {
   const int seen[4] = {above[0], above[1], below[0], below[1]};
   if (seen[1] == seen[0] && seen[2] == seen[0] && seen[3] == seen[0]) {
     if (seen[0] < 0) return behind;
-    // Texels that are larger than the pixel cannot alias: one sample is enough.
+    // Texels larger than the pixel cannot alias, so one sample is enough.
     const PixelWeights& t = projection_.weights[static_cast<std::size_t>(seen[0])];
     if (texture_.texel(t.index) * camera_.fx * samples.inverse_z(2 * v, 2 * u) > 1.0)
       return toColor(colorAt(t, static_cast<float>(u), static_cast<float>(v)));

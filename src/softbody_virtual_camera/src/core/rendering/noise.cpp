@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_virtual_camera/rendering/random.h"
+#include "softbody_common/random.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -17,7 +17,7 @@ void normalize(cv::Mat1f* tile) {
   *tile = (*tile - mean[0]) / deviation[0];
 }
 
-/// A Gaussian filter that wraps around.
+/// A Gaussian filter with periodic boundaries.
 void blurTorus(double sigma, cv::Mat1f* tile) {
   const int margin = static_cast<int>(std::ceil(4.0 * sigma));
   cv::Mat1f wide;
@@ -26,7 +26,8 @@ void blurTorus(double sigma, cv::Mat1f* tile) {
   wide(cv::Rect(margin, margin, tile->cols, tile->rows)).copyTo(*tile);
 }
 
-/// Where a 3 by 3 neighbourhood spans more than the jump [m], or holds a pixel without depth.
+/// Mask of pixels whose 3 by 3 neighbourhood has a larger depth range than the jump [m], or a pixel without
+/// depth.
 cv::Mat1b depthEdges(const cv::Mat1f& depth, double jump) {
   cv::Mat nearest, farthest;
   const cv::Mat block = cv::Mat::ones(3, 3, CV_8U);
@@ -35,13 +36,13 @@ cv::Mat1b depthEdges(const cv::Mat1f& depth, double jump) {
   return (farthest - nearest) > jump;
 }
 
-/// The nearest whole number of one below 2^22, for loops that are to be vectorised.
+/// Rounds a number below 2^22, in loops that the compiler can vectorise.
 float rounded(float value) {
-  constexpr float kShift = 12582912.0f;  // 1.5 * 2^23: no bits are left for a fraction
+  constexpr float kShift = 12582912.0f;  // 1.5 * 2^23 leaves no bits for a fraction
   return (value + kShift) - kShift;
 }
 
-/// Calls set(u, noise) along a row with the sum of two rows of tiles, of unit variance.
+/// Calls set(u, noise) along a row, with the normalised sum of two rows of tiles.
 template <class Set>
 void addPairs(const float* a, const float* b, int cols, const Set& set) {
   for (int first = 0; first < cols; first += NoiseTile::kSize) {
@@ -50,7 +51,7 @@ void addPairs(const float* a, const float* b, int cols, const Set& set) {
   }
 }
 
-/// Of standard deviation dark + slope * value.
+/// Adds noise with a standard deviation of dark + slope * value.
 void addNoise(float dark, float slope, const float* noise, int count, uchar* values) {
   for (int i = 0; i < count; ++i) {
     const float value = values[i];
@@ -82,7 +83,7 @@ void ColorNoise::apply(int frame, cv::Mat3b* color) const {
   const int values = 3 * color->cols;
   cv::parallel_for_(cv::Range(0, color->rows), [&](const cv::Range& range) {
     for (int v = range.start; v < range.end; ++v) {
-      // White noise: every stretch of a row may look at a place of its own.
+      // The noise is white, so every part of a row can use another window.
       const std::uint64_t row = hash(random, static_cast<std::uint64_t>(v));
       for (int first = 0; first < values; first += NoiseTile::kSize) {
         const float* noise = tile_.row(NoiseTile::window(hash(row, static_cast<std::uint64_t>(first))), 0);
@@ -109,13 +110,13 @@ void DepthNoise::apply(int frame, double fx, cv::Mat1f* depth) const {
 void DepthNoise::dropEdges(std::uint64_t random, double fx, cv::Mat1f* depth) const {
   const cv::Mat1b edges = depthEdges(*depth, options_.edge_jump_m);
   const NoiseTile::Window window = NoiseTile::window(random);
-  // The threshold of a standard normal variable that the share exceeds (logistic approximation of Bowling et
+  // The threshold that this share of a standard normal variable exceeds (logistic approximation of Bowling et
   // al. 2009).
   const float threshold = static_cast<float>(std::log(1.0 / options_.edge_share - 1.0) / 1.702);
   const double shift = fx * options_.baseline_m;  // disparity on this image's grid times z [px m]
   for (int v = 0; v < depth->rows; ++v) {
-    // Seen from the right imager a pixel lies at u - shift / z; a surface to its right that lands further
-    // left hides it.
+    // In the right imager a pixel is at u - shift / z. A surface to its right hides it if it is further left
+    // there.
     const float* ragged = disparity_tile_.row(window, v);
     double leftmost = depth->cols;
     for (int u = depth->cols - 1; u >= 0; --u) {
@@ -132,7 +133,7 @@ void DepthNoise::perturb(std::uint64_t random, cv::Mat1f* depth) const {
   const float focal_baseline = static_cast<float>(options_.focal_px * options_.baseline_m);
   const float deviation = options_.disparity_noise ? static_cast<float>(options_.disparity_std_px) : 0.0f;
   const float steps = options_.quantization ? static_cast<float>(options_.subpixel_steps) : 0.0f;
-  // Two windows added make far more patterns than the tile has places.
+  // The sum of two windows gives many more patterns than one window.
   const NoiseTile::Window a = NoiseTile::window(random), b = NoiseTile::window(hash(random, 1));
   cv::parallel_for_(cv::Range(0, depth->rows), [&](const cv::Range& range) {
     for (int v = range.start; v < range.end; ++v) {

@@ -5,7 +5,7 @@
 namespace softbody::virtual_camera {
 namespace {
 
-/// The vertices of the actors that stand still, or of those that do not.
+/// The vertices of the still actors, or of the moving actors.
 std::vector<const Points*> select(const std::vector<Points>& vertices, const std::vector<char>& still,
                                   bool wanted) {
   std::vector<const Points*> selected;
@@ -21,7 +21,7 @@ Renderer::Renderer(const Scene& scene, const Pinhole& camera)
     : body_vertices_(static_cast<int>(scene.actors.at(0).rest.vertices.rows())), moving_(camera) {
   Layer still(camera);
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
-    // The body is the first of the moving layer, whether it moves or not: its vertices are asked for.
+    // The body is always in the moving layer, because its visibility is needed.
     still_.push_back(i > 0 && scene.actors[i].still);
     (still_.back() ? still : moving_).add(scene.actors[i]);
   }

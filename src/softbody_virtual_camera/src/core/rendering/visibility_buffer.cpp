@@ -9,10 +9,10 @@ namespace softbody::virtual_camera {
 namespace {
 
 constexpr double kNearPlane = 0.01;      // [m]
-constexpr double kEdgeTolerance = 1e-9;  // [px]; no sample may fall between two triangles of one edge
-constexpr int kBandRows = 16;            // of pixels
+constexpr double kEdgeTolerance = 1e-9;  // [px]; leaves no sample out between two triangles of an edge
+constexpr int kBandRows = 16;            // rows of pixels
 
-/// Level edges bound no row.
+/// Horizontal edges do not bound a row.
 void addEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& q, bool front, ProjectedTriangle* t) {
   if (q.y() == p.y()) return;
   EdgeLine(&side)[2] = (q.y() > p.y()) == front ? t->left : t->right;
@@ -22,12 +22,12 @@ void addEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& q, bool front, Pro
   if (first) side[0] = line;
 }
 
-/// Gradient on the image of the barycentric coordinate of the corner after `a`, opposite to `a` and `b`.
+/// Image gradient of the barycentric coordinate of the corner opposite to `a` and `b`.
 Eigen::Vector2d weightGradient(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double area) {
   return Eigen::Vector2d(b.y() - a.y(), a.x() - b.x()) / area;
 }
 
-/// @param area twice that of the triangle, negative if it faces the camera (v grows downwards).
+/// @param area twice the area of the triangle; negative if it faces the camera (v points down).
 ProjectedTriangle triangleOf(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
                              double area) {
   ProjectedTriangle t;
@@ -66,7 +66,7 @@ bool onImage(const ProjectedTriangle& t, const Pinhole& camera) {
          t.min_v <= camera.height - 0.5;
 }
 
-/// Pixels between two pixel coordinates, and one more on the right, within 0..size.
+/// The pixels between two coordinates, and one more on the right, clipped to 0..size.
 cv::Range pixelsOf(double low, double high, int size) {
   return {static_cast<int>(std::clamp<double>(std::floor(low), 0.0, size)),
           static_cast<int>(std::clamp<double>(std::floor(high) + 2.0, 0.0, size))};
@@ -88,14 +88,14 @@ void sortIntoBands(const Pinhole& camera, Projection* projection) {
   }
 }
 
-/// First and last sample of the row within all edges.
+/// The first and the last sample of the row inside of all edges.
 std::pair<int, int> span(const ProjectedTriangle& t, double v, const VisibilityBuffer& buffer) {
   const double low = std::max({t.min_u, t.left[0].at(v), t.left[1].at(v)});
   const double high = std::min({t.max_u, t.right[0].at(v), t.right[1].at(v)});
   if (!(high >= low - kEdgeTolerance)) return {0, -1};
   const auto sampleOf = [&](double u) { return (u + 0.5) * buffer.samples - 0.5; };
   const double last_column = buffer.triangle.cols - 1.0;
-  // The cast rounds towards zero: shifted to positive numbers it is a floor, at a fraction of the price.
+  // The cast rounds towards zero. For positive numbers this is a fast floor, hence the shift.
   const double first = std::clamp(sampleOf(low - kEdgeTolerance), 0.0, last_column + 1.0);
   const double last = std::clamp(sampleOf(high + kEdgeTolerance), -1.0, last_column);
   const int below = static_cast<int>(first);

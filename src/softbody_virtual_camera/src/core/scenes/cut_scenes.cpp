@@ -12,18 +12,18 @@ namespace softbody::virtual_camera {
 namespace {
 
 constexpr double kPlace = 0.015, kCrossPlace = 0.025;                 // x of the middle of the cuts [m]
-constexpr double kLeeway = 2e-3;                                      // of that, to avoid vertices [m]
+constexpr double kLeeway = 2e-3;                                      // largest shift to avoid vertices [m]
 constexpr double kFirst = 0.5, kRest = 1.0, kMove = 1.5, kEnd = 2.0;  // before the first stroke and so on [s]
 
-/// The body's vertices at rest, moved after the cuts; the share goes from 0 to 1.
+/// The body's vertices after the cuts. The share of the motion goes from 0 to 1.
 using Aftermath = std::function<Points(double share)>;
 
-/// A vertical cut through the body, turned about the vertical.
+/// A vertical cut through the body, rotated about the vertical.
 PlaneCut verticalCut(double place, double angle_rad) {
   return {Eigen::Translation3d(place, 0.0, 0.0) * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ())};
 }
 
-/// The one of a plane's parts that goes from the top down by 60 % of the body there.
+/// A cut from the top through 60 % of the body's height there.
 PlaneCut partialCut(const MeshTopology& body, const PlaneCut& through) {
   constexpr double kDepth = 0.6;
   const CutMesh whole = cutByPlane(body, through);
@@ -35,7 +35,7 @@ PlaneCut partialCut(const MeshTopology& body, const PlaneCut& through) {
   return cut;
 }
 
-/// Every piece moves away from the middle of the cuts and turns a little.
+/// Every piece moves away from the middle of the cuts and rotates a little.
 Aftermath partPieces(const MeshTopology& cut, double place) {
   constexpr double kWay = 0.02, kTurn = 0.15;  // [m], [rad]
   std::vector<std::uint32_t> piece(static_cast<std::size_t>(cut.rest_vertices.rows()), 0);
@@ -67,7 +67,8 @@ Aftermath partPieces(const MeshTopology& cut, double place) {
   };
 }
 
-/// Both walls of a slit move apart: not at its front, by `kWay` at its top, and less and less away from it.
+/// The walls of a slit move apart: by `kWay` at the top, by zero at the front, and less with the distance
+/// from the slit.
 Aftermath openSlit(const CutMesh& mesh, const Stroke& stroke) {
   constexpr double kWay = 0.006, kReach = 0.06;  // [m]
   return [=, rest = mesh.topology.rest_vertices, beyond = mesh.beyond](double share) {
@@ -81,7 +82,7 @@ Aftermath openSlit(const CutMesh& mesh, const Stroke& stroke) {
   };
 }
 
-/// Cuts one after the other, of the body at rest.
+/// Successive cuts of the body at rest.
 struct Cuts {
   std::vector<Stroke> strokes;
   std::vector<Edit> edits;
@@ -156,7 +157,7 @@ Scene cutPartialScene(const Stage& stage, const Tool& tool) {
 }
 
 Scene cutCrossScene(const Stage& stage, const Tool& tool) {
-  // Farther round, the doll or the image's border would hide the marker.
+  // At larger angles, the doll or the image border would hide the marker.
   constexpr double kFirstAngle = -0.25, kSecondAngle = 0.33;  // [rad]
   const Cuts cuts =
       makeCuts(wholeBody(stage),

@@ -3,7 +3,7 @@
 #include "scenes/stage.h"
 #include "softbody_virtual_camera/scenes/tool.h"
 
-/// The scenes' plays. They know of the body only what its rest mesh says: x is its length, z points up.
+/// The motions of the scenes. They use only the body's rest mesh: x is its length, z points up.
 namespace softbody::virtual_camera {
 
 Play stillPlay(const Stage& stage);
@@ -16,12 +16,12 @@ Play leavePlay(const Stage& stage);    ///< out of view to the left and back
 Play pressPlay(const Stage& stage);    ///< by a finger from above
 Play occludePlay(const Stage& stage);  ///< a hand hides 40 % for 2 s while the body bends
 
-/// A blade passes through the body. The topology changes when it is at its lowest; then it is withdrawn, and
-/// the two pieces, which have touched so far, move apart.
+/// A blade cuts the body in two. The topology changes when the blade is at its lowest point. Then the blade
+/// is withdrawn, and the two pieces move apart.
 Scene cutScene(const Stage& stage, const Tool& tool);
-/// Likewise, but the blade goes in part of the way, and the slit opens.
+/// The blade cuts only partly through the body, and the slit opens.
 Scene cutPartialScene(const Stage& stage, const Tool& tool);
-/// Two cuts that cross, one after the other, and four pieces.
+/// Two crossing cuts, one after the other, give four pieces.
 Scene cutCrossScene(const Stage& stage, const Tool& tool);
 
 }  // namespace softbody::virtual_camera

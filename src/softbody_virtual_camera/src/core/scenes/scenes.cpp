@@ -66,11 +66,11 @@ Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, c
   }
   const BodyFrame frame = frameOf(body.rest.vertices);
   const Stage stage =
-      makeStage({{toPlayed(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed);
+      makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed);
   Scene scene = play != plays().end() ? perform(stage, play->second(stage))
                                       : cut->second(stage, scaled(readTool(tool_file), 1.0 / frame.scale));
   scene.name = name;
-  return toOwn(frame, scene, body.rest);
+  return toBodyFrame(frame, scene, body.rest);
 }
 
 }  // namespace softbody::virtual_camera

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/rendering/random.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -22,7 +22,7 @@ Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
   return T_world_camera.inverse();
 }
 
-/// Height of the body's origin above the table [m]: free to bend, and all of it above.
+/// Height of the body's origin above the table [m], with space to bend.
 double heightOf(const TriangleMesh& body) {
   constexpr double kLeast = 0.08, kClearance = 0.02;
   return std::max(kLeast, kClearance - body.vertices.col(2).minCoeff());

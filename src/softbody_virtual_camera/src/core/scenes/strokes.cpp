@@ -11,11 +11,11 @@
 namespace softbody::virtual_camera {
 namespace {
 
-/// Height of the blade's edge over the front of the cut where it waits, and at its lowest.
+/// Height of the blade's edge over the front of the cut, before the stroke and at its lowest point.
 double raised(const Stroke& stroke) { return stroke.high.z() + 0.008; }
 double lowered(const Stroke& stroke) { return stroke.cut.through ? stroke.low.z() - 0.005 : 0.0; }
 
-/// The blade in the tool's frame: its edge is the side of least y and runs along z.
+/// The blade in the tool's frame. Its edge is at the smallest y, along z.
 struct Blade {
   explicit Blade(const Tool& tool)
       : edge(tool.blade.col(1).minCoeff()),

@@ -7,16 +7,16 @@
 
 namespace softbody::virtual_camera {
 
-/// A blade's way down into the body and up again; lengths in the body's played frame.
+/// The blade's way down into the body and up again. Lengths are in the scene's frame.
 struct Stroke {
   PlaneCut cut;
-  Eigen::Vector3d low, high;  ///< bounds of the face that it makes, in the cut's frame [m]
+  Eigen::Vector3d low, high;  ///< bounds of the face of the cut, in the cut's frame [m]
   double begin_s = 0.0;
 };
 
 constexpr double kDown_s = 2.0, kUp_s = 1.0;
-constexpr double kTurn_s = 1.0;   ///< before a stroke, from the place over the one before
-constexpr double kLeave_s = 1.5;  ///< after the last one, along x and out of view
+constexpr double kTurn_s = 1.0;   ///< before a stroke: the way from the stroke before
+constexpr double kLeave_s = 1.5;  ///< after the last stroke, along x and out of view
 
 /// @param mesh after the cut. @throw std::invalid_argument if the blade is shorter than the face.
 Stroke makeStroke(const PlaneCut& cut, const CutMesh& mesh, const Tool& tool, double begin_s);
@@ -24,7 +24,7 @@ Stroke makeStroke(const PlaneCut& cut, const CutMesh& mesh, const Tool& tool, do
 /// The tool's pose in the body's frame: its blade in the plane of the cut, its z axis along -y of the cut.
 Eigen::Isometry3d toolPose(const std::vector<Stroke>& strokes, const Tool& tool, double t);
 
-/// What the blade's edge passes through, in rest space.
+/// The surface swept by the blade's edge, in rest space [m].
 TriangleMesh sweptPatch(const Stroke& stroke, const Tool& tool);
 
 }  // namespace softbody::virtual_camera

@@ -13,7 +13,7 @@
 namespace softbody::virtual_camera {
 namespace {
 
-constexpr int kCells = 6;  // 4 bits and a black border on both sides
+constexpr int kCells = 6;  // 4 bits, and a black border on both sides
 
 ToolMarker readMarker(const YAML::Node& node) {
   ToolMarker marker;
@@ -39,7 +39,7 @@ Points readBlade(const YAML::Node& node) {
   return blade;
 }
 
-/// Black cells on white, in the plane of the marker; its edges are as soft as the texels that sample it.
+/// Black cells on white, in the plane of the marker. The edges are smoothed over one texel.
 Texture markerTexture(const ToolMarker& marker) {
   constexpr double kQuarterTexel = 0.1e-3;  // [m]
   cv::Mat1b cells;
@@ -63,7 +63,7 @@ Texture markerTexture(const ToolMarker& marker) {
 }
 
 TriangleMesh plate(const ToolMarker& marker) {
-  const double size = 1.4 * marker.size_m;  // with a white margin of more than a cell
+  const double size = 1.4 * marker.size_m;  // with a white margin larger than a cell
   const Eigen::Isometry3d& T = marker.T_tool_marker;
   const Eigen::Vector3d x = size * T.linear().col(0), y = size * T.linear().col(1);
   return rectangle(T.translation() - 0.5 * (x + y), x, y);

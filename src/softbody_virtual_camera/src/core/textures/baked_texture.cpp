@@ -27,7 +27,8 @@ void BakedTexture::add(const TriangleMesh& rest, const Texture& texture, const U
       const bool covered = skin.covers(f);
       const int level = covered ? pictureLevel(skin, rest, f, block.texel_m) : 0;
       cv::Vec4b* texel = &texels_[block.first];
-      // The block is the whole parallelogram: its far half only feeds the interpolation along the diagonal.
+      // The block covers the whole parallelogram. Its far half is needed only for interpolation along the
+      // diagonal.
       for (int j = 0; j <= block.cells; ++j) {
         for (int i = 0; i <= block.cells; ++i, ++texel) {
           if (i + j > block.cells + 1) continue;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "softbody_virtual_camera/rendering/random.h"
+#include "softbody_common/random.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -27,10 +27,10 @@ struct Nearest {
   double distance = 1e9;  ///< in cells
 };
 
-/// Distance from a place within a unit cell (0..1) to the neighbouring cell on this side, along one axis.
+/// Distance from a point in a unit cell (0..1) to the neighbouring cell on one side, along one axis.
 double gap(double within, int side) { return side == 0 ? 0.0 : side < 0 ? within : 1.0 - within; }
 
-/// The nearest of the random points, one in each cell of a unit lattice.
+/// The nearest random point; each cell of a unit lattice has one.
 Nearest nearestPoint(const Eigen::Vector3d& p, std::uint64_t seed) {
   const Cell home = cellOf(p);
   const Eigen::Vector3d within = p - Eigen::Vector3d(home[0], home[1], home[2]);

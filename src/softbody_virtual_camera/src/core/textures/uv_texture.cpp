@@ -12,12 +12,12 @@ const Picture& pictureOf(const UvTexture& texture, int triangle) {
   return texture.pictures[static_cast<std::size_t>(texture.picture[static_cast<std::size_t>(triangle)])];
 }
 
-/// Texture coordinates of a triangle's corners, one a row.
+/// The texture coordinates of a triangle's corners, one per row.
 Eigen::Matrix3d cornersOf(const UvTexture& texture, Eigen::Index triangle) {
   return texture.coordinates.middleRows<3>(3 * triangle);
 }
 
-/// A pixel's index on an image that repeats.
+/// A pixel's index in a repeating image.
 int wrapped(double place, int size) {
   const double turns = std::floor(place / size);
   return std::clamp(static_cast<int>(place - turns * size), 0, size - 1);

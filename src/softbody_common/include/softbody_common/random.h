@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-namespace softbody::virtual_camera {
+namespace softbody {
 
-/// A well-mixed 64-bit hash (Steele, Lea, Flood 2014, SplitMix64): the same value on every machine, unlike
-/// <random>.
+/// A 64-bit hash (Steele, Lea, Flood 2014, SplitMix64). Unlike <random>, it gives the same value on every
+/// machine.
 inline std::uint64_t hash(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -18,4 +18,4 @@ inline std::uint64_t hash(std::uint64_t a, std::uint64_t b) { return hash(hash(a
 /// Uniform in [0, 1) from a hash.
 inline double unit(std::uint64_t h) { return static_cast<double>(h >> 11) * 0x1.0p-53; }
 
-}  // namespace softbody::virtual_camera
+}  // namespace softbody
