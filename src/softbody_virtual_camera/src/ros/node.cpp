@@ -7,7 +7,7 @@
 
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_virtual_camera/motion/camera_motion.h"
+#include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/ros/messages.h"
 
 namespace softbody::virtual_camera {

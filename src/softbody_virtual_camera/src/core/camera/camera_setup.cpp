@@ -7,7 +7,7 @@
 
 #include "softbody_sim/object/object_description.h"
 #include "softbody_virtual_camera/bodies/body.h"
-#include "softbody_virtual_camera/motion/camera_motion.h"
+#include "softbody_virtual_camera/camera/camera_motion.h"
 
 namespace softbody::virtual_camera {
 namespace {

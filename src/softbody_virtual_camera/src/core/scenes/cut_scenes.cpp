@@ -1,9 +1,10 @@
+#include "scenes/cut_scenes.h"
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <map>
 #include <numeric>
 
-#include "scenes/plays.h"
 #include "scenes/strokes.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"

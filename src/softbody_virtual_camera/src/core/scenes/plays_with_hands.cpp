@@ -1,6 +1,7 @@
+#include "scenes/plays_with_hands.h"
+
 #include <Eigen/Dense>
 
-#include "scenes/plays.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/deformations.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "fixtures/scene_fixtures.h"
+#include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
-#include "softbody_virtual_camera/motion/camera_motion.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -1,12 +1,15 @@
+#include "softbody_virtual_camera/scenes/scene.h"
+
 #include <fmt/format.h>
 
 #include <map>
 #include <stdexcept>
 #include <utility>
 
-#include "bodies/body_frame.h"
+#include "scenes/body_frame.h"
+#include "scenes/cut_scenes.h"
 #include "scenes/plays.h"
-#include "softbody_virtual_camera/scenes/scene.h"
+#include "scenes/plays_with_hands.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "softbody_virtual_camera/motion/camera_motion.h"
+#include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 #include "softbody_virtual_camera/ros/node.h"
 

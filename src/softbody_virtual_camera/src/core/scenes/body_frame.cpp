@@ -1,4 +1,4 @@
-#include "bodies/body_frame.h"
+#include "scenes/body_frame.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "scenes/stage.h"
+
+/// The motions of the scenes with a hand or a finger.
+namespace softbody::virtual_camera {
+
+Play pressPlay(const Stage& stage);    ///< a finger presses from above
+Play occludePlay(const Stage& stage);  ///< a hand hides 40 % for 2 s while the body bends
+
+}  // namespace softbody::virtual_camera
