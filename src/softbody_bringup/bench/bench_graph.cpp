@@ -8,7 +8,7 @@
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 
-/// Stages of the graph on the shipped sponge before the virtual camera, one thread.
+/// The stages of the graph on the shipped sponge and the virtual camera, on one thread.
 namespace {
 
 using namespace softbody;
@@ -71,8 +71,8 @@ void makeSurfaceWeights(benchmark::State& state) {
 }
 BENCHMARK(makeSurfaceWeights)->Unit(benchmark::kMillisecond);
 
-/// One pass over the recording an iteration; counters: mean milliseconds a frame by stage, after the first
-/// frame.
+/// One iteration is one pass over the recording. Counters: mean time per frame of each stage [ms], without
+/// the first frame.
 void trackRecording(benchmark::State& state) {
   std::map<std::string, double> total_ms;
   double frames = 0.0;

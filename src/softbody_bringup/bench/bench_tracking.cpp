@@ -11,8 +11,8 @@
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 
-/// The tracking stage beside what the paper's system does of it: ORB features of OpenCV, matched by brute
-/// force. Same frames, taken in turns, one thread. Argument: 0 sponge, 1 doll.
+/// Our tracking stage, and the tracking of the paper: ORB features of OpenCV, matched by brute force. Both
+/// take the same frames alternately, on one thread. Argument: 0 sponge, 1 doll.
 namespace {
 
 using namespace softbody;
@@ -22,13 +22,13 @@ constexpr double kStart_s = 1.0, kRate_hz = 30.0;
 constexpr int kFeatures = 1000;  // N_p of Kang et al. 2022
 constexpr int kMargin = 32;      // [px] of the region around the body
 
-/// What the tracker gets, frame by frame, in a run of the whole pipeline.
+/// The tracker's inputs, frame by frame, recorded from a run of the whole pipeline.
 struct Recording {
   TetTopology volume;
   MeshTopology surface;
   std::vector<RgbdFrame> frames;
-  std::vector<std::optional<MeshState>> before;  ///< state of the volume that the frame is tracked from
-  std::vector<cv::Rect> regions;                 ///< that hold the body
+  std::vector<std::optional<MeshState>> before;  ///< state of the volume before the frame
+  std::vector<cv::Rect> regions;                 ///< regions that contain the body
 };
 
 cv::Rect regionOf(const Points& vertices, const Pinhole& camera) {
@@ -72,7 +72,7 @@ const Recording& recordingOf(const benchmark::State& state) {
   return state.range(0) == 0 ? sponge : doll;
 }
 
-/// ORB features of OpenCV in a region, matched both ways with those of the first frame.
+/// ORB features of OpenCV in a region, cross-matched with those of the first frame.
 class PlainMatching {
  public:
   PlainMatching(const RgbdFrame& first, const cv::Rect& body) { extract(first, body, &model_); }
@@ -104,7 +104,7 @@ double threadTime_ms() {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-/// Of one core: everything runs on this thread.
+/// CPU time of this thread; everything runs on it.
 template <typename Work>
 double millisecondsOf(const Work& work) {
   const double start = threadTime_ms();
@@ -118,10 +118,10 @@ double median(std::vector<double> values) {
 }
 
 struct Times {
-  std::vector<double> first, track, whole, region;  ///< [ms]; the first frame apart
+  std::vector<double> first, track, whole, region;  ///< [ms]; the first frame is separate
 };
 
-/// One pass over the recording. @return features that the tracker knows at its end.
+/// One pass over the recording. @return the number of features in the tracker's map at the end.
 std::uint32_t pass(const Recording& recording, Times* times) {
   BodyTracker tracker(TrackerConfig{});
   tracker.setTopologies(recording.volume, recording.surface);

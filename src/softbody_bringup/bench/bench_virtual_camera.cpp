@@ -4,7 +4,8 @@
 
 #include "softbody_virtual_camera/camera/camera_setup.h"
 
-/// Parts of a frame of the virtual camera, one thread; arguments: 0 sponge or 1 doll, image width [px].
+/// The parts of a frame of the virtual camera, on one thread. Arguments: 0 sponge or 1 doll; image width
+/// [px].
 namespace {
 
 using namespace softbody::virtual_camera;

@@ -18,14 +18,14 @@ class AtomicBag {
   AtomicBag(const AtomicBag&) = delete;
   AtomicBag& operator=(const AtomicBag&) = delete;
 
-  /// @param connection as of a message that is copied; null: none.
+  /// @param connection header of a copied message; may be null.
   template <typename Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message,
              const boost::shared_ptr<ros::M_string>& connection = {}) {
     bag_.write(topic, time, message, connection);
   }
 
-  /// As a latched topic, which players send again to late subscribers.
+  /// Writes to a latched topic, which players send again to late subscribers.
   template <typename Message>
   void writeLatched(const std::string& topic, const ros::Time& time, const Message& message) {
     const auto header = boost::make_shared<ros::M_string>();

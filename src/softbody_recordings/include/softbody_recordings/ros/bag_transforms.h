@@ -13,9 +13,9 @@
 
 namespace softbody {
 
-/// All of /tf and /tf_static in bags, whenever it was recorded: nothing is late, as it may be for a live
-/// graph. What tf2 refuses, not finite, with a quaternion not of unit length, without a name
-/// or from a frame to itself, is left out.
+/// All transforms of /tf and /tf_static in bags; unlike in a live graph, no transform is late. Leaves out the
+/// transforms that tf2 refuses: not finite, with a quaternion not of unit length, without a frame name, or
+/// from a frame to itself.
 class BagTransforms {
  public:
   /// @param paths of bags. If two transforms have the same stamp, the one of the later bag is used. Within

@@ -101,7 +101,7 @@ class Replay {
     summary_.milliseconds += elapsed.count();
     for (const std::string& warning : result.warnings)
       warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
-    heedTool(result.tool, header);
+    countTool(result.tool, header);
     count(result);
     const bool due =
         header.stamp < topologies_written_ || header.stamp - topologies_written_ >= ros::Duration(1.0);
@@ -133,11 +133,11 @@ class Replay {
     count(skippedFrame(last_status_, header.frame_id, camera_poses_.outputFrame(), why));
     output_.writeStatus(last_status_, header);
     const std::optional<ToolObservation> tool = pipeline_.processUnplaced(frame);
-    heedTool(tool, header);
+    countTool(tool, header);
     if (tool) output_.writeTool(*tool, header);
   }
 
-  void heedTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header) {
+  void countTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header) {
     if (!pipeline_.toolTracker()) return;
     summary_.tools += tool ? 1 : 0;
     const auto missing =
