@@ -103,10 +103,10 @@ TEST_P(TetGeometry, PiecesAreCountedInOrderOfAppearance) {
   Tets both(first + other.tets.rows(), 4);
   both << mesh_.tets, (other.tets.array() + static_cast<int>(offset)).matrix();
   const int vertex_count = static_cast<int>(offset + other.vertices.rows());
-  const std::vector<std::uint32_t> bodies = tetBodies(both, vertex_count);
+  const std::vector<std::uint32_t> bodies = tetPieces(both, vertex_count);
   for (Eigen::Index t = 0; t < both.rows(); ++t) EXPECT_EQ(bodies[t], t < first ? 0u : 1u);
   const Triangles surface = boundaryTriangles(both);
-  const std::vector<std::uint32_t> pieces = triangleBodies(surface, vertex_count);
+  const std::vector<std::uint32_t> pieces = trianglePieces(surface, vertex_count);
   for (Eigen::Index f = 0; f < surface.rows(); ++f) EXPECT_EQ(pieces[f], surface(f, 0) < offset ? 0u : 1u);
 }
 

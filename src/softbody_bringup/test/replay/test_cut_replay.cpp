@@ -87,7 +87,7 @@ TEST_F(CutReplay, AToolCutsTheBodyInTwoAndItsJournalDoesItAgain) {
   EXPECT_EQ(by_journal.rest_vertices, by_blade.rest_vertices);
   EXPECT_EQ(by_journal.triangles, by_blade.triangles);
   EXPECT_EQ(by_journal.vertex_parents, by_blade.vertex_parents);
-  EXPECT_EQ(by_journal.bodies, by_blade.bodies);
+  EXPECT_EQ(by_journal.triangle_pieces, by_blade.triangle_pieces);
   EXPECT_EQ(by_journal.cut, by_blade.cut);
 }
 
@@ -183,11 +183,11 @@ TEST_F(CutPipeline, FiveCutsTakenBackLeaveModelsAndBindingsAsTheyWereBitByBit) {
   EXPECT_EQ(pipeline_.volumeTopology().rest_vertices, volume.rest_vertices);
   EXPECT_EQ(pipeline_.volumeTopology().tets, volume.tets);
   EXPECT_EQ(pipeline_.volumeTopology().surface, volume.surface);
-  EXPECT_EQ(pipeline_.volumeTopology().bodies, volume.bodies);
+  EXPECT_EQ(pipeline_.volumeTopology().tet_pieces, volume.tet_pieces);
   EXPECT_EQ(pipeline_.surfaceTopology().rest_vertices, surface.rest_vertices);
   EXPECT_EQ(pipeline_.surfaceTopology().triangles, surface.triangles);
   EXPECT_EQ(pipeline_.surfaceTopology().vertex_parents, surface.vertex_parents);
-  EXPECT_EQ(pipeline_.surfaceTopology().bodies, surface.bodies);
+  EXPECT_EQ(pipeline_.surfaceTopology().triangle_pieces, surface.triangle_pieces);
   EXPECT_EQ(pipeline_.surfaceTopology().cut, surface.cut);
   EXPECT_EQ(output.tracking.targets.revision, 10u);
   int again = 0;

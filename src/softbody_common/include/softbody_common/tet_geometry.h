@@ -21,24 +21,24 @@ bool isClosed(const Triangles& triangles);
 
 /// The connected piece of every tet, numbered from 0 in order of appearance. Tets that share a vertex are
 /// connected.
-std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count);
+std::vector<std::uint32_t> tetPieces(const Tets& tets, int vertex_count);
 
 /// The connected piece of every triangle, numbered from 0 in order of appearance.
-std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex_count);
+std::vector<std::uint32_t> trianglePieces(const Triangles& triangles, int vertex_count);
 
 /// The connected piece of every vertex, from the pieces of the elements (tets or triangles) around it.
 template <typename Elements>
-std::vector<std::uint32_t> vertexBodies(const Elements& elements, const std::vector<std::uint32_t>& bodies,
+std::vector<std::uint32_t> vertexPieces(const Elements& elements, const std::vector<std::uint32_t>& pieces,
                                         Eigen::Index vertex_count) {
   std::vector<std::uint32_t> result(static_cast<std::size_t>(vertex_count), 0);
   for (Eigen::Index e = 0; e < elements.rows(); ++e) {
-    for (Eigen::Index k = 0; k < elements.cols(); ++k) result[elements(e, k)] = bodies[e];
+    for (Eigen::Index k = 0; k < elements.cols(); ++k) result[elements(e, k)] = pieces[e];
   }
   return result;
 }
 
 /// The vertices of every connected piece of the tets.
-std::vector<std::vector<int>> verticesOfBodies(const Tets& tets, Eigen::Index vertex_count);
+std::vector<std::vector<int>> verticesOfPieces(const Tets& tets, Eigen::Index vertex_count);
 
 /// Unit normals, the area-weighted mean of the adjacent triangles, #V by 3. Zero for a vertex without
 /// triangles.

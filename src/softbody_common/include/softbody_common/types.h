@@ -60,9 +60,9 @@ struct TetTopology {
   std::uint32_t revision = 0;
   Points rest_vertices;
   Tets tets;
-  Triangles surface;                  ///< boundary of the tets, outward
-  std::vector<int> vertex_parents;    ///< #V: index in revision 0, or -1
-  std::vector<std::uint32_t> bodies;  ///< #T: connected piece
+  Triangles surface;                      ///< boundary of the tets, outward
+  std::vector<int> vertex_parents;        ///< #V: index in revision 0, or -1
+  std::vector<std::uint32_t> tet_pieces;  ///< #T: connected piece, 0..
   bool has_initial_pose = false;
   Eigen::Isometry3d initial_pose =
       Eigen::Isometry3d::Identity();  ///< rest frame in the colour optical frame, rough
@@ -73,9 +73,9 @@ struct MeshTopology {
   std::uint32_t revision = 0;
   Points rest_vertices;
   Triangles triangles;
-  std::vector<int> vertex_parents;    ///< #V: index in the input file, or -1
-  std::vector<std::uint32_t> bodies;  ///< #F: connected piece
-  std::vector<bool> cut;              ///< #F: fills a cut
+  std::vector<int> vertex_parents;             ///< #V: index in the input file, or -1
+  std::vector<std::uint32_t> triangle_pieces;  ///< #F: connected piece, 0..
+  std::vector<bool> cut;                       ///< #F: fills a cut
   Points texture_coordinates;  ///< empty, or 3 #F rows (u, v, 0), in the order of the triangles' corners
 };
 

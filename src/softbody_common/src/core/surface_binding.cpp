@@ -65,10 +65,10 @@ std::map<std::uint32_t, std::uint32_t> matchPieces(const Bodies& surface_bodies,
 /// Moves vertices that were located in tets of another piece to tets of their own piece.
 void keepToPieces(const MeshTopology& surface, const TetTopology& volume, const Points& inside,
                   std::vector<int>* tets) {
-  const Bodies tet_bodies = tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()));
+  const Bodies tet_bodies = tetPieces(volume.tets, static_cast<int>(volume.rest_vertices.rows()));
   if (std::count(tet_bodies.begin(), tet_bodies.end(), 0u) == volume.tets.rows()) return;
-  const Bodies surface_bodies = vertexBodies(
-      surface.triangles, triangleBodies(surface.triangles, static_cast<int>(inside.rows())), inside.rows());
+  const Bodies surface_bodies = vertexPieces(
+      surface.triangles, trianglePieces(surface.triangles, static_cast<int>(inside.rows())), inside.rows());
   const auto own_piece = matchPieces(surface_bodies, tet_bodies, *tets);
   std::map<std::uint32_t, Piece> pieces;
   for (std::size_t v = 0; v < tets->size(); ++v) {

@@ -138,21 +138,21 @@ bool isClosed(const Triangles& triangles) {
   return true;
 }
 
-std::vector<std::uint32_t> tetBodies(const Tets& tets, int vertex_count) {
+std::vector<std::uint32_t> tetPieces(const Tets& tets, int vertex_count) {
   return connectedPieces(tets, vertex_count);
 }
 
-std::vector<std::uint32_t> triangleBodies(const Triangles& triangles, int vertex_count) {
+std::vector<std::uint32_t> trianglePieces(const Triangles& triangles, int vertex_count) {
   return connectedPieces(triangles, vertex_count);
 }
 
-std::vector<std::vector<int>> verticesOfBodies(const Tets& tets, Eigen::Index vertex_count) {
+std::vector<std::vector<int>> verticesOfPieces(const Tets& tets, Eigen::Index vertex_count) {
   const auto count = static_cast<int>(vertex_count);
-  const std::vector<std::uint32_t> bodies = vertexBodies(tets, tetBodies(tets, count), vertex_count);
+  const std::vector<std::uint32_t> piece_of = vertexPieces(tets, tetPieces(tets, count), vertex_count);
   std::vector<std::vector<int>> pieces;
   for (int v = 0; v < count; ++v) {
-    if (bodies[v] >= pieces.size()) pieces.resize(bodies[v] + 1);
-    pieces[bodies[v]].push_back(v);
+    if (piece_of[v] >= pieces.size()) pieces.resize(piece_of[v] + 1);
+    pieces[piece_of[v]].push_back(v);
   }
   return pieces;
 }

@@ -130,7 +130,7 @@ softbody_msgs::TetTopology toMessage(const TetTopology& topology) {
   message.tets = toElements<softbody_msgs::Tetrahedron>(topology.tets);
   message.surface_triangles = toElements<shape_msgs::MeshTriangle>(topology.surface);
   message.vertex_parents = topology.vertex_parents;
-  message.tet_bodies = topology.bodies;
+  message.tet_bodies = topology.tet_pieces;
   // An all-zero quaternion, as in a new message, means "unknown".
   if (topology.has_initial_pose) message.initial_pose = toMessage(topology.initial_pose);
   return message;
@@ -144,9 +144,9 @@ TetTopology fromMessage(const softbody_msgs::TetTopology& message) {
   topology.tets = fromElements<Tets>(message.tets, n, "tets");
   topology.surface = fromElements<Triangles>(message.surface_triangles, n, "surface_triangles");
   topology.vertex_parents = message.vertex_parents;
-  topology.bodies = message.tet_bodies;
+  topology.tet_pieces = message.tet_bodies;
   requireSize(topology.vertex_parents.size(), n, "vertex_parents");
-  requireSize(topology.bodies.size(), message.tets.size(), "tet_bodies");
+  requireSize(topology.tet_pieces.size(), message.tets.size(), "tet_bodies");
   const auto& q = message.initial_pose.orientation;
   topology.has_initial_pose = q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
   if (topology.has_initial_pose) topology.initial_pose = fromMessage(message.initial_pose);
@@ -159,7 +159,7 @@ softbody_msgs::MeshTopology toMessage(const MeshTopology& topology) {
   message.rest_vertices = toPoint32s(topology.rest_vertices);
   message.triangles = toElements<shape_msgs::MeshTriangle>(topology.triangles);
   message.vertex_parents = topology.vertex_parents;
-  message.triangle_bodies = topology.bodies;
+  message.triangle_bodies = topology.triangle_pieces;
   message.cut_triangles.assign(topology.cut.begin(), topology.cut.end());
   message.texture_coordinates = toPoint32s(topology.texture_coordinates);
   return message;
@@ -172,11 +172,11 @@ MeshTopology fromMessage(const softbody_msgs::MeshTopology& message) {
   topology.rest_vertices = fromPoint32s(message.rest_vertices, "rest_vertices");
   topology.triangles = fromElements<Triangles>(message.triangles, n, "triangles");
   topology.vertex_parents = message.vertex_parents;
-  topology.bodies = message.triangle_bodies;
+  topology.triangle_pieces = message.triangle_bodies;
   topology.cut.assign(message.cut_triangles.begin(), message.cut_triangles.end());
   topology.texture_coordinates = fromPoint32s(message.texture_coordinates, "texture_coordinates");
   requireSize(topology.vertex_parents.size(), n, "vertex_parents");
-  requireSize(topology.bodies.size(), message.triangles.size(), "triangle_bodies");
+  requireSize(topology.triangle_pieces.size(), message.triangles.size(), "triangle_bodies");
   requireSize(topology.cut.size(), message.triangles.size(), "cut_triangles");
   if (topology.texture_coordinates.rows() != 0) {
     requireSize(message.texture_coordinates.size(), 3 * message.triangles.size(), "texture_coordinates");

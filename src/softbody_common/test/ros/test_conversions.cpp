@@ -23,7 +23,7 @@ TetTopology randomVolume(unsigned seed) {
   topology.rest_vertices = mesh.vertices;
   topology.tets = mesh.tets;
   topology.surface = boundaryTriangles(mesh.tets);
-  topology.bodies = tetBodies(mesh.tets, static_cast<int>(mesh.vertices.rows()));
+  topology.tet_pieces = tetPieces(mesh.tets, static_cast<int>(mesh.vertices.rows()));
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
     topology.vertex_parents.push_back(static_cast<int>(v) - 1);
   topology.has_initial_pose = seed % 2 == 0;
@@ -38,7 +38,7 @@ MeshTopology randomSurface(unsigned seed) {
   topology.rest_vertices = volume.rest_vertices;
   topology.triangles = volume.surface;
   topology.vertex_parents = volume.vertex_parents;
-  topology.bodies.assign(static_cast<std::size_t>(volume.surface.rows()), 1u);
+  topology.triangle_pieces.assign(static_cast<std::size_t>(volume.surface.rows()), 1u);
   for (Eigen::Index f = 0; f < volume.surface.rows(); ++f) topology.cut.push_back(f % 3 == 0);
   if (seed % 2 == 0) topology.texture_coordinates = Points::Random(3 * volume.surface.rows(), 3);
   return topology;
@@ -93,7 +93,7 @@ TEST_P(RoundTrip, TetTopology) {
   EXPECT_EQ(after.tets, before.tets);
   EXPECT_EQ(after.surface, before.surface);
   EXPECT_EQ(after.vertex_parents, before.vertex_parents);
-  EXPECT_EQ(after.bodies, before.bodies);
+  EXPECT_EQ(after.tet_pieces, before.tet_pieces);
   EXPECT_EQ(after.has_initial_pose, before.has_initial_pose);
   EXPECT_TRUE(after.initial_pose.isApprox(before.initial_pose, 1e-12));
 }
@@ -104,7 +104,7 @@ TEST_P(RoundTrip, MeshTopology) {
   EXPECT_LT((after.rest_vertices - before.rest_vertices).cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_EQ(after.triangles, before.triangles);
   EXPECT_EQ(after.vertex_parents, before.vertex_parents);
-  EXPECT_EQ(after.bodies, before.bodies);
+  EXPECT_EQ(after.triangle_pieces, before.triangle_pieces);
   EXPECT_EQ(after.cut, before.cut);
   EXPECT_TRUE(after.texture_coordinates.isApprox(before.texture_coordinates, 1e-6));
 }

@@ -20,7 +20,7 @@ MeshTopology strip(bool cut) {
   mesh.triangles.resize(4, 3);
   const int a = cut ? 6 : 2, b = cut ? 7 : 3;
   mesh.triangles << 0, 2, 3, 0, 3, 1, a, 4, 5, a, 5, b;
-  mesh.bodies = {0, 0, cut ? 1u : 0u, cut ? 1u : 0u};
+  mesh.triangle_pieces = {0, 0, cut ? 1u : 0u, cut ? 1u : 0u};
   mesh.cut.assign(4, false);
   if (cut) {
     mesh.rest_vertices.bottomRows(2) = mesh.rest_vertices.middleRows(2, 2);
@@ -40,7 +40,7 @@ MeshTopology shuffled(const MeshTopology& mesh, const std::vector<int>& order) {
     for (int k = 0; k < 3; ++k)
       result.triangles(f, k) = order[static_cast<std::size_t>(mesh.triangles(f, k))];
   }
-  for (std::uint32_t& body : result.bodies) body = 1 - body;
+  for (std::uint32_t& body : result.triangle_pieces) body = 1 - body;
   return result;
 }
 
@@ -128,7 +128,7 @@ MeshTopology rim(std::mt19937* random) {
         const int last = static_cast<int>(vertices.size()) - 1;
         const bool turned = (side == 0) == wall;
         triangles.emplace_back(side, turned ? last : last - 1, turned ? last - 1 : last);
-        mesh.bodies.push_back(static_cast<std::uint32_t>(side));
+        mesh.triangle_pieces.push_back(static_cast<std::uint32_t>(side));
         mesh.cut.push_back(wall);
       }
     }

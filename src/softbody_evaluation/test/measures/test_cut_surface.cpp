@@ -34,7 +34,7 @@ MeshTopology squareCut(int n, const Eigen::Isometry3d& T = Eigen::Isometry3d::Id
     mesh.triangles.row(f++) << count + c, count + d, count + a;
   }
   mesh.vertex_parents.assign(static_cast<std::size_t>(2 * count), -1);
-  for (int f = 0; f < 4 * n * n; ++f) mesh.bodies.push_back(f % 4 < 2 ? 0 : 1);
+  for (int f = 0; f < 4 * n * n; ++f) mesh.triangle_pieces.push_back(f % 4 < 2 ? 0 : 1);
   mesh.cut.assign(static_cast<std::size_t>(4 * n * n), true);
   return mesh;
 }

@@ -67,7 +67,7 @@ visualization_msgs::MarkerArray makePreviewMarkers(const MeshTopology& pieces, c
   Marker skin = makeMarker("pieces", Marker::TRIANGLE_LIST, header);
   skin.scale.x = skin.scale.y = skin.scale.z = 1.0;
   for (Eigen::Index t = 0; t < pieces.triangles.rows(); ++t) {
-    const Eigen::Vector3f color = pieceColor(pieces.bodies[static_cast<std::size_t>(t)]);
+    const Eigen::Vector3f color = pieceColor(pieces.triangle_pieces[static_cast<std::size_t>(t)]);
     for (const int vertex : pieces.triangles.row(t)) {
       skin.points.push_back(pointMessage(lifted.row(vertex)));
       skin.colors.push_back(colorMessage(shaded(color, lifted.row(vertex), normals.row(vertex))));

@@ -135,7 +135,7 @@ TEST(LoadVisualMesh, ScalesAndFillsTheTopology) {
   const MeshTopology topology = loadVisualMesh(description, &warnings);
   EXPECT_TRUE(topology.rest_vertices.isApprox(1e-3 * mesh.vertices, 1e-15));
   EXPECT_EQ(topology.revision, 0U);
-  EXPECT_EQ(topology.bodies, std::vector<std::uint32_t>(576, 0));
+  EXPECT_EQ(topology.triangle_pieces, std::vector<std::uint32_t>(576, 0));
   EXPECT_EQ(topology.cut, std::vector<bool>(576, false));
   EXPECT_TRUE(warnings.empty());
 }

@@ -14,10 +14,12 @@ struct RgbdFrame {
   Pinhole camera;
   cv::Mat3b color;  ///< BGR
   cv::Mat1f depth;  ///< z [m]; 0: no depth
-  /// The camera's pose in the fixed frame, in which the body is simulated. The identity if that is the camera's.
+  /// The camera's pose in the fixed frame, in which the body is simulated. The identity if that is the
+  /// camera's.
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
-  bool placed = true;      ///< false: T_fixed_camera is unknown
-  cv::Mat1b covered = {};  ///< not 0: a known object, such as the blade, occludes the body; empty: no such object
+  bool placed = true;  ///< false: T_fixed_camera is unknown
+  cv::Mat1b covered =
+      {};  ///< not 0: a known object, such as the blade, occludes the body; empty: no such object
 };
 
 }  // namespace softbody

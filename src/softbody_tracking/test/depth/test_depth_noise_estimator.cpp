@@ -14,7 +14,8 @@ namespace {
 constexpr double kFocal = 600.0, kDepth = 0.5;  // [px], [m]
 
 /// Blocks of a surface that faces the camera. @param difference of a block, by column and row [m].
-DepthNoiseSample sampleOf(const cv::Size& grid, int block_px, const std::function<double(int, int)>& difference) {
+DepthNoiseSample sampleOf(const cv::Size& grid, int block_px,
+                          const std::function<double(int, int)>& difference) {
   SurfaceSamples surface;
   surface.block_px = block_px;
   surface.grid.create(grid);

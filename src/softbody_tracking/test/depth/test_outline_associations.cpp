@@ -34,7 +34,7 @@ class OutlineAssociationsTest : public ::testing::Test {
     surface_.update(frame_.camera, predicted);
     OutlineAssociator outline({weight}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
     outline.sample(surface_);
-    return outline.associate(frame_, surface_.image(), RigidMotions(surface_.bodyCount(), motion), colors_);
+    return outline.associate(frame_, surface_.image(), RigidMotions(surface_.pieceCount(), motion), colors_);
   }
   std::vector<Association> associateShifted(double pixels) {
     return associate(boxAt(kFlat + Eigen::Vector3d(pixels * kPixel, 0.0, 0.0)));
@@ -162,7 +162,7 @@ TEST_F(OutlineAssociationsTest, TheImagesBorderIsNoOutline) {
 TEST_F(OutlineAssociationsTest, TellThePieces) {
   box_ = cutBox(box_);
   surface_ = PredictedSurface(box_.volume, box_.surface);
-  ASSERT_EQ(surface_.bodyCount(), 2u);
+  ASSERT_EQ(surface_.pieceCount(), 2u);
   Points predicted = boxAt(kFlat);
   for (Eigen::Index t = 0; t < box_.volume.tets.rows(); ++t) {
     if (surface_.bodyOf({static_cast<int>(t), Eigen::Vector4d::Unit(0)}) == 0) continue;
@@ -195,7 +195,7 @@ TEST_F(OutlineAssociationsTest, WhatIsBeyondALimbIsNotTheLimb) {
   box_.volume.surface = box_.surface.triangles = both(trunk.volume.surface);
   box_.surface.rest_vertices = vertices;
   surface_ = PredictedSurface(box_.volume, box_.surface);
-  ASSERT_EQ(surface_.bodyCount(), 2u);
+  ASSERT_EQ(surface_.pieceCount(), 2u);
   Points moved = boxAt(kFlat);
   moved.bottomRows(count).rowwise() += Eigen::RowVector3d(0.06, 0.0, 0.0);
   frame_ = renderFrame(box_, moved, 1);

@@ -8,7 +8,7 @@ namespace softbody {
 namespace {
 
 RigidPrediction predictionOf(const TetTopology& volume) {
-  return {volume.rest_vertices, verticesOfBodies(volume.tets, volume.rest_vertices.rows())};
+  return {volume.rest_vertices, verticesOfPieces(volume.tets, volume.rest_vertices.rows())};
 }
 
 /// A screw motion: turns about a fixed axis and shifts along it.

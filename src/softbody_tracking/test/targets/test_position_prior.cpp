@@ -10,7 +10,7 @@ namespace {
 TEST(PositionPrior, KeepsEachVertexOfThePieceAndNoOther) {
   const BoxBody body = cutBox(makeBox());
   const TetTopology& volume = body.volume;
-  const std::vector<std::vector<int>> pieces = verticesOfBodies(volume.tets, volume.rest_vertices.rows());
+  const std::vector<std::vector<int>> pieces = verticesOfPieces(volume.tets, volume.rest_vertices.rows());
   ASSERT_EQ(pieces.size(), 2u);
   const Points positions = volume.rest_vertices.array() + 0.1;
   for (const std::vector<int>& piece : pieces) {

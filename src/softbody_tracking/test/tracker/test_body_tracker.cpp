@@ -311,7 +311,7 @@ TEST(BodyTracker, RefusesTopologiesWithoutTetsOrVertices) {
   surface.triangles(5, 0) = 198;
   EXPECT_EQ(refusalOf(box.volume, surface), "a triangle of the surface's topology names vertex 198 of 198");
   surface = box.surface;
-  surface.bodies.push_back(0);
+  surface.triangle_pieces.push_back(0);
   EXPECT_EQ(refusalOf(box.volume, surface), "the surface's topology has 321 bodies for 320 triangles");
 }
 

@@ -285,7 +285,8 @@ TEST_F(CutObserver, NamesPiecesAsTheVisualMeshDoes) {
   EXPECT_EQ(names(box_.surface), (Names{{0}, {1}}));
   MeshTopology reversed = box_.surface;
   reversed.triangles = box_.surface.triangles.colwise().reverse().eval();
-  reversed.bodies = triangleBodies(reversed.triangles, static_cast<int>(reversed.rest_vertices.rows()));
+  reversed.triangle_pieces =
+      trianglePieces(reversed.triangles, static_cast<int>(reversed.rest_vertices.rows()));
   EXPECT_EQ(names(reversed), (Names{{1}, {0}}));
 }
 

@@ -18,8 +18,8 @@ const std::string kConfig = CONFIG_DIR;
 
 Triangles pieceOf(const MeshTopology& topology, std::uint32_t body) {
   std::vector<int> rows;
-  for (std::size_t f = 0; f < topology.bodies.size(); ++f) {
-    if (topology.bodies[f] == body) rows.push_back(static_cast<int>(f));
+  for (std::size_t f = 0; f < topology.triangle_pieces.size(); ++f) {
+    if (topology.triangle_pieces[f] == body) rows.push_back(static_cast<int>(f));
   }
   return topology.triangles(rows, Eigen::all);
 }
@@ -47,7 +47,7 @@ double volumeOf(const MeshTopology& topology, std::uint32_t body) {
 }
 
 std::uint32_t pieces(const MeshTopology& topology) {
-  return 1 + *std::max_element(topology.bodies.begin(), topology.bodies.end());
+  return 1 + *std::max_element(topology.triangle_pieces.begin(), topology.triangle_pieces.end());
 }
 
 /// Least height of a triangle, as published in single precision [m].

@@ -59,7 +59,9 @@ std::unordered_map<int, std::vector<int>> verticesByParent(const std::vector<int
 }
 
 std::size_t pieceCount(const MeshTopology& topology) {
-  return topology.bodies.empty() ? 0 : 1 + *std::max_element(topology.bodies.begin(), topology.bodies.end());
+  return topology.triangle_pieces.empty()
+             ? 0
+             : 1 + *std::max_element(topology.triangle_pieces.begin(), topology.triangle_pieces.end());
 }
 
 /// The candidate at the same position and side. Copies have the same position at rest. If the files were
@@ -181,7 +183,7 @@ std::vector<int> vertexPieces(const MeshTopology& topology) {
   for (Eigen::Index f = 0; f < topology.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
       pieces[static_cast<std::size_t>(topology.triangles(f, k))] =
-          static_cast<int>(topology.bodies[static_cast<std::size_t>(f)]);
+          static_cast<int>(topology.triangle_pieces[static_cast<std::size_t>(f)]);
     }
   }
   return pieces;

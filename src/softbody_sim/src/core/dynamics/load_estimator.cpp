@@ -29,7 +29,7 @@ TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& ma
 
 LoadEstimator::LoadEstimator(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s)
     : masses_(masses),
-      pieces_(verticesOfBodies(topology.tets, masses.size())),
+      pieces_(verticesOfPieces(topology.tets, masses.size())),
       fade_s_(fade_s),
       smoother_(TetMatrix(topology.tets, masses.size()).lower()) {
   if (fade_s_ > 0.0) smoother_.factorize(screenedPoisson(topology, masses).lower());

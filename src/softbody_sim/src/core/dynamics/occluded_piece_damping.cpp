@@ -10,8 +10,8 @@ namespace softbody {
 constexpr double kHalfLife = 0.1;  // [s]
 
 OccludedPieceDamping::OccludedPieceDamping(const TetTopology& topology)
-    : tet_pieces_(tetBodies(topology.tets, static_cast<int>(topology.rest_vertices.rows()))),
-      vertex_pieces_(vertexBodies(topology.tets, tet_pieces_, topology.rest_vertices.rows())),
+    : tet_pieces_(tetPieces(topology.tets, static_cast<int>(topology.rest_vertices.rows()))),
+      vertex_pieces_(vertexPieces(topology.tets, tet_pieces_, topology.rest_vertices.rows())),
       observed_(*std::max_element(tet_pieces_.begin(), tet_pieces_.end()) + 1) {}
 
 void OccludedPieceDamping::apply(const std::vector<Target>& targets, double elapsed_s, Points* velocities) {

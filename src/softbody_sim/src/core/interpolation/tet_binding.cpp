@@ -18,7 +18,7 @@ TetBinding::TetBinding(const TetTopology& volume, std::vector<MaterialPoint> pla
 std::vector<double> TetBinding::squaredStrains(const Points& vertices) const {
   std::vector<double> strains;
   for (Eigen::Index t = 0; t < volume_.tets.rows(); ++t) {
-    const std::size_t piece = volume_.bodies[static_cast<std::size_t>(t)];
+    const std::size_t piece = volume_.tet_pieces[static_cast<std::size_t>(t)];
     if (piece >= strains.size()) strains.resize(piece + 1, 0.0);
     const Eigen::RowVector4i tet = volume_.tets.row(t);
     const Eigen::Matrix3d rest = edgesOf(volume_.rest_vertices, tet);
@@ -137,7 +137,7 @@ void TetBinding::apply(const MeshState& volume, const std::vector<int>& which, M
     Eigen::Vector3d position = positionOf(place, volume.vertices, volume_.tets);
     if (!scales.empty()) {
       const Correction& correction = corrections_[static_cast<std::size_t>(p)];
-      const double scale = scales[volume_.bodies[static_cast<std::size_t>(place.tet)]];
+      const double scale = scales[volume_.tet_pieces[static_cast<std::size_t>(place.tet)]];
       position += scale * positionOf({correction.tet, correction.barycentric}, volume.vertices, volume_.tets);
     }
     state->vertices.row(p) = position;

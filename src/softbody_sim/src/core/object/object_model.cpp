@@ -101,7 +101,7 @@ TetMesh loadOrMakeVolume(const ObjectDescription& description, const MeshTopolog
 TetTopology toTopology(TetMesh mesh, const std::optional<Eigen::Isometry3d>& initial_pose) {
   TetTopology topology;
   topology.surface = boundaryTriangles(mesh.tets);
-  topology.bodies = tetBodies(mesh.tets, static_cast<int>(mesh.vertices.rows()));
+  topology.tet_pieces = tetPieces(mesh.tets, static_cast<int>(mesh.vertices.rows()));
   topology.vertex_parents.resize(static_cast<std::size_t>(mesh.vertices.rows()));
   std::iota(topology.vertex_parents.begin(), topology.vertex_parents.end(), 0);
   topology.rest_vertices = std::move(mesh.vertices);
@@ -121,7 +121,7 @@ void warnOfEnclosure(const MeshTopology& visual, const TetTopology& volume, Warn
 }
 
 void warnOfPieces(const TetTopology& volume, Warnings* warnings) {
-  const std::uint32_t last = *std::max_element(volume.bodies.begin(), volume.bodies.end());
+  const std::uint32_t last = *std::max_element(volume.tet_pieces.begin(), volume.tet_pieces.end());
   if (last > 0) warnings->push_back(fmt::format("the volume has {} separate pieces", last + 1));
   const EdgeReport edges = examineEdges(volume.surface);
   if (edges.branching > 0) {

@@ -38,7 +38,8 @@ MeshTopology loadVisualMesh(const ObjectDescription& description, Warnings* warn
   warnOfSize(description.visual_mesh, surface.mesh.vertices, warnings);
   warnOfEdges(description.visual_mesh, surface.mesh.triangles, warnings);
   MeshTopology topology;
-  topology.bodies = triangleBodies(surface.mesh.triangles, static_cast<int>(surface.mesh.vertices.rows()));
+  topology.triangle_pieces =
+      trianglePieces(surface.mesh.triangles, static_cast<int>(surface.mesh.vertices.rows()));
   topology.cut.assign(static_cast<std::size_t>(surface.mesh.triangles.rows()), false);
   topology.rest_vertices = std::move(surface.mesh.vertices);
   topology.triangles = std::move(surface.mesh.triangles);

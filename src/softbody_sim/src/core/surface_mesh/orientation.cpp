@@ -77,7 +77,7 @@ Triangles turned(Triangles triangles, const std::vector<bool>& turn) {
 std::vector<bool> trianglesToFlip(const TriangleMesh& mesh) {
   std::vector<bool> turn = agreeWithNeighbours(mesh.triangles);
   const std::vector<std::uint32_t> pieces =
-      triangleBodies(mesh.triangles, static_cast<int>(mesh.vertices.rows()));
+      trianglePieces(mesh.triangles, static_cast<int>(mesh.vertices.rows()));
   // Relative to the centre, the volume of an open piece changes little with its hole.
   const Points centred = mesh.vertices.rowwise() - mesh.vertices.colwise().mean();
   const Triangles agreed = turned(mesh.triangles, turn);

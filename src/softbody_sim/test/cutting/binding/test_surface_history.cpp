@@ -37,7 +37,7 @@ double stretchWhenApart(const CutBody& body, double distance) {
   Points apart = tets.rest_vertices;
   for (Eigen::Index t = 0; t < tets.tets.rows(); ++t) {
     for (const int v : tets.tets.row(t)) {
-      apart(v, 2) = tets.rest_vertices(v, 2) + distance * tets.bodies[static_cast<std::size_t>(t)];
+      apart(v, 2) = tets.rest_vertices(v, 2) + distance * tets.tet_pieces[static_cast<std::size_t>(t)];
     }
   }
   const Points shown = body.surface.surface().apply(stateOf(tets, apart)).vertices;
@@ -60,8 +60,8 @@ TEST(SurfaceHistory, PiecesDoNotMixAtRandomCuts) {
   for (int k = 0; k < 80; ++k) {
     CutBody body;
     if (!body.cut(cuts.planeCut(), 1)) continue;
-    const auto& pieces = body.tets.topology().bodies;
-    const auto& visual = body.surface.surface().topology().bodies;
+    const auto& pieces = body.tets.topology().tet_pieces;
+    const auto& visual = body.surface.surface().topology().triangle_pieces;
     const auto tet_pieces = *std::max_element(pieces.begin(), pieces.end()) + 1;
     const auto visual_pieces = *std::max_element(visual.begin(), visual.end()) + 1;
     parted += tet_pieces > 1;
@@ -191,7 +191,7 @@ void expectSame(const VisualSurface& surface, const VisualSurface& other, const 
   EXPECT_EQ(surface.topology().rest_vertices, other.topology().rest_vertices);
   EXPECT_EQ(surface.topology().triangles, other.topology().triangles);
   EXPECT_EQ(surface.topology().vertex_parents, other.topology().vertex_parents);
-  EXPECT_EQ(surface.topology().bodies, other.topology().bodies);
+  EXPECT_EQ(surface.topology().triangle_pieces, other.topology().triangle_pieces);
   EXPECT_EQ(surface.topology().cut, other.topology().cut);
   EXPECT_EQ(shown, shown_other);
 }

@@ -80,8 +80,9 @@ TEST(Tearing, AStretchedBarTearsIntoTwoClosedPieces) {
   Scene scene(0.4);
   EXPECT_EQ(scene.statesUntilTear(stretchedMiddle(1.5)), 5);
   EXPECT_EQ(scene.pieces(), 2u);
-  EXPECT_EQ(*std::max_element(scene.surface.volume().bodies.begin(), scene.surface.volume().bodies.end()),
-            1u);
+  EXPECT_EQ(
+      *std::max_element(scene.surface.volume().tet_pieces.begin(), scene.surface.volume().tet_pieces.end()),
+      1u);
   scene.expectSound();
   const MeshTopology& mesh = scene.surface.surface().topology();
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {

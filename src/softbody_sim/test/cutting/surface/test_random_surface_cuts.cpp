@@ -31,8 +31,8 @@ std::map<std::uint32_t, std::set<std::uint32_t>> followed(const CutBody& body) {
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     for (const int v : mesh.triangles.row(t)) {
       const int tet = surface.binding().places()[static_cast<std::size_t>(v)].tet;
-      pieces[mesh.bodies[static_cast<std::size_t>(t)]].insert(
-          body.tets.topology().bodies[static_cast<std::size_t>(tet)]);
+      pieces[mesh.triangle_pieces[static_cast<std::size_t>(t)]].insert(
+          body.tets.topology().tet_pieces[static_cast<std::size_t>(tet)]);
     }
   }
   return pieces;
@@ -42,7 +42,7 @@ Eigen::Vector3d middleOf(const MeshTopology& mesh, std::uint32_t piece) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    if (mesh.bodies[static_cast<std::size_t>(t)] != piece) continue;
+    if (mesh.triangle_pieces[static_cast<std::size_t>(t)] != piece) continue;
     for (const int v : mesh.triangles.row(t)) sum += mesh.rest_vertices.row(v).transpose();
     count += 3.0;
   }
@@ -103,7 +103,7 @@ void cutBoth(const CutPatch& patch, std::uint32_t stroke, CutBody* body, std::ve
   EXPECT_LT(testing::worstJump(shown, before, body->shown(), mesh), 1e-9);
   EXPECT_LT((body->atRest() - mesh.rest_vertices).cwiseAbs().maxCoeff(), 1e-7);
   for (const auto& [piece, tet_pieces] : followed(*body)) EXPECT_EQ(tet_pieces.size(), 1u);
-  tally->differ += pieceCountOf(body->tets.topology().bodies) != pieceCountOf(mesh.bodies);
+  tally->differ += pieceCountOf(body->tets.topology().tet_pieces) != pieceCountOf(mesh.triangle_pieces);
   planes->push_back(patch);
   const Tied tied = tiedPieces(*body, *planes);
   EXPECT_EQ(tied.across, 0);

@@ -37,7 +37,7 @@ struct Piece {
 };
 
 Piece pieceOf(const TetTopology& body, std::uint32_t number) {
-  const auto numbers = vertexBodies(body.tets, body.bodies, body.rest_vertices.rows());
+  const auto numbers = vertexPieces(body.tets, body.tet_pieces, body.rest_vertices.rows());
   Piece piece;
   std::vector<int> place(numbers.size(), -1);
   for (std::size_t v = 0; v < numbers.size(); ++v) {
@@ -47,8 +47,8 @@ Piece pieceOf(const TetTopology& body, std::uint32_t number) {
   }
   piece.rest = body.rest_vertices(piece.vertices, Eigen::all);
   std::vector<int> tets;
-  for (std::size_t t = 0; t < body.bodies.size(); ++t) {
-    if (body.bodies[t] == number) tets.push_back(static_cast<int>(t));
+  for (std::size_t t = 0; t < body.tet_pieces.size(); ++t) {
+    if (body.tet_pieces[t] == number) tets.push_back(static_cast<int>(t));
   }
   piece.tets = Tets(body.tets(tets, Eigen::all)).unaryExpr([&place](int v) { return place[v]; });
   return piece;
@@ -97,7 +97,7 @@ class CutElasticity : public ::testing::Test {
 };
 
 TEST_F(CutElasticity, IsThatOfTwoPiecesWithWallsOfVertexPairs) {
-  ASSERT_EQ(*std::max_element(body_.bodies.begin(), body_.bodies.end()), 1u);
+  ASSERT_EQ(*std::max_element(body_.tet_pieces.begin(), body_.tet_pieces.end()), 1u);
   EXPECT_GT(pieces_[0].tets.rows(), 200);
   EXPECT_GT(pieces_[1].tets.rows(), 200);
   EXPECT_GE(verticesOfTheWalls().size(), 2u * 6u * 3u);  // at least one pair per line of cut edges

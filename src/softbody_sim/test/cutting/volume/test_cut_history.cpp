@@ -15,7 +15,7 @@ void expectSame(const TetTopology& one, const TetTopology& other) {
   EXPECT_EQ(one.tets, other.tets);
   EXPECT_EQ(one.surface, other.surface);
   EXPECT_EQ(one.vertex_parents, other.vertex_parents);
-  EXPECT_EQ(one.bodies, other.bodies);
+  EXPECT_EQ(one.tet_pieces, other.tet_pieces);
 }
 
 /// Positions of a bent and rotated body.
@@ -99,7 +99,7 @@ TEST(CutHistory, AStrokeOfManyStepsIsOneUndoStep) {
     edits += history.cut(ruledPatch(before, now), 7, &reason) ? 1 : 0;
   }
   EXPECT_GT(edits, 3u);
-  EXPECT_EQ(history.topology().bodies.back(), 1u);
+  EXPECT_EQ(history.topology().tet_pieces.back(), 1u);
   const TetTopology halves = history.topology();
   ASSERT_TRUE(history.undo().has_value());
   expectSame(history.topology(), sponge);

@@ -43,7 +43,7 @@ std::unique_ptr<Simulator> swinging() {
 std::vector<int> verticesOfPiece(const TetTopology& topology, std::uint32_t piece) {
   std::vector<int> vertices;
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    if (topology.bodies[static_cast<std::size_t>(t)] != piece) continue;
+    if (topology.tet_pieces[static_cast<std::size_t>(t)] != piece) continue;
     for (const int v : topology.tets.row(t)) vertices.push_back(v);
   }
   return vertices;
@@ -55,7 +55,7 @@ Eigen::Vector3d meanOfPiece(const TetTopology& topology, std::uint32_t piece, co
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double all = 0.0;
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    if (topology.bodies[static_cast<std::size_t>(t)] != piece) continue;
+    if (topology.tet_pieces[static_cast<std::size_t>(t)] != piece) continue;
     all += volumes[t];
     for (const int v : topology.tets.row(t)) sum += 0.25 * volumes[t] * values.row(v).transpose();
   }
@@ -114,7 +114,8 @@ TEST(CutSimulation, PiecesMoveOnTheirOwn) {
   TargetSet targets;
   targets.revision = 1;
   for (const Target& target : testing::vertexTargets(topology, goal)) {
-    if (topology.bodies[static_cast<std::size_t>(target.place.tet)] == 0) targets.targets.push_back(target);
+    if (topology.tet_pieces[static_cast<std::size_t>(target.place.tet)] == 0)
+      targets.targets.push_back(target);
   }
   for (int k = 2; k < 12; ++k) simulator.step(targets, k * kFrame);
   EXPECT_LT((simulator.state().vertices(moved, Eigen::all) - goal(moved, Eigen::all)).cwiseAbs().maxCoeff(),
@@ -162,7 +163,7 @@ TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
   const Points before = simulator.state().vertices;
   std::vector<Target>& seen = targets.targets;
   const auto is_hidden = [&](const Target& target) {
-    return topology.bodies[static_cast<std::size_t>(target.place.tet)] == 1;
+    return topology.tet_pieces[static_cast<std::size_t>(target.place.tet)] == 1;
   };
   seen.erase(std::remove_if(seen.begin(), seen.end(), is_hidden), seen.end());
   for (int k = 8; k < 38; ++k) simulator.step(targets, k * kFrame);

@@ -59,7 +59,7 @@ bool isParted(const TetTopology& after, const RandomCuts::Plane& plane) {
   };
   std::map<std::uint32_t, Reach> pieces;
   for (Eigen::Index t = 0; t < after.tets.rows(); ++t) {
-    Reach& reach = pieces[after.bodies[static_cast<std::size_t>(t)]];
+    Reach& reach = pieces[after.tet_pieces[static_cast<std::size_t>(t)]];
     for (int k = 0; k < 4; ++k) {
       const Eigen::Vector3d corner = after.rest_vertices.row(after.tets(t, k));
       const double height = plane.normal.dot(corner - plane.point);

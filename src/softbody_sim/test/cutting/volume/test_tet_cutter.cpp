@@ -31,7 +31,7 @@ void expectSound(const TetEdit& edit, const TetTopology& before) {
   EXPECT_EQ(after.rest_vertices, inSinglePrecision(after.rest_vertices));
   EXPECT_EQ(nonManifoldVertices(after.surface), std::vector<int>());
   EXPECT_EQ(after.surface, boundaryTriangles(after.tets));
-  EXPECT_EQ(after.bodies, tetBodies(after.tets, static_cast<int>(after.rest_vertices.rows())));
+  EXPECT_EQ(after.tet_pieces, tetPieces(after.tets, static_cast<int>(after.rest_vertices.rows())));
   EXPECT_EQ(edit.cut.size(), static_cast<std::size_t>(after.surface.rows()));
   EXPECT_EQ(after.vertex_parents.size(), static_cast<std::size_t>(after.rest_vertices.rows()));
   const std::set<int> used(after.tets.data(), after.tets.data() + after.tets.size());
@@ -67,7 +67,7 @@ bool isParted(const TetTopology& after, const std::vector<bool>& on_cut, const R
     for (const int vertex : after.tets.row(t)) {
       if (on_cut[static_cast<std::size_t>(vertex)]) continue;
       const bool above = plane.normal.dot(after.rest_vertices.row(vertex).transpose() - plane.point) > 0.0;
-      const auto [side, first] = sides.emplace(after.bodies[static_cast<std::size_t>(t)], above);
+      const auto [side, first] = sides.emplace(after.tet_pieces[static_cast<std::size_t>(t)], above);
       if (side->second != above) return false;
     }
   }
@@ -85,7 +85,7 @@ TEST(TetCutter, HalvesTheSpongeAtItsMiddle) {
   expectDescended(*edit, sponge.topology);
   const TetTopology& after = edit->topology;
   EXPECT_EQ(after.revision, 1u);
-  EXPECT_EQ(*std::max_element(after.bodies.begin(), after.bodies.end()), 1u);
+  EXPECT_EQ(*std::max_element(after.tet_pieces.begin(), after.tet_pieces.end()), 1u);
   double cut_area = 0.0;
   for (Eigen::Index f = 0; f < after.surface.rows(); ++f) {
     const Eigen::Vector3d a = after.rest_vertices.row(after.surface(f, 0)),

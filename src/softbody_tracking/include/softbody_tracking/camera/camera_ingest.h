@@ -10,7 +10,8 @@ namespace softbody {
 
 struct CameraIngestConfig {
   /// Two neighbouring pixels belong to one surface if their depths differ by less than this fraction of z.
-  /// Surfaces are kept up to a slant of about atan(ratio * focal length in px): 80 degrees at 275 px, 85 at 600.
+  /// Surfaces are kept up to a slant of about atan(ratio * focal length in px): 80 degrees at 275 px, 85 at
+  /// 600.
   double edge_jump_ratio = 0.02;
   double min_depth_m = 0.1, max_depth_m = 5.0;  ///< depth outside of this range is removed
 };
@@ -22,8 +23,8 @@ CameraIngestConfig readCameraIngestConfig(Parameters& parameters);
 struct Distortion {
   cv::Matx33d K = cv::Matx33d::zeros();  ///< camera matrix of the raw image; zero: the image is rectified
   cv::Matx33d R = cv::Matx33d::eye();    ///< from the raw to the rectified camera frame
-  std::vector<double> coefficients;  ///< plumb_bob or rational_polynomial; empty or all zero: none
-  bool fisheye = false;              ///< "equidistant"
+  std::vector<double> coefficients;      ///< plumb_bob or rational_polynomial; empty or all zero: none
+  bool fisheye = false;                  ///< "equidistant"
 };
 
 /// Makes a rectified RgbdFrame without flying pixels from raw colour and registered depth.

@@ -74,7 +74,7 @@ void RigidAlignment::gather(const DepthAssociations& depth, const RigidMotions& 
 RigidMotions RigidAlignment::align(const RgbdFrame& frame, const PredictedSurface& surface,
                                    const SurfaceSamples& samples, const ColorModel& colors,
                                    const std::vector<FeatureMatch>& matches, DepthAssociator* depth) {
-  RigidMotions motions(surface.bodyCount(), Eigen::Isometry3d::Identity());
+  RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
   features_.clear();
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features_);

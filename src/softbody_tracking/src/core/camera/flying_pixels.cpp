@@ -6,7 +6,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kMinNearNeighbors = 2;   // of eight: a thin wire has two, a stray pixel has none
+constexpr int kMinNearNeighbors = 2;     // of eight: a thin wire has two, a stray pixel has none
 constexpr float kDiagonalFactor = 1.5f;  // diagonal neighbours are sqrt(2) pixels away; rounded up
 
 /// Whether z lies between a and b and is near neither.

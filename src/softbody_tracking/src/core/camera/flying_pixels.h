@@ -4,11 +4,14 @@
 
 namespace softbody {
 
-/// Removes flying pixels: false depths that a sensor gives between two surfaces. Two pixels are near each other
-/// if their depths differ by less than ratio * z, or 1.5 times that along a diagonal. A pixel is kept if
+/// Removes flying pixels: false depths that a sensor gives between two surfaces. Two pixels are near each
+/// other if their depths differ by less than ratio * z, or 1.5 times that along a diagonal. A pixel is kept
+/// if
 /// - at least two of its eight neighbours are near it, as along a thin wire; and
-/// - in no direction (row, column, diagonals) it lies between a nearer and a farther neighbour, both of them not
-///   near: that is a ramp across a depth edge. A real object before the background has farther neighbours only.
+/// - in no direction (row, column, diagonals) it lies between a nearer and a farther neighbour, both of them
+/// not
+///   near: that is a ramp across a depth edge. A real object before the background has farther neighbours
+///   only.
 class FlyingPixelFilter {
  public:
   explicit FlyingPixelFilter(double ratio) : ratio_(static_cast<float>(ratio)) {}

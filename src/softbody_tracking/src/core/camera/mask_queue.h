@@ -11,9 +11,9 @@
 
 namespace softbody {
 
-/// Frames that wait for the mask with the same stamp. They leave in the order in which they came. A frame leaves
-/// without a mask after a timeout, or when the mask of a later frame has come: the segmentation skipped it.
-/// A frame with an older stamp than the last one clears the queue.
+/// Frames that wait for the mask with the same stamp. They leave in the order in which they came. A frame
+/// leaves without a mask after a timeout, or when the mask of a later frame has come: the segmentation
+/// skipped it. A frame with an older stamp than the last one clears the queue.
 template <typename Frame, typename Mask>
 class MaskQueue {
  public:
@@ -28,7 +28,8 @@ class MaskQueue {
   void addFrame(Nanoseconds stamp, Frame frame, double now_s) {
     if (stamp < newest_) {
       frames_.clear();
-      masks_.erase(masks_.upper_bound(last_taken_), masks_.end());  // earlier masks belong to the restarted bag
+      masks_.erase(masks_.upper_bound(last_taken_),
+                   masks_.end());  // earlier masks belong to the restarted bag
       last_taken_ = stamp;
     }
     newest_ = stamp;
@@ -63,8 +64,9 @@ class MaskQueue {
     double since_s;
     Frame frame;
   };
-  static constexpr std::size_t kMaxMasks = 100;              // masks without a frame; bounds the memory
-  static constexpr Nanoseconds kRestartGap = 1'000'000'000;  // [ns] a mask this much older is from a restarted bag
+  static constexpr std::size_t kMaxMasks = 100;  // masks without a frame; bounds the memory
+  static constexpr Nanoseconds kRestartGap =
+      1'000'000'000;  // [ns] a mask this much older is from a restarted bag
 
   double timeout_s_;
   std::deque<Waiting> frames_;

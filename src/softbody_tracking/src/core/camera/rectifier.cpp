@@ -23,7 +23,7 @@ cv::Matx33d cameraMatrix(const Pinhole& camera) {
 /// Whether raw and rectified image are the same.
 bool isAlreadyRectified(const Distortion& distortion, const Pinhole& rectified) {
   const bool undistorted = std::all_of(distortion.coefficients.begin(), distortion.coefficients.end(),
-                                    [](double c) { return c == 0.0; });
+                                       [](double c) { return c == 0.0; });
   if (!undistorted || distortion.fisheye) return false;
   const bool no_calibration = distortion.K(0, 0) == 0.0;
   return no_calibration || (distortion.R == cv::Matx33d::eye() && distortion.K == cameraMatrix(rectified));

@@ -8,7 +8,8 @@
 namespace softbody {
 namespace {
 
-constexpr int kMinSpacing_px = 4;  // [px] between blocks: a stereo camera gives neighbouring pixels equal errors
+constexpr int kMinSpacing_px =
+    4;  // [px] between blocks: a stereo camera gives neighbouring pixels equal errors
 constexpr double kMedianPerSigma = 0.6745;  // median of |x| for a standard normal x
 constexpr double kMaxCount = 3000.0;        // memory in second differences: about two frames of 1500 blocks
 
@@ -17,8 +18,8 @@ bool agree(const DepthBlock& a, const DepthBlock& b, const DepthBlock& c) {
   return a.kind == kAgrees && b.kind == kAgrees && c.kind == kAgrees;
 }
 
-/// Appends |second difference| * depth for each block whose neighbours at -step and +step lie on the same piece.
-/// The depth makes up for the width of a block on the surface, which grows with it.
+/// Appends |second difference| * depth for each block whose neighbours at -step and +step lie on the same
+/// piece. The depth makes up for the width of a block on the surface, which grows with it.
 void addSecondDifferences(const SurfaceSamples& surface, const std::vector<DepthBlock>& blocks,
                           const cv::Point& step, std::vector<double>* differences) {
   const cv::Mat1i& grid = surface.grid;

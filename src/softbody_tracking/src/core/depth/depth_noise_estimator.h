@@ -15,17 +15,17 @@ struct DepthNoiseSample {
   std::size_t count = 0;  ///< number of second differences that it was estimated from
 };
 
-/// Measures the noise by the second differences of depth over three blocks in a row or column. An offset or a tilt
-/// of the prediction does not change them. A bend that the prediction lacks adds an error that grows with the
-/// square of the distance between the blocks.
+/// Measures the noise by the second differences of depth over three blocks in a row or column. An offset or a
+/// tilt of the prediction does not change them. A bend that the prediction lacks adds an error that grows
+/// with the square of the distance between the blocks.
 /// @param memory scratch memory, reused from call to call.
 DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vector<DepthBlock>& blocks,
                                   double focal_px, std::vector<double>* memory);
 
-/// Estimates the noise of depth over many frames, because a frame that shows little of the body measures it badly.
-/// If blocks err independently, the mean depth over a patch has a standard deviation of density / (side of the
-/// patch), whatever the number of blocks. Neighbouring pixels of a stereo camera do not err independently: with
-/// blocks of one or two pixels the estimate is too small, by up to a half.
+/// Estimates the noise of depth over many frames, because a frame that shows little of the body measures it
+/// badly. If blocks err independently, the mean depth over a patch has a standard deviation of density /
+/// (side of the patch), whatever the number of blocks. Neighbouring pixels of a stereo camera do not err
+/// independently: with blocks of one or two pixels the estimate is too small, by up to a half.
 class DepthNoiseEstimator {
  public:
   void update(const DepthNoiseSample& sample);

@@ -12,14 +12,14 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
     : volume_(volume),
       surface_(surface),
       faces_(isClosed(surface.triangles) ? Faces::kFront : Faces::kAll),
-      tet_bodies_(tetBodies(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
-      vertex_bodies_(vertexBodies(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
-      pieces_(verticesOfBodies(volume.tets, volume.rest_vertices.rows())),
+      tet_bodies_(tetPieces(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
+      vertex_bodies_(vertexPieces(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
+      pieces_(verticesOfPieces(volume.tets, volume.rest_vertices.rows())),
       at_cut_(static_cast<std::size_t>(surface.rest_vertices.rows()), false),
       binding_(bindSurface(surface, volume)) {
   surface_bodies_.resize(pieces_.size());
-  for (std::size_t t = 0; t < surface.bodies.size(); ++t)
-    surface_bodies_[tetBodyOf(static_cast<int>(t))].insert(surface.bodies[t]);
+  for (std::size_t t = 0; t < surface.triangle_pieces.size(); ++t)
+    surface_bodies_[tetBodyOf(static_cast<int>(t))].insert(surface.triangle_pieces[t]);
   for (std::size_t t = 0; t < surface.cut.size(); ++t) {
     if (!surface.cut[t]) continue;
     for (int k = 0; k < 3; ++k) at_cut_[surface.triangles(static_cast<Eigen::Index>(t), k)] = true;
@@ -59,8 +59,8 @@ Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
 
 void PredictedSurface::move(const RigidMotions& motions) {
   volume_vertices_ = movedVolume(motions);
-  motions_.resize(bodyCount(), Eigen::Isometry3d::Identity());
-  for (std::size_t body = 0; body < bodyCount(); ++body) motions_[body] = motions[body] * motions_[body];
+  motions_.resize(pieceCount(), Eigen::Isometry3d::Identity());
+  for (std::size_t body = 0; body < pieceCount(); ++body) motions_[body] = motions[body] * motions_[body];
 }
 
 bool PredictedSurface::isAtCut(int triangle) const {
@@ -77,7 +77,7 @@ Eigen::Matrix3d PredictedSurface::corners(int triangle) const {
 }
 
 int PredictedSurface::triangleAt(const Eigen::Vector3d& measured, double tolerance) const {
-  for (std::size_t body = 0; body < bodyCount(); ++body) {
+  for (std::size_t body = 0; body < pieceCount(); ++body) {
     const Eigen::Vector3d rendered =
         motions_.empty() ? measured : Eigen::Vector3d(motions_[body].inverse(Eigen::Isometry) * measured);
     if (!(rendered.z() > 0.0)) continue;

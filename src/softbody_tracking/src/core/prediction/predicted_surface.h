@@ -30,7 +30,7 @@ class PredictedSurface {
 
   /// The piece that a place belongs to, and how many there are.
   std::uint32_t bodyOf(const MaterialPoint& place) const { return tet_bodies_[place.tet]; }
-  std::size_t bodyCount() const { return pieces_.size(); }
+  std::size_t pieceCount() const { return pieces_.size(); }
   /// The volume's vertices of each.
   const std::vector<std::vector<int>>& pieces() const { return pieces_; }
   /// What the visual mesh shows of each, by MeshTopology::bodies: one or more, none where it lies inside of

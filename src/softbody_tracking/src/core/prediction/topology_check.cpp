@@ -32,7 +32,7 @@ void requireWhole(const TetTopology& volume, const MeshTopology& surface) {
   requireVertices(volume.tets, volume.rest_vertices.rows(), "a tet of the volume's topology");
   requireVertices(volume.surface, volume.rest_vertices.rows(), "a triangle of the volume's topology");
   requireVertices(surface.triangles, surface.rest_vertices.rows(), "a triangle of the surface's topology");
-  requireOneForEach(surface.triangles, surface.bodies.size(), "bodies");
+  requireOneForEach(surface.triangles, surface.triangle_pieces.size(), "bodies");
   requireOneForEach(surface.triangles, surface.cut.size(), "marks of cuts");
 }
 

@@ -7,7 +7,7 @@ namespace softbody {
 PositionPrior::PositionPrior(const TetTopology& volume) : places_(vertexPlaces(volume)) {}
 
 void PositionPrior::addTargets(const std::vector<int>& vertices, const Points& positions, double weight,
-                    std::vector<Target>* targets) const {
+                               std::vector<Target>* targets) const {
   for (const int v : vertices) {
     Target target;
     target.kind = TargetKind::kVertex;

@@ -6,7 +6,8 @@
 
 namespace softbody {
 
-/// Makes weak targets that keep vertices at given positions, for pieces of a cut body that no measurement holds.
+/// Makes weak targets that keep vertices at given positions, for pieces of a cut body that no measurement
+/// holds.
 class PositionPrior {
  public:
   /// Weight of such a target, where a target of ordinary measurements has about 1. It is far stiffer than a

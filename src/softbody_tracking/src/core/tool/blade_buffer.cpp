@@ -10,8 +10,9 @@
 namespace softbody {
 namespace {
 
-constexpr std::size_t kMaxBlades = 1000;         // bounds the memory if no frames come
-constexpr Nanoseconds kMaxLead = 1'000'000'000;  // [ns] slow frames catch up by then, unless the clocks differ
+constexpr std::size_t kMaxBlades = 1000;  // bounds the memory if no frames come
+constexpr Nanoseconds kMaxLead =
+    1'000'000'000;  // [ns] slow frames catch up by then, unless the clocks differ
 
 }  // namespace
 

@@ -18,7 +18,8 @@ struct ReportedBlade {
   Points outline;  ///< #B by 3 [m]
 };
 
-/// Keeps blades until tf gives the pose of their frames, and selects the blade that is nearest in time to a frame.
+/// Keeps blades until tf gives the pose of their frames, and selects the blade that is nearest in time to a
+/// frame.
 class BladeBuffer {
  public:
   /// T_fixed_blade; empty if it is unknown or not known yet.
@@ -27,14 +28,14 @@ class BladeBuffer {
   /// Blades that could not be used.
   struct Rejected {
     std::size_t expired = 0;  ///< blades that became too old without a pose; each is counted once
-    Nanoseconds lead = 0;     ///< of the newest blade before the frame; 0 unless all blades were too new for 1 s
+    Nanoseconds lead = 0;  ///< of the newest blade before the frame; 0 unless all blades were too new for 1 s
   };
 
   void add(ReportedBlade blade);
   void clear();
 
-  /// Gives the mask the blade with a known pose that is nearest in time to the frame. Later blades may have come
-  /// already, because a frame may wait for its segmentation mask.
+  /// Gives the mask the blade with a known pose that is nearest in time to the frame. Later blades may have
+  /// come already, because a frame may wait for its segmentation mask.
   Rejected updateMask(Nanoseconds frame, const PoseLookup& look_up, ToolMask* mask);
 
  private:
@@ -47,7 +48,8 @@ class BladeBuffer {
   Nanoseconds leadOver(Nanoseconds frame);
 
   std::deque<BufferedBlade> blades_;
-  std::optional<Nanoseconds> lead_since_;  ///< the first of the consecutive frames for which all blades are too new
+  std::optional<Nanoseconds>
+      lead_since_;  ///< the first of the consecutive frames for which all blades are too new
 };
 
 }  // namespace softbody

@@ -166,7 +166,7 @@ std::vector<FeatureMatch> FrameObserver::alignFeatures(const RgbdFrame& frame) {
 /// Those whose features say whether the prediction is right: what is held where it was is not expected to be
 /// there. With nothing else, that says it too.
 std::vector<bool> FrameObserver::followedPieces() const {
-  return any(shown_before_) ? shown_before_ : std::vector<bool>(surface_.bodyCount(), true);
+  return any(shown_before_) ? shown_before_ : std::vector<bool>(surface_.pieceCount(), true);
 }
 
 bool FrameObserver::farOff(const std::vector<FeatureMatch>& scouts) const {
@@ -220,7 +220,7 @@ void FrameObserver::followFeatures(const RgbdFrame& frame, Observation* seen) {
 
 FrameObserver::FeatureCount FrameObserver::countOn(std::size_t piece,
                                                    const std::vector<FeatureMatch>& matches) const {
-  std::vector<bool> counted(surface_.bodyCount());
+  std::vector<bool> counted(surface_.pieceCount());
   counted[piece] = true;
   const auto inliers = std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& match) {
     return match.inlier && match.association.body == piece;
@@ -233,7 +233,7 @@ FrameObserver::FeatureCount FrameObserver::countOn(std::size_t piece,
 std::vector<bool> FrameObserver::gonePieces(const std::vector<FeatureMatch>& matches) {
   frames_to_search_ = frames_to_search_ > 0 ? frames_to_search_ - 1 : kFramesBetweenSearches - 1;
   const std::vector<bool> followed = followedPieces();
-  std::vector<bool> gone(surface_.bodyCount());
+  std::vector<bool> gone(surface_.pieceCount());
   searches_.resize(gone.size());
   for (std::size_t piece = 0; piece < gone.size(); ++piece) {
     const FeatureCount count = countOn(piece, matches);

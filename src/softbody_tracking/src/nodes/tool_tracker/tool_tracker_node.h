@@ -12,8 +12,8 @@
 #include "nodes/rectified_image_subscriber.h"
 #include "nodes/tool_tracker/tool_publisher.h"
 #include "softbody_common/parameters.h"
-#include "softbody_tracking/tool/tool_tracker.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
+#include "softbody_tracking/tool/tool_tracker.h"
 
 namespace softbody {
 

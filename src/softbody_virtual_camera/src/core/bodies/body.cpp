@@ -40,7 +40,7 @@ MeshTopology topologyOf(const Body& body) {
   topology.triangles = body.rest.triangles;
   topology.vertex_parents.resize(vertices);
   std::iota(topology.vertex_parents.begin(), topology.vertex_parents.end(), 0);
-  topology.bodies = triangleBodies(body.rest.triangles, static_cast<int>(vertices));
+  topology.triangle_pieces = trianglePieces(body.rest.triangles, static_cast<int>(vertices));
   topology.cut.assign(static_cast<std::size_t>(body.rest.triangles.rows()), false);
   topology.texture_coordinates = body.skin.coordinates;
   return topology;

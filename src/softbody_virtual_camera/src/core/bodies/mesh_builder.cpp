@@ -42,7 +42,7 @@ MeshTopology MeshBuilder::topology() const {
   }
   topology.vertex_parents = before_.vertex_parents;
   topology.vertex_parents.resize(vertices_.size(), -1);
-  topology.bodies = triangleBodies(topology.triangles, static_cast<int>(vertices_.size()));
+  topology.triangle_pieces = trianglePieces(topology.triangles, static_cast<int>(vertices_.size()));
   return topology;
 }
 

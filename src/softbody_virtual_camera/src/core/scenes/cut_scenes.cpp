@@ -44,11 +44,11 @@ Aftermath partPieces(const MeshTopology& cut, double place) {
   for (Eigen::Index f = 0; f < cut.triangles.rows(); ++f) {
     for (const int i : cut.triangles.row(f)) {
       auto& [sum, count] =
-          sums.try_emplace(cut.bodies[static_cast<std::size_t>(f)], Eigen::Vector3d::Zero(), 0.0)
+          sums.try_emplace(cut.triangle_pieces[static_cast<std::size_t>(f)], Eigen::Vector3d::Zero(), 0.0)
               .first->second;
       sum += cut.rest_vertices.row(i).transpose();
       count += 1.0;
-      piece[static_cast<std::size_t>(i)] = cut.bodies[static_cast<std::size_t>(f)];
+      piece[static_cast<std::size_t>(i)] = cut.triangle_pieces[static_cast<std::size_t>(f)];
     }
   }
   return [=, rest = cut.rest_vertices](double share) {

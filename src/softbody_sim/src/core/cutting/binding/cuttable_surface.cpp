@@ -43,7 +43,7 @@ std::vector<double> volumesOf(const MeshTopology& mesh) {
     const auto corner = [&](int k) -> Eigen::Vector3d {
       return mesh.rest_vertices.row(mesh.triangles(t, k)).transpose() - origin;
     };
-    const std::size_t piece = mesh.bodies[static_cast<std::size_t>(t)];
+    const std::size_t piece = mesh.triangle_pieces[static_cast<std::size_t>(t)];
     if (piece >= volumes.size()) volumes.resize(piece + 1, 0.0);
     volumes[piece] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
   }

@@ -41,7 +41,7 @@ class SidePlacement {
         places_(mesh_pieces_.size()),
         distances_(mesh_pieces_.size(), 0.0) {
     for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
-      for (const int v : mesh_.triangles.row(t)) mesh_pieces_[at(v)] = mesh_.bodies[at(t)];
+      for (const int v : mesh_.triangles.row(t)) mesh_pieces_[at(v)] = mesh_.triangle_pieces[at(t)];
     }
   }
 
@@ -55,7 +55,7 @@ class SidePlacement {
   using Link = std::pair<int, int>;  ///< from a vertex to a neighbour without a place
   static std::size_t at(Eigen::Index index) { return static_cast<std::size_t>(index); }
   MaterialPoint placeAfter(const MaterialPoint& place) const;
-  std::uint32_t tetPieceOf(std::size_t v) const { return edit_.topology.bodies[at(places_[v].tet)]; }
+  std::uint32_t tetPieceOf(std::size_t v) const { return edit_.topology.tet_pieces[at(places_[v].tet)]; }
   std::vector<Link> linksToUnplaced(bool over_new_walls) const;
 
   const SurfaceCut& surface_;
@@ -89,7 +89,7 @@ void SidePlacement::placeKnownSides(const std::vector<MaterialPoint>& known) {
 
 /// A piece of the mesh keeps its places in one piece of the tets only: the one with most places.
 void SidePlacement::keepMostFrequentPiece() {
-  const std::size_t piece_count = pieceCountOf(edit_.topology.bodies);
+  const std::size_t piece_count = pieceCountOf(edit_.topology.tet_pieces);
   std::vector<int> counts(pieceCountOf(mesh_pieces_) * piece_count, 0);
   for (std::size_t v = 0; v < places_.size(); ++v) {
     if (places_[v].tet >= 0) ++counts[mesh_pieces_[v] * piece_count + tetPieceOf(v)];

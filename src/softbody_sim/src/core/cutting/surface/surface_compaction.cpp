@@ -119,7 +119,7 @@ void Compaction::writeTriangles() {
     cut_.triangle_sources[row] = source;
     mesh.cut[row] = of_surface ? before_.cut[source] : true;
   }
-  mesh.bodies = numberPieces(manifold.triangles.size(), manifold.mates);
+  mesh.triangle_pieces = numberPieces(manifold.triangles.size(), manifold.mates);
 }
 
 void Compaction::writeTexture() {

@@ -70,14 +70,17 @@ void checkHeights(const MeshTopology& mesh, const SplitSurface& surface, const S
 /// @throw CutRefused if a piece is thinner than the snapping distance: volume / (area / 2).
 void checkPieces(const MeshTopology& mesh, double snap_distance) {
   std::vector<double> excess(
-      mesh.bodies.empty() ? 0 : *std::max_element(mesh.bodies.begin(), mesh.bodies.end()) + 1);
+      mesh.triangle_pieces.empty()
+          ? 0
+          : *std::max_element(mesh.triangle_pieces.begin(), mesh.triangle_pieces.end()) + 1);
   const Eigen::Vector3d origin = mesh.rest_vertices.row(0);
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const auto corner = [&](int k) -> Eigen::Vector3d {
       return mesh.rest_vertices.row(mesh.triangles(t, k)).transpose() - origin;
     };
     const Eigen::Vector3d a = corner(0), area = 0.5 * (corner(1) - a).cross(corner(2) - a);
-    excess[mesh.bodies[static_cast<std::size_t>(t)]] += area.dot(a) / 3.0 - 0.5 * area.norm() * snap_distance;
+    excess[mesh.triangle_pieces[static_cast<std::size_t>(t)]] +=
+        area.dot(a) / 3.0 - 0.5 * area.norm() * snap_distance;
   }
   if (std::any_of(excess.begin(), excess.end(), [](double volume) { return volume <= 0.0; })) {
     throw CutRefused("it would leave a piece without thickness");

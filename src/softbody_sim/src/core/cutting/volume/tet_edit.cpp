@@ -84,7 +84,7 @@ TetTopology topologyAfter(const CutSteps& steps) {
   for (const int source : copied_from) {
     after.vertex_parents.push_back(after.vertex_parents[static_cast<std::size_t>(source)]);
   }
-  after.bodies = tetBodies(after.tets, static_cast<int>(after.rest_vertices.rows()));
+  after.tet_pieces = tetPieces(after.tets, static_cast<int>(after.rest_vertices.rows()));
   return after;
 }
 
