@@ -118,9 +118,9 @@ class Replay {
       warn_(fmt::format("{} cuts of the journal were not made, because the body was not tracked after them",
                         left));
     output_.finish();
-    const std::vector<std::uint32_t>& bodies = pipeline_.surfaceTopology().triangle_pieces;
+    const std::vector<std::uint32_t>& pieces = pipeline_.surfaceTopology().triangle_pieces;
     summary_.tool_missed = tool_dropouts_.missedFrames();
-    summary_.pieces = bodies.empty() ? 0 : 1 + *std::max_element(bodies.begin(), bodies.end());
+    summary_.pieces = pieces.empty() ? 0 : 1 + *std::max_element(pieces.begin(), pieces.end());
     return summary_;
   }
 
