@@ -4,23 +4,21 @@
 
 namespace softbody {
 
-/// First alignment of the rest shape with the depth image.
+/// Registration: alignment of the rest shape with a depth image, without a prediction.
 struct RegistrationConfig {
-  /// Depth differences beyond this count as free space or occlusion, at up to 1 m; further away, where depth
-  /// is noisier, beyond this times the distance.
+  /// Larger depth differences count as free space or occlusion [m], at up to 1 m. Beyond 1 m it is multiplied
+  /// with the distance in metres, since depth is noisier there.
   double distance_scale_m = 0.02;
-  double max_cost = 0.5;  ///< mean cost a pixel, 0..1, above which the registration is refused
+  double max_cost = 0.5;  ///< mean cost of a pixel, 0..1, above which a pose is rejected
 };
 
-/// ORB features, bound to the body where they lie.
+/// ORB features bound to the body.
 struct FeatureConfig {
-  int max_features = 1000;        ///< N_p of Kang et al. 2022
-  int search_radius_px = 20;      ///< around the predicted position
-  int max_hamming_distance = 64;  ///< of 256 bits
-  double max_disagreement_m =
-      0.006;  ///< residual against the neighbours' median residual; more is an outlier
-  double weight =
-      0.5;  ///< of a feature target where its patch fits; up to four times that where they are few
+  int max_features = 1000;            ///< N_p of Kang et al. 2022
+  int search_radius_px = 20;          ///< around the predicted pixel
+  int max_hamming_distance = 64;      ///< of 256 bits
+  double max_disagreement_m = 0.006;  ///< from the motion of the neighbours; more is an outlier
+  double weight = 0.5;  ///< of a feature target whose patch fits; up to four times that if features are few
 };
 
 /// Depth pixels as targets on the visible surface.
@@ -31,17 +29,16 @@ struct DepthConfig {
                                  ///< of one at most kLargestTargetWeight
 };
 
-/// Where the body ends in the image.
+/// Targets at the body's outline in the image.
 struct OutlineConfig {
-  double weight = 1.0;  ///< of all outline targets on the length of one mean tet edge; 0: none are made
+  double weight = 1.0;  ///< of all outline targets on the length of one mean tet edge; 0: no outline targets
 };
 
-/// The paper's way of making targets: vertices moved by their neighbouring features (Kang et al. 2022, eq.
-/// 3-4).
+/// Targets as in the paper: neighbouring features move the vertices (Kang et al. 2022, eq. 3-4).
 struct KnnConfig {
   int max_neighbors = 10;      ///< N_k
   double radius_m = 0.01;      ///< delta_k
-  bool local_rotation = true;  ///< carry the offset from feature to vertex with the local rotation
+  bool local_rotation = true;  ///< rotate the offset from feature to vertex with the body
 };
 
 struct TrackerConfig {
@@ -54,7 +51,7 @@ struct TrackerConfig {
   KnnConfig knn;
 };
 
-/// @throw std::invalid_argument as Parameters does.
+/// Reads and checks all tracker parameters. @throw std::invalid_argument like Parameters.
 TrackerConfig readTrackerConfig(Parameters& parameters);
 
 }  // namespace softbody

@@ -8,6 +8,7 @@
 namespace softbody {
 namespace {
 
+// Fewest max_features for target_mode knn; with fewer, most vertices would have no feature within the radius.
 constexpr int kFewestKnnFeatures = 50;
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 const Eigen::Vector3d kShift(0.02, 0.0, 0.0);  // [m]
 
-/// Where a small part of a piece has gone.
+/// Associations of a small part of a piece, all shifted.
 std::vector<Association> shifted(double weight = 1.0) {
   std::vector<Association> associations;
   for (int i = 0; i < 27; ++i) {
@@ -20,7 +20,7 @@ std::vector<Association> shifted(double weight = 1.0) {
   return associations;
 }
 
-/// The whole of it, with each of its corners so many times.
+/// The whole piece. @param copies of each of its corners.
 Points piece(int copies) {
   Points points(8 * copies, 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i)
@@ -43,7 +43,7 @@ TEST(HeldBack, CountsByWhatTheMeasurementsWeighHoweverFineThePiece) {
   EXPECT_NEAR(shiftHeldBy(1, 0.01), one, 1e-6);
 }
 
-/// However many rows of no residual there are, they do not make outliers of the measurements.
+/// Rows without residual do not turn measurements into outliers, however many they are.
 TEST(HeldBack, DoesNotSayWhatAnOutlierIs) {
   std::vector<Association> held = heldBack(piece(200), Eigen::Isometry3d::Identity(), refsTo(shifted()));
   for (Association& a : held) a.weight *= 1e-6;

@@ -16,7 +16,7 @@ class DepthAssociationsTest : public ::testing::Test {
       : truth_(transformed(box_.volume.rest_vertices, boxPose())),
         frame_(renderFrame(box_, truth_, 1)),
         surface_(box_.volume, box_.surface) {
-    surface_.update(frame_.camera, truth_);
+    surface_.render(frame_.camera, truth_);
   }
 
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
@@ -55,7 +55,7 @@ TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
 }
 
 TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
-  surface_.update(frame_.camera,
+  surface_.render(frame_.camera,
                   transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.004))));
   for (const Association& a : associate().associations) {
     EXPECT_LT(a.residual(), 0.0) << "the body lies behind its prediction, against the normals";
@@ -64,7 +64,7 @@ TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
 }
 
 TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
-  surface_.update(frame_.camera,
+  surface_.render(frame_.camera,
                   transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
   const DepthAssociations all = associate();
   for (const int step : {2, 3, 1000}) {
@@ -96,7 +96,7 @@ TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
     const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
     truth_ = transformed(box_.volume.rest_vertices, turned);
     frame_ = renderFrame(box_, truth_, 1);
-    surface_.update(frame_.camera, truth_);
+    surface_.render(frame_.camera, truth_);
     double weights = 0.0, area = 0.0;
     for (const Association& a : associate().associations) weights += a.weight * edge_ * edge_;
     for (const auto& triangle : box_.volume.surface.rowwise()) {
@@ -210,7 +210,7 @@ TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
   SurfaceSamples samples = sampleSurface(surface_, 1500);
   for (int row = 0; row < samples.grid.rows; ++row)
     for (int column = 0; column < samples.grid.cols; ++column)
-      if (samples.grid(row, column) >= 0) samples.samples[samples.grid(row, column)].body = column / 6 % 2;
+      if (samples.grid(row, column) >= 0) samples.samples[samples.grid(row, column)].piece = column / 6 % 2;
   const RigidMotions motions = {Eigen::Isometry3d::Identity(),
                                 Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.006))};
   DepthAssociator depth(DepthConfig(), edge_);
@@ -244,7 +244,7 @@ TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
 TEST_F(DepthAssociationsTest, MoveWithTheirSamples) {
   const Eigen::Isometry3d error =
       Eigen::Translation3d(0.003, -0.002, 0.004) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());
-  surface_.update(frame_.camera, transformed(truth_, error));
+  surface_.render(frame_.camera, transformed(truth_, error));
   for (const Association& a : associate({}, error.inverse()).associations) {
     EXPECT_LT(std::abs(a.residual()), 4e-4);
     EXPECT_LT((positionOf(a.place, truth_, box_.volume.tets) - a.predicted).norm(), 1e-6);

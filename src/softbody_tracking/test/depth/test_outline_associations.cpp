@@ -31,7 +31,7 @@ class OutlineAssociationsTest : public ::testing::Test {
   std::vector<Association> associate(const Points& predicted,
                                      const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                                      double weight = 1.0) {
-    surface_.update(frame_.camera, predicted);
+    surface_.render(frame_.camera, predicted);
     OutlineAssociator outline({weight}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
     outline.sample(surface_);
     return outline.associate(frame_, surface_.image(), RigidMotions(surface_.pieceCount(), motion), colors_);
@@ -165,7 +165,7 @@ TEST_F(OutlineAssociationsTest, TellThePieces) {
   ASSERT_EQ(surface_.pieceCount(), 2u);
   Points predicted = boxAt(kFlat);
   for (Eigen::Index t = 0; t < box_.volume.tets.rows(); ++t) {
-    if (surface_.bodyOf({static_cast<int>(t), Eigen::Vector4d::Unit(0)}) == 0) continue;
+    if (surface_.pieceOf({static_cast<int>(t), Eigen::Vector4d::Unit(0)}) == 0) continue;
     for (int k = 0; k < 4; ++k) {
       const int vertex = box_.volume.tets(t, k);
       predicted(vertex, 1) = box_.volume.rest_vertices(vertex, 1) + 10.0 * kPixel;
@@ -173,7 +173,7 @@ TEST_F(OutlineAssociationsTest, TellThePieces) {
   }
   const std::vector<Association> found = associate(predicted);
   EXPECT_GT(found.size(), 10u);
-  for (const Association& a : found) EXPECT_EQ(a.body, 1u);
+  for (const Association& a : found) EXPECT_EQ(a.piece, 1u);
 }
 
 /// A limb of 10 px before the rim of a trunk is gone from where it was predicted: behind its other side the
@@ -199,7 +199,7 @@ TEST_F(OutlineAssociationsTest, WhatIsBeyondALimbIsNotTheLimb) {
   Points moved = boxAt(kFlat);
   moved.bottomRows(count).rowwise() += Eigen::RowVector3d(0.06, 0.0, 0.0);
   frame_ = renderFrame(box_, moved, 1);
-  for (const Association& a : associate(boxAt(kFlat))) EXPECT_NE(a.body, 1u) << a.predicted.transpose();
+  for (const Association& a : associate(boxAt(kFlat))) EXPECT_NE(a.piece, 1u) << a.predicted.transpose();
 }
 
 TEST_F(OutlineAssociationsTest, WeighTheLengthOfTheOutline) {

@@ -6,6 +6,9 @@
 #include <set>
 
 #include "features/feature_map.h"
+#include "features/feature_map_admission.h"
+#include "features/feature_matching.h"
+#include "features/feature_outliers.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 
@@ -19,49 +22,70 @@ constexpr double kGap = 0.005;   // [m]
 class FeatureMapTest : public ::testing::Test {
  protected:
   FeatureMapTest() : surface_(box_.volume, box_.surface), map_(FeatureConfig()) {
-    look(transformed(box_.volume.rest_vertices, boxPose()));
-    map_.admit(frame_, image_, chosen(map_), surface_, {true});
+    show(transformed(box_.volume.rest_vertices, boxPose()));
+    admit(chosen(map_), &map_);
   }
 
-  /// Renders the box at the vertices and predicts it there, moved by an error.
-  void look(const Points& truth, const Eigen::Vector3d& prediction_error = Eigen::Vector3d::Zero()) {
+  /// Renders the box at the vertices, and the prediction there with an error.
+  void show(const Points& truth, const Eigen::Vector3d& prediction_error = Eigen::Vector3d::Zero()) {
     frame_ = renderFrame(box_, truth, 1);
-    surface_.update(frame_.camera,
+    surface_.render(frame_.camera,
                     transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))));
-    image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
+    buildImage();
   }
+  void buildImage() { image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size())); }
 
-  /// All of the image.
+  /// Keypoints of the whole image.
   std::vector<Keypoint> keypoints() {
     return orb_.extract(frame_.color, cv::Mat1b(frame_.color.size(), 255), surface_.image().region);
   }
 
-  /// Those that a map would take.
-  std::vector<Keypoint> chosen(const FeatureMap& map, const cv::Mat1b& free) {
+  KnownPlaces placesOf(const FeatureMap& map, const ExpectedFeatures& expected) const {
+    KnownPlaces known;
+    known.first_view = map.features().empty();
+    for (const ExpectedFeature& f : expected.visible) known.places.push_back(map.features()[f.feature].place);
+    return known;
+  }
+
+  /// Keypoints that a map would take. @param expected features of the map in this view.
+  std::vector<Keypoint> chosen(const FeatureMap& map, const cv::Mat1b& free,
+                               const ExpectedFeatures& expected) {
     const cv::Rect& region = surface_.image().region;
     const std::vector<cv::KeyPoint> corners = orb_.detect(frame_.color, free, region);
     return orb_.describe(frame_.color, region,
-                         map.choose(frame_, corners, surface_, {true}, map.room(), kGap));
+                         chooseCorners(frame_, corners, surface_, {true}, placesOf(map, expected),
+                                       map.room(expected.count()), kGap));
   }
-  std::vector<Keypoint> chosen(const FeatureMap& map) {
-    return chosen(map, cv::Mat1b(frame_.color.size(), 255));
-  }
-
-  std::vector<FeatureMatch> some(int wanted) {
-    std::vector<FeatureMatch> matches;
-    map_.align(frame_, image_, wanted, &matches);
-    return matches;
+  std::vector<Keypoint> chosen(const FeatureMap& map, const ExpectedFeatures& expected = {}) {
+    return chosen(map, cv::Mat1b(frame_.color.size(), 255), expected);
   }
 
-  std::vector<FeatureMatch> align() {
-    map_.predict(frame_, colors_, kReach, surface_);
-    std::vector<FeatureMatch> matches = some(FeatureMap::kAll);
-    markOutliers(frame_.camera, FeatureConfig().max_disagreement_m, &matches);
-    map_.credit(matches, {true});
-    return matches;
+  void admit(const std::vector<Keypoint>& keypoints, FeatureMap* map, int expected = 0,
+             bool learnable = true) {
+    map->add(bindKeypoints(frame_, image_, keypoints, surface_, {learnable}, map->room(expected)));
+  }
+
+  ExpectedFeatures expect(const FeatureMap& map) const {
+    return expectFeatures(map.features(), frame_, colors_, kReach, surface_);
+  }
+  FeatureMatcher matcher() const { return {config_, map_.features(), frame_, image_}; }
+
+  struct Found {
+    ExpectedFeatures expected;
+    FeatureMatches all;
+  };
+
+  /// Expected features, aligned and scored.
+  Found align() {
+    Found found{expect(map_), {}};
+    found.all = matcher().alignAll(found.expected);
+    markOutliers(frame_.camera, config_.max_disagreement_m, &found.all.matches);
+    map_.score(found.expected, found.all.matches, {true});
+    return found;
   }
 
   BoxBody box_ = makeBox();
+  FeatureConfig config_;
   PredictedSurface surface_;
   ColorModel colors_;
   GrayPyramid image_;
@@ -82,10 +106,11 @@ TEST_F(FeatureMapTest, FindsThemAgainWithSubPixelPrecision) {
   const Points truth =
       transformed(box_.volume.rest_vertices, Eigen::Translation3d(0.004, -0.002, 0.003) * boxPose() *
                                                  Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ()));
-  look(truth, {0.003, 0.002, 0.0});
-  const std::vector<FeatureMatch> matches = align();
+  show(truth, {0.003, 0.002, 0.0});
+  const Found found = align();
+  const std::vector<FeatureMatch>& matches = found.all.matches;
   ASSERT_GT(matches.size(), 100u);
-  EXPECT_GT(matches.size(), 0.5 * map_.expected());
+  EXPECT_GT(matches.size(), 0.5 * found.expected.count());
   std::vector<double> errors;
   for (const FeatureMatch& match : matches) {
     const Eigen::Vector2d pixel =
@@ -99,79 +124,78 @@ TEST_F(FeatureMapTest, FindsThemAgainWithSubPixelPrecision) {
 }
 
 TEST_F(FeatureMapTest, SomeAreSpreadOverAll) {
-  map_.predict(frame_, colors_, kReach, surface_);
-  const std::vector<FeatureMatch> first = some(40), rest = some(FeatureMap::kAll);
-  EXPECT_NEAR(static_cast<double>(first.size()), 40.0, 10.0);
-  EXPECT_GT(first.back().feature - first.front().feature, 3 * map_.expected() / 4);
+  const ExpectedFeatures expected = expect(map_);
+  const FeatureMatches some = matcher().alignSome(expected, 40);
+  EXPECT_NEAR(static_cast<double>(some.matches.size()), 40.0, 10.0);
+  EXPECT_GT(some.matches.back().feature - some.matches.front().feature, 3 * expected.count() / 4);
+  const FeatureMatches all = matcher().alignOthers(expected, 40, some);
+  EXPECT_EQ(all.matches.size() + all.missed.size(), expected.visible.size());
   std::set<int> features;
-  for (const std::vector<FeatureMatch>* matches : {&first, &rest}) {
-    for (const FeatureMatch& match : *matches)
-      EXPECT_TRUE(features.insert(match.feature).second) << "a feature is tried twice";
-  }
-  EXPECT_GT(features.size(), 0.8 * map_.expected());
-  EXPECT_TRUE(some(FeatureMap::kAll).empty()) << "all have been tried";
+  for (const FeatureMatch& match : all.matches)
+    EXPECT_TRUE(features.insert(match.feature).second) << "a feature is tried twice";
+  EXPECT_GT(features.size(), 0.8 * expected.count());
 }
 
-/// Where the prediction is far off, its rigid motion says where full resolution finds the patches.
+/// If the prediction is far off, its rigid motion gives places where full resolution finds the patches.
 TEST_F(FeatureMapTest, ShiftedPredictionsStartWhereTheMotionTakesThem) {
   const Eigen::Vector3d error(0.02, 0.0, 0.0);  // beyond the window
-  look(transformed(box_.volume.rest_vertices, boxPose()), error);
-  EXPECT_LT(align().size(), 0.2 * map_.features().size());
-  map_.predict(frame_, colors_, kReach, surface_);
-  map_.shift(frame_.camera, {Eigen::Isometry3d(Eigen::Translation3d(-error))});
-  const std::vector<FeatureMatch> found = some(FeatureMap::kAll);
-  EXPECT_GT(found.size(), 0.8 * map_.expected());
-  for (const FeatureMatch& match : found) {
+  show(transformed(box_.volume.rest_vertices, boxPose()), error);
+  EXPECT_LT(align().all.matches.size(), 0.2 * map_.features().size());
+  const ExpectedFeatures expected =
+      lookedForAfter({Eigen::Isometry3d(Eigen::Translation3d(-error))}, frame_.camera, expect(map_));
+  const FeatureMatches found = matcher().alignAll(expected);
+  EXPECT_GT(found.matches.size(), 0.8 * expected.count());
+  for (const FeatureMatch& match : found.matches) {
     EXPECT_LT((surface_.position(match.association.place) - match.association.predicted).norm(), 1e-9)
         << "the prediction itself stays";
   }
 }
 
-/// What is covered is not missed: it is not expected, and does not count against a feature's merit.
+/// A covered feature is not expected, and this does not reduce its score.
 TEST_F(FeatureMapTest, CoveredFeaturesAreNotExpected) {
-  align();
-  const int expected = map_.expected();
+  const int expected = align().expected.count();
+  int left = expected;
   const cv::Rect covered(0, 0, surface_.image().region.x + surface_.image().region.width / 2, 480);
   frame_.depth(covered).setTo(0.3f);
   frame_.color(covered).setTo(cv::Vec3b(90, 90, 90));
-  image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
+  buildImage();
   for (int i = 0; i < 60; ++i) {
-    const std::vector<FeatureMatch> found = align();
-    EXPECT_GT(found.size(), 0.8 * map_.expected());
+    const Found found = align();
+    left = found.expected.count();
+    EXPECT_GT(found.all.matches.size(), 0.8 * left);
   }
-  EXPECT_LT(map_.expected(), 0.8 * expected);
+  EXPECT_LT(left, 0.8 * expected);
   const std::size_t known = map_.features().size();
   map_.retire();
   EXPECT_GT(map_.features().size(), 0.9 * known) << "the covered ones stay";
 }
 
-/// A tool's depth is taken out; that there is none does not say that the features should have been found.
+/// The depth of a known tool is erased. Missing depth alone does not mean that the features are covered.
 TEST_F(FeatureMapTest, FeaturesUnderAKnownToolAreNotExpected) {
-  align();
-  const int expected = map_.expected();
+  const int expected = align().expected.count();
   const cv::Rect tool(0, 0, surface_.image().region.x + surface_.image().region.width / 2, 480);
   frame_.depth(tool).setTo(0.0f);
   frame_.color(tool).setTo(cv::Vec3b(90, 90, 90));
-  image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
-  align();
-  EXPECT_EQ(map_.expected(), expected) << "nothing says what a hole in the depth image is";
+  buildImage();
+  EXPECT_EQ(align().expected.count(), expected) << "nothing says what a hole in the depth image is";
   frame_.covered = cv::Mat1b(frame_.depth.size(), 0);
   frame_.covered(tool).setTo(255);
-  const std::vector<FeatureMatch> found = align();
-  EXPECT_GT(found.size(), 0.8 * map_.expected());
-  EXPECT_LT(map_.expected(), 0.8 * expected);
+  const Found found = align();
+  EXPECT_GT(found.all.matches.size(), 0.8 * found.expected.count());
+  EXPECT_LT(found.expected.count(), 0.8 * expected);
 }
 
 TEST_F(FeatureMapTest, DescriptorsFindWhatMovedTooFarForThePatches) {
   const Points truth = transformed(box_.volume.rest_vertices, boxPose());
-  look(truth, {0.013, 0.0, 0.0});
-  std::vector<FeatureMatch> matches = align();
-  const std::size_t aligned = matches.size();
-  map_.search(frame_, image_, keypoints(), surface_, &matches);
-  EXPECT_GT(matches.size(), aligned + 50);
+  show(truth, {0.013, 0.0, 0.0});
+  const FeatureMatches aligned = align().all;
+  const std::vector<FeatureMatch> more = matcher().matchDescriptors(aligned.missed, keypoints());
+  EXPECT_GT(more.size(), 50u);
   std::set<int> found;
-  for (const FeatureMatch& match : matches)
-    EXPECT_TRUE(found.insert(match.feature).second) << "a feature is matched twice";
+  for (const std::vector<FeatureMatch>* matches : {&aligned.matches, &more}) {
+    for (const FeatureMatch& match : *matches)
+      EXPECT_TRUE(found.insert(match.feature).second) << "a feature is matched twice";
+  }
 }
 
 TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
@@ -179,14 +203,14 @@ TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
   std::mt19937 random(8);
   std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
   // Wrong depth around every tenth feature.
-  for (const FeatureMatch& match : align()) {
+  for (const FeatureMatch& match : align().all.matches) {
     if (uniform(random) > 0.1f) continue;
     const cv::Rect spot = cv::Rect(cvRound(match.pixel.x) - 2, cvRound(match.pixel.y) - 2, 5, 5) &
                           cv::Rect(cv::Point(), frame_.depth.size());
     frame_.depth(spot) = true_depth(spot) + 0.02f;
   }
   int wrong_inliers = 0, right_outliers = 0, wrong = 0;
-  for (const FeatureMatch& match : align()) {
+  for (const FeatureMatch& match : align().all.matches) {
     const bool is_wrong = (match.association.measured - match.association.predicted).norm() > 0.015;
     wrong += is_wrong ? 1 : 0;
     wrong_inliers += is_wrong && match.inlier ? 1 : 0;
@@ -199,24 +223,24 @@ TEST_F(FeatureMapTest, MarksMatchesThatDisagreeWithTheirNeighbors) {
 
 TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
   const std::size_t bound = map_.features().size();
-  cv::Mat1b free(frame_.color.size(), 255);
-  map_.eraseTaken(align(), &free);
-  map_.admit(frame_, image_, chosen(map_, free), surface_, {true});
+  const Found found = align();
+  const cv::Mat1b free = withoutKnownFeatures(cv::Mat1b(frame_.color.size(), 255), found.all);
+  admit(chosen(map_, free, found.expected), &map_, found.expected.count());
   EXPECT_LT(map_.features().size(), bound + bound / 5) << "the surface was covered with features already";
   frame_.color.setTo(cv::Vec3b(90, 90, 90));
-  image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size()));
-  for (int i = 0; i < 400; ++i) EXPECT_TRUE(align().empty());
+  buildImage();
+  for (int i = 0; i < 400; ++i) EXPECT_TRUE(align().all.matches.empty());
   map_.retire();
   EXPECT_TRUE(map_.features().empty());
 }
 
-TEST_F(FeatureMapTest, LearnsNothingOfAPieceThatHardlyShows) {
+TEST_F(FeatureMapTest, LearnsNothingOfAPieceWithPoorObservability) {
   FeatureMap none{FeatureConfig()};
-  none.admit(frame_, image_, keypoints(), surface_, {false});
+  admit(keypoints(), &none, 0, false);
   EXPECT_TRUE(none.features().empty());
-  const std::vector<FeatureMatch> matches = align();
+  const Found found = align();
   const std::vector<MapFeature> before = map_.features();
-  map_.credit(matches, {false});
+  map_.score(found.expected, found.all.matches, {false});
   for (std::size_t f = 0; f < before.size(); ++f) {
     EXPECT_EQ(map_.features()[f].predicted, before[f].predicted);
     EXPECT_EQ(map_.features()[f].matched, before[f].matched);
@@ -227,30 +251,29 @@ TEST_F(FeatureMapTest, HoldsNoMoreThanAsked) {
   FeatureConfig config;
   config.max_features = 50;
   FeatureMap small(config);
-  small.admit(frame_, image_, keypoints(), surface_, {true});
+  admit(keypoints(), &small);
   EXPECT_EQ(small.features().size(), 50u);
 }
 
-/// Another side that comes into view gets as many as the first.
-TEST_F(FeatureMapTest, HoldsSoManyInEveryView) {
+/// A new side in view gets as many features as the first one.
+TEST_F(FeatureMapTest, HoldsTheSameNumberInEveryView) {
   FeatureConfig config;
   config.max_features = 40;
   FeatureMap small(config);
   std::size_t known = 0;
   for (int view = 0; view < 6; ++view) {
     const Eigen::Vector3d axis = view < 4 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-    look(
+    show(
         transformed(box_.volume.rest_vertices, boxPose() * Eigen::AngleAxisd(0.5 * M_PI * view + 0.1, axis)));
-    small.predict(frame_, colors_, kReach, surface_);
-    const int before = small.expected(), room = small.room();
-    small.admit(frame_, image_, chosen(small), surface_, {true});
+    const ExpectedFeatures expected = expect(small);
+    const int before = expected.count(), room = small.room(before);
+    admit(chosen(small, expected), &small, before);
     EXPECT_LE(small.features().size(), known + room);
     if (view == 2) {
       EXPECT_GT(small.features().size(), 75u) << "the first views' features are out of view";
     }
     known = small.features().size();
-    small.predict(frame_, colors_, kReach, surface_);
-    EXPECT_LE(small.expected(), std::max(40, before));
+    EXPECT_LE(expect(small).count(), std::max(40, before));
   }
 }
 
@@ -259,10 +282,10 @@ TEST_F(FeatureMapTest, KeepsFourTimesAsManyAsMayBeInView) {
   config.max_features = 40;
   FeatureMap small(config);
   for (const std::size_t kept : {40u, 80u, 120u, 160u, 160u}) {
-    small.admit(frame_, image_, keypoints(), surface_, {true});
+    admit(keypoints(), &small);
     EXPECT_EQ(small.features().size(), kept) << "of what was admitted before, nothing is expected in view";
   }
-  EXPECT_EQ(small.room(), 0);
+  EXPECT_EQ(small.room(0), 0);
 }
 
 TEST_F(FeatureMapTest, ChoosesCornersOnTheBodyWhereFeaturesAreFew) {
@@ -273,14 +296,14 @@ TEST_F(FeatureMapTest, ChoosesCornersOnTheBodyWhereFeaturesAreFew) {
   const auto is_left = [&](const cv::KeyPoint& corner) { return corner.pt.x < region.x + region.width / 2; };
   std::vector<cv::KeyPoint> left;
   std::copy_if(corners.begin(), corners.end(), std::back_inserter(left), is_left);
-  half.admit(frame_, image_, orb_.describe(frame_.color, region, left), surface_, {true});
-  half.predict(frame_, colors_, kReach, surface_);
-  const std::vector<cv::KeyPoint> chosen = half.choose(frame_, corners, surface_, {true}, 50, kGap);
+  admit(orb_.describe(frame_.color, region, left), &half);
+  const KnownPlaces known = placesOf(half, expect(half));
+  const std::vector<cv::KeyPoint> chosen = chooseCorners(frame_, corners, surface_, {true}, known, 50, kGap);
   ASSERT_EQ(chosen.size(), 50u);
   EXPECT_LT(std::count_if(chosen.begin(), chosen.end(), is_left), 5);
   for (const cv::KeyPoint& corner : chosen)
     EXPECT_GT(surface_.image().depth(cv::Point(cvRound(corner.pt.x), cvRound(corner.pt.y))), 0.0f);
-  EXPECT_TRUE(half.choose(frame_, corners, surface_, {false}, 50, kGap).empty());
+  EXPECT_TRUE(chooseCorners(frame_, corners, surface_, {false}, known, 50, kGap).empty());
 }
 
 TEST(FeatureDepth, AveragesSurfacesAndRefusesEdgesAndHoles) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTolerance = 0.006;
 
-/// Pairs of a body of 200 mm at some pose and of chance, both in the same room.
+/// Right pairs of a body of 200 mm, and random pairs in the same volume.
 struct Pairs {
   std::mt19937 random;
   std::uniform_real_distribution<double> uniform{-1.0, 1.0};
@@ -62,7 +62,7 @@ TEST(FeatureRecognition, TakesNoChanceForAMotion) {
   EXPECT_FALSE(recognizedMotion({}, kTolerance));
 }
 
-/// The more pairs, the more agree by chance, on a flat body's face above all.
+/// Among more pairs, more agree by chance; most of all on a flat face.
 TEST(FeatureRecognition, TakesNoChanceOfManyPairsOnAFaceForAMotion) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Pairs pairs(seed);
@@ -77,7 +77,7 @@ TEST(FeatureRecognition, TakesNoPairsOfOnePlaceForAMotion) {
   EXPECT_FALSE(recognizedMotion(same, kTolerance));
 }
 
-/// Bits set, so many: that far from the descriptor without any.
+/// A descriptor with this Hamming distance from the zero descriptor.
 Descriptor descriptorOf(int bits) { return {(1ull << bits) - 1, 0, 0, 0}; }
 
 TEST(FeatureRecognition, PairsAKeypointWithTheFeatureMostLikeIt) {
@@ -85,7 +85,7 @@ TEST(FeatureRecognition, PairsAKeypointWithTheFeatureMostLikeIt) {
   PredictedSurface surface(box.volume, box.surface);
   const Points vertices = transformed(box.volume.rest_vertices, boxPose());
   const RgbdFrame frame = renderFrame(box, vertices, 1);
-  surface.update(frame.camera, vertices);
+  surface.render(frame.camera, vertices);
   Keypoint keypoint;
   keypoint.pixel = {320.0f, 240.0f};
   std::vector<MapFeature> features(3);

@@ -20,7 +20,7 @@ float nearest(const Eigen::Matrix3Xf& places, const std::vector<int>& taken, con
 
 class FeatureSpread : public testing::TestWithParam<unsigned> {
  protected:
-  /// On a plate; the best ones on its left quarter.
+  /// Candidates on a plate; the best ones lie on its left quarter.
   Eigen::Matrix3Xf plate(int count) {
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
     Eigen::Matrix3Xf places = Eigen::Matrix3Xf::Zero(3, count);
@@ -42,7 +42,7 @@ TEST_P(FeatureSpread, NoPlaceIsFarFromOneTakenAndNoTwoAreNear) {
       closest = std::min(closest, (places.col(taken[a]) - places.col(taken[b])).norm());
   }
   for (const auto& place : places.colwise()) farthest = std::max(farthest, nearest(places, taken, place));
-  // Discs of half the distance that do not overlap cover some half of the plate.
+  // Discs of half the distance do not overlap and cover about half of the plate.
   EXPECT_GT(closest, 0.09f);
   EXPECT_LT(farthest, 1.5f * closest);
 }
@@ -71,7 +71,7 @@ TEST_P(FeatureSpread, TheWeakFillTheGapsThatTheStrongLeave) {
     const int strong = std::max(500, wanted);
     const auto of_strong = std::count_if(taken.begin(), taken.end(), [&](int i) { return i < strong; });
     EXPECT_GE(of_strong, wanted / 2);
-    // The strong ones lie on a quarter of the plate; elsewhere the others lie spread.
+    // The strong ones lie on a quarter of the plate; the weak ones are spread over the rest.
     std::vector<int> others;
     std::copy_if(taken.begin(), taken.end(), std::back_inserter(others),
                  [&](int i) { return places(0, i) > 0.25f; });

@@ -38,14 +38,14 @@ TEST_P(OrbCorners, LieInTheMask) {
   const std::vector<cv::KeyPoint> corners = OrbExtractor().detect(image, mask, kBody);
   EXPECT_GT(corners.size(), 200u);
   for (const cv::KeyPoint& corner : corners) {
-    // Those of coarser scales lie between pixels.
+    // Keypoints of coarser scales lie between pixels.
     const cv::Point2f inside = corner.pt - cv::Point2f(hole.tl());
     EXPECT_TRUE(kBody.contains(corner.pt));
     EXPECT_FALSE(inside.x > 1 && inside.y > 1 && inside.x < hole.width - 2 && inside.y < hole.height - 2);
   }
 }
 
-/// The first half of all holds half of every scale's.
+/// The first half of the list contains half of each scale's keypoints.
 TEST_P(OrbCorners, OfEveryScaleTheStrongestComeFirst) {
   const cv::Mat3b image = spottedImage(GetParam());
   const std::vector<cv::KeyPoint> corners = OrbExtractor().detect(image, bodyMask(image.size()), kBody);
@@ -71,7 +71,7 @@ TEST_P(OrbCorners, TheStrongComeBeforeTheWeak) {
   EXPECT_EQ(std::count_if(corners.begin(), corners.begin() + quarter, weak), 0);
 }
 
-/// How a corner is described does not depend on the others that are.
+/// The descriptor of a corner does not depend on other corners.
 TEST_P(OrbCorners, AreDescribedAlikeAloneAndTogether) {
   const cv::Mat3b image = spottedImage(GetParam());
   OrbExtractor orb;

@@ -86,7 +86,7 @@ TEST(RigidStep, OnePlaneMovesOnlyAlongItsNormal) {
   EXPECT_NEAR((found * Eigen::Vector3d(0.0, 0.0, 0.5) - Eigen::Vector3d(0.0, 0.0, 0.502)).norm(), 0.0, 1e-4);
 }
 
-/// It is the scale of what is an outlier: some tens would miss it by a quarter.
+/// The median is the scale for outliers; a few tens of samples would be off by a quarter.
 TEST(MedianResidual, OfManyIsThatOfEnoughOfThem) {
   constexpr double kMedianOfNormal = 0.6745;  // of the absolute values
   double sum = 0.0;

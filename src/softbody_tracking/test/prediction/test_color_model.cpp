@@ -7,7 +7,7 @@ namespace {
 
 const cv::Vec3b kFur(30, 80, 140), kBrightFur(45, 105, 175), kSleeve(220, 160, 120);
 
-/// Left half the body's colours, right half a sleeve.
+/// The left half has the body's colours, the right half is a sleeve.
 cv::Mat3b twoHalves() {
   cv::Mat3b image(100, 100, kSleeve);
   image.colRange(0, 25).setTo(kFur);

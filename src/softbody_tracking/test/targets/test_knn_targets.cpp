@@ -41,7 +41,7 @@ struct MovedFeatures {
   std::vector<FeatureMatch> matches;
 
   explicit MovedFeatures(const Eigen::Isometry3d& motion) {
-    surface.update({640, 480, 615.0, 615.0, 320.0, 240.0}, box.volume.rest_vertices);
+    surface.render({640, 480, 615.0, 615.0, 320.0, 240.0}, box.volume.rest_vertices);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> x(-0.1, 0.1), y(-0.05, 0.05);
     for (int i = 0; i < 1000; ++i) {

@@ -153,7 +153,7 @@ TEST(BodyTracker, FindsABodyThatComesBackElsewhereAndTurned) {
   const Points elsewhere = posedBox(tracked.box(), 0.08, 0.5);
   ASSERT_TRUE(tracked.tracksWithin(15, elsewhere));
   const TrackingResult result = tracked.show(elsewhere);
-  // Its features tell apart the four poses that look alike in depth.
+  // Its features distinguish the four poses that are alike in depth.
   EXPECT_LT((transformed(tracked.box().volume.rest_vertices, result.targets.body_pose) - elsewhere)
                 .rowwise()
                 .norm()
@@ -184,7 +184,7 @@ TEST(BodyTracker, FindsACubeThatComesBackTurned) {
             0.003);
 }
 
-/// Largest distance of a vertex between the pose found and another.
+/// Largest distance of a vertex between the found pose and another one [m].
 double distanceTo(const BoxBody& box, const TrackingResult& result, const Eigen::Isometry3d& pose) {
   return (transformed(box.volume.rest_vertices, result.targets.body_pose) -
           transformed(box.volume.rest_vertices, pose))
@@ -197,7 +197,7 @@ TEST(BodyTracker, StartsAnewNearAPoseSetByHand) {
   TrackedBox tracked;
   const Points rest = posedBox(tracked.box());
   for (int i = 0; i < 5; ++i) tracked.show(rest);
-  // The same surface in depth, half a turn about each axis: which of the four is meant, only the user knows.
+  // Half a turn about each axis gives the same depth; only the user knows which pose is right.
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
     const Eigen::Isometry3d meant = boxPose() * Eigen::AngleAxisd(M_PI, axis);
@@ -255,7 +255,7 @@ TEST(BodyTracker, FollowsAJumpOfMoreThanTheSearchWindow) {
 TEST(BodyTracker, FollowsAJumpAcrossTheImage) {
   TrackedBox tracked;
   for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
-  // Half of its length away and turned by 29 degrees in one frame.
+  // It moves by half its length and turns by 29 degrees in one frame.
   const Points truth = posedBox(tracked.box(), 0.1, 0.5);
   const TrackingResult result = tracked.show(truth);
   EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
@@ -312,7 +312,7 @@ TEST(BodyTracker, RefusesTopologiesWithoutTetsOrVertices) {
   EXPECT_EQ(refusalOf(box.volume, surface), "a triangle of the surface's topology names vertex 198 of 198");
   surface = box.surface;
   surface.triangle_pieces.push_back(0);
-  EXPECT_EQ(refusalOf(box.volume, surface), "the surface's topology has 321 bodies for 320 triangles");
+  EXPECT_EQ(refusalOf(box.volume, surface), "the surface's topology has 321 piece numbers for 320 triangles");
 }
 
 TEST(BodyTracker, RefusesImagesOfAnotherSizeThanTheCameras) {

@@ -58,14 +58,14 @@ TEST(CutBody, HoldsAPieceThatDoesNotShowUntilItDoes) {
   EXPECT_LT(tracked.shareOff(result, rest, 0.002), 0.01);
 }
 
-/// Of each kind.
+/// Number of targets of each kind.
 int countOf(TargetKind kind, const TrackingResult& result) {
   const std::vector<Target>& targets = result.targets.targets;
   return static_cast<int>(std::count_if(targets.begin(), targets.end(),
                                         [&](const Target& target) { return target.kind == kind; }));
 }
 
-/// Something before all of the frame but a square of so many pixels around the middle of the cut.
+/// Covers the frame except a square around the middle of the cut. @param side of the square [px].
 void coverAround(int side, RgbdFrame* frame) {
   const cv::Mat1f depth = frame->depth.clone();
   const Eigen::Vector2d middle = frame->camera.project(boxPose().translation());
@@ -74,7 +74,7 @@ void coverAround(int side, RgbdFrame* frame) {
   if (side > 0) depth(left_open).copyTo(frame->depth(left_open));
 }
 
-TEST(CutBody, IsHeldWhereNoPieceOfItShowsWell) {
+TEST(CutBody, IsHeldIfNoPieceIsWellObservable) {
   TrackedBox tracked;
   for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
   tracked.cut(posedBox(cutBox(tracked.box())));
@@ -93,7 +93,7 @@ TEST(CutBody, IsHeldWhereNoPieceOfItShowsWell) {
   EXPECT_EQ(countOf(TargetKind::kVertex, result), 0);
 }
 
-TEST(CutBody, IsLostWhereNothingOfItShows) {
+TEST(CutBody, IsLostIfNothingOfItIsVisible) {
   TrackedBox tracked;
   for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
   tracked.cut(posedBox(cutBox(tracked.box())));
@@ -105,10 +105,10 @@ TEST(CutBody, IsLostWhereNothingOfItShows) {
   EXPECT_TRUE(tracked.tracksWithin(3, rest));
 }
 
-/// By so many metres.
+/// Moves one piece [m].
 class PartedCutBody : public ::testing::TestWithParam<double> {};
 
-/// Each where it came to lie, though the body is recognised as it was before the cut.
+/// Each piece is found in its new place, although the whole body is recognised as before the cut.
 TEST_P(PartedCutBody, IsFoundAgainPieceByPieceAfterItWasLost) {
   TrackedBox tracked;
   for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
@@ -145,7 +145,7 @@ class CutObserver : public ::testing::Test {
  protected:
   CutObserver() : observer_({}, box_.volume, box_.surface) {
     const Observation seen = observer_.observe(frame_, rest_);
-    observer_.admit(frame_, seen);
+    observer_.learnFeatures(frame_, seen);
   }
   Points parted(double gap) const {
     Points vertices = rest_;
@@ -159,7 +159,7 @@ class CutObserver : public ::testing::Test {
   FrameObserver observer_;
 };
 
-TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceThatHardlyShows) {
+TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceWithPoorObservability) {
   const Observation whole = observer_.observe(frame_, rest_);
   ASSERT_GT(whole.expected_features, 200);
   EXPECT_EQ(whole.matched_features, static_cast<int>(whole.matches.size()));
@@ -167,15 +167,15 @@ TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceThatHardlyShows) {
   frame_.depth(cv::Rect(middle - 20, 0, 640 - middle + 20, 480)).setTo(0.0f);
   for (int i = 0; i < 2; ++i) {
     const Observation seen = observer_.observe(frame_, rest_);
-    ASSERT_EQ(seen.shown[1], Shows::kHardly);
+    ASSERT_EQ(seen.observability[1], Observability::kPoor);
     EXPECT_LT(seen.expected_features, 0.7 * whole.expected_features);
     EXPECT_GT(seen.matched_features, 0.8 * seen.expected_features) << "found wherever expected";
   }
 }
 
-/// The right piece comes back beyond the window of alignment, and some of the left one's texture is lost: of
-/// all features few are found, of the left one's enough.
-TEST_F(CutObserver, SearchesWidelyForTheFeaturesOfPiecesThatShowedOnly) {
+/// The right piece comes back beyond the window of alignment, and the left one loses some texture. Few of all
+/// features are found, but enough of the left piece.
+TEST_F(CutObserver, SearchesWidelyForFeaturesOfTrackedPiecesOnly) {
   const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
   RgbdFrame covered = frame_;
   covered.depth = frame_.depth.clone();
@@ -184,7 +184,7 @@ TEST_F(CutObserver, SearchesWidelyForTheFeaturesOfPiecesThatShowedOnly) {
   back.color(cv::Rect(0, 0, middle - 80, 480)).setTo(cv::Vec3b(35, 90, 140));
   const auto foundOnRight = [&](const RgbdFrame& before) {
     FrameObserver observer({}, box_.volume, box_.surface);
-    observer.admit(frame_, observer.observe(frame_, rest_));
+    observer.learnFeatures(frame_, observer.observe(frame_, rest_));
     observer.observe(before, rest_);
     return matchesOn({false, true}, observer.observe(back, rest_).matches);
   };
@@ -192,8 +192,8 @@ TEST_F(CutObserver, SearchesWidelyForTheFeaturesOfPiecesThatShowedOnly) {
   EXPECT_LT(foundOnRight(covered), 10) << "it was held";
 }
 
-/// Shows the left piece only, then both: whether the right one, which moved by so much along x, is found in a
-/// few frames, although the prediction keeps it where it was: nobody knows better.
+/// Shows the left piece only, then both. The right one moved along x meanwhile; the prediction keeps its old
+/// place. It must be found within a few frames.
 void findsAgain(FrameObserver* observer, const BoxBody& box, const Points& predicted, double moved) {
   const auto frameOf = [&](const Points& vertices) { return renderFrame(box, vertices, 1); };
   RgbdFrame covered = frameOf(predicted);
@@ -212,14 +212,15 @@ void findsAgain(FrameObserver* observer, const BoxBody& box, const Points& predi
 
 TEST_F(CutObserver, FindsAPieceAgainThatMovedUnseen) { findsAgain(&observer_, box_, rest_, 0.08); }
 
-/// What it is recognised by is measured by its own size.
+/// The tolerance of recognition depends on the piece's own size.
 TEST_F(CutObserver, FindsAPieceAgainHoweverFarOffTheOtherIs) {
   Points far = rest_;
   for (const int v : observer_.surface().pieces()[0]) far(v, 0) -= 2.0;
   findsAgain(&observer_, box_, far, 0.08);
 }
 
-/// As in another light: nothing is gained by searching all of the image in every frame.
+/// In another light the features are not found; a search of the whole image in every frame would gain
+/// nothing.
 TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
   const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
   RgbdFrame dull = frame_;
@@ -229,7 +230,7 @@ TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
     const RgbdFrame back = renderFrame(box_, parted(moved), 2);
     dull.color(part).setTo(cv::Vec3b(35, 90, 140));
     FrameObserver observer({}, box_.volume, box_.surface);
-    observer.admit(frame_, observer.observe(frame_, rest_));
+    observer.learnFeatures(frame_, observer.observe(frame_, rest_));
     for (int i = 0; i < dull_frames; ++i) observer.observe(dull, rest_);
     int frames = 1;
     while (matchesOn({false, true}, observer.observe(back, rest_).matches) < 50 && frames < 20) ++frames;
@@ -241,8 +242,8 @@ TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
   EXPECT_EQ(framesToFind(15, all, 0.035), 2) << "once the left piece is found where it was";
 }
 
-/// The right piece jumps. A scrap of what the left one looked like does, too, and says where that went, but
-/// hardly any of its other features are there.
+/// The right piece jumps. A scrap with the left one's texture appears elsewhere too, but the left one's other
+/// features are not there.
 TEST_F(CutObserver, MovesAPieceOnlyToWhereItsOwnFeaturesAre) {
   const Points truth = parted(0.08);
   RgbdFrame frame = renderFrame(box_, truth, 2);
@@ -279,7 +280,7 @@ TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
 
 TEST_F(CutObserver, NamesPiecesAsTheVisualMeshDoes) {
   const auto names = [&](const MeshTopology& surface) {
-    return FrameObserver({}, box_.volume, surface).surface().surfaceBodies();
+    return FrameObserver({}, box_.volume, surface).surface().piecesOfSurface();
   };
   using Names = std::vector<std::set<std::uint32_t>>;
   EXPECT_EQ(names(box_.surface), (Names{{0}, {1}}));

@@ -30,17 +30,17 @@ class TurnedBox : public ::testing::Test {
     RgbdFrame frame = renderFrame(box_, transformed(box_.volume.rest_vertices, pose), 1);
     edit(&frame);
     Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, predicted));
-    observer_->admit(frame, seen);
+    observer_->learnFeatures(frame, seen);
     return seen;
   }
 
-  int known() const { return static_cast<int>(observer_->map().features().size()); }
+  int known() const { return static_cast<int>(observer_->features().size()); }
 
   Eigen::Vector3d restPosition(const MapFeature& feature) const {
     return positionOf(feature.place, box_.volume.rest_vertices, box_.volume.tets);
   }
 
-  /// Half of the front is covered at first. @return how many features are known then; more come later.
+  /// Half of the front is covered at first, then free. @return number of features known while it was covered.
   std::size_t uncoverFront() {
     show(front_, front_, [](RgbdFrame* frame) {
       const cv::Rect left(0, 0, 320, 480);
@@ -70,7 +70,7 @@ TEST_F(TurnedBox, GetsFeaturesInAllQuartersOfANewSide) {
   EXPECT_LE(frames, 9) << "rested, new features are looked for in every ninth frame";
   for (int i = 0; i < 15; ++i) show(back_);
   std::array<int, 4> of_quarter{};
-  for (const MapFeature& feature : observer_->map().features()) {
+  for (const MapFeature& feature : observer_->features()) {
     const Eigen::Vector3d place = restPosition(feature);
     if (feature.id >= before) ++of_quarter.at((place.x() > 0.0 ? 1 : 0) + (place.y() > 0.0 ? 2 : 0));
   }
@@ -81,7 +81,7 @@ TEST_F(TurnedBox, GetsFeaturesInAllQuartersOfANewSide) {
 
 TEST_F(TurnedBox, GetsLaterFeaturesInGapsOnly) {
   const std::size_t first = uncoverFront();
-  const std::vector<MapFeature>& features = observer_->map().features();
+  const std::vector<MapFeature>& features = observer_->features();
   const double gap = 0.3 * meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
   for (std::size_t later = first; later < features.size(); ++later) {
     for (std::size_t other = 0; other < later; ++other)
@@ -101,7 +101,7 @@ class BoxOfFineVolume : public TurnedBox {
 /// The gaps of its volume are a few pixels wide.
 TEST_F(BoxOfFineVolume, GetsNoFeaturesInPatchesOfOthers) {
   const std::size_t first = uncoverFront();
-  const std::vector<MapFeature>& features = observer_->map().features();
+  const std::vector<MapFeature>& features = observer_->features();
   for (std::size_t later = first; later < features.size(); ++later) {
     for (std::size_t other = 0; other < first; ++other)
       EXPECT_GT((pixel(features[later]) - pixel(features[other])).cwiseAbs().maxCoeff(), 6.0);
@@ -119,7 +119,7 @@ TEST_F(BoxOfFineVolume, GetsAllThatShow) {
   EXPECT_GT(known(), 600);
 }
 
-/// Stripes of another colour, as a cable before the body casts or a pen leaves.
+/// Stripes of another colour, like a cable before the body or the line of a pen.
 TEST_F(TurnedBox, TrustsLittleWhatLooksUnlikeItsPatch) {
   show(front_);
   const Observation seen = show(front_, front_, [](RgbdFrame* frame) {
@@ -136,7 +136,7 @@ TEST_F(TurnedBox, TrustsLittleWhatLooksUnlikeItsPatch) {
   EXPECT_LT(odd, 0.2 * usual);
 }
 
-/// All that the observer learns and counts: features in some quarters of some sides, searches in vain.
+/// A sequence that changes all states of the observer: features of several tiles, and failed searches.
 class ResetBox : public TurnedBox {
  protected:
   std::vector<FeatureMatch> session() {
@@ -156,7 +156,7 @@ class ResetBox : public TurnedBox {
 
 TEST_F(ResetBox, IsAsAtFirst) {
   const std::vector<FeatureMatch> matches = session();
-  const std::vector<MapFeature> features = observer_->map().features();
+  const std::vector<MapFeature> features = observer_->features();
   ASSERT_GT(matches.size(), 500u);
   observer_->reset();
   const std::vector<FeatureMatch> again = session();
@@ -168,7 +168,7 @@ TEST_F(ResetBox, IsAsAtFirst) {
   }
   ASSERT_EQ(known(), static_cast<int>(features.size()));
   for (std::size_t f = 0; f < features.size(); ++f) {
-    const MapFeature& other = observer_->map().features()[f];
+    const MapFeature& other = observer_->features()[f];
     EXPECT_EQ(features[f].id, other.id);
     EXPECT_EQ(features[f].place.tet, other.place.tet);
     EXPECT_EQ(features[f].place.barycentric, other.place.barycentric);
@@ -178,7 +178,7 @@ TEST_F(ResetBox, IsAsAtFirst) {
 
 class NoisyBox : public TurnedBox {
  protected:
-  /// Mean of the depth targets' weights, with noise in every pixel and as much as that covered.
+  /// Mean weight of the depth targets. @param noise_m of every pixel. @param hand covers this region.
   double meanWeight(float noise_m, const cv::Rect& hand = {}) {
     double sum = 0.0;
     const Observation seen = show(front_, front_, [&](RgbdFrame* frame) {
@@ -222,7 +222,7 @@ TEST_F(NoisyBox, ForgetsTheNoiseWhenReset) {
   EXPECT_EQ(meanWeight(0.018f), first);
 }
 
-/// A hand takes matches away, and the vertices that they were to say the place of.
+/// A hand covers features, and vertices that these would measure.
 TEST_F(TurnedBox, TrustsFeaturesAlikeWhileAHandCoversOthers) {
   const auto heaviest = [](const Observation& seen) {
     double weight = 0.0;
@@ -246,7 +246,7 @@ class BoxOfFewFeatures : public TurnedBox {
   BoxOfFewFeatures() : TurnedBox(40) {}
 };
 
-/// As many as are wanted, so nothing was looked through in vain.
+/// The map is full, so the searches of tiles do not slow down.
 TEST_F(BoxOfFewFeatures, GetsFeaturesOfANewSideAtOnce) {
   for (int i = 0; i < 60; ++i) show(front_);
   const int before = known();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Nanoseconds kFrame = 33'333'333;
 
-/// A box before a camera that goes from place to place; the "simulator" answers every frame with the truth.
+/// A box before a moving camera; the "simulator" answers every frame with the truth.
 class MovingCamera {
  public:
   MovingCamera() {
@@ -53,7 +53,7 @@ class MovingCamera {
   Nanoseconds stamp_ = 1'000'000'000;
 };
 
-/// Somewhere in a world of its own, and from there around the box by some 12 cm and 14 degrees a step.
+/// The camera starts somewhere in the world and moves around the box, about 12 cm and 14 degrees a step.
 Eigen::Isometry3d cameraAt(double step) {
   const Eigen::Isometry3d start = Eigen::Translation3d(2.0, -1.0, 0.7) *
                                   Eigen::AngleAxisd(2.0, Eigen::Vector3d(1.0, -0.4, 0.6).normalized());
@@ -66,7 +66,7 @@ Eigen::Isometry3d cameraAt(double step) {
 TEST(MovingCamera, ABodyAtRestStaysWhereItIsHoweverTheCameraMoves) {
   MovingCamera moving, resting;
   const Points body = transformed(moving.box().volume.rest_vertices, cameraAt(0) * boxPose());
-  // To and fro: a body taken to move with the camera would be looked for where nothing finds it.
+  // Back and forth: a body that is predicted to move with the camera would not be found.
   for (const double step : {0.0, 1.0, 2.0, 1.0, 0.0, -1.0, 0.0}) {
     const TrackingResult result = moving.show(cameraAt(step), body), still = resting.show(cameraAt(0), body);
     ASSERT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
@@ -76,7 +76,7 @@ TEST(MovingCamera, ABodyAtRestStaysWhereItIsHoweverTheCameraMoves) {
                   .norm()
                   .maxCoeff(),
               0.002);
-    // Seen from the side no fewer of the features are found than from the front by more than a third.
+    // From the side, at most a third fewer features are found than from the front.
     EXPECT_GE(result.features.size(), 0.65 * static_cast<double>(still.features.size())) << step;
   }
 }

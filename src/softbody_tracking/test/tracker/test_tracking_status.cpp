@@ -17,7 +17,7 @@ Observation wellSeen(int matched = 100, int outliers = 5) {
   return seen;
 }
 
-TEST(StatusOf, TellsWhatDegradesTheTracking) {
+TEST(StatusOf, GivesTheReasonForDegradedTracking) {
   EXPECT_EQ(statusOf(wellSeen(), {}).state, TrackingState::kTracking);
   EXPECT_NEAR(statusOf(wellSeen(), {}).inlier_ratio, 0.95, 1e-9);
   const auto degraded = [](const Observation& seen) { return statusOf(seen, {}).reason; };
@@ -34,8 +34,8 @@ TEST(StatusOf, TellsWhatDegradesTheTracking) {
   EXPECT_EQ(degraded(wellSeen(100, 90)), "most feature matches disagree with their neighbours");
 }
 
-/// Those of a piece that hardly shows are no inliers, but say nothing of the others.
-TEST(StatusOf, CountsTheFeaturesOfPiecesThatShow) {
+/// Features on a piece with poor observability are no inliers; they do not affect the others.
+TEST(StatusOf, CountsTheFeaturesOfTrackedPieces) {
   Observation seen = wellSeen(100, 90);
   seen.matched_features = 10;
   seen.expected_features = 12;
@@ -55,11 +55,12 @@ TEST(StatusOf, IsLostWhereNothingAgrees) {
 
 using Names = std::vector<std::set<std::uint32_t>>;
 
-/// Of three pieces, after so many frames. @param reason that each frame has already.
-TrackingStatus told(const std::vector<Shows>& shown, const std::vector<bool>& in_view, int frames,
-                    TrackingState state = TrackingState::kTracking, const std::string& reason = {}) {
+/// Status of three pieces after some frames. @param reason of each frame before.
+TrackingStatus statusAfter(const std::vector<Observability>& observability, const std::vector<bool>& in_view,
+                           int frames, TrackingState state = TrackingState::kTracking,
+                           const std::string& reason = {}) {
   Observation seen;
-  seen.shown = shown;
+  seen.observability = observability;
   seen.in_view = in_view;
   HeldPieces held;
   TrackingStatus status;
@@ -67,46 +68,47 @@ TrackingStatus told(const std::vector<Shows>& shown, const std::vector<bool>& in
     status = {};
     status.state = state;
     status.reason = reason;
-    held.tell(seen, Names{{2}, {0, 3}, {1}}, &status);
+    status = held.report(seen, Names{{2}, {0, 3}, {1}}, status);
   }
   return status;
 }
 
-constexpr Shows kHardly = Shows::kHardly, kWell = Shows::kWell;
+constexpr Observability kPoor = Observability::kPoor, kGood = Observability::kGood;
 
-TEST(HeldPieces, DegradeTheTrackingWhereTheyShouldShow) {
-  EXPECT_EQ(told({kWell, kWell, kWell}, {true, true, true}, 20).reason, "");
-  EXPECT_EQ(told({kHardly, kWell, kWell}, {true, true, true}, 2).state, TrackingState::kTracking) << "yet";
-  const TrackingStatus status = told({kHardly, kWell, kWell}, {true, true, true}, 20);
+TEST(HeldPieces, DegradeTheTrackingIfInView) {
+  EXPECT_EQ(statusAfter({kGood, kGood, kGood}, {true, true, true}, 20).reason, "");
+  EXPECT_EQ(statusAfter({kPoor, kGood, kGood}, {true, true, true}, 2).state, TrackingState::kTracking)
+      << "yet";
+  const TrackingStatus status = statusAfter({kPoor, kGood, kGood}, {true, true, true}, 20);
   EXPECT_EQ(status.state, TrackingState::kDegraded);
   EXPECT_NE(status.reason.find("piece 2 of 4"), std::string::npos) << status.reason;
-  EXPECT_NE(told({kHardly, kHardly, kWell}, {true, true, true}, 20).reason.find("pieces 0, 2, 3 of 4"),
+  EXPECT_NE(statusAfter({kPoor, kPoor, kGood}, {true, true, true}, 20).reason.find("pieces 0, 2, 3 of 4"),
             std::string::npos);
 }
 
-TEST(HeldPieces, AreOnlyInferredWhereTheyCannotBeSeen) {
-  const TrackingStatus status = told({kWell, kWell, kHardly}, {true, true, false}, 20);
+TEST(HeldPieces, AreOnlyInferredIfOutOfView) {
+  const TrackingStatus status = statusAfter({kGood, kGood, kPoor}, {true, true, false}, 20);
   EXPECT_EQ(status.state, TrackingState::kTracking);
   EXPECT_NE(status.reason.find("piece 1 of 4"), std::string::npos) << status.reason;
-  EXPECT_EQ(told({kHardly, kWell, kHardly}, {true, true, false}, 20).state, TrackingState::kDegraded)
-      << "another is to be seen";
+  EXPECT_EQ(statusAfter({kPoor, kGood, kPoor}, {true, true, false}, 20).state, TrackingState::kDegraded)
+      << "another piece is in view";
 }
 
-/// A crumb in plain view is not said to be out of it.
+/// The text covers both cases: a small piece in view is not said to be out of view.
 TEST(HeldPieces, AreInferredOutOfViewOrTooSmall) {
   for (const std::size_t blocks : {0u, 11u}) {
     SurfaceSamples samples;
     samples.samples.resize(100 + blocks);
-    for (std::size_t i = 100; i < samples.samples.size(); ++i) samples.samples[i].body = 1;
+    for (std::size_t i = 100; i < samples.samples.size(); ++i) samples.samples[i].piece = 1;
     Observation seen;
-    seen.shown = {kWell, kHardly};
-    seen.in_view = predictedPieces(samples, 2);
+    seen.observability = {kGood, kPoor};
+    seen.in_view = piecesInView(samples, 2);
     HeldPieces held;
     TrackingStatus status;
     status.state = TrackingState::kTracking;
     for (int i = 0; i < 20; ++i) {
       status.reason.clear();
-      held.tell(seen, Names{{0}, {1}}, &status);
+      status = held.report(seen, Names{{0}, {1}}, status);
     }
     EXPECT_EQ(status.state, TrackingState::kTracking);
     EXPECT_EQ(status.reason,
@@ -115,21 +117,21 @@ TEST(HeldPieces, AreInferredOutOfViewOrTooSmall) {
   }
 }
 
-TEST(HeldPieces, AreSaidBesideWhatIsSaidAlready) {
-  const auto reason = [](const std::vector<Shows>& shown, const std::string& before) {
-    return told(shown, {true, true, false}, 20, TrackingState::kTracking, before).reason;
+TEST(HeldPieces, AreAddedToTheReason) {
+  const auto reason = [](const std::vector<Observability>& observability, const std::string& before) {
+    return statusAfter(observability, {true, true, false}, 20, TrackingState::kTracking, before).reason;
   };
   const std::string alike = "tracked in one of 4 poses that look alike";
-  EXPECT_EQ(reason({kWell, kWell, kWell}, alike), alike);
-  EXPECT_EQ(reason({kWell, kWell, kHardly}, alike), alike + "; " + reason({kWell, kWell, kHardly}, ""));
-  EXPECT_EQ(reason({kHardly, kWell, kHardly}, alike),
-            alike + "; " + reason({kHardly, kWell, kWell}, "") + "; " + reason({kWell, kWell, kHardly}, ""));
+  EXPECT_EQ(reason({kGood, kGood, kGood}, alike), alike);
+  EXPECT_EQ(reason({kGood, kGood, kPoor}, alike), alike + "; " + reason({kGood, kGood, kPoor}, ""));
+  EXPECT_EQ(reason({kPoor, kGood, kPoor}, alike),
+            alike + "; " + reason({kPoor, kGood, kGood}, "") + "; " + reason({kGood, kGood, kPoor}, ""));
 }
 
-TEST(HeldPieces, DoNotChangeWhatIsWorse) {
+TEST(HeldPieces, DoNotChangeAWorseState) {
   for (const TrackingState state : {TrackingState::kLost, TrackingState::kDegraded}) {
-    EXPECT_EQ(told({kHardly, kHardly, kHardly}, {true, true, true}, 20, state).state, state);
-    EXPECT_EQ(told({kHardly, kHardly, kHardly}, {true, true, true}, 20, state).reason, "");
+    EXPECT_EQ(statusAfter({kPoor, kPoor, kPoor}, {true, true, true}, 20, state).state, state);
+    EXPECT_EQ(statusAfter({kPoor, kPoor, kPoor}, {true, true, true}, 20, state).reason, "");
   }
 }
 

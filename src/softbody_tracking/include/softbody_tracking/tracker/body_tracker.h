@@ -11,52 +11,54 @@
 
 namespace softbody {
 
-/// A feature bound to the body, as seen in one frame.
+/// A feature of the body, found in one frame.
 struct TrackedFeature {
   int id = 0;
   Eigen::Vector2d pixel;      ///< (u, v) [px]
   Eigen::Vector3d position;   ///< measured, camera frame [m]
-  Eigen::Vector3d reference;  ///< where it was measured when first seen, camera frame of now [m]
-  double confidence = 0.0;    ///< 0..1
+  Eigen::Vector3d reference;  ///< position when first seen, in the camera frame of this frame [m]
+  double confidence = 0.0;    ///< share of the frames in which it was found, 0..1
 };
 
-/// What one frame gave.
+/// The result of one frame.
 struct TrackingResult {
-  bool has_targets = false;  ///< false: nothing to simulate (waiting, or nothing was found)
+  bool has_targets = false;  ///< false: nothing to simulate (waiting, or not found)
   TargetSet targets;         ///< fixed frame
   std::vector<TrackedFeature> features;
   TrackingStatus status;
 };
 
-/// What to say of a frame that is not tracked since nothing tells where the camera is in the output frame: a
-/// body that is tracked stays where it is.
+/// Status of a frame that is not tracked because the camera's pose in the output frame is unknown. A tracked
+/// body stays in its place.
 TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
                             const std::string& output_frame, const std::string& why);
 
-/// From RGB-D frames and the last simulated state to targets: registration, ORB features bound in rest space,
-/// depth points on the visible surface, outliers and occluders rejected. What is seen is compared in the
-/// camera's frame; what lasts from frame to frame is kept in the fixed one, so that the camera may move.
+/// Makes targets for the simulation from RGB-D frames and the last simulated state. It finds the body,
+/// predicts it, follows its features and its depth, and rejects outliers and occluders. Measurements are
+/// compared in the camera frame; poses are kept in the fixed frame, so the camera may move.
 class BodyTracker {
  public:
   explicit BodyTracker(const TrackerConfig& config);
   ~BodyTracker();
 
-  /// The body's models. With a greater revision than before they are the same body, cut: it is tracked on,
-  /// and the next state must be of that revision. Otherwise tracking starts anew.
-  /// @throw std::invalid_argument if the volume has no tet, or a tet or a triangle of either names a vertex
-  /// that is not there.
+  /// Sets the body's models. With a greater revision they are the same body after an edit: tracking goes on,
+  /// and the next state must have this revision. Otherwise tracking starts again.
+  /// @throw std::invalid_argument if the volume has no tet, or if a tet or a triangle names a missing vertex.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
+  /// Whether the models are set.
   bool ready() const;
 
-  /// Colour and depth have the camera's size. @throw std::invalid_argument otherwise.
-  /// @param volume the newest state of the volume in the fixed frame, nullptr where there is none yet.
+  /// Tracks the body in one frame.
+  /// @param volume newest state of the volume in the fixed frame; nullptr without one.
+  /// @throw std::invalid_argument unless colour and depth have the camera's size.
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
 
-  /// Forgets everything seen, and restart(); topologies stay.
+  /// Forgets everything but the models; also the pose of restart().
   void reset();
 
-  /// Forgets everything seen and looks for the body near a rough pose (a few centimetres, some 15 degrees) of
-  /// its rest frame in the fixed frame. @throw std::logic_error unless ready().
+  /// Forgets everything but the models, and searches for the body near a rough pose.
+  /// @param rough_pose rest frame in the fixed frame, off by a few centimetres and some 15 degrees at most.
+  /// @throw std::logic_error unless ready().
   void restart(const Eigen::Isometry3d& rough_pose);
 
  private:

@@ -1,16 +1,25 @@
 #include "alignment/rigid_alignment.h"
 
-#include "alignment/shown_pieces.h"
+#include "alignment/piece_observability.h"
 
 namespace softbody {
 namespace {
 
+// Iterations of the ICP; from one frame to the next it converges in two or three.
 constexpr int kIterations = 5;
+// Features used for the motion; more would only cost time.
 constexpr std::size_t kEnoughFeatures = 300;
-constexpr int kPixelStep = 2;              // six numbers need no more of the thousands of pixels
-constexpr double kConvergence = 3e-4;      // [m]
-constexpr double kHeldShare = 0.15;        // of what measurements weigh
-constexpr double kLargestRigidStep = 0.1;  // [m] of any vertex; more is no tracking
+// Every second pixel of a block in both directions: six numbers need no more of the thousands of pixels.
+constexpr int kPixelStep = 2;
+// Motion of the fastest vertex [m] at which the ICP ends; below the depth noise.
+constexpr double kConvergence = 3e-4;
+// Weight that holds a piece with partial observability back, as a share of the weight of its measurements.
+constexpr double kHeldShare = 0.15;
+// Largest motion of a vertex in one step [m]; more comes from wrong associations.
+constexpr double kLargestRigidStep = 0.1;
+
+/// Associations by the piece that they measure.
+using AssociationsByPiece = std::vector<AssociationRefs>;
 
 void addAcrossRay(const Association& feature, std::vector<Association>* associations) {
   const Eigen::Vector3d ray = feature.measured.normalized();
@@ -21,7 +30,7 @@ void addAcrossRay(const Association& feature, std::vector<Association>* associat
   }
 }
 
-/// @param step 1: all; 2: every second match, and so on, with the weight of those left out.
+/// @param step 1: all; 2: every second match with twice the weight, and so on.
 void addInliers(const std::vector<FeatureMatch>& matches, std::size_t step,
                 std::vector<Association>* associations) {
   for (std::size_t m = 0; m < matches.size(); m += step) {
@@ -30,6 +39,35 @@ void addInliers(const std::vector<FeatureMatch>& matches, std::size_t step,
     feature.weight *= static_cast<double>(step);
     addAcrossRay(feature, associations);
   }
+}
+
+/// @param moved the features, which get their predicted positions after the motions.
+AssociationsByPiece gather(const DepthAssociations& depth, const std::vector<Association>& features,
+                           const RigidMotions& motions, std::vector<Association>* moved) {
+  AssociationsByPiece result(motions.size());
+  for (const Association& association : depth.associations) result[association.piece].push_back(&association);
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    Association& feature = (*moved)[f];
+    feature.predicted = motions[feature.piece] * features[f].predicted;
+    result[feature.piece].push_back(&feature);
+  }
+  return result;
+}
+
+/// One ICP step of every piece that is observable.
+RigidMotions steppedMotions(const RigidMotions& motions, const std::vector<Points>& pieces,
+                            const std::vector<Observability>& observability,
+                            const AssociationsByPiece& measured) {
+  RigidMotions result = motions;
+  for (std::size_t piece = 0; piece < motions.size(); ++piece) {
+    if (observability[piece] == Observability::kPoor) continue;
+    if (static_cast<int>(measured[piece].size()) < kFewestAssociations) continue;
+    std::vector<Association> held;
+    if (observability[piece] == Observability::kPartial)
+      held = heldBack(pieces[piece], motions[piece], measured[piece]);
+    result[piece] = rigidStep(measured[piece], held) * motions[piece];
+  }
+  return result;
 }
 
 }  // namespace
@@ -60,41 +98,24 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
   return (surface.movedVolume(motions) - surface.volumeVertices()).rowwise().norm().maxCoeff();
 }
 
-void RigidAlignment::gather(const DepthAssociations& depth, const RigidMotions& motions) {
-  of_body_.resize(motions.size());
-  for (auto& associations : of_body_) associations.clear();
-  for (const Association& association : depth.associations)
-    of_body_[association.body].push_back(&association);
-  for (std::size_t f = 0; f < features_.size(); ++f) {
-    moved_[f].predicted = motions[features_[f].body] * features_[f].predicted;
-    of_body_[moved_[f].body].push_back(&moved_[f]);
-  }
-}
-
-RigidMotions RigidAlignment::align(const RgbdFrame& frame, const PredictedSurface& surface,
-                                   const SurfaceSamples& samples, const ColorModel& colors,
-                                   const std::vector<FeatureMatch>& matches, DepthAssociator* depth) {
+RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
+                          const SurfaceSamples& samples, const ColorModel& colors,
+                          const std::vector<FeatureMatch>& matches, DepthAssociator* depth) {
   RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
-  features_.clear();
-  addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features_);
-  moved_ = features_;
+  std::vector<Association> features;
+  addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features);
+  std::vector<Association> moved_features = features;
   for (int i = 0; i < kIterations; ++i) {
     const DepthAssociations& seen =
         depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);
-    gather(seen, motions);
-    const std::vector<Shows> shown = shownPieces(samples, seen.associations, matches, pieces);
-    RigidMotions before = motions;
-    for (std::size_t body = 0; body < motions.size(); ++body) {
-      if (shown[body] == Shows::kHardly || static_cast<int>(of_body_[body].size()) < kFewestAssociations)
-        continue;
-      std::vector<Association> held;
-      if (shown[body] == Shows::kLoosely) held = heldBack(pieces[body], motions[body], of_body_[body]);
-      motions[body] = rigidStep(of_body_[body], held) * motions[body];
-    }
+    const AssociationsByPiece measured = gather(seen, features, motions, &moved_features);
+    const RigidMotions next = steppedMotions(
+        motions, pieces, pieceObservability(samples, seen.associations, matches, pieces), measured);
     const double moved =
-        (surface.movedVolume(motions) - surface.movedVolume(before)).rowwise().norm().maxCoeff();
-    if (moved > kLargestRigidStep) return before;
+        (surface.movedVolume(next) - surface.movedVolume(motions)).rowwise().norm().maxCoeff();
+    if (moved > kLargestRigidStep) return motions;
+    motions = next;
     if (moved < kConvergence) break;
   }
   return motions;

@@ -3,41 +3,33 @@
 #include <vector>
 
 #include "depth/depth_associations.h"
-#include "features/feature_map.h"
+#include "features/feature_match.h"
 #include "prediction/predicted_surface.h"
 
 namespace softbody {
 
-/// Below so many features and depth points nothing is fixed.
+/// Fewest associations (features and blocks of depth) that determine a rigid motion reliably.
 constexpr int kFewestAssociations = 12;
 
-/// The matches that are no outliers. A feature's image position says where it is across its ray; how far
-/// along it, the depth around says better: two associations each, with normals across the ray.
+/// Associations of the inliers. A feature's pixel measures its position across its ray; the depth around
+/// measures the position along the ray better. So each feature gives two associations with normals across the
+/// ray.
 std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
 
-/// What draws a piece back to where it was predicted, by a share of what its measurements weigh, however many
-/// vertices it has. @param piece its vertices as predicted. @param motion that they were moved by since.
+/// Associations that hold a piece where it was predicted. Together they weigh a fixed share of its
+/// measurements, whatever the number of vertices.
+/// @param piece predicted vertices. @param motion the piece's motion so far.
 std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
                                   const AssociationRefs& measured);
 
-/// How far the motions take any vertex of the prediction [m].
+/// Largest distance that the motions move a vertex of the prediction [m].
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions);
 
-/// Brings a prediction and what is observed together, piece by piece of the body (ICP, point to plane).
-class RigidAlignment {
- public:
-  /// The rigid motions that the depth and the features ask of the prediction. A piece that hardly shows
-  /// stays.
-  /// @param depth associates with the samples of the surface as rendered.
-  RigidMotions align(const RgbdFrame& frame, const PredictedSurface& surface, const SurfaceSamples& samples,
-                     const ColorModel& colors, const std::vector<FeatureMatch>& matches,
-                     DepthAssociator* depth);
-
- private:
-  void gather(const DepthAssociations& depth, const RigidMotions& motions);
-
-  std::vector<Association> features_, moved_;  ///< as predicted, and as moved so far
-  std::vector<AssociationRefs> of_body_;       ///< all that is seen of a piece
-};
+/// The rigid motion of each piece that aligns the prediction with depth and features (point-to-plane ICP).
+/// Pieces with poor observability do not move.
+/// @param samples of the surface as rendered. @param depth associates with these samples.
+RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
+                          const SurfaceSamples& samples, const ColorModel& colors,
+                          const std::vector<FeatureMatch>& matches, DepthAssociator* depth);
 
 }  // namespace softbody

@@ -127,7 +127,7 @@ void markProtrusions(const SurfaceSamples& surface, std::vector<Block>* blocks) 
                                    cv::Point(2, 0), cv::Point(-2, 0), cv::Point(0, 2), cv::Point(0, -2)}) {
         const cv::Point place = cv::Point(column, row) + way;
         const int other = inside.contains(place) ? grid(place) : -1;
-        if (other < 0 || surface.samples[other].body != surface.samples[b].body) continue;
+        if (other < 0 || surface.samples[other].piece != surface.samples[b].piece) continue;
         if (!protrudesFrom((*blocks)[b], (*blocks)[other])) continue;
         protruding.push_back(b);
         break;
@@ -181,7 +181,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
   const int step = std::min(pixel_step, surface.block_px);
   blocks_.clear();
   for (const SurfaceSample& sample : surface.samples) {
-    blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.body], colors,
+    blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.piece], colors,
                               config_.max_distance_m));
   }
   markProtrusions(surface, &blocks_);
@@ -203,7 +203,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     Association association;
     association.kind = TargetKind::kDepth;
     association.place = surface.samples[i].place;
-    association.body = surface.samples[i].body;
+    association.piece = surface.samples[i].piece;
     association.predicted = block.position;
     association.measured =
         frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);

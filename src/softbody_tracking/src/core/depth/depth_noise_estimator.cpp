@@ -29,8 +29,8 @@ void addSecondDifferences(const SurfaceSamples& surface, const std::vector<Depth
                 after = grid(row + step.y, column + step.x);
       if (before < 0 || middle < 0 || after < 0) continue;
       const DepthBlock &a = blocks[before], &b = blocks[middle], &c = blocks[after];
-      const std::uint32_t body = surface.samples[middle].body;
-      if (!agree(a, b, c) || surface.samples[before].body != body || surface.samples[after].body != body)
+      const std::uint32_t piece = surface.samples[middle].piece;
+      if (!agree(a, b, c) || surface.samples[before].piece != piece || surface.samples[after].piece != piece)
         continue;
       differences->push_back(b.predicted * std::abs(a.difference - 2.0 * b.difference + c.difference));
     }

@@ -148,7 +148,7 @@ std::optional<Association> associateSample(const RgbdFrame& frame, const RasterI
                                            const ColorModel& colors) {
   Association association;
   association.place = sample.place;
-  association.body = sample.piece;
+  association.piece = sample.piece;
   association.predicted = motion * sample.position;
   const double z = association.predicted.z();
   if (!(z > 0.0)) return std::nullopt;
@@ -208,7 +208,7 @@ void OutlineAssociator::addSample(const PredictedSurface& surface, const cv::Poi
   const int triangle = image.triangle(pixel);
   if (surface.isAtCut(triangle)) return;
   const MaterialPoint place = surface.materialPoint(triangle, pixel);
-  samples_.push_back({pixel, *outward, place, surface.bodyOf(place),
+  samples_.push_back({pixel, *outward, place, surface.pieceOf(place),
                       surface.camera().unproject(pixel.x, pixel.y, image.depth(pixel))});
 }
 

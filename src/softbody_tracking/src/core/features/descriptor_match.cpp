@@ -5,8 +5,10 @@
 namespace softbody {
 namespace {
 
-constexpr float kRatio = 0.85f;       // best to second-best distance
-constexpr float kSamePlacePx = 3.0f;  // two keypoints nearer than this are no rivals
+// Largest ratio of the best to the second-best distance; above it the match is ambiguous.
+constexpr float kRatio = 0.85f;
+// Distance of two keypoints of the same corner [px], found at different scales; these do not compete.
+constexpr float kSamePlacePx = 3.0f;
 
 }  // namespace
 

@@ -7,9 +7,10 @@
 
 namespace softbody {
 
-/// Of candidates, distance of the descriptor and index of the keypoint, the one that is clearly the nearest:
-/// not further than max_distance, and no other but of the same place nearly as near (ratio test, Lowe 2004).
-/// @return its index among the candidates, -1 where none is.
+/// The candidate with clearly the nearest descriptor: within max_distance, and no candidate of another place
+/// is nearly as near (ratio test, Lowe 2004). @param candidates distance of the descriptors and index of the
+/// keypoint.
+/// @return index into the candidates; -1 without one.
 int clearlyNearest(const std::vector<std::pair<int, int>>& candidates, const std::vector<Keypoint>& keypoints,
                    int max_distance);
 

@@ -6,23 +6,28 @@
 #include <random>
 #include <utility>
 
+#include "features/feature_matching.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
-constexpr int kTrials = 3000;                // most end at the first edge that has another length
-constexpr int kFits = 3;                     // of the best, to those that agree
-constexpr double kShortestEdge = 4.0;        // tolerances, of the triangle that a trial fits
-constexpr std::size_t kFewestAgreeing = 15;  // and one in so many pairs: more agree by chance where
-constexpr std::size_t kPairsPerChance = 50;  // there are more
-constexpr double kDeformation = 0.03;        // of a piece's diameter, at which it still is recognised
-constexpr double kDepthPrecision = 0.002;    // [m]
+// RANSAC trials; most end at the first edge whose lengths differ, so they are cheap.
+constexpr int kTrials = 3000;
+// Refits of the best motion to the pairs that agree with it.
+constexpr int kFits = 3;
+// Shortest edge of a trial's triangle, in tolerances; a smaller triangle does not fix the rotation.
+constexpr double kShortestEdge = 4.0;
+// Pairs that must agree, plus one for each kPairsPerChance pairs: among more pairs, more agree by chance.
+constexpr std::size_t kFewestAgreeing = 15, kPairsPerChance = 50;
+// Deformation of a piece, as a share of its diameter, with which it is still recognised.
+constexpr double kDeformation = 0.03;
+// Smallest tolerance [m]: the precision of depth.
+constexpr double kDepthPrecision = 0.002;
 
-/// Of each keypoint the feature that looks most like it, of those that look like no other keypoint more; null
-/// where there is none. That others look nearly as much alike is not asked: what is wrong agrees on no
-/// motion.
+/// For each keypoint, the feature whose nearest descriptor it has; null without one. There is no ratio test:
+/// wrong pairs do not agree on one motion.
 std::vector<const MapFeature*> ownersOf(const std::vector<Keypoint>& keypoints,
                                         const std::vector<MapFeature>& features, int max_hamming_distance) {
   std::vector<const MapFeature*> owners(keypoints.size(), nullptr);
@@ -46,7 +51,7 @@ std::vector<const MapFeature*> ownersOf(const std::vector<Keypoint>& keypoints,
 
 using Triple = std::array<const PointPair*, 3>;
 
-/// Whether three pairs can be one rigid triangle, and one large enough to tell its pose.
+/// Whether three pairs form one rigid triangle that is large enough to fix its pose.
 bool isTriangle(const Triple& triple, double tolerance) {
   for (int k = 0; k < 3; ++k) {
     const PointPair &a = *triple[k], &b = *triple[(k + 1) % 3];
@@ -92,7 +97,7 @@ std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vec
     if (z <= 0.0) continue;
     const MaterialPoint& place = owners[k]->place;
     pairs.push_back({positionOf(place, vertices, surface.volume().tets),
-                     frame.camera.unproject(pixel.x, pixel.y, z), surface.bodyOf(place)});
+                     frame.camera.unproject(pixel.x, pixel.y, z), surface.pieceOf(place)});
   }
   return pairs;
 }
@@ -122,7 +127,7 @@ std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& 
 std::vector<Points> recognizedPieces(const std::vector<PointPair>& pairs, const PredictedSurface& surface,
                                      const std::vector<bool>& wanted, double min_motion_m) {
   std::vector<std::vector<PointPair>> of_piece(wanted.size());
-  for (const PointPair& pair : pairs) of_piece[pair.body].push_back(pair);
+  for (const PointPair& pair : pairs) of_piece[pair.piece].push_back(pair);
   std::vector<Points> found(wanted.size());
   for (std::size_t piece = 0; piece < wanted.size(); ++piece) {
     if (!wanted[piece]) continue;

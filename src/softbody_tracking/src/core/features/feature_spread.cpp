@@ -6,16 +6,20 @@
 namespace softbody {
 namespace {
 
-constexpr int kFewestStrong = 500;  // or as many as are wanted
-constexpr int kMostWeak = 300;      // and not more than half of those wanted
-constexpr int kSearches = 12;       // the distance is known to a thousandth of the body by then
+// Candidates that count as strong, at least; a few strong ones could all lie in one place.
+constexpr int kFewestStrong = 500;
+// Weak candidates that are taken at most, and at most half of those wanted: they are found again less
+// reliably.
+constexpr int kMostWeak = 300;
+// Bisection steps; then the distance is known to a thousandth of the body.
+constexpr int kSearches = 12;
 
 float squaredDistance(const Eigen::Ref<const Eigen::Matrix3Xf>& places, const Eigen::Vector3f& place) {
   if (places.cols() == 0) return std::numeric_limits<float>::max();
   return (places.colwise() - place).colwise().squaredNorm().minCoeff();
 }
 
-/// Those at least so far apart, but hardly more than wanted.
+/// The candidates at least a distance apart; at most one more than wanted.
 std::vector<int> apart(const Eigen::Matrix3Xf& ranked, const std::vector<float>& to_known, float distance,
                        int wanted) {
   const float least = distance * distance;
@@ -30,7 +34,7 @@ std::vector<int> apart(const Eigen::Matrix3Xf& ranked, const std::vector<float>&
   return result;
 }
 
-/// Those further than that from all others.
+/// The candidates further than the gap from all others.
 std::vector<int> inGaps(const Eigen::Matrix3Xf& ranked, const Eigen::Matrix3Xf& others, double gap_m) {
   const auto least = static_cast<float>(gap_m * gap_m);
   std::vector<int> result;

@@ -8,12 +8,17 @@
 namespace softbody {
 namespace {
 
-constexpr int kPatchSize = 31;  // [px] of ORB's descriptor
+// Side of ORB's patch [px]; the value of the paper.
+constexpr int kPatchSize = 31;
+// Pyramid levels and the scale between them: a body comes closer or goes away by a factor of 1.7 at most.
 constexpr int kLevels = 4;
-constexpr float kScale = 1.2f;  // between levels
-constexpr int kBorder = 54;     // [px], the patch at the coarsest level: nothing is found so near to a border
-constexpr int kMost = 4000;     // weak ones, too: others may be far from where they are
-constexpr int kFastThreshold = 10;  // low: soft bodies are low in contrast
+constexpr float kScale = 1.2f;
+// Size of the patch at the coarsest level [px]; nothing is found closer to a border.
+constexpr int kBorder = 54;
+// Keypoints in a region; weak ones too, because strong ones may leave large gaps.
+constexpr int kMost = 4000;
+// Threshold of the FAST corner test; low, because soft bodies have low contrast.
+constexpr int kFastThreshold = 10;
 
 /// A region with the border that ORB needs around it.
 cv::Rect padded(const cv::Rect& region, const cv::Size& image) {
@@ -22,7 +27,7 @@ cv::Rect padded(const cv::Rect& region, const cv::Size& image) {
          cv::Rect(cv::Point(), image);
 }
 
-/// The strongest of every level first: responses of different levels do not compare.
+/// Sorts by rank within the level: responses of different levels are not comparable.
 std::vector<cv::KeyPoint> ranked(std::vector<cv::KeyPoint> found) {
   std::stable_sort(found.begin(), found.end(),
                    [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
@@ -53,8 +58,8 @@ void shift(const cv::Point2f& offset, std::vector<cv::KeyPoint>* keypoints) {
 
 }  // namespace
 
-/// Counts in fields of 2, 4, 8 and 16 bits (Warren, Hacker's Delight, 5-1): every lost frame takes millions,
-/// and not every processor that Debian runs on counts bits by itself.
+/// Counts in fields of 2, 4, 8 and 16 bits (Warren, Hacker's Delight, 5-1). A lost frame needs millions of
+/// counts, and some processors that Debian supports have no instruction for it.
 int hammingDistance(const Descriptor& a, const Descriptor& b) {
   std::uint64_t bytes = 0;
   for (int k = 0; k < 4; ++k) {

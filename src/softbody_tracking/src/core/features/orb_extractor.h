@@ -10,9 +10,10 @@ namespace softbody {
 /// 256-bit ORB descriptor (Rublee et al. 2011).
 using Descriptor = std::array<std::uint64_t, 4>;
 
-/// Differing bits, 0..256.
+/// Number of differing bits, 0..256.
 int hammingDistance(const Descriptor& a, const Descriptor& b);
 
+/// A corner with its descriptor.
 struct Keypoint {
   cv::Point2f pixel;
   Descriptor descriptor{};
@@ -23,16 +24,15 @@ class OrbExtractor {
  public:
   OrbExtractor();
 
-  /// The strongest of every scale first: responses of different scales do not compare.
-  /// @param mask size of the image, 0: nothing is looked for.
+  /// Keypoints, sorted by rank within their scale: responses of different scales are not comparable.
+  /// @param mask of the image's size; no keypoint where it is 0.
   std::vector<cv::KeyPoint> detect(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
-  /// With descriptors, those of the finest scale first. @param corners some of those that detect() found in
-  /// the region.
+  /// Adds descriptors; the finest scale comes first. @param corners some results of detect() for this region.
   std::vector<Keypoint> describe(const cv::Mat3b& color, const cv::Rect& region,
                                  std::vector<cv::KeyPoint> corners);
 
-  /// All of detect() with descriptors.
+  /// All results of detect() with descriptors.
   std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
 
  private:

@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// Indices of points by square cells of an image.
+/// Points of an image in square cells, to find neighbours.
 class PixelGrid {
  public:
   PixelGrid(const Pinhole& camera, int cell_px)
@@ -21,7 +21,7 @@ class PixelGrid {
     cells_[cellIndex(column(pixel.x), row(pixel.y))].push_back(index);
   }
 
-  /// Calls visit(index) for everything in the 3x3 cells around a pixel.
+  /// Calls visit(index) for each point in the 3x3 cells around a pixel.
   template <typename Visitor>
   void around(double u, double v, Visitor visit) const {
     const int x = column(u), y = row(v);

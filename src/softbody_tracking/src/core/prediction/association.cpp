@@ -7,8 +7,14 @@
 namespace softbody {
 namespace {
 
-constexpr std::size_t kEnoughForMedian = 500;  // of more every second, third, ...
-constexpr double kSmallestScale = 0.003;  // [m], of the Cauchy weights: below the noise nothing is an outlier
+// Associations that a median needs; of more only a part is used, to save time.
+constexpr std::size_t kEnoughForMedian = 500;
+// Smallest scale of the Cauchy weights [m]: residuals below the depth noise are no outliers.
+constexpr double kSmallestScale = 0.003;
+// Stiffness added in every direction, as a share of the mean: a direction without data does not move.
+constexpr double kRegularization = 1e-3;
+// Absolute part of it, for data that fix nothing.
+constexpr double kSmallestStiffness = 1e-12;
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -27,7 +33,7 @@ struct MotionEquations {
       H += weight * J.transpose() * J;
       g += weight * J.transpose() * difference;
     } else {
-      Vector6d row;  // of the motion's Jacobian along the normal
+      Vector6d row;  // Jacobian along the normal
       row << arm.cross(a.normal), a.normal;
       H += weight * row * row.transpose();
       g += weight * row * a.normal.dot(difference);
@@ -58,9 +64,9 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
   }
   for (const Association& a : held) equations.add(a, a.weight);
   auto& [center, H, g, size] = equations;
-  // A little of the mean stiffness in every direction: what the data does not fix does not move.
-  H.topLeftCorner<3, 3>().diagonal().array() += 1e-3 * size + 1e-12;
-  H.bottomRightCorner<3, 3>().diagonal().array() += 1e-3 * H.bottomRightCorner<3, 3>().trace() / 3.0 + 1e-12;
+  H.topLeftCorner<3, 3>().diagonal().array() += kRegularization * size + kSmallestStiffness;
+  H.bottomRightCorner<3, 3>().diagonal().array() +=
+      kRegularization * H.bottomRightCorner<3, 3>().trace() / 3.0 + kSmallestStiffness;
   const Vector6d motion = H.ldlt().solve(g);
   if (!motion.allFinite()) return Eigen::Isometry3d::Identity();
 

@@ -7,15 +7,15 @@
 
 namespace softbody {
 
-/// A material point, where the prediction puts it and where the frame shows it; camera frame [m].
+/// A material point, its predicted and its measured position; camera frame [m].
 struct Association {
   TargetKind kind = TargetKind::kDepth;
   MaterialPoint place;
-  std::uint32_t body = 0;  ///< connected piece of the body
+  std::uint32_t piece = 0;  ///< connected piece of the body
   Eigen::Vector3d predicted = Eigen::Vector3d::Zero();
   Eigen::Vector3d measured = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal =
-      Eigen::Vector3d::Zero();  ///< unit: only the distance along it counts; zero: all three
+      Eigen::Vector3d::Zero();  ///< unit: only the distance along it counts; zero: all directions count
   double weight = 1.0;
 
   /// Signed distance along the normal, or plain distance [m].
@@ -24,7 +24,7 @@ struct Association {
   }
 };
 
-/// Of associations that stay where they are.
+/// References to associations that outlive them.
 using AssociationRefs = std::vector<const Association*>;
 AssociationRefs refsTo(const std::vector<Association>& associations);
 
@@ -38,16 +38,17 @@ inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
   return J;
 }
 
-/// The small rigid motion that best takes predictions to measurements: one Gauss-Newton step with Cauchy
-/// weights (point-to-plane where there is a normal, point-to-point elsewhere; Chen and Medioni 1992).
-/// @param held draws back by its weights alone: nothing of it is an outlier, nor says what is one.
-/// @return identity where the associations do not fix a motion at all.
+/// The small rigid motion from predictions to measurements: one Gauss-Newton step with Cauchy weights
+/// (point-to-plane with a normal, point-to-point without; Chen and Medioni 1992).
+/// @param held further associations with full weight; they do not change the scale of the Cauchy weights.
+/// @return identity if the associations do not determine a motion.
 Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held = {});
 
 /// Root mean square of the residuals [m]; 0 for none.
 double rmsResidual(const std::vector<Association>& associations);
 
-/// Median of the absolute residuals [m]; 0 for none. Of 500 or more every second, third, ... counts.
+/// Median of the absolute residuals [m]; 0 for none. From 500 associations on, only every second, third, ...
+/// is used.
 double medianResidual(const AssociationRefs& associations);
 
 }  // namespace softbody

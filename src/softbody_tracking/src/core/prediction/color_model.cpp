@@ -1,21 +1,28 @@
 #include "prediction/color_model.h"
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace softbody {
 namespace {
 
+// Bins of the histogram: few for lightness, since the shadow of a hand darkens the body.
 constexpr int kLightBins = 8, kChromaBins = 32;
+// Pixels, below which nothing is learned: a few pixels may show anything.
 constexpr int kFewestPixels = 200;
-constexpr float kSmallestDensity = 0.02f;  // of the body's own mean density
+// Density of a bin, relative to a typical pixel of the body, from which its colour belongs to the body.
+constexpr float kSmallestDensity = 0.02f;
+// Largest depth difference of a pixel to learn from [m]; a little above the noise and the registration's
+// error.
+constexpr double kLearnTolerance = 0.008;
 
-/// Bin of a Lab pixel; lightness coarsely, since shadows of the hand darken the body.
+/// Bin of a Lab pixel.
 int binOf(const cv::Vec3b& lab) {
   const int light = lab[0] * kLightBins / 256;
   return (light * kChromaBins + lab[1] * kChromaBins / 256) * kChromaBins + lab[2] * kChromaBins / 256;
 }
 
-/// Blurs the counts over neighbouring bins, so that colours between learned ones pass.
+/// Blurs the counts over neighbouring bins, so that colours between learned ones belong to the body too.
 cv::Mat1f smoothed(const cv::Mat1f& counts) {
   cv::Mat1f result(counts.size());
   std::vector<cv::Mat1f> layers;
@@ -36,7 +43,7 @@ cv::Mat1f smoothed(const cv::Mat1f& counts) {
   return result;
 }
 
-/// The middle of every 8 by 8 by 8 colours.
+/// The middle of every block of 8 by 8 by 8 colours, in Lab.
 cv::Mat3b paletteInLab() {
   cv::Mat3b palette(1, 32 * 32 * 32), lab;
   for (int i = 0; i < palette.cols; ++i) {
@@ -67,7 +74,7 @@ void ColorModel::learn(const cv::Mat3b& color, const cv::Mat1b& mask) {
     }
   }
   const cv::Mat1f density = smoothed(counts);
-  // The density that a typical pixel of the body meets: sum of squares over sum.
+  // Mean density over the body's pixels: sum of squares over sum.
   const double typical = cv::sum(density.mul(counts))[0] / cv::sum(counts)[0];
   const cv::Mat3b palette = paletteInLab();
   of_body_.resize(static_cast<std::size_t>(palette.cols));
@@ -83,6 +90,19 @@ cv::Mat1b ColorModel::mask(const cv::Mat3b& color, const cv::Rect& region) const
     for (int u = region.x; u < region.br().x; ++u) result(v, u) = belongs(color(v, u)) ? 255 : 0;
   }
   return result;
+}
+
+cv::Mat1b agreeingPixels(const cv::Mat1f& rendered, const cv::Mat1f& measured) {
+  cv::Mat1b mask(rendered.size(), 0);
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      const bool agrees =
+          rendered(v, u) > 0.0f && std::abs(rendered(v, u) - measured(v, u)) < kLearnTolerance;
+      mask(v, u) = agrees ? 255 : 0;
+    }
+  }
+  cv::erode(mask, mask, cv::Mat());
+  return mask;
 }
 
 }  // namespace softbody

@@ -5,27 +5,32 @@
 
 namespace softbody {
 
-/// Which colours belong to the body: a histogram over hue-like chroma and lightness (CIE L*a*b*), learned
-/// from the pixels where the registered model and the depth agree. A hand or a tool that touches the body
-/// mostly fails it.
+/// Which colours belong to the body: a histogram over chroma and lightness (CIE L*a*b*), learned where the
+/// prediction and the depth agree. It separates most hands and tools from the body that they touch.
 class ColorModel {
  public:
-  /// @param mask pixels of the body (non-zero). Few pixels (< 200) leave the model unlearned: everything
-  /// passes.
+  /// @param mask non-zero at pixels of the body. With less than 200 of them nothing is learned.
   void learn(const cv::Mat3b& color, const cv::Mat1b& mask);
   bool learned() const { return !of_body_.empty(); }
 
-  /// Whether a pixel's colour (blue, green, red) is one of the body's; everything is before learn().
+  /// Whether a colour (blue, green, red) belongs to the body; every colour does before learn().
   bool belongs(const cv::Vec3b& color) const {
     return !learned() || of_body_[(color[0] >> 3 << 10) | (color[1] >> 3 << 5) | color[2] >> 3] != 0;
   }
-  /// 255 where a pixel's colour is one of the body's, 0 elsewhere, inside the region; size of the image.
+  /// Mask of the image's size: 255 inside the region at pixels with colours of the body, else 0. All 255
+  /// before learn().
   cv::Mat1b mask(const cv::Mat3b& color, const cv::Rect& region) const;
 
+  /// Forgets what was learned.
   void reset() { of_body_.clear(); }
 
  private:
-  std::vector<unsigned char> of_body_;  ///< one entry for every 8 by 8 by 8 colours
+  std::vector<unsigned char>
+      of_body_;  ///< an entry for every block of 8 by 8 by 8 colours; empty before learn()
 };
+
+/// Pixels from which the colours of the body can be learned: 255 where the depth agrees with the rendered
+/// prediction, without the border of these areas.
+cv::Mat1b agreeingPixels(const cv::Mat1f& rendered, const cv::Mat1f& measured);
 
 }  // namespace softbody

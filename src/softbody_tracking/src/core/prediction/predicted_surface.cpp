@@ -12,14 +12,14 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
     : volume_(volume),
       surface_(surface),
       faces_(isClosed(surface.triangles) ? Faces::kFront : Faces::kAll),
-      tet_bodies_(tetPieces(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
-      vertex_bodies_(vertexPieces(volume.tets, tet_bodies_, volume.rest_vertices.rows())),
+      tet_pieces_(tetPieces(volume.tets, static_cast<int>(volume.rest_vertices.rows()))),
+      vertex_pieces_(vertexPieces(volume.tets, tet_pieces_, volume.rest_vertices.rows())),
       pieces_(verticesOfPieces(volume.tets, volume.rest_vertices.rows())),
       at_cut_(static_cast<std::size_t>(surface.rest_vertices.rows()), false),
       binding_(bindSurface(surface, volume)) {
-  surface_bodies_.resize(pieces_.size());
+  surface_pieces_.resize(pieces_.size());
   for (std::size_t t = 0; t < surface.triangle_pieces.size(); ++t)
-    surface_bodies_[tetBodyOf(static_cast<int>(t))].insert(surface.triangle_pieces[t]);
+    surface_pieces_[pieceOfTriangle(static_cast<int>(t))].insert(surface.triangle_pieces[t]);
   for (std::size_t t = 0; t < surface.cut.size(); ++t) {
     if (!surface.cut[t]) continue;
     for (int k = 0; k < 3; ++k) at_cut_[surface.triangles(static_cast<Eigen::Index>(t), k)] = true;
@@ -35,7 +35,7 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
   }
 }
 
-void PredictedSurface::update(const Pinhole& camera, const Points& volume_vertices) {
+void PredictedSurface::render(const Pinhole& camera, const Points& volume_vertices) {
   camera_ = camera;
   volume_vertices_ = volume_vertices;
   vertices_ = applyBinding(binding_, volume_vertices, volume_.tets);
@@ -52,7 +52,7 @@ std::vector<Points> PredictedSurface::pieceVertices() const {
 Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
   Points moved(volume_vertices_.rows(), 3);
   for (Eigen::Index v = 0; v < moved.rows(); ++v) {
-    moved.row(v) = motions[vertex_bodies_[v]] * volume_vertices_.row(v).transpose();
+    moved.row(v) = motions[vertex_pieces_[v]] * volume_vertices_.row(v).transpose();
   }
   return moved;
 }
@@ -60,7 +60,8 @@ Points PredictedSurface::movedVolume(const RigidMotions& motions) const {
 void PredictedSurface::move(const RigidMotions& motions) {
   volume_vertices_ = movedVolume(motions);
   motions_.resize(pieceCount(), Eigen::Isometry3d::Identity());
-  for (std::size_t body = 0; body < pieceCount(); ++body) motions_[body] = motions[body] * motions_[body];
+  for (std::size_t piece = 0; piece < pieceCount(); ++piece)
+    motions_[piece] = motions[piece] * motions_[piece];
 }
 
 bool PredictedSurface::isAtCut(int triangle) const {
@@ -68,30 +69,30 @@ bool PredictedSurface::isAtCut(int triangle) const {
   return at_cut_[corners[0]] || at_cut_[corners[1]] || at_cut_[corners[2]];
 }
 
-/// A triangle's corners, each a column.
+/// A triangle's corners as columns, camera frame [m].
 Eigen::Matrix3d PredictedSurface::corners(int triangle) const {
   Eigen::Matrix3d corners;
   for (int k = 0; k < 3; ++k) corners.col(k) = vertices_.row(surface_.triangles(triangle, k));
   if (motions_.empty()) return corners;
-  return motions_[tetBodyOf(triangle)] * corners;
+  return motions_[pieceOfTriangle(triangle)] * corners;
 }
 
 int PredictedSurface::triangleAt(const Eigen::Vector3d& measured, double tolerance) const {
-  for (std::size_t body = 0; body < pieceCount(); ++body) {
+  for (std::size_t piece = 0; piece < pieceCount(); ++piece) {
     const Eigen::Vector3d rendered =
-        motions_.empty() ? measured : Eigen::Vector3d(motions_[body].inverse(Eigen::Isometry) * measured);
+        motions_.empty() ? measured : Eigen::Vector3d(motions_[piece].inverse(Eigen::Isometry) * measured);
     if (!(rendered.z() > 0.0)) continue;
     const Eigen::Vector2d pixel = camera_.project(rendered);
     if (!camera_.contains(pixel.x(), pixel.y())) continue;
     const cv::Point nearest(cvRound(pixel.x()), cvRound(pixel.y()));
     const int triangle = image_.triangle(nearest);
     if (triangle < 0 || std::abs(rendered.z() - image_.depth(nearest)) > tolerance) continue;
-    if (tetBodyOf(triangle) == body) return triangle;
+    if (pieceOfTriangle(triangle) == piece) return triangle;
   }
   return -1;
 }
 
-/// Where the ray through a pixel meets a triangle's plane, in the rest shape.
+/// The point of the rest shape where the ray through a pixel meets a triangle's plane.
 Eigen::Vector3d PredictedSurface::restPoint(int triangle, const cv::Point2f& pixel) const {
   const Eigen::Vector3d weights = rayWeights(camera_, corners(triangle), pixel.x, pixel.y);
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();
@@ -108,7 +109,7 @@ Eigen::Vector4d PredictedSurface::barycentric(int tet, const Eigen::Vector3d& re
 
 MaterialPoint PredictedSurface::materialPoint(int triangle, const cv::Point2f& pixel) const {
   const Eigen::Vector3d rest = restPoint(triangle, pixel);
-  // One of the tets that hold the triangle's corners holds the point too, or nearly so: far cheaper than a
+  // A tet with one of the triangle's corners contains the point, or nearly; this is far cheaper than a
   // search.
   MaterialPoint best;
   for (int k = 0; k < 3; ++k) {

@@ -5,9 +5,11 @@
 namespace softbody {
 namespace {
 
-constexpr double kLongestExtrapolation = 3.0;  // intervals between the states
+// Longest extrapolation, in intervals between the last two states; after a longer gap the velocity is
+// obsolete.
+constexpr double kLongestExtrapolation = 3.0;
 
-/// What takes points at one pose on by some intervals of the motion that led there.
+/// The motion from `before` to `last`, continued from `last` for a number of intervals.
 Eigen::Isometry3d continued(const Eigen::Isometry3d& before, const Eigen::Isometry3d& last,
                             const Eigen::Vector3d& rest_center, double intervals) {
   const Eigen::AngleAxisd turn(last.linear() * before.linear().transpose());

@@ -9,21 +9,19 @@
 
 namespace softbody {
 
-/// Where a body that goes on as it moved will be: constant velocity and spin of the rigid part of each of its
-/// connected pieces.
+/// Predicts the volume's vertices: each piece goes on with the velocity and spin of its rigid motion.
 class RigidPrediction {
  public:
-  /// @param pieces the vertices of each connected piece.
+  /// @param pieces vertices of each connected piece.
   RigidPrediction(const Points& rest_vertices, const std::vector<std::vector<int>>& pieces)
       : rest_(rest_vertices), pieces_(pieces) {}
 
-  /// A state of the volume at a stamp; one not after the last starts anew.
+  /// Adds a state of the volume. A stamp before the last one discards earlier states.
   void observe(const Points& vertices, Nanoseconds stamp);
 
-  /// The vertices at a later stamp: as last observed without two states, or long after them.
-  /// There must be a state.
-  /// @param moving of each piece: false where its velocity is not known, so it is taken to stay; none: all
-  /// move.
+  /// The vertices at a later stamp. They stay as last observed if there is only one state, or long after the
+  /// last. There must be at least one state.
+  /// @param moving of each piece, false if its velocity is unknown: it stays. Empty: all move.
   Points at(Nanoseconds stamp, const std::vector<bool>& moving = {}) const;
 
   void reset() { last_.reset(), before_.reset(); }

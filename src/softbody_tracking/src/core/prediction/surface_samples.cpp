@@ -6,7 +6,7 @@
 namespace softbody {
 namespace {
 
-/// Block size that yields about the wanted number of blocks on the covered pixels.
+/// Side of a block [px] that gives about the wanted number of blocks.
 int blockSize(const RasterImage& image, int wanted) {
   const int covered = image.region.empty() ? 0 : cv::countNonZero(image.depth(image.region));
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(covered) / wanted))));
@@ -31,7 +31,7 @@ SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, Surfac
       if (triangle < 0) continue;
       result.grid(row, column) = static_cast<int>(result.samples.size());
       const MaterialPoint place = surface.materialPoint(triangle, center);
-      result.samples.push_back({center, place, surface.bodyOf(place),
+      result.samples.push_back({center, place, surface.pieceOf(place),
                                 surface.camera().unproject(center.x, center.y, image.depth(center)),
                                 surface.normal(triangle)});
     }

@@ -6,11 +6,11 @@
 
 namespace softbody {
 
-/// A block of pixels that show the predicted surface, and the material point in its middle.
+/// A block of pixels on the predicted surface, and the material point at its centre.
 struct SurfaceSample {
   cv::Point center;  ///< [px]
   MaterialPoint place;
-  std::uint32_t body = 0;    ///< the piece that it belongs to
+  std::uint32_t piece = 0;   ///< the piece of the body
   Eigen::Vector3d position;  ///< camera frame [m]
   Eigen::Vector3d normal;    ///< unit, outward
 };
@@ -19,13 +19,14 @@ struct SurfaceSample {
 struct SurfaceSamples {
   int block_px = 1;  ///< side of a block
   std::vector<SurfaceSample> samples;
-  cv::Mat1i grid;  ///< sample of a block, -1: none
+  cv::Mat1i grid;  ///< index of a block's sample; -1: none
 };
 
-/// About as many samples as wanted. @param memory what an earlier call gave, for its memory.
+/// Samples the rendered surface. @param wanted approximate number. @param memory an earlier result, whose
+/// memory is used again.
 SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, SurfaceSamples memory = {});
 
-/// How many of the volume's vertices have a sample in one of their tets.
+/// Number of the volume's vertices with a sample in one of their tets.
 int shownVertices(const SurfaceSamples& samples, const TetTopology& volume);
 
 }  // namespace softbody

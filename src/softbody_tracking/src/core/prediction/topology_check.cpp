@@ -7,7 +7,7 @@
 namespace softbody {
 namespace {
 
-/// @param what names them, to begin the sentence with.
+/// @param what names the elements at the start of the message.
 template <typename Elements>
 void requireVertices(const Elements& elements, Eigen::Index count, const char* what) {
   if (elements.rows() == 0) return;
@@ -17,7 +17,7 @@ void requireVertices(const Elements& elements, Eigen::Index count, const char* w
   }
 }
 
-/// Where there is one for any triangle, there is one for each.
+/// A list may be empty.
 void requireOneForEach(const Triangles& triangles, std::size_t count, const char* what) {
   if (count != 0 && count != static_cast<std::size_t>(triangles.rows())) {
     throw std::invalid_argument(
@@ -32,7 +32,7 @@ void requireWhole(const TetTopology& volume, const MeshTopology& surface) {
   requireVertices(volume.tets, volume.rest_vertices.rows(), "a tet of the volume's topology");
   requireVertices(volume.surface, volume.rest_vertices.rows(), "a triangle of the volume's topology");
   requireVertices(surface.triangles, surface.rest_vertices.rows(), "a triangle of the surface's topology");
-  requireOneForEach(surface.triangles, surface.triangle_pieces.size(), "bodies");
+  requireOneForEach(surface.triangles, surface.triangle_pieces.size(), "piece numbers");
   requireOneForEach(surface.triangles, surface.cut.size(), "marks of cuts");
 }
 

@@ -4,8 +4,9 @@
 
 namespace softbody {
 
-/// @throw std::invalid_argument if a body has no tet, or a tet or a triangle, of the volume's boundary or of
-/// the visual mesh, names a vertex that is not there, or not every triangle of the mesh has a body.
+/// Checks the body's models.
+/// @throw std::invalid_argument if there is no tet, if a tet or triangle names a missing vertex, or if a list
+/// for each triangle has another length.
 void requireWhole(const TetTopology& volume, const MeshTopology& surface);
 
 }  // namespace softbody

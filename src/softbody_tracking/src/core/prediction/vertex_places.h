@@ -6,7 +6,7 @@
 
 namespace softbody {
 
-/// A tet and corner weights that name each vertex of the volume.
+/// Each vertex of the volume as a material point: one of its tets and the weight 1 at its corner.
 std::vector<MaterialPoint> vertexPlaces(const TetTopology& volume);
 
 }  // namespace softbody

@@ -113,18 +113,18 @@ std::vector<Association> KnnTargets::associations(const std::vector<MapFeature>&
   for (const FeatureMatch& match : matches) {
     const MapFeature& feature = features[match.feature];
     if (match.inlier)
-      motions[feature.id] = {match.association.body, feature.reference, match.association.measured};
+      motions[feature.id] = {match.association.piece, feature.reference, match.association.measured};
   }
   std::vector<Association> result;
   for (const BoundVertex& vertex : vertices_) {
-    const std::uint32_t piece = surface.bodyOf(vertex.place);
+    const std::uint32_t piece = surface.pieceOf(vertex.place);
     const Eigen::Matrix3d rotation = localRotation(vertex, motions, piece, R_camera_fixed);
     const std::optional<Eigen::Vector3d> measured = measuredPosition(vertex, motions, piece, rotation);
     if (!measured) continue;
     Association association;
     association.kind = TargetKind::kVertex;
     association.place = vertex.place;
-    association.body = piece;
+    association.piece = piece;
     association.predicted = surface.position(vertex.place);
     association.measured = *measured;
     result.push_back(association);

@@ -4,14 +4,15 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
 #include "softbody_common/rigid_fit.h"
 #include "targets/knn_targets.h"
 #include "targets/position_prior.h"
-#include "tracker/body_placement.h"
 #include "tracker/frame_observer.h"
+#include "tracker/relocalizer.h"
 #include "tracker/tracking_status.h"
 #include "tracker/tracking_targets.h"
 
@@ -33,27 +34,32 @@ void requireCameraSize(const RgbdFrame& frame) {
 
 struct BodyTracker::Implementation {
   explicit Implementation(const TrackerConfig& tracker_config)
-      : config(tracker_config), knn(config.knn), placement(config.registration) {}
+      : config(tracker_config), knn(config.knn), relocalizer(config.registration) {}
+
+  TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
+  void setTopologies(const TetTopology& volume, const MeshTopology& surface);
+  void reset();
 
   const TetTopology& model() const { return observer->surface().volume(); }
-  /// Whether a state of the volume answers the targets sent since the body was placed.
-  bool answers(const MeshState* volume, Nanoseconds stamp) const;
+  std::uint32_t knownFeatures() const { return static_cast<std::uint32_t>(observer->features().size()); }
+  bool isAnswer(const MeshState* volume, Nanoseconds stamp) const;
   Points predict(const RgbdFrame& frame, const MeshState* answer);
-  TrackingResult resultOf(const RgbdFrame& frame, const Observation& seen, const MeshState* answer);
-  std::vector<Association> all(const Observation& seen, const Eigen::Matrix3d& R_camera_fixed) const;
-  TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations);
-  void admit(const RgbdFrame& frame, const Observation& seen);
+  std::vector<Association> associationsOf(const Observation& seen,
+                                          const Eigen::Matrix3d& R_camera_fixed) const;
+  TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations) const;
+  TargetSet targetSetOf(const RgbdFrame& frame, const Observation& seen,
+                        const std::vector<Association>& associations, const MeshState* answer) const;
+  void learnFeatures(const RgbdFrame& frame, const Observation& seen);
   TrackingResult waiting(const std::string& reason) const;
-  void reset();
 
   TrackerConfig config;
   KnnTargets knn;
-  BodyPlacement placement;
+  Relocalizer relocalizer;
   std::unique_ptr<FrameObserver> observer;
   std::unique_ptr<RigidPrediction> prediction;
   std::unique_ptr<PositionPrior> hold;
   HeldPieces held;
-  std::vector<bool> moving;  ///< pieces whose velocity is known well enough to go on with; none: all
+  std::vector<bool> moving;  ///< pieces whose velocity is known well enough to predict them; empty: all
   Nanoseconds last_stamp = 0;
 };
 
@@ -73,21 +79,7 @@ BodyTracker::~BodyTracker() = default;
 
 void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   requireWhole(volume, surface);
-  Implementation& self = *implementation_;
-  const bool edited = ready() && volume.revision > self.model().revision;
-  if (edited) {
-    self.knn.rebind(self.model(), volume);
-    self.observer->setTopologies(volume, surface);
-  } else {
-    self.observer = std::make_unique<FrameObserver>(self.config, volume, surface);
-  }
-  self.prediction =
-      std::make_unique<RigidPrediction>(volume.rest_vertices, self.observer->surface().pieces());
-  self.placement.forgetModels();
-  self.hold = std::make_unique<PositionPrior>(volume);
-  self.moving.clear();
-  self.held.reset();
-  if (!edited) self.reset();
+  implementation_->setTopologies(volume, surface);
 }
 
 bool BodyTracker::ready() const { return implementation_->observer != nullptr; }
@@ -97,11 +89,69 @@ void BodyTracker::reset() { implementation_->reset(); }
 void BodyTracker::restart(const Eigen::Isometry3d& rough_pose) {
   if (!ready()) throw std::logic_error("the topologies of simulator and surface have not come yet");
   implementation_->reset();
-  implementation_->placement.startNear(rough_pose);
+  implementation_->relocalizer.startNear(rough_pose);
+}
+
+TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
+  requireCameraSize(frame);
+  return implementation_->track(frame, volume, timer);
+}
+
+/// The steps of one frame.
+TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const MeshState* volume,
+                                                  StageTimer* timer) {
+  if (observer == nullptr) return waiting("waiting for the topologies of simulator and surface");
+  if (frame.stamp < last_stamp) reset();
+  last_stamp = frame.stamp;
+  const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
+  if (outcome == Relocalizer::Outcome::kNotFound)
+    return waiting("the body was not found: nothing of its size and shape stands free in the depth image");
+  const bool just_found = outcome == Relocalizer::Outcome::kFound;
+  if (just_found) prediction->reset();
+
+  const auto scope = timer->stage("Feature-Point Tracking", just_found);
+  const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
+  const MeshState* answer = !just_found && isAnswer(volume, frame.stamp) ? volume : nullptr;
+  const Points predicted = transformed(predict(frame, answer), T_camera_fixed);
+  const Observation seen = observer->observe(frame, predicted);
+  relocalizer.setPose(frame.T_fixed_camera *
+                      fitRigid(model().rest_vertices, observer->surface().volumeVertices()));
+  const std::vector<Association> associations = associationsOf(seen, T_camera_fixed.linear());
+  moving = seen.atLeast(Observability::kGood);
+
+  TrackingResult result;
+  result.has_targets = true;
+  result.status = judge(seen, associations);
+  const TrackingState state = result.status.state;
+  relocalizer.countLoss(state == TrackingState::kLost);
+  if (state == TrackingState::kLost) prediction->reset();
+  result.features = trackedFeatures(seen, observer->features(), T_camera_fixed);
+  result.targets = targetSetOf(frame, seen, associations, state == TrackingState::kLost ? nullptr : answer);
+  result.targets.reset = answer == nullptr;
+  result.status = held.report(seen, observer->surface().piecesOfSurface(), std::move(result.status));
+  if (state == TrackingState::kTracking) learnFeatures(frame, seen);
+  result.status.features_total = knownFeatures();
+  return result;
+}
+
+void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
+  const bool edited = observer != nullptr && volume.revision > model().revision;
+  if (edited) {
+    knn.rebind(model(), volume);
+    observer->setTopologies(volume, surface);
+  } else {
+    observer = std::make_unique<FrameObserver>(config, volume, surface);
+  }
+  prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->surface().pieces());
+  relocalizer.forgetMeshes();
+  hold = std::make_unique<PositionPrior>(volume);
+  moving.clear();
+  held.reset();
+  if (!edited) reset();
 }
 
 void BodyTracker::Implementation::reset() {
-  placement.reset();
+  relocalizer.reset();
   if (observer != nullptr) observer->reset();
   if (prediction != nullptr) prediction->reset();
   last_stamp = 0;
@@ -110,22 +160,23 @@ void BodyTracker::Implementation::reset() {
   knn.reset();
 }
 
-bool BodyTracker::Implementation::answers(const MeshState* volume, Nanoseconds stamp) const {
-  return volume != nullptr && volume->observed >= placement.since() && volume->observed <= stamp &&
+/// Whether a state of the volume answers targets that were sent since the body was found.
+bool BodyTracker::Implementation::isAnswer(const MeshState* volume, Nanoseconds stamp) const {
+  return volume != nullptr && volume->observed >= relocalizer.foundAt() && volume->observed <= stamp &&
          volume->revision == model().revision && volume->vertices.rows() == model().rest_vertices.rows();
 }
 
-/// The volume's vertices in the fixed frame. @param answer nullptr where there is none.
+/// The volume's vertices at the frame's stamp, fixed frame. @param answer nullptr without one.
 Points BodyTracker::Implementation::predict(const RgbdFrame& frame, const MeshState* answer) {
-  if (answer == nullptr) return transformed(model().rest_vertices, placement.pose());
+  if (answer == nullptr) return transformed(model().rest_vertices, relocalizer.pose());
   prediction->observe(answer->vertices, answer->observed);
   return prediction->at(frame.stamp, moving);
 }
 
-std::vector<Association> BodyTracker::Implementation::all(const Observation& seen,
-                                                          const Eigen::Matrix3d& R_camera_fixed) const {
+std::vector<Association> BodyTracker::Implementation::associationsOf(
+    const Observation& seen, const Eigen::Matrix3d& R_camera_fixed) const {
   if (config.knn_targets)
-    return knn.associations(observer->map().features(), seen.matches, observer->surface(), R_camera_fixed);
+    return knn.associations(observer->features(), seen.matches, observer->surface(), R_camera_fixed);
   std::vector<Association> associations = inliers(seen.matches);
   if (config.use_depth) {
     associations.reserve(associations.size() + seen.depth.associations.size() + seen.outline.size());
@@ -137,83 +188,46 @@ std::vector<Association> BodyTracker::Implementation::all(const Observation& see
 
 TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) const {
   TrackingResult result;
-  const bool recovering = placement.recovering();
+  const bool recovering = relocalizer.recovering();
   result.status.state = recovering ? TrackingState::kRecovering : TrackingState::kInitializing;
   result.status.reason = reason;
-  // A body that was lost is simulated on without targets.
+  // A lost body is simulated without targets.
   result.has_targets = recovering;
-  result.targets.body_pose = placement.pose();
+  result.targets.body_pose = relocalizer.pose();
   if (observer != nullptr) result.targets.revision = model().revision;
   return result;
 }
 
 TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
-                                                  const std::vector<Association>& associations) {
+                                                  const std::vector<Association>& associations) const {
   TrackingStatus status = statusOf(seen, associations);
-  status.features_total = static_cast<std::uint32_t>(observer->map().features().size());
-  placement.heed(status.state == TrackingState::kLost);
-  if (status.state == TrackingState::kTracking && placement.alike() > 1)
-    status.reason = "tracked in one of " + std::to_string(placement.alike()) + " poses that look alike";
+  if (status.state == TrackingState::kTracking && relocalizer.alike() > 1)
+    status.reason = "tracked in one of " + std::to_string(relocalizer.alike()) + " poses that look alike";
   return status;
 }
 
-void BodyTracker::Implementation::admit(const RgbdFrame& frame, const Observation& seen) {
-  const bool bind = observer->map().features().empty();
-  observer->admit(frame, seen);
-  if (!bind) return;
-  knn.bind(observer->map().features(), model(),
+/// @param answer state of the volume that pieces without measurements are held in; nullptr: none is held.
+TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const Observation& seen,
+                                                   const std::vector<Association>& associations,
+                                                   const MeshState* answer) const {
+  TargetSet set;
+  set.revision = model().revision;
+  set.body_pose = relocalizer.pose();
+  set.targets = targetsOf(associations, frame.T_fixed_camera);
+  if (answer == nullptr) return set;
+  const PredictedSurface& surface = observer->surface();
+  addHeldPieces(seen, surface.pieces(), answer->vertices,
+                transformed(surface.volumeVertices(), frame.T_fixed_camera), *hold, &set.targets);
+  return set;
+}
+
+/// The KNN weights are bound once, in the frame with the first features.
+void BodyTracker::Implementation::learnFeatures(const RgbdFrame& frame, const Observation& seen) {
+  const bool first = observer->features().empty();
+  observer->learnFeatures(frame, seen);
+  if (!first) return;
+  knn.bind(observer->features(), model(),
            transformed(observer->surface().volumeVertices(), frame.T_fixed_camera));
-}
-
-/// Of what is seen; what lasts goes into the next frame's prediction.
-TrackingResult BodyTracker::Implementation::resultOf(const RgbdFrame& frame, const Observation& seen,
-                                                     const MeshState* answer) {
-  const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
-  const Points& found = observer->surface().volumeVertices();
-  placement.follow(frame.T_fixed_camera * fitRigid(model().rest_vertices, found));
-  const std::vector<Association> associations = all(seen, T_camera_fixed.linear());
-  TrackingResult result;
-  result.status = judge(seen, associations);
-  result.features = trackedFeatures(seen, observer->map().features(), T_camera_fixed);
-  result.has_targets = true;
-  result.targets = {model().revision, answer == nullptr, placement.pose(),
-                    targetsOf(associations, frame.T_fixed_camera)};
-  moving = seen.atLeast(Shows::kWell);
-  const bool lost = result.status.state == TrackingState::kLost;
-  if (answer != nullptr && !lost) {
-    holdUnseen(seen, observer->surface().pieces(), answer->vertices, transformed(found, frame.T_fixed_camera),
-               *hold, &result.targets.targets);
-  }
-  if (lost) prediction->reset();
-  return result;
-}
-
-TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
-  Implementation& self = *implementation_;
-  requireCameraSize(frame);
-  if (!ready()) return self.waiting("waiting for the topologies of simulator and surface");
-  if (frame.stamp < self.last_stamp) self.reset();
-  self.last_stamp = frame.stamp;
-  const BodyPlacement::Found found = self.placement.find(frame, self.observer.get(), timer);
-  if (found == BodyPlacement::Found::kNowhere) {
-    return self.waiting(
-        "the body was not found: nothing of its size and shape stands free in the depth image");
-  }
-  const bool anew = found == BodyPlacement::Found::kAnew;
-  if (anew) self.prediction->reset();
-
-  const auto scope = timer->stage("Feature-Point Tracking", anew);
-  const MeshState* answer = !anew && self.answers(volume, frame.stamp) ? volume : nullptr;
-  const Points predicted = transformed(self.predict(frame, answer), frame.T_fixed_camera.inverse());
-  const Observation seen = self.observer->observe(frame, predicted);
-  TrackingResult result = self.resultOf(frame, seen, answer);
-  const bool learns = result.status.state == TrackingState::kTracking;
-  self.held.tell(seen, self.observer->surface().surfaceBodies(), &result.status);
-  if (learns) {
-    self.admit(frame, seen);
-    result.status.features_total = static_cast<std::uint32_t>(self.observer->map().features().size());
-  }
-  return result;
 }
 
 }  // namespace softbody

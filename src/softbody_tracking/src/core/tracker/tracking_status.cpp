@@ -4,16 +4,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "alignment/rigid_alignment.h"
 
 namespace softbody {
 namespace {
 
-constexpr double kDegradedShare = 0.3;  // of the visible surface that must be explained
-constexpr double kFewestFound = 0.05;   // of the expected features; fewer are covered
+// Share of the visible surface that must agree in depth; with less, most of the body is not measured.
+constexpr double kDegradedShare = 0.3;
+// Share of the expected features that must be found; with fewer, something covers them or the light changed.
+constexpr double kFewestFound = 0.05;
+// Smallest share of inliers among the matches.
 constexpr double kWorstInlierRatio = 0.2;
-constexpr int kHeldFrames = 5;  // that a piece of a cut body is held before the status tells
+// Frames for which a piece of a cut body must be held before the status reports it; shorter gaps are normal.
+constexpr int kHeldFrames = 5;
 
-/// Empty if the frame shows the body well.
+/// Reason for a degraded state; empty if the frame shows the body well.
 std::string whyDegraded(const Observation& seen, int kept) {
   const auto explained = static_cast<double>(seen.agreeing_blocks);
   if (explained < kDegradedShare * seen.depth.visible_blocks) {
@@ -57,25 +64,26 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
   return status;
 }
 
-void HeldPieces::tell(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
-                      TrackingStatus* status) {
-  frames_.resize(seen.shown.size(), 0);
+TrackingStatus HeldPieces::report(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
+                                  TrackingStatus status) {
+  frames_.resize(seen.observability.size(), 0);
   std::set<std::uint32_t> all, missing, hidden;
   for (std::size_t p = 0; p < frames_.size(); ++p) {
-    frames_[p] = seen.shown[p] == Shows::kHardly ? frames_[p] + 1 : 0;
+    frames_[p] = seen.observability[p] == Observability::kPoor ? frames_[p] + 1 : 0;
     all.insert(names[p].begin(), names[p].end());
     if (frames_[p] < kHeldFrames) continue;
     (seen.in_view[p] ? missing : hidden).insert(names[p].begin(), names[p].end());
   }
-  if (status->state != TrackingState::kTracking) return;
+  if (status.state != TrackingState::kTracking) return status;
   if (!missing.empty()) {
-    status->state = TrackingState::kDegraded;
-    append("too little shows of " + piecesText(missing, all.size()) + ": held where it was", &status->reason);
+    status.state = TrackingState::kDegraded;
+    append("too little shows of " + piecesText(missing, all.size()) + ": held where it was", &status.reason);
   }
   if (!hidden.empty()) {
     append(piecesText(hidden, all.size()) + " out of view or too small to be followed: only inferred",
-           &status->reason);
+           &status.reason);
   }
+  return status;
 }
 
 }  // namespace softbody

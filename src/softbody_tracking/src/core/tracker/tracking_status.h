@@ -5,28 +5,27 @@
 #include <vector>
 
 #include "softbody_common/types.h"
-#include "tracker/frame_observer.h"
+#include "tracker/observation.h"
 
 namespace softbody {
 
-/// How well a frame shows the body where it was predicted.
-/// @param associations what was found to be a target.
+/// How well a frame shows the body where it was predicted. @param associations those that become targets.
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations);
 
-/// Tells of the pieces of a cut body that nothing measures, once they have been held for some frames. A piece
-/// that should show degrades the tracking. One that the prediction has out of view, or that is too small to
-/// be followed, does not: where it is is inferred, like the rest of what is hidden.
+/// Reports pieces of a cut body that were not measured for some frames and are held in their places. A piece
+/// in view degrades the tracking. A piece out of view, or too small to be tracked, does not: its place is
+/// inferred, like that of all hidden parts.
 class HeldPieces {
  public:
-  /// @param names of each piece: its parts' numbers in the visual mesh. @param status is degraded, or its
-  /// reason says too what is inferred.
-  void tell(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
-            TrackingStatus* status);
+  /// Call once a frame. @param names for each piece its numbers in the visual mesh.
+  /// @return the status, degraded or with a longer reason.
+  TrackingStatus report(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
+                        TrackingStatus status);
 
   void reset() { frames_.clear(); }
 
  private:
-  std::vector<int> frames_;  ///< of each piece: in which it hardly showed, on end
+  std::vector<int> frames_;  ///< of each piece: consecutive frames with poor observability
 };
 
 }  // namespace softbody

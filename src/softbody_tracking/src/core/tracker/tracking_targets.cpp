@@ -30,12 +30,13 @@ std::vector<Target> targetsOf(const std::vector<Association>& associations,
   return targets;
 }
 
-void holdUnseen(const Observation& seen, const std::vector<std::vector<int>>& pieces, const Points& simulated,
-                const Points& found, const PositionPrior& hold, std::vector<Target>* targets) {
+void addHeldPieces(const Observation& seen, const std::vector<std::vector<int>>& pieces,
+                   const Points& simulated, const Points& found, const PositionPrior& hold,
+                   std::vector<Target>* targets) {
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    if (seen.shown[p] == Shows::kWell) continue;
-    const bool hardly = seen.shown[p] == Shows::kHardly;
-    hold.addTargets(pieces[p], hardly ? simulated : found, PositionPrior::kPriorWeight, targets);
+    if (seen.observability[p] == Observability::kGood) continue;
+    const bool is_poor = seen.observability[p] == Observability::kPoor;
+    hold.addTargets(pieces[p], is_poor ? simulated : found, PositionPrior::kPriorWeight, targets);
   }
 }
 

@@ -3,24 +3,27 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "features/map_feature.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 #include "targets/position_prior.h"
-#include "tracker/frame_observer.h"
+#include "tracker/observation.h"
 
 namespace softbody {
 
-/// The features that a frame shows where they were expected. @param known FeatureMap::features().
+/// The inliers of a frame with what is known of them. @param known FeatureMap::features().
 std::vector<TrackedFeature> trackedFeatures(const Observation& seen, const std::vector<MapFeature>& known,
                                             const Eigen::Isometry3d& T_camera_fixed);
 
-/// In the fixed frame. @param associations in the camera's.
+/// Targets in the fixed frame. @param associations in the camera frame.
 std::vector<Target> targetsOf(const std::vector<Association>& associations,
                               const Eigen::Isometry3d& T_fixed_camera);
 
-/// What hardly shows stays where the simulation had it: nothing tells where else it is. What shows loosely
-/// goes as a whole where it was found. @param simulated vertices of the volume, fixed frame. @param found
-/// the same, where they were found. @param pieces the vertices of each.
-void holdUnseen(const Observation& seen, const std::vector<std::vector<int>>& pieces, const Points& simulated,
-                const Points& found, const PositionPrior& hold, std::vector<Target>* targets);
+/// Adds weak targets at the vertices of pieces that are not well observable. A piece with poor observability
+/// stays where the simulation has it; one with partial observability moves as a whole to where it was found.
+/// @param pieces vertices of each piece. @param simulated vertices of the volume, fixed frame [m]. @param
+/// found the same after the rigid alignment.
+void addHeldPieces(const Observation& seen, const std::vector<std::vector<int>>& pieces,
+                   const Points& simulated, const Points& found, const PositionPrior& hold,
+                   std::vector<Target>* targets);
 
 }  // namespace softbody

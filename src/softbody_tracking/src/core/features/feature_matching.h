@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "features/expected_features.h"
+#include "features/feature_match.h"
+#include "features/orb_extractor.h"
+#include "patches/gray_pyramid.h"
+#include "softbody_tracking/tracker_config.h"
+
+namespace softbody {
+
+/// Distance from the expected pixel up to which descriptors are matched, if patches are not found [px].
+constexpr int kWideSearchPx = 64;
+
+struct FeatureMatches {
+  std::vector<FeatureMatch> matches;
+  std::vector<ExpectedFeature> missed;  ///< expected features whose patches were not found
+};
+
+/// Finds map features in one frame: by sub-pixel alignment of their patches around the expected pixels, and
+/// by descriptors if they moved too far. The arguments must outlive it.
+class FeatureMatcher {
+ public:
+  FeatureMatcher(const FeatureConfig& config, const std::vector<MapFeature>& features, const RgbdFrame& frame,
+                 const GrayPyramid& image)
+      : config_(config), features_(features), frame_(frame), image_(image) {}
+
+  /// Aligns the patches of all expected features.
+  FeatureMatches alignAll(const ExpectedFeatures& expected) const;
+  /// Aligns about the wanted number of patches, spread evenly over the expected features. @param wanted at
+  /// least 1.
+  FeatureMatches alignSome(const ExpectedFeatures& expected, int wanted) const;
+  /// Adds the features that alignSome() with the same arguments left out.
+  FeatureMatches alignOthers(const ExpectedFeatures& expected, int wanted, FeatureMatches found) const;
+
+  /// The missed features that a keypoint's descriptor matches within kWideSearchPx, each aligned there.
+  std::vector<FeatureMatch> matchDescriptors(const std::vector<ExpectedFeature>& missed,
+                                             const std::vector<Keypoint>& keypoints) const;
+
+ private:
+  void alignOne(const ExpectedFeature& expected, FeatureMatches* found) const;
+  std::optional<FeaturePatch::Alignment> alignPatch(const ExpectedFeature& expected, const cv::Point2f& start,
+                                                    int coarsest_level, int radius_px) const;
+  std::optional<FeatureMatch> match(const ExpectedFeature& expected, const cv::Point2f& start,
+                                    int radius_px) const;
+
+  const FeatureConfig& config_;
+  const std::vector<MapFeature>& features_;
+  const RgbdFrame& frame_;
+  const GrayPyramid& image_;
+};
+
+/// Depth at a keypoint [m]: mean over those of the 5x5 pixels around it that are within 2 % of the middle
+/// one.
+/// @return 0 at a depth edge and where depth is missing.
+double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel);
+
+}  // namespace softbody

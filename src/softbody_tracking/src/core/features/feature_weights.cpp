@@ -1,0 +1,43 @@
+#include "features/feature_weights.h"
+
+#include <algorithm>
+
+#include "softbody_common/target_limits.h"
+
+namespace softbody {
+namespace {
+
+// Share of a patch's variance that no image reproduces; keeps the median from 0 in images without noise.
+constexpr double kSmallestShare = 0.01;
+// At this many times the median unexplained share a match has half the weight.
+constexpr double kUnusual = 2.0;
+// Sum of the matches' weights for each visible vertex, in weights of one match; independent of their number.
+constexpr double kPerVertex = 2.5;
+// Largest factor on a match's own weight: a few features must not replace many.
+constexpr double kLargestFactor = 4.0;
+
+}  // namespace
+
+void weighByAgreement(std::vector<FeatureMatch>* matches) {
+  if (matches->empty()) return;
+  std::vector<double> shares;
+  for (const FeatureMatch& match : *matches) shares.push_back(match.unexplained);
+  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+  std::nth_element(shares.begin(), middle, shares.end());
+  const double usual = std::max(*middle, kSmallestShare);
+  for (FeatureMatch& match : *matches) {
+    const double ratio = match.unexplained / (kUnusual * usual);
+    match.association.weight /= 1.0 + ratio * ratio;
+  }
+}
+
+void weighByDensity(double vertices, std::vector<FeatureMatch>* matches) {
+  const auto inliers = static_cast<double>(std::count_if(
+      matches->begin(), matches->end(), [](const FeatureMatch& match) { return match.inlier; }));
+  if (inliers == 0.0 || vertices == 0.0) return;
+  const double scale = std::min(kPerVertex * vertices / inliers, kLargestFactor);
+  for (FeatureMatch& match : *matches)
+    match.association.weight = std::min(scale * match.association.weight, kLargestTargetWeight);
+}
+
+}  // namespace softbody

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// A coarser mesh with the same outline: all vertices of one cubic cell become one vertex.
+/// @param cell_m side of a cell [m]; halved until enough of a thin mesh's area remains.
+TriangleMesh clustered(const TriangleMesh& mesh, double cell_m);
+
+/// The rest surface at the resolutions that the searches for its pose render.
+struct SearchMeshes {
+  TriangleMesh full;
+  TriangleMesh medium;      ///< for searchNearPose(); the full mesh where that has few vertices
+  TriangleMesh coarse;      ///< for searchAnywhere()
+  double diameter_m = 0.0;  ///< diagonal of the bounding box
+};
+
+SearchMeshes makeSearchMeshes(const TriangleMesh& rest_surface);
+
+}  // namespace softbody

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "registration/pose_refinement.h"
+
+namespace softbody {
+
+void sortByCost(std::vector<PoseHypothesis>* poses);
+
+/// The search for the body's pose in one frame, from coarse to fine. Only its starts differ: poses near a
+/// given one (search_near_pose.h), or every orientation at every candidate (search_anywhere.h). The meshes
+/// must outlive it.
+class CoarseToFineSearch {
+ public:
+  /// Effort of the first step.
+  struct Alignment {
+    int columns;         ///< of the image
+    int icp_iterations;  ///< from each start
+  };
+
+  /// @param preferred see PoseRefinement.
+  CoarseToFineSearch(const RgbdFrame& frame, const TriangleMesh& full, const TriangleMesh& coarse,
+                     const Alignment& alignment, double distance_scale_m,
+                     const std::optional<Eigen::Isometry3d>& preferred = std::nullopt);
+  CoarseToFineSearch(const CoarseToFineSearch&) = delete;
+  CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
+
+  /// A start turned about the body's centre. @param turn rotation vector [rad].
+  Eigen::Isometry3d turned(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn) const;
+
+  /// Step 1: ICP from every start with the coarse mesh on a small image. @return the lowest cost first.
+  std::vector<PoseHypothesis> align(const std::vector<Eigen::Isometry3d>& starts);
+  /// Step 2: pattern search with the coarse mesh on a medium image.
+  std::vector<PoseHypothesis> refine(std::vector<PoseHypothesis> poses);
+  /// Step 3: pattern search with the full mesh on a large image.
+  std::vector<PoseHypothesis> polish(std::vector<PoseHypothesis> poses);
+
+  /// Sorted by support in the images of step 2, the most first; then by cost.
+  std::vector<PoseHypothesis> rankRefined(std::vector<PoseHypothesis> poses);
+  /// The same in the images of step 3.
+  std::vector<PoseHypothesis> rankPolished(std::vector<PoseHypothesis> poses);
+  /// PoseCost in the images of step 3.
+  double polishedCost(const Eigen::Isometry3d& pose) { return polishing_.cost()(pose); }
+
+  /// The image of step 2.
+  const RgbdFrame& mediumFrame() const { return medium_; }
+
+ private:
+  int icp_iterations_;
+  RgbdFrame small_, medium_, large_;
+  PoseRefinement alignment_, refinement_, polishing_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace softbody {
+
+/// A pose of the undeformed body that a search considers.
+struct PoseHypothesis {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< rest frame in the camera frame
+  double cost = 1.0;                                       ///< see PoseCost; 0 is perfect
+};
+
+/// The pose that a search accepts.
+struct FoundPose {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< rest frame in the camera frame
+  int alike = 1;  ///< poses in the same place that explain the frame equally well, with this one
+};
+
+}  // namespace softbody

@@ -1,0 +1,84 @@
+#include "registration/pose_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody_common/rigid_fit.h"
+
+namespace softbody {
+namespace {
+
+// Cost of a covered pixel without depth, 0..1: it neither supports nor contradicts a pose.
+constexpr double kUnmeasuredCost = 0.3;
+// Cost of a pixel with something nearer, 0..1. Below the 1 of free space: occlusion is possible, looking
+// through a body is not.
+constexpr double kNearerCost = 0.7;
+// Share of the covered pixels that must have depth; with less a pose cannot be judged.
+constexpr double kFewestMeasured = 0.25;
+// Weight of the outline, per covered pixel; without it a pose inside a larger object would be perfect.
+constexpr double kOutlineWeight = 0.5;
+// Depth difference, in distance scales, below which depth beyond the outline continues the surface.
+constexpr double kContinues = 0.5;
+
+double pixelCost(double measured, double predicted, double scale) {
+  if (measured <= 0.0) return kUnmeasuredCost;
+  const double ratio = (measured - predicted) / distanceScaleAt(predicted, scale);
+  if (ratio < -1.0) return kNearerCost;
+  return std::min(1.0, ratio * ratio);
+}
+
+/// Number of pixels just outside the rendered outline whose depth continues the surface.
+int continuingOutlinePixels(const RgbdFrame& frame, const RasterImage& image, double scale) {
+  static constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  const cv::Rect inner(2, 2, image.depth.cols - 4, image.depth.rows - 4);
+  const cv::Rect region = image.region & inner;
+  int count = 0;
+  for (int v = region.y; v < region.br().y; ++v) {
+    for (int u = region.x; u < region.br().x; ++u) {
+      if (image.triangle(v, u) < 0) continue;
+      for (const auto& step : kSteps) {
+        const int next_u = u + step[0], next_v = v + step[1], beyond_u = u + 2 * step[0],
+                  beyond_v = v + 2 * step[1];
+        if (image.triangle(next_v, next_u) >= 0 || image.triangle(beyond_v, beyond_u) >= 0) continue;
+        const float z = frame.depth(beyond_v, beyond_u);
+        if (z > 0.0f && std::abs(z - image.depth(v, u)) < kContinues * distanceScaleAt(z, scale)) ++count;
+      }
+    }
+  }
+  return count;
+}
+
+double renderedCost(const RgbdFrame& frame, const RasterImage& image, double scale) {
+  double sum = 0.0;
+  int covered = 0, measured = 0;
+  for (int v = image.region.y; v < image.region.br().y; ++v) {
+    for (int u = image.region.x; u < image.region.br().x; ++u) {
+      if (image.triangle(v, u) < 0) continue;
+      ++covered;
+      measured += frame.depth(v, u) > 0.0f ? 1 : 0;
+      sum += pixelCost(frame.depth(v, u), image.depth(v, u), scale);
+    }
+  }
+  if (measured <= kFewestMeasured * covered) return 1.0;
+  return (sum + kOutlineWeight * continuingOutlinePixels(frame, image, scale)) / covered;
+}
+
+}  // namespace
+
+double distanceScaleAt(double z, double scale) { return scale * std::max(1.0, z); }
+
+const RasterImage& PoseCost::render(const Points& vertices) {
+  rasterize(frame_.camera, vertices, mesh_.triangles, &image_);
+  return image_;
+}
+
+double PoseCost::operator()(const Eigen::Isometry3d& pose) {
+  return renderedCost(frame_, render(transformed(mesh_.vertices, pose)), scale_);
+}
+
+double PoseCost::support(const Eigen::Isometry3d& pose) {
+  const double saved = kWorstPlausibleCost - (*this)(pose);
+  return saved <= 0.0 ? 0.0 : saved * cv::countNonZero(image_.depth(image_.region));
+}
+
+}  // namespace softbody

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "softbody_common/rasterizer.h"
+#include "softbody_common/types.h"
+#include "softbody_tracking/rgbd_frame.h"
+
+namespace softbody {
+
+/// Mean cost of a pixel above which a pose is not plausible, if only depth supports it.
+constexpr double kWorstPlausibleCost = 0.22;
+
+/// Depth is noisier far away: the distance scale grows with the distance beyond 1 m.
+/// @param scale at up to 1 m [m].
+double distanceScaleAt(double z, double scale);
+
+/// How badly a posed mesh explains a depth image. Frame and mesh must outlive it.
+class PoseCost {
+ public:
+  PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m)
+      : frame_(frame), mesh_(mesh), scale_(distance_scale_m) {}
+
+  /// Mean cost of the covered pixels, from 0 (perfect) to 1, plus a cost of the outline.
+  /// A pixel costs the squared depth difference in distance scales, at most 1. Less for a nearer occluder and
+  /// for missing depth. Half of the share of outline pixels beyond which the depth continues the surface is
+  /// added.
+  double operator()(const Eigen::Isometry3d& pose);
+
+  /// How much of the depth supports a pose: the pixels covered times how far their mean cost is below
+  /// kWorstPlausibleCost; 0 for worse poses. It prefers a large match to a few distant pixels that resemble
+  /// any body.
+  double support(const Eigen::Isometry3d& pose);
+
+  /// Renders the mesh. @return valid until the next call of any member.
+  const RasterImage& render(const Points& vertices);
+
+ private:
+  const RgbdFrame& frame_;
+  const TriangleMesh& mesh_;
+  double scale_;
+  RasterImage image_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "prediction/association.h"
+#include "registration/found_pose.h"
+#include "registration/pose_cost.h"
+
+namespace softbody {
+
+/// Moves one mesh to a better pose in one frame: by ICP, or by pattern search on PoseCost, which also sees
+/// the outline, where ICP may slide. Frame and mesh must outlive it.
+class PoseRefinement {
+ public:
+  /// First steps of the pattern search.
+  struct Steps {
+    double turn_rad, shift_m;
+  };
+
+  /// @param preferred among poses with nearly equal cost, for example those of a torus turned about its axis,
+  /// the nearest to this one wins.
+  PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
+                 const std::optional<Eigen::Isometry3d>& preferred);
+
+  /// PoseCost, plus a small penalty for the turn and the distance from the preferred pose.
+  double rankedCost(const Eigen::Isometry3d& pose);
+
+  /// PoseCost alone.
+  PoseCost& cost() { return cost_; }
+
+  /// Turns a pose about the body's centre, then shifts it. @param turn rotation vector [rad]. @param shift
+  /// [m].
+  Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,
+                          const Eigen::Vector3d& shift) const;
+
+  /// Projective point-to-plane ICP (Besl and McKay 1992; Chen and Medioni 1992). Its gate narrows from 4
+  /// distance scales to 1.
+  Eigen::Isometry3d icp(Eigen::Isometry3d pose, int iterations);
+
+  /// Pattern search along shifts and along turns about the body's principal axes. A symmetric body may turn
+  /// freely about one of these; a search about other axes would stop in that valley. The steps are halved
+  /// down to the precision of depth.
+  /// @return the cost is rankedCost().
+  PoseHypothesis patternSearch(const Eigen::Isometry3d& start, Steps steps);
+
+ private:
+  std::optional<PoseHypothesis> betterNeighbor(const PoseHypothesis& best, const Steps& steps, int axis);
+  std::vector<Association> associations(const Eigen::Isometry3d& pose, double gate);
+
+  const RgbdFrame& frame_;
+  const TriangleMesh& mesh_;
+  double scale_;
+  std::optional<Eigen::Isometry3d> preferred_;
+  PoseCost cost_;
+  Eigen::Vector3d center_;  ///< of the mesh's area
+  Eigen::Matrix3d axes_;    ///< principal axes of the mesh's area, one a column
+};
+
+}  // namespace softbody

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "registration/coarse_mesh.h"
+
+namespace softbody {
+
+/// Rotation vectors [rad] that turn a rough pose by up to 0.2 rad about each axis; the first one is zero.
+std::vector<Eigen::Vector3d> smallTurns();
+
+/// The body in every orientation, so that the camera sees it around a point. Some start is within about 35
+/// degrees of any orientation.
+/// @param visible_center mean of the visible points, camera frame [m].
+std::vector<Eigen::Isometry3d> allOrientations(const SearchMeshes& meshes,
+                                               const Eigen::Vector3d& visible_center);
+
+}  // namespace softbody

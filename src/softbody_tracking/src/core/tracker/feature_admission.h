@@ -1,0 +1,47 @@
+#pragma once
+
+#include "features/feature_map.h"
+#include "features/orb_extractor.h"
+#include "patches/gray_pyramid.h"
+#include "prediction/color_model.h"
+#include "prediction/predicted_surface.h"
+#include "tracker/observation.h"
+
+namespace softbody {
+
+/// The frame that new features are learned from.
+struct LearnedFrame {
+  const RgbdFrame& frame;
+  const Observation& seen;
+  const PredictedSurface& surface;  ///< aligned with the frame
+  const ColorModel& colors;
+  const GrayPyramid& image;
+  double volume_edge_m;  ///< mean length of the volume's edges
+};
+
+/// Admits new features to the map where the visible surface has few. The first ones are admitted at once;
+/// later ones tile by tile, so that no frame takes much longer than others.
+class FeatureAdmission {
+ public:
+  explicit FeatureAdmission(int max_features) : max_features_(max_features) {}
+
+  /// Admits new features if it is time for it.
+  void admit(const LearnedFrame& from, FeatureMap* map);
+
+  /// The body was edited: new surface may show, so tiles are searched at the full rate again.
+  void bodyEdited() { fruitless_tiles_ = 0; }
+  void reset();
+
+ private:
+  int enoughFeatures(double visible_vertices) const;
+  cv::Rect nextTile(const cv::Rect& covered);
+  void admitIn(const LearnedFrame& from, int room, FeatureMap* map);
+
+  int max_features_;
+  OrbExtractor orb_;
+  int frames_to_next_tile_ = 0;
+  int fruitless_tiles_ = 0;  ///< consecutive tiles without a new feature
+  int tile_ = 0;             ///< of the surface, searched last
+};
+
+}  // namespace softbody

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+
+#include "registration/coarse_mesh.h"
+#include "registration/found_pose.h"
+#include "softbody_common/stage_timer.h"
+#include "softbody_tracking/tracker_config.h"
+#include "tracker/frame_observer.h"
+
+namespace softbody {
+
+/// Decides when to search for the body, and where: at the start and after a loss, while no prediction exists.
+/// At the start: near the pose of the object's file or of the user, then anywhere. After a loss: where
+/// features are recognised, then anywhere.
+class Relocalizer {
+ public:
+  enum class Outcome {
+    kNotFound,
+    kFound,   ///< by a search in this frame
+    kTracked  ///< no search was necessary: the body was found before and is not lost
+  };
+
+  explicit Relocalizer(const RegistrationConfig& config) : config_(config) {}
+
+  /// Forgets where the body is.
+  void reset();
+  /// After reset(): searches near this pose instead of the object file's. @param rough_pose in the fixed
+  /// frame.
+  void startNear(const Eigen::Isometry3d& rough_pose);
+  /// Call it when the body's models change.
+  void forgetMeshes() { meshes_.reset(); }
+
+  /// Searches for the body if it is not tracked and a search is due.
+  /// @param observer gives the models, features and colours, and tests poses by features.
+  Outcome locate(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer);
+
+  /// Counts consecutive frames in which the tracked body was lost. After ten of them the search begins.
+  void countLoss(bool lost);
+  /// The pose that tracking gave. It is where a later search starts.
+  void setPose(const Eigen::Isometry3d& pose) { pose_ = pose; }
+
+  /// Pose of the rest shape in the fixed frame.
+  const Eigen::Isometry3d& pose() const { return pose_; }
+  /// Whether the body was lost and has not been tracked since.
+  bool recovering() const { return recovering_; }
+  int alike() const { return alike_; }               ///< see FoundPose, of the last search
+  Nanoseconds foundAt() const { return found_at_; }  ///< stamp of the frame of that search
+
+ private:
+  void takeInitialPose(const RgbdFrame& frame, const TetTopology& volume);
+  std::optional<FoundPose> searchByFeatures(const RgbdFrame& frame, FrameObserver* observer,
+                                            StageTimer* timer);
+  std::optional<FoundPose> searchByDepth(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer);
+  std::optional<FoundPose> acceptableNear(const RgbdFrame& frame, const SearchMeshes& meshes,
+                                          const Eigen::Isometry3d& rough_pose) const;
+  const SearchMeshes& meshesOf(const MeshTopology& surface);
+  void startTracking(const RgbdFrame& frame, const FoundPose& found);
+
+  RegistrationConfig config_;
+  std::unique_ptr<SearchMeshes>
+      meshes_;               ///< made at the first search, so that no frame after a cut waits for it
+  bool first_frame_ = true;  ///< no frame since the last reset
+  bool tracked_ = false;
+  bool recovering_ = false;
+  int alike_ = 1;
+  std::optional<Eigen::Isometry3d> given_;  ///< rough pose of the object's file or the user, fixed frame
+  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
+  Nanoseconds found_at_ = 0;
+  int lost_frames_ = 0;
+  int frames_to_depth_search_ = 0;
+  int frames_to_feature_search_ = 0;
+};
+
+}  // namespace softbody

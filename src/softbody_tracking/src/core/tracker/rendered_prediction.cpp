@@ -1,0 +1,50 @@
+#include "tracker/rendered_prediction.h"
+
+#include <utility>
+
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+/// Weight 0 if no target would use the outline: then it is not sampled.
+OutlineConfig usedOutline(const TrackerConfig& config) {
+  OutlineConfig outline = config.outline;
+  if (config.knn_targets || !config.use_depth) outline.weight = 0.0;
+  return outline;
+}
+
+}  // namespace
+
+RenderedPrediction::RenderedPrediction(const TrackerConfig& config, const TetTopology& volume,
+                                       const MeshTopology& surface)
+    : wanted_samples_(config.depth.max_targets),
+      volume_edge_m_(meanEdgeLength(volume.rest_vertices, volume.tets)),
+      surface_(volume, surface),
+      depth_(config.depth, volume_edge_m_),
+      outline_(usedOutline(config), volume_edge_m_) {}
+
+void RenderedPrediction::render(const Pinhole& camera, const Points& volume_vertices) {
+  surface_.render(camera, volume_vertices);
+  samples_ = sampleSurface(surface_, wanted_samples_, std::move(samples_));
+  outline_.sample(surface_);
+}
+
+RigidMotions RenderedPrediction::align(const RgbdFrame& frame, const ColorModel& colors,
+                                       const std::vector<FeatureMatch>& matches) {
+  return alignRigidly(frame, surface_, samples_, colors, matches, &depth_);
+}
+
+const DepthAssociations& RenderedPrediction::associateDepth(const RgbdFrame& frame,
+                                                            const RigidMotions& motions,
+                                                            const ColorModel& colors) {
+  return depth_.associate(frame, surface_.image(), samples_, motions, colors);
+}
+
+const std::vector<Association>& RenderedPrediction::associateOutline(const RgbdFrame& frame,
+                                                                     const RigidMotions& motions,
+                                                                     const ColorModel& colors) {
+  return outline_.associate(frame, surface_.image(), motions, colors);
+}
+
+}  // namespace softbody

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "alignment/rigid_alignment.h"
+#include "depth/depth_associations.h"
+#include "depth/outline_associations.h"
+#include "prediction/predicted_surface.h"
+#include "prediction/surface_samples.h"
+#include "softbody_tracking/tracker_config.h"
+
+namespace softbody {
+
+/// The prediction as the camera should see it: rendered and sampled, to be compared with the depth of a
+/// frame.
+class RenderedPrediction {
+ public:
+  RenderedPrediction(const TrackerConfig& config, const TetTopology& volume, const MeshTopology& surface);
+
+  /// Renders the surface for these vertices of the volume (camera frame) and samples it. Every rendering of
+  /// the prediction happens here; the other members refer to the last one.
+  void render(const Pinhole& camera, const Points& volume_vertices);
+
+  const PredictedSurface& surface() const { return surface_; }
+  const SurfaceSamples& samples() const { return samples_; }
+  double volumeEdge() const { return volume_edge_m_; }  ///< mean length of the volume's edges [m]
+
+  /// See alignRigidly().
+  RigidMotions align(const RgbdFrame& frame, const ColorModel& colors,
+                     const std::vector<FeatureMatch>& matches);
+  /// Depth of the frame on the surface, which is moved by the motions. Valid until the next call or align().
+  const DepthAssociations& associateDepth(const RgbdFrame& frame, const RigidMotions& motions,
+                                          const ColorModel& colors);
+  /// The outline of the surface in the frame. Valid until the next call.
+  const std::vector<Association>& associateOutline(const RgbdFrame& frame, const RigidMotions& motions,
+                                                   const ColorModel& colors);
+
+  /// Moves the pieces without rendering again.
+  void move(const RigidMotions& motions) { surface_.move(motions); }
+
+ private:
+  int wanted_samples_;
+  double volume_edge_m_;
+  PredictedSurface surface_;
+  SurfaceSamples samples_;
+  DepthAssociator depth_;
+  OutlineAssociator outline_;
+};
+
+}  // namespace softbody

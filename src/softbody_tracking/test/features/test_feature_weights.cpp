@@ -1,0 +1,79 @@
+#include "features/feature_weights.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "softbody_common/target_limits.h"
+
+namespace softbody {
+namespace {
+
+std::vector<double> weightsOf(const std::vector<double>& unexplained) {
+  std::vector<FeatureMatch> matches(unexplained.size());
+  for (std::size_t m = 0; m < matches.size(); ++m) matches[m].unexplained = unexplained[m];
+  weighByAgreement(&matches);
+  std::vector<double> weights;
+  for (const FeatureMatch& match : matches) weights.push_back(match.association.weight);
+  return weights;
+}
+
+/// Half-covered patches among others, in a noisy image.
+TEST(FeatureWeights, AreSmallWherePatchesFitBadly) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> usual(0.005, 0.02), odd(0.2, 0.45);
+  std::vector<double> unexplained;
+  for (int i = 0; i < 500; ++i) unexplained.push_back(i % 5 == 0 ? odd(random) : usual(random));
+  const std::vector<double> weights = weightsOf(unexplained);
+  for (std::size_t m = 0; m < weights.size(); ++m) {
+    const bool is_odd = m % 5 == 0;
+    EXPECT_TRUE(is_odd ? weights[m] < 0.05 : weights[m] > 0.5) << unexplained[m] << " " << weights[m];
+  }
+}
+
+/// Noise and blur make all patches fit worse.
+TEST(FeatureWeights, AreRelativeToTheFramesUsualFit) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(0.001, 0.1);
+  std::vector<double> sharp(100), blurred(100);
+  for (std::size_t m = 0; m < sharp.size(); ++m) blurred[m] = 4.0 * (sharp[m] = uniform(random));
+  const std::vector<double> weights = weightsOf(sharp), same = weightsOf(blurred);
+  for (std::size_t m = 0; m < weights.size(); ++m) EXPECT_NEAR(weights[m], same[m], 1e-12);
+}
+
+/// Weight of one match. @param inliers besides them, a tenth of all matches are outliers.
+double weightAmong(int vertices, int inliers) {
+  std::vector<FeatureMatch> matches(static_cast<std::size_t>(inliers + inliers / 9 + 1));
+  for (std::size_t m = static_cast<std::size_t>(inliers); m < matches.size(); ++m) matches[m].inlier = false;
+  weighByDensity(vertices, &matches);
+  return matches[0].association.weight;
+}
+
+TEST(FeatureWeights, HaveTheSameSumWhateverTheNumberOfMatches) {
+  EXPECT_GT(weightAmong(100, 80), 2.0);
+  // The same sum for each visible vertex, whatever the resolution of the volume.
+  for (const int matches : {80, 160, 400, 1000}) {
+    EXPECT_NEAR(matches * weightAmong(100, matches), 80.0 * weightAmong(100, 80), 1e-9) << matches;
+    EXPECT_NEAR(weightAmong(50, matches / 2), weightAmong(100, matches), 1e-9) << matches;
+  }
+  EXPECT_EQ(weightAmong(100, 2), weightAmong(100, 1)) << "few are not trusted without bound";
+  EXPECT_EQ(weightAmong(0, 10), 1.0) << "nothing shows";
+  std::vector<FeatureMatch> none;
+  EXPECT_NO_THROW(weighByDensity(100, &none));
+}
+
+TEST(FeatureWeights, StayBelowTheSimulatorsLimit) {
+  std::vector<FeatureMatch> matches(3);
+  for (FeatureMatch& match : matches) match.association.weight = kLargestTargetWeight;
+  matches[0].association.weight = 0.4 * kLargestTargetWeight;
+  weighByDensity(1000, &matches);
+  for (const FeatureMatch& match : matches) EXPECT_EQ(match.association.weight, kLargestTargetWeight);
+}
+
+TEST(FeatureWeights, AreWholeWherePatchesFitExactly) {
+  EXPECT_TRUE(weightsOf({}).empty());
+  EXPECT_EQ(weightsOf({0.0, 0.0, 0.0}), std::vector<double>(3, 1.0));
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+
+#include "fixtures/synthetic_scene.h"
+#include "registration/coarse_mesh.h"
+
+namespace softbody {
+namespace {
+
+const BoxBody kBox = makeBox();
+const TriangleMesh kMesh{kBox.surface.rest_vertices, kBox.surface.triangles};
+
+TEST(ClusteredMesh, KeepsTheShapeWithinACell) {
+  const TriangleMesh coarse = clustered(kMesh, 0.03);
+  EXPECT_LT(coarse.vertices.rows(), kMesh.vertices.rows());
+  EXPECT_GT(coarse.triangles.rows(), 20);
+  for (Eigen::Index v = 0; v < coarse.vertices.rows(); ++v)
+    EXPECT_LT((kMesh.vertices.rowwise() - coarse.vertices.row(v)).rowwise().norm().minCoeff(), 0.03);
+}
+
+TEST(ClusteredMesh, KeepsAThreadThinnerThanACell) {
+  TriangleMesh thread = kMesh;
+  thread.vertices.rightCols(2) *= 0.05;
+  thread.vertices.rightCols(2).array() += 0.01;  // in a single row of cells
+  const TriangleMesh coarse = clustered(thread, 0.03);
+  EXPECT_GT(coarse.triangles.rows(), 20);
+  EXPECT_LT(coarse.vertices.col(0).minCoeff(), -0.08);
+  EXPECT_GT(coarse.vertices.col(0).maxCoeff(), 0.08);
+}
+
+}  // namespace
+}  // namespace softbody
