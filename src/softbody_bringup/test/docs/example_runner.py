@@ -27,12 +27,23 @@ def free_port():
 
 
 def end_group(process, number):
-    """Sends a signal to a process and all that it started, and waits for the process."""
+    """Sends a signal to a process and its group, and waits for the process."""
     try:
         os.killpg(process.pid, number)
-        process.wait(15)
+        process.wait(60)
     except (ProcessLookupError, subprocess.TimeoutExpired):
         pass
+
+
+def end_all_of(master):
+    """Ends what still runs with this master: roslaunch starts its nodes in groups of their own."""
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{pid}/environ", "rb") as environment:
+                if f"ROS_MASTER_URI={master}".encode() in environment.read().split(b"\0") and int(pid) != os.getpid():
+                    os.kill(int(pid), signal.SIGKILL)
+        except (OSError, ProcessLookupError):
+            pass  # it has ended, or belongs to somebody else
 
 
 class PageRunner:
@@ -103,7 +114,8 @@ class PageRunner:
     def close(self):
         for process in self.background:
             end_group(process, signal.SIGINT)
-            end_group(process, signal.SIGKILL)
+        if self.background:
+            end_all_of(self.environment["ROS_MASTER_URI"])
         self.background.clear()
 
     def tool(self, command, accepted=(0,)):
@@ -154,7 +166,7 @@ class PageRunner:
                                         start_new_session=True)
 
             environment = {**self.environment, "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
-            processes = [start(["roscore", "-p", environment["ROS_MASTER_URI"].rsplit(":", 1)[1]])]
+            processes = [start(["rosmaster", "--core", "-p", environment["ROS_MASTER_URI"].rsplit(":", 1)[1]])]
             try:
                 if parameters:
                     self.wait_for(["rosparam", "load", parameters, "/softbody"], environment, processes)

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Every example of README.md and docs/*.md runs: bash blocks in order, page by page; YAML blocks are loaded by their tool.
 Log sentences that a page quotes are those of the sources."""
+import atexit
 import glob
 import os
+import signal
 import sys
 import tempfile
 import unittest
@@ -35,11 +37,12 @@ class DocExamples(unittest.TestCase):
             return
         with tempfile.TemporaryDirectory(prefix="page_", dir=self.scratch.name) as scratch:
             runner = example_runner.PageRunner(ROOT, self.stand_ins, scratch)
-            self.addCleanup(runner.close)
+            atexit.register(runner.close)  # also where the test is ended from outside
             for example in examples:
                 try:
                     runner.run(example)
                 except example_runner.ExampleFailed as error:
+                    runner.close()
                     self.fail(f"{name}:{example.line}: {error}\nThe example:\n{example.text}")
             runner.close()
 
@@ -77,4 +80,5 @@ for page_name in PAGES:
     setattr(DocExamples, "test_" + page_name.replace("/", "_").replace(".md", ""), page_test(page_name))
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(1))
     rostest.rosrun("softbody_bringup", "doc_examples", DocExamples, sys.argv)
