@@ -76,7 +76,7 @@ void Simulator::Implementation::setTopology(const TetTopology& topology) {
 const TargetSet& Simulator::Implementation::toCurrentRevision(const TargetSet& targets,
                                                               TargetSet* storage) const {
   if (targets.revision == model->topology.revision) return targets;
-  *storage = volume.broughtUpToDate(targets);
+  *storage = volume.toCurrentRevision(targets);
   return *storage;
 }
 
@@ -201,7 +201,7 @@ bool Simulator::apply(const Cut& cut, std::string* reason) {
 }
 
 TargetSet Simulator::toCurrentRevision(TargetSet targets) const {
-  return implementation_->volume.broughtUpToDate(std::move(targets));
+  return implementation_->volume.toCurrentRevision(std::move(targets));
 }
 
 const MeshState& Simulator::state() const { return implementation_->body.mesh; }

@@ -68,7 +68,7 @@ std::optional<TetEdit> EditedVolume::apply(const Cut& cut, std::string* reason) 
   return edit;
 }
 
-TargetSet EditedVolume::broughtUpToDate(TargetSet targets) const {
+TargetSet EditedVolume::toCurrentRevision(TargetSet targets) const {
   for (const Step& step : recent_) {
     if (targets.revision != step.before->topology.revision) continue;
     targets.targets = mapped(std::move(targets.targets), step.before->topology, *step.edit);

@@ -28,7 +28,7 @@ class EditedVolume {
 
   /// Converts targets on tets of a recent revision to tets of the present one. Drops targets that are far
   /// outside of their new tet. Returns targets of other revisions unchanged.
-  TargetSet broughtUpToDate(TargetSet targets) const;
+  TargetSet toCurrentRevision(TargetSet targets) const;
 
  private:
   struct Step {
