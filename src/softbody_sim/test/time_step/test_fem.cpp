@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "elasticity/corotated_elasticity.h"
 #include "elasticity/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
 #include "time_step/fem_solver.h"
