@@ -220,7 +220,7 @@ class Cutting(unittest.TestCase):
         self.step()
         blade = PolygonStamped()
         blade.header.frame_id = FRAME
-        for stamp, corners, words in ((rospy.Time(), 4, "behind the body's last state"), (self.stamp, 2, "three corners")):
+        for stamp, corners, words in ((rospy.Time(), 4, "before the body's last state"), (self.stamp, 2, "three corners")):
             blade.header.stamp, blade.polygon.points = stamp, [Point32(k, k * k, 5) for k in range(corners)]
             for _ in range(6):
                 self.blade.publish(blade)
