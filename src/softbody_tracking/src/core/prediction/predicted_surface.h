@@ -24,7 +24,7 @@ class PredictedSurface {
   PredictedSurface(const TetTopology& volume, const MeshTopology& surface);
 
   /// Moves the surface with the volume's vertices and renders it. @param volume_vertices camera frame [m].
-  void update(const Pinhole& camera, const Points& volume_vertices);
+  void render(const Pinhole& camera, const Points& volume_vertices);
 
   /// Moves each piece of the body after render(); the image does not change.
   void move(const RigidMotions& motions);
