@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every example of README.md and docs/*.md runs: bash blocks in order, page by page; YAML blocks are loaded by their tool.
+"""Every example of README.md and docs runs: bash blocks in order, page by page; YAML blocks are loaded by their tool.
 Log sentences that a page quotes are those of the sources."""
 import atexit
 import glob
@@ -19,7 +19,7 @@ import log_sentences
 import stand_ins
 
 ROOT = os.path.realpath(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "../.."))
-PAGES = ["README.md", *sorted(os.path.relpath(path, ROOT) for path in glob.glob(f"{ROOT}/docs/*.md"))]
+PAGES = ["README.md", *sorted(os.path.relpath(path, ROOT) for path in glob.glob(f"{ROOT}/docs/**/*.md", recursive=True))]
 
 
 class DocExamples(unittest.TestCase):
