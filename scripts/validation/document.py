@@ -7,7 +7,7 @@ from validation.refinement import SMOOTHED, STUDIES, smoothing_rows
 
 def document(studies):
     lines = ["# Validation of the simulator", "",
-             *paragraph("Written by `make validation`. It compares the [simulator](simulation.md) with known "
+             *paragraph("Written by `make validation`. It compares the [simulator](pipeline/simulation.md) with known "
                         "solutions. Every figure comes from a run of `rosrun softbody_sim simulate`. Meshes are "
                         "boxes made by `scripts/validate`, or published meshes. Tets are linear; a cell of a box is a cuboid of "
                         "six tets."),
