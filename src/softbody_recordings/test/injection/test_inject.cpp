@@ -54,15 +54,15 @@ const std::string& input() {
   return path;
 }
 
-struct Arrival {
+struct BagImage {
   ros::Time received;
   sensor_msgs::Image image;
 };
 
-std::vector<Arrival> arrivals(const std::string& path, const std::string& topic) {
+std::vector<BagImage> arrivals(const std::string& path, const std::string& topic) {
   rosbag::Bag bag(path, rosbag::bagmode::Read);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
-  std::vector<Arrival> result;
+  std::vector<BagImage> result;
   for (const rosbag::MessageInstance& m : view)
     result.push_back({m.getTime(), *m.instantiate<sensor_msgs::Image>()});
   return result;
@@ -106,7 +106,7 @@ TEST(Inject, WithoutFaultsNothingChanges) {
   const InjectionReport report = inject(options, [](double) {});
   EXPECT_EQ(report.copied, kFrames);
   for (const std::string& topic : {kColor, kDepth}) {
-    const std::vector<Arrival> before = arrivals(input(), topic), after = arrivals(options.output, topic);
+    const std::vector<BagImage> before = arrivals(input(), topic), after = arrivals(options.output, topic);
     ASSERT_EQ(after.size(), kFrames);
     for (std::size_t k = 0; k < kFrames; ++k) {
       EXPECT_EQ(after[k].received, before[k].received);
@@ -120,8 +120,8 @@ TEST(Inject, DroppedFramesAreTheSameInBothStreamsAndTheRestIsUntouched) {
   InjectorOptions options = optionsFor("inject_drop.bag");
   options.deliveries.drop_share = 0.25;
   run(options);
-  const std::vector<Arrival> color = arrivals(options.output, kColor),
-                             depth = arrivals(options.output, kDepth);
+  const std::vector<BagImage> color = arrivals(options.output, kColor),
+                              depth = arrivals(options.output, kDepth);
   ASSERT_EQ(color.size(), kFrames * 3 / 4);
   ASSERT_EQ(depth.size(), color.size());
   for (std::size_t i = 0; i < color.size(); ++i)
@@ -143,10 +143,10 @@ TEST(Inject, DuplicatedFramesComeTwice) {
   InjectorOptions options = optionsFor("inject_twice.bag");
   options.deliveries.duplicate_share = 0.1;
   run(options);
-  const std::vector<Arrival> color = arrivals(options.output, kColor);
+  const std::vector<BagImage> color = arrivals(options.output, kColor);
   EXPECT_EQ(color.size(), kFrames * 11 / 10);
   std::set<ros::Time> stamps;
-  for (const Arrival& arrival : color) stamps.insert(arrival.image.header.stamp);
+  for (const BagImage& arrival : color) stamps.insert(arrival.image.header.stamp);
   EXPECT_EQ(stamps.size(), kFrames);
 }
 
@@ -156,7 +156,7 @@ TEST(Inject, DelayedFramesArriveLateWithTheirOwnStamps) {
   options.deliveries.delay_s = 0.25;
   run(options);
   std::size_t late = 0;
-  for (const Arrival& arrival : arrivals(options.output, kColor)) {
+  for (const BagImage& arrival : arrivals(options.output, kColor)) {
     const double delay = (arrival.received - arrival.image.header.stamp).toSec();
     late += delay > 0.0;
     EXPECT_NEAR(delay, delay > 0.0 ? 0.25 : 0.0, 1e-9);
@@ -171,15 +171,15 @@ TEST(Inject, ReorderedFramesArriveJustAfterTheNextOneAndNothingIsLost) {
   for (const double share : {0.0, 0.1, 0.2, 0.5}) {
     faults.reorder_share = share;
     for (faults.seed = 1; faults.seed < 20; ++faults.seed) {
-      const std::vector<Arrival> deliveries = planArrivals(received, faults);
-      ASSERT_EQ(deliveries.size(), received.size());
+      const std::vector<Arrival> planned = planArrivals(received, faults);
+      ASSERT_EQ(planned.size(), received.size());
       std::size_t overtaken = 0;
-      for (std::size_t i = 0; i < deliveries.size(); ++i) {
-        EXPECT_GE(deliveries[i].received, received[i]) << "before it was taken";
-        if (deliveries[i].received == received[i]) continue;
+      for (std::size_t i = 0; i < planned.size(); ++i) {
+        EXPECT_GE(planned[i].received, received[i]) << "before it was taken";
+        if (planned[i].received == received[i]) continue;
         ++overtaken;
-        EXPECT_GT(deliveries[i].received, deliveries[i + 1].received);
-        EXPECT_LT(deliveries[i].received, received[i + 1] + 1'000'000);
+        EXPECT_GT(planned[i].received, planned[i + 1].received);
+        EXPECT_LT(planned[i].received, received[i + 1] + 1'000'000);
       }
       EXPECT_EQ(overtaken, std::lround(share * 400));
     }
@@ -205,7 +205,7 @@ TEST(Inject, WrongStampsAreOffByWhatIsAskedFor) {
   options.deliveries.stamp_s = -3.0;
   run(options);
   std::size_t wrong = 0;
-  for (const Arrival& arrival : arrivals(options.output, kDepth)) {
+  for (const BagImage& arrival : arrivals(options.output, kDepth)) {
     const double off = (arrival.image.header.stamp - arrival.received).toSec();
     wrong += off < 0.0;
     EXPECT_NEAR(off, off < 0.0 ? -3.0 : 0.0, 1e-9);
@@ -220,8 +220,8 @@ TEST(Inject, TheOccluderCoversItsShareForItsTimeAndIsNearer) {
   options.images.occluder_from_s = 1.0;
   options.images.occluder_for_s = 2.0;
   run(options);
-  const std::vector<Arrival> depth = arrivals(options.output, kDepth),
-                             color = arrivals(options.output, kColor);
+  const std::vector<BagImage> depth = arrivals(options.output, kDepth),
+                              color = arrivals(options.output, kColor);
   for (std::size_t k = 0; k < kFrames; ++k) {
     const bool present = k >= 10 && k < 30;
     EXPECT_DOUBLE_EQ(shareOf(depth[k].image, 300), present ? 0.25 : 0.0) << k;
@@ -249,8 +249,8 @@ TEST(Inject, HolesAreTheirShareOfEveryDepthImageAndOthersInEach) {
   InjectorOptions options = optionsFor("inject_holes.bag");
   options.images.hole_share = 0.25;
   run(options);
-  const std::vector<Arrival> depth = arrivals(options.output, kDepth);
-  for (const Arrival& arrival : depth) EXPECT_DOUBLE_EQ(shareOf(arrival.image, 0), 0.25);
+  const std::vector<BagImage> depth = arrivals(options.output, kDepth);
+  for (const BagImage& arrival : depth) EXPECT_DOUBLE_EQ(shareOf(arrival.image, 0), 0.25);
   EXPECT_NE(depth[0].image.data, depth[1].image.data);
 }
 
