@@ -15,6 +15,7 @@
 
 #include "softbody_recordings/ros/facts_reader.h"
 #include "softbody_recordings/validation/checks.h"
+#include "validation/intrinsics_checks.h"
 
 namespace softbody::validation {
 namespace {
