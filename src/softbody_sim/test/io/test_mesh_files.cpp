@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BrokenFile{"empty.obj", "", "no faces"}, BrokenFile{"nan.obj", "v 0 0 0\nv 1 nan 0\n", ":2: 'nan'"},
         BrokenFile{"short.obj", "v 0 0\n", ":1: 3 fields"},
-        BrokenFile{"range.obj", "v 0 0 0\n\nf 1 2 3\n", ":3: a face names"},
+        BrokenFile{"range.obj", "v 0 0 0\n\nf 1 2 3\n", ":3: a face refers to"},
         BrokenFile{"zero.obj", "v 0 0 0\nf 0 1 1\n", ":2: face corner '0'"},
         BrokenFile{"negative.obj", "v 0 0 0\nf -2 -1 -1\n", ":2: face corner '-2'"},
         BrokenFile{"two.obj", "v 0 0 0\nf 1 1\n", ":2: a face of 2"},
@@ -206,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenFile{"end.stl", binaryStl().substr(0, 120), "announces 1 facets and ends after 0"},
         BrokenFile{"end2.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n",
                    ":5: a facet without"},
-        BrokenFile{"what.xyz", "1 2 3\n", "known: .obj"}));
+        BrokenFile{"what.xyz", "1 2 3\n", "supported: .obj"}));
 
 class BrokenTets : public testing::TestWithParam<BrokenFile> {};
 
@@ -242,15 +242,15 @@ INSTANTIATE_TEST_SUITE_P(
                     BrokenFile{"h.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4"),
                                "no tet of positive volume"},
                     BrokenFile{"a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", ":2: MSH version 4.1"},
-                    BrokenFile{"b.msh", "$MeshFormat\n2.2 1 8\n", ":2: a binary MSH"},
+                    BrokenFile{"b.msh", "$MeshFormat\n2.2 1 8\n", ":2: binary MSH"},
                     BrokenFile{"c.msh", "$Nodes\n900000000\n1 0 0 0\n", ":2: announces"},
                     BrokenFile{"d.msh", "$Nodes\n1\n7 0 0 0\n$EndNodes\n$Elements\n1\n1 4 2 0 1 7 7 7 8\n",
                                ":7: a tet names vertex 8"},
                     BrokenFile{"e.msh", "$Nodes\n2\n7 0 0 0\n7 0 0 1\n", ":4: vertex 7 is there twice"},
                     BrokenFile{"a.veg", "*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n",
                                ":5: elements of kind CUBIC"},
-                    BrokenFile{"a.node", "1 2 0 0\n", ":1: the vertices are not three"},
-                    BrokenFile{"a.tet", "", "known: .vtu"}));
+                    BrokenFile{"a.node", "1 2 0 0\n", ":1: the vertices must be three"},
+                    BrokenFile{"a.tet", "", "supported: .vtu"}));
 
 /// Whatever the bytes: a sound mesh, or a sentence.
 TEST(DamagedFiles, AreReadSoundlyOrRefused) {
