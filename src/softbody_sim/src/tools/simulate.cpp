@@ -9,6 +9,7 @@
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/io/tet_files.h"
+#include "softbody_sim/object/object_description.h"
 #include "tools/vertex_region.h"
 
 namespace {
