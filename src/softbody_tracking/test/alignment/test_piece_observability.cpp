@@ -23,10 +23,10 @@ Points cube() {
   return corners;
 }
 
-Association somewhere(std::size_t body, double spread, std::mt19937* random) {
+Association somewhere(std::size_t piece, double spread, std::mt19937* random) {
   std::uniform_real_distribution<double> uniform(0.5 - 0.5 * spread, 0.5 + 0.5 * spread);
   Association association;
-  association.piece = static_cast<std::uint32_t>(p);
+  association.piece = static_cast<std::uint32_t>(piece);
   const int face = static_cast<int>((*random)() % 3);
   association.normal = -Eigen::Vector3d::Unit(face);
   association.predicted = Eigen::Vector3d(uniform(*random), uniform(*random), uniform(*random)) * kSize;
