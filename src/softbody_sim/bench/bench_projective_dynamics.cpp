@@ -12,7 +12,7 @@
 #include "bench/bent_bodies.h"
 #include "bench/plain_projective_dynamics.h"
 #include "elasticity/elastic_blocks.h"
-#include "linear_solvers/metric_solver.h"
+#include "linear_solvers/global_step_solver.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "tets/tet_matrix.h"
 #include "time_step/projective_dynamics.h"
@@ -219,7 +219,7 @@ TetMatrix metricOf(const BentBody& body) {
 
 void globalStep(State& state, const BentBody& body, Simd simd) {
   const TetMatrix metric = metricOf(body);
-  MetricSolver<float> solver(metric.lower(), simd);
+  GlobalStepSolver<float> solver(metric.lower(), simd);
   solver.factorize(metric.lower());
   const Rows<float> b = Rows<float>::Ones(paddedRows(body.start.rows()), 4);
   Rows<float> x = b;
@@ -229,7 +229,7 @@ void globalStep(State& state, const BentBody& body, Simd simd) {
 
 void factorize(State& state, const BentBody& body) {
   const TetMatrix metric = metricOf(body);
-  MetricSolver<float> solver(metric.lower(), Simd::kAuto);
+  GlobalStepSolver<float> solver(metric.lower(), Simd::kAuto);
   for (auto _ : state) solver.factorize(metric.lower());
 }
 
@@ -238,7 +238,7 @@ void factorize(State& state, const BentBody& body) {
 void updates(State& state, const std::string& name) {
   const BentBody& body = bodyOf(name, true);
   const TetMatrix metric = metricOf(body);
-  MetricSolver<float> solver(metric.lower(), Simd::kAuto);
+  GlobalStepSolver<float> solver(metric.lower(), Simd::kAuto);
   std::vector<Run> runs{[&] { solver.factorize(metric.lower()); }};
   const std::vector<int> counts{1, 2, 4, 8, 16, 32, 64};
   for (int count : counts) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "constraints/contact.h"
+#include "constraints/contact_detection.h"
 #include "constraints/target_energy.h"
 #include "fixtures/test_meshes.h"
 

@@ -5,7 +5,7 @@
 
 #include "elasticity/corotated_elasticity.h"
 #include "fixtures/test_meshes.h"
-#include "linear_solvers/metric_solver.h"
+#include "linear_solvers/global_step_solver.h"
 #include "tets/tet_matrix.h"
 
 namespace softbody {
@@ -75,7 +75,7 @@ TEST(SplitInverse, SolvesLikeTheSparseFactorForEveryBody) {
     TetMatrix matrix(body.tets, count);
     CorotatedElasticity(body.rest_vertices, body.tets, {8000.0, 5000.0}).addMetric(&matrix);
     matrix.addToDiagonal(Eigen::VectorXd::Constant(count, 0.01));  // nearly free to move as a whole
-    MetricSolver<double> solver(matrix.lower(), Simd::kAuto);
+    GlobalStepSolver<double> solver(matrix.lower(), Simd::kAuto);
     solver.factorize(matrix.lower());
     Rows<double> B = Rows<double>::Zero(paddedRows(count), 4), sparse = B, dense = B;
     B.topLeftCorner(count, 3) = randomPoints(count, 1.0, &random);

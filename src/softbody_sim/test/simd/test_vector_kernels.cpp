@@ -7,7 +7,7 @@
 
 #include "elasticity/elastic_blocks.h"
 #include "fixtures/test_meshes.h"
-#include "linear_solvers/metric_solver.h"
+#include "linear_solvers/global_step_solver.h"
 #include "linear_solvers/positive_definite_solver.h"
 #include "tets/tet_matrix.h"
 #include "tets/tet_shape.h"
@@ -234,7 +234,7 @@ TYPED_TEST(VectorKernels, GlobalStepInvertsItsMatrixBeforeAndAfterItIsMadeDense)
   CorotatedElasticity(this->topology_.rest_vertices, this->topology_.tets, kLame).addMetric(&matrix);
   matrix.addToDiagonal(Eigen::VectorXd::Constant(this->count_, 50.0));
   for (Simd simd : widths()) {
-    MetricSolver<TypeParam> solver(matrix.lower(), simd);
+    GlobalStepSolver<TypeParam> solver(matrix.lower(), simd);
     for (int factorization = 0; factorization < 2; ++factorization) {
       solver.factorize(matrix.lower());
       for (Eigen::Index solve = 0; solve < this->count_; ++solve) {

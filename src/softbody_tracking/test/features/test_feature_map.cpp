@@ -6,9 +6,9 @@
 #include <set>
 
 #include "features/feature_map.h"
-#include "features/feature_map_admission.h"
 #include "features/feature_matching.h"
 #include "features/feature_outliers.h"
+#include "features/feature_selection.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 

@@ -58,8 +58,8 @@ ConstrainedStep makeStep(const TetTopology& topology, const Material& material, 
                          double edge_length, double target_stiffness, StepSolver* solver) {
   const double E = material.youngs_modulus_pa;
   return {topology,
-          ContactModel(topology, config.contact_spacing * edge_length,
-                       config.contact_stiffness * E / edge_length, 0.1 * edge_length),
+          ContactForces(topology, config.contact_spacing * edge_length,
+                        config.contact_stiffness * E / edge_length, 0.1 * edge_length),
           {target_stiffness, kPinStiffness * E * edge_length, 1e-3 * edge_length},
           solver};
 }

@@ -16,7 +16,7 @@ void hold(const std::vector<Pin>& pins, double stiffness, IncrementalPotential* 
 
 }  // namespace
 
-ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
+ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactForces contact, const Options& options,
                                  StepSolver* solver)
     : topology_(&topology), contact_(std::move(contact)), options_(options), solver_(solver) {}
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "constraints/contact_model.h"
+#include "constraints/contact_forces.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "time_step/step_solver.h"
 
@@ -23,7 +23,7 @@ class ConstrainedStep {
   };
 
   /// @param topology, solver outlive this.
-  ConstrainedStep(const TetTopology& topology, ContactModel contact, const Options& options,
+  ConstrainedStep(const TetTopology& topology, ContactForces contact, const Options& options,
                   StepSolver* solver);
 
   /// Allocates only when the number of targets or contacts exceeds all earlier ones.
@@ -46,7 +46,7 @@ class ConstrainedStep {
   void findPinForces(const Problem& problem, const Points& x);
 
   const TetTopology* topology_;
-  ContactModel contact_;
+  ContactForces contact_;
   Options options_;
   StepSolver* solver_;
   IncrementalPotential potential_;  ///< with pins and the springs of contacts_

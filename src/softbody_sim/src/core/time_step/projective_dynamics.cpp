@@ -1,7 +1,7 @@
 #include "time_step/projective_dynamics.h"
 
 #include "elasticity/elastic_blocks.h"
-#include "linear_solvers/metric_solver.h"
+#include "linear_solvers/global_step_solver.h"
 #include "tets/tet_matrix.h"
 #include "time_step/packed_potential.h"
 
@@ -38,7 +38,7 @@ class StepMetric {
 
   /// Updates the solver's factor to the potential.
   template <typename T>
-  void updateFactor(const IncrementalPotential& potential, MetricSolver<T>* solver) {
+  void updateFactor(const IncrementalPotential& potential, GlobalStepSolver<T>* solver) {
     const bool few = has_factor_ && inertia_ == potential.inertia &&
                      potential.targets.metricChanges(targets_, kMaxUpdates, &added_, &removed_);
     if (few && added_.empty() && removed_.empty()) return;
@@ -59,7 +59,7 @@ class StepMetric {
   }
 
  private:
-  static constexpr std::size_t kMaxUpdates = MetricSolver<double>::kMaxUpdates;
+  static constexpr std::size_t kMaxUpdates = GlobalStepSolver<double>::kMaxUpdates;
 
   TetMatrix metric_;
   const Eigen::VectorXd elastic_;  ///< constant part of the values
@@ -102,7 +102,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
   ElasticBlocks<T> elasticity_;
   PackedPotential<T> step_;
   StepMetric metric_;
-  MetricSolver<T> solver_;
+  GlobalStepSolver<T> solver_;
   QuasiNewton<Rows<T>> minimizer_;
   Rows<T> x_;
 };

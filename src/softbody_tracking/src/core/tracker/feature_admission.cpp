@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "features/feature_map_admission.h"
+#include "features/feature_selection.h"
 
 namespace softbody {
 namespace {

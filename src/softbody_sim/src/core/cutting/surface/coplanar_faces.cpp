@@ -29,7 +29,7 @@ struct FlatTriangle {
 };
 
 /// The triangles of the surface that are parallel to a facet and meet the bounding box of the fill.
-std::vector<FlatTriangle> candidates(const SplitSurface& surface, const WallFill& fill,
+std::vector<FlatTriangle> candidates(const SplitSurface& surface, const CutFill& fill,
                                      const std::vector<Eigen::Vector3d>& normals, double distance) {
   Eigen::AlignedBox3d box;
   for (const auto& triangle : fill.triangles) {
@@ -62,7 +62,7 @@ std::vector<FlatTriangle> candidates(const SplitSurface& surface, const WallFill
 
 }  // namespace
 
-CoplanarFaces findCoplanarFaces(const SplitSurface& surface, const WallFill& fill, const PatchFacets& facets,
+CoplanarFaces findCoplanarFaces(const SplitSurface& surface, const CutFill& fill, const PatchFacets& facets,
                                 double distance) {
   std::vector<Eigen::Vector3d> normals;
   for (const PlaneFrame& frame : facets.frames) normals.push_back(frame.x_axis.cross(frame.y_axis));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cutting/split/split_surface.h"
-#include "cutting/surface/wall_fill.h"
+#include "cutting/surface/cut_fill.h"
 
 namespace softbody {
 
@@ -13,7 +13,7 @@ struct CoplanarFaces {
 
 /// The triangles of the fill that are nearly parallel and close to a triangle of the surface: the layer
 /// between them would have no thickness.
-CoplanarFaces findCoplanarFaces(const SplitSurface& surface, const WallFill& fill, const PatchFacets& facets,
+CoplanarFaces findCoplanarFaces(const SplitSurface& surface, const CutFill& fill, const PatchFacets& facets,
                                 double distance);
 
 }  // namespace softbody

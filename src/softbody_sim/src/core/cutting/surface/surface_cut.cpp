@@ -11,10 +11,10 @@
 #include "cutting/split/manifold_mesh.h"
 #include "cutting/split/split_surface.h"
 #include "cutting/surface/coplanar_faces.h"
-#include "cutting/surface/fill_edits.h"
+#include "cutting/surface/cut_fill.h"
+#include "cutting/surface/cut_fill_edits.h"
 #include "cutting/surface/surface_compaction.h"
 #include "cutting/surface/surface_stitching.h"
-#include "cutting/surface/wall_fill.h"
 
 namespace softbody {
 namespace {
@@ -125,7 +125,7 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   if (halfEdgesOfCurve(surface).empty()) {
     return withoutCut(mesh_, CutOutcome::kMissed, "the patch does not pass through the surface");
   }
-  WallFill fill = fillWalls(surface, curve, facets, snap_distance);
+  CutFill fill = fillWalls(surface, curve, facets, snap_distance);
   raiseLowTriangles(0.5 * snap_distance, facets, &fill);
   const CoplanarFaces coplanar = findCoplanarFaces(surface, fill, facets, kCoplanarDistance * diagonal_);
   if (coplanar.count == fill.triangles.size()) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cutting/split/cut_refused.h"
-#include "cutting/surface/fill_edits.h"
+#include "cutting/surface/cut_fill_edits.h"
 
 namespace softbody {
 namespace {
@@ -15,7 +15,7 @@ constexpr int kMaxRepairs = 10;
 
 class Stitching {
  public:
-  Stitching(const SplitSurface& surface, const WallFill& fill)
+  Stitching(const SplitSurface& surface, const CutFill& fill)
       : surface_(surface),
         fill_(fill),
         back_(3 * static_cast<int>(surface.triangles.size())),
@@ -44,7 +44,7 @@ class Stitching {
   std::vector<int> surfaceEdgesBetweenWalls() const;
 
   const SplitSurface& surface_;
-  const WallFill& fill_;
+  const CutFill& fill_;
   int back_, front_;  ///< first half-edges of the walls
   StitchedSurface result_;
   std::vector<char> is_set_;  ///< per corner of the result: its vertex is set
@@ -165,7 +165,7 @@ std::vector<int> Stitching::surfaceEdgesBetweenWalls() const {
 
 }  // namespace
 
-StitchedSurface stitch(const SplitSurface& surface, WallFill fill) {
+StitchedSurface stitch(const SplitSurface& surface, CutFill fill) {
   for (int repair = 0; repair < kMaxRepairs; ++repair) {
     Stitching stitching(surface, fill);
     const std::vector<int> duplicates = stitching.duplicateFillEdges();

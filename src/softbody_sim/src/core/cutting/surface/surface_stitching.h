@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cutting/split/split_surface.h"
-#include "cutting/surface/wall_fill.h"
+#include "cutting/surface/cut_fill.h"
 
 namespace softbody {
 
@@ -19,6 +19,6 @@ struct StitchedSurface {
 /// Half-edges are paired first. A vertex is then defined by the triangles around it, so the result is always
 /// a closed manifold. If two edges of the walls would have the same ends, the fill gets another point. @throw
 /// CutRefused if duplicate edges remain.
-StitchedSurface stitch(const SplitSurface& surface, WallFill fill);
+StitchedSurface stitch(const SplitSurface& surface, CutFill fill);
 
 }  // namespace softbody

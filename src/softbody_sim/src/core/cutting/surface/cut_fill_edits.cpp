@@ -1,4 +1,4 @@
-#include "cutting/surface/fill_edits.h"
+#include "cutting/surface/cut_fill_edits.h"
 
 #include "cutting/split/curve_snapping.h"
 
@@ -7,11 +7,11 @@ namespace {
 
 constexpr int kMaxPasses = 20;
 
-double heightOf(const WallFill& fill, int a, int b, int c) {
+double heightOf(const CutFill& fill, int a, int b, int c) {
   return smallestHeight(fill.points[a], fill.points[b], fill.points[c]);
 }
 
-int longestEdge(const WallFill& fill, int triangle) {
+int longestEdge(const CutFill& fill, int triangle) {
   int longest = 3 * triangle;
   double length = 0.0;
   for (int h = 3 * triangle; h < 3 * triangle + 3; ++h) {
@@ -23,14 +23,14 @@ int longestEdge(const WallFill& fill, int triangle) {
 }
 
 /// Sets mate and curve of a half-edge.
-void placeEdge(int h, int mate, int curve, WallFill* fill) {
+void placeEdge(int h, int mate, int curve, CutFill* fill) {
   fill->mates[h] = mate;
   fill->curve[h] = curve;
   if (mate >= 0) fill->mates[mate] = h;
 }
 
 /// (a, b, c) and (b, a, d) become (a, d, c) and (b, c, d).
-void flip(int h, WallFill* fill) {
+void flip(int h, CutFill* fill) {
   const int g = fill->mates[h], f = h / 3, e = g / 3;
   const int h1 = nextHalfEdge(h), h2 = previousHalfEdge(h), g1 = nextHalfEdge(g), g2 = previousHalfEdge(g);
   const int a = startOf(fill->triangles, h), b = startOf(fill->triangles, g);
@@ -45,7 +45,7 @@ void flip(int h, WallFill* fill) {
   fill->curve[3 * e + 1] = -1;
 }
 
-bool improveByFlip(int h, const PatchFacets& facets, WallFill* fill) {
+bool improveByFlip(int h, const PatchFacets& facets, CutFill* fill) {
   const int g = fill->mates[h];
   if (g < 0 || fill->facets[h / 3] != fill->facets[g / 3]) return false;
   const int a = startOf(fill->triangles, h), b = startOf(fill->triangles, g);
@@ -68,7 +68,7 @@ bool improveByFlip(int h, const PatchFacets& facets, WallFill* fill) {
 
 }  // namespace
 
-void raiseLowTriangles(double limit, const PatchFacets& facets, WallFill* fill) {
+void raiseLowTriangles(double limit, const PatchFacets& facets, CutFill* fill) {
   bool changed = true;
   for (int pass = 0; changed && pass < kMaxPasses; ++pass) {
     changed = false;
@@ -80,7 +80,7 @@ void raiseLowTriangles(double limit, const PatchFacets& facets, WallFill* fill) 
   }
 }
 
-void splitFillEdge(int half_edge, WallFill* fill) {
+void splitFillEdge(int half_edge, CutFill* fill) {
   const int mate = fill->mates[half_edge], middle = static_cast<int>(fill->points.size());
   fill->points.push_back(0.5 * (fill->points[startOf(fill->triangles, half_edge)] +
                                 fill->points[startOf(fill->triangles, mate)]));

@@ -1,4 +1,4 @@
-#include "features/feature_map_admission.h"
+#include "features/feature_selection.h"
 
 #include <algorithm>
 #include <optional>

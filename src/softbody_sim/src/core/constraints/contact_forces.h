@@ -2,18 +2,18 @@
 
 #include <vector>
 
-#include "constraints/contact.h"
+#include "constraints/contact_detection.h"
 #include "constraints/target_energy.h"
 #include "softbody_sim/constraints/surroundings.h"
 
 namespace softbody {
 
 /// Frictionless contact by one-sided springs: a penetration depth d gives the pressure k d.
-class ContactModel {
+class ContactForces {
  public:
   /// @param topology outlives this; @param pressure_stiffness k [Pa/m]; @param reach_m larger distances are
   /// no contact.
-  ContactModel(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m);
+  ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m);
 
   /// Finds the contacts of a step. The first call with obstacles creates the contact points.
   /// @param before, now, before_poses as in findContacts.

@@ -1,4 +1,4 @@
-#include "linear_solvers/metric_solver.h"
+#include "linear_solvers/global_step_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ void appendPanel(const CholeskyView& L, int first, int width, PanelFactor<T>* fa
 }  // namespace
 
 template <typename T>
-MetricSolver<T>::MetricSolver(const Eigen::SparseMatrix<double>& lower, Simd simd)
+GlobalStepSolver<T>::GlobalStepSolver(const Eigen::SparseMatrix<double>& lower, Simd simd)
     : factorization_(lower),
       solve_panels_(panelSolve<T>(simd)),
       count_(static_cast<int>(lower.rows())),
@@ -58,19 +58,19 @@ MetricSolver<T>::MetricSolver(const Eigen::SparseMatrix<double>& lower, Simd sim
 }
 
 template <typename T>
-void MetricSolver<T>::factorize(const Eigen::SparseMatrix<double>& lower) {
+void GlobalStepSolver<T>::factorize(const Eigen::SparseMatrix<double>& lower) {
   factorization_.factorize(lower);
   packFactor();
 }
 
 template <typename T>
-void MetricSolver<T>::update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed) {
+void GlobalStepSolver<T>::update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed) {
   factorization_.update(added, removed);
   packFactor();
 }
 
 template <typename T>
-void MetricSolver<T>::packFactor() {
+void GlobalStepSolver<T>::packFactor() {
   const CholeskyView L = factorization_.factor();
   factor_.panels.clear();
   factor_.rows.clear();
@@ -83,7 +83,7 @@ void MetricSolver<T>::packFactor() {
 }
 
 template <typename T>
-void MetricSolver<T>::solve(const Rows<T>& B, Rows<T>* X) {
+void GlobalStepSolver<T>::solve(const Rows<T>& B, Rows<T>* X) {
   // An inversion costs about count_ / 4 sparse solves and makes a solve two to three times faster.
   if (!inverted_ && inverse_ && ++solves_ > count_ / 2) invert();
   if (inverted_) {
@@ -99,7 +99,7 @@ void MetricSolver<T>::solve(const Rows<T>& B, Rows<T>* X) {
 
 /// Four columns at once: the four numbers of a row are four right-hand sides.
 template <typename T>
-void MetricSolver<T>::invert() {
+void GlobalStepSolver<T>::invert() {
   const int* order = factorization_.factor().order;
   for (int first = 0; first < count_; first += 4) {
     const int columns = std::min(4, count_ - first);
@@ -115,7 +115,7 @@ void MetricSolver<T>::invert() {
   if (!inverted_) inverse_.reset();  // too stiff for T: use the factor in double
 }
 
-template class MetricSolver<float>;
-template class MetricSolver<double>;
+template class GlobalStepSolver<float>;
+template class GlobalStepSolver<double>;
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "constraints/contact.h"
+#include "constraints/contact_detection.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@ namespace softbody {
 
 /// The triangulated part of a patch inside a body, with the orientation of the patch. One wall of the cut has
 /// these triangles, the other wall the same triangles reversed.
-struct WallFill {
+struct CutFill {
   std::vector<Eigen::Vector3d> points;
   TriangleList triangles;
   std::vector<int> facets;  ///< per triangle
@@ -21,7 +21,7 @@ struct WallFill {
 /// and the patch's own where it folds or ends inside the body.
 /// @param snap_distance: corners of the patch closer than this to a vertex of the curve are moved there [m].
 /// @throw CutRefused if the curve does not bound a part of the patch.
-WallFill fillWalls(const SplitSurface& surface, const CutCurve& curve, const PatchFacets& facets,
-                   double snap_distance);
+CutFill fillWalls(const SplitSurface& surface, const CutCurve& curve, const PatchFacets& facets,
+                  double snap_distance);
 
 }  // namespace softbody

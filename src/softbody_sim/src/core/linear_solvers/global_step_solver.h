@@ -15,14 +15,14 @@ namespace softbody {
 /// with CHOLMOD's factor in double. If A is small and its factor is used often, A is inverted; then a solve
 /// is a dense product.
 template <typename T>
-class MetricSolver {
+class GlobalStepSolver {
  public:
   /// With up to this many rank-one changes an update is faster than a new factorisation, for every body. The
   /// limit is about 24 for 300 tets, 50 for 1000, and larger for more (bench_projective_dynamics, `update`).
   static constexpr std::size_t kMaxUpdates = 16;
 
   /// @param lower compressed lower triangle of A, for its pattern.
-  MetricSolver(const Eigen::SparseMatrix<double>& lower, Simd simd);
+  GlobalStepSolver(const Eigen::SparseMatrix<double>& lower, Simd simd);
 
   /// @throw std::runtime_error if A is not positive definite.
   void factorize(const Eigen::SparseMatrix<double>& lower);

@@ -1,4 +1,4 @@
-#include "constraints/contact_model.h"
+#include "constraints/contact_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,20 +7,20 @@
 
 namespace softbody {
 
-ContactModel::ContactModel(const TetTopology& topology, double spacing_m, double pressure_stiffness,
-                           double reach_m)
+ContactForces::ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness,
+                             double reach_m)
     : topology_(&topology),
       spacing_m_(spacing_m),
       pressure_stiffness_(pressure_stiffness),
       reach_m_(reach_m) {}
 
-void ContactModel::find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
-                        const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts) {
+void ContactForces::find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
+                         const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts) {
   if (!obstacles.empty() && points_.empty()) points_ = sampleContactPoints(*topology_, spacing_m_);
   findContacts(points_, topology_->tets, before, now, obstacles, before_poses, reach_m_, contacts);
 }
 
-void ContactModel::addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const {
+void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const {
   for (const Contact& contact : contacts) {
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     springs->addOneSided(point.place, topology_->tets, contact.position, contact.normal,
@@ -28,13 +28,13 @@ void ContactModel::addSprings(const std::vector<Contact>& contacts, TargetEnergy
   }
 }
 
-double ContactModel::depthOf(const Contact& contact, const Points& x) const {
+double ContactForces::depthOf(const Contact& contact, const Points& x) const {
   const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
   return std::max(0.0, contact.normal.dot(contact.position - positionOf(point.place, x, topology_->tets)));
 }
 
-double ContactModel::largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
-                                        const Points& x) const {
+double ContactForces::largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
+                                         const Points& x) const {
   double largest = 0.0;
   auto i = a.begin(), j = b.begin();
   while (i != a.end() || j != b.end()) {
@@ -48,8 +48,8 @@ double ContactModel::largestDepthChange(const std::vector<Contact>& a, const std
   return largest;
 }
 
-void ContactModel::wrenches(const std::vector<Contact>& contacts, const Points& x,
-                            const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const {
+void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points& x,
+                             const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const {
   wrenches->assign(obstacles.size(), Wrench());
   for (const Contact& contact : contacts) {
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];

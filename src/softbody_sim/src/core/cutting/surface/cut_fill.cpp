@@ -1,11 +1,11 @@
-#include "cutting/surface/wall_fill.h"
+#include "cutting/surface/cut_fill.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
+#include "cutting/split/constrained_triangulation.h"
 #include "cutting/split/cut_refused.h"
-#include "cutting/split/planar_triangulation.h"
 
 namespace softbody {
 namespace {
@@ -17,7 +17,7 @@ class Filling {
   Filling(const SplitSurface& surface, const CutCurve& curve, const PatchFacets& facets, double snap_distance)
       : surface_(surface), curve_(curve), facets_(facets), snap_distance_(snap_distance) {}
 
-  WallFill run();
+  CutFill run();
 
  private:
   struct Facet {
@@ -40,7 +40,7 @@ class Filling {
   const CutCurve& curve_;
   const PatchFacets& facets_;
   double snap_distance_;
-  WallFill fill_;
+  CutFill fill_;
   std::map<std::tuple<double, double, double>, int> point_numbers_;
   std::map<DirectedEdge, int> curve_edges_;  ///< -> half-edge of the surface
   std::map<DirectedEdge, int>
@@ -50,7 +50,7 @@ class Filling {
   int region_count_ = 0;
 };
 
-WallFill Filling::run() {
+CutFill Filling::run() {
   parts_.resize(facets_.frames.size());
   addCurve();
   addFolds();
@@ -220,8 +220,8 @@ void Filling::collect(const std::vector<bool>& inside) {
 
 }  // namespace
 
-WallFill fillWalls(const SplitSurface& surface, const CutCurve& curve, const PatchFacets& facets,
-                   double snap_distance) {
+CutFill fillWalls(const SplitSurface& surface, const CutCurve& curve, const PatchFacets& facets,
+                  double snap_distance) {
   return Filling(surface, curve, facets, snap_distance).run();
 }
 
