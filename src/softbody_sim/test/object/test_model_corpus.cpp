@@ -5,6 +5,8 @@
 #include "corpus/model_corpus.h"
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
+#include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
 namespace {

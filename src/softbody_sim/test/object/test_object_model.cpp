@@ -10,6 +10,7 @@
 #include "report/model_folder.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/io/tet_files.h"
 #include "softbody_sim/object/object_model.h"
 #include "surface_mesh/surface_repair.h"
 

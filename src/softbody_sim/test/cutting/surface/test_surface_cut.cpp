@@ -119,7 +119,7 @@ TEST(SurfaceCut, SpongeInTwo) {
   const SurfaceCut cut = cutSurface(sponge, patch);
   ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
   EXPECT_EQ(faultOf(cut.mesh, size.prod()), "");
-  const auto volumes = bodyVolumes(cut.mesh);
+  const auto volumes = pieceVolumes(cut.mesh);
   ASSERT_EQ(volumes.size(), 2u);
   EXPECT_NEAR(std::min(volumes.at(0), volumes.at(1)), 0.37 * size.prod(), 1e-6 * size.prod());
   EXPECT_NEAR(cutArea(cut.mesh), 2.0 * size.y() * size.z(), 1e-6);
@@ -134,7 +134,7 @@ TEST(SurfaceCut, PartialCutStaysOnePiece) {
   const SurfaceCut cut = cutSurface(sponge, patch);
   ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
   EXPECT_EQ(faultOf(cut.mesh, size.prod()), "");
-  EXPECT_EQ(bodyVolumes(cut.mesh).size(), 1u);
+  EXPECT_EQ(pieceVolumes(cut.mesh).size(), 1u);
   EXPECT_NEAR(cutArea(cut.mesh), 2.0 * size.y() * 0.6 * size.z(), 1e-6);
 }
 
@@ -143,15 +143,15 @@ TEST(SurfaceCut, TorusWithAnnulus) {
   const SurfaceCut cut = cutSurface(mesh, rectangle({-0.2, -0.2, 0.004}, {0.4, 0, 0}, {0, 0.4, 0}));
   ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
   EXPECT_EQ(faultOf(cut.mesh, volumeOf(mesh)), "");
-  EXPECT_EQ(bodyVolumes(cut.mesh).size(), 2u);
+  EXPECT_EQ(pieceVolumes(cut.mesh).size(), 2u);
 }
 
 TEST(SurfaceCut, TorusOpenedAndParted) {
   const MeshTopology mesh = torus();
   const SurfaceCut opened = cutSurface(mesh, rectangle({0, 0.001, -0.1}, {0.2, 0, 0}, {0, 0, 0.2}));
-  EXPECT_EQ(bodyVolumes(opened.mesh).size(), 1u);
+  EXPECT_EQ(pieceVolumes(opened.mesh).size(), 1u);
   const SurfaceCut parted = cutSurface(mesh, rectangle({-0.2, 0.001, -0.1}, {0.4, 0, 0}, {0, 0, 0.2}));
-  EXPECT_EQ(bodyVolumes(parted.mesh).size(), 2u);
+  EXPECT_EQ(pieceVolumes(parted.mesh).size(), 2u);
 }
 
 TEST(SurfaceCut, RandomCutsOfSponge) { cutAtRandom(loadMesh(kShipped + "sponge.obj"), numberOfCuts(240), 1); }
@@ -219,7 +219,7 @@ TEST(SurfaceCut, PartsCubesThatTouchInAnEdge) {
   const SurfaceCut cut = cutSurface(mesh, rectangle({-0.1, -0.1, 0.031}, {0.5, 0, 0}, {0, 0.5, 0}));
   ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
   EXPECT_EQ(faultOf(cut.mesh, 0.002), "");
-  EXPECT_EQ(bodyVolumes(cut.mesh).size(), 4u);
+  EXPECT_EQ(pieceVolumes(cut.mesh).size(), 4u);
 }
 
 }  // namespace
