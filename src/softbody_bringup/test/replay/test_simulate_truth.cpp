@@ -75,7 +75,7 @@ TEST_F(SimulateTruthTest, SendsTheTopologyAgainAsTheSurfaceDoes) {
 /// More vertices than the truth names, at other places.
 TEST_F(SimulateTruthTest, ALargerMeshThatIsNotTheTruthsIsNamedToo) {
   options_.object = CONFIG_DIR "/doll.yaml";
-  EXPECT_NE(failure().find("doll.yaml is another mesh than that of the truth"), std::string::npos);
+  EXPECT_NE(failure().find("doll.yaml is not the mesh of the truth"), std::string::npos);
   EXPECT_FALSE(fs::exists(options_.output));
 }
 
@@ -85,7 +85,7 @@ TEST_F(SimulateTruthTest, NamesAnObjectThatIsNotTheTruths) {
       << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   std::ofstream(object) << "object: {visual_mesh: tetrahedron.obj}\n";
   options_.object = object;
-  EXPECT_NE(failure().find("tetrahedron.yaml is another mesh"), std::string::npos);
+  EXPECT_NE(failure().find("tetrahedron.yaml is not the mesh of the truth"), std::string::npos);
   EXPECT_FALSE(fs::exists(options_.output));
 }
 

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "fixtures/evaluator_bags.h"
+#include "softbody_evaluation/report/report_json.h"
+#include "softbody_evaluation/report/report_text.h"
 
 namespace softbody::evaluation {
 namespace {
