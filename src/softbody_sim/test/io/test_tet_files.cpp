@@ -126,11 +126,11 @@ TEST_P(TetFormats, GiveTheSameBodyWithPositiveTetsThatFillTheBoundary) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TetFormats,
-                         ::testing::Values(Format{"Msh1", writeMsh1, "2 elements that are no tets"},
-                                           Format{"Msh2", writeMsh2, "2 elements that are no tets"},
+                         ::testing::Values(Format{"Msh1", writeMsh1, "2 elements other than tets"},
+                                           Format{"Msh2", writeMsh2, "2 elements other than tets"},
                                            Format{"Veg", writeVeg, "*MATERIAL is ignored"},
                                            Format{"TetGen", writeTetGen, ""},
-                                           Format{"Vtu", writeVtuWithLine, "1 cells that are no tets"}),
+                                           Format{"Vtu", writeVtuWithLine, "1 cells other than tets"}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 struct Counts {

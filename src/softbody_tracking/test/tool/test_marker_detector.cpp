@@ -145,7 +145,7 @@ cv::Mat1b photographed(const cv::Mat1b& rendered, double blur_px, double noise, 
 std::string writeDictionary(const std::string& of) {
   const std::string path = ::testing::TempDir() + "marker_detector_dictionary.yml";
   cv::FileStorage file(path, cv::FileStorage::WRITE);
-  file << "nmarkers" << 35 << "markersize" << 6;
+  file << "nmarkers" << 35 << "markersize" << 6 << "maxCorrectionBits" << 5;
   for (int id = 0; id < 35; ++id) {
     std::string bits;
     const cv::Mat1b cells = markerCells(of, 34 - id);

@@ -126,7 +126,7 @@ TEST(ToolTracker, OtherMarkersAreNoTool) {
   other.markers[0].id = 8;
   ToolTracker tracker(oneMarker());
   EXPECT_FALSE(tracker.track(renderTool(other, facing({0, 0, 0.5}), 0, 1), nullptr));
-  EXPECT_NE(tracker.reason().find("none"), std::string::npos);
+  EXPECT_NE(tracker.reason().find("no marker"), std::string::npos);
 }
 
 /// A tool that moves by 0.3 m/s while it turns by 60 degrees a second.

@@ -59,19 +59,6 @@ double lowestNewTriangle(const MeshTopology& mesh) {
   return lowest;
 }
 
-/// Spot with three holes, as a scanned mesh has them.
-MeshTopology openSpot() {
-  MeshTopology mesh = loadMesh(test::testData("spot.obj"));
-  std::vector<int> kept;
-  for (int t = 0; t < mesh.triangles.rows(); ++t) {
-    if (t % 2000 > 3) kept.push_back(t);
-  }
-  TriangleMesh open{mesh.rest_vertices, Triangles(kept.size(), 3)};
-  for (std::size_t t = 0; t < kept.size(); ++t)
-    open.triangles.row(static_cast<Eigen::Index>(t)) = mesh.triangles.row(kept[t]);
-  return meshTopology(open);
-}
-
 /// Few in make test, as many as SOFTBODY_CUTS_PER_BODY says in make cuts.
 int numberOfCuts(int few) {
   const char* many = std::getenv("SOFTBODY_CUTS_PER_BODY");
@@ -159,8 +146,6 @@ TEST(SurfaceCut, RandomCutsOfSponge) { cutAtRandom(loadMesh(kShipped + "sponge.o
 TEST(SurfaceCut, RandomCutsOfTorus) { cutAtRandom(torus(), numberOfCuts(240), 2); }
 
 TEST(SurfaceCut, RandomCutsOfSpot) { cutAtRandom(loadMesh(test::testData("spot.obj")), numberOfCuts(60), 3); }
-
-TEST(SurfaceCut, RandomCutsOfAnOpenMesh) { cutAtRandom(openSpot(), numberOfCuts(60), 4); }
 
 TEST(SurfaceCut, DISABLED_RandomCutsOfToy) {
   cutAtRandom(loadMesh(test::sharedData("toys/toy_surface.obj")), numberOfCuts(60), 4);
