@@ -23,12 +23,14 @@ def origin(root):
 
 def document(root, reports):
     lines = ["# Evaluation", "", f"Written by {origin(root)}.", "",
-             *paragraph("Recordings of the virtual camera (default seed and noise, 640 x 480 at 30 Hz), tracked by "
-                        "`replay` and compared with the exact truth. `-`: not measured. "
-                        "[Scenes](virtual_camera.md#scenes), [definitions of the figures](figures.md)."), "",
+             *paragraph("The recordings come from the virtual camera (default seed and noise, 640 x 480 at 30 Hz). "
+                        "`replay` tracks them, and `evaluate` compares the results with the exact truth. `-` means "
+                        "not measured. See also the [scenes](virtual_camera.md#scenes) and the [definitions of the "
+                        "figures](figures.md)."), "",
              "## Goals", "",
-             "A part of the error comes from volume and material, and no tracking can remove it:",
-             "[what the volume allows](#what-the-volume-allows).", "", *goal_table(reports)]
+             *paragraph("A part of the error comes from the volume (the tets) and its material. Tracking can hardly "
+                        "remove this part: [what the volume allows](#what-the-volume-allows)."), "",
+             *goal_table(reports)]
     for part in (accuracy, noise, moving_camera, volumes, long_runs, absences, cuts, faults, toys, stage_times):
         lines += part(reports)
     return "\n".join(lines).rstrip() + "\n"

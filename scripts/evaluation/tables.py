@@ -19,7 +19,8 @@ def accuracy(reports):
         rows.append([name, frames(report), percent(tracking_share(report), 0), *map(number, lengths),
                      number(error["visible"]["mean_mm"]), number(error["hidden"]["mean_mm"]),
                      percent(get(report, "silhouette", "mean_iou")), percent(get(report, "volume", "largest_error"))])
-    return section("Every scene", "Distance of each vertex from its true position, over all answered frames [mm].",
+    return section("Every scene", "Distances of the vertices from their true positions [mm], over all answered "
+                                  "frames. A frame is answered if the result has a surface with its stamp.",
                    ["scene", "frames answered", "tracking [%]", "mean", "RMS", "p95", "max", "mean visible",
                     "mean hidden", "silhouette IoU [%]", "volume error at most [%]"], rows)
 
@@ -42,10 +43,11 @@ def volumes(reports):
                  (("all", "p95_mm"), ("hidden", "mean_mm")) for kind in ("scene", "exact", "fine", "fine exact")]
         rows.append([name, *cells])
     return section("What the volume allows",
-                   "Which part of the error comes from volume and material? Columns \"exact\" show a simulation that "
-                   "knows the exact position of every visible vertex (`simulate_truth`). Better tracking cannot go "
-                   "below it. Columns \"finer\" use a cage of 300 vertices (`prepare_model --cage-vertices 300`), "
-                   "the others the paper's 300 tets [mm].",
+                   "Which part of the error comes from the volume (the tets) and its material? The columns \"exact\" "
+                   "show a simulation that knows the exact position of every visible vertex (`simulate_truth`). "
+                   "Better tracking can hardly go below these errors. The columns \"finer\" use a cage of 300 "
+                   "vertices (`prepare_model --cage-vertices 300`). The others use the shipped sponge with 300 tets, "
+                   "as in the paper. All errors are in mm.",
                    ["scene", "p95, tracked", "exact", "finer, tracked", "finer, exact", "mean hidden, tracked", "exact",
                     "finer, tracked", "finer, exact"], rows)
 
@@ -60,8 +62,8 @@ def moving_camera(reports):
                  for report in (rest, moving)]
         rows.append([name, frames(moving), *cells[:2], number(times[name]), *cells[2:]])
     return section("Moving camera",
-                   "Recorded with `--camera-motion orbit`, tracked with `--output-frame world`. \"Fixed\" is the "
-                   "same scene with a camera at rest [mm].",
+                   "Recorded with `--camera-motion orbit`, and tracked with `--output-frame world`. The columns "
+                   "\"fixed\" show the same scene with a camera at rest. All errors are in mm.",
                    ["scene", "frames answered", "mean, fixed", "moving", "ratio", "p95, fixed", "moving",
                     "mean visible, fixed", "moving", "jitter while still, fixed", "moving"], rows)
 
@@ -73,7 +75,8 @@ def long_runs(reports):
         rows.append([name, frames(report), number(error["all"]["mean_mm"]), number(error["drift_mm"], 3),
                      number(error["drift_ratio"]), number(get(report, "jitter", "per_vertex", "rms_mm"), 3)])
     return section("Over a minute",
-                   "Drift compares the mean error of the last 5 s with that of the first 5 s: difference and ratio.",
+                   "Drift compares the mean error of the last 5 s with that of the first 5 s, as a difference and as "
+                   "a ratio.",
                    ["scene", "frames answered", "mean [mm]", "drift [mm]", "drift [ratio]",
                     "jitter while still [mm RMS]"], rows)
 
@@ -88,10 +91,11 @@ def absences(reports):
                          number(absence["normal_mm"]),
                          *("never" if seconds is None else number(seconds) for seconds in recoveries)])
     return section("Hidden and visible again",
-                   "Intervals in which more than a quarter of the vertices that were visible first are hidden or out "
-                   "of view. The normal error of `occlude` is that of the same frame without the hand. Otherwise, "
-                   "and in the last column, it is the p95 of the frames before the interval. A scene has recovered "
-                   "when its error is at most 1.2 times the normal error.",
+                   "Intervals in which many of the vertices that are visible in the first frame (more than a "
+                   "quarter) are hidden or out of view. For `occlude` and `doll_occlude`, the normal error is that "
+                   "of the same frame without the hand. For the other scenes, and for the last column, it is the p95 "
+                   "of the frames before the interval. A scene has recovered when its error is at most 1.2 times "
+                   "the normal error.",
                    ["scene", "from, to [s]", "hidden at most [%]", "mean error of the hidden part [mm]",
                     "normal error [mm]", "recovered after [s]", "recovered to the error before after [s]"], rows)
 
@@ -111,7 +115,8 @@ def cuts(reports):
                      percent(get(report, "volume", "cut_change"), 3),
                      f"{tool['answered']} of {tool['expected']}" if tool else "-",
                      number(get(tool, "position", "mean_mm")), number(get(tool, "rotation_deg", "mean"))])
-    return section("Cuts", "Errors of the pieces, near the cut, and of the cut surface in the rest shape [mm].",
+    return section("Cuts", "Errors of the pieces, of the vertices near the cut, and of the cut surface in the rest "
+                           "shape [mm].",
                    ["scene", "pieces at the end", "frames with the right number [%]", "vertices in the right piece [%]",
                     "mean error by piece", "near the cut", "cut surface, mean", "at most", "tilt [deg]",
                     "volume changed by cuts [%]", "tool poses", "tool position [mm]", "tool angle [deg]"], rows)
@@ -129,8 +134,8 @@ def faults(reports):
                          percent(tracking_share(report), 0), number(error["mean_mm"]), number(times),
                          number(error["p95_mm"])])
     return section("Faults",
-                   "Recordings that `inject` has changed, and tracking with other parameters. The error ratio is "
-                   "relative to the same scene without a fault.",
+                   "These recordings were changed by `inject`, or tracked with another parameter. The error ratio is "
+                   "the mean error divided by that of the same scene without a fault.",
                    ["scene", "fault", "recorded frames answered", "tracking [%]", "mean [mm]", "error ratio",
                     "p95 [mm]"], rows)
 
@@ -158,9 +163,9 @@ def stage_times(reports):
     rows = [[words, *(number(of_body.get(body)) for body in bodies),
              *(number(PAPER_TIMES_MS.get(words, {}).get(body)) for body in paper)] for words, of_body in times.items()]
     return section("Time",
-                   "Median time of each stage in a frame [ms]. Two replays run side by side on this machine, without "
-                   "a GPU. The paper's times are those of its Table 2, on an Intel Core i7-6700K with a GeForce GTX "
-                   "1080 Ti.",
+                   "Median time of each stage in a frame [ms]. The machine had no GPU, and ran two replays at the "
+                   "same time. The paper's times are from its Table 2. They were measured on an Intel Core i7-6700K "
+                   "with a GeForce GTX 1080 Ti.",
                    ["stage", *bodies, *(f"paper, {body}" for body in paper)], rows)
 
 
@@ -177,8 +182,9 @@ def toys(reports):
                      number(get(window, "residual", "median_mm")), number(get(window, "residual", "p95_mm")),
                      percent(get(window, "within_10mm")), percent(get(window, "within_15mm_of_measured"))])
     found = get(reports.get(("no pose", "toys")), "depth_residual", "all")
-    text = ("Measured depth against the tracked surface; there is no other truth. \"Strict\" counts occluded pixels "
-            f"as misses. Without a rough pose: median {number(get(found, 'residual', 'median_mm'))} mm, "
+    text = ("A recording from a real camera has no truth. So the tracked surface is compared with the measured "
+            "depth. \"Strict\" counts occluded pixels as misses. Without a rough pose: "
+            f"median {number(get(found, 'residual', 'median_mm'))} mm, "
             f"{percent(get(found, 'within_10mm'))} % within 10 mm, "
             f"{percent(get(found, 'within_15mm_of_measured'))} % within 15 mm (strict).")
     return section("Recorded plush toy", text,
