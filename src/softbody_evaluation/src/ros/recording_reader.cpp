@@ -90,7 +90,9 @@ void readRecording(const std::string& path, const std::string& camera,
   for (const std::string& topic : {topics.color, topics.depth, topics.color_info}) requireTopic(bag, topic);
   const sensor_msgs::CameraInfoConstPtr info = firstInfo(bag, topics.color_info);
   const Undistortion undistortion(*info);
-  Pairer pairer{PairingConfig()};
+  PairingConfig config;
+  config.every_color = true;
+  Pairer pairer(config);
   pairer.setInfo(info);
   const auto drain = [&](bool finish) {
     while (const auto pair = pairer.next(finish)) use(toFrame(*pair, undistortion));

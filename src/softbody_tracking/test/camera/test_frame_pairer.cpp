@@ -221,6 +221,35 @@ TEST(FramePairer, ARecordingThatStartsAgainGivesTheSameFramesAgain) {
   }
 }
 
+TEST(FramePairer, AnImageLeftAtTheEndOfAPassDoesNotHoldTheNextPassUp) {
+  for (const Nanoseconds offset : {Nanoseconds{0}, Nanoseconds{12'000'000}}) {
+    PairingRun run;
+    for (int pass = 0; pass < 3; ++pass) {
+      for (int i = 0; i < 60; ++i) {
+        run.add(kStart + i * kFrame, false);
+        if (i < 59) run.add(kStart + i * kFrame + offset, true);
+      }
+      // Of each pass the last colour image waits, and with an offset the pair before it may.
+      EXPECT_GE(run.frames.size(), static_cast<std::size_t>((pass + 1) * 59 - 1)) << offset;
+    }
+    int with_depth = 0;
+    for (const Pairer::Frame& frame : run.frames) with_depth += frame.depth ? 1 : 0;
+    EXPECT_GE(with_depth, 3 * 59 - 1) << offset;
+  }
+}
+
+TEST(FramePairer, EveryColorImageMakesAFrameWhereItIsAskedFor) {
+  PairingConfig config;
+  config.every_color = true;
+  PairingRun run(config);
+  for (int i = 0; i < 100; ++i) {
+    run.add(kStart + i * kFrame, false);
+    if (i % 50 == 10) run.add(kStart + i * kFrame, true);
+  }
+  run.take(true);
+  EXPECT_EQ(run.frames.size(), 100u);
+}
+
 TEST(FramePairer, OneStampFarAheadCostsItsOwnFrameAlone) {
   for (const bool is_depth : {false, true}) {
     PairingRun run;

@@ -9,7 +9,7 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 SimulatorDiagnostics::SimulatorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                            const Simulator* simulator)
-    : simulator_(simulator), updater_(node, private_node) {
+    : simulator_(simulator), updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("simulation", [this](DiagnosticStatusWrapper& status) { report(&status); });
   // A timer in wall time instead of the updater's own: with use_sim_time that one stops when a bag starts

@@ -17,6 +17,7 @@ struct PairingConfig {
   bool exact = false;                  ///< stamps must be equal
   Nanoseconds tolerance = 15'000'000;  ///< largest difference of stamps otherwise
   int queue_size = 10;                 ///< images of a stream that wait for their frame at most
+  bool every_color = false;            ///< no colour image is left out, with depth or without: for evaluation
 };
 
 /// @throw std::invalid_argument with key, value and range.
@@ -65,7 +66,8 @@ class FramePairer {
 
   explicit FramePairer(const PairingConfig& config)
       : tolerance_(config.exact ? 0 : config.tolerance),
-        queue_size_(static_cast<std::size_t>(config.queue_size)) {}
+        queue_size_(static_cast<std::size_t>(config.queue_size)),
+        every_color_(config.every_color) {}
 
   ImageArrival addColor(Nanoseconds stamp, ColorPtr color) {
     const ImageArrival arrival = colors_.add(stamp, std::move(color));
@@ -96,7 +98,8 @@ class FramePairer {
       const Partner partner = partnerOf(stamp);
       if (!partner.certain && !overdue && !finish) return std::nullopt;
       colors_.images.pop_front();
-      const bool makes_frame = partner.depth || (partner.certain && ++without_depth_ <= kMostWithoutDepth);
+      const bool makes_frame =
+          partner.depth || every_color_ || (partner.certain && ++without_depth_ <= kMostWithoutDepth);
       if (!info_ || !makes_frame) {
         ++unpaired_.colors_alone;
         continue;
@@ -148,6 +151,9 @@ class FramePairer {
       images.erase(images.begin(), images.begin() + static_cast<std::ptrdiff_t>(count));
     }
 
+    /// Whether the stream has jumped back since an image of this stamp.
+    bool restartedSince(Nanoseconds stamp) const { return newest > 0 && newest <= stamp - kRestart; }
+
     /// Index of the image nearest in time, the first of equals; none where the queue is empty.
     std::optional<std::size_t> nearestTo(Nanoseconds stamp) const {
       const auto nearer = [stamp](const auto& a, const auto& b) {
@@ -159,11 +165,13 @@ class FramePairer {
     }
 
     /// How much later than a stamp the next image is at the least; below 0 where that is not known.
-    Nanoseconds nextIsLaterBy(Nanoseconds stamp) const {
+    /// @param most of the gap that is relied on.
+    Nanoseconds nextIsLaterBy(Nanoseconds stamp, Nanoseconds most) const {
       constexpr Nanoseconds kUnknown = std::numeric_limits<Nanoseconds>::max();
       // A stream that is far ahead is still in the pass of a recording that the other has left.
       if (newest == 0 || newest - stamp >= kRestart) return -kRestart;
-      const Nanoseconds least = shortest_gap == kUnknown ? 1 : std::max<Nanoseconds>(1, shortest_gap / 2);
+      const Nanoseconds gap = shortest_gap == kUnknown ? 0 : std::min(shortest_gap / 2, most);
+      const Nanoseconds least = std::max<Nanoseconds>(1, gap);
       return newest - stamp + least;
     }
   };
@@ -178,13 +186,17 @@ class FramePairer {
     const std::optional<std::size_t> nearest = depths_.nearestTo(stamp);
     const Nanoseconds depth = nearest ? depths_.images[*nearest].first : 0;
     const Nanoseconds distance = std::llabs(depth - stamp);
-    if (!nearest || distance > tolerance_) return {std::nullopt, depths_.nextIsLaterBy(stamp) > tolerance_};
+    // After both streams have started again no image of the pass before will come.
+    if (colors_.restartedSince(stamp) && depths_.restartedSince(stamp))
+      return {distance <= tolerance_ ? nearest : std::nullopt, true};
+    if (!nearest || distance > tolerance_)
+      return {std::nullopt, depths_.nextIsLaterBy(stamp, tolerance_) > tolerance_};
     // A depth image that fits a later colour image better is that one's: one that was dropped must not shift
     // all pairs.
     if (colors_.nearestTo(depth) != 0) return {std::nullopt, true};
     if (distance == 0) return {nearest, true};
-    const bool no_nearer_depth = depths_.nextIsLaterBy(stamp) >= distance;
-    const bool no_nearer_color = depth <= stamp || colors_.nextIsLaterBy(depth) >= distance;
+    const bool no_nearer_depth = depths_.nextIsLaterBy(stamp, tolerance_) >= distance;
+    const bool no_nearer_color = depth <= stamp || colors_.nextIsLaterBy(depth, tolerance_) >= distance;
     return {nearest, no_nearer_depth && no_nearer_color};
   }
 
@@ -196,6 +208,7 @@ class FramePairer {
 
   Nanoseconds tolerance_;
   std::size_t queue_size_;
+  bool every_color_;
   Queue<ColorPtr> colors_;
   Queue<DepthPtr> depths_;
   InfoPtr info_{};

@@ -51,7 +51,7 @@ void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const I
       return logDropped(stream, "a second image",
                         fmt::format("with the stamp {:.6f} is dropped", stamp.toSec()));
     case ImageArrival::kRestarted:
-      ROS_INFO_STREAM("time jumped back by " << -gap_s << " s");
+      if (stream == Stream::kColor) ROS_INFO_STREAM("time jumped back by " << -gap_s << " s");
       monitor_.noteFrame();
       break;
     case ImageArrival::kAccepted:
