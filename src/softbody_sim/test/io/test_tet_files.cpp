@@ -100,7 +100,7 @@ std::string writeVtuWithLine(const TemporaryFolder& folder, const TetMesh& mesh)
 struct Format {
   const char* name;
   std::string (*write)(const TemporaryFolder& folder, const TetMesh& mesh);
-  const char* warning;  ///< part of it; empty: there is none
+  const char* warning;  ///< a part of the text; empty: no warning
 };
 
 class TetFormats : public ::testing::TestWithParam<Format> {};

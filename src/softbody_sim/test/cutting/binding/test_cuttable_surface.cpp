@@ -48,7 +48,7 @@ TEST(CuttableSurface, ABladeThatIsInTheBodyDuringAnUndoDoesNotMakeItsCutAgain) {
   scene.sweep(0.009, 0.05, 0.0, 0.0);
   EXPECT_EQ(scene.cuts, cuts);
   scene.sweep(0.05, 0.01, 0.0, 0.0);
-  EXPECT_GT(scene.cuts, cuts) << "it does not cut when it comes anew";
+  EXPECT_GT(scene.cuts, cuts) << "the blade does not cut when it returns";
 }
 
 TEST(CuttableSurface, APreviewChangesNothingAndGivesThePieces) {

@@ -17,8 +17,8 @@ class ToolDropoutMonitor {
   std::optional<std::string> update(Nanoseconds stamp, const std::optional<ToolObservation>& observation,
                                     const std::string& reason);
 
-  /// Number of all frames without the tool by reason, as in "12 frames: ...; 3 frames: ..."; empty if there
-  /// are none.
+  /// Number of all frames without the tool by reason, as in "12 frames: ...; 3 frames: ...". Empty
+  /// without such frames.
   std::string missedFrames() const { return text(missed_); }
 
  private:

@@ -206,7 +206,8 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
   return status;
 }
 
-/// @param answer state of the volume that pieces without measurements are held in; nullptr: none is held.
+/// @param answer state of the volume in which pieces without measurements are held; nullptr: no piece is
+/// held.
 TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const Observation& seen,
                                                    const std::vector<Association>& associations,
                                                    const MeshState* answer) const {

@@ -19,7 +19,7 @@ class BodySubscriber {
   /// @param tracker must outlive this.
   BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker);
 
-  /// The newest state with the tracker's topology; nothing if there is none or if it is malformed.
+  /// The newest state with the tracker's topology. Empty before the first one, or if it is malformed.
   std::optional<MeshState> state() const;
 
   /// Forgets all states, for when time has jumped back.

@@ -27,7 +27,7 @@ TetWalk::TetWalk(const Points& vertices, const Tets& tets) : vertices_(vertices)
   }
 }
 
-/// The neighbour at the face that the point is farthest beyond; -1 if there is none.
+/// The neighbour across the face that the point exceeds most; -1 at the boundary.
 int TetWalk::nextTet(const MaterialPoint& place, const std::vector<int>& visited) const {
   int next = -1;
   double least = 0.0;
