@@ -45,9 +45,9 @@ def volumes(reports):
     return section("What the volume allows",
                    "Which part of the error comes from the volume (the tets) and its material? The columns \"exact\" "
                    "show a simulation that knows the exact position of every visible vertex (`simulate_truth`). "
-                   "Better tracking can hardly go below these errors. The columns \"finer\" use a cage of 300 "
-                   "vertices (`prepare_model --cage-vertices 300`). The others use the shipped sponge with 300 tets, "
-                   "as in the paper. All errors are in mm.",
+                   "Even perfect tracking would leave about these errors. The columns \"finer\" use a cage of 300 "
+                   "vertices (`prepare_model --cage-vertices 300`). The other columns use the shipped sponge with "
+                   "300 tets, as in the paper. All errors are in mm.",
                    ["scene", "p95, tracked", "exact", "finer, tracked", "finer, exact", "mean hidden, tracked", "exact",
                     "finer, tracked", "finer, exact"], rows)
 
@@ -91,11 +91,11 @@ def absences(reports):
                          number(absence["normal_mm"]),
                          *("never" if seconds is None else number(seconds) for seconds in recoveries)])
     return section("Hidden and visible again",
-                   "Intervals in which many of the vertices that are visible in the first frame (more than a "
-                   "quarter) are hidden or out of view. For `occlude` and `doll_occlude`, the normal error is that "
-                   "of the same frame without the hand. For the other scenes, and for the last column, it is the p95 "
-                   "of the frames before the interval. A scene has recovered when its error is at most 1.2 times "
-                   "the normal error.",
+                   "The table lists the intervals in which more than a quarter of the vertices that were visible in "
+                   "the first frame are hidden or out of view. For `occlude` and `doll_occlude`, the normal error is "
+                   "that of the same frame without the hand. For the other scenes, and for the last column, it is "
+                   "the p95 of the frames before the interval. A scene has recovered when its error is at most 1.2 "
+                   "times the normal error.",
                    ["scene", "from, to [s]", "hidden at most [%]", "mean error of the hidden part [mm]",
                     "normal error [mm]", "recovered after [s]", "recovered to the error before after [s]"], rows)
 

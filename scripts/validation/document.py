@@ -48,7 +48,7 @@ def energy_sections():
                        "values of E the displacements are large. The reference is "
                        "`scripts/validation/corotational_reference.py`, which shares no code with the simulator. It "
                        "adds the forces R K (R^T x - X) of each tet, like SOFA's TetrahedronFEMForceField with polar "
-                       "decomposition. The last column is the distance of the tip from that of the reference, "
+                       "decomposition. The last column is the distance between the two tips, "
                        "divided by the move of the reference's tip."), "",
             *table(["E [Pa]", "Poisson", "solver", "tip moves by x, z [mm]", "distance / move"], formulation_rows()),
             "## Bending at Poisson 0.45", "",
