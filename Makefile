@@ -14,44 +14,44 @@ endif
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
 
-test: dependencies  ## build, then run unit tests, rostests, launch file checks, walls, install space, catkin_lint and format
+test: dependencies  ## build and run all checks: unit tests, rostests, launch files, package borders, install space, lint, format
 	scripts/build
 	scripts/build tests
 	scripts/run_tests
 
-shared-data: dependencies  ## the tests on meshes, photographs and a toy's recording by others, in ../shared/data
+shared-data: dependencies  ## run the tests on meshes, photographs and a toy recording of other projects, in ../shared/data
 	scripts/build
 	scripts/build tests
 	scripts/checks/shared_data
 
-cuts: dependencies  ## 10,000 random cuts of sponge, torus, spot and the toy of ../shared/data (slow); make test makes a few
+cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,000 times at random (slow); make test makes a few cuts
 	scripts/build
 	scripts/build tests
 	scripts/cuts
 
-demo: build  ## follow a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
+demo: build  ## track a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
 	scripts/demo
 
 bench: build  ## run the benchmarks; writes bench/summary.json
 	scripts/bench
 
-corpus: build  ## prepare a model of every mesh of ../shared/data, and feed the readers 60,000 damaged files
+corpus: build  ## prepare a model of every mesh of ../shared/data, and test the file readers with 60,000 damaged files
 	scripts/corpus
 
-evaluate: build  ## accuracy over all scenes; writes docs/evaluation.md. SCENES="bend cut": only these, nothing written
+evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="bend cut": only these scenes, writes nothing
 	scripts/evaluate $(SCENES)
 
-figures: build  ## the paper's Figures 10 and 11 with our models, in docs/images
+figures: build  ## draw the paper's Figures 10 and 11 with our models, in docs/images
 	scripts/figures
 
-validation: build  ## the simulator against known solutions; writes docs/validation.md
+validation: build  ## compare the simulator with known solutions; writes docs/validation.md
 	scripts/validate
 
-tidy: build  ## clang-tidy over all sources (slow)
+tidy: build  ## run clang-tidy on all sources (slow)
 	scripts/install_dependencies scripts/apt-packages-tidy.txt
 	scripts/tidy
 
-format: dependencies  ## clang-format all sources in place
+format: dependencies  ## format all sources in place with clang-format
 	find src -name '*.h' -o -name '*.cpp' | xargs clang-format -i
 
 clean:  ## remove everything that was built or written
