@@ -14,8 +14,8 @@ struct RgbdFrame {
   Pinhole camera;
   cv::Mat3b color;  ///< BGR
   cv::Mat1f depth;  ///< z [m]; 0: no depth
-  /// The camera's pose in the fixed frame, in which the body is simulated. The identity if that is the
-  /// camera's.
+  /// The camera's pose in the fixed frame, in which the body is simulated. The identity if the fixed frame is
+  /// the camera's frame.
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
   bool placed = true;  ///< false: T_fixed_camera is unknown
   cv::Mat1b covered =

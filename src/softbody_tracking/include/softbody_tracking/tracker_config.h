@@ -6,8 +6,8 @@ namespace softbody {
 
 /// Registration: alignment of the rest shape with a depth image, without a prediction.
 struct RegistrationConfig {
-  /// Larger depth differences count as free space or occlusion [m], at up to 1 m. Beyond 1 m it is multiplied
-  /// with the distance in metres, since depth is noisier there.
+  /// Larger depth differences count as free space or occlusion [m]. Beyond a distance of 1 m the value is
+  /// multiplied by the distance in metres, because depth is noisier there.
   double distance_scale_m = 0.02;
   double max_cost = 0.5;  ///< mean cost of a pixel, 0..1, above which a pose is rejected
 };
@@ -25,13 +25,13 @@ struct FeatureConfig {
 struct DepthConfig {
   int max_targets = 1500;
   double max_distance_m = 0.04;  ///< between prediction and measurement along the ray
-  double weight = 1.0;           ///< of all depth targets on a patch of one mean tet edge squared;
-                                 ///< of one at most kLargestTargetWeight
+  double weight = 1.0;           ///< total of the depth targets on an area of one mean tet edge squared;
+                                 ///< a single target has at most kLargestTargetWeight
 };
 
 /// Targets at the body's outline in the image.
 struct OutlineConfig {
-  double weight = 1.0;  ///< of all outline targets on the length of one mean tet edge; 0: no outline targets
+  double weight = 1.0;  ///< total of the outline targets on a length of one mean tet edge; 0: no targets
 };
 
 /// Targets as in the paper: neighbouring features move the vertices (Kang et al. 2022, eq. 3-4).

@@ -12,28 +12,28 @@
 
 namespace softbody {
 
-/// What makes a pair of a colour and a depth image.
+/// How colour and depth images are paired.
 struct PairingConfig {
   bool exact = false;                  ///< stamps must be equal
-  Nanoseconds tolerance = 15'000'000;  ///< largest difference of stamps otherwise
-  int queue_size = 10;                 ///< images of a stream that wait for their frame at most
-  bool every_color = false;            ///< no colour image is left out, with depth or without: for evaluation
+  Nanoseconds tolerance = 15'000'000;  ///< largest difference of stamps if not exact
+  int queue_size = 10;                 ///< largest number of waiting images of a stream
+  bool every_color = false;            ///< every colour image makes a frame, also without depth (evaluation)
 };
 
 /// @throw std::invalid_argument with key, value and range.
 PairingConfig readPairingConfig(Parameters& parameters);
 
-/// What became of an image that was added.
+/// What happened to an added image.
 struct ImageArrival {
   enum Kind {
     kAccepted,
-    kRestarted,  ///< accepted; its stamp is a second or more before the last: its stream starts again
+    kRestarted,  ///< accepted; its stamp is a second or more before the last one: the stream starts again
     kUnstamped,  ///< dropped: its stamp is not above 0
-    kRepeated,   ///< dropped: it has the stamp of the image before
+    kRepeated,   ///< dropped: it has the stamp of the previous image
     kLate        ///< dropped: its stamp is before the last one's
   };
   Kind kind;
-  Nanoseconds gap = 0;  ///< from the last image's stamp to its own
+  Nanoseconds gap = 0;  ///< its stamp minus the last image's stamp
 
   bool accepted() const { return kind == kAccepted || kind == kRestarted; }
 };
@@ -41,19 +41,20 @@ struct ImageArrival {
 /// Images that are in no frame.
 struct UnpairedImages {
   int unstamped = 0, colors_repeated = 0, depths_repeated = 0, colors_late = 0, depths_late = 0;
-  int colors_alone = 0;  ///< their depth image did not come, and could not be done without
-  int depths_alone = 0;  ///< no colour image is near to them
+  int colors_alone = 0;  ///< no depth image came, and no frame without depth was allowed
+  int depths_alone = 0;  ///< no colour image is near enough in time
 };
 
-/// Pairs each colour image with the depth image nearest in time. Live graph, replay and evaluation pair by
-/// this rule alone. It knows stamps and the order in which each stream's images arrive, and no clock, so that
-/// a recording gives the frames that the live graph had.
+/// Pairs each colour image with the depth image nearest in time. Live graph, replay and evaluation all use
+/// this rule. It uses only the stamps and the order in which the images of each stream arrive, and no clock.
+/// So a recording gives the same frames as the live graph.
 ///
-/// A pair is complete as soon as no nearer image can come: a stream goes on in the order of its stamps, and
-/// its next image follows after half of the shortest gap seen, at the least. A pair with equal stamps is
-/// complete at once. A colour image without a depth image makes a frame too, but only
-/// kMostWithoutDepth in a row: more are a depth stream that stopped or has another clock.
-/// @tparam ColorPtr, DepthPtr, InfoPtr what stands for the images and the camera's description; null: none.
+/// A pair is complete as soon as no image nearer in time can come. Two facts show this: stamps in a stream
+/// increase, and the next image of a stream comes at least half of the shortest gap so far after the last
+/// one. A pair with equal stamps is complete at once. A colour image without a depth image makes a frame,
+/// too, but at most kMostWithoutDepth times in a row. After that, the depth stream has stopped or has another
+/// clock.
+/// @tparam ColorPtr, DepthPtr, InfoPtr pointers to the images and to the camera's description; null: none.
 template <typename ColorPtr, typename DepthPtr, typename InfoPtr>
 class FramePairer {
  public:
@@ -61,7 +62,7 @@ class FramePairer {
     Nanoseconds stamp;  ///< of the colour image
     ColorPtr color;
     DepthPtr depth;  ///< null: no depth image came within the tolerance
-    InfoPtr info;    ///< the newest that had arrived
+    InfoPtr info;    ///< the newest that has arrived
   };
 
   explicit FramePairer(const PairingConfig& config)
@@ -89,7 +90,7 @@ class FramePairer {
   void setInfo(InfoPtr info) { info_ = std::move(info); }
 
   /// The next frame that is complete. Frames come in the order of their stamps.
-  /// @param finish no more images will come: pairs that a nearer image could still have split are complete.
+  /// @param finish true if no more images will come: then every pair is complete.
   std::optional<Frame> next(bool finish = false) {
     while (!colors_.images.empty()) {
       const bool overdue = colors_.images.size() > queue_size_;
@@ -124,9 +125,9 @@ class FramePairer {
   }
 
  private:
-  /// At 30 images a second: depth that is silent for longer is a fault that must be named, not bridged.
+  /// One second at 30 Hz. If depth is missing for longer, this is a fault that the user must see.
   static constexpr int kMostWithoutDepth = 30;
-  /// A stamp that goes back by this much is a recording that starts again; less is a late image.
+  /// If a stamp goes back by this much, a recording starts again. If it goes back by less, the image is late.
   static constexpr Nanoseconds kRestart = 1'000'000'000;
 
   /// Images in the order of their stamps.
@@ -154,7 +155,8 @@ class FramePairer {
     /// Whether the stream has jumped back since an image of this stamp.
     bool restartedSince(Nanoseconds stamp) const { return newest > 0 && newest <= stamp - kRestart; }
 
-    /// Index of the image nearest in time, the first of equals; none where the queue is empty.
+    /// Index of the image nearest in time; the first one of equally near images. Nothing if the queue is
+    /// empty.
     std::optional<std::size_t> nearestTo(Nanoseconds stamp) const {
       const auto nearer = [stamp](const auto& a, const auto& b) {
         return std::llabs(a.first - stamp) < std::llabs(b.first - stamp);
@@ -164,11 +166,11 @@ class FramePairer {
       return static_cast<std::size_t>(nearest - images.begin());
     }
 
-    /// How much later than a stamp the next image is at the least; below 0 where that is not known.
-    /// @param most of the gap that is relied on.
+    /// Least time from a stamp to the next image; below 0 if it is not known.
+    /// @param most upper limit of the gap that is expected after the last image.
     Nanoseconds nextIsLaterBy(Nanoseconds stamp, Nanoseconds most) const {
       constexpr Nanoseconds kUnknown = std::numeric_limits<Nanoseconds>::max();
-      // A stream that is far ahead is still in the pass of a recording that the other has left.
+      // A stream that is far ahead is still in the pass of a recording that the other stream has left.
       if (newest == 0 || newest - stamp >= kRestart) return -kRestart;
       const Nanoseconds gap = shortest_gap == kUnknown ? 0 : std::min(shortest_gap / 2, most);
       const Nanoseconds least = std::max<Nanoseconds>(1, gap);
@@ -178,21 +180,21 @@ class FramePairer {
 
   /// The depth image of the first colour image.
   struct Partner {
-    std::optional<std::size_t> depth;  ///< none: no depth image belongs to it, of those that have come
-    bool certain = false;              ///< images to come cannot change it
+    std::optional<std::size_t> depth;  ///< nothing: none of the depth images so far belongs to it
+    bool certain = false;              ///< later images cannot change it
   };
 
   Partner partnerOf(Nanoseconds stamp) const {
     const std::optional<std::size_t> nearest = depths_.nearestTo(stamp);
     const Nanoseconds depth = nearest ? depths_.images[*nearest].first : 0;
     const Nanoseconds distance = std::llabs(depth - stamp);
-    // After both streams have started again no image of the pass before will come.
+    // After both streams have started again, no image of the previous pass will come.
     if (colors_.restartedSince(stamp) && depths_.restartedSince(stamp))
       return {distance <= tolerance_ ? nearest : std::nullopt, true};
     if (!nearest || distance > tolerance_)
       return {std::nullopt, depths_.nextIsLaterBy(stamp, tolerance_) > tolerance_};
-    // A depth image that fits a later colour image better is that one's: one that was dropped must not shift
-    // all pairs.
+    // A depth image that is nearer to a later colour image belongs to that one. Otherwise one dropped depth
+    // image would shift all pairs.
     if (colors_.nearestTo(depth) != 0) return {std::nullopt, true};
     if (distance == 0) return {nearest, true};
     const bool no_nearer_depth = depths_.nextIsLaterBy(stamp, tolerance_) >= distance;
@@ -212,7 +214,7 @@ class FramePairer {
   Queue<ColorPtr> colors_;
   Queue<DepthPtr> depths_;
   InfoPtr info_{};
-  int without_depth_ = kMostWithoutDepth;  ///< colour images in a row; the first frame has depth
+  int without_depth_ = kMostWithoutDepth;  ///< frames in a row; at the start none is allowed
   UnpairedImages unpaired_;
 };
 

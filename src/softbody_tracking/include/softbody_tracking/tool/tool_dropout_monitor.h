@@ -8,7 +8,8 @@
 
 namespace softbody {
 
-/// Warns when a tool has not been seen for a long time. It cuts nothing then, and the user may not know why.
+/// Warns when a tool has not been seen for a long time. Then the tool does not cut, and the user may not know
+/// why.
 class ToolDropoutMonitor {
  public:
   /// Takes the tracker's result for the next frame. An older stamp than the last one restarts the count.

@@ -57,7 +57,8 @@ class BodyTracker {
   void reset();
 
   /// Forgets everything but the models, and searches for the body near a rough pose.
-  /// @param rough_pose rest frame in the fixed frame, off by a few centimetres and some 15 degrees at most.
+  /// @param rough_pose rest frame in the fixed frame, wrong by at most a few centimetres and about 15
+  /// degrees.
   /// @throw std::logic_error unless ready().
   void restart(const Eigen::Isometry3d& rough_pose);
 

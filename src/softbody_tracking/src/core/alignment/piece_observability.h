@@ -10,9 +10,9 @@ namespace softbody {
 
 /// How well the measurements of a frame determine the rigid motion of a piece of a cut body.
 enum class Observability {
-  kPoor,     ///< undetermined: only a rim beside the blade is visible, or a few close features
-  kPartial,  ///< determined but uncertain: the piece is held back against measurements at its rims
-  kGood      ///< an uncut body always has it; TrackingStatus says how well that is tracked
+  kPoor,     ///< not determined: only a rim beside the blade is visible, or a few features close together
+  kPartial,  ///< determined but uncertain: the rigid motion of the piece is damped
+  kGood      ///< determined, or an uncut body; TrackingStatus says how well that is tracked
 };
 
 /// Observability of each piece. @param pieces vertices of each piece [m].

@@ -11,13 +11,13 @@ namespace softbody {
 /// Fewest associations (features and blocks of depth) that determine a rigid motion reliably.
 constexpr int kFewestAssociations = 12;
 
-/// Associations of the inliers. A feature's pixel measures its position across its ray; the depth around
-/// measures the position along the ray better. So each feature gives two associations with normals across the
-/// ray.
+/// Associations of the inliers. The pixel of a feature measures its position perpendicular to the ray. The
+/// position along the ray is measured better by the depth around it. So each feature gives two associations
+/// with normals perpendicular to the ray.
 std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
 
-/// Associations that hold a piece where it was predicted. Together they weigh a fixed share of its
-/// measurements, whatever the number of vertices.
+/// Associations that hold a piece where it was predicted. Their total weight is a fixed share of the weight
+/// of the piece's measurements, for any number of vertices.
 /// @param piece predicted vertices. @param motion the piece's motion so far.
 std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
                                   const AssociationRefs& measured);

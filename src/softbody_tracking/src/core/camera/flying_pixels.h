@@ -8,10 +8,9 @@ namespace softbody {
 /// other if their depths differ by less than ratio * z, or 1.5 times that along a diagonal. A pixel is kept
 /// if
 /// - at least two of its eight neighbours are near it, as along a thin wire; and
-/// - in no direction (row, column, diagonals) it lies between a nearer and a farther neighbour, both of them
-/// not
-///   near: that is a ramp across a depth edge. A real object before the background has farther neighbours
-///   only.
+/// - it is not a step. A pixel is a step if two opposite neighbours (row, column or diagonal) are not near,
+///   and if one is closer to the camera and the other farther away. A real object before the background has
+///   only neighbours that are farther away.
 class FlyingPixelFilter {
  public:
   explicit FlyingPixelFilter(double ratio) : ratio_(static_cast<float>(ratio)) {}

@@ -60,7 +60,7 @@ class DepthAssociator {
 /// Reduces the weights of depth targets if the noise is above usual, by the square of the ratio, down to a
 /// limit. Rigid alignment does not need this: its six parameters average over the whole body.
 /// @param relative_noise standard deviation of the mean depth over a patch of one mean tet edge squared,
-/// divided by that edge. Relative to its size, this bends large and small bodies equally.
+/// divided by that edge. The same value bends large and small bodies equally, relative to their size.
 void downweightByNoise(double relative_noise, DepthAssociations* depth);
 
 }  // namespace softbody

@@ -23,9 +23,10 @@ DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vect
                                   double focal_px, std::vector<double>* memory);
 
 /// Estimates the noise of depth over many frames, because a frame that shows little of the body measures it
-/// badly. If blocks err independently, the mean depth over a patch has a standard deviation of density /
-/// (side of the patch), whatever the number of blocks. Neighbouring pixels of a stereo camera do not err
-/// independently: with blocks of one or two pixels the estimate is too small, by up to a half.
+/// badly. If the errors of the blocks are independent, the mean depth over a patch has a standard deviation
+/// of density / (side of the patch), for any number of blocks. The errors of neighbouring pixels of a stereo
+/// camera are not independent. So with blocks of one or two pixels the estimate is too small, by up to a
+/// half.
 class DepthNoiseEstimator {
  public:
   void update(const DepthNoiseSample& sample);
@@ -35,7 +36,7 @@ class DepthNoiseEstimator {
 
  private:
   double variance_ = 0.0;  ///< square of the density [m^4]
-  double count_ = 30.0;    ///< second differences behind it; starts as if 30 of them had shown no noise
+  double count_ = 30.0;    ///< second differences in it; starts as if 30 of them had measured no noise
 };
 
 }  // namespace softbody

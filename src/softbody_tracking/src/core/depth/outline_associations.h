@@ -20,14 +20,13 @@ struct OutlineSample {
 };
 
 /// Associates the predicted outline with the body's outline in the frame, along the outline's normal in the
-/// image (Harris and Stennett 1990, RAPID). It corrects errors across the line of sight, which depth along
-/// rays cannot see:
-/// - If the camera sees something clearly farther through the prediction, the outline is pulled in.
+/// image (Harris and Stennett 1990, RAPID). It corrects errors perpendicular to the line of sight, which
+/// depth along the rays does not show:
+/// - If the camera sees something clearly farther where the prediction is, the outline is pulled in.
 /// - If the body continues beyond the prediction, without a step in depth and in its own colour, up to a
-/// clear step
-///   backwards, the outline is pulled out.
-/// Errors of up to two pixels are ignored, because depth is that inaccurate at edges. Samples are ignored if
-/// something nearer, another colour, a gap in depth or the image border lies in between.
+///   clear step backwards, the outline is pulled out. Errors of up to two pixels are ignored, because depth
+///   at edges is not more accurate. Samples are ignored if something nearer, another colour, a gap in depth
+///   or the image border lies in between.
 class OutlineAssociator {
  public:
   /// @param volume_edge_m mean edge of the tets; config.weight is the weight per edge.

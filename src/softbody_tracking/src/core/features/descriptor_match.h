@@ -7,9 +7,9 @@
 
 namespace softbody {
 
-/// The candidate with clearly the nearest descriptor: within max_distance, and no candidate of another place
-/// is nearly as near (ratio test, Lowe 2004). @param candidates distance of the descriptors and index of the
-/// keypoint.
+/// The candidate whose descriptor is clearly the nearest: within max_distance, and no candidate at another
+/// place is almost as near (ratio test, Lowe 2004). @param candidates distance of the descriptors and index
+/// of the keypoint.
 /// @return index into the candidates; -1 without one.
 int clearlyNearest(const std::vector<std::pair<int, int>>& candidates, const std::vector<Keypoint>& keypoints,
                    int max_distance);

@@ -10,7 +10,7 @@
 
 namespace softbody {
 
-/// Fewest expected features for the share found to mean anything.
+/// Minimum number of expected features for the share of found features to mean anything.
 constexpr int kFewestExpectedFeatures = 30;
 
 /// A feature that the frame should show.
@@ -28,7 +28,7 @@ struct ExpectedFeatures {
   int occluded = 0;                      ///< features behind an occluder; they are not expected
 
   int count() const { return static_cast<int>(visible.size()); }
-  /// @param pieces of each piece, whether its features count.
+  /// @param pieces for each piece, whether its features count.
   int countOn(const std::vector<bool>& pieces) const;
   /// Share of the features on visible surface that nothing occludes; 1 without features.
   double unoccludedShare() const;
@@ -39,7 +39,8 @@ struct ExpectedFeatures {
 ExpectedFeatures expectFeatures(const std::vector<MapFeature>& features, const RgbdFrame& frame,
                                 const ColorModel& colors, double reach_m, const PredictedSurface& surface);
 
-/// The same features, to be looked for where the pieces' motions take them; the predicted positions stay.
+/// The same features, with the pixels to which the motions of the pieces move them. The predicted positions
+/// do not change.
 ExpectedFeatures lookedForAfter(const RigidMotions& motions, const Pinhole& camera,
                                 ExpectedFeatures expected);
 

@@ -9,7 +9,7 @@
 
 namespace softbody {
 
-/// The ORB features known of the body, each bound to a place in the rest body.
+/// All known ORB features of the body. Each is bound to a place in the rest body.
 class FeatureMap {
  public:
   explicit FeatureMap(const FeatureConfig& config) : config_(config) {}
@@ -17,11 +17,11 @@ class FeatureMap {
   const std::vector<MapFeature>& features() const { return features_; }
 
   /// Counts for each expected feature whether it was found.
-  /// @param observed of each piece; features on the others are not scored.
+  /// @param observed for each piece; features on pieces that are not observed are not scored.
   void score(const ExpectedFeatures& expected, const std::vector<FeatureMatch>& matches,
              const std::vector<bool>& observed);
 
-  /// How many features may be added in a view that shows this many expected ones.
+  /// How many features may be added if this many are expected in the view.
   int room(int expected_in_view) const;
 
   /// Adds bound features and gives them ids.
@@ -30,8 +30,8 @@ class FeatureMap {
   /// Drops features that were seldom found where they were expected.
   void retire();
 
-  /// Takes the features to an edited body. Features on the wall of a cut stay on their side. If the edit
-  /// restores the body of a feature's admission (undo), its place is restored bit by bit.
+  /// Transfers the features to an edited body. Features on the wall of a cut stay on their side. An undo can
+  /// restore the body in which a feature was admitted. Then its place is restored bit by bit.
   void rebind(const TetTopology& before, const TetTopology& after);
 
   void reset();

@@ -17,7 +17,7 @@ struct FeatureMatch {
   bool inlier = true;
 };
 
-/// Number of matches on some of the pieces. @param pieces of each piece, whether its matches count.
+/// Number of matches on some of the pieces. @param pieces for each piece, whether its matches count.
 inline int matchesOn(const std::vector<bool>& pieces, const std::vector<FeatureMatch>& matches) {
   return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& match) {
     return pieces[match.association.piece];

@@ -32,7 +32,7 @@ class FeatureMatcher {
   /// Aligns about the wanted number of patches, spread evenly over the expected features. @param wanted at
   /// least 1.
   FeatureMatches alignSome(const ExpectedFeatures& expected, int wanted) const;
-  /// Adds the features that alignSome() with the same arguments left out.
+  /// Adds the features that alignSome() left out when called with the same arguments.
   FeatureMatches alignOthers(const ExpectedFeatures& expected, int wanted, FeatureMatches found) const;
 
   /// The missed features that a keypoint's descriptor matches within kWideSearchPx, each aligned there.
@@ -52,8 +52,8 @@ class FeatureMatcher {
   const GrayPyramid& image_;
 };
 
-/// Depth at a keypoint [m]: mean over those of the 5x5 pixels around it that are within 2 % of the middle
-/// one.
+/// Depth at a keypoint [m]: mean over the 5x5 pixels around it, without pixels that differ from the middle
+/// one by more than 2 %.
 /// @return 0 at a depth edge and where depth is missing.
 double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel);
 

@@ -7,10 +7,11 @@
 
 namespace softbody {
 
-/// Sets FeatureMatch::inlier. An outlier moves otherwise than its neighbours on the same piece, or further
-/// than a body moves in a frame. The neighbours' motion is linear in the image; its fit starts from the
-/// motion of the whole piece, so that a group of wrong matches does not determine it. Twenty matches that are
-/// a few pixels off but move alike stay, if they lie together: a limb.
+/// Sets FeatureMatch::inlier. An outlier moves differently from its neighbours on the same piece, or further
+/// than a body moves in a frame. A motion that is linear in the image is fitted to the neighbours. The fit
+/// starts from the motion of the whole piece, so that a group of wrong matches does not determine it.
+/// Exception: twenty matches that lie together, move alike and are only a few pixels off are kept, because
+/// they are a limb.
 /// @param max_disagreement_m in any direction. Across the ray, 1.5 to 4 pixels are allowed.
 void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches);
 

@@ -22,17 +22,18 @@ std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vec
                                           const PredictedSurface& surface, const Points& vertices,
                                           int max_hamming_distance);
 
-/// Largest error of a right pair after a rigid motion [m]: the piece is deformed and depth is noisy.
+/// Largest error of a correct pair after a rigid motion [m]. It is not 0, because the piece is deformed and
+/// depth is noisy.
 /// @param rest_vertices of the piece.
 double recognitionTolerance(const Points& rest_vertices);
 
-/// The rigid motion that most pairs agree with (RANSAC, Fischler and Bolles 1981). Empty if so few agree that
-/// it may be chance. @param tolerance_m see recognitionTolerance().
+/// The rigid motion that most pairs agree with (RANSAC, Fischler and Bolles 1981). Empty if the agreement of
+/// these pairs may be chance. @param tolerance_m see recognitionTolerance().
 std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& pairs, double tolerance_m);
 
-/// Vertices of each wanted piece, moved to where its pairs recognise it.
-/// @param wanted of each piece. @return of each piece; empty if it is not wanted, not recognised, or moved by
-/// no more than min_motion_m.
+/// Vertices of each wanted piece, moved to the place where its pairs recognise it.
+/// @param wanted for each piece. @return for each piece; empty if the piece is not wanted, not recognised, or
+/// moved by no more than min_motion_m.
 std::vector<Points> recognizedPieces(const std::vector<PointPair>& pairs, const PredictedSurface& surface,
                                      const std::vector<bool>& wanted, double min_motion_m);
 

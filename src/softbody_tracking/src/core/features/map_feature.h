@@ -27,7 +27,8 @@ struct MapFeature : FeaturePlace {
   int matched = 0;                                      ///< frames in which it was found
 };
 
-/// Corners of a tet at rest as columns (x, y, z, 1): takes barycentric coordinates to the rest shape.
+/// Corners of a tet at rest as columns (x, y, z, 1). This matrix maps barycentric coordinates to the rest
+/// shape.
 inline Eigen::Matrix4d homogeneousCorners(const TetTopology& volume, int tet) {
   Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
   for (int k = 0; k < 4; ++k) corners.col(k).head<3>() = volume.rest_vertices.row(volume.tets(tet, k));

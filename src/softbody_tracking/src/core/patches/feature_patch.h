@@ -19,7 +19,7 @@ class FeaturePatch {
   };
 
   /// Learns the patch. @return false if the pixel is too close to the region's border, or if the patch does
-  /// not fix a position.
+  /// not determine a position.
   bool learn(const GrayPyramid& image, const cv::Point2f& pixel);
 
   /// Searches for the patch, from a level of the pyramid down to full resolution.
@@ -42,7 +42,7 @@ class FeaturePatch {
   static float alignLevel(const Level& level, const RowPairs& image, const Eigen::Matrix2f& warp,
                           cv::Point2f* center);
 
-  std::vector<Level> levels_;  ///< full resolution first; coarser ones while they fix a position
+  std::vector<Level> levels_;  ///< full resolution first; then coarser ones that determine a position
 };
 
 }  // namespace softbody

@@ -33,7 +33,7 @@ struct PatchSums {
 using RowPairs = cv::Mat2b;
 
 /// Bilinear samples on a grid of pixels about the centre, warped. Vectors of any width give the same bits.
-/// @param center, warp such that the grid lies inside the image.
+/// @param center, warp must keep the grid inside the image.
 void samplePatch(const RowPairs& image, const cv::Point2f& center, const Eigen::Matrix2f& warp,
                  PatchSamples* samples);
 

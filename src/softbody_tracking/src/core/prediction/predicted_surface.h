@@ -34,8 +34,8 @@ class PredictedSurface {
   std::size_t pieceCount() const { return pieces_.size(); }
   /// Indices of the volume's vertices, for each piece.
   const std::vector<std::vector<int>>& pieces() const { return pieces_; }
-  /// For each piece its numbers in MeshTopology::triangle_pieces: one or more; empty if the visual mesh shows
-  /// nothing of the piece.
+  /// For each piece its numbers in MeshTopology::triangle_pieces: one or more; empty if no part of the visual
+  /// mesh follows the piece.
   const std::vector<std::set<std::uint32_t>>& piecesOfSurface() const { return surface_pieces_; }
   /// Positions of these vertices, for each piece [m].
   std::vector<Points> pieceVertices() const;
@@ -62,8 +62,8 @@ class PredictedSurface {
   PlaceGradient placeGradient(const MaterialPoint& place, int triangle, const cv::Point2f& pixel) const;
   /// Pixels of this image per pixel of the image in which the gradient was taken, 2 by 2.
   Eigen::Matrix2f imageWarp(const MaterialPoint& place, const PlaceGradient& gradient) const;
-  /// Outward unit normal of a triangle, camera frame. It is not smoothed: the mean of both sides of a sharp
-  /// edge would pull the surface off either side.
+  /// Outward unit normal of a triangle, camera frame. It is not smoothed: at a sharp edge, the mean normal of
+  /// both sides would pull the surface off both sides.
   Eigen::Vector3d normal(int triangle) const;
   Eigen::Vector3d position(const MaterialPoint& place) const;
 

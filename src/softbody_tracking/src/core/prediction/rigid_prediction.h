@@ -9,7 +9,7 @@
 
 namespace softbody {
 
-/// Predicts the volume's vertices: each piece goes on with the velocity and spin of its rigid motion.
+/// Predicts the volume's vertices: each piece continues with the velocity and spin of its rigid motion.
 class RigidPrediction {
  public:
   /// @param pieces vertices of each connected piece.
@@ -19,9 +19,9 @@ class RigidPrediction {
   /// Adds a state of the volume. A stamp before the last one discards earlier states.
   void observe(const Points& vertices, Nanoseconds stamp);
 
-  /// The vertices at a later stamp. They stay as last observed if there is only one state, or long after the
-  /// last. There must be at least one state.
-  /// @param moving of each piece, false if its velocity is unknown: it stays. Empty: all move.
+  /// The vertices at a later stamp. If there is only one state, or if the last state is too old, they stay as
+  /// last observed. There must be at least one state.
+  /// @param moving for each piece; false: its velocity is unknown, so it stays. Empty: all move.
   Points at(Nanoseconds stamp, const std::vector<bool>& moving = {}) const;
 
   void reset() { last_.reset(), before_.reset(); }

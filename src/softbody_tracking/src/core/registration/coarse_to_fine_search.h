@@ -9,8 +9,8 @@ namespace softbody {
 
 void sortByCost(std::vector<PoseHypothesis>* poses);
 
-/// The search for the body's pose in one frame, from coarse to fine. Only its starts differ: poses near a
-/// given one (search_near_pose.h), or every orientation at every candidate (search_anywhere.h). The meshes
+/// The search for the body's pose in one frame, from coarse to fine. The caller gives the starts: poses near
+/// a given pose (search_near_pose.h), or every orientation at every candidate (search_anywhere.h). The meshes
 /// must outlive it.
 class CoarseToFineSearch {
  public:

@@ -15,7 +15,7 @@ using FeatureShare = std::function<double(const Eigen::Isometry3d&)>;
 /// Whether the features confirm a pose.
 bool confirms(double feature_share);
 
-/// Poses in one place that are alike in depth, and the FeatureShare at each.
+/// Poses in one place that look alike in depth, and the FeatureShare at each.
 struct AlikePoses {
   std::vector<Eigen::Isometry3d> poses;
   std::vector<double> shares;
@@ -24,7 +24,7 @@ struct AlikePoses {
 /// The pose with the largest share of features, if they confirm it.
 std::optional<FoundPose> confirmedPose(const AlikePoses& alike);
 
-/// The first pose without enough expected features to decide; the result counts the others like it as alike.
+/// The first pose with too few expected features to decide. FoundPose::alike counts all such poses.
 std::optional<FoundPose> undecidedPose(const AlikePoses& alike);
 
 }  // namespace softbody

@@ -13,7 +13,7 @@ struct PoseHypothesis {
 /// The pose that a search accepts.
 struct FoundPose {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< rest frame in the camera frame
-  int alike = 1;  ///< poses in the same place that explain the frame equally well, with this one
+  int alike = 1;  ///< poses in the same place that explain the frame equally well, including this one
 };
 
 }  // namespace softbody

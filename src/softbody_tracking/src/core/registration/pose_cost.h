@@ -21,15 +21,14 @@ class PoseCost {
   PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m)
       : frame_(frame), mesh_(mesh), scale_(distance_scale_m) {}
 
-  /// Mean cost of the covered pixels, from 0 (perfect) to 1, plus a cost of the outline.
-  /// A pixel costs the squared depth difference in distance scales, at most 1. Less for a nearer occluder and
-  /// for missing depth. Half of the share of outline pixels beyond which the depth continues the surface is
-  /// added.
+  /// Mean cost of the covered pixels, from 0 (perfect) to 1, plus a cost of the outline. A pixel costs the
+  /// squared depth difference in distance scales, at most 1. A nearer occluder and missing depth cost less
+  /// than 1. Each pixel just outside the outline whose depth continues the surface adds 0.5 to the sum over
+  /// the covered pixels.
   double operator()(const Eigen::Isometry3d& pose);
 
-  /// How much of the depth supports a pose: the pixels covered times how far their mean cost is below
-  /// kWorstPlausibleCost; 0 for worse poses. It prefers a large match to a few distant pixels that resemble
-  /// any body.
+  /// How much of the depth supports a pose: (kWorstPlausibleCost - cost) times the number of covered pixels;
+  /// 0 if the cost is higher. It prefers a large match to a few distant pixels, which could be any body.
   double support(const Eigen::Isometry3d& pose);
 
   /// Renders the mesh. @return valid until the next call of any member.

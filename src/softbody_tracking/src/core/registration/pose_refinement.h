@@ -10,8 +10,8 @@
 
 namespace softbody {
 
-/// Moves one mesh to a better pose in one frame: by ICP, or by pattern search on PoseCost, which also sees
-/// the outline, where ICP may slide. Frame and mesh must outlive it.
+/// Moves one mesh to a better pose in one frame: by ICP, or by pattern search on PoseCost. ICP may slide
+/// along a surface; PoseCost also sees the outline. Frame and mesh must outlive it.
 class PoseRefinement {
  public:
   /// First steps of the pattern search.

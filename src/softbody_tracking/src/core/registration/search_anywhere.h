@@ -16,14 +16,14 @@ namespace softbody {
 /// orientations at each candidate in the depth image.
 /// @param colors if learned, only pixels of the body's colours are candidates. @param guesses further starts.
 /// @return poses that differ by more than 20 degrees or a fifth of the body's size, at least one for each
-/// candidate; those that most of the depth supports first. Empty without candidates.
+/// candidate; the ones with the most depth support come first. Empty without candidates.
 std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorModel& colors,
                                           const SearchMeshes& meshes,
                                           const std::vector<Eigen::Isometry3d>& guesses,
                                           double distance_scale_m);
 
-/// Finds the body without a pose. Among poses that are alike in depth, the one with most features wins. If
-/// features contradict a place, or cannot decide, the next place is tried; there the features must confirm
+/// Finds the body without a pose. Among poses that look alike in depth, the one with the most features wins.
+/// If features contradict a place, or cannot decide, the next place is tried; there the features must confirm
 /// the pose.
 /// @param guesses poses to try as well.
 std::optional<FoundPose> searchAnywhere(const RgbdFrame& frame, const ColorModel& colors,

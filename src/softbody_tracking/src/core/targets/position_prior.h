@@ -6,11 +6,11 @@
 
 namespace softbody {
 
-/// Makes weak targets that keep vertices at given positions, for pieces of a cut body that no measurement
-/// holds.
+/// Makes weak targets that keep vertices at given positions, for pieces of a cut body that the measurements
+/// do not hold.
 class PositionPrior {
  public:
-  /// Weight of such a target, where a target of ordinary measurements has about 1. It is far stiffer than a
+  /// Weight of such a target; a target from a measurement has about 1. Such a target is far stiffer than a
   /// vertex's inertia, far softer than any measurement, and too small for the vertex to count as observed.
   static constexpr double kPriorWeight = 0.01;
 

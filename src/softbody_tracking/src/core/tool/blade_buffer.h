@@ -28,7 +28,7 @@ class BladeBuffer {
   /// Blades that could not be used.
   struct Rejected {
     std::size_t expired = 0;  ///< blades that became too old without a pose; each is counted once
-    Nanoseconds lead = 0;  ///< of the newest blade before the frame; 0 unless all blades were too new for 1 s
+    Nanoseconds lead = 0;     ///< newest blade minus frame, if all blades are too new for over 1 s; or 0
   };
 
   void add(ReportedBlade blade);

@@ -25,10 +25,11 @@ class FeatureAdmission {
  public:
   explicit FeatureAdmission(int max_features) : max_features_(max_features) {}
 
-  /// Admits new features if it is time for it.
+  /// Admits new features if this is due.
   void admit(const LearnedFrame& from, FeatureMap* map);
 
-  /// The body was edited: new surface may show, so tiles are searched at the full rate again.
+  /// To be called when the body was edited. New surface may be visible, so tiles are searched at the full
+  /// rate again.
   void bodyEdited() { fruitless_tiles_ = 0; }
   void reset();
 
@@ -41,7 +42,7 @@ class FeatureAdmission {
   OrbExtractor orb_;
   int frames_to_next_tile_ = 0;
   int fruitless_tiles_ = 0;  ///< consecutive tiles without a new feature
-  int tile_ = 0;             ///< of the surface, searched last
+  int tile_ = 0;             ///< the tile of the surface that was searched last
 };
 
 }  // namespace softbody

@@ -15,11 +15,11 @@ struct FeatureCount {
   bool isMissing() const;
 };
 
-/// Of all pieces that count. @param pieces of each piece, whether it counts.
+/// The sum over some pieces. @param pieces for each piece, whether it counts.
 FeatureCount countOn(const std::vector<bool>& pieces, const ExpectedFeatures& expected,
                      const std::vector<FeatureMatch>& matches);
 
-/// Of each piece.
+/// The count of each piece.
 std::vector<FeatureCount> countByPiece(std::size_t piece_count, const ExpectedFeatures& expected,
                                        const std::vector<FeatureMatch>& matches);
 

@@ -18,7 +18,8 @@ struct FollowedBody {
   const RgbdFrame& frame;
   const std::vector<MapFeature>& known;
   const ColorModel& colors;
-  /// Of each piece, whether its features show if the prediction is right; not so for a piece that is held.
+  /// For each piece: true if its features are expected at their predicted places; false for a piece that is
+  /// held.
   std::vector<bool> followed;
 };
 
@@ -28,19 +29,19 @@ struct FollowedFeatures {
   FeatureMatches found;
 };
 
-/// Finds the known features in a frame. Where most of them are not at their predicted pixels, it moves the
-/// prediction: first to where features and depth around it point, then each missing piece to where it is
-/// recognised.
+/// Finds the known features in a frame. If most of them are not at their predicted pixels, it moves the
+/// prediction in two steps. First the features and the depth around the prediction move it. Then each piece
+/// that is still missing is moved to the place where it is recognised.
 class FeatureFollower {
  public:
   explicit FeatureFollower(const TrackerConfig& config)
       : features_(config.features), reach_m_(config.depth.max_distance_m) {}
 
-  /// Matches with outliers marked. @param prediction as rendered; rendered again where the body was found.
+  /// Matches with outliers marked. @param prediction as rendered; if it is moved, it is rendered again.
   FollowedFeatures follow(const FollowedBody& body, RenderedPrediction* prediction);
 
-  /// Where a pose of the undeformed body would show the features: aligned without any search, outliers not
-  /// marked.
+  /// The features at a pose of the undeformed body. Their patches are aligned, but not searched for further
+  /// away. Outliers are not marked.
   FollowedFeatures alignAt(const Points& vertices, const FollowedBody& body, RenderedPrediction* prediction);
 
   /// Pairs features with keypoints of the whole image. @param vertices of the volume, as expected.
@@ -50,7 +51,7 @@ class FeatureFollower {
   /// Grey image around the body in the last frame.
   const GrayPyramid& image() const { return image_; }
 
-  /// The body has other pieces now.
+  /// To be called when the body has other pieces.
   void forgetPieces() { piece_search_.forgetPieces(); }
   void reset();
 

@@ -13,12 +13,12 @@
 namespace softbody {
 
 /// Measures one body in each frame, starting from its predicted place: features, depth and outline. Keeps
-/// what it learns of the body: its features, its colours and the noise of depth.
+/// what it learns: the body's features and colours, and the noise of depth.
 class FrameObserver {
  public:
   FrameObserver(const TrackerConfig& config, const TetTopology& volume, const MeshTopology& surface);
 
-  /// Goes on with the edited body; what was learned stays.
+  /// Continues with the edited body. What was learned is kept.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
 
   /// @param predicted vertices of the volume, camera frame [m]. Afterwards surface() is the prediction,
@@ -54,7 +54,7 @@ class FrameObserver {
   FeatureFollower follower_;
   FeatureAdmission admission_;
   std::vector<bool>
-      tracked_before_;  ///< of each piece, at least partial observability in the last frame; empty: all
+      tracked_before_;  ///< per piece: at least partial observability in the last frame; empty: all
 };
 
 }  // namespace softbody

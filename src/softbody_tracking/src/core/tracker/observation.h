@@ -22,15 +22,15 @@ struct Observation {
   std::vector<Association> outline;          ///< of pieces with good observability
   std::vector<Observability> observability;  ///< of each piece
   std::vector<bool> in_view;                 ///< of each piece, see piecesInView()
-  std::vector<bool> learnable;               ///< of each piece, whether new features can be learned on it
+  std::vector<bool> learnable;               ///< per piece: new features can be learned on it
 
   /// For each piece, whether its observability is at least this.
   std::vector<bool> atLeast(Observability least) const;
 };
 
 /// Judges each piece and drops measurements that could distort it. A piece with poor observability loses all
-/// inliers; it is held in its place. One with partial observability loses depth and outline, which would bend
-/// it at its rims.
+/// inliers; it is held in its place. A piece with partial observability loses depth and outline, which would
+/// bend it at its rims.
 /// @param seen with matches, expected, depth and outline. @param pieces predicted vertices of each piece [m].
 Observation restrictedToObservable(Observation seen, const SurfaceSamples& samples,
                                    const std::vector<Points>& pieces);

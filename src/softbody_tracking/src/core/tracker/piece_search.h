@@ -10,21 +10,21 @@ namespace softbody {
 /// Decides which missing pieces of the body are searched for in a frame.
 class PieceSearch {
  public:
-  /// Call once a frame. @param counts of each piece. @param followed of each piece, whether it was tracked in
-  /// the last frame; the others are searched for rarely, since an occlusion may last.
-  /// @return of each piece, whether to search for it.
+  /// Call it once a frame. @param counts of each piece. @param followed for each piece, whether it was
+  /// tracked in the last frame. The other pieces are searched for rarely, because an occlusion may last.
+  /// @return for each piece, whether to search for it.
   std::vector<bool> duePieces(const std::vector<FeatureCount>& counts, const std::vector<bool>& followed);
 
-  /// These pieces were found. @param found of each piece.
+  /// To be called with the result of a search. @param found for each piece.
   void markFound(const std::vector<bool>& found);
 
-  /// The body has other pieces now.
+  /// To be called when the body has other pieces.
   void forgetPieces() { backoffs_.clear(); }
   void reset();
 
  private:
   std::vector<SearchBackoff> backoffs_;  ///< of each piece that was followed
-  int frames_to_held_search_ = 0;        ///< until pieces that were not followed are searched for
+  int frames_to_held_search_ = 0;        ///< until the next search for pieces that were not followed
 };
 
 }  // namespace softbody

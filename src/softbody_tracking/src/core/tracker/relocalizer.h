@@ -39,7 +39,7 @@ class Relocalizer {
 
   /// Counts consecutive frames in which the tracked body was lost. After ten of them the search begins.
   void countLoss(bool lost);
-  /// The pose that tracking gave. It is where a later search starts.
+  /// Sets the pose from tracking. A later search starts there.
   void setPose(const Eigen::Isometry3d& pose) { pose_ = pose; }
 
   /// Pose of the rest shape in the fixed frame.
@@ -61,7 +61,7 @@ class Relocalizer {
 
   RegistrationConfig config_;
   std::unique_ptr<SearchMeshes>
-      meshes_;               ///< made at the first search, so that no frame after a cut waits for it
+      meshes_;               ///< made at the first search, so that a frame after a cut does not wait for it
   bool first_frame_ = true;  ///< no frame since the last reset
   bool tracked_ = false;
   bool recovering_ = false;

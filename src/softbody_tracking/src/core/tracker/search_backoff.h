@@ -4,9 +4,9 @@
 
 namespace softbody {
 
-/// Decides in which frames to search the whole image for a missing piece: at once, and after each failure
-/// less often. A piece may stay in its place and only look different, in another light; then every search
-/// fails.
+/// Decides in which frames to search the whole image for a missing piece: first at once, then less often
+/// after each failure. In another light a piece may look different although it has not moved. Then every
+/// search fails.
 class SearchBackoff {
  public:
   /// Longest wait between two searches [frames]: a third of a second at 30 Hz, and a tenth of the cost.

@@ -9,7 +9,8 @@
 
 namespace softbody {
 
-/// How well a frame shows the body where it was predicted. @param associations those that become targets.
+/// How well a frame shows the body where it was predicted. @param associations only those that become
+/// targets.
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations);
 
 /// Reports pieces of a cut body that were not measured for some frames and are held in their places. A piece
@@ -17,7 +18,7 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
 /// inferred, like that of all hidden parts.
 class HeldPieces {
  public:
-  /// Call once a frame. @param names for each piece its numbers in the visual mesh.
+  /// Call once a frame. @param names for each piece, its numbers in the visual mesh.
   /// @return the status, degraded or with a longer reason.
   TrackingStatus report(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
                         TrackingStatus status);
@@ -25,7 +26,7 @@ class HeldPieces {
   void reset() { frames_.clear(); }
 
  private:
-  std::vector<int> frames_;  ///< of each piece: consecutive frames with poor observability
+  std::vector<int> frames_;  ///< per piece: consecutive frames with poor observability
 };
 
 }  // namespace softbody

@@ -10,7 +10,7 @@
 
 namespace softbody {
 
-/// The inliers of a frame with what is known of them. @param known FeatureMap::features().
+/// The inliers of a frame, with the known properties of their features. @param known FeatureMap::features().
 std::vector<TrackedFeature> trackedFeatures(const Observation& seen, const std::vector<MapFeature>& known,
                                             const Eigen::Isometry3d& T_camera_fixed);
 
@@ -19,7 +19,8 @@ std::vector<Target> targetsOf(const std::vector<Association>& associations,
                               const Eigen::Isometry3d& T_fixed_camera);
 
 /// Adds weak targets at the vertices of pieces that are not well observable. A piece with poor observability
-/// stays where the simulation has it; one with partial observability moves as a whole to where it was found.
+/// stays at its simulated place. A piece with partial observability moves as a whole to the place where it
+/// was found.
 /// @param pieces vertices of each piece. @param simulated vertices of the volume, fixed frame [m]. @param
 /// found the same after the rigid alignment.
 void addHeldPieces(const Observation& seen, const std::vector<std::vector<int>>& pieces,
