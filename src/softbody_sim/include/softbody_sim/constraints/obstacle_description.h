@@ -11,7 +11,7 @@ namespace softbody {
 /// An obstacle as the parameters describe it.
 struct ObstacleDescription {
   std::string name;   ///< of its reaction's topic
-  std::string frame;  ///< that it follows; empty: the targets' frame
+  std::string frame;  ///< the frame that it follows; empty: the targets' frame
   Obstacle shape;     ///< its pose is in that frame
 };
 

@@ -12,9 +12,9 @@
 
 namespace softbody {
 
-/// Simulates the volumetric model under each frame's soft constraints. Implicit Euler, solved by projective
-/// dynamics (Bouaziz et al. 2014) accelerated with L-BFGS (Liu, Bouaziz, Kavan 2017), or by finite elements
-/// with Newton's method.
+/// Simulates the volumetric model under the soft constraints of each frame. Implicit Euler, solved by
+/// projective dynamics (Bouaziz et al. 2014) accelerated with L-BFGS (Liu, Bouaziz, Kavan 2017), or by finite
+/// elements with Newton's method.
 class Simulator {
  public:
   /// @throw std::invalid_argument if topology, material or config do not describe a body.
@@ -30,8 +30,8 @@ class Simulator {
   /// body_pose, without velocity. If `stamp` is not after the last one, no time elapses and only the targets
   /// act. If it throws, the state does not change. With projective dynamics it allocates only in the first
   /// steps after a change of topology, and when the number of targets or contacts exceeds all earlier ones.
-  /// @throw std::invalid_argument if the body is not placed, the revision is neither the topology's nor one
-  /// of the last few, or a target cannot be used (tet, finite numbers, barycentric coordinates within 100,
+  /// @throw std::invalid_argument if the body is not placed, if the revision is not the topology's or one of
+  /// the last few, or if a target cannot be used (tet, finite numbers, barycentric coordinates within 100,
   /// weight within largestStiffness). @throw std::runtime_error if the step has no finite solution.
   void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
 
@@ -39,7 +39,7 @@ class Simulator {
   /// stays, and the confidence halves every 0.5 s.
   void stepUnobserved(const TargetSet& earlier, Nanoseconds stamp, const Surroundings& surroundings = {});
 
-  /// Static equilibrium under targets, gravity and surroundings, which must hold the body. The stamp stays,
+  /// Static equilibrium under targets, gravity and surroundings. These must hold the body. The stamp stays,
   /// the velocity becomes zero.
   /// @throw as step does.
   void settle(const TargetSet& targets, const Surroundings& surroundings = {});

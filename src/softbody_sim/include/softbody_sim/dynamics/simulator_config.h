@@ -27,15 +27,15 @@ struct SimulatorConfig {
   bool normalized_mass = false;    ///< the mass is 1 kg for every density (Kang et al. 2022, section 5.1)
   double target_stiffness = 10.0;  ///< of a target of weight 1, in units of E * mean edge length
   double load_fade_s = 0.3;        ///< time in which estimated loads fall to 1/e; 0: loads are not estimated
-  double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as this
-  /// [m/s^2], in the frame of the targets. Zero: gravity already shaped the rest shape.
+  double max_time_step_s = 0.1;    ///< longer gaps between frames are simulated as a step of this length
+  /// [m/s^2], in the frame of the targets. Zero: the rest shape already contains the effect of gravity.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   double contact_stiffness = 20.0;  ///< pressure at a depth of one mean edge length, in units of E
   double contact_spacing = 0.5;     ///< of the contact points on the surface [mean edge lengths]
 };
 
-/// Maximum of weight times target_stiffness, in units of E * mean edge length. Beside stiffer targets,
-/// rounding would erase the body's own stiffness.
+/// Maximum of weight times target_stiffness, in units of E * mean edge length. With stiffer targets, the
+/// body's own stiffness would be lost in rounding.
 double largestStiffness(const SimulatorConfig& config);
 
 /// @throw std::invalid_argument if the solver does not offer the elasticity, or if targets could be too

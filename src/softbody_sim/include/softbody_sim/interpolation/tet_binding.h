@@ -9,8 +9,9 @@ namespace softbody {
 
 /// Points that move with tets. At rest each point is at its material place. Corrections can shift the points
 /// to given positions in one deformed state. A correction is stored in the material frame of the point's tet,
-/// so that it turns and stretches with it; if that tet is too flat, in the frame of a neighbour. It scales
-/// with the strain of the piece, relative to the state that it was made in: 0 at rest, at most 1.
+/// so that it turns and stretches with the tet. If that tet is too flat, the frame of a neighbour is used.
+/// The correction is scaled with the strain of the piece, relative to the strain in the state in which the
+/// correction was made: 0 at rest, at most 1.
 class TetBinding {
  public:
   TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places);

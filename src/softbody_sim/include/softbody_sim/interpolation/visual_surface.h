@@ -9,10 +9,10 @@
 
 namespace softbody {
 
-/// The high-resolution mesh, driven by the low-resolution surface. Visual vertices inside of it have mean
-/// value coordinates (Ju et al. 2005), those outside follow the nearest tet. Both agree on the low-resolution
-/// surface, so the binding is continuous. After a cut all vertices follow tets: mean value coordinates are
-/// undefined where the two walls of a slit coincide.
+/// The high-resolution mesh, driven by the low-resolution surface. Visual vertices inside this surface have
+/// mean value coordinates (Ju et al. 2005). Visual vertices outside follow the nearest tet. Both agree on the
+/// low-resolution surface, so the binding is continuous. After a cut all vertices follow tets: mean value
+/// coordinates are undefined where the two walls of a slit coincide.
 class VisualSurface {
  public:
   /// Computes the weights, once. @throw std::invalid_argument if the volume's surface is not closed.
@@ -28,7 +28,7 @@ class VisualSurface {
   /// Sets the revision of mesh and binding.
   void setRevision(std::uint32_t revision);
 
-  /// Number of visual vertices that lie outside the low-resolution surface by more than rounding.
+  /// Number of visual vertices that lie outside the low-resolution surface, by more than a rounding error.
   int outsideCount() const;
 
   /// Visual vertices, and their confidences, for a state of the volume.

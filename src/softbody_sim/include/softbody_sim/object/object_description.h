@@ -11,7 +11,7 @@
 
 namespace softbody {
 
-/// A user's object YAML (ARCHITECTURE: "Files that a user writes"), with absolute paths.
+/// A user's object YAML (docs/your_own_object.md), with absolute paths.
 struct ObjectDescription {
   std::string visual_mesh;
   std::string cage_mesh;  ///< empty: made from visual_mesh and cached

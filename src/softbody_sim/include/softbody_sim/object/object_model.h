@@ -11,7 +11,7 @@ namespace softbody {
 
 /// How a volume is made if the object has no tet mesh.
 struct VolumeSettings {
-  int cage_vertices = 0;  ///< approximate number of vertices of the low-resolution surface; 0: from its shape
+  int cage_vertices = 0;  ///< approximate number of vertices of the low-resolution surface; 0: automatic
   bool use_cache = true;  ///< $XDG_CACHE_HOME/softbody or ~/.cache/softbody, by content
   std::function<void(double)> progress = [](double) {};  ///< called with the finished fraction, 0..1
 };
@@ -21,7 +21,7 @@ struct ObjectModel {
   MeshTopology visual;  ///< revision 0
   TetTopology volume;   ///< revision 0, its surface is the low-resolution surface
   Material material;
-  Warnings warnings;  ///< also the description's: repairs, vertices outside of the tets
+  Warnings warnings;  ///< repairs, vertices outside of the tets; also the description's warnings
 };
 
 /// Loads the meshes that the description names, welds and repairs them, and makes the missing ones (cage,

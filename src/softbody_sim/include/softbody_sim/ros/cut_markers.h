@@ -14,7 +14,7 @@ visualization_msgs::Marker makeCutLinesMarker(const Edges& lines, const Points& 
                                               const std_msgs::Header& header);
 
 /// The pieces that a cut would leave, each in its own colour and slightly above the surface, and the lines of
-/// all cuts. They disappear after one second.
+/// all cuts. Each message is shown for one second.
 /// @param vertices of the mesh after the cut, at the present shape [m].
 visualization_msgs::MarkerArray makePreviewMarkers(const MeshTopology& pieces, const Edges& lines,
                                                    const Points& vertices, const std_msgs::Header& header);

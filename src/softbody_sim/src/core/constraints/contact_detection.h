@@ -26,9 +26,9 @@ struct Contact {
 };
 
 /// One contact for each pair of point and obstacle closer than `reach_m`, sorted by obstacle, then by point.
-/// Detection is continuous: a point that was outside touches where its path, relative to the moving obstacle,
-/// first meets it. So no point passes through a thin or fast obstacle between two steps. A point that was
-/// inside touches the nearest surface point.
+/// Detection is continuous: a point that was outside touches the obstacle where its path, relative to the
+/// moving obstacle, first meets it. So no point passes through a thin or fast obstacle between two steps. A
+/// point that was inside touches the nearest surface point.
 /// @param before, after vertices at the start of the step and now [m].
 /// @param before_poses of the obstacles at the start of the step.
 void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, const Points& before,
@@ -36,8 +36,8 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
                   const std::vector<Eigen::Isometry3d>& before_poses, double reach_m,
                   std::vector<Contact>* contacts);
 
-/// Adds the contacts of `earlier` that were not found again. Otherwise a point that a contact has pushed out
-/// of the obstacle's path would fall back. Both lists are ordered as by findContacts.
+/// Adds the contacts of `earlier` that were not found again. Otherwise a point would fall back after a
+/// contact has pushed it out of the obstacle's path. Both lists are ordered as by findContacts.
 void addEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
 
 /// The order of findContacts.

@@ -18,7 +18,7 @@ struct BodyState {
   MeshState mesh;
   StepReport report;
   Reactions reactions;
-  std::vector<Eigen::Isometry3d> obstacle_poses;  ///< at the end of the last step; empty: no last step
+  std::vector<Eigen::Isometry3d> obstacle_poses;  ///< at the end of the last step; empty: no step yet
 };
 
 /// Places the rest shape at a pose, without velocity and loads.

@@ -8,12 +8,13 @@
 namespace softbody {
 
 /// Estimates the unknown external loads on an observed body. The springs of the targets carry the forces that
-/// the known loads do not explain. They act where the camera sees the body, but hands and grippers act
-/// anywhere. So the spring forces are smoothed over the body, f <- M (M + l^2 L)^-1 f, with the Laplacian L
-/// of the tets and the body's size l (a screened Poisson equation, which keeps the total force). The result
-/// is added up over the frames until the springs are slack. This is a controller's integral action, and a
-/// gradient step towards the smallest forces that explain the observations. The estimate is balanced on each
-/// connected piece: rigid motion is left to the springs, so an occluded body stays in place.
+/// the known loads do not explain. The springs act only where the camera sees the body, but hands and
+/// grippers act anywhere. So the spring forces are smoothed over the body, f <- M (M + l^2 L)^-1 f, with the
+/// Laplacian L of the tets and the body's size l (a screened Poisson equation, which keeps the total force).
+/// The results of all frames are added until the springs carry no force. This is the integral action of a
+/// controller, and a gradient step towards the smallest forces that explain the observations. On each
+/// connected piece the estimate has no net force or torque: only the springs move a piece rigidly, so an
+/// occluded body stays in place.
 class LoadEstimator {
  public:
   /// @param masses lumped, #V [kg]. @param fade_s time in which loads fall to 1/e; 0: loads are not

@@ -131,8 +131,8 @@ HWY_INLINE hn::Mask<D> converged(D d, const Deformation<V>& a) {
   return hn::Lt(hn::Abs(a.step), hn::Mul(hn::Set(d, sizeof(T) == 4 ? T(3e-4) : T(2e-8)), a.trace));
 }
 
-/// The largest root of the quartic in extractRotation(). Each operation waits for the one before; several
-/// vectors at once fill the gaps.
+/// The largest root of the quartic in extractRotation(). Each operation waits for the previous one. Several
+/// vectors are processed at once to use the waiting time.
 template <std::size_t kVectors, class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
 HWY_INLINE void findTraces(D d, Deformation<V>* all) {
   const V three = hn::Set(d, T{3}), four = hn::Set(d, T{4});
@@ -192,7 +192,7 @@ struct Response {
   Mat3<V> stress;
 };
 
-/// Recomputes lane by lane those whose rotation is nearly not unique.
+/// Recomputes, lane by lane, the tets whose rotation is not or hardly unique.
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
 HWY_NOINLINE void respondOneByOne(D d, hn::Mask<D> wanted, T mu, T lambda, V volume, const Mat3<V>& F,
                                   Response<V>* response) {

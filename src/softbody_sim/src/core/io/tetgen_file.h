@@ -6,8 +6,9 @@
 
 namespace softbody {
 
-/// TetGen's .node and .ele files (TetGen manual, "File formats"). Tets come in any orientation, with checked
-/// indices. @param path of either file. @throw std::invalid_argument with file, line and error.
+/// TetGen's .node and .ele files (TetGen manual, "File formats"). The orientation of the tets is as in the
+/// file; their indices are checked. @param path of either file. @throw std::invalid_argument with file, line
+/// and error.
 TetMesh readTetGen(const std::string& path);
 
 }  // namespace softbody

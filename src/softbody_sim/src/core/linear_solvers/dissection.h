@@ -11,9 +11,9 @@ struct Dissection {
   int first = 0, separator = 0, second = 0;  ///< number of rows
 };
 
-/// Separates by a level of a breadth-first search from a peripheral vertex (George and Liu 1981): the one
-/// that makes products with the inverses of both parts cheapest. @param lower compressed lower triangle, for
-/// its pattern.
+/// Separates by a level of a breadth-first search from a peripheral vertex (George and Liu 1981). It takes
+/// the level with the cheapest products with the inverses of both parts. @param lower compressed lower
+/// triangle, for its pattern.
 Dissection dissect(const Eigen::SparseMatrix<double>& lower);
 
 }  // namespace softbody

@@ -17,8 +17,9 @@ namespace softbody {
 template <typename T>
 class GlobalStepSolver {
  public:
-  /// With up to this many rank-one changes an update is faster than a new factorisation, for every body. The
-  /// limit is about 24 for 300 tets, 50 for 1000, and larger for more (bench_projective_dynamics, `update`).
+  /// Up to this many rank-one changes, an update is faster than a new factorisation for a body of any size.
+  /// The true limit is about 24 for 300 tets, 50 for 1000, and larger for more (bench_projective_dynamics,
+  /// `update`).
   static constexpr std::size_t kMaxUpdates = 16;
 
   /// @param lower compressed lower triangle of A, for its pattern.

@@ -10,8 +10,8 @@
 namespace softbody {
 
 /// Inverse of a small symmetric positive definite A in three dense blocks. A few vertices S separate the
-/// others into P and Q; then the blocks hold less than two thirds of the numbers of A^-1. First x_S =
-/// (A^-1)_S b, then each part alone, x_P = A_PP^-1 (b_P - A_PS x_S).
+/// others into P and Q. The blocks then hold less than two thirds of the numbers of A^-1. A solve computes
+/// x_S = (A^-1)_S b first, then each part separately: x_P = A_PP^-1 (b_P - A_PS x_S), and Q likewise.
 template <typename T>
 class SplitInverse {
  public:

@@ -7,7 +7,7 @@
 namespace softbody {
 
 /// Index of a width's function in Highway's tables (HWY_DISPATCH_TABLE). HWY_DYNAMIC_DISPATCH would choose
-/// once per process; this chooses per object. Call it from the file that fills the table.
+/// once for the process. This function chooses for each object. Call it from the file that fills the table.
 inline std::size_t dispatchIndex(Simd simd) {
   hwy::ChosenTarget chosen;
   switch (supportedSimd(simd)) {

@@ -18,7 +18,7 @@ struct WeldedSurface {
 struct EdgeReport {
   int open = 0;          ///< edges with one triangle
   int branching = 0;     ///< edges with more than two triangles
-  int inconsistent = 0;  ///< edges that both triangles run through in the same direction
+  int inconsistent = 0;  ///< edges with the same direction in both triangles
   Eigen::Vector2i example = Eigen::Vector2i::Constant(-1);  ///< one of the open or branching edges
 
   bool closed() const { return open == 0 && branching == 0; }

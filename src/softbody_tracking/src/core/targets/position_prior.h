@@ -11,7 +11,8 @@ namespace softbody {
 class PositionPrior {
  public:
   /// Weight of such a target; a target from a measurement has about 1. Such a target is far stiffer than a
-  /// vertex's inertia, far softer than any measurement, and too small for the vertex to count as observed.
+  /// vertex's inertia and far softer than any measurement. A vertex with such a target does not count as
+  /// observed.
   static constexpr double kPriorWeight = 0.01;
 
   explicit PositionPrior(const TetTopology& volume);

@@ -19,8 +19,8 @@ struct CutPreview {
 };
 
 /// The visual mesh of a body that is cut, and the tets that it is bound to. A cut is made if the visual mesh
-/// can be cut; the coarser tets follow as far as possible. A simulator that gets the same cuts has the same
-/// tets.
+/// can be cut. The coarser tets follow it as far as possible. A simulator that gets the same cuts has the
+/// same tets.
 class CuttableSurface {
  public:
   /// @throw std::invalid_argument if the volume's surface is not closed.
@@ -34,7 +34,7 @@ class CuttableSurface {
 
   /// Cuts along the motion of the blade since the last call. @return the cut that was made, if any.
   /// @param blade polygon in the frame of the volume's state, the same in every call [m].
-  /// @param volume state of the volume at that time; nothing is cut if its revision differs.
+  /// @param volume state of the volume at that time. If its revision differs, nothing is cut.
   /// @param stamp of the blade. Motion across a gap or a jump back in time cuts nothing.
   std::optional<Cut> follow(const Points& blade, const MeshState& volume, Nanoseconds stamp);
 
@@ -43,7 +43,7 @@ class CuttableSurface {
 
   /// Tears overstretched material; to be called with every state. @return the cut that was made, if any. A
   /// tear is a separate stroke. It never leaves a piece smaller than 1 % of the body. @param volume its
-  /// state; nothing tears if its revision differs.
+  /// state. If its revision differs, nothing tears.
   std::optional<Cut> tear(const MeshState& volume);
 
   /// A cut as a separate stroke, for apply(). The patch is rounded as it is published.
@@ -56,8 +56,8 @@ class CuttableSurface {
   /// the patch is not an oriented surface.
   bool apply(const Cut& cut, const MeshState& volume, std::string* reason);
 
-  /// To be called when the simulator has reached this revision: rollBack can then no longer return to earlier
-  /// ones, and their memory is freed.
+  /// To be called when the simulator has reached this revision. It frees the memory of earlier revisions, so
+  /// rollBack can no longer return to them.
   void confirm(std::uint32_t revision);
 
   /// Removes the cuts after the revision that the simulator has reached, as if they had never been made.

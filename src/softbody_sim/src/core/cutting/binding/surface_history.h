@@ -22,13 +22,13 @@ class SurfaceHistory {
   /// Changes nothing. @throw std::invalid_argument as cutSurface.
   SurfaceCut preview(const CutPatch& patch, std::uint32_t stroke) const;
 
-  /// Takes over the edit of the tets and the result of preview for the same patch and stroke. A missed or
-  /// refused mesh is as before the stroke. A new stroke begins as in CutHistory.
+  /// Takes over the edit of the tets and the result of preview for the same patch and stroke. If the mesh was
+  /// missed or refused, it stays as before the stroke. A new stroke begins as in CutHistory.
   /// @param volume state of the tets before the edit, in which the surface must not jump.
   void cut(const CutPatch& patch, std::uint32_t stroke, SurfaceCut cut, const TetEdit& edit,
            const MeshState& volume);
 
-  /// Adds a part to the stroke that does not cut anything yet.
+  /// Adds to the stroke a part that does not cut anything yet.
   void advance(const CutPatch& patch, std::uint32_t stroke);
 
   /// @param revision of the tets after the same step. @return false if there is no stroke to undo or redo.

@@ -35,9 +35,9 @@ class BladeStroke {
   std::optional<BladeCut> follow(const Points& blade, const RestMap& map, const RestSolid& solid);
   void accept();
 
-  /// To be called when the blade is far away or not seen.
+  /// To be called when the blade is far away or is not seen.
   void lift() { active_ = false, clear_.resize(0, 3); }
-  /// Ends all strokes: after a cut that the blade did not make, or an undo.
+  /// Ends all strokes. To be called after an undo, or after a cut that the blade did not make.
   void forgetStrokes();
   /// Reserves the number of another stroke.
   void noteNumber(std::uint32_t number) { last_number_ = std::max(last_number_, number); }
@@ -66,7 +66,7 @@ class BladeStroke {
   std::vector<int> parts_;  ///< per side of the polygon, its number of parts
   Points clear_;  ///< outline without the touching margin, when the blade was last outside of the body
   std::vector<Stroke> strokes_;
-  bool active_ = false;  ///< the last one of strokes_ continues
+  bool active_ = false;  ///< the last stroke in strokes_ continues
   Points asked_;         ///< front after the requested cut
   CutPatch asked_patch_;
   std::uint32_t last_number_ = 0;

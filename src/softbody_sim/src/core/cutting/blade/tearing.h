@@ -18,7 +18,7 @@ class TearWatch {
   /// states. It is a section through the most stretched tet, perpendicular to its principal direction, and
   /// through the connected tets that are beyond the limit. It overhangs the body's surface by a tenth of a
   /// mean edge. After a patch the counting restarts. If the patch does not become a cut, the same tet gives
-  /// no further one until it has been within the limit or is stretched 1.1 times as far.
+  /// no further patch until it has been within the limit, or until it is stretched 1.1 times as far.
   /// @param vertices of the volume in the next state [m].
   std::optional<CutPatch> follow(const TetTopology& volume, const Points& vertices);
 

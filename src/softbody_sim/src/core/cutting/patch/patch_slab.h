@@ -7,8 +7,8 @@
 
 namespace softbody {
 
-/// Two parallel planes around a patch. They show quickly that most of a body is off the patch: one test per
-/// vertex.
+/// Two parallel planes around a patch. With one test per vertex they show that most of a body is away from
+/// the patch.
 class PatchSlab {
  public:
   explicit PatchSlab(const TriangleMesh& patch);

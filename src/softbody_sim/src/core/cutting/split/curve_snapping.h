@@ -9,7 +9,8 @@ namespace softbody {
 /// @param distance: smallest length of a new edge [m]; new triangles are at least half as high.
 void snapCurve(double distance, SplitSurface* surface);
 
-/// Splits the segments of the curve without a neighbour at either end: a slit needs a vertex that can open.
+/// Splits each segment of the curve that has no neighbour at either end, because a slit needs a vertex that
+/// can open.
 void splitLoneSegments(SplitSurface* surface);
 
 /// The smallest of a triangle's three heights.

@@ -12,7 +12,7 @@ struct StitchedSurface {
                            ///< its front
   std::vector<int> mates;
   std::vector<int> copied_from;  ///< per vertex: its vertex of the split surface, or the original of the
-                                 ///< copy; -1: a wall's own
+                                 ///< copy; -1: a new vertex of a wall
 };
 
 /// Opens a surface along the curve of a cut and closes it with two walls, mirror images of each other.

@@ -13,7 +13,7 @@ namespace softbody {
 std::vector<Face> facesAlong(const PatchIntersector& patch, const Points& vertices, const Tets& tets,
                              const std::vector<bool>& on_cut);
 
-/// A crack opened as far as the surface stays a closed 2-manifold.
+/// A crack, opened only where the surface stays a closed 2-manifold.
 struct ManifoldCrack {
   OpenedTets opened;
   Triangles surface;               ///< of the opened tets

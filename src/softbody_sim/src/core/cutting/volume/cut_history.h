@@ -23,9 +23,9 @@ class CutHistory {
   /// changes.
   std::shared_ptr<const TetEdit> version() const { return versions_[at_]; }
 
-  /// Cuts along a patch. A stroke number that differs from the last call begins a new stroke, and so does any
-  /// number after undo, redo or reset. Without an edit only the progress of the stroke changes, and `reason`
-  /// says why. After an edit, undone strokes cannot be redone.
+  /// Cuts along a patch. A new stroke begins if the stroke number differs from that of the last call. After
+  /// undo, redo or reset, any number begins a new stroke. If there is no edit, only the progress of the
+  /// stroke changes, and `reason` says why. After an edit, undone strokes cannot be redone.
   /// @throw std::invalid_argument as cutTets.
   std::optional<TetEdit> cut(const CutPatch& patch, std::uint32_t stroke, std::string* reason);
 

@@ -14,7 +14,7 @@ double tetQuality(const Points& vertices, const Eigen::RowVector4i& tet);
 struct SubdivisionSettings {
   double snap_fraction =
       0.02;  ///< a crossing closer to an edge's end than this, in edge lengths, moves there
-  double least_quality = 0.02;   ///< also one that would make a tet of lower quality (tetQuality)
+  double least_quality = 0.02;   ///< it also moves there if a tet of lower quality would result (tetQuality)
   double worst_quality = 0.001;  ///< the same limit at spared vertices
 };
 
@@ -27,7 +27,7 @@ struct CutSubdivision {
 };
 
 /// Splits crossed edges at the crossing, or puts an end of the edge on the cut. @param on_cut per vertex:
-/// already lies on the cut. @param spared per vertex: is put on the cut for the worst slivers only.
+/// already lies on the cut. @param spared per vertex: put on the cut only to avoid the worst slivers.
 CutSubdivision subdivide(const Points& vertices, const Tets& tets, const std::vector<EdgeCrossing>& crossings,
                          const SubdivisionSettings& settings, std::vector<bool> on_cut,
                          const std::vector<bool>& spared);

@@ -11,10 +11,10 @@ namespace softbody {
 struct EdgeCrossing {
   int a = -1;
   int b = -1;      ///< a < b
-  int tet = -1;    ///< one of the edge's
+  int tet = -1;    ///< one of the tets at the edge
   double t = 0.0;  ///< fraction of the way from a to b
   int nearEnd() const { return t < 0.5 ? a : b; }
-  double fraction() const { return t < 0.5 ? t : 1.0 - t; }  ///< from the near end
+  double fraction() const { return t < 0.5 ? t : 1.0 - t; }  ///< from the nearer end
 };
 
 /// The edges whose ends the patch separates, the longest first, each once. Edges with an end in `on_cut` are

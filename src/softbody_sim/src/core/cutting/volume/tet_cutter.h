@@ -23,8 +23,8 @@ struct CutStroke {
 /// Cuts the tets along a patch, one step of a stroke.
 ///
 /// The mesh stays conforming: every decision belongs to an edge, a face or a vertex, never to a tet. (1) The
-/// patch separates the ends of an edge or not. (2) Separated edges are split at the crossing, or their near
-/// end is put on the cut; then every tet is on one side. (3) A face is cut if its vertices are on the cut and
+/// patch separates the ends of an edge or not. (2) Separated edges are split at the crossing, or their nearer
+/// end is put on the cut. Then every tet is on one side. (3) A face is cut if its vertices are on the cut and
 /// the patch separates its tets. (4) Vertices are duplicated where cut faces separate their tets. Faces that
 /// would make the surface non-manifold stay closed until the stroke has advanced.
 ///
