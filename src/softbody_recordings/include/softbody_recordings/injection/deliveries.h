@@ -8,9 +8,9 @@
 
 namespace softbody::injection {
 
-/// Faults of the delivery from the camera to the tracker. A share is of the stream's images, 0..1, and holds
-/// in every run of 20 images. The choice depends only on the seed and the image's number, so a live stream
-/// and a bag get the same faults.
+/// Faults of the delivery from the camera to the tracker. A share is a part of the stream's images, 0..1. It
+/// is reached after every 20 images. The choice depends only on the seed and the image's number, so a live
+/// stream and a bag get the same faults.
 struct DeliveryFaults {
   std::uint64_t seed = 1;
   double drop_share = 0.0;       ///< never arrive
@@ -40,11 +40,11 @@ struct Arrival {
   Nanoseconds stamp_shift = 0;  ///< error of its stamp
 };
 
-/// All arrivals of a stream's images, in the order of the images. @param received their arrivals without
+/// All arrivals of a stream's images, in the order of the images. @param received arrival times without
 /// faults.
 std::vector<Arrival> planArrivals(const std::vector<Nanoseconds>& received, const DeliveryFaults& faults);
 
-/// Chooses `round(share * count)` of `count` things. @param purpose makes choices of the same seed
+/// Chooses `round(share * count)` of `count` things. @param purpose makes choices with the same seed
 /// independent.
 std::vector<bool> choose(std::size_t count, double share, std::uint64_t seed, std::uint64_t purpose);
 

@@ -12,8 +12,8 @@ struct ImageFaults {
   double occluder_u = 0.5, occluder_v = 0.5;  ///< its centre, in widths and heights of the image
   double occluder_m = 0.25;                   ///< its distance [m]
   double occluder_from_s = 0.0, occluder_for_s = 1e9;  ///< after the first image
-  double hole_share = 0.0;       ///< of the depth image's 8 x 8 blocks, 0..1; other blocks in every image
-  double misplaced_share = 0.0;  ///< of the colour image's 24 x 24 blocks, 0..1; other blocks in every image
+  double hole_share = 0.0;       ///< of the depth image's 8 x 8 blocks, 0..1; new blocks in every image
+  double misplaced_share = 0.0;  ///< of the colour image's 24 x 24 blocks, 0..1; new blocks in every image
 };
 
 /// The occluder's pixels: a rectangle of the image's shape, clipped to the image.

@@ -21,7 +21,7 @@ struct FrameOutput {
   std::optional<MeshState> volume;  ///< in the fixed frame, as the surface; empty until the body is found
   std::optional<MeshState> surface;
   std::optional<ToolObservation> tool;
-  std::vector<Cut> cuts;              ///< of this frame; the states are of the revision after them
+  std::vector<Cut> cuts;              ///< of this frame; the states have the revision after these cuts
   std::vector<std::string> warnings;  ///< reasons why a cut was not made
   std::vector<StageTime> times;
 };
@@ -44,18 +44,18 @@ class Pipeline {
   const TetTopology& volumeTopology() const { return simulator_.topology(); }
   const MeshTopology& surfaceTopology() const { return surface_.surface().topology(); }
 
-  /// @param cuts of this frame in addition to the tool's, e.g. from a journal. They wait until the body is
-  /// tracked.
+  /// @param cuts of this frame, e.g. from a journal, in addition to the tool's cuts. They wait until the body
+  /// is tracked.
   FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
 
-  /// Tracks only the tool, in the camera's frame, for a frame without a camera pose. Body and blade need the
-  /// pose.
+  /// Tracks only the tool, in the camera's frame. For a frame without a camera pose, which body and blade
+  /// need.
   std::optional<ToolObservation> processUnplaced(RgbdFrame frame);
 
-  /// Nothing without a tool.
+  /// Empty without a tool.
   const std::optional<ToolTracker>& toolTracker() const { return tool_tracker_; }
 
-  /// Given cuts that still wait for the body.
+  /// Number of given cuts that still wait for the body.
   std::size_t waitingCuts() const { return waiting_cuts_.size(); }
 
  private:

@@ -7,8 +7,8 @@
 
 namespace softbody {
 
-/// A bag that appears under its name only when finish() is called; without that nothing is left behind
-/// and an earlier file stays as it was.
+/// A bag that appears under its name only when finish() is called. Without finish(), no new file remains, and
+/// an earlier file stays unchanged.
 class AtomicBag {
  public:
   /// @throw std::invalid_argument if the output is a folder; rosbag::BagException if it cannot be written.

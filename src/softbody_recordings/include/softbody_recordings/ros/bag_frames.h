@@ -20,7 +20,7 @@ struct BagFramesConfig {
 /// What was read.
 struct BagFramesReport {
   int frames = 0;
-  int without_depth = 0;   ///< of these, frames that have a colour image alone
+  int without_depth = 0;   ///< of these, frames with a colour image only
   int unusable = 0;        ///< of these, frames whose images could not be converted
   std::string last_error;  ///< of the last unusable one
   UnpairedImages unpaired;

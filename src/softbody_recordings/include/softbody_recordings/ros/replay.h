@@ -31,8 +31,9 @@ struct ReplaySummary {
   double milliseconds = 0.0;                     ///< of all frames
 };
 
-/// Runs the graph's cores over a bag, every frame in order. If it throws, an earlier output stays unchanged.
-/// @param warn called with warnings. @param progress called with the done share, 0..1.
+/// Runs the core code of the graph on a bag, every frame in order. If it throws, an earlier output stays
+/// unchanged.
+/// @param warn called with warnings. @param progress called with the finished share, 0..1.
 /// @throw std::exception if a file cannot be used, or no frame gave a surface.
 ReplaySummary replay(const ReplayOptions& options, const std::function<void(const std::string&)>& warn,
                      const std::function<void(double)>& progress);

@@ -45,7 +45,7 @@ class ResultBag {
   std::string namespace_, body_frame_, output_frame_;
   Points blade_;
   bool with_timing_;
-  ros::Time revision_stamp_;  ///< of the frame from which the topologies hold
+  ros::Time revision_stamp_;  ///< of the first frame with these topologies
   std::uint32_t revision_ = 0;
   AtomicBag bag_;
 };

@@ -2,7 +2,7 @@
 
 namespace softbody {
 
-/// The tool `replay`: the graph's cores over a bag, without a ROS master.
+/// The tool `replay`: runs the core code of the graph on a bag, without a ROS master.
 /// @return the exit code: 0 done, 1 the data cannot be processed, 2 wrong usage.
 int runReplay(int argc, char** argv);
 

@@ -9,7 +9,7 @@ namespace softbody::validation {
 /// Stamps that are zero, repeated or go back; the recording's clock; rates and gaps.
 Findings checkStamps(const RecordingFacts& facts, const CheckLimits& limits);
 
-/// The time between colour and depth.
+/// The difference between the stamps of colour and depth.
 Findings checkSync(const RecordingFacts& facts, const CheckLimits& limits);
 
 }  // namespace softbody::validation

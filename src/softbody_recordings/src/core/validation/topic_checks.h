@@ -5,7 +5,7 @@
 
 namespace softbody::validation {
 
-/// Missing topics, with a remedy from what the bag holds, and wrong types.
+/// Missing topics, with a remedy that depends on the topics in the bag; and topics of a wrong type.
 Findings checkTopics(const RecordingFacts& facts);
 
 }  // namespace softbody::validation
