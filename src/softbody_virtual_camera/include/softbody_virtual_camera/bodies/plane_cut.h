@@ -9,7 +9,7 @@ namespace softbody::virtual_camera {
 /// A cut by the plane x = 0 of its frame. The z axis points up.
 struct PlaneCut {
   Eigen::Isometry3d T_rest_cut = Eigen::Isometry3d::Identity();
-  bool through = true;  ///< if false, the cut is only above z = 0, its front
+  bool through = true;  ///< if false, the cut is only above z = 0, and its front is at z = 0
 };
 
 /// A closed mesh after a cut.

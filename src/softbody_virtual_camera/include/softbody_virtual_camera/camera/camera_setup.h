@@ -17,7 +17,7 @@ struct CameraSetup {
   std::uint64_t seed = 1;
   int width = 640, height = 480;  ///< [px]
   double rate_hz = 30.0;
-  bool hands = true;  ///< if false, hands and fingers are hidden; the body moves as with them
+  bool hands = true;  ///< if false, hands and fingers are hidden; the body moves in the same way
   NoiseOptions noise;
 };
 

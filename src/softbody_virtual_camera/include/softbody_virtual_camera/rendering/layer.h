@@ -21,16 +21,16 @@ struct Canvas {
 /// An empty, dark image.
 Canvas emptyCanvas(const Pinhole& camera);
 
-/// Actors that are drawn together over a background. Only their part of the image takes time.
+/// Actors that are drawn together over a background. Only the part of the image that they cover takes time.
 class Layer {
  public:
   explicit Layer(const Pinhole& camera) : camera_(camera) {}
   void add(const Actor& actor);
 
-  /// @param vertices of its actors in their order, in the camera's frame [m]. @param to_light unit.
+  /// @param vertices of the actors, in the order of add(), in the camera's frame [m]. @param to_light unit.
   void place(const std::vector<const Points*>& vertices, const Eigen::Vector3d& to_light);
 
-  /// Draws the placed actors; @param color becomes the size of the canvas'.
+  /// Draws the placed actors. @param color gets the size of the canvas.
   void drawColor(const Canvas& behind, cv::Mat3b* color);
   void drawDepth(const Canvas& behind, cv::Mat1f* inverse_z);
 

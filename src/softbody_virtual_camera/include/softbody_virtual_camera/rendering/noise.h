@@ -61,7 +61,7 @@ struct DepthNoiseOptions {
   bool edge_dropouts = true;     ///< pixels that the right imager cannot see, and ragged edges
   double edge_jump_m = 0.02, edge_share = 0.35;
   bool holes = true;         ///< small spots without a match
-  double hole_sigmas = 3.3;  ///< of a noise of 2 px correlation
+  double hole_sigmas = 3.3;  ///< holes are where noise with 2 px correlation is larger than this
 };
 
 class DepthNoise {

@@ -9,7 +9,7 @@
 
 namespace softbody::virtual_camera {
 
-/// a u + b v + c.
+/// The function a u + b v + c of a pixel (u, v).
 struct Affine {
   double a = 0.0, b = 0.0, c = 0.0;
   double operator()(double u, double v) const { return a * u + b * v + c; }
@@ -24,7 +24,7 @@ struct EdgeLine {
 
 /// A triangle in the image plane.
 struct ProjectedTriangle {
-  EdgeLine left[2], right[2];  ///< its edges on both sides; a single edge is in both entries
+  EdgeLine left[2], right[2];  ///< its edges on the left and the right side; a single edge is in both entries
   Affine inverse_z;            ///< 1 / z [1/m]
   double min_u = 0.0, max_u = 0.0, min_v = 0.0, max_v = 0.0;
 };

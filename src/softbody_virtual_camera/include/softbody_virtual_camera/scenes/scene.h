@@ -45,7 +45,7 @@ struct Scene {
   double duration_s = 0.0;  ///< of one run; the motion continues after it
   std::vector<Actor> actors;
   std::size_t hands = 0;    ///< number of hands and fingers, the last actors; a tool is not one of them
-  std::vector<Edit> edits;  ///< from revision 1 on, one stroke of the blade each
+  std::vector<Edit> edits;  ///< from revision 1 on; each is one stroke of the blade
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< at the start; z is up
   std::function<SceneState(double t)> state;                         ///< t in seconds from the start
 };

@@ -21,7 +21,7 @@ class BakedTexture {
   /// Spacing of a triangle's texels [m].
   float texel(int triangle) const { return blocks_[static_cast<std::size_t>(triangle)].texel_m; }
 
-  /// Prefetches a triangle's texels, because all texels do not fit into the cache.
+  /// Prefetches a triangle's texels, because the cache is too small for all texels.
   void prefetch(int triangle) const {
     constexpr std::size_t kLine = 64 / sizeof(cv::Vec4b);
     const cv::Vec4b* texel = texels_.data() + blocks_[static_cast<std::size_t>(triangle)].first;

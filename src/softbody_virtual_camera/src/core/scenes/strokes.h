@@ -15,13 +15,14 @@ struct Stroke {
 };
 
 constexpr double kDown_s = 2.0, kUp_s = 1.0;
-constexpr double kTurn_s = 1.0;   ///< before a stroke: the way from the stroke before
-constexpr double kLeave_s = 1.5;  ///< after the last stroke, along x and out of view
+constexpr double kTurn_s = 1.0;   ///< before a stroke: move from the previous stroke
+constexpr double kLeave_s = 1.5;  ///< after the last stroke: move along x, out of view
 
 /// @param mesh after the cut. @throw std::invalid_argument if the blade is shorter than the face.
 Stroke makeStroke(const PlaneCut& cut, const CutMesh& mesh, const Tool& tool, double begin_s);
 
-/// The tool's pose in the body's frame: its blade in the plane of the cut, its z axis along -y of the cut.
+/// The tool's pose in the body's frame. Its blade is in the plane of the cut, and its z axis is along -y of
+/// the cut.
 Eigen::Isometry3d toolPose(const std::vector<Stroke>& strokes, const Tool& tool, double t);
 
 /// The surface swept by the blade's edge, in rest space [m].
