@@ -7,7 +7,7 @@
 namespace softbody {
 
 /// Binds every vertex of a surface to a tet, at rest. Both have the same cuts. The two walls of a slit are at
-/// the same positions: a vertex of a wall is bound to the tets behind its wall, never to another piece of the
+/// the same positions. A vertex of a wall is bound to the tets behind its wall, never to another piece of the
 /// body.
 /// @throw std::invalid_argument as TetLocator does.
 std::vector<MaterialPoint> bindSurface(const MeshTopology& surface, const TetTopology& volume);

@@ -14,7 +14,8 @@ class TetLocator {
   TetLocator(const Points& vertices, const Tets& tets);
 
   /// The tet that contains the point, with barycentric coordinates. For a point outside of the mesh: the
-  /// nearest tet with extrapolated coordinates, which reproduce the point. The lowest tet index wins a tie.
+  /// nearest tet, with extrapolated coordinates that reproduce the point. If several tets are equally near,
+  /// the one with the lowest index is used.
   /// @throw std::invalid_argument if the point is not finite.
   MaterialPoint locate(const Eigen::Vector3d& point) const;
 

@@ -17,15 +17,15 @@ struct FrameOcclusion {
   std::vector<float> covered_errors;     ///< of the hidden vertices [m]
 };
 
-/// A time in which more than a quarter of the vertices visible at first are hidden or out of view.
+/// An interval in which more than a quarter of the vertices visible at first are hidden or out of view.
 struct Absence {
   double begin_s = 0.0, end_s = 0.0;
   double covered_share = 0.0;        ///< largest share
   double normal = kNothing;          ///< error at its end for the same motion without occluders, if known;
                                      ///< otherwise p95 of the mean errors before the first absence [m]
   Summary covered;                   ///< errors of the hidden vertices [m]
-  std::optional<double> recovery_s;  ///< from the end until the error is normal; empty: never
-  std::optional<double> recovery_to_before_s;  ///< the same, always against the error before
+  std::optional<double> recovery_s;  ///< from the interval's end until the error is normal; empty: never
+  std::optional<double> recovery_to_before_s;  ///< the same, always compared with the error before
 };
 
 /// The absences of at least 0.2 s. The error is normal again when it is at most 1.2 times the normal error

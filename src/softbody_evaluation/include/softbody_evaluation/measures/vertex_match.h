@@ -12,8 +12,8 @@ namespace softbody::evaluation {
 std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
 
 /// Whether both are made from the same file: vertices of the same index in the file have the same position at
-/// rest, within a millionth of the truth's diagonal plus rounding. Ignores vertices that only one of the two
-/// has. False if there are no common vertices.
+/// rest, within a millionth of the truth's diagonal plus rounding. Vertices that are in only one of the two
+/// are ignored. False if there are no common vertices.
 bool sameMesh(const MeshTopology& mesh, const MeshTopology& truth);
 
 /// Matches vertices across cuts. A vertex that a cut copied is matched to the copy on the same side: a copy

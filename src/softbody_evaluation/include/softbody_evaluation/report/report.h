@@ -21,10 +21,10 @@ namespace softbody::evaluation {
 struct FrameCount {
   std::size_t expected = 0;             ///< frames of the truth or of the recording
   std::size_t answered = 0;             ///< of these: with a surface of the same stamp
-  std::optional<std::size_t> recorded;  ///< images in the recording, which may have lost some
+  std::optional<std::size_t> recorded;  ///< images in the recording, without lost images
 };
 
-/// The result's pieces against the true pieces, from the first cut of either on.
+/// The result's pieces compared with the true pieces. Begins with the first cut of either of them.
 struct PiecesReport {
   std::size_t frames = 0;       ///< answered frames since then
   double frames_right = 0.0;    ///< share of them with the true number of pieces, 0..1
@@ -32,7 +32,7 @@ struct PiecesReport {
   std::size_t result_pieces = 0, true_pieces = 0;  ///< in the last of these frames
 };
 
-/// All that was measured of a result.
+/// Everything that was measured of a result.
 struct Report {
   FrameCount frames;
   std::map<std::string, std::size_t> states;  ///< frames by the tracker's state, if the result has states

@@ -13,7 +13,7 @@ struct TruthSimulationOptions {
 
 /// Simulates the body with exact targets for all vertices that the truth's camera sees, and no other targets.
 /// The error of the output is the error that remains with a perfect tracker.
-/// @param progress is called with the done share, 0..1.
+/// @param progress called with the finished share, 0..1.
 /// @throw std::invalid_argument if a file cannot be used, the object is not the truth's, or the truth is cut.
 void simulateTruth(const TruthSimulationOptions& options, const std::function<void(double)>& progress);
 

@@ -15,7 +15,7 @@ class Overlays {
   /// @param result in the camera's frame; must outlive the overlays.
   Overlays(const SurfaceRecord& result, int count);
 
-  /// Draws the frame if it is one of the chosen. @param number of the frame in the recording.
+  /// Draws the frame if it is one of the chosen frames. @param number of the frame in the recording.
   void add(const RecordedFrame& frame, int number);
 
   /// The overlays on one picture; empty if none was drawn.
