@@ -23,7 +23,7 @@ struct ToolDescription {
   std::vector<std::string> warnings;
 };
 
-/// Reads a tool YAML. A tool may be 2 m long at most.
+/// Reads a tool YAML. A tool may be at most 2 m long.
 /// @throw std::invalid_argument with file, line, key, value and what is allowed.
 ToolDescription loadToolDescription(const std::string& yaml_path);
 

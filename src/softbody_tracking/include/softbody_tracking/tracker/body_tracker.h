@@ -41,8 +41,8 @@ class BodyTracker {
   explicit BodyTracker(const TrackerConfig& config);
   ~BodyTracker();
 
-  /// Sets the body's models. With a greater revision they are the same body after an edit: tracking goes on,
-  /// and the next state must have this revision. Otherwise tracking starts again.
+  /// Sets the body's models. If their revision is greater, they are the same body after an edit. Then
+  /// tracking continues, and the next state must have this revision. Otherwise tracking starts again.
   /// @throw std::invalid_argument if the volume has no tet, or if a tet or a triangle names a missing vertex.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   /// Whether the models are set.
