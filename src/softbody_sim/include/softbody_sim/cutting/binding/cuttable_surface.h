@@ -52,8 +52,8 @@ class CuttableSurface {
   Cut edit(CutKind kind) const;
 
   /// Makes a cut. If it returns false, with a `reason`, or throws, nothing has changed. @param volume state
-  /// of the volume before the cut, in which the visual mesh does not jump. @throw std::invalid_argument if
-  /// the patch is not an oriented surface.
+  /// of the volume before the cut; in this state the cut does not move the visual mesh. @throw
+  /// std::invalid_argument if the patch is not an oriented surface.
   bool apply(const Cut& cut, const MeshState& volume, std::string* reason);
 
   /// To be called when the simulator has reached this revision. It frees the memory of earlier revisions, so

@@ -24,7 +24,7 @@ class SurfaceHistory {
 
   /// Takes over the edit of the tets and the result of preview for the same patch and stroke. If the mesh was
   /// missed or refused, it stays as before the stroke. A new stroke begins as in CutHistory.
-  /// @param volume state of the tets before the edit, in which the surface must not jump.
+  /// @param volume state of the tets before the edit; in this state the edit must not move the surface.
   void cut(const CutPatch& patch, std::uint32_t stroke, SurfaceCut cut, const TetEdit& edit,
            const MeshState& volume);
 

@@ -39,7 +39,7 @@ class BladeStroke {
   void lift() { active_ = false, clear_.resize(0, 3); }
   /// Ends all strokes. To be called after an undo, or after a cut that the blade did not make.
   void forgetStrokes();
-  /// Reserves the number of another stroke.
+  /// Reserves a number for another stroke.
   void noteNumber(std::uint32_t number) { last_number_ = std::max(last_number_, number); }
   std::uint32_t lastNumber() const { return last_number_; }
 
