@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kRings = 14, kRingVertices = 9;  // of the cage
 constexpr int kPointRings = 50, kRingPoints = 373;
-constexpr double kPi = 3.14159265358979323846, kRadius_m = 0.1;
+constexpr double kRadius_m = 0.1;
 
 /// On the bumpy ball, at a polar angle and an azimuth.
 Eigen::RowVector3d bumpyBall(double polar, double azimuth) {
@@ -23,12 +23,12 @@ TriangleMesh makeCage() {
   const auto index = [](int ring, int k) { return 1 + ring * kRingVertices + k % kRingVertices; };
   TriangleMesh cage{Points(last + 1, 3), Triangles()};
   cage.vertices.row(0) = bumpyBall(0.0, 0.0);
-  cage.vertices.row(last) = bumpyBall(kPi, 0.0);
+  cage.vertices.row(last) = bumpyBall(M_PI, 0.0);
   std::vector<Eigen::RowVector3i> faces;
   for (int k = 0; k < kRingVertices; ++k) {
     for (int ring = 0; ring < kRings; ++ring) {
       cage.vertices.row(index(ring, k)) =
-          bumpyBall(kPi * (ring + 1) / (kRings + 1), 2.0 * kPi * k / kRingVertices);
+          bumpyBall(M_PI * (ring + 1) / (kRings + 1), 2.0 * M_PI * k / kRingVertices);
       if (ring + 1 == kRings) continue;
       faces.emplace_back(index(ring, k), index(ring + 1, k), index(ring + 1, k + 1));
       faces.emplace_back(index(ring, k), index(ring + 1, k + 1), index(ring, k + 1));
@@ -52,8 +52,8 @@ DollSize makeDollSize() {
   for (Eigen::Index p = 0; p < doll.points.rows(); ++p) {
     const Eigen::Index ring = p / kRingPoints, k = p % kRingPoints;
     const double depth = 0.78 + 0.12 * uniform(random);
-    doll.points.row(p) = depth * bumpyBall(kPi * (static_cast<double>(ring) + 0.5) / kPointRings,
-                                           2.0 * kPi * static_cast<double>(k) / kRingPoints);
+    doll.points.row(p) = depth * bumpyBall(M_PI * (static_cast<double>(ring) + 0.5) / kPointRings,
+                                           2.0 * M_PI * static_cast<double>(k) / kRingPoints);
   }
   return doll;
 }

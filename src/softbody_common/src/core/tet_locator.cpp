@@ -12,7 +12,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of a squared distance; slivers magnify rounding errors
+constexpr double kRoundingOfSquares = 1e-6;  // of a squared distance; slivers magnify rounding errors
 
 /// Squared distance of a point outside of the tet. The nearest point is on a face that is opposite to a
 /// corner with a negative coordinate.
@@ -110,7 +110,7 @@ double TetLocator::squaredDistanceToPlanes(int tet, const Eigen::Vector4d& baryc
 
 void TetLocator::consider(const Eigen::Vector3d& point, int tet, Candidate* best) const {
   const Eigen::Vector4d barycentric = barycentricIn(tet, point);
-  if (squaredDistanceToPlanes(tet, barycentric) > (1.0 + kRounding) * best->squared_distance) return;
+  if (squaredDistanceToPlanes(tet, barycentric) > (1.0 + kRoundingOfSquares) * best->squared_distance) return;
   const double distance =
       barycentric.minCoeff() >= 0.0 ? 0.0 : squaredDistanceToTet(point, barycentric, vertices_, tets_, tet);
   if (distance < best->squared_distance || (distance == best->squared_distance && tet < best->tet)) {

@@ -22,7 +22,7 @@ namespace {
 constexpr char kBodyFrame[] = "softbody";
 constexpr double kFirm = 100.0;  // weight of a target; errors are then hundredths of a millimetre
 
-SurfaceRecord readTruth(const std::string& path) {
+SurfaceRecord readTrueSurface(const std::string& path) {
   SurfaceRecord truth = readSurface(path, std::string("/") + virtual_camera::kTruthTopologyTopic,
                                     std::string("/") + virtual_camera::kTruthStateTopic);
   if (truth.topologies.size() != 1 || truth.topologies.begin()->first != 0)
@@ -49,7 +49,7 @@ SimulatorConfig convergedConfig() {
 class TruthSimulation {
  public:
   TruthSimulation(const TruthSimulationOptions& options, const ObjectModel& model)
-      : truth_(readTruth(options.truth)),
+      : truth_(readTrueSurface(options.truth)),
         simulator_(model.volume, model.material, convergedConfig()),
         surface_(model.visual, model.volume),
         bag_(options.output) {

@@ -10,7 +10,7 @@
 namespace softbody::injection {
 namespace {
 
-constexpr std::uint32_t kQueue = 30;
+constexpr std::uint32_t kCameraInfoQueue = 30;
 
 /// "camera/color/image_raw" as "camera_faulty/color/image_raw".
 std::string faulty(const std::string& topic) {
@@ -19,10 +19,10 @@ std::string faulty(const std::string& topic) {
 }
 
 ros::Subscriber relay(ros::NodeHandle* handle, const std::string& topic, ros::Publisher* publisher) {
-  *publisher = handle->advertise<sensor_msgs::CameraInfo>(faulty(topic), kQueue);
+  *publisher = handle->advertise<sensor_msgs::CameraInfo>(faulty(topic), kCameraInfoQueue);
   const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> pass =
       [publisher](const sensor_msgs::CameraInfoConstPtr& info) { publisher->publish(info); };
-  return handle->subscribe<sensor_msgs::CameraInfo>(topic, kQueue, pass);
+  return handle->subscribe<sensor_msgs::CameraInfo>(topic, kCameraInfoQueue, pass);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace softbody::injection {
 namespace {
 
-constexpr std::uint32_t kQueue = 30;
+constexpr std::uint32_t kImageQueue = 30;
 constexpr double kRestart_s = 1.0;  // a larger jump back means that the bag starts again
 constexpr double kWarningPeriod_s = 5.0;
 
@@ -22,8 +22,9 @@ LiveStream::LiveStream(ros::NodeHandle* handle, const std::string& in, const std
       deliveries_(deliveries),
       faults_(images),
       images_(topic_, is_depth, images) {
-  publisher_ = handle->advertise<sensor_msgs::Image>(out, kQueue);
-  subscriber_ = handle->subscribe(in, kQueue, &LiveStream::onImage, this, ros::TransportHints().tcpNoDelay());
+  publisher_ = handle->advertise<sensor_msgs::Image>(out, kImageQueue);
+  subscriber_ =
+      handle->subscribe(in, kImageQueue, &LiveStream::onImage, this, ros::TransportHints().tcpNoDelay());
 }
 
 void LiveStream::onImage(const sensor_msgs::ImageConstPtr& original) {

@@ -9,10 +9,9 @@ namespace softbody {
 namespace {
 
 using testing::boxTopology;
+using testing::kFrame;
 using testing::randomPoints;
 using testing::vertexTargets;
-
-constexpr Nanoseconds kFrame = 33333333;
 
 TEST(LoadEstimator, BalancesOnEveryPiece) {
   std::mt19937 random(4);

@@ -6,13 +6,12 @@
 namespace softbody {
 namespace {
 
+using testing::kFrame;
 using testing::largestDistance;
 using testing::placing;
 using testing::somePose;
 using testing::sponge;
 using testing::vertexTargets;
-
-constexpr Nanoseconds kFrame = 33333333;
 
 Material undamped() {
   Material material;

@@ -6,12 +6,11 @@
 namespace softbody {
 namespace {
 
+using testing::kFrame;
 using testing::placing;
 using testing::somePose;
 using testing::sponge;
 using testing::vertexTargets;
-
-constexpr Nanoseconds kFrame = 33333333;
 
 TEST(Simulator, RefusesUnusableTargetsAndKeepsItsState) {
   const TetTopology topology = sponge();

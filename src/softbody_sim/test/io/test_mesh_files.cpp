@@ -157,13 +157,13 @@ TEST(ReadTetFile, TurnsDropsAndSaysSo) {
   EXPECT_EQ(warnings.size(), 3U);  // one flat, one turned, one vertex unused
 }
 
-struct BrokenFile {
+struct BadSurface {
   const char* name;
   std::string content;
   const char* place;
 };
 
-class BrokenSurface : public testing::TestWithParam<BrokenFile> {};
+class BrokenSurface : public testing::TestWithParam<BadSurface> {};
 
 TEST_P(BrokenSurface, IsRefusedWithFileAndPlace) {
   const TemporaryFolder folder;
@@ -177,39 +177,39 @@ TEST_P(BrokenSurface, IsRefusedWithFileAndPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenSurface,
     testing::Values(
-        BrokenFile{"empty.obj", "", "no faces"}, BrokenFile{"nan.obj", "v 0 0 0\nv 1 nan 0\n", ":2: 'nan'"},
-        BrokenFile{"short.obj", "v 0 0\n", ":1: 3 fields"},
-        BrokenFile{"range.obj", "v 0 0 0\n\nf 1 2 3\n", ":3: a face refers to"},
-        BrokenFile{"zero.obj", "v 0 0 0\nf 0 1 1\n", ":2: face corner '0'"},
-        BrokenFile{"negative.obj", "v 0 0 0\nf -2 -1 -1\n", ":2: face corner '-2'"},
-        BrokenFile{"two.obj", "v 0 0 0\nf 1 1\n", ":2: a face of 2"},
-        BrokenFile{"word.obj", "v 0 0 0\nf 1 x 1\n", ":2: 'x'"},
-        BrokenFile{"count.off", "OFF\n2000000000 1 0\n0 0 0\n", ":2: announces 2000000000"},
-        BrokenFile{"end.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: the file ends before vertex 3 of 3"},
-        BrokenFile{"index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
+        BadSurface{"empty.obj", "", "no faces"}, BadSurface{"nan.obj", "v 0 0 0\nv 1 nan 0\n", ":2: 'nan'"},
+        BadSurface{"short.obj", "v 0 0\n", ":1: 3 fields"},
+        BadSurface{"range.obj", "v 0 0 0\n\nf 1 2 3\n", ":3: a face refers to"},
+        BadSurface{"zero.obj", "v 0 0 0\nf 0 1 1\n", ":2: face corner '0'"},
+        BadSurface{"negative.obj", "v 0 0 0\nf -2 -1 -1\n", ":2: face corner '-2'"},
+        BadSurface{"two.obj", "v 0 0 0\nf 1 1\n", ":2: a face of 2"},
+        BadSurface{"word.obj", "v 0 0 0\nf 1 x 1\n", ":2: 'x'"},
+        BadSurface{"count.off", "OFF\n2000000000 1 0\n0 0 0\n", ":2: announces 2000000000"},
+        BadSurface{"end.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: the file ends before vertex 3 of 3"},
+        BadSurface{"index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
                    ":6: a face refers to vertex 3"},
-        BrokenFile{"count.ply",
+        BadSurface{"count.ply",
                    "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n",
                    "line 3: announces"},
-        BrokenFile{"list.ply",
+        BadSurface{"list.ply",
                    "ply\nformat ascii 1.0\nelement face 1\nproperty list uint int "
                    "vertex_indices\nend_header\n4000000000 1\n",
                    "face 0 of 1: a list of"},
-        BrokenFile{"end.ply", binaryPly(false).substr(0, binaryPly(false).size() - 18),
+        BadSurface{"end.ply", binaryPly(false).substr(0, binaryPly(false).size() - 18),
                    "vertex 3 of 4: the file ends"},
-        BrokenFile{"doubles.ply",
+        BadSurface{"doubles.ply",
                    "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar double "
                    "vertex_indices\nend_header\n\x40" +
                        std::string(511, '\0'),
                    "face 0 of 1: a list of 64 entries does not fit into the rest of the file"},
-        BrokenFile{"type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n",
+        BadSurface{"type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n",
                    "line 4"},
-        BrokenFile{"end.stl", binaryStl().substr(0, 120), "announces 1 facets, but ends after 0"},
-        BrokenFile{"end2.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n",
+        BadSurface{"end.stl", binaryStl().substr(0, 120), "announces 1 facets, but ends after 0"},
+        BadSurface{"end2.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n",
                    ":5: a facet without"},
-        BrokenFile{"what.xyz", "1 2 3\n", "supported: .obj"}));
+        BadSurface{"what.xyz", "1 2 3\n", "supported: .obj"}));
 
-class BrokenTets : public testing::TestWithParam<BrokenFile> {};
+class BrokenTets : public testing::TestWithParam<BadSurface> {};
 
 TEST_P(BrokenTets, IsRefusedWithFileAndPlace) {
   const TemporaryFolder folder;
@@ -233,25 +233,25 @@ constexpr const char* kCorners = "0 0 0 1 0 0 0 1 0 0 0 1";
 
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenTets,
-    testing::Values(BrokenFile{"a.vtu", "<VTKFile>\n<Unstr", ":2: not XML"},
-                    BrokenFile{"b.vtu", "<VTKFile/>", "no <UnstructuredGrid>"},
-                    BrokenFile{"c.vtu", vtu("0 0 0", "0 1 2 3", "4"), "NumberOfPoints is 4"},
-                    BrokenFile{"d.vtu", vtu(kCorners, "0 1 2 4", "4"), "cell 0: refers to point 4"},
-                    BrokenFile{"e.vtu", vtu(kCorners, "0 1 2 3", "9"), "cell 0: offset 9"},
-                    BrokenFile{"f.vtu", vtu("0 0 inf", "0 1 2 3", "4"), "entry 2: 'inf'"},
-                    BrokenFile{"g.vtu", vtu(kCorners, "0 1 2 3", "4", "appended"), "format is 'appended'"},
-                    BrokenFile{"h.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4"),
+    testing::Values(BadSurface{"a.vtu", "<VTKFile>\n<Unstr", ":2: not XML"},
+                    BadSurface{"b.vtu", "<VTKFile/>", "no <UnstructuredGrid>"},
+                    BadSurface{"c.vtu", vtu("0 0 0", "0 1 2 3", "4"), "NumberOfPoints is 4"},
+                    BadSurface{"d.vtu", vtu(kCorners, "0 1 2 4", "4"), "cell 0: refers to point 4"},
+                    BadSurface{"e.vtu", vtu(kCorners, "0 1 2 3", "9"), "cell 0: offset 9"},
+                    BadSurface{"f.vtu", vtu("0 0 inf", "0 1 2 3", "4"), "entry 2: 'inf'"},
+                    BadSurface{"g.vtu", vtu(kCorners, "0 1 2 3", "4", "appended"), "format is 'appended'"},
+                    BadSurface{"h.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4"),
                                "no tet of positive volume"},
-                    BrokenFile{"a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", ":2: MSH version 4.1"},
-                    BrokenFile{"b.msh", "$MeshFormat\n2.2 1 8\n", ":2: binary MSH"},
-                    BrokenFile{"c.msh", "$Nodes\n900000000\n1 0 0 0\n", ":2: announces"},
-                    BrokenFile{"d.msh", "$Nodes\n1\n7 0 0 0\n$EndNodes\n$Elements\n1\n1 4 2 0 1 7 7 7 8\n",
+                    BadSurface{"a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", ":2: MSH version 4.1"},
+                    BadSurface{"b.msh", "$MeshFormat\n2.2 1 8\n", ":2: binary MSH"},
+                    BadSurface{"c.msh", "$Nodes\n900000000\n1 0 0 0\n", ":2: announces"},
+                    BadSurface{"d.msh", "$Nodes\n1\n7 0 0 0\n$EndNodes\n$Elements\n1\n1 4 2 0 1 7 7 7 8\n",
                                ":7: a tet refers to vertex 8"},
-                    BrokenFile{"e.msh", "$Nodes\n2\n7 0 0 0\n7 0 0 1\n", ":4: two vertices have the id 7"},
-                    BrokenFile{"a.veg", "*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n",
+                    BadSurface{"e.msh", "$Nodes\n2\n7 0 0 0\n7 0 0 1\n", ":4: two vertices have the id 7"},
+                    BadSurface{"a.veg", "*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n",
                                ":5: elements of kind CUBIC"},
-                    BrokenFile{"a.node", "1 2 0 0\n", ":1: the vertices must be three"},
-                    BrokenFile{"a.tet", "", "supported: .vtu"}));
+                    BadSurface{"a.node", "1 2 0 0\n", ":1: the vertices must be three"},
+                    BadSurface{"a.tet", "", "supported: .vtu"}));
 
 /// Whatever the bytes: a sound mesh, or a sentence.
 TEST(DamagedFiles, AreReadSoundlyOrRefused) {

@@ -7,7 +7,7 @@ namespace {
 
 const StreamTopics kTopics{StreamTopic{"/cam/color", 1}, StreamTopic{"/cam/info", 1},
                            StreamTopic{"/cam/depth", 0}};
-constexpr Nanoseconds kTolerance = 15'000'000, kPeriod = 33'333'333, kSilence = 2'000'000'000;
+constexpr Nanoseconds kPairTolerance = 15'000'000, kPeriod = 33'333'333, kSilence = 2'000'000'000;
 
 bool says(const StreamMonitor& monitor, const std::string& words, Nanoseconds now = 0) {
   return monitor.diagnosis(kTopics, now).find(words) != std::string::npos;
@@ -16,7 +16,7 @@ bool says(const StreamMonitor& monitor, const std::string& words, Nanoseconds no
 TEST(StreamMonitor, NamesExactlyTheSilentTopics) {
   const Stream streams[] = {Stream::kColor, Stream::kColorInfo, Stream::kDepth};
   for (int arriving = 0; arriving < 7; ++arriving) {
-    StreamMonitor monitor(kTolerance, kSilence);
+    StreamMonitor monitor(kPairTolerance, kSilence);
     for (int s = 0; s < 3; ++s) {
       if ((arriving >> s & 1) != 0) monitor.noteArrival(streams[s], 1000, 0);
     }
@@ -26,13 +26,13 @@ TEST(StreamMonitor, NamesExactlyTheSilentTopics) {
 }
 
 TEST(StreamMonitor, TellsAbsentPublishersFromSilentOnes) {
-  const StreamMonitor monitor(kTolerance, kSilence);
+  const StreamMonitor monitor(kPairTolerance, kSilence);
   EXPECT_TRUE(says(monitor, "/cam/depth (nobody publishes it)"));
   EXPECT_TRUE(says(monitor, "/cam/color (publishers: 1, but silent)"));
 }
 
 TEST(StreamMonitor, TellsImagesWithoutAStampFromNone) {
-  StreamMonitor monitor(kTolerance, kSilence);
+  StreamMonitor monitor(kPairTolerance, kSilence);
   monitor.noteUnstamped(Stream::kColor);
   EXPECT_TRUE(says(monitor, "/cam/color (its images have no stamp)"));
   EXPECT_TRUE(says(monitor, "/cam/info (publishers: 1, but silent)"));
@@ -41,7 +41,7 @@ TEST(StreamMonitor, TellsImagesWithoutAStampFromNone) {
 }
 
 TEST(StreamMonitor, MeasuresHowFarStampsAreApart) {
-  StreamMonitor monitor(kTolerance, kSilence);
+  StreamMonitor monitor(kPairTolerance, kSilence);
   for (int k = 0; k < 100; ++k) {
     monitor.noteArrival(Stream::kColor, k * kPeriod, k * kPeriod);
     monitor.noteArrival(Stream::kColorInfo, k * kPeriod, k * kPeriod);
@@ -54,7 +54,7 @@ TEST(StreamMonitor, MeasuresHowFarStampsAreApart) {
 /// Depth is silent when colour, which was, comes back.
 TEST(StreamMonitor, WhatCameLongAgoIsSilentNow) {
   constexpr Nanoseconds kLater = 100'000'000'000;
-  StreamMonitor monitor(kTolerance, kSilence);
+  StreamMonitor monitor(kPairTolerance, kSilence);
   for (const Stream stream : {Stream::kColorInfo, Stream::kDepth}) monitor.noteArrival(stream, 0, 0);
   monitor.noteArrival(Stream::kColor, kLater, kLater);
   EXPECT_TRUE(says(monitor, "no usable message on /cam/depth", kLater)) << monitor.diagnosis(kTopics, kLater);
@@ -63,7 +63,7 @@ TEST(StreamMonitor, WhatCameLongAgoIsSilentNow) {
 }
 
 TEST(StreamMonitor, OneCameraInfoIsEnough) {
-  StreamMonitor monitor(kTolerance, kSilence);
+  StreamMonitor monitor(kPairTolerance, kSilence);
   monitor.noteArrival(Stream::kColorInfo, 0, 0);
   monitor.noteFrame();
   EXPECT_FALSE(says(monitor, "/cam/info", 10 * kSilence));
@@ -71,7 +71,7 @@ TEST(StreamMonitor, OneCameraInfoIsEnough) {
 }
 
 TEST(StreamMonitor, KnowsWhatEverCame) {
-  StreamMonitor monitor(kTolerance, kSilence);
+  StreamMonitor monitor(kPairTolerance, kSilence);
   monitor.noteArrival(Stream::kColor, 0, 0);
   monitor.noteUnstamped(Stream::kDepth);
   monitor.noteFrame();
@@ -81,7 +81,7 @@ TEST(StreamMonitor, KnowsWhatEverCame) {
 }
 
 TEST(StreamMonitor, ARefusalIsGivenUntilAFrameIsComplete) {
-  StreamMonitor monitor(kTolerance, kSilence);
+  StreamMonitor monitor(kPairTolerance, kSilence);
   for (const Stream stream : {Stream::kColor, Stream::kColorInfo, Stream::kDepth})
     monitor.noteArrival(stream, 5, 0);
   monitor.noteRefusal("sizes differ");

@@ -10,11 +10,11 @@
 namespace softbody {
 namespace {
 
-constexpr double kDepth = 0.5;                  // [m] of the box
-constexpr double kPixel = kDepth / 615.0;       // [m] that one pixel shows there
-constexpr double kDeadZone = 2.0;               // [px]
-constexpr double kQuantization = 1.1;           // [px] of an end of the body, along a normal
-const Eigen::Vector3d kFlat(0.0, 0.0, kDepth);  // the box as seen from above
+constexpr double kBoxDepth = 0.5;                  // [m] of the box
+constexpr double kPixel = kBoxDepth / 615.0;       // [m] that one pixel shows there
+constexpr double kDeadZone = 2.0;                  // [px]
+constexpr double kQuantization = 1.1;              // [px] of an end of the body, along a normal
+const Eigen::Vector3d kFlat(0.0, 0.0, kBoxDepth);  // the box as seen from above
 
 /// Of the box from above, where the outline turns.
 bool isAtCorner(const Association& a) { return std::abs(a.predicted.y()) > 0.044; }
@@ -61,7 +61,7 @@ TEST_F(OutlineAssociationsTest, PullAShiftedOutlineBack) {
       EXPECT_LT(pull.x() * pixels, 0.0);
       // The rim is nearer than the middle of the box.
       const double pulled = std::abs(pull.x()) * 615.0 / a.predicted.z();
-      EXPECT_NEAR(pulled, std::abs(pixels) * kDepth / a.predicted.z() - kDeadZone, kQuantization);
+      EXPECT_NEAR(pulled, std::abs(pixels) * kBoxDepth / a.predicted.z() - kDeadZone, kQuantization);
       ++(a.predicted.x() < 0.0 ? left : right);
     }
     EXPECT_GT(left, 5);
@@ -86,9 +86,9 @@ TEST_F(OutlineAssociationsTest, LeadBackToTheBody) {
   const Points truth = transformed(box_.volume.rest_vertices, boxPose());
   frame_ = renderFrame(box_, truth, 1);
   for (int i = 0; i < 10; ++i) {
-    const Eigen::Isometry3d error = Eigen::Translation3d(shift(random), shift(random), kDepth) *
+    const Eigen::Isometry3d error = Eigen::Translation3d(shift(random), shift(random), kBoxDepth) *
                                     Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ()) *
-                                    Eigen::Translation3d(0.0, 0.0, -kDepth);
+                                    Eigen::Translation3d(0.0, 0.0, -kBoxDepth);
     Points predicted = transformed(truth, error);
     for (int step = 0; step < 20; ++step)
       predicted = transformed(predicted, rigidStep(refsTo(associate(predicted))));

@@ -4,13 +4,12 @@
 
 #include "fixtures/synthetic_scene.h"
 #include "registration/body_candidates.h"
+#include "registration/box_mesh.h"
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {
 namespace {
 
-const BoxBody kBox = makeBox();
-const TriangleMesh kMesh{kBox.surface.rest_vertices, kBox.surface.triangles};
 constexpr double kDiameter = 0.2272;
 
 TEST(BodyCandidates, AreTheObjectsBeforeTheWall) {

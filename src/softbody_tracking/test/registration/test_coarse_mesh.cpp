@@ -1,13 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/synthetic_scene.h"
+#include "registration/box_mesh.h"
 #include "registration/coarse_mesh.h"
 
 namespace softbody {
 namespace {
-
-const BoxBody kBox = makeBox();
-const TriangleMesh kMesh{kBox.surface.rest_vertices, kBox.surface.triangles};
 
 TEST(ClusteredMesh, KeepsTheShapeWithinACell) {
   const TriangleMesh coarse = clustered(kMesh, 0.03);

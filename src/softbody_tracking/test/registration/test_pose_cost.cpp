@@ -1,15 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/synthetic_scene.h"
+#include "registration/box_mesh.h"
 #include "registration/pose_cost.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 namespace {
-
-const BoxBody kBox = makeBox();
-const TriangleMesh kMesh{kBox.surface.rest_vertices, kBox.surface.triangles};
 
 TEST(PoseCost, IsLowestAtTheTruth) {
   const BoxBody box = makeBox();

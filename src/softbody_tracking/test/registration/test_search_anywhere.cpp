@@ -4,14 +4,12 @@
 #include <random>
 
 #include "fixtures/synthetic_scene.h"
+#include "registration/box_mesh.h"
 #include "registration/search_anywhere.h"
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {
 namespace {
-
-const BoxBody kBox = makeBox();
-const TriangleMesh kMesh{kBox.surface.rest_vertices, kBox.surface.triangles};
 
 const SearchMeshes& boxMeshes() {
   static const SearchMeshes result = makeSearchMeshes(kMesh);

@@ -10,7 +10,7 @@
 namespace softbody {
 namespace {
 
-PoseHypothesis search(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& rough) {
+PoseHypothesis searchNear(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& rough) {
   return searchNearPose(frame, {mesh, mesh, mesh}, rough, RegistrationConfig().distance_scale_m);
 }
 
@@ -27,7 +27,7 @@ TEST(SearchNearPose, FindsTheBoxFromRoughPoses) {
     const Eigen::Vector3d shift = 0.02 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
     const Eigen::Isometry3d rough =
         Eigen::Translation3d(shift) * truth * Eigen::AngleAxisd(0.25 * uniform(random), axis);
-    const PoseHypothesis found = search(frame, mesh, rough);
+    const PoseHypothesis found = searchNear(frame, mesh, rough);
     const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
     EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << "trial " << trial << ", cost " << found.cost;
   }
@@ -84,7 +84,7 @@ void expectTurnOfRoughPose(const TriangleMesh& mesh) {
     const Eigen::Vector3d shift = 0.01 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
     const Eigen::Isometry3d rough = Eigen::Translation3d(shift) * meant *
                                     Eigen::AngleAxisd(0.1 * uniform(random), Eigen::Vector3d::UnitX());
-    const PoseHypothesis found = search(frame, mesh, rough);
+    const PoseHypothesis found = searchNear(frame, mesh, rough);
     const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, meant);
     EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.004) << "trial " << trial;
   }
@@ -104,7 +104,7 @@ TEST(SearchNearPose, DoesNotPullASmallBodyTowardsARoughPose) {
   const RgbdFrame frame = renderFrame(box, transformed(mesh.vertices, truth), 1);
   for (const double along : {-0.02, -0.01, 0.01, 0.02}) {
     const Eigen::Isometry3d rough = Eigen::Translation3d(0.0, 0.0, along) * truth;
-    const PoseHypothesis found = search(frame, mesh, rough);
+    const PoseHypothesis found = searchNear(frame, mesh, rough);
     EXPECT_LT((found.pose.translation() - truth.translation()).norm(), 5e-4) << along;
   }
 }
@@ -125,7 +125,7 @@ TEST(SearchNearPose, FindsALargeBodyFarAway) {
   }
   const Eigen::Isometry3d rough =
       Eigen::Translation3d(0.05, -0.04, 0.05) * truth * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
-  const PoseHypothesis found = search(frame, mesh, rough);
+  const PoseHypothesis found = searchNear(frame, mesh, rough);
   EXPECT_LT(found.cost, 0.25);
   const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.02);
@@ -136,7 +136,7 @@ TEST(SearchNearPose, FindsNoGoodPoseOnABareWall) {
   RgbdFrame frame = renderFrame(box, transformed(box.volume.rest_vertices, boxPose()), 1);
   frame.depth.setTo(1.2f);
   const TriangleMesh mesh{box.surface.rest_vertices, box.surface.triangles};
-  EXPECT_GT(search(frame, mesh, boxPose()).cost, 0.5);
+  EXPECT_GT(searchNear(frame, mesh, boxPose()).cost, 0.5);
 }
 
 }  // namespace

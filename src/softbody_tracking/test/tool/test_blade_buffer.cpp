@@ -6,7 +6,7 @@ namespace softbody {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
-constexpr Nanoseconds kFrame = 33 * kMillisecond;
+constexpr Nanoseconds kBladePeriod = 33 * kMillisecond;
 
 /// Reports blades and tf while frames are taken.
 struct Tool {
@@ -33,7 +33,7 @@ TEST(BladeBuffer, ABladeThatNeverGetsAPoseIsCountedOnce) {
   Tool tool;
   tool.blade(1);
   std::size_t expired = 0;
-  for (Nanoseconds now = 1; now < 10'000 * kMillisecond; now += kFrame) {
+  for (Nanoseconds now = 1; now < 10'000 * kMillisecond; now += kBladePeriod) {
     expired += tool.frame(now);
     EXPECT_EQ(expired, now > ToolMask::kBladeValidity + 1 ? 1u : 0u) << now;
   }
@@ -42,11 +42,11 @@ TEST(BladeBuffer, ABladeThatNeverGetsAPoseIsCountedOnce) {
 TEST(BladeBuffer, ABladeWhosePoseComesAFrameLaterIsNotCounted) {
   Tool tool;
   for (Nanoseconds k = 0; k < 300; ++k) {
-    if (k % 2 == 0) tool.blade(k * kFrame);
-    EXPECT_EQ(tool.frame(k * kFrame), 0u) << k;
-    tool.tf = k * kFrame;
+    if (k % 2 == 0) tool.blade(k * kBladePeriod);
+    EXPECT_EQ(tool.frame(k * kBladePeriod), 0u) << k;
+    tool.tf = k * kBladePeriod;
   }
-  EXPECT_EQ(tool.newest, 298 * kFrame);
+  EXPECT_EQ(tool.newest, 298 * kBladePeriod);
 }
 
 TEST(BladeBuffer, BladesOfAFastToolWaitForTheirPoses) {
@@ -74,17 +74,17 @@ TEST(BladeBuffer, WithoutFramesTheNewestThousandBladesAreKept) {
 
 TEST(BladeBuffer, ClearRemovesAllBlades) {
   Tool tool;
-  tool.tf = 100 * kFrame;
-  for (Nanoseconds k = 0; k < 100; ++k) tool.blade(k * kFrame);
+  tool.tf = 100 * kBladePeriod;
+  for (Nanoseconds k = 0; k < 100; ++k) tool.blade(k * kBladePeriod);
   tool.buffer.clear();
-  for (Nanoseconds k = 0; k < 100; ++k) EXPECT_EQ(tool.frame(k * kFrame), 0u);
+  for (Nanoseconds k = 0; k < 100; ++k) EXPECT_EQ(tool.frame(k * kBladePeriod), 0u);
   EXPECT_EQ(tool.asked, 0);
 }
 
 TEST(BladeBuffer, ReportsBladesFromAClockThatIsAhead) {
-  for (Nanoseconds lead : {0 * kFrame, 3 * kFrame, 40 * kFrame, 5000 * kFrame}) {
+  for (Nanoseconds lead : {0 * kBladePeriod, 3 * kBladePeriod, 40 * kBladePeriod, 5000 * kBladePeriod}) {
     Tool tool;
-    for (Nanoseconds frame = 0; frame < 3000 * kFrame; frame += kFrame) {
+    for (Nanoseconds frame = 0; frame < 3000 * kBladePeriod; frame += kBladePeriod) {
       tool.blade(frame + lead);
       // As soon as the frames reach the first blade, one blade is usable, although it is late.
       const bool none_counts = lead - frame > ToolMask::kBladeValidity;
@@ -97,8 +97,8 @@ TEST(BladeBuffer, ReportsBladesFromAClockThatIsAhead) {
 TEST(BladeBuffer, ClearRestartsTheTimeThatBladesAreAhead) {
   Tool tool;
   for (Nanoseconds k = 0; k < 300; ++k) {
-    tool.blade(3000 * kFrame);
-    EXPECT_EQ(tool.updateMask(k * kFrame).lead, 0);
+    tool.blade(3000 * kBladePeriod);
+    EXPECT_EQ(tool.updateMask(k * kBladePeriod).lead, 0);
     if (k % 15 == 0) tool.buffer.clear();
   }
 }
@@ -119,10 +119,10 @@ TEST(BladeBuffer, MasksTheBladeNearestInTimeToTheFrame) {
   };
   const Points beside = blade.rowwise() + Eigen::RowVector3d(0.1, 0.0, 0.0);
   for (Nanoseconds k = 0; k < 30; ++k) {
-    buffer.add({k * kFrame, "tool", k < 15 ? blade : beside});
-    const Nanoseconds frame = k * kFrame - kWaited;
+    buffer.add({k * kBladePeriod, "tool", k < 15 ? blade : beside});
+    const Nanoseconds frame = k * kBladePeriod - kWaited;
     if (frame < 0) continue;
-    const bool right = frame + kFrame / 2 >= 15 * kFrame;
+    const bool right = frame + kBladePeriod / 2 >= 15 * kBladePeriod;
     EXPECT_EQ(covered(frame, 80), !right) << k;
     EXPECT_EQ(covered(frame, 110), right) << k;
   }

@@ -11,7 +11,7 @@
 namespace softbody::virtual_camera {
 namespace {
 
-const Pinhole kCamera = d435(640, 480);
+const Pinhole kSharpCamera = d435(640, 480);
 
 /// A black square that flies to the right at this speed before a white wall.
 Scene flyingSquare(double speed) {
@@ -43,9 +43,9 @@ int grayPixels(const cv::Mat3b& color) {
 
 TEST(MotionBlur, SmearsAnEdgeOverTheWayThatItMovesDuringTheExposure) {
   for (const double speed : {-1.0, 0.7}) {
-    const Capture sharp = VirtualCamera(flyingSquare(speed), kCamera, noNoise(), 1).capture(0, 1.0);
-    const Capture blurred = VirtualCamera(flyingSquare(speed), kCamera, onlyBlur(), 1).capture(0, 1.0);
-    const double way = std::abs(speed) * MotionBlurOptions().exposure_s * kCamera.fx / 0.5;
+    const Capture sharp = VirtualCamera(flyingSquare(speed), kSharpCamera, noNoise(), 1).capture(0, 1.0);
+    const Capture blurred = VirtualCamera(flyingSquare(speed), kSharpCamera, onlyBlur(), 1).capture(0, 1.0);
+    const double way = std::abs(speed) * MotionBlurOptions().exposure_s * kSharpCamera.fx / 0.5;
     EXPECT_LE(grayPixels(sharp.color), 1);
     EXPECT_NEAR(grayPixels(blurred.color), way, 0.25 * way + 1.0);
     EXPECT_EQ(cv::norm(sharp.depth_mm, blurred.depth_mm, cv::NORM_INF), 0.0);
@@ -56,8 +56,8 @@ TEST(MotionBlur, SmearsAnEdgeOverTheWayThatItMovesDuringTheExposure) {
 }
 
 TEST(MotionBlur, LeavesWhatStandsStillSharp) {
-  const Capture sharp = VirtualCamera(flyingSquare(0.0), kCamera, noNoise(), 1).capture(0, 1.0);
-  const Capture blurred = VirtualCamera(flyingSquare(0.0), kCamera, onlyBlur(), 1).capture(0, 1.0);
+  const Capture sharp = VirtualCamera(flyingSquare(0.0), kSharpCamera, noNoise(), 1).capture(0, 1.0);
+  const Capture blurred = VirtualCamera(flyingSquare(0.0), kSharpCamera, onlyBlur(), 1).capture(0, 1.0);
   EXPECT_EQ(cv::norm(sharp.color, blurred.color, cv::NORM_INF), 0.0);
 }
 

@@ -13,7 +13,7 @@ namespace softbody::virtual_camera {
 namespace {
 
 const std::string kKnife = std::string(CONFIG_DIR) + "/knife.yaml";
-const Pinhole kCamera = d435(640, 480);
+const Pinhole kMarkerCamera = d435(640, 480);
 
 using Corners = std::vector<cv::Point2f>;  // from the top left clockwise [px]
 
@@ -35,7 +35,7 @@ Corners projected(const ToolMarker& marker, const Eigen::Isometry3d& T_camera_to
   Corners pixels;
   const Points corners = transformed(T_camera_tool * marker.T_tool_marker, cornersOf(marker));
   for (Eigen::Index k = 0; k < 4; ++k) {
-    const Eigen::Vector2d pixel = kCamera.project(corners.row(k).transpose());
+    const Eigen::Vector2d pixel = kMarkerCamera.project(corners.row(k).transpose());
     pixels.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
   }
   return pixels;
@@ -45,7 +45,8 @@ Corners projected(const ToolMarker& marker, const Eigen::Isometry3d& T_camera_to
 bool inView(const Corners& corners) {
   constexpr double kMargin = 3.0;  // [px]
   return std::all_of(corners.begin(), corners.end(), [&](const cv::Point2f& p) {
-    return p.x > kMargin && p.y > kMargin && p.x < kCamera.width - kMargin && p.y < kCamera.height - kMargin;
+    return p.x > kMargin && p.y > kMargin && p.x < kMarkerCamera.width - kMargin &&
+           p.y < kMarkerCamera.height - kMargin;
   });
 }
 
@@ -73,7 +74,8 @@ Eigen::Isometry3d poseOf(const Corners& corners, const ToolMarker& marker) {
   std::vector<cv::Point3d> square;
   const Points own = cornersOf(marker);
   for (Eigen::Index k = 0; k < 4; ++k) square.emplace_back(own(k, 0), own(k, 1), own(k, 2));
-  const cv::Matx33d matrix(kCamera.fx, 0, kCamera.cx, 0, kCamera.fy, kCamera.cy, 0, 0, 1);
+  const cv::Matx33d matrix(kMarkerCamera.fx, 0, kMarkerCamera.cx, 0, kMarkerCamera.fy, kMarkerCamera.cy, 0, 0,
+                           1);
   cv::Vec3d turn, translation;
   cv::solvePnP(square, corners, matrix, cv::noArray(), turn, translation, false, cv::SOLVEPNP_IPPE_SQUARE);
   cv::Matx33d rotation;
@@ -99,7 +101,7 @@ class MarkerInCutScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(MarkerInCutScene, IsWhereTheTruthSaysWithoutNoise) {
   const ToolMarker marker = readTool(kKnife).markers.at(0);
-  VirtualCamera camera(plainScene(GetParam()), kCamera, noNoise(), 1);
+  VirtualCamera camera(plainScene(GetParam()), kMarkerCamera, noNoise(), 1);
   int frames = 0;
   for (double t = 0.0; t < camera.scene().duration_s; t += 0.7) {
     const Capture capture = camera.capture(0, t);
@@ -121,7 +123,7 @@ TEST_P(MarkerInCutScene, IsWhereTheTruthSaysWithoutNoise) {
 
 TEST_P(MarkerInCutScene, IsFoundInNearlyEveryNoisyFrame) {
   const ToolMarker marker = readTool(kKnife).markers.at(0);
-  VirtualCamera camera(plainScene(GetParam()), kCamera, NoiseOptions(), 1);
+  VirtualCamera camera(plainScene(GetParam()), kMarkerCamera, NoiseOptions(), 1);
   int frames = 0, found = 0;
   for (int frame = 0; frame / 30.0 < camera.scene().duration_s; frame += 5) {
     const Capture capture = camera.capture(frame, frame / 30.0);

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/units.h"
+
 namespace softbody::evaluation {
 namespace {
-
-constexpr double kDegrees = 180.0 / M_PI;
 
 void addLengths(const std::string& name, const Summary& s, std::vector<Figure>* figures) {
   if (s.count == 0) return;
@@ -78,7 +78,7 @@ void addVolume(const VolumeReport& volume, std::vector<Figure>* figures) {
   figures->push_back({"volume error, largest", "%", 100.0 * volume.error->largest});
 }
 
-std::string cell(const std::optional<double>& value) {
+std::string markdownCell(const std::optional<double>& value) {
   return value && !std::isnan(*value) ? fmt::format("{:.4f}", *value) : std::string("-");
 }
 
@@ -152,8 +152,8 @@ std::string toText(const std::vector<ComparedFigure>& comparison) {
     const std::string difference =
         row.first && row.second ? fmt::format("{:+.4f}", *row.first - *row.second) : std::string("-");
     text += fmt::format("{:<52} {:>12} {:>12} {:>12}\n",
-                        row.name + (row.unit.empty() ? "" : " [" + row.unit + "]"), cell(row.first),
-                        cell(row.second), difference);
+                        row.name + (row.unit.empty() ? "" : " [" + row.unit + "]"), markdownCell(row.first),
+                        markdownCell(row.second), difference);
   }
   return text;
 }

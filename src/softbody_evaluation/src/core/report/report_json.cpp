@@ -3,14 +3,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/units.h"
+
 namespace softbody::evaluation {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegrees = 180.0 / M_PI;
-
-double mm(double metres) { return 1e3 * metres; }
 
 json inMillimetres(const Summary& s) {
   return {{"count", s.count},          {"mean_mm", mm(s.mean)}, {"rms_mm", mm(s.rms)},

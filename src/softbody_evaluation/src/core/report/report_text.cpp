@@ -4,12 +4,10 @@
 
 #include <cmath>
 
+#include "report/units.h"
+
 namespace softbody::evaluation {
 namespace {
-
-constexpr double kDegrees = 180.0 / M_PI;
-
-double mm(double metres) { return 1e3 * metres; }
 
 std::string row(const char* name, const Summary& s) {
   return fmt::format("  {:<10} {:>10} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f}\n", name, s.count,

@@ -15,10 +15,10 @@ namespace softbody {
 namespace {
 
 constexpr int kSweeps = 6;
-constexpr double kMinGain = 4e-3;       ///< relative decrease of the volume below which fitting stops
-constexpr double kMargin = 1e-5;        ///< distance of the points from the planes, over the size
-constexpr double kMinTurnCosine = 0.7;  ///< cosine of the angle by which a move may turn a triangle
-constexpr double kMinHeight = 0.25;     ///< height of a triangle over its longest edge
+constexpr double kMinGain = 4e-3;          ///< relative decrease of the volume below which fitting stops
+constexpr double kPlaneMargin = 1e-5;      ///< distance of the points from the planes, over the size
+constexpr double kMinMoveCosine = 0.7;     ///< cosine of the angle by which a move may turn a triangle
+constexpr double kMinFittedHeight = 0.25;  ///< height of a triangle over its longest edge
 
 struct Corner {
   Eigen::Index triangle;
@@ -28,7 +28,7 @@ struct Corner {
 class CageFitter {
  public:
   CageFitter(const TriangleMesh& cage, const Points& points)
-      : cage_(cage), points_(points), margin_(kMargin * sizeOf(cage.vertices)) {
+      : cage_(cage), points_(points), margin_(kPlaneMargin * sizeOf(cage.vertices)) {
     corners_.resize(static_cast<std::size_t>(cage.vertices.rows()));
     for (Eigen::Index f = 0; f < cage.triangles.rows(); ++f) {
       for (int k = 0; k < 3; ++k) {
@@ -125,12 +125,12 @@ class CageFitter {
     for (const Corner& corner : corners_[static_cast<std::size_t>(v)]) {
       const Eigen::Vector3d a = vertex(corner.next), b = vertex(corner.last);
       const Eigen::Vector3d before = (a - x).cross(b - x), after = (a - moved).cross(b - moved);
-      if (before.dot(after) < kMinTurnCosine * before.norm() * after.norm()) return false;
+      if (before.dot(after) < kMinMoveCosine * before.norm() * after.norm()) return false;
       const auto height = [&](const Eigen::Vector3d& tip, const Eigen::Vector3d& normal) {
         return normal.norm() /
                std::max({(a - tip).squaredNorm(), (b - tip).squaredNorm(), (b - a).squaredNorm()});
       };
-      if (height(moved, after) < std::min(kMinHeight, height(x, before))) return false;
+      if (height(moved, after) < std::min(kMinFittedHeight, height(x, before))) return false;
     }
     return true;
   }

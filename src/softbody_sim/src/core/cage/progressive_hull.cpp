@@ -19,9 +19,9 @@ namespace simplification = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
-constexpr double kMargin = 1e-6;        ///< distance from the replaced triangles, over the size
-constexpr double kMinTurnCosine = 0.2;  ///< cosine of the angle by which a collapse may turn a triangle
-constexpr double kMinHeight = 0.15;     ///< height of a triangle over its longest edge
+constexpr double kTriangleMargin = 1e-6;      ///< distance from the replaced triangles, over the size
+constexpr double kMinCollapseCosine = 0.2;    ///< cosine of the angle by which a collapse may turn a triangle
+constexpr double kMinCollapsedHeight = 0.15;  ///< height of a triangle over its longest edge
 
 Eigen::Vector3d toVector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -37,10 +37,10 @@ struct Placement {
                             c = toVector(mesh.point(t.v2));
       const Eigen::Vector3d normal = (b - a).cross(c - a);
       if (normal.norm() < 1e-20) continue;
-      outside.push_back({normal.normalized(), normal.normalized().dot(a) + kMargin * size});
+      outside.push_back({normal.normalized(), normal.normalized().dot(a) + kTriangleMargin * size});
     }
     const Eigen::Vector3d middle = 0.5 * (toVector(profile.p0()) + toVector(profile.p1()));
-    return nearestPointIn(outside, middle, 0.1 * kMargin * size);
+    return nearestPointIn(outside, middle, 0.1 * kTriangleMargin * size);
   }
 
   template <typename Profile>
@@ -65,8 +65,8 @@ struct Placement {
                                               (p[0] - p[2]).squaredNorm()});
       };
       const Eigen::Vector3d n0 = normalOf(before).normalized(), n1 = normalOf(after).normalized();
-      if (n0.dot(n1) < kMinTurnCosine) return false;
-      if (shapeOf(after) < std::min(kMinHeight, shapeOf(before))) return false;
+      if (n0.dot(n1) < kMinCollapseCosine) return false;
+      if (shapeOf(after) < std::min(kMinCollapsedHeight, shapeOf(before))) return false;
     }
     return true;
   }

@@ -14,7 +14,7 @@
 namespace softbody {
 namespace {
 
-SurfaceFile readByExtension(const std::string& path, Warnings* warnings) {
+SurfaceFile readSurfaceByExtension(const std::string& path, Warnings* warnings) {
   const std::string extension = extensionOf(path);
   if (extension == "obj") return readObj(path, warnings);
   if (extension == "off") return readOff(path);
@@ -27,7 +27,7 @@ SurfaceFile readByExtension(const std::string& path, Warnings* warnings) {
 }  // namespace
 
 SurfaceFile readSurfaceFile(const std::string& path, Warnings* warnings) {
-  SurfaceFile file = readByExtension(path, warnings);
+  SurfaceFile file = readSurfaceByExtension(path, warnings);
   if (file.mesh.triangles.rows() == 0) {
     throw std::invalid_argument(fmt::format("{}: {} vertices and no faces; a surface mesh is needed", path,
                                             file.mesh.vertices.rows()));

@@ -23,7 +23,7 @@ namespace {
 /// Volume over cubed longest edge, below which a tet counts as flat.
 constexpr double kFlat = 1e-9;
 
-TetMesh readByExtension(const std::string& path, Warnings* warnings) {
+TetMesh readTetsByExtension(const std::string& path, Warnings* warnings) {
   const std::string extension = extensionOf(path);
   if (extension == "vtu") return readVtu(path, warnings);
   if (extension == "msh") return readMsh(path, warnings);
@@ -119,7 +119,7 @@ void checkFaces(const std::string& path, const Tets& tets) {
 }  // namespace
 
 TetMesh readTetFile(const std::string& path, Warnings* warnings) {
-  TetMesh mesh = readByExtension(path, warnings);
+  TetMesh mesh = readTetsByExtension(path, warnings);
   mesh.tets = stackRows<Tets>(soundTets(path, mesh, warnings));
   if (mesh.tets.rows() == 0) throw std::invalid_argument(path + ": no tet of positive volume");
   checkFaces(path, mesh.tets);

@@ -135,7 +135,7 @@ void cutBothAtRandom(const TetTopology& tets, const MeshTopology& mesh, unsigned
 TEST(RandomSurfaceCuts, Sponge) { cutBothAtRandom(testing::sponge(), testing::visualSponge(), 1); }
 
 TEST(RandomSurfaceCuts, Torus) {
-  const MeshTopology mesh = testing::torus(48);
+  const MeshTopology mesh = testing::torusSurface(48);
   cutBothAtRandom(testing::topologyOf(volumeAround({mesh.rest_vertices, mesh.triangles}, 300)), mesh, 2);
 }
 

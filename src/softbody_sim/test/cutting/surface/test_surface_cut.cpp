@@ -126,7 +126,7 @@ TEST(SurfaceCut, PartialCutStaysOnePiece) {
 }
 
 TEST(SurfaceCut, TorusWithAnnulus) {
-  const MeshTopology mesh = torus();
+  const MeshTopology mesh = torusSurface();
   const SurfaceCut cut = cutSurface(mesh, rectangle({-0.2, -0.2, 0.004}, {0.4, 0, 0}, {0, 0.4, 0}));
   ASSERT_EQ(cut.outcome, CutOutcome::kCut) << cut.reason;
   EXPECT_EQ(faultOf(cut.mesh, volumeOf(mesh)), "");
@@ -134,7 +134,7 @@ TEST(SurfaceCut, TorusWithAnnulus) {
 }
 
 TEST(SurfaceCut, TorusOpenedAndParted) {
-  const MeshTopology mesh = torus();
+  const MeshTopology mesh = torusSurface();
   const SurfaceCut opened = cutSurface(mesh, rectangle({0, 0.001, -0.1}, {0.2, 0, 0}, {0, 0, 0.2}));
   EXPECT_EQ(pieceVolumes(opened.mesh).size(), 1u);
   const SurfaceCut parted = cutSurface(mesh, rectangle({-0.2, 0.001, -0.1}, {0.4, 0, 0}, {0, 0, 0.2}));
@@ -143,7 +143,7 @@ TEST(SurfaceCut, TorusOpenedAndParted) {
 
 TEST(SurfaceCut, RandomCutsOfSponge) { cutAtRandom(loadMesh(kShipped + "sponge.obj"), numberOfCuts(240), 1); }
 
-TEST(SurfaceCut, RandomCutsOfTorus) { cutAtRandom(torus(), numberOfCuts(240), 2); }
+TEST(SurfaceCut, RandomCutsOfTorus) { cutAtRandom(torusSurface(), numberOfCuts(240), 2); }
 
 TEST(SurfaceCut, RandomCutsOfSpot) { cutAtRandom(loadMesh(test::testData("spot.obj")), numberOfCuts(60), 3); }
 

@@ -48,7 +48,7 @@ void expectPlacesKept(const TetEdit& edit, const TetTopology& before) {
 }
 
 TEST(CutHistory, FiveCutsAndBackAndForthAgain) {
-  for (const TetTopology& body : {testing::sponge(), testing::torus()}) {
+  for (const TetTopology& body : {testing::sponge(), testing::torusVolume()}) {
     CutHistory history(body);
     RandomCuts cuts(body, 5);
     std::vector<TetTopology> versions{body};

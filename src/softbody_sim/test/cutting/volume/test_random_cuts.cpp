@@ -138,7 +138,7 @@ void cutAtRandom(const TetTopology& body, const std::string& name) {
 
 TEST(RandomCuts, Sponge) { cutAtRandom(testing::sponge(), "sponge"); }
 
-TEST(RandomCuts, Torus) { cutAtRandom(testing::torus(), "torus"); }
+TEST(RandomCuts, Torus) { cutAtRandom(testing::torusVolume(), "torus"); }
 
 TEST(RandomCuts, DISABLED_Toy) {
   Warnings warnings;

@@ -99,7 +99,7 @@ TEST(TetCutter, HalvesTheSpongeAtItsMiddle) {
 }
 
 TEST(TetCutter, PlanesPartEveryBodyIntoSoundPieces) {
-  for (const TetTopology& topology : {testing::sponge(), testing::torus()}) {
+  for (const TetTopology& topology : {testing::sponge(), testing::torusVolume()}) {
     const Body body{topology};
     RandomCuts cuts(topology, 1);
     int made = 0;
@@ -121,7 +121,7 @@ TEST(TetCutter, PlanesPartEveryBodyIntoSoundPieces) {
 }
 
 TEST(TetCutter, SweptCutsGrowStepByStep) {
-  for (const TetTopology& topology : {testing::sponge(), testing::torus()}) {
+  for (const TetTopology& topology : {testing::sponge(), testing::torusVolume()}) {
     RandomCuts cuts(topology, 2);
     int made = 0;
     for (int k = 0; k < 50; ++k) {

@@ -17,7 +17,7 @@ constexpr std::size_t kFewest = 4;
 // Matches used for the motion of a piece, and of a neighbourhood; more would only cost time.
 constexpr std::size_t kEnoughOfPiece = 128, kEnoughNeighbors = 48;
 // Refits with Cauchy weights; the medians are a good start.
-constexpr int kFits = 2;
+constexpr int kOutlierFits = 2;
 // Number of matches that the piece's motion counts for in a neighbourhood, ...
 constexpr double kPieceMatches = 10.0;
 // ... as if they were spread over this radius [px].
@@ -138,7 +138,7 @@ class Motions {
         (prior_matches * Eigen::Vector3d(1.0, kReach2, kReach2)).asDiagonal();
     LinearMotion result = prior;
     result.spread = updateSpread(result);
-    for (int i = 0; i < kFits; ++i) {
+    for (int i = 0; i < kOutlierFits; ++i) {
       Eigen::Matrix3d A = prior_weight, B = prior_weight * prior.motion.transpose();
       for (std::size_t n = 0; n < neighbors_.size(); ++n) {
         const int other = neighbors_[n];

@@ -16,7 +16,7 @@ namespace {
 // RANSAC trials; most end at the first edge whose lengths differ, so they are cheap.
 constexpr int kTrials = 3000;
 // Refits of the best motion to the pairs that agree with it.
-constexpr int kFits = 3;
+constexpr int kRecognitionFits = 3;
 // Shortest edge of a trial's triangle, in tolerances; a smaller triangle does not fix the rotation.
 constexpr double kShortestEdge = 4.0;
 // Pairs that must agree, plus one for each kPairsPerChance pairs: among more pairs, more agree by chance.
@@ -119,7 +119,8 @@ std::optional<Eigen::Isometry3d> recognizedMotion(const std::vector<PointPair>& 
     std::vector<const PointPair*> others = agreeing(pairs, fit(triple), tolerance_m);
     if (others.size() > most.size()) most = std::move(others);
   }
-  for (int i = 0; i < kFits && most.size() >= fewest; ++i) most = agreeing(pairs, fit(most), tolerance_m);
+  for (int i = 0; i < kRecognitionFits && most.size() >= fewest; ++i)
+    most = agreeing(pairs, fit(most), tolerance_m);
   if (most.size() < fewest) return std::nullopt;
   return fit(most);
 }

@@ -9,7 +9,7 @@ namespace softbody {
 namespace {
 
 // Side of ORB's patch [px]; the value of the paper.
-constexpr int kPatchSize = 31;
+constexpr int kOrbPatchSize = 31;
 // Pyramid levels and the scale between them: a body comes closer or goes away by a factor of 1.7 at most.
 constexpr int kLevels = 4;
 constexpr float kScale = 1.2f;
@@ -43,7 +43,7 @@ std::vector<cv::KeyPoint> ranked(std::vector<cv::KeyPoint> found) {
 }
 
 bool isTooSmall(const cv::Rect& region) {
-  return region.width <= 2 * kPatchSize || region.height <= 2 * kPatchSize;
+  return region.width <= 2 * kOrbPatchSize || region.height <= 2 * kOrbPatchSize;
 }
 
 cv::Mat1b grayOf(const cv::Mat3b& color, const cv::Rect& region) {
@@ -73,7 +73,7 @@ int hammingDistance(const Descriptor& a, const Descriptor& b) {
 }
 
 OrbExtractor::OrbExtractor()
-    : orb_(cv::ORB::create(kMost, kScale, kLevels, kPatchSize, 0, 2, cv::ORB::HARRIS_SCORE, kPatchSize,
+    : orb_(cv::ORB::create(kMost, kScale, kLevels, kOrbPatchSize, 0, 2, cv::ORB::HARRIS_SCORE, kOrbPatchSize,
                            kFastThreshold)) {}
 
 std::vector<cv::KeyPoint> OrbExtractor::detect(const cv::Mat3b& color, const cv::Mat1b& mask,

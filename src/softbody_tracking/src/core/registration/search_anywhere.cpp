@@ -13,11 +13,11 @@ namespace softbody {
 namespace {
 
 // A small image and few iterations: every candidate has 144 starts.
-constexpr CoarseToFineSearch::Alignment kAlignment{80, 10};
+constexpr CoarseToFineSearch::Alignment kGlobalAlignment{80, 10};
 // Candidates that are searched; bounds the time in a cluttered scene.
 constexpr std::size_t kMostCandidates = 4;
 // Poses of each candidate that are refined; a box has four that look alike.
-constexpr std::size_t kRefined = 4;
+constexpr std::size_t kRefinedGlobally = 4;
 // Refined poses of all candidates that are polished, besides the best of each candidate.
 constexpr std::size_t kPolished = 4;
 // Angle [rad] and distance [diameters] between two poses that count as different.
@@ -26,7 +26,7 @@ constexpr double kOtherTurn = 0.35, kOtherPlace = 0.2;
 // much.
 constexpr double kAlikeCost = 0.02;
 // Two poses are in the same place if they share this part of the pixels that either covers.
-constexpr double kSamePlace = 0.5;
+constexpr double kSharedPixels = 0.5;
 // Largest share of covered pixels with a foreign colour; with more, something else is there.
 constexpr double kLargestForeignShare = 0.5;
 
@@ -84,7 +84,7 @@ bool inSamePlace(const Pinhole& camera, const TriangleMesh& mesh, const Eigen::I
   rasterize(camera, transformed(mesh.vertices, a), mesh.triangles, &at_a);
   rasterize(camera, transformed(mesh.vertices, b), mesh.triangles, &at_b);
   const cv::Mat1b covered_a = at_a.depth > 0.0f, covered_b = at_b.depth > 0.0f;
-  return cv::countNonZero(covered_a & covered_b) > kSamePlace * cv::countNonZero(covered_a | covered_b);
+  return cv::countNonZero(covered_a & covered_b) > kSharedPixels * cv::countNonZero(covered_a | covered_b);
 }
 
 /// Moves the poses that are alike with the first one to the front. @return the end of these.
@@ -102,11 +102,11 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorMod
                                           const SearchMeshes& meshes,
                                           const std::vector<Eigen::Isometry3d>& guesses,
                                           double distance_scale_m) {
-  CoarseToFineSearch search(frame, meshes.full, meshes.coarse, kAlignment, distance_scale_m);
+  CoarseToFineSearch search(frame, meshes.full, meshes.coarse, kGlobalAlignment, distance_scale_m);
   std::vector<PoseHypothesis> found, best_of_places;
   for (const auto& starts : startsByPlace(search.mediumFrame(), colors, meshes, guesses)) {
     const std::vector<PoseHypothesis> here =
-        search.rankRefined(search.refine(distinct(meshes, search.align(starts), kRefined)));
+        search.rankRefined(search.refine(distinct(meshes, search.align(starts), kRefinedGlobally)));
     best_of_places.push_back(here.front());
     found.insert(found.end(), here.begin(), here.end());
   }

@@ -4,14 +4,14 @@ namespace softbody {
 namespace {
 
 // Frames between two searches for a piece that is held in its place.
-constexpr int kFramesBetweenSearches = 10;
+constexpr int kFramesBetweenPieceSearches = 10;
 
 }  // namespace
 
 std::vector<bool> PieceSearch::duePieces(const std::vector<FeatureCount>& counts,
                                          const std::vector<bool>& followed) {
   frames_to_held_search_ =
-      frames_to_held_search_ > 0 ? frames_to_held_search_ - 1 : kFramesBetweenSearches - 1;
+      frames_to_held_search_ > 0 ? frames_to_held_search_ - 1 : kFramesBetweenPieceSearches - 1;
   std::vector<bool> due(counts.size());
   backoffs_.resize(counts.size());
   for (std::size_t piece = 0; piece < counts.size(); ++piece) {

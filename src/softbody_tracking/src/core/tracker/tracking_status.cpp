@@ -14,7 +14,7 @@ namespace {
 // Share of the visible surface that must agree in depth; with less, most of the body is not measured.
 constexpr double kDegradedShare = 0.3;
 // Share of the expected features that must be found; with fewer, something covers them or the light changed.
-constexpr double kFewestFound = 0.05;
+constexpr double kFewestTracked = 0.05;
 // Smallest share of inliers among the matches.
 constexpr double kWorstInlierRatio = 0.2;
 // Frames for which a piece of a cut body must be held before the status reports it; shorter gaps are normal.
@@ -27,7 +27,7 @@ std::string whyDegraded(const Observation& seen, int kept) {
     return seen.depth.occluded_blocks > seen.depth.absent_blocks ? "most of the body is occluded"
                                                                  : "most of the body is not where predicted";
   }
-  if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestFound * seen.expected_features)
+  if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestTracked * seen.expected_features)
     return "hardly any of the expected features are found";
   if (seen.matched_features >= kFewestExpectedFeatures && kept < kWorstInlierRatio * seen.matched_features)
     return "most feature matches disagree with their neighbours";

@@ -13,12 +13,12 @@
 namespace softbody {
 namespace {
 
-constexpr int kSubscriberQueue = 100;  // blades that may arrive while one frame is tracked
+constexpr int kBladeQueue = 100;  // blades that may arrive while one frame is tracked
 
 }  // namespace
 
 BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up) : look_up_(std::move(look_up)) {
-  subscriber_ = handle.subscribe(topics::kToolBlade, kSubscriberQueue, &BladeSubscriber::onBlade, this);
+  subscriber_ = handle.subscribe(topics::kToolBlade, kBladeQueue, &BladeSubscriber::onBlade, this);
 }
 
 void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {

@@ -13,7 +13,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kSubscriberQueue = 10;     // masks: a segmentation of several frames sends them at once
+constexpr int kMaskQueue = 10;           // masks: a segmentation of several frames sends them at once
 constexpr double kTimerPeriod_s = 0.01;  // [s] between two checks for timeouts; short against a frame's 33 ms
 
 }  // namespace
@@ -31,7 +31,7 @@ cv::Mat1f maskedDepth(const cv::Mat1f& depth, const cv::Mat1b& mask) {
 
 MaskSynchronizer::MaskSynchronizer(ros::NodeHandle handle, double timeout_s, Callback callback)
     : callback_(std::move(callback)), timeout_s_(timeout_s), queue_(timeout_s) {
-  subscriber_ = handle.subscribe(topics::kMask, kSubscriberQueue, &MaskSynchronizer::onMask, this);
+  subscriber_ = handle.subscribe(topics::kMask, kMaskQueue, &MaskSynchronizer::onMask, this);
   timer_ = handle.createWallTimer(ros::WallDuration(kTimerPeriod_s),
                                   [this](const ros::WallTimerEvent&) { passReadyFrames(); });
 }

@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace softbody::virtual_camera {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
 
 Eigen::Vector3d bend(const Eigen::Vector3d& rest, double curvature) {
   const double angle = curvature * rest.x();
@@ -23,7 +18,7 @@ Eigen::Vector3d twist(const Eigen::Vector3d& rest, double rate) {
 }
 
 Eigen::Vector3d stretch(const Eigen::Vector3d& rest, const Stretch& stretch) {
-  const double wave = kPi / stretch.half_length_m, half_strain = 0.5 * stretch.strain;
+  const double wave = M_PI / stretch.half_length_m, half_strain = 0.5 * stretch.strain;
   const double local = 1.0 + half_strain * (1.0 + std::cos(wave * rest.x()));
   const double along =
       rest.x() + half_strain * (rest.x() + stretch.half_length_m + std::sin(wave * rest.x()) / wave);

@@ -4,13 +4,8 @@
 #include <cmath>
 
 namespace softbody::virtual_camera {
-namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
-
-double smoothStep(double x) { return 0.5 * (1.0 - std::cos(kPi * std::clamp(x, 0.0, 1.0))); }
+double smoothStep(double x) { return 0.5 * (1.0 - std::cos(M_PI * std::clamp(x, 0.0, 1.0))); }
 
 double plateau(double t, const Plateau& plateau) {
   const double fall = plateau.begin + plateau.ramp + plateau.hold;
@@ -21,7 +16,7 @@ double swing(double t) {
   constexpr double kPeriod = 5.0, kStill = 0.5;  // [s]
   const double phase = (std::fmod(t, kPeriod) - kStill) / (kPeriod - kStill);
   if (phase <= 0.0) return 0.0;
-  const double pulse = 0.5 * (1.0 - std::cos(4.0 * kPi * phase));
+  const double pulse = 0.5 * (1.0 - std::cos(4.0 * M_PI * phase));
   return (phase < 0.5 ? 1.0 : -1.0) * pulse;
 }
 
