@@ -13,6 +13,7 @@ constexpr char kRgbRect[] = "rgb/image_rect_color";
 constexpr char kRgbInfo[] = "rgb/camera_info";
 constexpr char kDepthRect[] = "depth/image_rect";
 constexpr char kPoints[] = "points";
+constexpr char kPointsMarker[] = "points/marker";
 
 constexpr char kMask[] = "mask";
 constexpr char kFeatures[] = "features";

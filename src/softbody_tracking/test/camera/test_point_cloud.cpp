@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -64,6 +65,25 @@ TEST(PointCloud, OneLargeVoxelIsTheMeanOfAllPixels) {
   ASSERT_EQ(points.size(), 1u);
   const double z = cv::sum(frame.depth)[0] / cv::countNonZero(frame.depth);
   EXPECT_NEAR(points[0].z, z, 1e-5);
+}
+
+TEST(PointCloud, AThinnedCloudHasPointsOfEveryNthPixelWithDepth) {
+  RgbdFrame frame = randomFrame();
+  frame.depth(0, 0) = 0.0f;
+  const std::vector<ColoredPoint> all = organizedCloud(frame);
+  const auto with_depth = static_cast<std::size_t>(cv::countNonZero(frame.depth));
+  EXPECT_EQ(thinnedCloud(frame, 30 * 40).size(), with_depth);
+  for (const int most : {1, 7, 100, 1199}) {
+    const std::vector<ColoredPoint> points = thinnedCloud(frame, most);
+    EXPECT_LE(points.size(), static_cast<std::size_t>(most));
+    for (const ColoredPoint& p : points) {
+      EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&p](const ColoredPoint& q) {
+        return p.x == q.x && p.y == q.y && p.z == q.z && p.rgb == q.rgb;
+      }));
+    }
+  }
+  EXPECT_GT(thinnedCloud(frame, 100).size(), 20u);
+  EXPECT_THROW(thinnedCloud(frame, 0), std::invalid_argument);
 }
 
 TEST(PointCloud, TheVoxelSizeMustBePositive) {

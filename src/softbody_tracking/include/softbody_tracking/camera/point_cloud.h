@@ -20,4 +20,9 @@ std::vector<ColoredPoint> organizedCloud(const RgbdFrame& frame);
 /// @throw std::invalid_argument if the size is not above 0.
 std::vector<ColoredPoint> voxelCloud(const RgbdFrame& frame, double voxel_size_m);
 
+/// The points of the pixels with depth in every n-th row and column, at most `max_points`; n is the least
+/// that allows it.
+/// @throw std::invalid_argument if max_points is not above 0.
+std::vector<ColoredPoint> thinnedCloud(const RgbdFrame& frame, int max_points);
+
 }  // namespace softbody

@@ -34,20 +34,38 @@ std::uint64_t voxelKey(const Eigen::Vector3d& point, double size) {
   return key;
 }
 
+ColoredPoint pointOfPixel(const RgbdFrame& frame, int u, int v) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const Pinhole& camera = frame.camera;
+  const auto x = static_cast<float>((u - camera.cx) / camera.fx);
+  const auto y = static_cast<float>((v - camera.cy) / camera.fy);
+  const float z = frame.depth(v, u) > 0.0f ? frame.depth(v, u) : kNone;
+  const cv::Vec3b& bgr = frame.color(v, u);
+  return {x * z, y * z, z, static_cast<std::uint32_t>(bgr[2] << 16 | bgr[1] << 8 | bgr[0])};
+}
+
 }  // namespace
 
 std::vector<ColoredPoint> organizedCloud(const RgbdFrame& frame) {
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  const Pinhole& camera = frame.camera;
   std::vector<ColoredPoint> points(frame.depth.total());
   auto point = points.begin();
   for (int v = 0; v < frame.depth.rows; ++v) {
-    const auto y = static_cast<float>((v - camera.cy) / camera.fy);
-    for (int u = 0; u < frame.depth.cols; ++u, ++point) {
-      const auto x = static_cast<float>((u - camera.cx) / camera.fx);
-      const float z = frame.depth(v, u) > 0.0f ? frame.depth(v, u) : kNone;
-      const cv::Vec3b& bgr = frame.color(v, u);
-      *point = {x * z, y * z, z, static_cast<std::uint32_t>(bgr[2] << 16 | bgr[1] << 8 | bgr[0])};
+    for (int u = 0; u < frame.depth.cols; ++u) *point++ = pointOfPixel(frame, u, v);
+  }
+  return points;
+}
+
+std::vector<ColoredPoint> thinnedCloud(const RgbdFrame& frame, int max_points) {
+  if (max_points <= 0) throw std::invalid_argument("thinnedCloud: the number of points must be above 0");
+  const auto kept = [&frame](int step) {
+    return std::int64_t{(frame.depth.rows + step - 1) / step} * ((frame.depth.cols + step - 1) / step);
+  };
+  int step = 1;
+  while (kept(step) > max_points) ++step;
+  std::vector<ColoredPoint> points;
+  for (int v = 0; v < frame.depth.rows; v += step) {
+    for (int u = 0; u < frame.depth.cols; u += step) {
+      if (frame.depth(v, u) > 0.0f) points.push_back(pointOfPixel(frame, u, v));
     }
   }
   return points;

@@ -4,6 +4,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <softbody_msgs/StageTiming.h>
+#include <visualization_msgs/Marker.h>
 
 #include <boost/make_shared.hpp>
 
@@ -11,8 +12,15 @@
 #include "softbody_common/topics.h"
 #include "softbody_tracking/camera/point_cloud.h"
 #include "softbody_tracking/ros/conversions.h"
+#include "softbody_tracking/ros/points_marker.h"
 
 namespace softbody {
+namespace {
+
+constexpr std::int64_t kMarkerPeriod_ns = 200'000'000;
+constexpr int kMaxMarkerPoints = 20'000;
+
+}  // namespace
 
 CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m,
                                          std::uint32_t queue_size)
@@ -21,17 +29,17 @@ CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_si
       info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, queue_size)),
       depth_(handle.advertise<sensor_msgs::Image>(topics::kDepthRect, queue_size)),
       points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, queue_size)),
+      points_marker_(handle.advertise<visualization_msgs::Marker>(topics::kPointsMarker, 1)),
       timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, queue_size)) {}
 
 bool CameraIngestOutputs::hasSubscriber() const {
-  for (const ros::Publisher* publisher : {&color_, &info_, &depth_, &points_, &timing_}) {
+  for (const ros::Publisher* publisher : {&color_, &info_, &depth_, &points_, &points_marker_, &timing_}) {
     if (publisher->getNumSubscribers() > 0) return true;
   }
   return false;
 }
 
-void CameraIngestOutputs::publish(const RgbdFrame& frame, const std_msgs::Header& header,
-                                  StageTimer* timer) const {
+void CameraIngestOutputs::publish(const RgbdFrame& frame, const std_msgs::Header& header, StageTimer* timer) {
   if (info_.getNumSubscribers() > 0) {
     const auto info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(frame.camera));
     info->header = header;
@@ -43,6 +51,7 @@ void CameraIngestOutputs::publish(const RgbdFrame& frame, const std_msgs::Header
     const auto stage = timer->stage("point cloud");
     publishPoints(frame, header);
   }
+  if (points_marker_.getNumSubscribers() > 0) publishPointsMarker(frame, header);
   const std::vector<StageTime> stages = timer->take();
   if (timing_.getNumSubscribers() > 0) {
     const auto timing =
@@ -57,6 +66,17 @@ void CameraIngestOutputs::publishPoints(const RgbdFrame& frame, const std_msgs::
     points_.publish(toMessage(organizedCloud(frame), frame.camera.width, header));
   else
     points_.publish(toMessage(voxelCloud(frame, voxel_size_m_), 0, header));
+}
+
+void CameraIngestOutputs::publishPointsMarker(const RgbdFrame& frame, const std_msgs::Header& header) {
+  const std::int64_t stamp = toNanoseconds(header.stamp);
+  const bool jumped_back = last_marker_ && stamp < *last_marker_;
+  if (last_marker_ && !jumped_back && stamp - *last_marker_ < kMarkerPeriod_ns) return;
+  last_marker_ = stamp;
+  const auto marker =
+      boost::make_shared<visualization_msgs::Marker>(makePointsMarker(thinnedCloud(frame, kMaxMarkerPoints)));
+  marker->header = header;
+  points_marker_.publish(marker);
 }
 
 }  // namespace softbody

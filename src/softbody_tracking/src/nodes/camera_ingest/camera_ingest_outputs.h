@@ -4,6 +4,7 @@
 #include <std_msgs/Header.h>
 
 #include <cstdint>
+#include <optional>
 
 #include "softbody_common/stage_timer.h"
 #include "softbody_tracking/rgbd_frame.h"
@@ -21,13 +22,16 @@ class CameraIngestOutputs {
   bool hasSubscriber() const;
 
   /// Publishes what has a subscriber, and the timer's rows with it.
-  void publish(const RgbdFrame& frame, const std_msgs::Header& header, StageTimer* timer) const;
+  void publish(const RgbdFrame& frame, const std_msgs::Header& header, StageTimer* timer);
 
  private:
   void publishPoints(const RgbdFrame& frame, const std_msgs::Header& header) const;
+  /// Few points and seldom: enough to look at, and little to draw.
+  void publishPointsMarker(const RgbdFrame& frame, const std_msgs::Header& header);
 
   double voxel_size_m_;
-  ros::Publisher color_, info_, depth_, points_, timing_;
+  std::optional<std::int64_t> last_marker_;  ///< stamp [ns]
+  ros::Publisher color_, info_, depth_, points_, points_marker_, timing_;
 };
 
 }  // namespace softbody
