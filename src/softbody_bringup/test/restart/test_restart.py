@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""A node that ends is started again, whatever ended it. Where `answers_after` names it, the graph then tracks without help."""
+import os
+import signal
+import sys
+import time
+import unittest
+import xmlrpc.client
+
+import rosgraph
+import rospy
+import rostest
+from softbody_msgs.msg import MeshState, TrackingStatus
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
+
+
+def process_of(node):
+    """The process id that a node itself gives, or None if it does not answer."""
+    try:
+        return xmlrpc.client.ServerProxy(rosgraph.Master("/test_restart").lookupNode(node)).getPid("/test_restart")[2]
+    except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
+        return None
+
+
+class Restart(unittest.TestCase):
+    def setUp(self):
+        self.recorder = Recorder(softbody__surface__state=MeshState, softbody__status=TrackingStatus)
+        self.expect_tracking_after(rospy.Time())
+
+    def expect_tracking_after(self, moment):
+        self.recorder.wait(lambda seen: any(state.header.stamp > moment for state in seen["softbody/surface/state"]),
+                           f"a state of an image after {moment.to_sec():.3f}")
+        self.recorder.wait(lambda seen: any(status.header.stamp > moment and status.state == TrackingStatus.TRACKING
+                                            for status in seen["softbody/status"]), "TRACKING")
+
+    def expect_another_process(self, node, before):
+        deadline = time.monotonic() + PATIENCE_S
+        while process_of(node) in (None, before):
+            self.assertLess(time.monotonic(), deadline, f"{node} is not started again")
+            time.sleep(0.05)
+
+    def expect_return(self, node, number):
+        process = process_of(node)
+        os.kill(process, number)
+        moment = rospy.Time.now()
+        self.expect_another_process(node, process)
+        self.recorder.wait(lambda seen: any(status.header.stamp > moment for status in seen["softbody/status"]),
+                           f"a status of an image after {moment.to_sec():.3f}")
+        if node in rospy.get_param("~answers_after"):
+            self.expect_tracking_after(moment)
+            print(f"{node}: tracking again {(rospy.Time.now() - moment).to_sec():.2f} s after signal {number}")
+
+    def test_every_node_comes_back(self):
+        for node in rospy.get_param("~answers_after") + rospy.get_param("~starts_again"):
+            for number in (signal.SIGINT, signal.SIGKILL):
+                self.expect_return(node, number)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_restart")
+    rostest.rosrun("softbody_bringup", "test_restart", Restart, sys.argv)
