@@ -9,7 +9,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data cuts demo bench evaluate figures corpus validation tidy format clean help dependencies
+.PHONY: build test shared-data cuts demo bench evaluate figures corpus validation sanitize soak error-table tidy format clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
@@ -47,6 +47,15 @@ figures: build  ## draw the paper's Figures 10 and 11 with our models, in docs/i
 validation: build  ## compare the simulator with known solutions; writes docs/validation.md
 	scripts/validate
 
+sanitize: dependencies  ## build with sanitizers (address and undefined, thread) and run tests, replay and the live graph (hours)
+	scripts/sanitize
+
+soak: build  ## an hour of two live graphs with faults, cuts and killed nodes; SOAK_MINUTES=60, KILLS=500: one every 3 s
+	bash -c '. catkin_ws/devel/setup.bash && exec scripts/soak --minutes $(or $(SOAK_MINUTES),60) $(if $(KILLS),--kills $(KILLS))'
+
+error-table:  ## write the table of all messages in docs/troubleshooting.md from the sources
+	scripts/error_table
+
 tidy: build  ## run clang-tidy on all sources (slow)
 	scripts/install_dependencies scripts/apt-packages-tidy.txt
 	scripts/tidy
@@ -55,8 +64,8 @@ format: dependencies  ## format all sources in place with clang-format
 	find src -name '*.h' -o -name '*.cpp' | xargs clang-format -i
 
 clean:  ## remove everything that was built or written
-	rm -rf catkin_ws/build catkin_ws/devel catkin_ws/install catkin_ws/logs catkin_ws/.catkin_tools
-	rm -rf bench demo_output evaluation validation
+	rm -rf catkin_ws/build* catkin_ws/devel* catkin_ws/install* catkin_ws/logs* catkin_ws/.catkin_tools
+	rm -rf bench demo_output evaluation soak validation
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*##  *\(.*\)/\1\t\2/p' Makefile | expand -t 14

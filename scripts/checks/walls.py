@@ -22,7 +22,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 ROS_LIBRARY = re.compile(
     r"lib(ros|xmlrpcpp|cpp_common|tf2?[._]|tf2_|cv_bridge|image_|message_filters|nodelet|pluginlib|class_loader|"
     r"diagnostic_|interactive_markers|topic_tools|eigen_conversions|softbody_\w+_(ros|nodes)\b)")
-NOT_SOURCES = {".git", "catkin_ws", "__pycache__", "bench", "demo_output", "evaluation", "validation"}
+NOT_SOURCES = {".git", "catkin_ws", "__pycache__", "bench", "demo_output", "evaluation", "soak", "validation"}
 
 
 class Source:

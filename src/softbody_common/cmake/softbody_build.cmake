@@ -10,6 +10,18 @@ macro(softbody_build_settings)
     set(CMAKE_BUILD_TYPE Release)
   endif()
   add_compile_options(-Wall -Wextra)
+  softbody_sanitize()
+endmacro()
+
+# SOFTBODY_SANITIZE=address,undefined or thread: instruments everything, with assertions switched on.
+macro(softbody_sanitize)
+  set(SOFTBODY_SANITIZE "" CACHE STRING "sanitizers of GCC: address,undefined or thread")
+  if(SOFTBODY_SANITIZE)
+    # -g1: line numbers are enough for a stack, and variables would need gigabytes.
+    add_compile_options(-fsanitize=${SOFTBODY_SANITIZE} -fno-omit-frame-pointer -O1 -g1 -UNDEBUG
+      -D_GLIBCXX_ASSERTIONS)
+    add_link_options(-fsanitize=${SOFTBODY_SANITIZE})
+  endif()
 endmacro()
 
 # The sources of a folder are compiled as one, which halves the time of a build. So names that are local to a source differ

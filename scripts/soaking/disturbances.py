@@ -1,0 +1,86 @@
+"""Cuts, undo and kills, all from one seed."""
+import random
+import signal
+import threading
+import time
+
+import rospy
+from geometry_msgs.msg import Point, Vector3
+from softbody_msgs.msg import MeshTopology
+from softbody_msgs.srv import CutBody
+from std_srvs.srv import Trigger
+
+EDITS = ["cut"] * 5 + ["undo"] * 3 + ["redo", "reset"]
+SCENE_S = 14.0  # the knife's scene is over: the camera starts again, with a whole body
+
+
+class Editor(threading.Thread):
+    """Calls the surface's services at random. What a service refuses is counted."""
+
+    def __init__(self, side, seed, stop):
+        super().__init__(daemon=True)
+        self.side, self.random, self.stop = side, random.Random(seed), stop
+        self.counts = {}
+        self.box = None
+
+    def run(self):
+        while not self.stop.wait(self.random.uniform(1.5, 4.0)):
+            edit = self.random.choice(EDITS)
+            try:
+                answer = self.cut() if edit == "cut" else self.call(edit, Trigger)()
+                self.count(f"{edit} {'made' if answer.success else 'refused'}")
+            except (rospy.ServiceException, rospy.ROSException):
+                self.count(f"{edit} without an answer")  # the node was killed
+
+    def count(self, what):
+        self.counts[what] = self.counts.get(what, 0) + 1
+
+    def call(self, name, kind):
+        service = f"{self.side.namespace}/surface/{name}"
+        rospy.wait_for_service(service, 2)
+        return rospy.ServiceProxy(service, kind)
+
+    def cut(self):
+        if self.box is None:
+            topology = rospy.wait_for_message(f"{self.side.namespace}/surface/topology", MeshTopology, 5)
+            columns = list(zip(*((p.x, p.y, p.z) for p in topology.rest_vertices)))
+            self.box = [(min(column), max(column)) for column in columns]
+        point = Point(*(self.random.uniform(low, high) for low, high in self.box))
+        return self.call("cut", CutBody)(point=point, normal=Vector3(*(self.random.gauss(0, 1) for _ in range(3))))
+
+
+class Killer(threading.Thread):
+    """Kills one node after another at random."""
+
+    def __init__(self, graph, sides, options, begin, end, stop):
+        super().__init__(daemon=True)
+        self.graph, self.sides, self.stop = graph, sides, stop
+        self.begin, self.end = begin, end
+        self.period, self.left = options.kill_every, options.kills
+        self.random = random.Random(options.seed)
+        self.done = 0
+
+    def run(self):
+        while self.left is None or self.left > 0:
+            due = max(self.begin - time.time(), self.random.uniform(0.7, 1.3) * self.period)
+            if self.stop.wait(due) or time.time() > self.end:
+                return
+            self.kill_one()
+
+    def kill_one(self):
+        name = self.random.choice(sorted(name for name in self.graph.nodes() if name.count("/") == 2))
+        side = next(side for side in self.sides if name.startswith(side.namespace + "/"))
+        moment = time.time()
+        if self.graph.kill(name):
+            with side.lock:
+                side.kills.append((moment, name))
+            self.done += 1
+            self.left = None if self.left is None else self.left - 1
+
+
+def restart_scene(graph, side):
+    """The camera shows its scene again from the beginning."""
+    camera = f"{side.namespace}/virtual_camera"
+    with side.lock:
+        side.kills.append((time.time(), camera))
+    graph.kill(camera, signal.SIGINT)

@@ -1,0 +1,81 @@
+"""What one graph gets and gives: stamps of its images, and its states with their revisions and latency."""
+import struct
+import threading
+import time
+
+import rospy
+
+BEFORE_S, AFTER_S = 0.5, 1.0  # frames so close to a kill need no answer
+
+
+def _header(buffer):
+    """Stamp [s], and the rest of the message after the header."""
+    _, secs, nsecs, length = struct.unpack_from("<IIII", buffer)
+    return secs + 1e-9 * nsecs, 16 + length
+
+
+class Side:
+    """One graph, by its namespace and its camera's. All times are those of the system clock, as the stamps are."""
+
+    def __init__(self, namespace, camera):
+        self.namespace = namespace
+        self.lock = threading.Lock()
+        self.frames, self.states, self.kills = [], [], []  # stamps; (stamp, arrival); (time, node)
+        self.revisions = {"volume": 0, "surface": 0}
+        self.apart_since, self.longest_apart = None, 0.0
+        subscribe = {"queue_size": 100, "buff_size": 1 << 24, "tcp_nodelay": True}
+        rospy.Subscriber(f"{camera}/color/image_raw", rospy.AnyMsg, self._add_frame, **subscribe)
+        for body in ("volume", "surface"):
+            rospy.Subscriber(f"{namespace}/{body}/state", rospy.AnyMsg, self._add_state, body, **subscribe)
+
+    def _add_frame(self, message):
+        stamp, _ = _header(message._buff)
+        with self.lock:
+            # A late or repeated image is dropped by the graph, as it should be.
+            if not self.frames or stamp > self.frames[-1]:
+                self.frames.append(stamp)
+
+    def _add_state(self, message, body):
+        stamp, offset = _header(message._buff)
+        (revision,) = struct.unpack_from("<I", message._buff, offset + 8)  # after the time `observed`
+        now = time.time()
+        with self.lock:
+            if body == "surface":
+                self.states.append((stamp, now))
+            self.revisions[body] = revision
+            if self.revisions["volume"] == self.revisions["surface"]:
+                self.apart_since = None
+            elif self.apart_since is None:
+                self.apart_since = now
+            else:
+                self.longest_apart = max(self.longest_apart, now - self.apart_since)
+
+    def _is_calm(self, moment):
+        return not any(kill - BEFORE_S <= moment <= kill + AFTER_S for kill, _ in self.kills)
+
+    def unanswered(self, begin, end):
+        """Stamps of frames that got no state although no kill was near, and the number of all such frames."""
+        with self.lock:
+            answered = {stamp for stamp, _ in self.states}
+            due = [stamp for stamp in self.frames if begin <= stamp < end and self._is_calm(stamp)]
+        return [stamp for stamp in due if stamp not in answered], len(due)
+
+    def recoveries(self, end):
+        """(time until a state of a later frame came [s], node) for each kill; infinite if none came within a minute. Kills of
+        the camera and of its connection do not count: there are no frames until they are back."""
+        with self.lock:
+            states = list(self.states)
+        answers = []
+        for kill, name in self.kills:
+            if kill < end and not name.endswith(("/virtual_camera", "/injector")):
+                times = (arrival - kill for stamp, arrival in states if kill < stamp and arrival < kill + 60)
+                answers.append((min(times, default=float("inf")), name))
+        return answers
+
+    def latency(self, begin, end):
+        """Median time from a frame's stamp to its state [s], away from kills; None without states."""
+        with self.lock:
+            frames = set(self.frames)
+            times = sorted(arrival - stamp for stamp, arrival in self.states
+                           if begin <= stamp < end and stamp in frames and self._is_calm(stamp))
+        return times[len(times) // 2] if times else None
