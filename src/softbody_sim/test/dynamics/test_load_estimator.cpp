@@ -21,7 +21,7 @@ TEST(LoadEstimator, BalancesOnEveryPiece) {
   LoadEstimator estimate(topology, masses, 0.3);
   Points loads = Points::Zero(count, 3);
   for (int frame = 0; frame < 3; ++frame)
-    estimate.update(randomPoints(count, 1.0, &random), topology.rest_vertices, 1.0 / 30.0, &loads);
+    estimate.update(randomPoints(count, 1.0, &random), {}, topology.rest_vertices, 1.0 / 30.0, &loads);
   EXPECT_GT(loads.norm(), 0.1);
   const Points forces = masses.asDiagonal() * loads;
   for (const Eigen::Index first : {Eigen::Index(0), count / 2}) {
@@ -40,9 +40,25 @@ TEST(LoadEstimator, PiecesDoNotActOnEachOther) {
   LoadEstimator estimate(topology, Eigen::VectorXd::Ones(count), 0.3);
   Points springs = Points::Zero(count, 3), loads = springs;
   springs.row(0) << 1.0, 2.0, 3.0;
-  estimate.update(springs, topology.rest_vertices, 0.0, &loads);
+  estimate.update(springs, {}, topology.rest_vertices, 0.0, &loads);
   EXPECT_GT(loads.topRows(count / 2).norm(), 0.0);
   EXPECT_EQ(loads.bottomRows(count / 2).norm(), 0.0);
+}
+
+TEST(LoadEstimator, APinnedPieceKeepsNoLoads) {
+  const TetTopology topology = testing::twoBoxes({4, 3, 2}, {0.2, 0.1, 0.04});
+  const Eigen::Index count = topology.rest_vertices.rows();
+  std::mt19937 random(4);
+  LoadEstimator estimate(topology, Eigen::VectorXd::Ones(count), 0.3);
+  const Points springs = randomPoints(count, 1.0, &random);
+  Points loads = Points::Zero(count, 3);
+  estimate.update(springs, {}, topology.rest_vertices, 0.1, &loads);
+  const double before = loads.topRows(count / 2).norm();
+  EXPECT_GT(before, 0.0);
+  for (int frame = 0; frame < 3; ++frame)
+    estimate.update(springs, {Pin{0}}, topology.rest_vertices, 0.1, &loads);
+  EXPECT_NEAR(loads.topRows(count / 2).norm(), std::exp(-1.0) * before, 1e-9 * before);
+  EXPECT_GT(loads.bottomRows(count / 2).norm(), 1.5 * before);
 }
 
 /// A stretched box that is observed only from above.

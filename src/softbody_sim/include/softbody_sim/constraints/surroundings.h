@@ -8,10 +8,12 @@
 
 namespace softbody {
 
-/// A vertex held at a position, in the frame of the targets.
+/// A vertex held at a position, in the frame of the targets. The position is a measurement: the body goes to
+/// the mean of what pins and targets say, weighted by their inverse variances.
 struct Pin {
   int vertex = -1;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  double accuracy_m = 0.0;  ///< standard deviation of the position; 0: as stiff as the solver allows
 };
 
 /// What acts on the body besides targets and gravity.
@@ -27,13 +29,15 @@ struct Wrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the pin, or the obstacle's origin [N m]
 };
 
-/// The body's forces on its surroundings at the end of a step.
+/// The body's forces on its surroundings at the end of a step: elasticity, inertia, gravity and contact. The
+/// springs of targets are measurements. They do not count.
 struct Reactions {
   std::vector<Wrench> pins;
   std::vector<Wrench> obstacles;
 };
 
-/// @throw std::invalid_argument if a pin names a vertex that does not exist, or a number is not finite.
+/// @throw std::invalid_argument if a pin names a vertex that does not exist, a number is not finite, or an
+/// accuracy is negative.
 void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count);
 
 }  // namespace softbody

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace softbody {
@@ -13,6 +14,8 @@ void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count) 
           fmt::format("a pin holds vertex {}; allowed: 0 to {}", pin.vertex, vertex_count - 1));
     }
     if (!pin.position.allFinite()) throw std::invalid_argument("a pin's position is not finite");
+    if (!std::isfinite(pin.accuracy_m) || pin.accuracy_m < 0.0)
+      throw std::invalid_argument("a pin's accuracy is negative or not finite");
   }
   for (const Obstacle& obstacle : surroundings.obstacles) {
     if (!obstacle.pose.matrix().allFinite()) throw std::invalid_argument("an obstacle's pose is not finite");

@@ -51,7 +51,7 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
   return std::make_unique<ProjectiveDynamics>(topology, lame, options);
 }
 
-/// Stiffness of a pin relative to the body. Larger values would lose too many digits to rounding.
+/// Largest stiffness of a pin relative to the body. Larger values would lose too many digits to rounding.
 constexpr double kPinStiffness = 1e5;
 
 ConstrainedStep makeStep(const TetTopology& topology, const Material& material, const SimulatorConfig& config,
@@ -60,7 +60,7 @@ ConstrainedStep makeStep(const TetTopology& topology, const Material& material, 
   return {topology,
           ContactForces(topology, config.contact_spacing * edge_length,
                         config.contact_stiffness * E / edge_length, 0.1 * edge_length),
-          {target_stiffness, kPinStiffness * E * edge_length, 1e-3 * edge_length},
+          {target_stiffness, config.target_accuracy_m, kPinStiffness * E * edge_length, 1e-3 * edge_length},
           solver};
 }
 

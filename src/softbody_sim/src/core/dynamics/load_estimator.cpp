@@ -30,8 +30,13 @@ TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& ma
 LoadEstimator::LoadEstimator(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s)
     : masses_(masses),
       pieces_(verticesOfPieces(topology.tets, masses.size())),
+      piece_of_vertex_(static_cast<std::size_t>(masses.size())),
       fade_s_(fade_s),
-      smoother_(TetMatrix(topology.tets, masses.size()).lower()) {
+      smoother_(TetMatrix(topology.tets, masses.size()).lower()),
+      held_(pieces_.size()) {
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    for (int v : pieces_[piece]) piece_of_vertex_[static_cast<std::size_t>(v)] = piece;
+  }
   if (fade_s_ > 0.0) smoother_.factorize(screenedPoisson(topology, masses).lower());
 }
 
@@ -63,9 +68,21 @@ void LoadEstimator::balance(const Points& vertices, Points* loads) const {
   for (const std::vector<int>& piece : pieces_) balancePiece(piece, vertices, loads);
 }
 
-void LoadEstimator::update(const Points& springs, const Points& vertices, double elapsed_s, Points* loads) {
+void LoadEstimator::leaveOutHeldPieces(const std::vector<Pin>& pins) {
+  held_.assign(held_.size(), false);
+  for (const Pin& pin : pins) held_[piece_of_vertex_[static_cast<std::size_t>(pin.vertex)]] = true;
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    if (!held_[piece]) continue;
+    for (int v : pieces_[piece]) unexplained_.row(v).setZero();
+  }
+}
+
+void LoadEstimator::update(const Points& springs, const std::vector<Pin>& pins, const Points& vertices,
+                           double elapsed_s, Points* loads) {
   if (fade_s_ <= 0.0) return;
-  smoother_.solve(springs, &spread_);
+  unexplained_ = springs;
+  leaveOutHeldPieces(pins);
+  smoother_.solve(unexplained_, &spread_);
   *loads = std::exp(-elapsed_s / fade_s_) * *loads + spread_;
   balance(vertices, loads);
 }

@@ -36,7 +36,7 @@ struct Simulator::Implementation {
   void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
   void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings);
-  void estimateLoads(const TargetSet& targets, double elapsed_s);
+  void estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
 
   const TetTopology uncut;
   const Material material;
@@ -105,12 +105,13 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
 }
 
 /// The forces of the targets' springs show which loads are still unknown.
-void Simulator::Implementation::estimateLoads(const TargetSet& targets, double elapsed_s) {
+void Simulator::Implementation::estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins,
+                                              double elapsed_s) {
   springs.set(targets.targets, model->topology.tets, model->target_stiffness);
   spring_forces.setZero(next.loads.rows(), 3);
   springs.addTo(next.mesh.vertices, &spring_forces);
   spring_forces *= -1.0;
-  model->load_estimator.update(spring_forces, next.mesh.vertices, elapsed_s, &next.loads);
+  model->load_estimator.update(spring_forces, pins, next.mesh.vertices, elapsed_s, &next.loads);
 }
 
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
@@ -130,7 +131,8 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp);
   s.advance(targets, stamp, surroundings);
-  if (s.config.simulate && stamp > s.body.stamp) s.estimateLoads(targets, seconds(stamp - s.body.stamp));
+  if (s.config.simulate && stamp > s.body.stamp)
+    s.estimateLoads(targets, surroundings.pins, seconds(stamp - s.body.stamp));
   s.model->vertex_confidence.compute(targets.targets, &s.next.mesh.confidence);
   if (!targets.targets.empty()) s.next.mesh.observed = stamp;
   std::swap(s.body, s.next);

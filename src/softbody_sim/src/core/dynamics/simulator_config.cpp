@@ -40,6 +40,7 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.single_precision = parameters.flag("single_precision", config.single_precision);
   config.simd = parameters.choice("simd", config.simd, {"auto", "sse4", "avx2", "avx512"});
   config.target_stiffness = parameters.number("target_stiffness", config.target_stiffness, 1e-6, 1e6);
+  config.target_accuracy_m = parameters.number("target_accuracy_m", config.target_accuracy_m, 1e-6, 1.0);
   config.load_fade_s = parameters.number("load_fade_s", config.load_fade_s, 0.0, 1e3);
   config.contact_stiffness = parameters.number("contact_stiffness", config.contact_stiffness, 1e-3, 1e4);
   config.contact_spacing = parameters.number("contact_spacing", config.contact_spacing, 0.1, 100.0);

@@ -1,21 +1,9 @@
 #include "time_step/constrained_step.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace softbody {
-namespace {
-
-/// Gives a held vertex a very large inertia at its pin.
-void hold(const std::vector<Pin>& pins, double stiffness, IncrementalPotential* potential) {
-  for (const Pin& pin : pins) {
-    potential->inertia[pin.vertex] = stiffness;
-    potential->prediction.row(pin.vertex) = pin.position;
-    potential->loads.row(pin.vertex).setZero();
-  }
-}
-
-}  // namespace
-
 ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactForces contact, const Options& options,
                                  StepSolver* solver)
     : topology_(&topology), contact_(std::move(contact)), options_(options), solver_(solver) {}
@@ -36,7 +24,7 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
                                                       Points* x) {
   const Problem problem{free, targets, surroundings, before, before_poses};
   setPotential(problem);
-  hold(surroundings.pins, options_.pin_stiffness, &potential_);
+  addPins(surroundings.pins);
   gradient_.resize(x->rows(), 3);
   chooseStart(problem, x);
   iterate(problem, x);
@@ -52,6 +40,23 @@ void ConstrainedStep::setPotential(const Problem& problem) {
   if (problem.surroundings.loads.size() > 0) potential_.loads += problem.surroundings.loads;
 }
 
+/// Stiffnesses are inverse variances, in a unit that the targets give.
+double ConstrainedStep::stiffnessOf(const Pin& pin) const {
+  const double ratio = options_.target_accuracy_m / pin.accuracy_m;
+  return std::min(options_.target_stiffness * ratio * ratio, options_.pin_stiffness);
+}
+
+/// Inertia and the spring of a pin are one quadratic term together.
+void ConstrainedStep::addPins(const std::vector<Pin>& pins) {
+  for (const Pin& pin : pins) {
+    const double stiffness = stiffnessOf(pin);
+    double& inertia = potential_.inertia[pin.vertex];
+    auto prediction = potential_.prediction.row(pin.vertex);
+    prediction = (inertia * prediction + stiffness * pin.position.transpose()) / (inertia + stiffness);
+    inertia += stiffness;
+  }
+}
+
 /// For a body that hangs or lies, its earlier shape is a better start than the prediction from the loads.
 void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   const Surroundings& surroundings = problem.surroundings;
@@ -63,7 +68,7 @@ void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
 
 double ConstrainedStep::energyAt(const Points& x, const Problem& problem) {
   findContacts(x, problem, &contacts_);
-  setSprings(problem);
+  setSprings(problem.targets);
   return potential_.evaluate(x, &gradient_) + solver_->addElasticity(x, &gradient_);
 }
 
@@ -73,7 +78,7 @@ void ConstrainedStep::iterate(const Problem& problem, Points* x) {
   report = {};
   findContacts(*x, problem, &contacts_);
   for (int round = 1;; ++round) {
-    setSprings(problem);
+    setSprings(problem.targets);
     const int iterations = report.iterations;
     report = solver_->minimize(potential_, x);
     report.iterations += iterations;
@@ -93,17 +98,18 @@ void ConstrainedStep::findContacts(const Points& x, const Problem& problem, std:
   contact_.find(problem.before, x, problem.surroundings.obstacles, problem.before_poses, contacts);
 }
 
-void ConstrainedStep::setSprings(const Problem& problem) {
-  potential_.targets.set(problem.targets, topology_->tets, options_.target_stiffness);
+void ConstrainedStep::setSprings(const std::vector<Target>& targets) {
+  potential_.targets.set(targets, topology_->tets, options_.target_stiffness);
   contact_.addSprings(contacts_, &potential_.targets);
 }
 
-/// A pin carries all other forces on its vertex.
+/// A pin carries all forces on its vertex. Targets are measurements, not forces.
 void ConstrainedStep::findPinForces(const Problem& problem, const Points& x) {
   const std::vector<Pin>& pins = problem.surroundings.pins;
   result_.reactions.pins.assign(pins.size(), Wrench());
   if (pins.empty()) return;
   setPotential(problem);  // without pins
+  setSprings(no_targets_);
   potential_.evaluate(x, &gradient_);
   solver_->addElasticity(x, &gradient_);
   for (std::size_t k = 0; k < pins.size(); ++k)

@@ -13,8 +13,9 @@ namespace softbody {
 class ConstrainedStep {
  public:
   struct Options {
-    double target_stiffness = 0.0;  ///< of a target of weight 1 [N/m]
-    double pin_stiffness = 0.0;     ///< far above all other stiffnesses [N/m]
+    double target_stiffness = 0.0;   ///< of a target of weight 1 [N/m]
+    double target_accuracy_m = 0.0;  ///< standard deviation of a target of weight 1
+    double pin_stiffness = 0.0;      ///< the largest: far above all other stiffnesses [N/m]
     double contact_tolerance_m = 0.0;
   };
   struct Result {
@@ -38,11 +39,13 @@ class ConstrainedStep {
   struct Problem;
 
   void setPotential(const Problem& problem);
+  double stiffnessOf(const Pin& pin) const;
+  void addPins(const std::vector<Pin>& pins);
   void chooseStart(const Problem& problem, Points* x);
   double energyAt(const Points& x, const Problem& problem);
   void iterate(const Problem& problem, Points* x);
   void findContacts(const Points& x, const Problem& problem, std::vector<Contact>* contacts);
-  void setSprings(const Problem& problem);
+  void setSprings(const std::vector<Target>& targets);
   void findPinForces(const Problem& problem, const Points& x);
 
   const TetTopology* topology_;
@@ -50,8 +53,9 @@ class ConstrainedStep {
   Options options_;
   StepSolver* solver_;
   IncrementalPotential potential_;  ///< with pins and the springs of contacts_
-  std::vector<Contact> contacts_;   ///< that the result was computed with
-  std::vector<Contact> found_;      ///< at the result
+  const std::vector<Target> no_targets_;
+  std::vector<Contact> contacts_;  ///< that the result was computed with
+  std::vector<Contact> found_;     ///< at the result
   Points still_, gradient_;
   Result result_;
 };

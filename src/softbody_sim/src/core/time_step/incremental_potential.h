@@ -8,8 +8,8 @@
 namespace softbody {
 
 /// The incremental potential of an implicit Euler step, without the elastic energy (Bouaziz et al. 2014, eq.
-/// 4; Kang et al. 2022, section 5.2): 1/(2 h^2) |x - prediction|_M^2 - loads . (x - prediction) + targets. A
-/// pinned vertex has a very large inertia and its pin as prediction.
+/// 4; Kang et al. 2022, section 5.2): 1/(2 h^2) |x - prediction|_M^2 - loads . (x - prediction) + targets.
+/// The spring of a pin is added to the inertia and the prediction of its vertex.
 struct IncrementalPotential {
   Eigen::VectorXd inertia;  ///< #V: lumped masses / h^2 [N/m]
   Points prediction;        ///< #V by 3: positions without forces [m]

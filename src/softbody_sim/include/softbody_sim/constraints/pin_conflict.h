@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "softbody_common/types.h"
+#include "softbody_sim/constraints/surroundings.h"
+
+namespace softbody {
+
+/// By how far the pins of a region and the targets disagree [m]: the rigid motion that best takes the pins to
+/// where the targets see their vertices, as root mean square over the pins. What no target sees counts as
+/// agreement. @param vertices #V by 3, after a step under both [m]. @param pins in ascending order of their
+/// vertices.
+double pinConflict(const std::vector<Target>& targets, const Tets& tets, const Points& vertices,
+                   const std::vector<Pin>& pins);
+
+}  // namespace softbody
