@@ -2,18 +2,20 @@
 """The simulator among a ground, a finger and a gripper that move with tf, with no camera."""
 import os
 import sys
+import time
 import unittest
 
 import numpy as np
 import rospy
 import rostest
 import tf2_ros
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point32, Pose, Quaternion, TransformStamped, WrenchStamped
 from rosgraph_msgs.msg import Log
-from softbody_msgs.msg import MeshState, PinRegion, Targets, TetTopology
+from softbody_msgs.msg import MeshState, PinRegion, Target, Targets, TetTopology
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
 
 FRAME = "world"
 DENSITY_KG_M3, GRAVITY_M_S2 = 30.0, 9.81
@@ -33,14 +35,15 @@ class Surroundings(unittest.TestCase):
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState,
                                 softbody__reaction__ground=WrenchStamped, softbody__reaction__finger=WrenchStamped,
-                                softbody__reaction__gripper=WrenchStamped, rosout=Log)
+                                softbody__reaction__gripper=WrenchStamped, rosout=Log,
+                                diagnostics=DiagnosticArray)
         cls.broadcaster = tf2_ros.TransformBroadcaster()
         cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.pins = rospy.Publisher("/softbody/pin", PinRegion, queue_size=1)
         topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
         cls.rest = array(topology.rest_vertices)
-        tets = np.array([tet.vertex_indices for tet in topology.tets])
-        edges = cls.rest[tets[:, 1:]] - cls.rest[tets[:, :1]]
+        cls.tets = np.array([tet.vertex_indices for tet in topology.tets])
+        edges = cls.rest[cls.tets[:, 1:]] - cls.rest[cls.tets[:, :1]]
         cls.weight = DENSITY_KG_M3 * GRAVITY_M_S2 * np.linalg.det(edges).sum() / 6.0
         for publisher in (cls.targets, cls.pins):
             cls.recorder.wait(lambda _: publisher.get_num_connections() > 0, "a simulator that listens")
@@ -66,13 +69,13 @@ class Surroundings(unittest.TestCase):
             transforms.append(transform)
         self.broadcaster.sendTransform(transforms)
 
-    def step(self, reset=False, frame=FRAME):
+    def step(self, reset=False, frame=FRAME, targets=()):
         """One frame of 1/30 s. @return its state, and the messages of reactions."""
         now = rospy.Time.now()
         self.stamp = now if self.stamp is None else max(now, self.stamp + rospy.Duration(nsecs=33333333))
         self.broadcast(self.stamp)
         rospy.sleep(0.02)  # tf arrives on a way of its own
-        message = Targets(reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)))
+        message = Targets(reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)), targets=targets)
         message.header.stamp, message.header.frame_id = self.stamp, frame
         self.targets.publish(message)
         return self.recorder.wait(
@@ -85,8 +88,38 @@ class Surroundings(unittest.TestCase):
             lambda seen: next((w for w in reversed(seen[f"softbody/reaction/{name}"])
                                if w.header.stamp == self.stamp), None), f"the reaction on {name}")
 
-    def grip(self, frame):
-        region = PinRegion(name="gripper")
+    def at_rest(self):
+        """Targets of a camera that sees the body at rest: every tet's centre."""
+        return [Target(kind=Target.MANUAL, tet=i, barycentric=[0.25] * 4, weight=1.0, position=Point32(*center))
+                for i, center in enumerate(self.rest[self.tets].mean(axis=1))]
+
+    def step_until(self, condition, what, **step):
+        """Frames until a condition on what was recorded is met. @return the last state."""
+        deadline = time.monotonic() + PATIENCE_S
+        while True:
+            state = self.step(**step)
+            with self.recorder.changed:
+                if condition(self.recorder.messages):
+                    return state
+            self.assertLess(time.monotonic(), deadline, what)
+
+    def said(self, words, since=0):
+        """How often the simulator said something."""
+        with self.recorder.changed:
+            return sum(words in log.msg for log in self.recorder.messages["rosout"][since:]
+                       if log.name == "/softbody/simulator")
+
+    def reactions(self):
+        return {name for name, _ in rospy.get_published_topics("/softbody/reaction")}
+
+    def wait_until(self, condition, what):
+        deadline = time.monotonic() + PATIENCE_S
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, what)
+            rospy.sleep(0.05)
+
+    def grip(self, frame, name="gripper"):
+        region = PinRegion(name=name)
         region.header.frame_id = frame
         region.min, region.max = Point32(-1.0, -1.0, -1.0), Point32(self.rest[:, 0].min() + 0.03, 1.0, 1.0)
         self.pins.publish(region)
@@ -138,6 +171,61 @@ class Surroundings(unittest.TestCase):
     def test_a_pin_that_is_not_there_is_told(self):
         self.pins.publish(PinRegion(name="griper", release=True))
         self.recorder.wait_for_log("/softbody/simulator", "'griper'")
+
+    def test_a_pin_takes_its_topic_with_it(self):
+        before = self.reactions() - {"/softbody/reaction/gripper"}
+        names = [f"hold_{k}" for k in range(5)]
+        for name in names:
+            self.grip("", name)
+        self.step()
+        held = before | {f"/softbody/reaction/{name}" for name in names}
+        self.wait_until(lambda: held <= self.reactions(), "the topics of five pins")
+        for name in names:
+            self.pins.publish(PinRegion(name=name, release=True))
+            rospy.sleep(0.2)
+        self.wait_until(lambda: self.reactions() - {"/softbody/reaction/gripper"} == before,
+                        "the topics of five pins to end")
+
+    def test_a_pin_waits_for_a_frame_that_tf_does_not_know(self):
+        unknown, known = "tf does not know frame 'arm'", "the pose of frame 'arm' again"
+        self.grip("arm")
+        self.step_until(lambda _: self.said(unknown), "a warning of a frame that tf does not know")
+        self.recorder.wait_for_status("simulation", DiagnosticStatus.WARN, unknown)
+        with self.recorder.changed:
+            self.assertNotIn(self.stamp, {w.header.stamp for w in self.recorder.messages["softbody/reaction/gripper"]})
+        self.places["arm"] = [0.0, 0.0, 0.0]
+        self.step_until(lambda _: self.said(known), "a line about the frame that came")
+        self.reaction("gripper")
+        self.assertEqual(self.said(unknown), 1)
+
+    def test_a_pin_stays_where_its_silent_frame_was(self):
+        silent, back = "tf has no new pose of frame 'gripper'", "the pose of frame 'gripper' again"
+        held = self.grip("gripper")
+        before = array(self.step().vertices)
+        place = self.places.pop("gripper")
+        with self.recorder.changed:
+            start = len(self.recorder.messages["rosout"])
+        state = self.step_until(lambda _: self.said(silent, start), "a warning of a silent frame")
+        np.testing.assert_allclose(array(state.vertices)[held], before[held], atol=1e-4)
+        self.recorder.wait_for_status("simulation", DiagnosticStatus.WARN, silent)
+        self.places["gripper"] = np.add(place, [0.0, 0.0, 0.01])
+        state = self.step_until(lambda _: self.said(back, start), "a line about the frame that is back")
+        np.testing.assert_allclose(array(state.vertices)[held], before[held] + [0.0, 0.0, 0.01], atol=1e-4)
+        self.assertEqual(self.said(silent, start), 1)
+
+    def test_a_pin_that_contradicts_the_camera_is_named_and_bounded(self):
+        held = self.grip("gripper")
+        seen = self.at_rest()
+        self.step(targets=seen)
+        self.places["gripper"] = np.add(FAR, [0.005, 0.0, 0.0])
+        for _ in range(60):
+            state = self.step(targets=seen)
+            away = np.linalg.norm(array(state.vertices) - self.rest, axis=1)
+            self.assertLess(away.max(), 0.006)
+        self.assertGreater(away[held].min(), 0.0002)  # between the camera and the pin
+        self.assertLess(away[held].max(), 0.0048)
+        self.recorder.wait_for_status("simulation", DiagnosticStatus.WARN, "pin 'gripper' and the camera disagree by 4")
+        self.assertEqual(self.said("and the camera disagree by"), 1)
 
     def test_finger_dents_the_body_and_feels_it(self):
         self.grip("")  # held where it is

@@ -4,16 +4,17 @@
 
 namespace softbody {
 
-std::optional<Eigen::Isometry3d> FramePoses::find(const std::string& frame, const std::string& target_frame,
-                                                  const ros::Time& stamp) const {
-  if (frame.empty() || frame == target_frame) return Eigen::Isometry3d::Identity();
+std::optional<FramePoses::StampedPose> FramePoses::find(const std::string& frame,
+                                                        const std::string& target_frame,
+                                                        const ros::Time& stamp) const {
+  if (frame.empty() || frame == target_frame) return StampedPose{Eigen::Isometry3d::Identity(), stamp};
   for (const ros::Time& time : {stamp, ros::Time()}) {  // time zero: the latest transform
     try {
-      return Eigen::Isometry3d(
-          tf2::transformToEigen(buffer_.lookupTransform(target_frame, frame, time)).matrix());
-    } catch (const tf2::TransformException& error) {
-      if (time.isZero())
-        ROS_WARN_STREAM_THROTTLE(5.0, "tf does not know frame " << frame << ": " << error.what());
+      const auto transform = buffer_.lookupTransform(target_frame, frame, time);
+      return StampedPose{Eigen::Isometry3d(tf2::transformToEigen(transform).matrix()),
+                         transform.header.stamp};
+    } catch (const tf2::TransformException&) {
+      continue;
     }
   }
   return {};

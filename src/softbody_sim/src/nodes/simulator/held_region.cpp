@@ -57,10 +57,10 @@ void HeldRegion::setFramePose(const std::optional<Eigen::Isometry3d>& pose) {
   if (acts_ && pose) frame_pose_ = *pose;
 }
 
-void HeldRegion::appendPins(std::vector<Pin>* pins) const {
+void HeldRegion::appendPins(double accuracy_m, std::vector<Pin>* pins) const {
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
     const Eigen::Vector3d position = positions_->row(static_cast<Eigen::Index>(k));
-    pins->push_back({vertices_[k], frame_pose_ * position});
+    pins->push_back({vertices_[k], frame_pose_ * position, accuracy_m});
   }
 }
 

@@ -35,8 +35,9 @@ class HeldRegion {
   const Eigen::Isometry3d& framePose() const { return frame_pose_; }
   bool acts() const { return acts_; }
 
-  /// Appends one pin per vertex, in the targets' frame.
-  void appendPins(std::vector<Pin>* pins) const;
+  /// Appends one pin per vertex, ascending, in the targets' frame.
+  /// @param accuracy_m standard deviation of their positions.
+  void appendPins(double accuracy_m, std::vector<Pin>* pins) const;
 
  private:
   PinRegion region_;

@@ -21,11 +21,11 @@ Wrench aboutOrigin(const Wrench& wrench, const Eigen::Vector3d& place) {
   return {wrench.force, wrench.torque + place.cross(wrench.force)};
 }
 
-void ReactionPublisher::publish(const std::string& name, const std::string& frame,
-                                const Eigen::Isometry3d& frame_pose, const Wrench& about_origin,
-                                const ros::Time& stamp) {
-  ros::Publisher& publisher = publishers_[name];
-  if (!publisher) publisher = node_.advertise<geometry_msgs::WrenchStamped>(topics::kReaction + name, 10);
+ReactionPublisher::ReactionPublisher(ros::NodeHandle node, const std::string& name)
+    : publisher_(node.advertise<geometry_msgs::WrenchStamped>(topics::kReaction + name, 10)) {}
+
+void ReactionPublisher::publish(const std::string& frame, const Eigen::Isometry3d& frame_pose,
+                                const Wrench& about_origin, const ros::Time& stamp) const {
   const Eigen::Matrix3d to_frame = frame_pose.linear().transpose();
   geometry_msgs::WrenchStamped message;
   message.header.stamp = stamp;
@@ -33,7 +33,7 @@ void ReactionPublisher::publish(const std::string& name, const std::string& fram
   message.wrench.force = toMessage(to_frame * about_origin.force);
   message.wrench.torque =
       toMessage(to_frame * (about_origin.torque - frame_pose.translation().cross(about_origin.force)));
-  publisher.publish(message);
+  publisher_.publish(message);
 }
 
 }  // namespace softbody

@@ -7,9 +7,22 @@ namespace softbody {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
+namespace {
+
+std::string joined(const SurroundingsTracker::Faults& faults) {
+  std::string text;
+  for (const auto& [name, sentence] : faults) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
+}  // namespace
+
 SimulatorDiagnostics::SimulatorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                                           const Simulator* simulator)
-    : simulator_(simulator), updater_(node, private_node, private_node.getNamespace()) {
+                                           const Simulator* simulator,
+                                           const SurroundingsTracker* surroundings)
+    : simulator_(simulator),
+      surroundings_(surroundings),
+      updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("simulation", [this](DiagnosticStatusWrapper& status) { report(&status); });
   // A timer in wall time instead of the updater's own: with use_sim_time that one stops when a bag starts
@@ -23,11 +36,14 @@ void SimulatorDiagnostics::countStep() {
   if (!simulator_->report().converged) ++steps_not_converged_;
 }
 
-void SimulatorDiagnostics::summarize(DiagnosticStatusWrapper* status) const {
+void SimulatorDiagnostics::summarize(const SurroundingsTracker::Faults& faults,
+                                     DiagnosticStatusWrapper* status) const {
   if (refused_ > 0)
     status->summary(DiagnosticStatus::WARN, fmt::format("{} messages with targets were not used", refused_));
   else if (!simulator_->placed())
     status->summary(DiagnosticStatus::WARN, "the body is not placed yet: waiting for targets");
+  else if (!faults.empty())
+    status->summary(DiagnosticStatus::WARN, joined(faults));
   else if (steps_not_converged_ > 0)
     status->summary(DiagnosticStatus::WARN,
                     fmt::format("{} of {} steps did not converge", steps_not_converged_, steps_));
@@ -36,7 +52,8 @@ void SimulatorDiagnostics::summarize(DiagnosticStatusWrapper* status) const {
 }
 
 void SimulatorDiagnostics::report(DiagnosticStatusWrapper* status) {
-  summarize(status);
+  const SurroundingsTracker::Faults faults = surroundings_->faults();
+  summarize(faults, status);
   const StepReport& last = simulator_->report();
   status->add("steps", steps_);
   status->add("steps not converged", steps_not_converged_);
@@ -45,6 +62,7 @@ void SimulatorDiagnostics::report(DiagnosticStatusWrapper* status) {
   status->add("last step converged", last.converged);
   status->add("residual of the last step [N]", fmt::format("{:.3g}", last.residual_n));
   status->add("last move [mm]", fmt::format("{:.4f}", 1e3 * last.last_move_m));
+  for (const auto& [name, sentence] : faults) status->add(name, sentence);
   steps_ = steps_not_converged_ = refused_ = 0;
 }
 

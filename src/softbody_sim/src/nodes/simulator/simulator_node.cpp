@@ -29,9 +29,9 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
                              const SimulatorOptions& options, const SimulatedObject& object)
     : stall_timeout_s_(options.stall_timeout_s),
       simulator_(makeSimulator(object.model, options.simulator, &timer_)),
-      surroundings_(node, options.obstacles),
+      surroundings_(node, options.obstacles, options.pins),
       publisher_(node, options.body_frame, object.model.volume),
-      diagnostics_(node, private_node, &simulator_) {
+      diagnostics_(node, private_node, &simulator_, &surroundings_) {
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   targets_subscriber_ = node.subscribe(topics::kTargets, 1, &SimulatorNode::onTargets, this, hints);
@@ -66,6 +66,7 @@ void SimulatorNode::step(const softbody_msgs::Targets& message) {
                   surroundings_.surroundingsAt(message.header.frame_id, message.header.stamp, vertices));
   if (!publisher_.topologyHasStamp()) publisher_.publishTopology(simulator_.topology(), message.header.stamp);
   last_ = {simulator_.toCurrentRevision(std::move(targets)), message.header, ros::Time::now()};
+  surroundings_.findConflicts(last_.set.targets, simulator_.topology().tets, simulator_.state().vertices);
   diagnostics_.countStep();
 }
 
@@ -118,9 +119,9 @@ bool SimulatorNode::applyCut(const softbody_msgs::Cut& message, std::string* rea
 }
 
 void SimulatorNode::onPin(const softbody_msgs::PinRegionConstPtr& message) {
-  const bool was_held = surroundings_.removePin(message->name);
   if (message->release) {
-    if (!was_held) ROS_WARN_STREAM("no pin to release: none has the name '" << message->name << "'");
+    if (!surroundings_.removePin(message->name))
+      ROS_WARN_STREAM("no pin to release: none has the name '" << message->name << "'");
     return;
   }
   const PinRegion region{message->name, message->header.frame_id,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/simulator/surroundings_tracker.h"
 #include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/dynamics/simulator_config.h"
 #include "softbody_sim/object/object_model.h"
@@ -19,6 +20,7 @@ struct SimulatorOptions {
   double free_run_rate_hz = 30.0;  ///< 0: no steps without targets
   double stall_timeout_s = 1.0;    ///< time without targets after which the simulation goes on by itself
   std::vector<ObstacleDescription> obstacles;
+  PinOptions pins;
 };
 
 /// Warns of unknown keys. @throw std::invalid_argument as Parameters does.

@@ -2,15 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
-#include <utility>
+
+#include "softbody_sim/constraints/pin_conflict.h"
 
 namespace softbody {
 
 SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node,
-                                         std::vector<ObstacleDescription> obstacles)
-    : reactions_(node) {
-  for (ObstacleDescription& obstacle : obstacles) obstacles_.push_back({std::move(obstacle), {}});
+                                         const std::vector<ObstacleDescription>& obstacles,
+                                         const PinOptions& options)
+    : node_(node), options_(options) {
+  for (const ObstacleDescription& obstacle : obstacles) {
+    FollowedFrame frame(fmt::format("obstacle '{}'", obstacle.name), obstacle.frame,
+                        options_.frame_timeout_s);
+    obstacles_.push_back({obstacle, std::move(frame), ReactionPublisher(node, obstacle.name)});
+  }
 }
 
 void SurroundingsTracker::addPin(const PinRegion& region, const Points& rest_vertices) {
@@ -19,17 +26,20 @@ void SurroundingsTracker::addPin(const PinRegion& region, const Points& rest_ver
     if (obstacle.description.name == region.name)
       throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
   }
-  held_.insert_or_assign(region.name, HeldRegion(region, rest_vertices));
+  HeldRegion held(region, rest_vertices);
+  FollowedFrame frame(fmt::format("pin '{}'", region.name), region.frame, options_.frame_timeout_s);
+  pins_.insert_or_assign(
+      region.name, HeldPin{std::move(held), std::move(frame), ReactionPublisher(node_, region.name), {}});
 }
 
-bool SurroundingsTracker::removePin(const std::string& name) { return held_.erase(name) > 0; }
+bool SurroundingsTracker::removePin(const std::string& name) { return pins_.erase(name) > 0; }
 
 void SurroundingsTracker::updatePins(const Points& rest_vertices, const Points& vertices) {
-  for (auto& entry : held_) entry.second.updateVertices(rest_vertices, vertices);
+  for (auto& entry : pins_) entry.second.held.updateVertices(rest_vertices, vertices);
 }
 
 void SurroundingsTracker::forgetPinPositions() {
-  for (auto& entry : held_) entry.second.forgetPositions();
+  for (auto& entry : pins_) entry.second.held.forgetPositions();
 }
 
 const Surroundings& SurroundingsTracker::surroundingsAt(const std::string& frame, const ros::Time& stamp,
@@ -43,25 +53,51 @@ const Surroundings& SurroundingsTracker::surroundingsAt(const std::string& frame
 
 void SurroundingsTracker::placeObstacles(const ros::Time& stamp) {
   for (PlacedObstacle& obstacle : obstacles_) {
-    const auto pose = poses_.find(obstacle.description.frame, frame_, stamp);
-    if (pose) obstacle.frame_pose = pose;
-    if (!obstacle.frame_pose) continue;
-    surroundings_.obstacles.push_back(obstacle.description.shape);
-    surroundings_.obstacles.back().pose = *obstacle.frame_pose * obstacle.description.shape.pose;
+    obstacle.frame.update(poses_, frame_, stamp);
+    if (!obstacle.frame.pose()) continue;
+    const Obstacle& shape = obstacle.description.shape;
+    surroundings_.obstacles.push_back(shape);
+    surroundings_.obstacles.back().pose = *obstacle.frame.pose() * shape.pose;
   }
 }
 
 void SurroundingsTracker::placePins(const ros::Time& stamp, const Points& vertices) {
-  for (auto& entry : held_) {
-    HeldRegion& held = entry.second;
-    const std::string& frame = held.region().frame;
+  for (auto& entry : pins_) {
+    HeldRegion& held = entry.second.held;
+    FollowedFrame& frame = entry.second.frame;
     if (!held.hasPositions() && vertices.rows() > 0) {
-      const auto pose = poses_.find(frame, frame_, step_stamp_);  // the vertices are of that stamp
-      if (pose) held.hold(*pose, vertices);
+      const auto found =
+          poses_.find(held.region().frame, frame_, step_stamp_);  // the vertices are of that stamp
+      if (found) held.hold(found->pose, vertices);
     }
-    held.setFramePose(poses_.find(frame, frame_, stamp));
-    if (held.acts()) held.appendPins(&surroundings_.pins);
+    frame.update(poses_, frame_, stamp);
+    held.setFramePose(frame.pose());
+    if (held.acts()) held.appendPins(options_.accuracy_m, &surroundings_.pins);
   }
+}
+
+void SurroundingsTracker::findConflicts(const std::vector<Target>& targets, const Tets& tets,
+                                        const Points& vertices) {
+  auto next = surroundings_.pins.cbegin();
+  for (auto& entry : pins_) {
+    HeldPin& pin = entry.second;
+    if (!pin.held.acts()) continue;
+    const auto end = next + static_cast<std::ptrdiff_t>(pin.held.vertexCount());
+    judge(pinConflict(targets, tets, vertices, {next, end}), &pin);
+    next = end;
+  }
+}
+
+/// A conflict ends at half the size at which it begins, so that noise does not end it.
+void SurroundingsTracker::judge(double conflict_m, HeldPin* pin) const {
+  const std::string& name = pin->held.region().name;
+  if (conflict_m > options_.conflict_m)
+    pin->conflict.begin(
+        fmt::format("pin '{}' and the camera disagree by {:.1f} mm: the body is held between "
+                    "them; check the frame's calibration, or whether the pin slips",
+                    name, 1e3 * conflict_m));
+  else if (conflict_m < 0.5 * options_.conflict_m)
+    pin->conflict.end(fmt::format("pin '{}' and the camera agree again", name));
 }
 
 void SurroundingsTracker::publishReactions(const Reactions& reactions, const ros::Time& stamp) {
@@ -76,17 +112,18 @@ void SurroundingsTracker::publishReactions(const Reactions& reactions, const ros
 void SurroundingsTracker::publishObstacles(const Reactions& reactions, const ros::Time& stamp) {
   std::size_t next = 0;
   for (const PlacedObstacle& obstacle : obstacles_) {
-    if (!obstacle.frame_pose) continue;
+    if (!obstacle.frame.pose()) continue;
     const std::size_t k = next++;
-    reactions_.publish(
-        obstacle.description.name, orTargetFrame(obstacle.description.frame), *obstacle.frame_pose,
+    obstacle.reaction.publish(
+        orTargetFrame(obstacle.description.frame), *obstacle.frame.pose(),
         aboutOrigin(reactions.obstacles[k], surroundings_.obstacles[k].pose.translation()), stamp);
   }
 }
 
 void SurroundingsTracker::publishPins(const Reactions& reactions, const ros::Time& stamp) {
   std::size_t next = 0;
-  for (const auto& [name, held] : held_) {
+  for (const auto& entry : pins_) {
+    const HeldRegion& held = entry.second.held;
     if (!held.acts()) continue;
     Wrench sum;
     for (std::size_t k = 0; k < held.vertexCount(); ++k, ++next) {
@@ -94,8 +131,21 @@ void SurroundingsTracker::publishPins(const Reactions& reactions, const ros::Tim
       sum.force += wrench.force;
       sum.torque += wrench.torque;
     }
-    reactions_.publish(name, orTargetFrame(held.region().frame), held.framePose(), sum, stamp);
+    entry.second.reaction.publish(orTargetFrame(held.region().frame), held.framePose(), sum, stamp);
   }
+}
+
+SurroundingsTracker::Faults SurroundingsTracker::faults() const {
+  Faults faults;
+  for (const PlacedObstacle& obstacle : obstacles_)
+    faults.emplace_back(obstacle.description.name, obstacle.frame.fault());
+  for (const auto& [name, pin] : pins_) {
+    faults.emplace_back(name, pin.frame.fault());
+    faults.emplace_back(name, pin.conflict.sentence());
+  }
+  faults.erase(std::remove_if(faults.begin(), faults.end(), [](const auto& f) { return f.second.empty(); }),
+               faults.end());
+  return faults;
 }
 
 }  // namespace softbody

@@ -3,25 +3,38 @@
 #include <ros/ros.h>
 
 #include <map>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "nodes/simulator/followed_frame.h"
 #include "nodes/simulator/frame_poses.h"
 #include "nodes/simulator/held_region.h"
+#include "nodes/simulator/lasting_fault.h"
 #include "nodes/simulator/reaction_publisher.h"
 #include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/constraints/surroundings.h"
 
 namespace softbody {
 
-/// Pins and obstacles with their poses from tf, and their reactions on topics. A frame without a pose at the
-/// stamp keeps its last pose. An obstacle or pin whose frame never had a pose does not act, with a warning.
+/// How pins are weighed against the camera, and when their frames are faulty.
+struct PinOptions {
+  double accuracy_m = 0.001;     ///< standard deviation of a pin's position; 0: exact
+  double conflict_m = 0.0042;    ///< a pin and the camera that disagree by more are in conflict
+  double frame_timeout_s = 1.0;  ///< also of obstacles: time without a pose until a frame is faulty
+};
+
+/// Pins and obstacles with their poses from tf, and their reactions on topics. An obstacle or pin whose frame
+/// never had a pose does not act.
 class SurroundingsTracker {
  public:
-  SurroundingsTracker(const ros::NodeHandle& node, std::vector<ObstacleDescription> obstacles);
+  /// Name of a pin or obstacle, and what is wrong with it in a sentence.
+  using Faults = std::vector<std::pair<std::string, std::string>>;
 
-  /// Holds the vertices of a region from the next surroundingsAt() on.
+  SurroundingsTracker(const ros::NodeHandle& node, const std::vector<ObstacleDescription>& obstacles,
+                      const PinOptions& options);
+
+  /// Holds the vertices of a region from the next surroundingsAt() on, in place of a region of the same name.
   /// @throw std::invalid_argument if the region has no vertex, or its name is not usable.
   void addPin(const PinRegion& region, const Points& rest_vertices);
   /// @return false if no pin has the name.
@@ -38,26 +51,40 @@ class SurroundingsTracker {
   const Surroundings& surroundingsAt(const std::string& frame, const ros::Time& stamp,
                                      const Points& vertices);
 
+  /// Finds pins that the targets of the last surroundingsAt() contradict. @param vertices after the step [m].
+  void findConflicts(const std::vector<Target>& targets, const Tets& tets, const Points& vertices);
+
   /// Publishes the reactions of a step under the last surroundingsAt(). Each is in the frame that its pin or
   /// obstacle follows (default: the targets' frame), about that frame's origin.
   void publishReactions(const Reactions& reactions, const ros::Time& stamp);
 
+  Faults faults() const;
+
  private:
   struct PlacedObstacle {
     ObstacleDescription description;
-    std::optional<Eigen::Isometry3d> frame_pose;  ///< the last one known
+    FollowedFrame frame;
+    ReactionPublisher reaction;
+  };
+  struct HeldPin {
+    HeldRegion held;
+    FollowedFrame frame;
+    ReactionPublisher reaction;
+    LastingFault conflict;
   };
 
   void placeObstacles(const ros::Time& stamp);
   void placePins(const ros::Time& stamp, const Points& vertices);
+  void judge(double conflict_m, HeldPin* pin) const;
   void publishObstacles(const Reactions& reactions, const ros::Time& stamp);
   void publishPins(const Reactions& reactions, const ros::Time& stamp);
   const std::string& orTargetFrame(const std::string& frame) const { return frame.empty() ? frame_ : frame; }
 
-  ReactionPublisher reactions_;
+  ros::NodeHandle node_;
+  const PinOptions options_;
   FramePoses poses_;
   std::vector<PlacedObstacle> obstacles_;
-  std::map<std::string, HeldRegion> held_;
+  std::map<std::string, HeldPin> pins_;
   Surroundings surroundings_;  ///< of the last surroundingsAt()
   std::string frame_;          ///< of the targets
   ros::Time step_stamp_;       ///< of the last step
