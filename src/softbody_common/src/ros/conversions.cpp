@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "softbody_common/tet_topology_check.h"
+
 namespace softbody {
 namespace {
 
@@ -150,6 +152,7 @@ TetTopology fromMessage(const softbody_msgs::TetTopology& message) {
   const auto& q = message.initial_pose.orientation;
   topology.has_initial_pose = q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
   if (topology.has_initial_pose) topology.initial_pose = fromMessage(message.initial_pose);
+  requireWhole(topology);
   return topology;
 }
 

@@ -9,6 +9,7 @@
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_common/tet_topology_check.h"
 
 namespace softbody {
 namespace {
@@ -140,14 +141,38 @@ TEST_P(RoundTrip, Targets) {
 
 TEST_P(RoundTrip, Cut) {
   const MeshTopology mesh = randomSurface(GetParam());
-  const Cut before{
-      GetParam(), GetParam() / 2, static_cast<CutKind>(GetParam() % 4), {mesh.rest_vertices, mesh.triangles}};
+  Cut before{GetParam(), GetParam() / 2, static_cast<CutKind>(GetParam() % 4), {}};
+  if (before.kind == CutKind::kCut) before.patch = {mesh.rest_vertices, mesh.triangles};
   const Cut after = fromMessage(toMessage(before));
   EXPECT_EQ(after.revision, before.revision);
   EXPECT_EQ(after.stroke, before.stroke);
   EXPECT_EQ(after.kind, before.kind);
-  EXPECT_LT((after.patch.vertices - before.patch.vertices).cwiseAbs().maxCoeff(), 1e-8);
+  ASSERT_EQ(after.patch.vertices.rows(), before.patch.vertices.rows());
+  EXPECT_TRUE(after.patch.vertices.isApprox(before.patch.vertices, 1e-7));
   EXPECT_EQ(after.patch.triangles, before.patch.triangles);
+}
+
+/// Two strokes in force, of two patches and of one, and an undone one.
+EditHistory someEdits(unsigned seed) {
+  EditHistory edits;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    MeshTopology mesh = randomSurface(seed + k);
+    mesh.rest_vertices = mesh.rest_vertices.cast<float>().cast<double>().eval();
+    addEdit({edits.revision + 1, (k + 1) / 2, CutKind::kCut, {mesh.rest_vertices, mesh.triangles}}, &edits);
+  }
+  addEdit({edits.revision + 1, 0, CutKind::kUndo, {}}, &edits);
+  edits.body = 17;
+  return edits;
+}
+
+TEST_P(RoundTrip, CutHistory) {
+  const TetTopology uncut = randomVolume(GetParam());
+  const EditHistory before = someEdits(GetParam());
+  const EditedBody after = fromMessage(toMessage(before, uncut));
+  EXPECT_EQ(after.edits.body, before.body);
+  EXPECT_EQ(after.edits.revision, before.revision);
+  EXPECT_TRUE(sameEdits(after.edits, before));
+  EXPECT_TRUE(sameRestBody(after.uncut, uncut));
 }
 
 TEST(Conversions, EveryFieldOfACutIsChecked) {
@@ -160,6 +185,39 @@ TEST(Conversions, EveryFieldOfACutIsChecked) {
       good, [](Message& m) { m.patch_vertices[1].y = kNaN; }, "patch_vertices[1]");
   expectRefused<Message>(
       good, [](Message& m) { m.patch_triangles[2].vertex_indices[0] = 999; }, "patch_triangles[2]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_vertices[1].x = 1e6f; }, "patch_vertices[1]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_triangles.clear(); }, "patch_triangles");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_triangles.resize(kMostPatchTriangles + 1); }, "20001 triangles");
+  expectRefused<Message>(
+      good, [](Message& m) { m.kind = Message::UNDO; }, "no patch");
+  expectRefused<Message>(
+      good, [](Message& m) { m.patch_triangles.assign(5, {}); }, "no area");
+}
+
+TEST(Conversions, EveryFieldOfACutHistoryIsChecked) {
+  using Message = softbody_msgs::CutHistory;
+  const Message good = toMessage(someEdits(0), randomVolume(0));
+  expectRefused<Message>(
+      good, [](Message& m) { m.uncut.surface_triangles.clear(); }, "surface_triangles");
+  expectRefused<Message>(
+      good, [](Message& m) { m.cuts[1].patch_vertices[2].z = kNaN; }, "patch_vertices[2]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.cuts[1].kind = softbody_msgs::Cut::RESET; }, "patch");
+  expectRefused<Message>(
+      good, [](Message& m) { ++m.cuts[2].stroke; }, "cuts[2]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.stroke_sizes.pop_back(); }, "stroke_sizes");
+  expectRefused<Message>(
+      good, [](Message& m) { m.stroke_sizes[0] = 0xffffffffu; }, "stroke_sizes");
+  expectRefused<Message>(
+      good, [](Message& m) { m.stroke_sizes[0] = 0; }, "stroke_sizes");
+  expectRefused<Message>(
+      good, [](Message& m) { m.strokes_in_force = 4; }, "in force");
+  expectRefused<Message>(
+      good, [](Message& m) { m.strokes_in_force = 0, m.stroke_is_open = 1; }, "in force");
 }
 
 TEST(Conversions, EveryFieldOfAVolumeIsChecked) {
@@ -177,6 +235,23 @@ TEST(Conversions, EveryFieldOfAVolumeIsChecked) {
       good, [](Message& m) { m.vertex_parents.pop_back(); }, "vertex_parents");
   expectRefused<Message>(
       good, [](Message& m) { m.tet_bodies.push_back(0); }, "tet_bodies");
+  expectRefused<Message>(
+      good, [](Message& m) { m.tet_bodies[1] = 0xffffffffu; }, "tet_bodies[1]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.tets.clear(), m.tet_bodies.clear(); }, "tets is empty");
+  expectRefused<Message>(
+      good, [](Message& m) { m.surface_triangles.clear(); }, "surface_triangles is empty");
+  expectRefused<Message>(
+      good, [](Message& m) { m.surface_triangles.pop_back(); }, "not closed");
+  expectRefused<Message>(
+      good, [](Message& m) { m.rest_vertices[3].y = 1e7f; }, "rest_vertices[3]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.tets[1].vertex_indices[0] = m.tets[1].vertex_indices[1]; }, "twice");
+  expectRefused<Message>(
+      good, [](Message& m) { std::swap(m.tets[1].vertex_indices[0], m.tets[1].vertex_indices[1]); },
+      "tets[1] has the negative volume");
+  expectRefused<Message>(
+      good, [](Message& m) { m.rest_vertices.emplace_back(), m.vertex_parents.push_back(-1); }, "no tet");
   expectRefused<Message>(
       good, [](Message& m) { m.initial_pose.orientation.w += 0.5; }, "pose");
   expectRefused<Message>(
