@@ -6,12 +6,17 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
+#include <stdexcept>
 #include <string>
+
+#include "softbody_common/input_file.h"
+#include "softbody_common/staged_output.h"
 
 namespace softbody {
 
 /// Runs a tool: reads the command line and calls `work`, which returns the exit code. Prints exceptions of
-/// the work on stderr.
+/// the work on stderr. An interrupted tool leaves no incomplete file.
 /// @return 0: done; 1: the data could not be processed; 2: wrong usage.
 template <typename Work>
 int runTool(CLI::App* app, int argc, char** argv, const Work& work) {
@@ -20,8 +25,11 @@ int runTool(CLI::App* app, int argc, char** argv, const Work& work) {
   } catch (const CLI::ParseError& error) {
     return app->exit(error) == 0 ? 0 : 2;
   }
+  removeStagedFilesOnSignal();
   try {
-    return work();
+    const int code = work();
+    if (!std::cout.flush() || std::fflush(stdout) != 0) throw std::runtime_error("stdout cannot be written");
+    return code;
   } catch (const std::exception& error) {
     const std::string tool = std::filesystem::path(argv[0]).filename().string();
     std::fprintf(stderr, "%s: %s\n", tool.c_str(), error.what());
@@ -35,6 +43,13 @@ inline void requireOtherFile(const std::string& input, const std::string& output
   std::error_code ignored;
   if (std::filesystem::equivalent(input, output, ignored))
     throw CLI::ValidationError("--output", "is the input " + input + "; name another file");
+}
+
+/// --allow-outside, of every tool that reads files which other files name.
+inline void addAllowOutside(CLI::App* app, FileScope* scope) {
+  app->add_flag_callback(
+      "--allow-outside", [scope] { *scope = FileScope::kAnywhere; },
+      "files that a YAML, a mesh or a data set names may be outside of its folder");
 }
 
 /// Shows the progress on one line of a terminal. Prints nothing into a log file.

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "softbody_common/input_file.h"
+
 namespace softbody {
 
 /// @throw std::invalid_argument with the file, and the line of a YAML error.
@@ -32,7 +34,7 @@ class YamlMapReader {
   /// [x, y, z, qx, qy, qz, qw]; the quaternion must have length 1 within 0.01.
   Eigen::Isometry3d pose(const std::string& key);
   /// An existing file, relative to the YAML; empty if the key is missing.
-  std::string file(const std::string& key);
+  std::string file(const std::string& key, FileScope scope = FileScope::kOwnFolder);
   YamlMapReader map(const std::string& key);
 
   void warnOfUnknown(std::vector<std::string>* warnings) const;

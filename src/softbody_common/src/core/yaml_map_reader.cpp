@@ -1,6 +1,7 @@
 #include "softbody_common/yaml_map_reader.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
@@ -11,15 +12,21 @@ namespace softbody {
 namespace {
 
 constexpr double kQuaternionTolerance = 0.01;  // users round numbers
+constexpr std::size_t kLargestYaml = 1 << 20;  // [bytes] yaml-cpp needs a hundred times as much memory
 
 }  // namespace
 
 YAML::Node parseYamlFile(const std::string& path) {
+  const std::string text = readFile(path);
+  if (text.size() > kLargestYaml)
+    throw std::invalid_argument(
+        fmt::format("{}: has {} bytes; a YAML file may have up to {}", path, text.size(), kLargestYaml));
   try {
-    return YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw std::invalid_argument(path + ": cannot be read");
-  } catch (const YAML::ParserException& error) {
+    return YAML::Load(text);
+  } catch (const YAML::DeepRecursion& error) {
+    throw std::invalid_argument(
+        fmt::format("{}:{}: not YAML: it is nested too deeply", path, error.mark.line + 1));
+  } catch (const YAML::Exception& error) {
     throw std::invalid_argument(fmt::format("{}:{}: not YAML: {}", path, error.mark.line + 1, error.msg));
   }
 }
@@ -97,10 +104,14 @@ Eigen::Isometry3d YamlMapReader::pose(const std::string& key) {
   return Eigen::Translation3d(p[0], p[1], p[2]) * rotation.normalized();
 }
 
-std::string YamlMapReader::file(const std::string& key) {
+std::string YamlMapReader::file(const std::string& key, FileScope scope) {
   const std::string name = text(key);
   if (name.empty()) return "";
-  const auto file = std::filesystem::absolute(std::filesystem::path(path_)).parent_path() / name;
+  const auto folder = std::filesystem::absolute(std::filesystem::path(path_)).parent_path();
+  const auto file = folder / name;
+  if (scope == FileScope::kOwnFolder && !isInside(file, folder)) {
+    fail(get(key), fmt::format("{}{} is '{}': {}", prefix_, key, name, outsideSentence(file, folder)));
+  }
   if (!std::filesystem::is_regular_file(file)) {
     fail(get(key), fmt::format("{}{} is '{}'; there is no file {}", prefix_, key, name,
                                file.lexically_normal().string()));

@@ -1,0 +1,64 @@
+#include "softbody_common/input_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Closes the file at the end.
+struct OpenFile {
+  ~OpenFile() {
+    if (number != -1) close(number);
+  }
+  int number;
+};
+
+[[noreturn]] void failToRead(const fs::path& path, const std::string& reason) {
+  throw std::invalid_argument(fmt::format("{}: cannot be read: {}", path.string(), reason));
+}
+
+}  // namespace
+
+std::string readFile(const fs::path& path) {
+  // Without O_NONBLOCK, opening a pipe waits for a writer.
+  const OpenFile file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+  struct stat status {};
+  if (file.number == -1 || fstat(file.number, &status) != 0) failToRead(path, std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) failToRead(path, "it is not a regular file");
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(status.st_size));
+  std::array<char, 65536> buffer{};
+  for (;;) {
+    const ssize_t count = read(file.number, buffer.data(), buffer.size());
+    if (count == 0) return bytes;
+    if (count < 0 && errno != EINTR) failToRead(path, std::strerror(errno));
+    if (count > 0) bytes.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+bool isInside(const fs::path& file, const fs::path& folder) {
+  const fs::path relative =
+      fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(fs::absolute(folder)));
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+std::string outsideSentence(const fs::path& file, const fs::path& folder) {
+  return fmt::format(
+      "{} is outside of the folder {}; move it there, or allow this with --allow-outside (nodes and launch "
+      "files: "
+      "allow_outside)",
+      fs::weakly_canonical(file).string(), fs::weakly_canonical(fs::absolute(folder)).string());
+}
+
+}  // namespace softbody

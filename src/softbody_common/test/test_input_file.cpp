@@ -1,0 +1,87 @@
+#include "softbody_common/input_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <functional>
+#include <stdexcept>
+
+#include "scratch_folder.h"
+#include "softbody_common/staged_output.h"
+#include "softbody_common/yaml_map_reader.h"
+
+namespace softbody {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ScratchFolder;
+
+std::string complaint(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadFile, RefusesWhatIsNoRegularFileAtOnce) {
+  const ScratchFolder folder;
+  mkfifo((folder / "pipe").c_str(), 0600);
+  for (const fs::path& path :
+       {folder / "pipe", fs::path(folder), fs::path("/dev/zero"), folder / "nothing"}) {
+    EXPECT_NE(complaint([&] { readFile(path); }).find(path.string() + ": cannot be read: "),
+              std::string::npos)
+        << path;
+  }
+}
+
+TEST(IsInside, ResolvesLinksAndDots) {
+  const ScratchFolder folder;
+  fs::create_directories(folder / "data/meshes");
+  replaceFile(folder / "secret", "");
+  fs::create_symlink(folder / "secret", folder / "data/link");
+  fs::create_symlink(folder / "data/meshes", folder / "data/also");
+  fs::create_directory_symlink(folder / "data", folder / "alias");
+  for (const char* name : {"a.obj", "meshes/a.obj", "meshes/../a.obj", "also/a.obj", "..a/b", "."}) {
+    EXPECT_TRUE(isInside(folder / "data" / name, folder / "data")) << name;
+    EXPECT_TRUE(isInside(folder / "alias" / name, folder / "data")) << name;
+  }
+  for (const char* name : {"..", "../secret", "link", "meshes/../../secret", "/etc/passwd", "../data2/a"})
+    EXPECT_FALSE(isInside(folder / "data" / name, folder / "data")) << name;
+}
+
+TEST(YamlMapReader, AFileOutsideOfItsFolderNeedsAllowance) {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "data");
+  replaceFile(folder / "secret.obj", "");
+  replaceFile(folder / "data/own.obj", "");
+  replaceFile(folder / "data/object.yaml", "own: own.obj\nup: ../secret.obj\nabsolute: /etc/passwd\n");
+  const std::string yaml = (folder / "data/object.yaml").string();
+  YamlMapReader reader(parseYamlFile(yaml), yaml, "");
+  EXPECT_EQ(reader.file("own"), (folder / "data/own.obj").string());
+  for (const auto& [key, line] : {std::pair("up", 2), std::pair("absolute", 3)}) {
+    const std::string said = complaint([&, key = key] { reader.file(key); });
+    EXPECT_NE(said.find(yaml + ":" + std::to_string(line) + ": " + key), std::string::npos) << said;
+    EXPECT_NE(said.find("--allow-outside"), std::string::npos) << said;
+    EXPECT_NE(reader.file(key, FileScope::kAnywhere), "");
+  }
+}
+
+TEST(ParseYamlFile, RefusesWhatWouldExhaustStackOrMemory) {
+  const ScratchFolder folder;
+  const std::string yaml = (folder / "deep.yaml").string();
+  for (const std::string& text : {std::string(100000, '['), "a: " + std::string(100000, '{')}) {
+    replaceFile(yaml, text);
+    EXPECT_NE(complaint([&] { parseYamlFile(yaml); }).find("deep.yaml:1: not YAML"), std::string::npos);
+  }
+  std::string blocks;
+  for (int depth = 0; depth < 1000; ++depth) blocks += "- ";
+  replaceFile(yaml, blocks);
+  EXPECT_NE(complaint([&] { parseYamlFile(yaml); }).find("deep.yaml:1: not YAML"), std::string::npos);
+  replaceFile(yaml, std::string(2 << 20, '#'));
+  EXPECT_NE(complaint([&] { parseYamlFile(yaml); }).find("a YAML file may have up to"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace softbody
