@@ -1,5 +1,5 @@
-"""The reader's files that the documentation names: my.bag, my_mesh.obj, my_object/, my_tool.yaml and my_images/. The virtual
-camera and the shipped sponge stand in for them."""
+"""The reader's files that the documentation names: my.bag, my_mesh.obj, my_sheet.obj, my_object/, my_tool.yaml and
+my_images/. The virtual camera and the shipped sponge stand in for them."""
 import os
 import shutil
 import struct
@@ -22,6 +22,7 @@ def make(folder, config):
                 bag.write(topic, message, time)
     os.remove(f"{folder}/truth.bag")
     _write_mesh_in_millimetres(f"{config}/sponge.obj", f"{folder}/my_mesh.obj")
+    _write_sheet(f"{folder}/my_sheet.obj")
     subprocess.run("rosrun softbody_sim prepare_model my_mesh.obj --unit mm --output my_object".split(), cwd=folder, check=True,
                    capture_output=True)
     shutil.copy(f"{config}/knife.yaml", f"{folder}/my_tool.yaml")
@@ -35,6 +36,16 @@ def _write_mesh_in_millimetres(metres, millimetres):
             if words and words[0] == "v":
                 line = "v " + " ".join(str(1000 * float(word)) for word in words[1:4]) + "\n"
             target.write(line)
+
+
+def _write_sheet(path):
+    """A flat square of 200 mm."""
+    with open(path, "w", encoding="utf-8") as target:
+        for i in range(25):
+            target.write(f"v {50 * (i // 5)} {50 * (i % 5)} 0\n")
+        for i in range(1, 20):
+            if i % 5:
+                target.write(f"f {i} {i + 5} {i + 6} {i + 1}\n")
 
 
 def _write_images(bag, folder):

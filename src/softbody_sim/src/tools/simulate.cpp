@@ -6,6 +6,8 @@
 #include <iostream>
 #include <random>
 
+#include "softbody_common/run_tool.h"
+#include "softbody_common/staged_output.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/io/tet_files.h"
@@ -213,16 +215,8 @@ std::string row(int step, double time_s, const Simulator& simulator, const std::
                      report.converged ? 1 : 0);
 }
 
-/// An earlier file stays until the new one is complete.
 void writeOutput(const std::string& path, const std::string& table, const TetMesh& mesh) {
-  const std::string partial = path + ".partial";
-  if (std::filesystem::path(path).extension() == ".vtu") {
-    writeVtu(partial, mesh);
-  } else {
-    std::ofstream file(partial);
-    if (!(file << table << std::flush)) throw std::runtime_error(path + " cannot be written");
-  }
-  std::filesystem::rename(partial, path);
+  replaceFile(path, std::filesystem::path(path).extension() == ".vtu" ? vtuText(mesh) : table);
 }
 
 int run(const Options& o) {
@@ -275,16 +269,6 @@ int main(int argc, char** argv) {
   addMaterialOptions(app, options);
   addProblemOptions(app, options);
   addSolverOptions(app, options);
-  try {
-    app.parse(argc, argv);
-    requireUsable(options);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "simulate: " << error.what() << '\n';
-    return 1;
-  }
+  app.callback([&] { requireUsable(options); });
+  return runTool(&app, argc, argv, [&] { return run(options); });
 }

@@ -229,29 +229,44 @@ std::string vtu(const std::string& points, const std::string& connectivity, cons
          "</DataArray><DataArray Name=\"types\">10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
 }
 
+/// A mesh among whose elements others lie in each other.
+std::string nested(int depth) {
+  std::string begin, end;
+  for (int k = 0; k < depth; ++k) {
+    begin += "<a>";
+    end += "</a>";
+  }
+  return "<VTKFile>" + begin + end + "<UnstructuredGrid/></VTKFile>";
+}
+
 constexpr const char* kCorners = "0 0 0 1 0 0 0 1 0 0 0 1";
 
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenTets,
-    testing::Values(BadSurface{"a.vtu", "<VTKFile>\n<Unstr", ":2: not XML"},
-                    BadSurface{"b.vtu", "<VTKFile/>", "no <UnstructuredGrid>"},
-                    BadSurface{"c.vtu", vtu("0 0 0", "0 1 2 3", "4"), "NumberOfPoints is 4"},
-                    BadSurface{"d.vtu", vtu(kCorners, "0 1 2 4", "4"), "cell 0: refers to point 4"},
-                    BadSurface{"e.vtu", vtu(kCorners, "0 1 2 3", "9"), "cell 0: offset 9"},
-                    BadSurface{"f.vtu", vtu("0 0 inf", "0 1 2 3", "4"), "entry 2: 'inf'"},
-                    BadSurface{"g.vtu", vtu(kCorners, "0 1 2 3", "4", "appended"), "format is 'appended'"},
-                    BadSurface{"h.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4"),
-                               "no tet of positive volume"},
-                    BadSurface{"a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", ":2: MSH version 4.1"},
-                    BadSurface{"b.msh", "$MeshFormat\n2.2 1 8\n", ":2: binary MSH"},
-                    BadSurface{"c.msh", "$Nodes\n900000000\n1 0 0 0\n", ":2: announces"},
-                    BadSurface{"d.msh", "$Nodes\n1\n7 0 0 0\n$EndNodes\n$Elements\n1\n1 4 2 0 1 7 7 7 8\n",
-                               ":7: a tet refers to vertex 8"},
-                    BadSurface{"e.msh", "$Nodes\n2\n7 0 0 0\n7 0 0 1\n", ":4: two vertices have the id 7"},
-                    BadSurface{"a.veg", "*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n",
-                               ":5: elements of kind CUBIC"},
-                    BadSurface{"a.node", "1 2 0 0\n", ":1: the vertices must be three"},
-                    BadSurface{"a.tet", "", "supported: .vtu"}));
+    testing::Values(
+        BadSurface{"a.vtu", "<VTKFile>\n<Unstr", ":2: not XML"},
+        BadSurface{"deep.vtu", nested(100000), ":1: not XML: more than 64 elements lie in each other"},
+        BadSurface{"open.vtu", "<a>\n<b>\n</b>", ":3: not XML: the file ends before </a>"},
+        BadSurface{"crossed.vtu", "<a><b></a></b>", "</a> does not belong to"},
+        BadSurface{"two.vtu", "<a/><b/>", "more than one root"},
+        BadSurface{"quote.vtu", "<a b=c/>", "not in quotes"},
+        BadSurface{"b.vtu", "<VTKFile/>", "no <UnstructuredGrid>"},
+        BadSurface{"c.vtu", vtu("0 0 0", "0 1 2 3", "4"), "NumberOfPoints is 4"},
+        BadSurface{"d.vtu", vtu(kCorners, "0 1 2 4", "4"), "cell 0: refers to point 4"},
+        BadSurface{"e.vtu", vtu(kCorners, "0 1 2 3", "9"), "cell 0: offset 9"},
+        BadSurface{"f.vtu", vtu("0 0 inf", "0 1 2 3", "4"), "entry 2: 'inf'"},
+        BadSurface{"g.vtu", vtu(kCorners, "0 1 2 3", "4", "appended"), "format is 'appended'"},
+        BadSurface{"h.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4"), "no tet of positive volume"},
+        BadSurface{"a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", ":2: MSH version 4.1"},
+        BadSurface{"b.msh", "$MeshFormat\n2.2 1 8\n", ":2: binary MSH"},
+        BadSurface{"c.msh", "$Nodes\n900000000\n1 0 0 0\n", ":2: announces"},
+        BadSurface{"d.msh", "$Nodes\n1\n7 0 0 0\n$EndNodes\n$Elements\n1\n1 4 2 0 1 7 7 7 8\n",
+                   ":7: a tet refers to vertex 8"},
+        BadSurface{"e.msh", "$Nodes\n2\n7 0 0 0\n7 0 0 1\n", ":4: two vertices have the id 7"},
+        BadSurface{"a.veg", "*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n",
+                   ":5: elements of kind CUBIC"},
+        BadSurface{"a.node", "1 2 0 0\n", ":1: the vertices must be three"},
+        BadSurface{"a.tet", "", "supported: .vtu"}));
 
 /// Whatever the bytes: a sound mesh, or a sentence.
 TEST(DamagedFiles, AreReadSoundlyOrRefused) {

@@ -1,13 +1,17 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <set>
 #include <sstream>
 
 #include "cage/enclosure.h"
+#include "cage/volume_maker.h"
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
 #include "report/model_folder.h"
+#include "softbody_common/input_file.h"
+#include "softbody_common/staged_output.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"
@@ -105,16 +109,66 @@ TEST_F(ObjectModelTest, AKeptVolumeEqualsANewOneBitForBit) {
   expectEqual(made, buildObjectModel(description));
 }
 
-TEST_F(ObjectModelTest, ADamagedCacheIsMadeAnewAndSaid) {
-  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
-  const ObjectModel made = buildObjectModel(description);
-  for (const auto& kept : std::filesystem::directory_iterator(folder_.file("cache/softbody"))) {
-    std::filesystem::resize_file(kept.path(), 1000);
+/// The only entry of the cache.
+class KeptVolume : public ObjectModelTest {
+ protected:
+  KeptVolume() : made_(buildObjectModel(description_)) {}
+
+  std::filesystem::path entry() const {
+    return std::filesystem::directory_iterator(folder_.file("cache/softbody"))->path();
   }
-  const ObjectModel again = buildObjectModel(description);
-  EXPECT_EQ(again.volume.rest_vertices, made.volume.rest_vertices);
-  ASSERT_EQ(again.warnings.size(), 1U);
-  expectEqual(made, buildObjectModel(description));
+  /// The model is made again, with one warning.
+  void expectSkipped() const {
+    const ObjectModel again = buildObjectModel(description_);
+    EXPECT_EQ(again.volume.rest_vertices, made_.volume.rest_vertices);
+    EXPECT_EQ(again.volume.tets, made_.volume.tets);
+    ASSERT_EQ(again.warnings.size(), 1U);
+    EXPECT_NE(again.warnings[0].find("the cache of prepared models is not used"), std::string::npos)
+        << again.warnings[0];
+  }
+
+  ObjectDescription description_ = describe(test::torus(0.1, 0.03, 60, 24));
+  ObjectModel made_;
+};
+
+TEST_F(KeptVolume, IsMadeAgainIfItIsIncomplete) {
+  std::filesystem::resize_file(entry(), 1000);
+  expectSkipped();
+  expectEqual(made_, buildObjectModel(description_));
+}
+
+TEST_F(KeptVolume, IsMadeAgainIfItWasChanged) {
+  std::string text = readFile(entry());
+  const std::size_t digit = text.find("0.1");
+  ASSERT_NE(digit, std::string::npos);
+  text[digit + 2] = '2';
+  writeBytes(entry(), text);
+  expectSkipped();
+  expectEqual(made_, buildObjectModel(description_));
+}
+
+TEST_F(KeptVolume, IsMadeAgainIfItBelongsToOtherInputs) {
+  const std::filesystem::path first = entry();
+  const std::string text = readFile(first);
+  std::filesystem::remove(first);
+  description_ = describe(test::torus(0.1, 0.02, 60, 24));
+  made_ = buildObjectModel(description_);
+  writeBytes(entry(), text);
+  expectSkipped();
+}
+
+TEST_F(KeptVolume, IsNotUsedIfItIsNoFile) {
+  const std::filesystem::path path = entry();
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  expectSkipped();
+  std::filesystem::remove(path);
+  mkfifo(path.c_str(), 0600);
+  expectSkipped();
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink(folder_.file("visual.obj"), path);
+  expectSkipped();
+  EXPECT_TRUE(std::filesystem::is_symlink(path));
 }
 
 TEST_F(ObjectModelTest, AnUnusableCacheIsAWarning) {
@@ -122,7 +176,7 @@ TEST_F(ObjectModelTest, AnUnusableCacheIsAWarning) {
   const ObjectModel model = buildObjectModel(describe(test::torus(0.1, 0.03, 60, 24)));
   expectSound(model);
   ASSERT_EQ(model.warnings.size(), 1U);
-  EXPECT_NE(model.warnings[0].find("there is no model cache"), std::string::npos);
+  EXPECT_NE(model.warnings[0].find("the cache of prepared models is not used"), std::string::npos);
 }
 
 TEST_F(ObjectModelTest, AGivenCageIsFilled) {
@@ -186,7 +240,7 @@ TEST_F(ObjectModelTest, DISABLED_ToyTetsAreAcceptedAndTheWarningSaysHowFarItStic
 TEST_F(ObjectModelTest, PreparedFolderGivesTheSameModel) {
   const ObjectDescription description = describe(stretched(test::torus(0.1, 0.03, 60, 24), 1000, 1000, 1000));
   std::ostringstream progress;
-  prepareModel(description.visual_mesh, "mm", folder_.file("out"), {}, progress);
+  prepareModel({description.visual_mesh, "mm"}, folder_.file("out"), {}, progress);
   const ObjectModel prepared = buildObjectModel(loadObjectDescription(folder_.file("out/object.yaml")));
   expectSound(prepared);
   EXPECT_TRUE(prepared.warnings.empty()) << prepared.warnings.front();
@@ -201,26 +255,83 @@ TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
   folder_.write("out/object.yaml", "mine");
   folder_.write("bad.obj", "v 0 0 0\nf 1 1 1\n");
   std::ostringstream progress;
-  EXPECT_NE(complaint([&] { prepareModel(folder_.file("bad.obj"), "m", folder_.file("out"), {}, progress); }),
+  EXPECT_NE(complaint([&] { prepareModel({folder_.file("bad.obj")}, folder_.file("out"), {}, progress); }),
             "");
-  std::ifstream kept(folder_.file("out/object.yaml"));
-  std::string content;
-  kept >> content;
-  EXPECT_EQ(content, "mine");
+  EXPECT_EQ(readFile(folder_.file("out/object.yaml")), "mine");
   for (const auto& entry : std::filesystem::directory_iterator(folder_.file("."))) {
-    EXPECT_EQ(entry.path().string().find(".tmp"), std::string::npos) << entry.path();
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
   }
 }
 
-TEST_F(ObjectModelTest, AFolderWhereAFileShouldGoLeavesTheOthersAsTheyWere) {
+TEST_F(ObjectModelTest, AFolderIsPreparedAgainButFilesOfTheUserStay) {
   const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  std::ostringstream progress;
+  const auto prepare = [&](const std::string& name) {
+    return complaint([&] { prepareModel({description.visual_mesh}, folder_.file(name), {}, progress); });
+  };
+  std::filesystem::create_directories(folder_.file("theirs"));
+  folder_.write("theirs/cage.obj", "mine");
+  EXPECT_NE(prepare("theirs").find("theirs/cage.obj was not made by prepare_model"), std::string::npos);
+  EXPECT_EQ(readFile(folder_.file("theirs/cage.obj")), "mine");
+  EXPECT_EQ(prepare("out"), "");
+  folder_.write("out/notes.txt", "mine");
+  EXPECT_EQ(prepare("out"), "");
+  EXPECT_EQ(readFile(folder_.file("out/notes.txt")), "mine");
+  std::filesystem::remove(folder_.file("out/tets.vtu"));
   std::filesystem::create_directories(folder_.file("out/tets.vtu"));
   folder_.write("out/visual.obj", "mine");
+  EXPECT_NE(prepare("out").find("out/tets.vtu was not made by prepare_model"), std::string::npos);
+  EXPECT_EQ(readFile(folder_.file("out/visual.obj")), "mine");
+}
+
+TriangleMesh flatSheet(int cells, double size) {
+  TriangleMesh mesh{Points((cells + 1) * (cells + 1), 3), Triangles(2 * cells * cells, 3)};
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= cells; ++j) mesh.vertices.row(i * (cells + 1) + j) << i, j, 0.0;
+  mesh.vertices *= size / cells;
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const int a = i * (cells + 1) + j, b = a + cells + 1, f = 2 * (i * cells + j);
+      mesh.triangles.row(f) << a, b, b + 1;
+      mesh.triangles.row(f + 1) << a, b + 1, a + 1;
+    }
+  }
+  return mesh;
+}
+
+TEST_F(ObjectModelTest, AMeshWithoutVolumeIsRefusedOrGetsTheStatedThickness) {
+  const TriangleMesh triangle{(Points(3, 3) << 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0).finished(),
+                              (Triangles(1, 3) << 0, 1, 2).finished()};
+  TriangleMesh two_sided = flatSheet(8, 0.2);
+  two_sided.triangles.conservativeResize(256, 3);
+  two_sided.triangles.bottomRows(128) = two_sided.triangles.topRows(128).rowwise().reverse();
   std::ostringstream progress;
-  const std::string said =
-      complaint([&] { prepareModel(description.visual_mesh, "m", folder_.file("out"), {}, progress); });
-  EXPECT_NE(said.find("out/tets.vtu: is a folder; a file must be written there"), std::string::npos) << said;
-  EXPECT_EQ(std::filesystem::file_size(folder_.file("out/visual.obj")), 4U);
+  for (const TriangleMesh& mesh : {triangle, flatSheet(8, 0.2), two_sided}) {
+    ObjectDescription description = describe(mesh);
+    const std::string said = complaint([&] { buildObjectModel(description); });
+    EXPECT_TRUE(said.find("visual.obj: encloses no volume") != std::string::npos ||
+                said.find("visual.obj: no triangle") != std::string::npos)
+        << said;
+  }
+  for (const TriangleMesh& mesh : {triangle, flatSheet(8, 0.2)}) {
+    describe(mesh);
+    prepareModel({folder_.file("visual.obj"), "m", 0.01}, folder_.file("sheet"), {}, progress);
+    const ObjectModel model = buildObjectModel(loadObjectDescription(folder_.file("sheet/object.yaml")));
+    expectSound(model);
+    EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
+    const Points& visual = model.visual.rest_vertices;
+    EXPECT_NEAR(visual.col(2).maxCoeff() - visual.col(2).minCoeff(), 0.01, 1e-12);
+    EXPECT_NEAR(enclosedVolume(visual, model.visual.triangles), 0.01 * areaOf(mesh), 1e-9);
+  }
+}
+
+TEST_F(ObjectModelTest, AClosedBodyGetsNoThickness) {
+  describe(test::torus(0.1, 0.03, 60, 24));
+  std::ostringstream progress;
+  const std::string said = complaint([&] {
+    prepareModel({folder_.file("visual.obj"), "m", 0.01}, folder_.file("out"), {}, progress);
+  });
+  EXPECT_NE(said.find("visual.obj: has no open edges"), std::string::npos) << said;
 }
 
 TEST_F(ObjectModelTest, DescriptionIsReadWithPathsRelativeToItsFile) {
@@ -248,6 +359,9 @@ TEST_F(ObjectModelTest, BrokenDescriptionsAreRefusedWithLineKeyValueAndRange) {
       {"object: 3\n", ":1: 'object/' must be a map"},
       {"object:\n  unit: m\n", ":2: object/visual_mesh is missing"},
       {"object:\n  visual_mesh: none.obj\n", ":2: object/visual_mesh is 'none.obj'; there is no file"},
+      {"object:\n  visual_mesh: /etc/passwd\n",
+       ":2: object/visual_mesh is '/etc/passwd': /etc/passwd is outside of the folder"},
+      {begin + "  tet_mesh: ../body.vtu\n", ":3: object/tet_mesh is '../body.vtu': "},
       {begin + "  unit: ft\n", ":3: object/unit: unit is 'ft'; allowed: m, cm, mm, inch"},
       {begin + "  material: {poisson_ratio: 0.5}\n",
        ":3: object/material/poisson_ratio is '0.5'; allowed: a number from 0 to 0.495"},

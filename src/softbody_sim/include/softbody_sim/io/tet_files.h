@@ -13,8 +13,10 @@ namespace softbody {
 /// @throw std::invalid_argument with the file, the line or element, and the error.
 TetMesh readTetFile(const std::string& path, Warnings* warnings);
 
-/// Writes an ascii VTU with 17 significant digits: reading it gives the same numbers, bit for bit.
-/// @throw std::runtime_error if the file cannot be written.
+/// An ascii VTU with 17 significant digits: reading it gives the same numbers, bit for bit.
+std::string vtuText(const TetMesh& mesh);
+
+/// Writes it into a file. @throw std::runtime_error if the file cannot be written.
 void writeVtu(const std::string& path, const TetMesh& mesh);
 
 }  // namespace softbody

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "cage/alpha_wrap.h"
 #include "cage/cage_fitting.h"
@@ -111,6 +112,8 @@ TetMesh volumeAround(const TriangleMesh& visual, int cage_vertices,
   for (const Wrapping& wrapping : kWrappings) {
     try {
       return wrapAndFill(body, cage_vertices, wrapping, progress);
+    } catch (const std::system_error&) {
+      throw;  // another wrap would not help
     } catch (const std::runtime_error& error) {
       reason = error.what();
     }

@@ -12,6 +12,7 @@
 
 #include "io/stack_rows.h"
 #include "io/text_reader.h"
+#include "softbody_common/input_file.h"
 
 namespace softbody {
 namespace {
@@ -88,6 +89,10 @@ class PlyReader {
     if (headerLine() != "ply") fail("line 1", "the first line must be 'ply'");
     for (std::string line = headerLine(); line != "end_header"; line = headerLine()) readHeaderLine(line);
     if (format_.empty()) fail("header", "no format line");
+    for (const Element& element : elements_) {
+      if (element.properties.empty() && element.count > 0)
+        fail("header", fmt::format("the element '{}' has no properties", element.name));
+    }
   }
 
   std::string headerLine() {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "io/obj_file.h"
@@ -10,6 +10,7 @@
 #include "io/ply_file.h"
 #include "io/stl_file.h"
 #include "io/text_reader.h"
+#include "softbody_common/staged_output.h"
 
 namespace softbody {
 namespace {
@@ -36,7 +37,7 @@ SurfaceFile readSurfaceFile(const std::string& path, Warnings* warnings) {
 }
 
 void writeObj(const std::string& path, const TriangleMesh& mesh, const Points& texture_coordinates) {
-  std::ofstream stream(path);
+  std::ostringstream stream;
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
     stream << fmt::format("v {:.17g} {:.17g} {:.17g}\n", mesh.vertices(v, 0), mesh.vertices(v, 1),
                           mesh.vertices(v, 2));
@@ -53,8 +54,7 @@ void writeObj(const std::string& path, const TriangleMesh& mesh, const Points& t
     }
     stream << '\n';
   }
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": cannot be written");
+  writeBytes(path, stream.str());
 }
 
 }  // namespace softbody

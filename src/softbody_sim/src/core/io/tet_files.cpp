@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "io/msh_file.h"
@@ -15,6 +15,8 @@
 #include "io/text_reader.h"
 #include "io/veg_file.h"
 #include "io/vtu_file.h"
+#include "softbody_common/input_file.h"
+#include "softbody_common/staged_output.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -25,7 +27,7 @@ constexpr double kFlat = 1e-9;
 
 TetMesh readTetsByExtension(const std::string& path, Warnings* warnings) {
   const std::string extension = extensionOf(path);
-  if (extension == "vtu") return readVtu(path, warnings);
+  if (extension == "vtu") return parseVtu(path, readFile(path), warnings);
   if (extension == "msh") return readMsh(path, warnings);
   if (extension == "veg") return readVeg(path, warnings);
   if (extension == "node" || extension == "ele") return readTetGen(path);
@@ -126,8 +128,8 @@ TetMesh readTetFile(const std::string& path, Warnings* warnings) {
   return withoutUnusedVertices(path, mesh, warnings);
 }
 
-void writeVtu(const std::string& path, const TetMesh& mesh) {
-  std::ofstream stream(path);
+std::string vtuText(const TetMesh& mesh) {
+  std::ostringstream stream;
   const auto array = [&stream](const char* attributes, Eigen::Index rows, const auto& row) {
     stream << fmt::format("<DataArray {} format=\"ascii\">\n", attributes);
     for (Eigen::Index r = 0; r < rows; ++r) stream << row(r) << '\n';
@@ -150,8 +152,9 @@ void writeVtu(const std::string& path, const TetMesh& mesh) {
   array(R"(type="UInt8" Name="types")", mesh.tets.rows(),
         [](Eigen::Index) { return fmt::format("{}", kVtkTetra); });
   stream << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": cannot be written");
+  return stream.str();
 }
+
+void writeVtu(const std::string& path, const TetMesh& mesh) { writeBytes(path, vtuText(mesh)); }
 
 }  // namespace softbody

@@ -6,10 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
+
+#include "softbody_common/input_file.h"
 
 namespace softbody {
 namespace {
@@ -37,14 +37,6 @@ std::string_view withoutCarriageReturn(std::string_view line) {
 bool continues(std::string_view line) { return !line.empty() && line.back() == '\\'; }
 
 }  // namespace
-
-std::string readFile(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  // A directory opens, but reading from it fails.
-  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
-  return text;
-}
 
 std::string extensionOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();

@@ -8,9 +8,6 @@
 
 namespace softbody {
 
-/// The whole file. @throw std::invalid_argument if it cannot be read.
-std::string readFile(const std::string& path);
-
 /// The extension of a path in lower case, without its dot.
 std::string extensionOf(const std::string& path);
 

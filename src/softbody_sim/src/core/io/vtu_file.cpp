@@ -2,36 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
+#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "io/stack_rows.h"
 #include "io/text_reader.h"
+#include "io/xml_elements.h"
 
 namespace softbody {
 namespace {
 
-namespace pt = boost::property_tree;
-
 class VtuReader {
  public:
-  VtuReader(const std::string& path, Warnings* warnings) : path_(path), warnings_(warnings) {}
+  VtuReader(const std::string& path, std::string_view text, Warnings* warnings)
+      : path_(path), warnings_(warnings), elements_(xmlElements(text, path)) {}
 
   TetMesh read() {
-    const pt::ptree file = parse();
-    const auto grid = file.get_child_optional("VTKFile.UnstructuredGrid");
-    if (!grid) fail("no <UnstructuredGrid>; only unstructured grids are supported");
-    int pieces = 0;
-    for (const auto& [name, piece] : *grid) {
-      if (name == "Piece") {
-        readPiece(piece);
-        ++pieces;
-      }
+    const XmlElement& root = elements_.front();
+    const XmlElement* grid = root.name == "VTKFile" ? child(root, "UnstructuredGrid") : nullptr;
+    if (grid == nullptr) fail("no <UnstructuredGrid>; only unstructured grids are supported");
+    if (child(*grid, "Piece") == nullptr) fail("no <Piece>");
+    for (const int index : grid->children) {
+      if (element(index).name == "Piece") readPiece(element(index));
     }
-    if (pieces == 0) fail("no <Piece>");
     if (skipped_ > 0) {
       warnings_->push_back(fmt::format("{}: {} cells other than tets (the first of VTK type {}) were skipped",
                                        path_, skipped_, first_skipped_type_));
@@ -42,24 +36,31 @@ class VtuReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw std::invalid_argument(path_ + ": " + what); }
 
-  pt::ptree parse() const {
-    std::ifstream stream(path_);
-    if (!stream) fail("cannot be read");
-    pt::ptree file;
-    try {
-      pt::read_xml(stream, file);
-    } catch (const pt::xml_parser_error& error) {
-      throw std::invalid_argument(fmt::format("{}:{}: not XML: {}", path_, error.line(), error.message()));
+  const XmlElement& element(int index) const { return elements_[static_cast<std::size_t>(index)]; }
+
+  /// The first child of that name; null if there is none.
+  const XmlElement* child(const XmlElement& parent, std::string_view name) const {
+    for (const int index : parent.children) {
+      if (element(index).name == name) return &element(index);
     }
-    return file;
+    return nullptr;
   }
 
-  void readPiece(const pt::ptree& piece) {
+  /// The whole number of an attribute, at least 0.
+  std::size_t count(const XmlElement& piece, std::string_view name) const {
+    const std::string_view text = piece.attribute(name);
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      fail(fmt::format("<Piece>: {} is '{}'; allowed: a whole number", name, text));
+    return value;
+  }
+
+  void readPiece(const XmlElement& piece) {
     const std::vector<double> points = numbers(piece, "Points", "");
-    const auto announced_points = piece.get<long long>("<xmlattr>.NumberOfPoints", -1);
-    const auto announced_cells = piece.get<long long>("<xmlattr>.NumberOfCells", -1);
-    if (announced_points < 0 || announced_cells < 0) fail("<Piece> without NumberOfPoints or NumberOfCells");
-    if (static_cast<long long>(points.size()) != 3 * announced_points) {
+    const std::size_t announced_points = count(piece, "NumberOfPoints");
+    const std::size_t announced_cells = count(piece, "NumberOfCells");
+    if (points.size() % 3 != 0 || points.size() / 3 != announced_points) {
       fail(fmt::format("NumberOfPoints is {}, but <Points> holds {} numbers", announced_points,
                        points.size()));
     }
@@ -69,11 +70,11 @@ class VtuReader {
     readCells(piece, announced_cells, first);
   }
 
-  void readCells(const pt::ptree& piece, long long announced, int first_vertex) {
+  void readCells(const XmlElement& piece, std::size_t announced, int first_vertex) {
     const std::vector<double> connectivity = numbers(piece, "Cells", "connectivity");
     const std::vector<double> offsets = numbers(piece, "Cells", "offsets");
     const std::vector<double> types = numbers(piece, "Cells", "types");
-    if (static_cast<long long>(types.size()) != announced || offsets.size() != types.size()) {
+    if (types.size() != announced || offsets.size() != types.size()) {
       fail(fmt::format("NumberOfCells is {}, but there are {} offsets and {} types", announced,
                        offsets.size(), types.size()));
     }
@@ -108,17 +109,18 @@ class VtuReader {
   }
 
   /// The numbers of the DataArray of that name (empty: the only one) in a section.
-  std::vector<double> numbers(const pt::ptree& piece, const std::string& section,
+  std::vector<double> numbers(const XmlElement& piece, const std::string& section,
                               const std::string& name) const {
-    const auto arrays = piece.get_child_optional(section);
-    if (!arrays) fail(fmt::format("no <{}>", section));
-    for (const auto& [tag, array] : *arrays) {
-      if (tag != "DataArray") continue;
-      if (!name.empty() && array.get<std::string>("<xmlattr>.Name", "") != name) continue;
+    const XmlElement* arrays = child(piece, section);
+    if (arrays == nullptr) fail(fmt::format("no <{}>", section));
+    for (const int index : arrays->children) {
+      const XmlElement& array = element(index);
+      if (array.name != "DataArray" || (!name.empty() && array.attribute("Name") != name)) continue;
       const std::string label = fmt::format("<{}> {}", section, name);
-      const auto format = array.get<std::string>("<xmlattr>.format", "ascii");
-      if (format != "ascii") fail(fmt::format("{}: format is '{}'; only ascii is supported", label, format));
-      return parseNumbers(array.data(), label);
+      const std::string_view format = array.attribute("format");
+      if (!format.empty() && format != "ascii")
+        fail(fmt::format("{}: format is '{}'; only ascii is supported", label, format));
+      return parseNumbers(array.text, label);
     }
     fail(fmt::format("no DataArray {} in <{}>", name, section));
   }
@@ -141,6 +143,7 @@ class VtuReader {
 
   std::string path_;
   Warnings* warnings_;
+  std::vector<XmlElement> elements_;
   std::vector<Eigen::RowVector3d> vertices_;
   std::vector<Eigen::RowVector4i> tets_;
   std::size_t skipped_ = 0;
@@ -149,6 +152,8 @@ class VtuReader {
 
 }  // namespace
 
-TetMesh readVtu(const std::string& path, Warnings* warnings) { return VtuReader(path, warnings).read(); }
+TetMesh parseVtu(const std::string& path, std::string_view text, Warnings* warnings) {
+  return VtuReader(path, text, warnings).read();
+}
 
 }  // namespace softbody

@@ -1,8 +1,8 @@
 #include "object/mesh_cache.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <cstdlib>
@@ -10,6 +10,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "io/vtu_file.h"
+#include "softbody_common/input_file.h"
+#include "softbody_common/staged_output.h"
 #include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
@@ -26,40 +29,27 @@ fs::path cacheFolder() {
   throw std::runtime_error("neither XDG_CACHE_HOME nor HOME is set");
 }
 
-/// The cache file of a mesh; nothing, with a warning, if there is no usable cache.
-std::optional<fs::path> cacheFile(const std::string& name, Warnings* warnings) {
-  try {
-    const fs::path folder = cacheFolder();
-    fs::create_directories(folder);
-    return folder / (name + ".vtu");
-  } catch (const std::runtime_error& error) {
-    warnings->push_back(fmt::format("there is no model cache: {}", error.what()));
-    return std::nullopt;
-  }
+/// The last line of an entry: what it was made from, and the hash of the lines above. XML readers skip it.
+std::string seal(const std::string& name, const std::string& text) {
+  return fmt::format("<!-- inputs {} content {} -->\n", name, contentName(text));
 }
 
-std::optional<TetMesh> readCached(const fs::path& file, Warnings* warnings) {
-  if (!fs::exists(file)) return std::nullopt;
-  try {
-    Warnings ignored;
-    return readTetFile(file.string(), &ignored);
-  } catch (const std::invalid_argument& error) {
-    warnings->push_back(fmt::format("a cached mesh is damaged and is made again: {}", error.what()));
-    return std::nullopt;
-  }
+/// The mesh of an entry; nothing if there is no entry. @throw std::exception if the entry cannot be used.
+std::optional<TetMesh> readEntry(const fs::path& file, const std::string& name) {
+  if (!fs::exists(fs::symlink_status(file))) return std::nullopt;
+  const std::string entry = readFile(file);
+  const std::size_t length = seal(name, "").size();
+  const std::string text = entry.substr(0, entry.size() - std::min(entry.size(), length));
+  if (entry != text + seal(name, text))
+    throw std::invalid_argument(file.string() + ": it was changed, or made from other inputs");
+  Warnings ignored;
+  return parseVtu(file.string(), text, &ignored);
 }
 
-/// Written under another name and renamed, so that no reader sees an incomplete file.
-void writeCached(const fs::path& file, const TetMesh& mesh, Warnings* warnings) {
-  const fs::path temporary = fmt::format("{}.{}", file.string(), getpid());
-  try {
-    writeVtu(temporary.string(), mesh);
-    fs::rename(temporary, file);
-  } catch (const std::runtime_error& error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    warnings->push_back(fmt::format("the prepared model is not cached: {}", error.what()));
-  }
+void writeEntry(const fs::path& file, const std::string& name, const TetMesh& mesh) {
+  fs::create_directories(file.parent_path());
+  const std::string text = vtuText(mesh);
+  replaceFile(file, text + seal(name, text));
 }
 
 }  // namespace
@@ -69,12 +59,23 @@ std::string contentName(const std::string& content) {
 }
 
 TetMesh cachedTetMesh(const std::string& name, const std::function<TetMesh()>& make, Warnings* warnings) {
-  const std::optional<fs::path> file = cacheFile(name, warnings);
-  if (file) {
-    if (std::optional<TetMesh> cached = readCached(*file, warnings)) return *cached;
+  std::string trouble;
+  fs::path file;
+  try {
+    file = cacheFolder() / (name + ".vtu");
+    if (const std::optional<TetMesh> kept = readEntry(file, name)) return *kept;
+  } catch (const std::exception& error) {
+    trouble = error.what();
   }
   TetMesh made = make();
-  if (file) writeCached(*file, made, warnings);
+  try {
+    if (!file.empty()) writeEntry(file, name, made);
+  } catch (const std::exception& error) {
+    if (trouble.empty()) trouble = error.what();
+  }
+  if (!trouble.empty())
+    warnings->push_back(
+        fmt::format("the cache of prepared models is not used, the model is made: {}", trouble));
   return made;
 }
 

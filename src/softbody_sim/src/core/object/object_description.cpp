@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 
@@ -50,6 +51,17 @@ std::vector<PinRegion> readPins(YamlMapReader& object, const std::string& path, 
   return pins;
 }
 
+/// A TetGen mesh is two files. @throw std::invalid_argument if a link leads the other one out of its folder.
+void requireCompanionInside(YamlMapReader& object, const std::string& tet_mesh) {
+  const std::filesystem::path file(tet_mesh);
+  if (file.extension() != ".node" && file.extension() != ".ele") return;
+  auto companion = file;
+  companion.replace_extension(file.extension() == ".node" ? ".ele" : ".node");
+  if (isInside(companion, file.parent_path())) return;
+  object.fail(object.get("tet_mesh"),
+              fmt::format("object/tet_mesh: {}", outsideSentence(companion, file.parent_path())));
+}
+
 }  // namespace
 
 double metresPer(const std::string& unit) {
@@ -61,15 +73,16 @@ double metresPer(const std::string& unit) {
   return found->second;
 }
 
-ObjectDescription loadObjectDescription(const std::string& yaml_path) {
+ObjectDescription loadObjectDescription(const std::string& yaml_path, FileScope scope) {
   YamlMapReader file(parseYamlFile(yaml_path), yaml_path, "");
   YamlMapReader object = file.map("object");
   ObjectDescription description;
-  description.visual_mesh = object.file("visual_mesh");
+  description.visual_mesh = object.file("visual_mesh", scope);
   if (description.visual_mesh.empty())
     object.fail(object.get("visual_mesh"), "object/visual_mesh is missing");
-  description.cage_mesh = object.file("cage_mesh");
-  description.tet_mesh = object.file("tet_mesh");
+  description.cage_mesh = object.file("cage_mesh", scope);
+  description.tet_mesh = object.file("tet_mesh", scope);
+  if (scope == FileScope::kOwnFolder) requireCompanionInside(object, description.tet_mesh);
   description.unit_m = readUnit(object);
   if (object.has("material")) {
     YamlMapReader material = object.map("material");

@@ -4,6 +4,7 @@
 
 #include "softbody_common/tet_geometry.h"
 #include "surface_mesh/surface_repair.h"
+#include "surface_mesh/thickening.h"
 
 namespace softbody {
 namespace {
@@ -35,6 +36,8 @@ void warnOfEdges(const std::string& name, const Triangles& triangles, Warnings* 
 
 MeshTopology loadVisualMesh(const ObjectDescription& description, Warnings* warnings) {
   WeldedSurface surface = loadSurface(description.visual_mesh, description.unit_m, warnings);
+  if (description.thickness_m > 0.0)
+    surface = thickened(surface, description.thickness_m, description.visual_mesh);
   warnOfSize(description.visual_mesh, surface.mesh.vertices, warnings);
   warnOfEdges(description.visual_mesh, surface.mesh.triangles, warnings);
   MeshTopology topology;

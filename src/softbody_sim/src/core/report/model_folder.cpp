@@ -1,18 +1,18 @@
 #include "report/model_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <ostream>
 #include <stdexcept>
+#include <string_view>
 
 #include "report/model_picture.h"
 #include "report/model_quality.h"
+#include "softbody_common/input_file.h"
+#include "softbody_common/staged_output.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"
@@ -25,22 +25,16 @@ namespace fs = std::filesystem;
 constexpr double kModelProgress = 0.8;  // fraction of the time for making the model
 constexpr std::array<const char*, 6> kFiles{"visual.obj",        "cage.obj",         "tets.vtu",
                                             "report/models.png", "report/report.md", "object.yaml"};
-
-void writeText(const fs::path& path, const std::string& text) {
-  std::ofstream stream(path);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(path.string() + ": cannot be written");
-}
+constexpr std::string_view kMark = "# Made by prepare_model";  // how an object.yaml begins
 
 std::string objectYaml(const std::string& mesh, const Material& material) {
   return fmt::format(
-      "# Made by prepare_model from {}. The material is a guess (soft foam); set it to yours.\n"
+      "{} from {}. The material is a guess (soft foam); set it to yours.\n"
       "object:\n  visual_mesh: visual.obj\n  cage_mesh: cage.obj\n  tet_mesh: tets.vtu\n"
       "  material: {{youngs_modulus_pa: {}, poisson_ratio: {}, density_kg_m3: {}, damping: {}}}\n"
       "  # initial_pose: [x, y, z, qx, qy, qz, qw]   # in the colour optical frame, approximate; without it "
       "the object is searched for\n",
-      fs::path(mesh).filename().string(), material.youngs_modulus_pa, material.poisson_ratio,
+      kMark, fs::path(mesh).filename().string(), material.youngs_modulus_pa, material.poisson_ratio,
       material.density_kg_m3, material.damping);
 }
 
@@ -82,62 +76,58 @@ std::string report(const std::string& mesh, const ObjectModel& model, const Mode
   return text;
 }
 
-/// A temporary folder beside the target.
-class StagingFolder {
- public:
-  explicit StagingFolder(const fs::path& target)
-      : path_(fmt::format("{}.{}.tmp", target.string(), getpid())) {
-    fs::create_directories(path_ / "report");
+/// Refuses to replace what prepare_model did not make. @throw std::runtime_error
+void requireReplaceable(const fs::path& folder) {
+  std::error_code unknown;
+  const fs::path yaml = folder / kFiles.back();
+  const bool is_model = fs::is_regular_file(fs::symlink_status(yaml, unknown)) &&
+                        readFile(yaml).compare(0, kMark.size(), kMark) == 0;
+  for (const char* file : kFiles) {
+    const fs::file_status status = fs::symlink_status(folder / file, unknown);
+    if (!fs::exists(status) || (is_model && fs::is_regular_file(status))) continue;
+    throw std::runtime_error(
+        fmt::format("{} was not made by prepare_model; choose another folder", (folder / file).string()));
   }
-  ~StagingFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  StagingFolder(const StagingFolder&) = delete;
-  StagingFolder& operator=(const StagingFolder&) = delete;
+}
 
-  const fs::path& path() const { return path_; }
+void writePicture(const fs::path& path, const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(path.extension().string(), picture, bytes);
+  writeBytes(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
 
-  /// object.yaml comes last: the files that it names then exist.
-  void moveInto(const fs::path& target) const {
-    for (const char* file : kFiles) {
-      if (fs::is_directory(target / file)) {
-        throw std::runtime_error((target / file).string() + ": is a folder; a file must be written there");
-      }
-    }
-    fs::create_directories(target / "report");
-    for (const char* file : kFiles) fs::rename(path_ / file, target / file);
-  }
-
- private:
-  fs::path path_;
-};
+/// object.yaml comes last: the files that it names then exist.
+void moveFiles(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to / "report");
+  for (const char* file : kFiles) fs::rename(from / file, to / file);
+}
 
 }  // namespace
 
-void prepareModel(const std::string& mesh, const std::string& unit, const std::string& folder,
-                  const VolumeSettings& settings, std::ostream& output) {
+void prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
+                  std::ostream& output) {
+  const fs::path target = fs::weakly_canonical(fs::absolute(folder));
+  requireReplaceable(target);
   ObjectDescription description;
-  description.visual_mesh = mesh;
-  description.unit_m = metresPer(unit);
+  description.visual_mesh = source.mesh;
+  description.unit_m = metresPer(source.unit);
+  description.thickness_m = source.thickness * description.unit_m;
   VolumeSettings making = settings;
   making.progress = [&](double fraction) { settings.progress(kModelProgress * fraction); };
   const ObjectModel model = buildObjectModel(description, making);
   const TriangleMesh cage = cageOf(model.volume);
 
-  const fs::path target = fs::absolute(folder).lexically_normal();
-  const StagingFolder staging(target.has_filename() ? target : target.parent_path());
+  const StagedFolder staging(target);
+  fs::create_directories(staging.path() / "report");
   writeObj((staging.path() / "visual.obj").string(), {model.visual.rest_vertices, model.visual.triangles},
            model.visual.texture_coordinates);
   writeObj((staging.path() / "cage.obj").string(), cage);
   writeVtu((staging.path() / "tets.vtu").string(), {model.volume.rest_vertices, model.volume.tets});
-  const std::string text = report(mesh, model, measureModel(model));
-  writeText(staging.path() / "report/report.md", text);
-  if (!cv::imwrite((staging.path() / "report/models.png").string(), drawModel(model))) {
-    throw std::runtime_error("the picture of the models cannot be written");
-  }
-  writeText(staging.path() / "object.yaml", objectYaml(mesh, model.material));
-  staging.moveInto(target);
+  const std::string text = report(source.mesh, model, measureModel(model));
+  writeBytes(staging.path() / "report/report.md", text);
+  writePicture(staging.path() / "report/models.png", drawModel(model));
+  writeBytes(staging.path() / "object.yaml", objectYaml(source.mesh, model.material));
+  moveFiles(staging.path(), target);
   settings.progress(1.0);
   output << text << "written to " << target.string() << '\n';
 }

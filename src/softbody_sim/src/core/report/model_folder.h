@@ -7,11 +7,19 @@
 
 namespace softbody {
 
+/// The user's mesh.
+struct ModelSource {
+  std::string mesh;        ///< OBJ, PLY, STL or OFF
+  std::string unit = "m";  ///< m, cm, mm or inch
+  double thickness = 0.0;  ///< of a sheet, in this unit; 0: the mesh encloses the body
+};
+
 /// Writes FOLDER/{object.yaml, visual.obj, cage.obj, tets.vtu, report/report.md, report/models.png} in
-/// metres. Other files in the folder stay. If anything fails, the folder is unchanged.
-/// @param unit of the mesh: m, cm, mm or inch. @param output gets the report.
+/// metres. Other files in the folder stay. If anything fails, the folder is unchanged. Files of these names
+/// are replaced only if prepare_model made them.
+/// @param output gets the report.
 /// @throw std::invalid_argument if the mesh is refused; std::runtime_error if the folder cannot be written.
-void prepareModel(const std::string& mesh, const std::string& unit, const std::string& folder,
-                  const VolumeSettings& settings, std::ostream& output);
+void prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
+                  std::ostream& output);
 
 }  // namespace softbody

@@ -23,7 +23,7 @@ SimulatorNode::SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle&
 
 SimulatorNode::SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                              const SimulatorOptions& options)
-    : SimulatorNode(node, private_node, options, loadSimulatedObject(options.object)) {}
+    : SimulatorNode(node, private_node, options, loadSimulatedObject(options.object, options.scope)) {}
 
 SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node,
                              const SimulatorOptions& options, const SimulatedObject& object)

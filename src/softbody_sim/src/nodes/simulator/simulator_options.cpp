@@ -18,6 +18,7 @@ SimulatorOptions readSimulatorOptions(const ros::NodeHandle& private_node) {
   Parameters parameters = readParameters(private_node);
   SimulatorOptions options;
   options.object = parameters.requiredText("object");
+  options.scope = parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
   options.body_frame = parameters.text("body_frame", "softbody");
   options.simulator = readSimulatorConfig(parameters);
   options.free_run_rate_hz = parameters.number("free_run_rate_hz", options.free_run_rate_hz, 0.0, 1000.0);
@@ -32,8 +33,8 @@ SimulatorOptions readSimulatorOptions(const ros::NodeHandle& private_node) {
   return options;
 }
 
-SimulatedObject loadSimulatedObject(const std::string& object) {
-  const ObjectDescription description = loadObjectDescription(object);
+SimulatedObject loadSimulatedObject(const std::string& object, FileScope scope) {
+  const ObjectDescription description = loadObjectDescription(object, scope);
   SimulatedObject loaded{buildObjectModel(description), description.pins};
   for (const std::string& warning : loaded.model.warnings) ROS_WARN_STREAM(object << ": " << warning);
   return loaded;

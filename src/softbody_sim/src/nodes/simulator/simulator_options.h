@@ -14,7 +14,8 @@ namespace softbody {
 
 /// The simulator node's parameters.
 struct SimulatorOptions {
-  std::string object;  ///< path of the object YAML
+  std::string object;                       ///< path of the object YAML
+  FileScope scope = FileScope::kOwnFolder;  ///< of the files that the object YAML names
   std::string body_frame;
   SimulatorConfig simulator;
   double free_run_rate_hz = 30.0;  ///< 0: no steps without targets
@@ -33,6 +34,6 @@ struct SimulatedObject {
 };
 
 /// Logs the object's warnings. @throw std::invalid_argument if a file of the object cannot be used.
-SimulatedObject loadSimulatedObject(const std::string& object);
+SimulatedObject loadSimulatedObject(const std::string& object, FileScope scope);
 
 }  // namespace softbody

@@ -24,11 +24,13 @@ SurfaceNode::SurfaceNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
 SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_node) {
   Parameters parameters = readParameters(private_node);
   const std::string object = parameters.requiredText("object");
+  const FileScope scope =
+      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
   Options options;
   options.body_frame = parameters.text("body_frame", "softbody");
   options.cutting = readCuttingConfig(parameters);
   warnUnknown(parameters);
-  const ObjectDescription description = loadObjectDescription(object);
+  const ObjectDescription description = loadObjectDescription(object, scope);
   Warnings warnings = description.warnings;
   options.visual = loadVisualMesh(description, &warnings);
   for (const std::string& warning : warnings) ROS_WARN_STREAM(object << ": " << warning);
