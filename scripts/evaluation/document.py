@@ -7,6 +7,7 @@ from evaluation.summary import summary_table
 from evaluation.tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, stage_times, toys,
                                volumes)
 from markdown_lines import paragraph
+from replace_file import replace_file
 
 BEGIN, END = "<!-- evaluation begin: written by make evaluate -->", "<!-- evaluation end -->"
 
@@ -36,17 +37,11 @@ def document(root, reports):
     return "\n".join(lines).rstrip() + "\n"
 
 
-def replace(path, text):
-    temporary = path.with_suffix(".tmp")
-    temporary.write_text(text)
-    temporary.rename(path)
-
-
 def write(root, text, reports):
     """docs/evaluation.md, and the ten figures between the marks in README.md."""
     readme = root / "README.md"
     before, rest = readme.read_text().split(BEGIN)
     after = rest.split(END)[1]
     quoted = "\n".join([f"Measured by {origin(root)}:", "", *summary_table(reports)])
-    replace(root / "docs/evaluation.md", text)
-    replace(readme, f"{before}{BEGIN}\n{quoted}{END}{after}")
+    replace_file(root / "docs/evaluation.md", text)
+    replace_file(readme, f"{before}{BEGIN}\n{quoted}{END}{after}")

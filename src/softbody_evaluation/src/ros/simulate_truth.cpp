@@ -116,7 +116,8 @@ class TruthSimulation {
 }  // namespace
 
 void simulateTruth(const TruthSimulationOptions& options, const std::function<void(double)>& progress) {
-  TruthSimulation(options, buildObjectModel(loadObjectDescription(options.object))).run(progress);
+  TruthSimulation(options, buildObjectModel(loadObjectDescription(options.object, options.scope)))
+      .run(progress);
 }
 
 }  // namespace softbody::evaluation

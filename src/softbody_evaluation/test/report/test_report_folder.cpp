@@ -27,8 +27,29 @@ TEST(ReportFolder, ThePageHoldsItsPicturesAndReplacesAnEarlierReportAsAWhole) {
   EXPECT_FALSE(fs::exists(folder + "/a.png"));
   std::ifstream json(folder + "/report.json");
   EXPECT_EQ(nlohmann::json::parse(json)["run"], 2);
-  EXPECT_FALSE(fs::exists(folder + ".part"));
-  EXPECT_FALSE(fs::exists(folder + ".old"));
+}
+
+TEST(ReportFolder, WhatTheUserPutBesideOrIntoAReportStays) {
+  const std::string folder = testing::TempDir() + "report_folder_neighbours";
+  const auto clear = [&] {
+    for (const char* end : {"", ".old", ".part", ".link"}) fs::remove_all(folder + end);
+  };
+  clear();
+  for (const char* end : {".old", ".part"}) {
+    fs::create_directories(folder + end);
+    std::ofstream(folder + end + "/thesis.tex") << "years of work";
+  }
+  const Pictures pictures{{"a.png", cv::Mat3b(4, 4)}};
+  writeReportFolder(folder, {{"run", 1}}, "", pictures);
+  writeReportFolder(folder, {{"run", 2}}, "", pictures);
+  for (const char* end : {".old", ".part"}) EXPECT_TRUE(fs::exists(folder + end + "/thesis.tex")) << end;
+  fs::create_directory_symlink(folder, folder + ".link");
+  EXPECT_THROW(writeReportFolder(folder + ".link", {}, "", {}), std::invalid_argument);
+  std::ofstream(folder + "/holiday.png") << "sea";
+  EXPECT_THROW(writeReportFolder(folder, {}, "", {}), std::invalid_argument);
+  EXPECT_TRUE(fs::exists(folder + "/holiday.png"));
+  EXPECT_TRUE(fs::exists(folder + "/a.png"));
+  clear();
 }
 
 TEST(ReportFolder, TheOtherResultsPictureStandsBesideItsOwn) {

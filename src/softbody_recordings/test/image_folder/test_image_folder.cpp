@@ -201,7 +201,34 @@ TEST_F(ImageFolderTest, AnUnfinishedBagLeavesTheEarlierFile) {
     bag.writeOpticalFrame(kFolderStart);
   }
   EXPECT_EQ(bytesOf(directory_ / "out.bag"), "earlier");
-  EXPECT_FALSE(fs::exists(directory_ / "out.bag.part"));
+  const auto is_part = [](const auto& entry) {
+    return entry.path().string().find(".part") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(fs::directory_iterator(directory_), fs::directory_iterator(), is_part), 0);
+}
+
+TEST_F(ImageFolderTest, ImagesOutsideOfTheFolderNeedAllowance) {
+  const fs::path other = directory_.string() + "_other";
+  fs::create_directories(other);
+  cv::imwrite((other / "0.png").string(), cv::Mat3b(6, 8));
+  cv::imwrite((other / "d.png").string(), cv::Mat1w(6, 8));
+  const std::string camera = "image_width: 8\nimage_height: 6\nK: [10, 0, 4, 0, 11, 3, 0, 0, 1]\n";
+  write("camera.yaml", camera);
+  write("rgb.txt", "1.0 ../" + other.filename().string() + "/0.png\n");
+  write("depth.txt", "1.0 " + (other / "d.png").string() + "\n");
+  try {
+    readImageFolder(directory_, "", 30.0);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("0.png is outside of the folder"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(readImageFolder(directory_, "", 30.0, FileScope::kAnywhere).color.size(), 1u);
+  fs::remove(directory_ / "rgb.txt");
+  fs::remove_all(directory_ / "color");
+  fs::create_directory_symlink(other, directory_ / "color");
+  EXPECT_THROW(readImageFolder(directory_, "", 30.0), std::runtime_error);
+  fs::remove_all(other);
 }
 
 }  // namespace

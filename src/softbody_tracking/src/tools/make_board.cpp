@@ -1,25 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 
 #include "softbody_common/run_tool.h"
+#include "softbody_common/staged_output.h"
 #include "softbody_tracking/marker_board/marker_board.h"
 #include "softbody_tracking/marker_board/marker_board_drawing.h"
 #include "softbody_tracking/tool/marker_detector.h"
-
-namespace {
-
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path temporary = path.string() + ".part";
-  std::ofstream file(temporary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + " cannot be written");
-  std::filesystem::rename(temporary, path);
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   std::vector<int> ids;
@@ -43,7 +30,7 @@ int main(int argc, char** argv) {
     const softbody::MarkerBoard board = softbody::layOutBoard(dictionary, ids, 1e-3 * size_mm, paper);
     softbody::writeBoardPdf(board, output + ".pdf");
     softbody::writeBoardSvg(board, output + ".svg");
-    writeText(output + ".yaml", softbody::boardYaml(board));
+    softbody::replaceFile(output + ".yaml", softbody::boardYaml(board));
     fmt::print("wrote {0}.pdf, {0}.svg, {0}.yaml\n", output);
     return 0;
   });

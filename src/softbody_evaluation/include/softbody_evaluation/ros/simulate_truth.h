@@ -3,12 +3,15 @@
 #include <functional>
 #include <string>
 
+#include "softbody_common/input_file.h"
+
 namespace softbody::evaluation {
 
 struct TruthSimulationOptions {
   std::string truth;   ///< bag with /ground_truth/surface/...
   std::string object;  ///< object YAML
   std::string output;  ///< bag to write: /softbody/surface/topology and /softbody/surface/state
+  FileScope scope = FileScope::kOwnFolder;  ///< of the files that the object YAML names
 };
 
 /// Simulates the body with exact targets for all vertices that the truth's camera sees, and no other targets.

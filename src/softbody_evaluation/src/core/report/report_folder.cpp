@@ -3,72 +3,80 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 #include <stdexcept>
+
+#include "softbody_common/input_file.h"
+#include "softbody_common/staged_output.h"
 
 namespace softbody::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Only a report is replaced, never another folder of the user, even if it has only pictures.
+constexpr char kDocument[] = "report.json", kPage[] = "report.html";
+
+/// The files of an earlier report, as its report.json lists them. Empty if there is none.
+std::set<std::string> filesOfReport(const fs::path& folder) {
+  if (!fs::is_regular_file(fs::symlink_status(folder / kDocument))) return {};
+  const auto document = nlohmann::json::parse(readFile(folder / kDocument), nullptr, false);
+  const auto listed = document.is_object() ? document.value("files", nlohmann::json()) : nlohmann::json();
+  std::set<std::string> files;
+  for (const auto& file : listed) {
+    if (file.is_string()) files.insert(file.get<std::string>());
+  }
+  return files;
+}
+
+/// Only a report is replaced, and only if all files in its folder belong to it.
 /// @throw std::invalid_argument
 void requireReplaceable(const fs::path& folder) {
-  if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder))
-    throw std::invalid_argument(fmt::format("{} is not a folder", folder.string()));
-  const bool is_report = fs::exists(folder / "report.json");
+  const fs::file_status status = fs::symlink_status(folder);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status))
+    throw std::invalid_argument(
+        fmt::format("{} is not a folder; choose another one for the report", folder.string()));
+  const std::set<std::string> files = filesOfReport(folder);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const fs::path& file = entry.path();
-    const bool ours =
-        file.extension() == ".png" || file.filename() == "report.json" || file.filename() == "report.html";
-    if (!is_report || !ours || !entry.is_regular_file()) {
-      throw std::invalid_argument(
-          fmt::format("{} has {}, which is not part of a report; choose another folder", folder.string(),
-                      file.filename().string()));
-    }
+    const std::string name = entry.path().filename().string();
+    if (files.count(name) > 0 && fs::is_regular_file(entry.symlink_status())) continue;
+    throw std::invalid_argument(fmt::format("{} has {}, which is not part of a report; choose another folder",
+                                            folder.string(), name));
   }
 }
 
-void writeText(const fs::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw std::invalid_argument(fmt::format("{}: cannot be written", path.string()));
-}
-
-void writeAll(const fs::path& folder, const nlohmann::json& document, const std::string& page,
-              const Pictures& pictures) {
-  writeText(folder / "report.json", document.dump(2) + "\n");
-  writeText(folder / "report.html", page);
+/// The document, with a list of the report's files.
+std::string listing(nlohmann::json document, const Pictures& pictures) {
+  std::vector<std::string> files{kDocument, kPage};
   for (const auto& [name, picture] : pictures) {
-    if (!picture.empty() && !cv::imwrite((folder / name).string(), picture))
-      throw std::invalid_argument(fmt::format("{}: cannot be written", (folder / name).string()));
+    if (!picture.empty()) files.push_back(name);
   }
+  document["files"] = files;
+  return document.dump(2) + "\n";
+}
+
+void writePicture(const fs::path& path, const cv::Mat3b& picture) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(path.extension().string(), picture, bytes);
+  writeBytes(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
 
 void writeReportFolder(const std::string& folder, const nlohmann::json& document, const std::string& page,
                        const Pictures& pictures) {
-  // Without the trailing slash of "report/", so that "report.part" is beside the folder.
-  const std::string absolute = fs::absolute(folder).lexically_normal().string();
-  const fs::path target = absolute.back() == '/' ? absolute.substr(0, absolute.size() - 1) : absolute;
+  const fs::path absolute = fs::absolute(folder).lexically_normal();
+  const fs::path target = absolute.has_filename() ? absolute : absolute.parent_path();
   requireReplaceable(target);
-  const fs::path fresh = target.string() + ".part", earlier = target.string() + ".old";
-  fs::remove_all(fresh);
-  fs::create_directories(fresh);
-  try {
-    writeAll(fresh, document, page, pictures);
-  } catch (...) {
-    fs::remove_all(fresh);
-    throw;
+  StagedFolder report(target);
+  writeBytes(report.path() / kDocument, listing(document, pictures));
+  writeBytes(report.path() / kPage, page);
+  for (const auto& [name, picture] : pictures) {
+    if (!picture.empty()) writePicture(report.path() / name, picture);
   }
-  fs::remove_all(earlier);
-  if (fs::exists(target)) fs::rename(target, earlier);
-  fs::rename(fresh, target);
-  fs::remove_all(earlier);
+  report.replaceTarget();
 }
 
 }  // namespace softbody::evaluation

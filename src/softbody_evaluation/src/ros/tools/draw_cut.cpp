@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "softbody_common/run_tool.h"
+#include "softbody_common/staged_output.h"
 #include "softbody_common/topics.h"
 #include "softbody_evaluation/report/cut_pictures.h"
 #include "softbody_evaluation/ros/recording_reader.h"
@@ -50,15 +50,10 @@ cv::Mat3b drawStrip(const Options& options) {
   return strip.picture();
 }
 
-/// Writes the picture, or leaves an earlier file as it is if this fails.
 void writePicture(const std::filesystem::path& path, const cv::Mat3b& picture) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(path.extension().string(), picture, bytes);
-  const std::string part = path.string() + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush()) throw std::invalid_argument(fmt::format("{}: cannot be written", part));
-  std::filesystem::rename(part, path);
+  replaceFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void declare(CLI::App* app, Options* options) {

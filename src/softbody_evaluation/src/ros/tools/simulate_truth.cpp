@@ -17,6 +17,7 @@ int runSimulateTruth(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   app.add_option("--object", options.object, "object YAML")->required()->check(CLI::ExistingFile);
   app.add_option("--output", options.output, "bag to write")->required();
+  addAllowOutside(&app, &options.scope);
   app.callback([&options] { requireOtherFile(options.truth, options.output); });
   return runTool(&app, argc, argv, [&] {
     simulateTruth(options, ProgressLine("simulate_truth"));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "softbody_common/input_file.h"
 #include "softbody_common/pinhole.h"
 #include "softbody_common/types.h"
 
@@ -44,9 +45,9 @@ FolderCamera readFolderCamera(const std::filesystem::path& file);
 /// with the stamp of the colour image.
 /// @param camera_file if empty, DIR/camera.yaml. A TUM folder without this file gets the published fr1 values
 /// and a warning.
-/// @throw std::runtime_error with the file.
+/// @param scope where the images and DIR/camera.yaml may be. @throw std::runtime_error with the file.
 ImageFolder readImageFolder(const std::filesystem::path& directory, const std::filesystem::path& camera_file,
-                            double rate_hz);
+                            double rate_hz, FileScope scope = FileScope::kOwnFolder);
 
 /// Reads an image as b, g, r.
 /// @throw std::runtime_error with the file if it is not an 8-bit image of the camera's size.

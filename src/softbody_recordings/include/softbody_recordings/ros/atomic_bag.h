@@ -2,8 +2,12 @@
 
 #include <rosbag/bag.h>
 
+#include <cerrno>
 #include <filesystem>
+#include <memory>
 #include <string>
+
+#include "softbody_common/staged_output.h"
 
 namespace softbody {
 
@@ -11,8 +15,8 @@ namespace softbody {
 /// an earlier file stays unchanged.
 class AtomicBag {
  public:
-  /// @throw std::invalid_argument if the output is a folder; rosbag::BagException if it cannot be written.
-  explicit AtomicBag(std::filesystem::path output,
+  /// @throw std::runtime_error if the output cannot be written, in every function.
+  explicit AtomicBag(const std::filesystem::path& output,
                      rosbag::CompressionType compression = rosbag::compression::LZ4);
   ~AtomicBag();
   AtomicBag(const AtomicBag&) = delete;
@@ -21,8 +25,11 @@ class AtomicBag {
   /// @param connection header of a copied message; may be null.
   template <typename Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message,
-             const boost::shared_ptr<ros::M_string>& connection = {}) {
-    bag_.write(topic, time, message, connection);
+             const boost::shared_ptr<ros::M_string>& connection = {}) try {
+    errno = 0;
+    bag_->write(topic, time, message, connection);
+  } catch (const rosbag::BagException& error) {
+    fail(error, errno);
   }
 
   /// Writes to a latched topic, which players send again to late subscribers.
@@ -34,14 +41,16 @@ class AtomicBag {
     (*header)["md5sum"] = ros::message_traits::MD5Sum<Message>::value();
     (*header)["message_definition"] = ros::message_traits::Definition<Message>::value();
     (*header)["latching"] = "1";
-    bag_.write(topic, time, message, header);
+    write(topic, time, message, header);
   }
 
   void finish();
 
  private:
-  std::filesystem::path output_, temporary_;
-  rosbag::Bag bag_;
+  [[noreturn]] void fail(const rosbag::BagException& error, int reason) const;
+
+  StagedFile file_;
+  std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
 };
 
 }  // namespace softbody

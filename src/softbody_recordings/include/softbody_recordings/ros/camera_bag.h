@@ -15,7 +15,7 @@ namespace softbody {
 /// called; until then an earlier file stays unchanged.
 class CameraBag {
  public:
-  /// @param info without header. @throw rosbag::BagException if the file cannot be written.
+  /// @param info without header. @throw std::runtime_error if the file cannot be written.
   CameraBag(std::filesystem::path output, sensor_msgs::CameraInfo info);
 
   /// Latched /tf_static camera_link -> camera_color_optical_frame (REP-103).

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "softbody_common/input_file.h"
 #include "softbody_common/types.h"
 #include "softbody_recordings/ros/bag_frames.h"
 
@@ -16,6 +17,7 @@ struct ReplayOptions {
   std::string topic_namespace = "/softbody";  ///< of the output topics
   std::string output_frame;                   ///< of targets and states; empty: from the parameters
   std::string simd;                           ///< of the simulator; empty: from the parameters
+  FileScope scope = FileScope::kOwnFolder;    ///< of the files that the YAMLs name
   bool timing = false;                        ///< also write wall-clock times of the stages
 };
 

@@ -17,7 +17,7 @@ class ResultBag {
  public:
   /// @param topic_namespace of the output topics, e.g. "/softbody". @param with_timing also write stage
   /// times.
-  /// @throw rosbag::BagException if the file cannot be written.
+  /// @throw std::runtime_error if the file cannot be written.
   ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
             bool with_timing);
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "image_folder/tum_folder.h"
+#include "softbody_common/yaml_map_reader.h"
 
 namespace fs = std::filesystem;
 
@@ -39,7 +40,7 @@ std::vector<std::string> unknownKeys(const YAML::Node& map, const std::set<std::
                                      const fs::path& file) {
   std::vector<std::string> warnings;
   for (const auto& entry : map) {
-    const auto key = entry.first.as<std::string>();
+    const std::string key = YamlMapReader::shown(entry.first);
     if (known.count(key) == 0) {
       warnings.push_back(fmt::format("{}: unknown key {} is ignored; known: {}", file.string(), key,
                                      fmt::join(known, ", ")));
@@ -50,6 +51,7 @@ std::vector<std::string> unknownKeys(const YAML::Node& map, const std::set<std::
 
 double depthUnitsPerMetre(const YAML::Node& depth, const fs::path& file) {
   if (!depth) return 1000.0;
+  if (!depth.IsMap()) fail("{}: the key 'depth' must be a map of keys and values", file.string());
   if (depth["scale"]) {
     const auto scale = read<double>(depth, "scale", file);
     if (!(scale > 0.0) || !std::isfinite(scale))
@@ -140,16 +142,47 @@ void checkDistortion(const FolderCamera& camera, const fs::path& file) {
   }
 }
 
+void requireInside(const fs::path& directory, const fs::path& file) {
+  if (!isInside(file, directory)) fail("{}: {}", directory.string(), outsideSentence(file, directory));
+}
+
+/// @param given the user named the camera file.
+ImageFolder readTum(const fs::path& directory, const fs::path& camera, bool given) {
+  ImageFolder folder = readTumFolder(directory);
+  if (!given && !fs::exists(camera)) {
+    folder.warnings.push_back(tumCameraWarning(directory));
+    return folder;
+  }
+  const double units = folder.camera.depth_units_per_m;
+  folder.camera = readFolderCamera(camera);
+  folder.warnings.insert(folder.warnings.end(), folder.camera.warnings.begin(), folder.camera.warnings.end());
+  if (!parseYamlFile(camera.string())["depth"]) folder.camera.depth_units_per_m = units;
+  return folder;
+}
+
+ImageFolder readNumbered(const fs::path& directory, const fs::path& camera, double rate_hz) {
+  for (const char* part : {"color", "depth"}) {
+    if (!fs::is_directory(directory / part)) {
+      fail("{}: expected color/, depth/ and camera.yaml, or rgb.txt and depth.txt; there is no {}/",
+           directory.string(), part);
+    }
+  }
+  ImageFolder folder;
+  folder.camera = readFolderCamera(camera);
+  folder.warnings = folder.camera.warnings;
+  folder.color = numberedFiles(directory / "color", rate_hz, &folder.warnings);
+  folder.depth = numberedFiles(directory / "depth", rate_hz, &folder.warnings);
+  return folder;
+}
+
 }  // namespace
 
 FolderCamera readFolderCamera(const fs::path& file) {
   YAML::Node root;
   try {
-    root = YAML::LoadFile(file.string());
-  } catch (const YAML::BadFile&) {
-    fail("{}: cannot be opened", file.string());
-  } catch (const YAML::Exception& error) {
-    fail("{}: is not YAML: {}", file.string(), error.what());
+    root = parseYamlFile(file.string());
+  } catch (const std::invalid_argument& error) {
+    fail("{}", error.what());
   }
   if (!root.IsMap()) fail("{}: must be a map of keys and values", file.string());
   const auto K = read<std::vector<double>>(root, "K", file);
@@ -175,33 +208,17 @@ FolderCamera readFolderCamera(const fs::path& file) {
   return result;
 }
 
-ImageFolder readImageFolder(const fs::path& directory, const fs::path& camera_file, double rate_hz) {
-  const fs::path camera = camera_file.empty() ? directory / "camera.yaml" : camera_file;
+ImageFolder readImageFolder(const fs::path& directory, const fs::path& camera_file, double rate_hz,
+                            FileScope scope) {
   if (!fs::is_directory(directory)) fail("{}: there is no such folder", directory.string());
-  if (fs::exists(directory / "rgb.txt") && fs::exists(directory / "depth.txt")) {
-    ImageFolder folder = readTumFolder(directory);
-    if (!camera_file.empty() || fs::exists(camera)) {
-      const double units = folder.camera.depth_units_per_m;
-      folder.camera = readFolderCamera(camera);
-      folder.warnings.insert(folder.warnings.end(), folder.camera.warnings.begin(),
-                             folder.camera.warnings.end());
-      if (!YAML::LoadFile(camera.string())["depth"]) folder.camera.depth_units_per_m = units;
-    } else {
-      folder.warnings.push_back(tumCameraWarning(directory));
-    }
-    return folder;
-  }
-  for (const char* part : {"color", "depth"}) {
-    if (!fs::is_directory(directory / part)) {
-      fail("{}: expected color/, depth/ and camera.yaml, or rgb.txt and depth.txt; there is no {}/",
-           directory.string(), part);
-    }
-  }
-  ImageFolder folder;
-  folder.camera = readFolderCamera(camera);
-  folder.warnings = folder.camera.warnings;
-  folder.color = numberedFiles(directory / "color", rate_hz, &folder.warnings);
-  folder.depth = numberedFiles(directory / "depth", rate_hz, &folder.warnings);
+  const bool is_tum = fs::exists(directory / "rgb.txt") && fs::exists(directory / "depth.txt");
+  const fs::path camera = camera_file.empty() ? directory / "camera.yaml" : camera_file;
+  if (scope == FileScope::kOwnFolder && camera_file.empty()) requireInside(directory, camera);
+  ImageFolder folder =
+      is_tum ? readTum(directory, camera, !camera_file.empty()) : readNumbered(directory, camera, rate_hz);
+  if (scope == FileScope::kAnywhere) return folder;
+  for (const ImageFile& image : folder.color) requireInside(directory, image.path);
+  for (const ImageFile& image : folder.depth) requireInside(directory, image.path);
   return folder;
 }
 

@@ -72,13 +72,14 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
                   });
   readSection(file, "pose_marker", {{"frame"}, {}}, warnings, [](Parameters&) { return 0; });
   config.pipeline.simulator = readSection(
-      file, "simulator", {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s"}, {"obstacles"}},
+      file, "simulator",
+      {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s", "allow_outside"}, {"obstacles"}},
       warnings, readSimulatorConfig);
-  config.pipeline.cutting =
-      readSection(file, "surface", {{"body_frame", "object"}, {}}, warnings, readCuttingConfig);
-  config.pipeline.tool_tracker =
-      readSection(file, "tool_tracker", {{"tool", "tool_frame", "output_frame", "tf_timeout_s"}, {}},
-                  warnings, readToolTrackerConfig);
+  config.pipeline.cutting = readSection(file, "surface", {{"body_frame", "object", "allow_outside"}, {}},
+                                        warnings, readCuttingConfig);
+  config.pipeline.tool_tracker = readSection(
+      file, "tool_tracker", {{"tool", "allow_outside", "tool_frame", "output_frame", "tf_timeout_s"}, {}},
+      warnings, readToolTrackerConfig);
   return config;
 }
 

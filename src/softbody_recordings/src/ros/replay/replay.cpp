@@ -28,8 +28,8 @@ void warnAll(const Warn& warn, const std::string& source, const std::vector<std:
     warn(source.empty() ? warning : fmt::format("{}: {}", source, warning));
 }
 
-ObjectModel loadModel(const std::string& object, const Warn& warn) {
-  const ObjectDescription description = loadObjectDescription(object);
+ObjectModel loadModel(const std::string& object, FileScope scope, const Warn& warn) {
+  const ObjectDescription description = loadObjectDescription(object, scope);
   ObjectModel model = buildObjectModel(description);
   if (!description.pins.empty())
     warn(fmt::format("{}: pins have no effect in a replay, because there is no live tf", object));
@@ -37,9 +37,9 @@ ObjectModel loadModel(const std::string& object, const Warn& warn) {
   return model;
 }
 
-std::optional<ToolDescription> loadTool(const std::string& path, const Warn& warn) {
+std::optional<ToolDescription> loadTool(const std::string& path, FileScope scope, const Warn& warn) {
   if (path.empty()) return std::nullopt;
-  const ToolDescription tool = loadToolDescription(path);
+  const ToolDescription tool = loadToolDescription(path, scope);
   warnAll(warn, "", tool.warnings);
   return tool;
 }
@@ -176,9 +176,9 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
   GraphConfig config = readGraphConfig(options.parameters, &warnings);
   warnAll(warn, "", warnings);
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
-  const ObjectModel model = loadModel(options.object, warn);
+  const ObjectModel model = loadModel(options.object, options.scope, warn);
   const rosbag::Bag input = openBag(options.input);
-  Replay run(options, model, config, loadTool(options.tool, warn), warn);
+  Replay run(options, model, config, loadTool(options.tool, options.scope, warn), warn);
   CameraIngest ingest(config.ingest);
   const BagFramesReport read =
       readBagFrames(input, {options.camera, config.pairing}, &ingest,

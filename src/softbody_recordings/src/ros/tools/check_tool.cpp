@@ -13,6 +13,7 @@ namespace softbody {
 
 int runCheckTool(int argc, char** argv) {
   std::string input, tool;
+  FileScope scope = FileScope::kOwnFolder;
   BagFramesConfig config;
   CLI::App app(
       "Checks whether a tool YAML fits a recording of the tool. Exit code 0: it fits; 1: it does not");
@@ -21,8 +22,9 @@ int runCheckTool(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   app.add_option("--tool", tool, "tool YAML")->required()->check(CLI::ExistingFile);
   app.add_option("--camera", config.camera, "namespace of the camera's topics")->capture_default_str();
+  addAllowOutside(&app, &scope);
   return runTool(&app, argc, argv, [&] {
-    const ToolDescription description = loadToolDescription(tool);
+    const ToolDescription description = loadToolDescription(tool, scope);
     for (const std::string& warning : description.warnings) fmt::print(stderr, "check_tool: {}\n", warning);
     ToolCalibrationCheck check(description);
     const rosbag::Bag bag = openBag(input);

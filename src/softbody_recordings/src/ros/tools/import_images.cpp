@@ -45,6 +45,7 @@ void writeImages(const ImageFolder& folder, CameraBag* bag) {
 int runImportImages(int argc, char** argv) {
   std::string directory, output, camera;
   double rate_hz = 30.0;
+  FileScope scope = FileScope::kOwnFolder;
   CLI::App app(
       "Makes a bag with the camera's topics from a folder with color/, depth/ and camera.yaml, or from a TUM "
       "RGB-D "
@@ -54,8 +55,9 @@ int runImportImages(int argc, char** argv) {
   app.add_option("--rate", rate_hz, "file number k gets the stamp start + k / rate [Hz]")
       ->check(CLI::Range(0.001, 1000.0));
   app.add_option("--camera", camera, "camera file instead of DIR/camera.yaml");
+  addAllowOutside(&app, &scope);
   return runTool(&app, argc, argv, [&] {
-    const ImageFolder folder = readImageFolder(directory, camera, rate_hz);
+    const ImageFolder folder = readImageFolder(directory, camera, rate_hz, scope);
     for (const std::string& warning : folder.warnings) fmt::print(stderr, "warning: {}\n", warning);
     CameraBag bag(output, cameraInfo(folder.camera));
     writeImages(folder, &bag);

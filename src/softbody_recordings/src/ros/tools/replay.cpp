@@ -39,6 +39,7 @@ void declare(CLI::App* app, ReplayOptions* options) {
       ->check(CLI::IsMember({"auto", "sse4", "avx2", "avx512"}));
   app->add_flag("--timing", options->timing,
                 "also write wall-clock times of the stages; the output then differs between runs");
+  addAllowOutside(app, &options->scope);
   app->callback([options] { requireOtherFile(options->input, options->output); });
 }
 

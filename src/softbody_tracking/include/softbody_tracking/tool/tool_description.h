@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "softbody_common/input_file.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
@@ -23,9 +24,9 @@ struct ToolDescription {
   std::vector<std::string> warnings;
 };
 
-/// Reads a tool YAML. A tool may be at most 2 m long.
+/// Reads a tool YAML. A tool may be at most 2 m long. @param scope where a dictionary file may be.
 /// @throw std::invalid_argument with file, line, key, value and what is allowed.
-ToolDescription loadToolDescription(const std::string& yaml_path);
+ToolDescription loadToolDescription(const std::string& yaml_path, FileScope scope = FileScope::kOwnFolder);
 
 /// A marker's corners in the tool frame [m], in the order of MarkerDetection: clockwise on the print,
 /// starting at its top left.

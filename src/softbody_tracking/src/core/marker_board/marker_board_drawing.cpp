@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "softbody_common/staged_output.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 namespace softbody {
@@ -80,24 +81,22 @@ void draw(const MarkerBoard& board, double scale, cairo_surface_t* surface) {
 
 using Maker = cairo_surface_t* (*)(const char*, double, double);
 
-/// Writes to a temporary file first, so that a failure keeps an earlier file.
 void write(const MarkerBoard& board, const std::filesystem::path& path, Maker make) {
-  const std::filesystem::path temporary = path.string() + ".part";
+  StagedFile file(path);
   cairo_status_t status = CAIRO_STATUS_SUCCESS;
   {
-    const Surface surface(make(temporary.c_str(), board.paper_width_m * kPointsPerMetre,
+    const Surface surface(make(file.path().c_str(), board.paper_width_m * kPointsPerMetre,
                                board.paper_height_m * kPointsPerMetre),
                           &cairo_surface_destroy);
     draw(board, kPointsPerMetre, surface.get());
     cairo_surface_finish(surface.get());
     status = cairo_surface_status(surface.get());
   }
-  std::error_code error;
-  if (status == CAIRO_STATUS_SUCCESS) std::filesystem::rename(temporary, path, error);
-  if (status == CAIRO_STATUS_SUCCESS && !error) return;
-  const std::string reason = error ? error.message() : cairo_status_to_string(status);
-  std::filesystem::remove(temporary, error);
-  throw std::runtime_error(fmt::format("{} cannot be written: {}", path.string(), reason));
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot be written: {}", path.string(), cairo_status_to_string(status)));
+  }
+  file.commit();
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double kFlatness =
     0.02;  // of the blade's length; how far its corners may lie apart across its plane
 constexpr double kMinWidth = 1e-3;  // of the blade's length; a narrower blade is a line
 
-std::string readDictionary(YamlMapReader& tool) {
+std::string readDictionary(YamlMapReader& tool, FileScope scope) {
   std::string name = tool.text("dictionary");
   const auto names = dictionaryNames();
   if (std::find(names.begin(), names.end(), name) != names.end()) return name;
@@ -29,7 +29,7 @@ std::string readDictionary(YamlMapReader& tool) {
               fmt::format("tool/dictionary is '{}'; allowed: {}, or a file in OpenCV's format", name,
                           fmt::join(names, ", ")));
   }
-  return tool.file("dictionary");
+  return tool.file("dictionary", scope);
 }
 
 ToolMarker readMarker(YamlMapReader& reader, int count) {
@@ -116,11 +116,11 @@ void checkBlade(YamlMapReader& tool, const Points& blade) {
 
 }  // namespace
 
-ToolDescription loadToolDescription(const std::string& yaml_path) {
+ToolDescription loadToolDescription(const std::string& yaml_path, FileScope scope) {
   YamlMapReader file(parseYamlFile(yaml_path), yaml_path, "");
   YamlMapReader tool = file.map("tool");
   ToolDescription description;
-  description.dictionary = readDictionary(tool);
+  description.dictionary = readDictionary(tool, scope);
   readMarkers(tool, yaml_path, &description);
   description.blade = readBlade(tool);
   checkSize(tool, description);

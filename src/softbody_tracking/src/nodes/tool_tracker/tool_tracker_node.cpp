@@ -9,7 +9,9 @@ namespace softbody {
 namespace {
 
 ToolDescription loadTool(Parameters& parameters) {
-  ToolDescription tool = loadToolDescription(parameters.requiredText("tool"));
+  const FileScope scope =
+      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
+  ToolDescription tool = loadToolDescription(parameters.requiredText("tool"), scope);
   for (const std::string& warning : tool.warnings) ROS_WARN_STREAM(warning);
   return tool;
 }

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "softbody_common/input_file.h"
 #include "softbody_common/types.h"
 #include "softbody_virtual_camera/textures/uv_texture.h"
 
@@ -19,6 +20,7 @@ MeshTopology topologyOf(const Body& body);
 /// Reads OBJ, PLY, STL or OFF. For OBJ also the images of its materials (mtllib, usemtl, map_Kd).
 /// @param unit_m metres per file unit. @param warnings gets a sentence about each ignored part of the file.
 /// @throw std::invalid_argument with file, line and what is wrong or missing.
-Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings);
+Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings,
+              FileScope scope = FileScope::kOwnFolder);
 
 }  // namespace softbody::virtual_camera

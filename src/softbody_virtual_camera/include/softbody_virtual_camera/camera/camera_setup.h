@@ -11,9 +11,10 @@ namespace softbody::virtual_camera {
 struct CameraSetup {
   std::string scene = "bend";
   std::string camera_motion = "none";
-  std::string body;           ///< OBJ, PLY, STL or OFF; empty: the scene's body
-  std::string unit = "m";     ///< unit of the body's file: m, cm, mm or inch
-  std::string config_folder;  ///< folder of the shipped objects and of knife.yaml
+  std::string body;                         ///< OBJ, PLY, STL or OFF; empty: the scene's body
+  std::string unit = "m";                   ///< unit of the body's file: m, cm, mm or inch
+  FileScope scope = FileScope::kOwnFolder;  ///< of the files that the body's OBJ names
+  std::string config_folder;                ///< folder of the shipped objects and of knife.yaml
   std::uint64_t seed = 1;
   int width = 640, height = 480;  ///< [px]
   double rate_hz = 30.0;

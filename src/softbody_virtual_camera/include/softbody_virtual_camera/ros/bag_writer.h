@@ -16,7 +16,7 @@ struct BagOptions {
 
 /// Writes the camera's topics, the truth and /tf into a bag. The record time is the header stamp, and the
 /// first stamp is constant, so the same camera gives the same bytes. The file appears when it is complete.
-/// @param progress called with the number of written frames. @throw rosbag::BagException, std::runtime_error
+/// @param progress called with the number of written frames. @throw std::runtime_error
 /// if it cannot be written.
 void writeBag(VirtualCamera* camera, const BagOptions& options, const std::function<void(int)>& progress);
 

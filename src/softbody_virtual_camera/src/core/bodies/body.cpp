@@ -46,14 +46,14 @@ MeshTopology topologyOf(const Body& body) {
   return topology;
 }
 
-Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings) {
+Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings, FileScope scope) {
   SurfaceFile file = readSurfaceFile(path, warnings);
   Body body;
   body.rest = {unit_m * file.mesh.vertices, std::move(file.mesh.triangles)};
   if (body.rest.triangles.rows() == 0) throw std::invalid_argument(fmt::format("{}: holds no faces", path));
   body.skin.coordinates = std::move(file.texture_coordinates);
   if (!isObj(path)) return body;
-  ObjMaterials materials = readObjMaterials(path);
+  ObjMaterials materials = readObjMaterials(path, scope);
   if (materials.files.empty()) return body;
   if (body.skin.coordinates.rows() == 0) {
     throw std::invalid_argument(

@@ -35,9 +35,13 @@ void visitLines(const fs::path& path, const Visit& visit) {
   }
 }
 
-/// The path of a file that another file refers to. @throw std::invalid_argument if it is missing.
-fs::path namedFile(const Line& line, const fs::path& folder) {
+/// The path of a file that another file refers to. @throw std::invalid_argument if it is missing or outside.
+fs::path namedFile(const Line& line, const fs::path& folder, FileScope scope) {
   fs::path path = folder / line.rest;
+  if (scope == FileScope::kOwnFolder && !isInside(path, folder)) {
+    throw std::invalid_argument(fmt::format("{}: {} names '{}': {}", line.place, line.keyword, line.rest,
+                                            outsideSentence(path, folder)));
+  }
   if (!fs::is_regular_file(path)) {
     throw std::invalid_argument(fmt::format("{}: {} names '{}', but there is no file {}", line.place,
                                             line.keyword, line.rest, path.string()));
@@ -47,9 +51,9 @@ fs::path namedFile(const Line& line, const fs::path& folder) {
 
 class MaterialReader {
  public:
-  explicit MaterialReader(const fs::path& obj_path) {
+  MaterialReader(const fs::path& obj_path, FileScope scope) : scope_(scope) {
     visitLines(obj_path, [&](const Line& line) {
-      if (line.keyword == "mtllib") readLibrary(namedFile(line, obj_path.parent_path()));
+      if (line.keyword == "mtllib") readLibrary(namedFile(line, obj_path.parent_path(), scope_));
       if (line.keyword == "usemtl") use(line);
       if (line.keyword == "f") addFace(line);
     });
@@ -71,7 +75,7 @@ class MaterialReader {
       throw std::invalid_argument(
           fmt::format("{}: options of map_Kd ('{}') are not supported", line.place, line.rest));
     }
-    const std::string file = namedFile(line, folder).string();
+    const std::string file = namedFile(line, folder, scope_).string();
     const auto found = std::find(result.files.begin(), result.files.end(), file);
     if (found == result.files.end())
       return result.files.push_back(file), static_cast<int>(result.files.size()) - 1;
@@ -94,12 +98,15 @@ class MaterialReader {
     result.image.insert(result.image.end(), static_cast<std::size_t>(std::max(0, corners - 2)), current_);
   }
 
+  FileScope scope_;
   std::map<std::string, int> images_;  ///< by material
   int current_ = -1;
 };
 
 }  // namespace
 
-ObjMaterials readObjMaterials(const std::string& obj_path) { return MaterialReader(obj_path).result; }
+ObjMaterials readObjMaterials(const std::string& obj_path, FileScope scope) {
+  return MaterialReader(obj_path, scope).result;
+}
 
 }  // namespace softbody::virtual_camera

@@ -8,6 +8,7 @@
 #include <opencv2/aruco.hpp>
 #include <stdexcept>
 
+#include "softbody_common/yaml_map_reader.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 
 namespace softbody::virtual_camera {
@@ -87,7 +88,7 @@ TriangleMesh sheet(const Points& polygon) {
 
 Tool readTool(const std::string& path) {
   try {
-    const YAML::Node node = YAML::LoadFile(path)["tool"];
+    const YAML::Node node = parseYamlFile(path)["tool"];
     if (node["dictionary"].as<std::string>() != "DICT_4X4_50") {
       throw std::range_error("the virtual camera draws markers of DICT_4X4_50 only");
     }

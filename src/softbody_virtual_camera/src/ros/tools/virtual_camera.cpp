@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "softbody_common/run_tool.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 #include "softbody_virtual_camera/ros/node.h"
@@ -42,6 +43,7 @@ void declare(CLI::App* app, Arguments* arguments) {
   app->add_option("--unit", setup.unit, "unit of the body's file")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
       ->capture_default_str();
+  addAllowOutside(app, &setup.scope);
   app->add_option("--seed", setup.seed, "seed of textures and noise")->capture_default_str();
   app->add_option("--noise", arguments->noise, "sensor noise: on or off")
       ->transform(CLI::CheckedTransformer(on_off));
@@ -96,6 +98,7 @@ int runVirtualCamera(int argc, char** argv) {
     if (!arguments.noise) arguments.setup.noise = noNoise();
     for (const std::string& part : arguments.without) switchOff(part, &arguments.setup.noise);
     if (arguments.output.empty()) return runNode(argc, argv, arguments.setup);
+    removeStagedFilesOnSignal();
     write(arguments);
   } catch (const std::exception& error) {
     fmt::print(stderr, "virtual_camera: {}\n", error.what());
