@@ -1,6 +1,5 @@
 #include "softbody_recordings/ros/facts_reader.h"
 
-#include <cv_bridge/cv_bridge.h>
 #include <fmt/format.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -15,6 +14,7 @@
 #include "softbody_common/camera_topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/input_bag.h"
+#include "softbody_tracking/ros/conversions.h"
 
 namespace softbody::validation {
 namespace {
@@ -29,7 +29,7 @@ bool isMalformed(const sensor_msgs::Image& image) {
     bytes = static_cast<std::size_t>(enc::numChannels(image.encoding) * enc::bitDepth(image.encoding) / 8);
   } catch (const std::runtime_error&) {  // another check finds unknown encodings
   }
-  return image.step < image.width * bytes ||
+  return image.width == 0 || image.height == 0 || image.step < image.width * bytes ||
          image.data.size() != static_cast<std::size_t>(image.step) * image.height;
 }
 
@@ -57,15 +57,16 @@ class DepthSampler {
 
   void add(const sensor_msgs::Image& image) {
     if (seen_++ % step_ != 0 || isMalformed(image)) return;
-    namespace enc = sensor_msgs::image_encodings;
-    const bool known = image.encoding == enc::TYPE_16UC1 || image.encoding == enc::MONO16 ||
-                       image.encoding == enc::TYPE_32FC1;
-    if (!known) return;
-    cv::Mat1f depth;
-    cv_bridge::toCvCopy(image)->image.convertTo(depth, CV_32F);
+    cv::Mat raw, depth;
+    try {
+      raw = depthFromMessage(image);
+    } catch (const std::invalid_argument&) {  // another check finds wrong encodings
+    }
+    if (raw.empty() || raw.channels() != 1) return;
+    raw.convertTo(depth, CV_32F);
     ++images_;
     for (std::size_t i = 0; i < depth.total(); i += kPixelStep) {
-      const float z = depth(static_cast<int>(i) / depth.cols, static_cast<int>(i) % depth.cols);
+      const float z = depth.at<float>(static_cast<int>(i) / depth.cols, static_cast<int>(i) % depth.cols);
       ++pixels_;
       if (z > 0.0f && std::isfinite(z)) values_.push_back(z);
     }
