@@ -1,4 +1,5 @@
 # The project's front door: every target installs what is missing, builds what has changed, and then does its work.
+# SYSTEM=no: nothing is installed, and /etc/hosts stays as it is.
 # A Python or a ROS workspace of the user's must not get into the build, hence the bare environment.
 export PATH := /usr/bin:/bin
 unexport MAKEFLAGS CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH LD_LIBRARY_PATH
@@ -10,6 +11,7 @@ $(shell mkdir -p $(HOME))
 endif
 
 .PHONY: build test shared-data cuts demo bench evaluate figures corpus validation sanitize soak error-table tidy format clean help dependencies
+.PHONY: build test shared-data cuts demo bench evaluate figures fuzz validation tidy format clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
@@ -35,8 +37,9 @@ demo: build  ## track a virtual sponge: in rviz with a display, otherwise with p
 bench: build  ## run the benchmarks; writes bench/summary.json
 	scripts/bench
 
-corpus: build  ## prepare a model of every mesh of ../shared/data, and test the file readers with 60,000 damaged files
-	scripts/corpus
+fuzz: build  ## give mutated bytes to every reader of files and of cuts, FUZZ_SECONDS each (60)
+	scripts/install_dependencies scripts/apt-packages-fuzz.txt
+	scripts/fuzz
 
 evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="bend cut": only these scenes, writes nothing
 	scripts/evaluate $(SCENES)

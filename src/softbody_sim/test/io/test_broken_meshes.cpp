@@ -30,7 +30,7 @@ TEST_P(BrokenMeshes, AreRepairedOrRefusedWithTheirSentence) {
   EXPECT_TRUE(prepared.faults.empty()) << prepared.faults.front();
 }
 
-/// `make corpus` runs many more.
+/// `make fuzz` tries many more.
 TEST(MutatedMeshes, AreReadOrRefusedWithASentence) {
   const TemporaryFolder folder;
   int refused = 0;
