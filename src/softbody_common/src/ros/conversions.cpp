@@ -79,10 +79,6 @@ void requireSize(std::size_t size, std::size_t expected, const char* field) {
 
 }  // namespace
 
-Nanoseconds toNanoseconds(const ros::Time& time) { return static_cast<Nanoseconds>(time.toNSec()); }
-
-ros::Time toTime(Nanoseconds time) { return ros::Time().fromNSec(static_cast<std::uint64_t>(time)); }
-
 geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
   geometry_msgs::Point message;
   message.x = point.x();

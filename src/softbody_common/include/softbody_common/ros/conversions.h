@@ -2,7 +2,6 @@
 
 #include <geometry_msgs/Polygon.h>
 #include <geometry_msgs/Pose.h>
-#include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "softbody_common/pinhole.h"
+#include "softbody_common/ros/time.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
 
@@ -22,9 +22,6 @@
 /// field and index if array sizes, indices or numbers are not valid. The caller sets and reads the
 /// headers.
 namespace softbody {
-
-Nanoseconds toNanoseconds(const ros::Time& time);
-ros::Time toTime(Nanoseconds time);
 
 geometry_msgs::Point pointMessage(const Eigen::Vector3d& point);
 geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose);

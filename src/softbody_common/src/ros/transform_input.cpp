@@ -1,0 +1,55 @@
+#include "softbody_common/ros/transform_input.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "softbody_common/ros/time.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kQueue = 100;  // as tf2_ros
+constexpr std::size_t kMostFrames = 10'000;
+constexpr double kWarningPeriod_s = 5.0;
+constexpr char kAuthority[] = "tf";
+
+}  // namespace
+
+TransformInput::TransformInput() : spinner_(1, &queue_) {
+  buffer_.setUsingDedicatedThread(true);
+  node_.setCallbackQueue(&queue_);
+  moving_ = node_.subscribe<tf2_msgs::TFMessage>("/tf", kQueue, [this](const auto& message) {
+    for (const auto& transform : message->transforms) add(transform);
+  });
+  fixed_ = node_.subscribe<tf2_msgs::TFMessage>("/tf_static", kQueue, [this](const auto& message) {
+    for (const auto& transform : message->transforms) buffer_.setTransform(transform, kAuthority, true);
+  });
+  spinner_.start();
+}
+
+void TransformInput::add(const geometry_msgs::TransformStamped& transform) try {
+  requireTime(transform);
+  buffer_.setTransform(transform, kAuthority);
+} catch (const std::exception& error) {
+  ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s, "the transform of '" << transform.child_frame_id
+                                                                  << "' is not used: " << error.what());
+}
+
+/// tf2 itself says what is late or repeated. @throw std::exception if the stamp is refused.
+void TransformInput::requireTime(const geometry_msgs::TransformStamped& transform) {
+  const std::string& child = transform.child_frame_id;
+  if (timelines_.size() >= kMostFrames && timelines_.count(child) == 0)
+    throw std::length_error(fmt::format("tf has {} frames already", kMostFrames));
+  Timeline& timeline = timelines_[child];
+  const StampVerdict verdict =
+      timeline.judge(toNanoseconds(transform.header.stamp), toNanoseconds(ros::Time::now()));
+  if (verdict.kind == StampVerdict::kUnstamped || verdict.kind == StampVerdict::kOutlier)
+    throw std::invalid_argument(whyRefused(verdict));
+  if (timeline.pass() > pass_) {
+    pass_ = timeline.pass();
+    buffer_.clear();
+  }
+}
+
+}  // namespace softbody
