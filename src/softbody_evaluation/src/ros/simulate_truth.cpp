@@ -87,7 +87,7 @@ class TruthSimulation {
 
   void write(Nanoseconds stamp) {
     std_msgs::Header header;
-    header.stamp.fromNSec(static_cast<std::uint64_t>(stamp));
+    header.stamp = toTime(stamp);
     header.frame_id = truth_.frame_id;
     writeTopology(header.stamp);
     softbody_msgs::MeshState state = toMessage(surface_.apply(simulator_.state()));
@@ -97,11 +97,11 @@ class TruthSimulation {
 
   /// At first and every second.
   void writeTopology(const ros::Time& stamp) {
-    if (!topology_written_.isZero() && stamp - topology_written_ < ros::Duration(1.0)) return;
+    if (!topology_written_.isZero() && secondsBetween(topology_written_, stamp) < 1.0) return;
     topology_written_ = stamp;
     softbody_msgs::MeshTopology topology = toMessage(surface_.topology());
     topology.header.frame_id = kBodyFrame;
-    topology.header.stamp.fromNSec(static_cast<std::uint64_t>(truth_.states.begin()->first));
+    topology.header.stamp = toTime(truth_.states.begin()->first);
     bag_.writeLatched(std::string("/softbody/") + topics::kSurfaceTopology, stamp, topology);
   }
 

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "softbody_common/ros/time.h"
+
 namespace softbody {
 
 /// Notices that camera_ingest sends no frames. It uses the arrival times in ROS time, not the stamps: a
@@ -16,7 +18,7 @@ class FrameWatchdog {
 
   /// True before the first frame, after a gap of more than kTimeout_s, and after a bag has started again.
   bool isExpired() const {
-    return last_arrival_.isZero() || std::abs((ros::Time::now() - last_arrival_).toSec()) > kTimeout_s;
+    return last_arrival_.isZero() || std::abs(secondsBetween(last_arrival_, ros::Time::now())) > kTimeout_s;
   }
 
   static std::string message() {

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "softbody_common/time.h"
 #include "softbody_evaluation/report/plots.h"
 
 namespace softbody::evaluation {
@@ -16,7 +17,7 @@ void plotResiduals(const std::vector<FrameResidual>& frames, Pictures* pictures)
   std::vector<float> all;
   for (const FrameResidual& frame : frames) {
     if (frame.residuals.empty()) continue;
-    times.push_back(1e-9 * static_cast<double>(frame.stamp - frames.front().stamp));
+    times.push_back(seconds(frame.stamp - frames.front().stamp));
     medians.push_back(1e3 * summarize(frame.residuals).median);
     all.insert(all.end(), frame.residuals.begin(), frame.residuals.end());
   }
@@ -99,7 +100,7 @@ void RecordingComparison::addSilhouette(const RecordedFrame& frame) {
     return;
   }
   silhouettes_.push_back(intersectionOverUnion(silhouette(raster_.depth), expected));
-  silhouette_times_.push_back(1e-9 * static_cast<double>(frame.stamp - residuals_.front().stamp));
+  silhouette_times_.push_back(seconds(frame.stamp - residuals_.front().stamp));
 }
 
 }  // namespace softbody::evaluation

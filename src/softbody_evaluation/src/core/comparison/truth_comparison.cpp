@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/time.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_evaluation/report/plots.h"
 
@@ -107,7 +108,7 @@ std::vector<FrameOcclusion> occlusionsOf(const SurfaceRecord& truth) {
     for (std::size_t i = 0; i < seen.size(); ++i) covered += seen[i] && state.confidence[i] <= 0.5f;
     const auto all = std::max<std::ptrdiff_t>(1, std::count(seen.begin(), seen.end(), true));
     occlusions.emplace_back();
-    occlusions.back().time_s = 1e-9 * static_cast<double>(stamp - truth.states.begin()->first);
+    occlusions.back().time_s = seconds(stamp - truth.states.begin()->first);
     occlusions.back().covered_share = static_cast<double>(covered) / static_cast<double>(all);
   }
   return occlusions;

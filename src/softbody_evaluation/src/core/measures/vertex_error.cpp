@@ -6,6 +6,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "softbody_common/time.h"
+
 namespace softbody::evaluation {
 namespace {
 
@@ -111,7 +113,7 @@ VertexErrorReport summarize(const std::vector<FrameVertexError>& frames) {
     append(frame.hidden, &hidden);
     append(frame.near_cut, &near_cut);
     unmatched += frame.unmatched;
-    report.times.push_back(1e-9 * static_cast<double>(frame.stamp - frames.front().stamp));
+    report.times.push_back(seconds(frame.stamp - frames.front().stamp));
     report.frame_means.push_back(frame.mean());
   }
   addDrift(&report);

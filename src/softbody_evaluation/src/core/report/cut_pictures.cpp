@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/time.h"
 #include "softbody_evaluation/report/plots.h"
 #include "softbody_sim/report/mesh_drawing.h"
 
@@ -129,8 +130,8 @@ void CutStrip::add(const RecordedFrame& frame) {
     drawBlade(blade->second, window.camera, &images_.back());
   meshes_.push_back(drawMesh(state.vertices, mesh.triangles, {colorsOf(mesh), true, cutLines(mesh)},
                              {Eigen::Isometry3d::Identity(), window.camera}));
-  label(fmt::format("{:.2f} s, revision {}",
-                    1e-9 * static_cast<double>(frame.stamp - result_.states.begin()->first), state.revision),
+  label(fmt::format("{:.2f} s, revision {}", seconds(frame.stamp - result_.states.begin()->first),
+                    state.revision),
         &meshes_.back());
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "softbody_common/random.h"
+#include "softbody_common/time.h"
 
 namespace softbody::injection {
 namespace {
@@ -25,8 +26,6 @@ bool chosenOf(std::size_t thing, double share, std::uint64_t seed, Purpose purpo
   const double wanted = static_cast<double>(until(run + 1) - until(run)) / kRun;
   return choose(kRun, wanted, hash(seed) ^ run, purpose)[thing % kRun];
 }
-
-Nanoseconds nanoseconds(double seconds) { return static_cast<Nanoseconds>(std::llround(1e9 * seconds)); }
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "softbody_common/ros/time.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_tracking/ros/conversions.h"
 
@@ -174,7 +175,7 @@ void BagTransforms::addSamples(const std::string& frame, const ros::Time& stamp,
     buffer->setTransform(message, "bag");
   }
   if (last - first < 2) return;
-  const double gap_s = (after->stamp - first->stamp).toSec();
+  const double gap_s = secondsBetween(first->stamp, after->stamp);
   const bool moved = first->parent != after->parent || differ(first->transform, after->transform);
   if (gap_s > kLongestGap_s && moved)
     throw tf2::ExtrapolationException(fmt::format("/tf has no transform of {} for {:.3f} s", frame, gap_s));

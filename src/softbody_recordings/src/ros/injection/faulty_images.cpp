@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/time.h"
 
 namespace softbody::injection {
 namespace {
@@ -34,7 +35,7 @@ FaultyImages::FaultyImages(std::string topic, bool is_depth, const ImageFaults& 
 sensor_msgs::Image FaultyImages::next(const sensor_msgs::Image& original) {
   const Nanoseconds stamp = toNanoseconds(original.header.stamp);
   if (count_ == 0) first_ = stamp;
-  const bool occluded = occluderPresent(1e-9 * static_cast<double>(stamp - first_), faults_);
+  const bool occluded = occluderPresent(seconds(stamp - first_), faults_);
   sensor_msgs::Image image = original;
   if (!is_depth_ && (occluded || faults_.misplaced_share > 0.0)) changeColor(occluded, &image);
   if (is_depth_ && (occluded || faults_.hole_share > 0.0)) changeDepth(occluded, &image);

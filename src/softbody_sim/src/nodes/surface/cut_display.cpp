@@ -5,6 +5,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "softbody_common/ros/time.h"
 #include "softbody_common/surface_binding.h"
 #include "softbody_common/tet_locator.h"
 #include "softbody_common/topics.h"
@@ -39,7 +40,7 @@ void CutDisplay::publish(const MeshTopology& mesh, const MeshState& surface, con
 
 void CutDisplay::publishPreview(const MeshState& volume, const std_msgs::Header& header) {
   if (!preview_->begin) preview_->begin = header.stamp;
-  const double age = (header.stamp - *preview_->begin).toSec();
+  const double age = secondsBetween(*preview_->begin, header.stamp);
   const bool same_tets = volume.revision == preview_->volume.revision &&
                          volume.vertices.rows() == preview_->volume.rest_vertices.rows();
   if (!same_tets || age < 0.0 || age > kPreviewTime) {

@@ -43,7 +43,7 @@ void SurfacePublisher::publishState(const MeshTopology& topology, const MeshStat
 
 void SurfacePublisher::publishTiming(std::vector<StageTime> stages, const std_msgs::Header& header) {
   // Only valid if the clock runs with the stamps; with a bag on the wall clock it does not.
-  const double latency = (ros::Time::now() - header.stamp).toSec();
+  const double latency = secondsBetween(header.stamp, ros::Time::now());
   if (latency >= 0.0 && latency < 10.0) stages.push_back({"camera-to-mesh latency", 1e3 * latency, false});
   const auto timing = boost::make_shared<softbody_msgs::StageTiming>(timingMessage("surface", stages));
   timing->header = header;

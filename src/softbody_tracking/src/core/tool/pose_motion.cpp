@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "softbody_common/time.h"
+
 namespace softbody {
 namespace {
 
@@ -59,12 +61,12 @@ PoseMotion::Covariance PoseMotion::covarianceAt(double dt) const {
 }
 
 PoseMotion::Prediction PoseMotion::predict(Nanoseconds stamp) const {
-  const double dt = 1e-9 * static_cast<double>(stamp - stamp_);
+  const double dt = seconds(stamp - stamp_);
   return {poseAt(dt), covarianceAt(dt).topLeftCorner<6, 6>()};
 }
 
 void PoseMotion::update(const Eigen::Isometry3d& pose, const PoseCovariance& covariance, Nanoseconds stamp) {
-  const double dt = 1e-9 * static_cast<double>(stamp - stamp_);
+  const double dt = seconds(stamp - stamp_);
   const Covariance P = covarianceAt(dt);
   const Eigen::Isometry3d predicted = poseAt(dt);
   const PoseCovariance S = P.topLeftCorner<6, 6>() + covariance;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "softbody_common/time.h"
+
 namespace softbody {
 namespace {
 
@@ -32,7 +34,7 @@ std::optional<std::string> ToolDropoutMonitor::update(Nanoseconds stamp,
   }
   ++missed_[reason];
   ++missed_in_a_row_[reason];
-  const double missing_s = 1e-9 * static_cast<double>(stamp - *since_);
+  const double missing_s = seconds(stamp - *since_);
   if (missing_s < next_warning_s_) return std::nullopt;
   while (next_warning_s_ <= missing_s) next_warning_s_ *= 2.0;
   return fmt::format("the tool has not been seen {} {:.1f} s and cuts nothing: {}",

@@ -12,6 +12,7 @@
 #include "cutting/blade/tearing.h"
 #include "cutting/volume/edited_volume.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_common/time.h"
 
 namespace softbody {
 namespace {
@@ -114,8 +115,7 @@ bool CuttableSurface::Implementation::apply(const Cut& cut, const MeshState& sta
 }
 
 void CuttableSurface::Implementation::liftAfterGap(Nanoseconds stamp) {
-  if (followed && (stamp < *followed || 1e-9 * static_cast<double>(stamp - *followed) > config.max_gap_s))
-    blade.lift();
+  if (followed && (stamp < *followed || seconds(stamp - *followed) > config.max_gap_s)) blade.lift();
   followed = stamp;
 }
 
