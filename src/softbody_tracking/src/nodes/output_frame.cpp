@@ -12,8 +12,7 @@ constexpr double kPoll_s = 0.002;  // [s] between two looks at the tf buffer; sh
 
 OutputFrame::OutputFrame(Parameters& parameters)
     : name_(parameters.text("output_frame", "")),
-      timeout_s_(parameters.number("tf_timeout_s", 0.05, 0.0, 5.0)),
-      listener_(buffer_) {}
+      timeout_s_(parameters.number("tf_timeout_s", 0.05, 0.0, 5.0)) {}
 
 std_msgs::Header OutputFrame::fixedHeader(const std_msgs::Header& camera_header) const {
   std_msgs::Header header = camera_header;
@@ -38,11 +37,11 @@ Eigen::Isometry3d OutputFrame::poseOf(const std_msgs::Header& header, const std:
 Eigen::Isometry3d OutputFrame::lookUp(const std::string& target, const std_msgs::Header& source,
                                       double timeout_s) const {
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(timeout_s);
-  while (!buffer_.canTransform(target, source.frame_id, source.stamp) && ros::ok() &&
+  while (!transforms_.buffer().canTransform(target, source.frame_id, source.stamp) && ros::ok() &&
          ros::WallTime::now() < deadline) {
     ros::WallDuration(kPoll_s).sleep();
   }
-  return tf2::transformToEigen(buffer_.lookupTransform(target, source.frame_id, source.stamp));
+  return tf2::transformToEigen(transforms_.buffer().lookupTransform(target, source.frame_id, source.stamp));
 }
 
 }  // namespace softbody

@@ -2,13 +2,12 @@
 
 #include <ros/time.h>
 #include <std_msgs/Header.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Geometry>
 #include <string>
 
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/transform_input.h"
 
 namespace softbody {
 
@@ -39,8 +38,7 @@ class OutputFrame {
 
   std::string name_;
   double timeout_s_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  TransformInput transforms_;
 };
 
 }  // namespace softbody

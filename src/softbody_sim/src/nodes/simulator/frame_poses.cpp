@@ -10,7 +10,7 @@ std::optional<FramePoses::StampedPose> FramePoses::find(const std::string& frame
   if (frame.empty() || frame == target_frame) return StampedPose{Eigen::Isometry3d::Identity(), stamp};
   for (const ros::Time& time : {stamp, ros::Time()}) {  // time zero: the latest transform
     try {
-      const auto transform = buffer_.lookupTransform(target_frame, frame, time);
+      const auto transform = transforms_.buffer().lookupTransform(target_frame, frame, time);
       return StampedPose{Eigen::Isometry3d(tf2::transformToEigen(transform).matrix()),
                          transform.header.stamp};
     } catch (const tf2::TransformException&) {
