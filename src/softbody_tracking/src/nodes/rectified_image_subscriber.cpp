@@ -9,14 +9,6 @@
 #include "softbody_common/topics.h"
 
 namespace softbody {
-namespace {
-
-// Stamps for which the synchroniser waits at the same time: the three messages of a frame come close
-// together.
-constexpr int kSynchronizerQueue = 4;
-
-}  // namespace
-
 RgbdFrame frameFromImages(const RectifiedImages& images) {
   const auto color = cv_bridge::toCvShare(images.color, sensor_msgs::image_encodings::BGR8);
   const auto depth = cv_bridge::toCvShare(images.depth, sensor_msgs::image_encodings::TYPE_32FC1);
@@ -25,12 +17,18 @@ RgbdFrame frameFromImages(const RectifiedImages& images) {
 }
 
 RectifiedImageSubscriber::RectifiedImageSubscriber(ros::NodeHandle handle, Callback callback)
-    : callback_(std::move(callback)),
-      color_(handle, topics::kRgbRect, 1),
-      depth_(handle, topics::kDepthRect, 1),
-      info_(handle, topics::kRgbInfo, 1),
-      synchronizer_(color_, depth_, info_, kSynchronizerQueue) {
-  synchronizer_.registerCallback(&RectifiedImageSubscriber::onImages, this);
+    : callback_(std::move(callback)) {
+  using sensor_msgs::CameraInfo;
+  using sensor_msgs::Image;
+  const auto stamp = [](const auto& message) { return toNanoseconds(message->header.stamp); };
+  color_ = handle.subscribe<Image>(topics::kRgbRect, 1, [this, stamp](const auto& color) {
+    pass(assembler_.addColor(stamp(color), color));
+  });
+  depth_ = handle.subscribe<Image>(topics::kDepthRect, 1, [this, stamp](const auto& depth) {
+    pass(assembler_.addDepth(stamp(depth), depth));
+  });
+  info_ = handle.subscribe<CameraInfo>(
+      topics::kRgbInfo, 1, [this, stamp](const auto& info) { pass(assembler_.addInfo(stamp(info), info)); });
 }
 
 }  // namespace softbody

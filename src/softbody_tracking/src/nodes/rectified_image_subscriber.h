@@ -1,13 +1,13 @@
 #pragma once
 
-#include <message_filters/subscriber.h>
-#include <message_filters/time_synchronizer.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
 #include <functional>
+#include <optional>
 
+#include "camera/frame_assembler.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
@@ -30,16 +30,16 @@ class RectifiedImageSubscriber {
   RectifiedImageSubscriber(ros::NodeHandle handle, Callback callback);
 
  private:
-  void onImages(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
-                const sensor_msgs::CameraInfoConstPtr& info) {
-    callback_({color, depth, info});
+  using Assembler = FrameAssembler<sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
+
+  void pass(const std::optional<Assembler::Frame>& frame) const {
+    if (frame) callback_({frame->color, frame->depth, frame->info});
   }
 
   Callback callback_;
-  message_filters::Subscriber<sensor_msgs::Image> color_, depth_;
-  message_filters::Subscriber<sensor_msgs::CameraInfo> info_;
-  message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::Image, sensor_msgs::CameraInfo>
-      synchronizer_;
+  Assembler assembler_;
+  // Last, so that callbacks end before the members that they use.
+  ros::Subscriber color_, depth_, info_;
 };
 
 }  // namespace softbody
