@@ -50,6 +50,8 @@ def boundary(tets):
 
 
 class SurfaceAlone(unittest.TestCase):
+    seconds = 0  # of the last state
+
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
@@ -67,6 +69,14 @@ class SurfaceAlone(unittest.TestCase):
         cls.recorder.wait(lambda _: cls.state_publisher.get_num_connections() > 0, "a surface that listens")
 
     def surface_for(self, corners, seconds, revision=0):
+        # Only time that stays elsewhere is believed: two states before this one go there too.
+        goes_on, type(self).seconds = 0 < seconds - self.seconds <= 1, seconds
+        for earlier in () if goes_on else (0.2, 0.1):
+            state = MeshState(vertices=points32(self.corners), confidence=[1.0] * 8, revision=revision)
+            state.header.stamp = state.observed = rospy.Time(seconds - earlier)
+            state.header.frame_id = FRAME
+            self.state_publisher.publish(state)
+            rospy.sleep(0.05)
         state = MeshState(vertices=points32(corners), confidence=[1.0] * 8, revision=revision)
         state.header.stamp = state.observed = rospy.Time(seconds)
         state.header.frame_id = FRAME

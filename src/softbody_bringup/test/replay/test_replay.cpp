@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/Image.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/pipeline/pipeline.h"
@@ -78,6 +81,51 @@ TEST_F(ReplayTest, LeavesAnEarlierResultAloneWhenItDoesNotFinish) {
   { const ResultBag unfinished(output, "/softbody", "softbody", false); }
   EXPECT_EQ(bytes(output), "an earlier result");
   expectNothingIncomplete();
+}
+
+/// The small bag, played a number of times, with one frame's images stamped differently.
+std::string bagWithStamp(const fs::path& path, int passes, int frame, const ros::Time& stamp) {
+  rosbag::Bag in(kBag), out(path, rosbag::bagmode::Write);
+  ros::Duration played;
+  for (int pass = 0; pass < passes; ++pass) {
+    rosbag::View view(in);
+    std::map<std::string, int> images;
+    for (const rosbag::MessageInstance& message : view) {
+      auto image = message.instantiate<sensor_msgs::Image>();
+      if (image && images[message.getTopic()]++ == frame) image->header.stamp = stamp;
+      if (image)
+        out.write(message.getTopic(), message.getTime() + played, image);
+      else
+        out.write(message.getTopic(), message.getTime() + played, message, message.getConnectionHeader());
+    }
+    played += view.getEndTime() - view.getBeginTime() + ros::Duration(0.1);
+  }
+  out.close();
+  return path;
+}
+
+TEST_F(ReplayTest, OneOddStampCostsItsOwnFrame) {
+  ReplayOptions options;
+  options.object = kObject;
+  options.output = folder_ / "result.bag";
+  const auto quiet = [](const auto&) {};
+  for (const ros::Time& stamp : {ros::Time(4294967295, 0), ros::Time(1, 0), ros::Time()}) {
+    options.input = bagWithStamp(folder_ / "odd.bag", 1, 20, stamp);
+    const ReplaySummary summary = softbody::replay(options, quiet, quiet);
+    EXPECT_EQ(summary.states, 44) << stamp;
+    EXPECT_EQ(summary.read.unpaired.outliers + summary.read.unpaired.unstamped, 2) << stamp;
+  }
+}
+
+TEST_F(ReplayTest, ARecordingThatLoopsLosesNoFrame) {
+  ReplayOptions options;
+  options.object = kObject;
+  options.output = folder_ / "result.bag";
+  options.input = bagWithStamp(folder_ / "twice.bag", 2, -1, {});
+  const auto quiet = [](const auto&) {};
+  const ReplaySummary summary = softbody::replay(options, quiet, quiet);
+  EXPECT_EQ(summary.states, 90);
+  EXPECT_EQ(summary.frames_by_state.at(TrackingState::kTracking), 90);
 }
 
 TEST_F(ReplayTest, SaysInWhichFramesTheToolIsNotSeen) {

@@ -41,7 +41,7 @@ class SimulatorAlone(unittest.TestCase):
     def send(self, targets, stamp=None, **fields):
         """Publishes a frame's targets. @return its stamp."""
         message = Targets(targets=targets, **{"body_pose": Pose(orientation=Quaternion(w=1.0)), **fields})
-        message.header.stamp, message.header.frame_id = stamp or self.next_stamp(), FRAME
+        message.header.stamp, message.header.frame_id = self.next_stamp() if stamp is None else stamp, FRAME
         self.publisher.publish(message)
         return message.header.stamp
 
@@ -85,6 +85,22 @@ class SimulatorAlone(unittest.TestCase):
         self.assertEqual(status.level, status.WARN)
         # Time that jumped back would have taken the body's place: no state would come.
         self.step(self.centers(np.eye(3), np.zeros(3)))
+
+    def test_targets_with_an_odd_stamp_change_nothing(self):
+        self.place()
+        last = self.step(self.centers(np.eye(3), np.zeros(3)))
+        bad = self.centers(np.eye(3), np.zeros(3))
+        bad[0].tet = len(self.topology.tets)
+        for targets in ([], bad):
+            for odd in (rospy.Time(), rospy.Time(0, 1), self.stamp - rospy.Duration(100), self.stamp + rospy.Duration(100),
+                        rospy.Time(4294967295, 999999999)):
+                self.send(targets, stamp=odd, reset=True)
+                # Targets without reset are refused by a simulation that starts again.
+                state = self.step(self.centers(np.eye(3), np.zeros(3)))
+                np.testing.assert_allclose(array(state.vertices), array(last.vertices), atol=1e-3)
+                self.assertEqual(state.revision, last.revision)
+        states = self.recorder.messages["softbody/volume/state"]
+        self.assertLess(max(state.header.stamp for state in states), self.stamp + rospy.Duration(60))
 
     def test_diagnostics_tell_how_the_steps_ended(self):
         self.place()

@@ -5,9 +5,11 @@
 #include <softbody_msgs/MeshTopology.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "ros/typed_topic.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/timeline.h"
 #include "softbody_recordings/ros/input_bag.h"
 
 namespace softbody::evaluation {
@@ -61,13 +63,19 @@ SurfaceRecord readSurface(const std::string& path, const std::string& topology_t
   record.topologies = readTopologies(bag, topology_topic);
   std::size_t left_out = 0;
   std::string reason;
+  Timeline timeline;
   rosbag::View states(bag, rosbag::TopicQuery(state_topic));
   for (const rosbag::MessageInstance& instance : states) {
     const auto message = instantiate<softbody_msgs::MeshState>(instance, bag);
     requireOneFrame(bag, state_topic, message->header.frame_id, record);
     record.frame_id = message->header.frame_id;
     try {
-      record.states[toNanoseconds(message->header.stamp)] = usableState(*message, record.topologies);
+      MeshState state = usableState(*message, record.topologies);
+      const Nanoseconds stamp = toNanoseconds(message->header.stamp);
+      const StampVerdict verdict = timeline.judge(stamp, toNanoseconds(instance.getTime()));
+      if (verdict.kind == StampVerdict::kUnstamped || verdict.kind == StampVerdict::kOutlier)
+        throw std::invalid_argument(whyRefused(verdict));
+      record.states[stamp] = std::move(state);
     } catch (const std::invalid_argument& error) {
       if (left_out++ == 0)
         reason = fmt::format("at {:.3f} s {}", message->header.stamp.toSec(), error.what());

@@ -9,7 +9,6 @@ namespace softbody::injection {
 namespace {
 
 constexpr std::uint32_t kImageQueue = 30;
-constexpr double kRestart_s = 1.0;  // a larger jump back means that the bag starts again
 constexpr double kWarningPeriod_s = 5.0;
 
 }  // namespace
@@ -28,8 +27,7 @@ LiveStream::LiveStream(ros::NodeHandle* handle, const std::string& in, const std
 }
 
 void LiveStream::onImage(const sensor_msgs::ImageConstPtr& original) {
-  if (original->header.stamp + ros::Duration(kRestart_s) < last_stamp_) restart();
-  last_stamp_ = original->header.stamp;
+  if (timeline_.judge(toNanoseconds(original->header.stamp)).kind == StampVerdict::kJumpedBack) restart();
   const ImageDelivery delivery = deliveryOf(images_.count(), deliveries_);
   try {
     const auto image = boost::make_shared<sensor_msgs::Image>(images_.next(*original));
@@ -58,7 +56,7 @@ void LiveStream::send(const Held& held) {
     publish(held);
     late_.erase(number);
   };
-  late_[number] = handle_.createTimer(ros::Duration().fromNSec(held.delivery.delay), fire, true);
+  late_[number] = handle_.createTimer(toDuration(held.delivery.delay), fire, true);
 }
 
 void LiveStream::publish(const Held& held) {

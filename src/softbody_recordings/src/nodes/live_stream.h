@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ros/injection/faulty_images.h"
+#include "softbody_common/timeline.h"
 #include "softbody_recordings/injection/deliveries.h"
 
 namespace softbody::injection {
@@ -36,7 +37,7 @@ class LiveStream {
   DeliveryFaults deliveries_;
   ImageFaults faults_;
   FaultyImages images_;
-  ros::Time last_stamp_;
+  Timeline timeline_;
   std::optional<Held> overtaken_;           ///< waits until the next image was sent
   std::map<std::size_t, ros::Timer> late_;  ///< timers of delayed images, by number
   std::size_t next_timer_ = 0;

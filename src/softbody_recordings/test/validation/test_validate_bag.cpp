@@ -191,6 +191,10 @@ TEST(ValidateBag, Stamps) {
               if (k == 10) f->depth.header.stamp -= ros::Duration(1.0 / 30.0);
             }),
             Severity::kWarning, "stamps", kDepth, "repeats a stamp 1 times");
+  expectOne(writeBag([](Frame* f, int k) {
+              if (k == 10) f->color.header.stamp += ros::Duration(2.0);
+            }),
+            Severity::kWarning, "stamps", kColor, "has 1 stamps far from those before and after");
 }
 
 TEST(ValidateBag, DamagedBagsAreRefusedByName) {

@@ -190,9 +190,9 @@ TEST(FramePairer, RepeatedAndLateImagesAreDroppedAndCounted) {
       run.add(kStart + i * kFrame, true);
     }
     if (i % 10 == 9) {
-      EXPECT_EQ(run.pairer.addColor(kStart + (i - 2) * kFrame + 1, imageAt(0)).kind, ImageArrival::kLate);
-      EXPECT_EQ(run.pairer.addDepth(kStart + (i - 2) * kFrame + 1, imageAt(0)).kind, ImageArrival::kLate);
-      EXPECT_EQ(run.pairer.addDepth(0, imageAt(0)).kind, ImageArrival::kUnstamped);
+      EXPECT_EQ(run.pairer.addColor(kStart + (i - 2) * kFrame + 1, imageAt(0)).kind, StampVerdict::kLate);
+      EXPECT_EQ(run.pairer.addDepth(kStart + (i - 2) * kFrame + 1, imageAt(0)).kind, StampVerdict::kLate);
+      EXPECT_EQ(run.pairer.addDepth(0, imageAt(0)).kind, StampVerdict::kUnstamped);
     }
   }
   EXPECT_EQ(run.frames.size(), 20u);
@@ -216,6 +216,7 @@ TEST(FramePairer, ARecordingThatStartsAgainGivesTheSameFramesAgain) {
     ASSERT_EQ(run.frames.size(), 300u);
     for (int i = 0; i < 300; ++i) {
       EXPECT_EQ(run.frames[i].stamp, kStart + i % 100 * kFrame);
+      EXPECT_EQ(run.frames[i].pass, i / 100);
       EXPECT_TRUE(run.frames[i].depth);
     }
   }
@@ -262,7 +263,44 @@ TEST(FramePairer, OneStampFarAheadCostsItsOwnFrameAlone) {
     int with_depth = 0;
     for (const Pairer::Frame& frame : run.frames) with_depth += frame.depth ? 1 : 0;
     EXPECT_EQ(with_depth, 59) << is_depth;
+    EXPECT_EQ(run.pairer.unpaired().outliers, 1);
   }
+}
+
+TEST(FramePairer, FramesWithAnyOddStampAreDroppedAndNoOthers) {
+  std::mt19937 random(9);
+  std::uniform_int_distribution<Nanoseconds> any(0, kLatestTime), fate(0, 19);
+  for (int round = 0; round < 50; ++round) {
+    PairingRun run;
+    int odd_frames = 0;
+    bool was_odd = true;  // the first frame is good
+    for (int i = 0; i < 200; ++i) {
+      const bool odd = !was_odd && fate(random) == 0;
+      const Nanoseconds stamp = kStart + i * kFrame,
+                        shown = round % 2 == 0 ? stamp + 2'000'000'000 : any(random);
+      odd_frames += odd ? 1 : 0;
+      was_odd = odd || i == 0;
+      run.add(odd ? shown : stamp, false);
+      run.add(odd ? shown : stamp, true);
+    }
+    run.take(true);
+    EXPECT_EQ(static_cast<int>(run.frames.size()), 200 - odd_frames);
+    for (const Pairer::Frame& frame : run.frames) {
+      EXPECT_TRUE(frame.depth);
+      EXPECT_EQ(frame.pass, 0);
+    }
+  }
+}
+
+TEST(FramePairer, APauseOfBothStreamsCostsNoFrame) {
+  PairingRun run;
+  for (int i = 0; i < 60; ++i) {
+    const Nanoseconds stamp = kStart + i * kFrame + i / 20 * 3'000'000'000;
+    run.add(stamp, false);
+    run.add(stamp, true);
+  }
+  ASSERT_EQ(run.frames.size(), 60u);
+  for (const Pairer::Frame& frame : run.frames) EXPECT_EQ(frame.pass, 0);
 }
 
 TEST(FramePairer, AStreamWithoutDepthOrWithAnotherClockMakesNoFrame) {

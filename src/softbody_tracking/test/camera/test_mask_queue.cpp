@@ -66,6 +66,7 @@ TEST(MaskQueue, WhatIsLeftOfAPassOfABagDoesNotEndTheWaitInTheNext) {
     queue.addMask(100 * k, k);
   }
   ASSERT_TRUE(queue.ready(0.0));
+  queue.forgetFrames();
   queue.addFrame(100, 1, 0.0);
   EXPECT_FALSE(queue.ready(0.1)) << "the masks of the last pass are void, and so are its frames";
   queue.addMask(100, 5);
@@ -83,6 +84,17 @@ TEST(MaskQueue, AMaskOfTheNextPassMayComeBeforeItsFrame) {
   queue.addMask(100, 5);
   queue.addFrame(100, 1, 0.0);
   const auto ready = queue.ready(0.0);
+  ASSERT_TRUE(ready);
+  EXPECT_EQ(ready->mask, 5);
+}
+
+TEST(MaskQueue, AMaskWithAStampOfNoFrameEndsNoWait) {
+  Queue queue(kPatience);
+  queue.addMask(4'294'967'295'000'000'000, 9);
+  queue.addFrame(100, 1, 0.0);
+  EXPECT_FALSE(queue.ready(0.1));
+  queue.addMask(100, 5);
+  const auto ready = queue.ready(0.1);
   ASSERT_TRUE(ready);
   EXPECT_EQ(ready->mask, 5);
 }

@@ -283,6 +283,50 @@ TEST(BodyTracker, IgnoresStatesThatDoNotAnswerItsTargets) {
   EXPECT_FALSE(resetsWith({0, 1000, rest, {}}));
 }
 
+TEST(BodyTracker, SaysWhenTheSimulatorIsSilentAndResetsItWhenItIsBack) {
+  constexpr Nanoseconds kSecond = 1'000'000'000, kFrame = kSecond / 30;
+  BoxBody box = makeBox();
+  box.volume.has_initial_pose = true;
+  box.volume.initial_pose = boxPose();
+  BodyTracker tracker{TrackerConfig()};
+  tracker.setTopologies(box.volume, box.surface);
+  StageTimer timer;
+  const Points rest = posedBox(box);
+  RgbdFrame frame = renderFrame(box, rest, kSecond);
+  tracker.track(frame, nullptr, &timer);
+  MeshState state{0, kSecond, rest, {}};
+  for (frame.stamp += kFrame; frame.stamp < 2 * kSecond; frame.stamp += kFrame) {
+    const TrackingResult result = tracker.track(frame, &state, &timer);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    state.observed = frame.stamp;
+  }
+  for (; frame.stamp < 4 * kSecond; frame.stamp += kFrame) {
+    const TrackingResult result = tracker.track(frame, &state, &timer);
+    const bool silent = frame.stamp - state.observed > kSecond;
+    EXPECT_EQ(result.status.state, silent ? TrackingState::kDegraded : TrackingState::kTracking);
+    EXPECT_EQ(result.status.reason.find("no state from the simulator") == 0, silent) << result.status.reason;
+    EXPECT_FALSE(result.targets.reset);
+  }
+  EXPECT_TRUE(tracker.track(frame, nullptr, &timer).targets.reset) << "the new one's body is not placed";
+  state.observed = frame.stamp;
+  frame.stamp += kFrame;
+  const TrackingResult result = tracker.track(frame, &state, &timer);
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_FALSE(result.targets.reset);
+}
+
+TEST(BodyTracker, AFrameOfAnotherPassStartsAgainAndTheSameModelsDoNot) {
+  TrackedBox tracked;
+  for (int i = 0; i < 3; ++i) tracked.show(posedBox(tracked.box()));
+  ASSERT_FALSE(tracked.show(posedBox(tracked.box())).targets.reset);
+  tracked.tracker().setTopologies(tracked.box().volume, tracked.box().surface);
+  EXPECT_FALSE(tracked.show(posedBox(tracked.box())).targets.reset);
+  RgbdFrame frame = tracked.frame();
+  frame.pass = 1;
+  StageTimer timer;
+  EXPECT_TRUE(tracked.tracker().track(frame, nullptr, &timer).targets.reset);
+}
+
 TEST(BodyTracker, RefusesTopologiesWithoutTetsOrVertices) {
   const BoxBody box = makeBox();
   const auto refusalOf = [](const TetTopology& volume, const MeshTopology& surface) -> std::string {

@@ -44,6 +44,7 @@ class Pipeline {
   const TetTopology& volumeTopology() const { return simulator_.topology(); }
   const MeshTopology& surfaceTopology() const { return surface_.surface().topology(); }
 
+  /// A frame of another pass starts with the uncut body, as the graph's nodes do.
   /// @param cuts of this frame, e.g. from a journal, in addition to the tool's cuts. They wait until the body
   /// is tracked.
   FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
@@ -59,6 +60,8 @@ class Pipeline {
   std::size_t waitingCuts() const { return waiting_cuts_.size(); }
 
  private:
+  CuttableSurface makeSurface();
+  void startPass();
   void simulate(const TargetSet& targets, Nanoseconds stamp);
   void makeWaitingCuts(FrameOutput* output);
   std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;
@@ -66,6 +69,9 @@ class Pipeline {
   void tear(FrameOutput* output);
   void adopt(const Cut& cut, FrameOutput* output);
 
+  const TetTopology uncut_volume_;
+  const MeshTopology uncut_surface_;
+  const CuttingConfig cutting_;
   StageTimer timer_;
   BodyTracker tracker_;
   Simulator simulator_;
@@ -73,6 +79,7 @@ class Pipeline {
   std::optional<ToolTracker> tool_tracker_;
   ToolMask tool_mask_;
   std::vector<Cut> waiting_cuts_;
+  int pass_ = 0;  ///< of the last frame
 };
 
 }  // namespace softbody

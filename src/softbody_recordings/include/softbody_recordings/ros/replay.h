@@ -26,6 +26,7 @@ struct ReplaySummary {
   BagFramesReport read;
   int states = 0, tools = 0, cuts = 0;  ///< frames with a surface; frames with the tool; cuts made
   int skipped = 0;                      ///< frames without a camera pose in tf
+  int failed = 0;                       ///< frames that a stage could not process
   std::string tool_missed;              ///< ToolDropoutMonitor::missedFrames()
   std::size_t pieces = 1;               ///< at the end
   std::map<TrackingState, int> frames_by_state;

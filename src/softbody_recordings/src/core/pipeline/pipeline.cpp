@@ -11,17 +11,32 @@ namespace softbody {
 
 Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
                    const std::optional<ToolDescription>& tool)
-    : tracker_(config.tracker), simulator_(model.volume, model.material, config.simulator), surface_([&] {
-        const auto scope = timer_.stage("Resolution Enhancement", true);
-        return CuttableSurface(model.visual, model.volume, config.cutting);
-      }()) {
+    : uncut_volume_(model.volume),
+      uncut_surface_(model.visual),
+      cutting_(config.cutting),
+      tracker_(config.tracker),
+      simulator_(model.volume, model.material, config.simulator),
+      surface_(makeSurface()) {
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
+}
+
+CuttableSurface Pipeline::makeSurface() {
+  const auto scope = timer_.stage("Resolution Enhancement", true);
+  return {uncut_surface_, uncut_volume_, cutting_};
+}
+
+void Pipeline::startPass() {
+  simulator_.reset();
+  surface_ = makeSurface();
+  waiting_cuts_.clear();
+  tracker_.setTopologies(volumeTopology(), surfaceTopology());
 }
 
 FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts) {
   FrameOutput output;
   output.T_fixed_camera = frame.T_fixed_camera;
+  if (std::exchange(pass_, frame.pass) != frame.pass) startPass();
   waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());
   const bool simulated = simulator_.placed();
   if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);

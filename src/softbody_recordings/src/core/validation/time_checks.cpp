@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "softbody_common/timeline.h"
+
 namespace softbody::validation {
 namespace {
 
@@ -14,13 +16,55 @@ constexpr double kGapInIntervals = 2.5;    // two missing frames, or strong jitt
 constexpr double kRateTolerance = 1e-3;    // because stamps are rounded
 constexpr double kClockTolerance_s = 1.0;  // between header stamp and record time
 
-double seconds(Nanoseconds time) { return 1e-9 * static_cast<double>(time); }
-
 /// @param values not empty.
 Nanoseconds median(std::vector<Nanoseconds> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// A message in the bag's order, and the distance of its stamp from the last good one.
+struct Place {
+  std::size_t message = 0;
+  Nanoseconds gap = 0;
+};
+
+/// What the graph makes of the stamps.
+struct Order {
+  std::size_t repeated = 0;
+  std::vector<Place> back, outliers;
+};
+
+Order orderOf(const std::vector<Nanoseconds>& stamps) {
+  Order order;
+  Timeline timeline;
+  std::vector<Place> odd;  // outliers in a row: time may have moved
+  const auto drop = [&] {
+    order.outliers.insert(order.outliers.end(), odd.begin(), odd.end());
+    odd.clear();
+  };
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const StampVerdict verdict = timeline.judge(stamps[i]);
+    const Place place{i, verdict.gap};
+    if (verdict.kind == StampVerdict::kRepeated) ++order.repeated;
+    if (verdict.kind == StampVerdict::kInOrder || verdict.in_a_row == 1) drop();
+    if (verdict.kind == StampVerdict::kOutlier) odd.push_back(place);
+    if (verdict.kind == StampVerdict::kLate) order.back.push_back(place);
+    if (verdict.accepted() && verdict.gap < 0) order.back.push_back(odd.empty() ? place : odd.front());
+    if (verdict.accepted()) odd.clear();
+  }
+  drop();
+  return order;
+}
+
+StreamFacts withoutOutliers(StreamFacts stream) {
+  const std::vector<Place> outliers = orderOf(stream.stamps).outliers;
+  for (auto outlier = outliers.rbegin(); outlier != outliers.rend(); ++outlier) {
+    const auto message = static_cast<std::ptrdiff_t>(outlier->message);
+    stream.stamps.erase(stream.stamps.begin() + message);
+    stream.received.erase(stream.received.begin() + message);
+  }
+  return stream;
 }
 
 void checkOrder(const StreamFacts& stream, Findings* findings) {
@@ -31,22 +75,26 @@ void checkOrder(const StreamFacts& stream, Findings* findings) {
          fmt::format("has {} messages without a stamp; the driver must stamp every image", zeros)});
     return;
   }
-  std::size_t back = 0, repeated = 0, where = 0;
-  for (std::size_t i = 1; i < stream.stamps.size(); ++i) {
-    repeated += stream.stamps[i] == stream.stamps[i - 1];
-    if (stream.stamps[i] >= stream.stamps[i - 1]) continue;
-    if (back++ == 0) where = i;
+  const Order order = orderOf(stream.stamps);
+  if (!order.outliers.empty()) {
+    findings->push_back(
+        {Severity::kWarning, "stamps", stream.topic,
+         fmt::format("has {} stamps far from those before and after, the first by {:+.3f} s at message {}; "
+                     "these images are dropped; check the driver's clock",
+                     order.outliers.size(), seconds(order.outliers.front().gap),
+                     order.outliers.front().message)});
   }
-  if (back > 0) {
+  if (!order.back.empty()) {
     findings->push_back(
         {Severity::kWarning, "stamps", stream.topic,
          fmt::format("goes back in time {} times, first by {:.3f} s at message {}; after a jump of a second "
                      "or more, tracking starts again",
-                     back, seconds(stream.stamps[where - 1] - stream.stamps[where]), where)});
+                     order.back.size(), -seconds(order.back.front().gap), order.back.front().message)});
   }
-  if (repeated > 0) {
-    findings->push_back({Severity::kWarning, "stamps", stream.topic,
-                         fmt::format("repeats a stamp {} times; the driver sends images twice", repeated)});
+  if (order.repeated > 0) {
+    findings->push_back(
+        {Severity::kWarning, "stamps", stream.topic,
+         fmt::format("repeats a stamp {} times; the driver sends images twice", order.repeated)});
   }
 }
 
@@ -116,9 +164,10 @@ Findings checkStamps(const RecordingFacts& facts, const CheckLimits& limits) {
   for (const StreamFacts* stream : {&facts.color, &facts.depth}) {
     if (stream->stamps.empty()) continue;
     checkOrder(*stream, &findings);
-    checkClock(*stream, &findings);
-    checkRate(*stream, limits, &findings);
-    checkLength(*stream, limits, &findings);
+    const StreamFacts good = withoutOutliers(*stream);
+    checkClock(good, &findings);
+    checkRate(good, limits, &findings);
+    checkLength(good, limits, &findings);
   }
   return findings;
 }

@@ -89,6 +89,7 @@ class Reader {
       report_.last_error = error.what();
       return;
     }
+    frame.pass = images.pass;
     use_(frame, images.color->header, progress);
   }
 

@@ -20,6 +20,7 @@ namespace softbody {
 namespace {
 
 constexpr char kBodyFrame[] = "softbody";
+constexpr double kTopologyPeriod_s = 1.0;  // as the nodes
 
 using Warn = std::function<void(const std::string&)>;
 
@@ -89,27 +90,23 @@ class Replay {
     if (tool) output_.setBlade(tool->blade);
   }
 
+  /// A frame that cannot be used leaves the others as they are.
   void process(RgbdFrame frame, const std_msgs::Header& header) {
     try {
       frame.T_fixed_camera = camera_poses_.of(header);
-    } catch (const tf2::TransformException& error) {
+    } catch (const std::exception& error) {
       return skip(frame, header, error.what());
     }
     const auto start = std::chrono::steady_clock::now();
-    const FrameOutput result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
+    FrameOutput result;
+    try {
+      result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
+    } catch (const std::exception& error) {
+      return leaveOut(header, error.what());
+    }
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     summary_.milliseconds += elapsed.count();
-    for (const std::string& warning : result.warnings)
-      warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
-    countTool(result.tool, header);
-    count(result);
-    const bool due =
-        header.stamp < topologies_written_ || header.stamp - topologies_written_ >= ros::Duration(1.0);
-    if (topologies_written_.isZero() || due || !result.cuts.empty()) {
-      output_.writeTopologies(pipeline_, header.stamp);
-      topologies_written_ = header.stamp;
-    }
-    output_.writeFrame(result, header);
+    write(result, header);
   }
 
   ReplaySummary finish() {
@@ -127,6 +124,28 @@ class Replay {
   const ReplaySummary& summary() const { return summary_; }
 
  private:
+  void write(const FrameOutput& result, const std_msgs::Header& header) {
+    for (const std::string& warning : result.warnings)
+      warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
+    countTool(result.tool, header);
+    count(result);
+    const double since_s = secondsBetween(topologies_written_, header.stamp);
+    if (since_s < 0.0 || since_s >= kTopologyPeriod_s || !result.cuts.empty()) {
+      output_.writeTopologies(pipeline_, header.stamp);
+      topologies_written_ = header.stamp;
+    }
+    output_.writeFrame(result, header);
+  }
+
+  void leaveOut(const std_msgs::Header& header, const std::string& why) {
+    if (summary_.failed++ == 0)
+      warn_(fmt::format("frame at {:.3f} s left out: {}", header.stamp.toSec(), why));
+    last_status_.state = TrackingState::kDegraded;
+    last_status_.reason = "frame left out: " + why;
+    count(TrackingStatus(last_status_));
+    output_.writeStatus(last_status_, header);
+  }
+
   void skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why) {
     if (summary_.skipped++ == 0)
       warn_(fmt::format("frame at {:.3f} s skipped: {}", header.stamp.toSec(), why));

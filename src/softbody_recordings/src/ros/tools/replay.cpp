@@ -50,10 +50,12 @@ int countOf(const ReplaySummary& summary, TrackingState state) {
 
 void printFrames(const ReplaySummary& summary) {
   fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", summary.read.frames,
-             summary.states, summary.read.without_depth, summary.read.unusable, summary.skipped);
+             summary.states, summary.read.without_depth, summary.read.unusable + summary.failed,
+             summary.skipped);
   const UnpairedImages& unpaired = summary.read.unpaired;
   const std::pair<int, const char*> kinds[] = {
       {unpaired.unstamped, "images without a stamp"},
+      {unpaired.outliers, "images with an odd stamp, far from those before and after"},
       {unpaired.colors_repeated, "colour images with the stamp of the image before"},
       {unpaired.depths_repeated, "depth images with the stamp of the image before"},
       {unpaired.colors_late, "colour images that arrived after a later one"},

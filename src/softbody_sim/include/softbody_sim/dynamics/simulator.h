@@ -26,6 +26,9 @@ class Simulator {
   /// False until the first TargetSet with `reset` has placed the body.
   bool placed() const;
 
+  /// @throw std::invalid_argument if the targets fit neither the present body nor the uncut one.
+  void requireUsable(const TargetSet& targets) const;
+
   /// Advances to `stamp` under the targets. A TargetSet with `reset` first places the rest shape at
   /// body_pose, without velocity. If `stamp` is not after the last one, no time elapses and only the targets
   /// act. If it throws, the state does not change. With projective dynamics it allocates only in the first

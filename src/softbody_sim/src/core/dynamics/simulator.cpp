@@ -14,6 +14,7 @@
 #include "dynamics/implicit_euler.h"
 #include "dynamics/target_validation.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_common/time.h"
 
 namespace softbody {
 namespace {
@@ -22,8 +23,6 @@ bool sameTets(const TetTopology& a, const TetTopology& b) {
   return a.tets.rows() == b.tets.rows() && a.rest_vertices.rows() == b.rest_vertices.rows() &&
          a.tets == b.tets && a.rest_vertices == b.rest_vertices;
 }
-
-double seconds(Nanoseconds duration) { return 1e-9 * static_cast<double>(duration); }
 
 }  // namespace
 
@@ -122,6 +121,16 @@ Simulator::~Simulator() = default;
 const TetTopology& Simulator::topology() const { return implementation_->model->topology; }
 
 bool Simulator::placed() const { return implementation_->body.placed; }
+
+/// The uncut body comes back when a recording starts again.
+void Simulator::requireUsable(const TargetSet& targets) const {
+  const Implementation& s = *implementation_;
+  const double largest_weight = largestStiffness(s.config) / s.config.target_stiffness;
+  TargetSet storage;
+  const TargetSet& current = s.toCurrentRevision(targets, &storage);
+  const bool fits = current.revision == s.model->topology.revision;
+  softbody::requireUsable(fits ? current : targets, fits ? s.model->topology : s.uncut, largest_weight);
+}
 
 void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundings& surroundings) {
   Implementation& s = *implementation_;

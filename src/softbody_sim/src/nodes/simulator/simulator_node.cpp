@@ -30,6 +30,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
     : stall_timeout_s_(options.stall_timeout_s),
       simulator_(makeSimulator(object.model, options.simulator, &timer_)),
       surroundings_(node, options.obstacles, options.pins),
+      stamps_(node.resolveName(topics::kTargets)),
       publisher_(node, options.body_frame, object.model.volume),
       diagnostics_(node, private_node, &simulator_, &surroundings_) {
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
@@ -38,14 +39,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SimulatorNode::onCut, this, hints);
   pin_subscriber_ = node.subscribe(topics::kPin, 10, &SimulatorNode::onPin, this);
   if (options.free_run_rate_hz > 0.0) {
-    free_run_timer_ = node.createTimer(ros::Duration(1.0 / options.free_run_rate_hz),
+    free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
                                        [this](const ros::TimerEvent&) { onFreeRun(); });
   }
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
   try {
-    step(*message);
+    if (!step(*message)) return diagnostics_.countRefusedMessage();
   } catch (const std::exception& error) {
     diagnostics_.countRefusedMessage();
     ROS_WARN_STREAM_THROTTLE(1.0,
@@ -55,9 +56,11 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
   publishState(message->header);
 }
 
-void SimulatorNode::step(const softbody_msgs::Targets& message) {
+/// @return whether the stamp is accepted; if not, nothing changes. @throw std::invalid_argument likewise.
+bool SimulatorNode::step(const softbody_msgs::Targets& message) {
   TargetSet targets = fromMessage(message);
-  restartIfTimeJumpedBack(message.header.stamp);
+  simulator_.requireUsable(targets);
+  if (!admits(message.header.stamp)) return false;
   const auto scope = timer_.stage(kStage);
   if (targets.reset) surroundings_.forgetPinPositions();
   // When the body is placed, its pins take their positions after this step.
@@ -68,11 +71,18 @@ void SimulatorNode::step(const softbody_msgs::Targets& message) {
   last_ = {simulator_.toCurrentRevision(std::move(targets)), message.header, ros::Time::now()};
   surroundings_.findConflicts(last_.set.targets, simulator_.topology().tets, simulator_.state().vertices);
   diagnostics_.countStep();
+  return true;
 }
 
-void SimulatorNode::restartIfTimeJumpedBack(const ros::Time& stamp) {
-  if (stamp >= last_.header.stamp) return;
-  ROS_INFO("time jumped back by %.3f s: the simulation restarts", (last_.header.stamp - stamp).toSec());
+/// Several target sets may belong to one stamp.
+bool SimulatorNode::admits(const ros::Time& stamp) {
+  const StampVerdict verdict = stamps_.judge(stamp);
+  if (verdict.kind == StampVerdict::kJumpedBack) restart();
+  return verdict.accepted() || verdict.kind == StampVerdict::kRepeated;
+}
+
+void SimulatorNode::restart() {
+  ROS_INFO("time jumped back: the simulation starts again with the uncut body");
   simulator_.reset();
   surroundings_.updatePins(simulator_.topology().rest_vertices, {});
   last_ = {};
@@ -81,10 +91,10 @@ void SimulatorNode::restartIfTimeJumpedBack(const ros::Time& stamp) {
 
 /// Without images nobody knows whether the hands that deform the body are gone. So the last targets stay.
 void SimulatorNode::onFreeRun() {
-  const ros::Duration silence = ros::Time::now() - last_.arrival;
-  if (last_.arrival.isZero() || silence < ros::Duration(stall_timeout_s_)) return;
+  const Nanoseconds now = toNanoseconds(ros::Time::now()), silence = now - toNanoseconds(last_.arrival);
+  if (!clock_.judge(now).accepted() || last_.arrival.isZero() || seconds(silence) < stall_timeout_s_) return;
   std_msgs::Header header = last_.header;
-  header.stamp += silence;  // keeps the latency of the last image
+  header.stamp = toTime(toNanoseconds(header.stamp) + silence);  // keeps the latency of the last image
   try {
     const auto scope = timer_.stage(kStage);
     simulator_.stepUnobserved(
@@ -112,8 +122,9 @@ bool SimulatorNode::applyCut(const softbody_msgs::Cut& message, std::string* rea
   const auto scope = timer_.stage("Cutting");
   if (!simulator_.apply(fromMessage(message), reason)) return false;
   surroundings_.updatePins(simulator_.topology().rest_vertices, simulator_.state().vertices);
-  // Before the body is placed there is no frame: then the topology gets the stamp of the first one.
-  publisher_.publishTopology(simulator_.topology(), simulator_.placed() ? message.header.stamp : ros::Time());
+  // Only before the body is placed the stamp is 0: then the topology gets the stamp of the first frame.
+  const ros::Time& stamp = message.header.stamp.isZero() ? last_.header.stamp : message.header.stamp;
+  publisher_.publishTopology(simulator_.topology(), simulator_.placed() ? stamp : ros::Time());
   last_.set = simulator_.toCurrentRevision(std::move(last_.set));
   return true;
 }

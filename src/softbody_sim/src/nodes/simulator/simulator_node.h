@@ -9,6 +9,7 @@
 #include "nodes/simulator/simulator_options.h"
 #include "nodes/simulator/surroundings_tracker.h"
 #include "nodes/simulator/volume_publisher.h"
+#include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_sim/dynamics/simulator.h"
 
@@ -33,8 +34,9 @@ class SimulatorNode {
   void onPin(const softbody_msgs::PinRegionConstPtr& message);
   void onFreeRun();
 
-  void step(const softbody_msgs::Targets& message);
-  void restartIfTimeJumpedBack(const ros::Time& stamp);
+  bool step(const softbody_msgs::Targets& message);
+  bool admits(const ros::Time& stamp);
+  void restart();
   bool applyCut(const softbody_msgs::Cut& message, std::string* reason);
   void publishState(const std_msgs::Header& header);
 
@@ -49,7 +51,9 @@ class SimulatorNode {
   StageTimer timer_;
   Simulator simulator_;
   SurroundingsTracker surroundings_;
+  StampGate stamps_;  ///< of the targets
   LastTargets last_;
+  Timeline clock_;  ///< of the steps without targets
   VolumePublisher publisher_;
   SimulatorDiagnostics diagnostics_;
   // Last, so that callbacks end before the members that they use.

@@ -14,17 +14,20 @@ namespace softbody {
 namespace {
 
 /// Blade and state further apart in time do not belong together.
-constexpr double kSameInstant = 0.1;  // [s]
+constexpr Nanoseconds kSameInstant = 100'000'000;  // [ns]
 /// States come later than blades, on a slow machine by many frames. After this time no state is expected.
-constexpr double kLongestWait = 5.0;        // [s]
-constexpr std::size_t kMostWaiting = 5000;  // bounds memory for any stamps
-constexpr int kBladeQueue = 100;            // a fast tool sends many poses while one cut is made
+constexpr Nanoseconds kLongestWait = 5'000'000'000;  // [ns]
+constexpr std::size_t kMostWaiting = 5000;           // bounds memory for any stamps
+constexpr int kBladeQueue = 100;                     // a fast tool sends many poses while one cut is made
 /// Fewer skipped blades also occur when a bag starts again; they need no warning.
 constexpr int kMostSkipped = 5;
 
+Nanoseconds stampOf(const geometry_msgs::PolygonStamped& blade) { return toNanoseconds(blade.header.stamp); }
+
 }  // namespace
 
-BladeInput::BladeInput(ros::NodeHandle node, Callback on_blade) : on_blade_(std::move(on_blade)) {
+BladeInput::BladeInput(ros::NodeHandle node, Callback on_blade)
+    : on_blade_(std::move(on_blade)), stamps_(node.resolveName(topics::kToolBlade)) {
   subscriber_ = node.subscribe(topics::kToolBlade, kBladeQueue, &BladeInput::onBlade, this,
                                ros::TransportHints().tcpNoDelay());
 }
@@ -45,18 +48,19 @@ void BladeInput::onState(const std_msgs::Header& header) {
 }
 
 void BladeInput::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
-  const ros::Time& stamp = message->header.stamp;
-  if (!waiting_.empty() && stamp < waiting_.back()->header.stamp) waiting_.clear();
-  if (state_ && stamp <= state_->stamp) return passOn(*message);
+  const StampVerdict verdict = stamps_.judge(message->header.stamp);
+  if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
+  if (verdict.kind == StampVerdict::kJumpedBack) waiting_.clear();
+  if (state_ && message->header.stamp <= state_->stamp) return passOn(*message);
   waiting_.push_back(message);
-  while ((stamp - waiting_.front()->header.stamp).toSec() > kLongestWait || waiting_.size() > kMostWaiting) {
+  while (stampOf(*message) - stampOf(*waiting_.front()) > kLongestWait || waiting_.size() > kMostWaiting) {
     skip(*waiting_.front());
     waiting_.pop_front();
   }
 }
 
 void BladeInput::passOn(const geometry_msgs::PolygonStamped& blade) {
-  if (std::abs((state_->stamp - blade.header.stamp).toSec()) > kSameInstant) return skip(blade);
+  if (std::abs(toNanoseconds(state_->stamp) - stampOf(blade)) > kSameInstant) return skip(blade);
   skipped_ = 0;
   const std::optional<Points> polygon = toStateFrame(blade);
   if (polygon) on_blade_(*polygon, blade.header.stamp);
@@ -64,7 +68,7 @@ void BladeInput::passOn(const geometry_msgs::PolygonStamped& blade) {
 
 void BladeInput::skip(const geometry_msgs::PolygonStamped& blade) {
   if (!state_ || ++skipped_ < kMostSkipped) return;
-  const double ahead = (blade.header.stamp - state_->stamp).toSec();
+  const double ahead = secondsBetween(state_->stamp, blade.header.stamp);
   ROS_WARN_STREAM_THROTTLE(
       5.0,
       fmt::format("the blade cannot cut: its stamp {:.3f} s is {:.3f} s {} the body's last state; a blade "
@@ -75,11 +79,11 @@ void BladeInput::skip(const geometry_msgs::PolygonStamped& blade) {
 std::optional<Points> BladeInput::toStateFrame(const geometry_msgs::PolygonStamped& blade) {
   Points points = fromMessage(blade.polygon);
   if (blade.header.frame_id == state_->frame_id) return points;
-  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
+  if (!transforms_) transforms_ = std::make_unique<TransformInput>();
   try {
     const Eigen::Isometry3d T(
-        tf2::transformToEigen(
-            buffer_.lookupTransform(state_->frame_id, blade.header.frame_id, blade.header.stamp))
+        tf2::transformToEigen(transforms_->buffer().lookupTransform(state_->frame_id, blade.header.frame_id,
+                                                                    blade.header.stamp))
             .matrix());
     return transformed(points, T);
   } catch (const tf2::TransformException& error) {

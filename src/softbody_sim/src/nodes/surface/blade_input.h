@@ -2,13 +2,14 @@
 
 #include <geometry_msgs/PolygonStamped.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
 
+#include "softbody_common/ros/stamp_gate.h"
+#include "softbody_common/ros/transform_input.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
@@ -34,12 +35,11 @@ class BladeInput {
   std::optional<Points> toStateFrame(const geometry_msgs::PolygonStamped& blade);
 
   Callback on_blade_;
+  StampGate stamps_;
   std::optional<std_msgs::Header> state_;                      ///< of the last state
   std::deque<geometry_msgs::PolygonStampedConstPtr> waiting_;  ///< for their states
-  int skipped_ = 0;  ///< consecutive blades without a state of their time
-  tf2_ros::Buffer buffer_;
-  std::unique_ptr<tf2_ros::TransformListener>
-      listener_;  ///< only if the blade is in another frame than the body
+  int skipped_ = 0;                             ///< consecutive blades without a state of their time
+  std::unique_ptr<TransformInput> transforms_;  ///< only if the blade is in another frame than the body
   ros::Subscriber subscriber_;
 };
 

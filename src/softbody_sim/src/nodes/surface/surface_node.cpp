@@ -40,6 +40,7 @@ SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_nod
 SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, Options options)
     : body_frame_(options.body_frame),
       visual_(std::move(options.visual)),
+      stamps_(node.resolveName(topics::kVolumeState)),
       publisher_(node),
       cut_display_(node),
       editor_(node, body_frame_, options.cutting, [this] { useWaitingTopology(); }),
@@ -68,7 +69,7 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
         1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
     return;
   }
-  if (waiting_state_ && waiting_state_->revision == message->revision) onState(waiting_state_);
+  if (waiting_state_ && waiting_state_->revision == message->revision) useState(waiting_state_);
 }
 
 /// Topologies are sent again every second. @return whether this one is known; then only its stamp is new.
@@ -147,7 +148,13 @@ void SurfaceNode::setBinding(BoundSurface binding) {
   publisher_.setTopology(binding_->topology);
 }
 
+/// A state may belong to the stamp of the last one: it is then newer.
 void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) {
+  const StampVerdict verdict = stamps_.judge(message->header.stamp);
+  if (verdict.accepted() || verdict.kind == StampVerdict::kRepeated) useState(message);
+}
+
+void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {
   if (next_binding_ && next_binding_->volume->revision == message->revision)
     setBinding(std::move(*next_binding_));
   if (!binding_ || binding_->volume->revision != message->revision) {

@@ -12,6 +12,7 @@
 #include "nodes/surface/cut_services.h"
 #include "nodes/surface/surface_editor.h"
 #include "nodes/surface/surface_publisher.h"
+#include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
 
@@ -43,10 +44,12 @@ class SurfaceNode {
   void startBody(const softbody_msgs::TetTopologyConstPtr& message);
   void useWaitingTopology();
   void setBinding(BoundSurface binding);
+  void useState(const softbody_msgs::MeshStateConstPtr& message);
   void publishState(const softbody_msgs::MeshState& volume);
 
   const std::string body_frame_;
   const MeshTopology visual_;
+  StampGate stamps_;  ///< of the volume's states
   StageTimer timer_;
   SurfacePublisher publisher_;
   CutDisplay cut_display_;

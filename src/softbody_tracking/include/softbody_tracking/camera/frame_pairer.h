@@ -6,9 +6,10 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "softbody_common/parameters.h"
-#include "softbody_common/types.h"
+#include "softbody_common/timeline.h"
 
 namespace softbody {
 
@@ -23,24 +24,10 @@ struct PairingConfig {
 /// @throw std::invalid_argument with key, value and range.
 PairingConfig readPairingConfig(Parameters& parameters);
 
-/// What happened to an added image.
-struct ImageArrival {
-  enum Kind {
-    kAccepted,
-    kRestarted,  ///< accepted; its stamp is a second or more before the last one: the stream starts again
-    kUnstamped,  ///< dropped: its stamp is not above 0
-    kRepeated,   ///< dropped: it has the stamp of the previous image
-    kLate        ///< dropped: its stamp is before the last one's
-  };
-  Kind kind;
-  Nanoseconds gap = 0;  ///< its stamp minus the last image's stamp
-
-  bool accepted() const { return kind == kAccepted || kind == kRestarted; }
-};
-
 /// Images that are in no frame.
 struct UnpairedImages {
-  int unstamped = 0, colors_repeated = 0, depths_repeated = 0, colors_late = 0, depths_late = 0;
+  int unstamped = 0, outliers = 0;  ///< of both streams
+  int colors_repeated = 0, depths_repeated = 0, colors_late = 0, depths_late = 0;
   int colors_alone = 0;  ///< no depth image came, and no frame without depth was allowed
   int depths_alone = 0;  ///< no colour image is near enough in time
 };
@@ -48,6 +35,9 @@ struct UnpairedImages {
 /// Pairs each colour image with the depth image nearest in time. Live graph, replay and evaluation all use
 /// this rule. It uses only the stamps and the order in which the images of each stream arrive, and no clock.
 /// So a recording gives the same frames as the live graph.
+///
+/// An image with an odd stamp waits for the next ones. If they follow it, time has moved and no image is lost
+/// (see Timeline). Otherwise it is dropped.
 ///
 /// A pair is complete as soon as no image nearer in time can come. Two facts show this: stamps in a stream
 /// increase, and the next image of a stream comes at least half of the shortest gap so far after the last
@@ -60,6 +50,7 @@ class FramePairer {
  public:
   struct Frame {
     Nanoseconds stamp;  ///< of the colour image
+    int pass;           ///< how often the colour stream has started again
     ColorPtr color;
     DepthPtr depth;  ///< null: no depth image came within the tolerance
     InfoPtr info;    ///< the newest that has arrived
@@ -70,32 +61,32 @@ class FramePairer {
         queue_size_(static_cast<std::size_t>(config.queue_size)),
         every_color_(config.every_color) {}
 
-  ImageArrival addColor(Nanoseconds stamp, ColorPtr color) {
-    const ImageArrival arrival = colors_.add(stamp, std::move(color));
-    count(arrival, &unpaired_.colors_repeated, &unpaired_.colors_late);
-    return arrival;
+  StampVerdict addColor(Nanoseconds stamp, ColorPtr color) {
+    const StampVerdict verdict = colors_.add(stamp, std::move(color));
+    count(verdict, &unpaired_.colors_repeated, &unpaired_.colors_late);
+    return verdict;
   }
 
-  ImageArrival addDepth(Nanoseconds stamp, DepthPtr depth) {
-    const ImageArrival arrival = depths_.add(stamp, std::move(depth));
-    count(arrival, &unpaired_.depths_repeated, &unpaired_.depths_late);
-    if (depths_.images.size() > queue_size_) {
+  StampVerdict addDepth(Nanoseconds stamp, DepthPtr depth) {
+    const StampVerdict verdict = depths_.add(stamp, std::move(depth));
+    count(verdict, &unpaired_.depths_repeated, &unpaired_.depths_late);
+    while (depths_.images.size() > queue_size_) {
       ++unpaired_.depths_alone;
       depths_.drop(1);
     }
-    return arrival;
+    return verdict;
   }
 
   /// Frames wait for the first info.
   void setInfo(InfoPtr info) { info_ = std::move(info); }
 
-  /// The next frame that is complete. Frames come in the order of their stamps.
+  /// The next frame that is complete. Frames come in the order of their stamps within a pass.
   /// @param finish true if no more images will come: then every pair is complete.
   std::optional<Frame> next(bool finish = false) {
     while (!colors_.images.empty()) {
       const bool overdue = colors_.images.size() > queue_size_;
       if (!info_ && !overdue) return std::nullopt;
-      const auto [stamp, color] = colors_.images.front();
+      const auto [stamp, color, pass] = colors_.images.front();
       const Partner partner = partnerOf(stamp);
       if (!partner.certain && !overdue && !finish) return std::nullopt;
       colors_.images.pop_front();
@@ -105,9 +96,9 @@ class FramePairer {
         ++unpaired_.colors_alone;
         continue;
       }
-      Frame frame{stamp, color, nullptr, info_};
+      Frame frame{stamp, pass, color, nullptr, info_};
       if (partner.depth) {
-        frame.depth = depths_.images[*partner.depth].second;
+        frame.depth = depths_.images[*partner.depth].image;
         without_depth_ = 0;
         unpaired_.depths_alone += static_cast<int>(*partner.depth);
         depths_.drop(*partner.depth + 1);
@@ -121,45 +112,66 @@ class FramePairer {
     UnpairedImages unpaired = unpaired_;
     unpaired.colors_alone += static_cast<int>(colors_.images.size());
     unpaired.depths_alone += static_cast<int>(depths_.images.size());
+    unpaired.outliers += colors_.outliers + depths_.outliers;
     return unpaired;
   }
 
  private:
   /// One second at 30 Hz. If depth is missing for longer, this is a fault that the user must see.
   static constexpr int kMostWithoutDepth = 30;
-  /// If a stamp goes back by this much, a recording starts again. If it goes back by less, the image is late.
-  static constexpr Nanoseconds kRestart = 1'000'000'000;
 
-  /// Images in the order of their stamps.
+  template <typename Pointer>
+  struct Image {
+    Nanoseconds stamp;
+    Pointer image;
+    int pass;
+  };
+
+  /// Images in the order of their stamps within a pass.
   template <typename Pointer>
   struct Queue {
-    std::deque<std::pair<Nanoseconds, Pointer>> images;
-    Nanoseconds newest = 0;  ///< stamp of the last image; 0: none came
+    std::deque<Image<Pointer>> images;
+    std::vector<std::pair<Nanoseconds, Pointer>> odd;  ///< outliers in a row: time may have moved
+    Timeline timeline;
     Nanoseconds shortest_gap = std::numeric_limits<Nanoseconds>::max();
+    int outliers = 0;  ///< dropped for good, and those in `odd`
 
-    ImageArrival add(Nanoseconds stamp, Pointer image) {
-      if (stamp <= 0) return {ImageArrival::kUnstamped};
-      const Nanoseconds gap = newest > 0 ? stamp - newest : 0;
-      if (newest > 0 && gap == 0) return {ImageArrival::kRepeated};
-      if (gap < 0 && gap > -kRestart) return {ImageArrival::kLate, gap};
-      if (gap > 0) shortest_gap = std::min(shortest_gap, gap);
-      newest = stamp;
-      images.emplace_back(stamp, std::move(image));
-      return {gap < 0 ? ImageArrival::kRestarted : ImageArrival::kAccepted, gap};
+    StampVerdict add(Nanoseconds stamp, Pointer image) {
+      const StampVerdict verdict = timeline.judge(stamp);
+      if (verdict.kind == StampVerdict::kOutlier) {
+        if (verdict.in_a_row == 1) odd.clear();
+        odd.emplace_back(stamp, std::move(image));
+        ++outliers;
+      }
+      if (!verdict.accepted()) return verdict;
+      if (verdict.kind == StampVerdict::kInOrder) odd.clear();
+      for (auto& [earlier_stamp, earlier] : std::exchange(odd, {})) {
+        push(earlier_stamp, std::move(earlier));
+        --outliers;
+      }
+      if (verdict.gap > 0) shortest_gap = std::min(shortest_gap, verdict.gap);
+      push(stamp, std::move(image));
+      return verdict;
+    }
+
+    void push(Nanoseconds stamp, Pointer image) {
+      images.push_back({stamp, std::move(image), timeline.pass()});
     }
 
     void drop(std::size_t count) {
       images.erase(images.begin(), images.begin() + static_cast<std::ptrdiff_t>(count));
     }
 
-    /// Whether the stream has jumped back since an image of this stamp.
-    bool restartedSince(Nanoseconds stamp) const { return newest > 0 && newest <= stamp - kRestart; }
+    /// Whether the stream has moved away from this stamp.
+    bool hasLeft(Nanoseconds stamp) const {
+      return timeline.last() > 0 && std::llabs(timeline.last() - stamp) >= Timeline::kLeap;
+    }
 
     /// Index of the image nearest in time; the first one of equally near images. Nothing if the queue is
     /// empty.
     std::optional<std::size_t> nearestTo(Nanoseconds stamp) const {
       const auto nearer = [stamp](const auto& a, const auto& b) {
-        return std::llabs(a.first - stamp) < std::llabs(b.first - stamp);
+        return std::llabs(a.stamp - stamp) < std::llabs(b.stamp - stamp);
       };
       const auto nearest = std::min_element(images.begin(), images.end(), nearer);
       if (nearest == images.end()) return std::nullopt;
@@ -171,7 +183,8 @@ class FramePairer {
     Nanoseconds nextIsLaterBy(Nanoseconds stamp, Nanoseconds most) const {
       constexpr Nanoseconds kUnknown = std::numeric_limits<Nanoseconds>::max();
       // A stream that is far ahead is still in the pass of a recording that the other stream has left.
-      if (newest == 0 || newest - stamp >= kRestart) return -kRestart;
+      const Nanoseconds newest = timeline.last();
+      if (newest == 0 || newest - stamp >= Timeline::kLeap) return -Timeline::kLeap;
       const Nanoseconds gap = shortest_gap == kUnknown ? 0 : std::min(shortest_gap / 2, most);
       const Nanoseconds least = std::max<Nanoseconds>(1, gap);
       return newest - stamp + least;
@@ -186,10 +199,10 @@ class FramePairer {
 
   Partner partnerOf(Nanoseconds stamp) const {
     const std::optional<std::size_t> nearest = depths_.nearestTo(stamp);
-    const Nanoseconds depth = nearest ? depths_.images[*nearest].first : 0;
+    const Nanoseconds depth = nearest ? depths_.images[*nearest].stamp : 0;
     const Nanoseconds distance = std::llabs(depth - stamp);
-    // After both streams have started again, no image of the previous pass will come.
-    if (colors_.restartedSince(stamp) && depths_.restartedSince(stamp))
+    // No image near to this one will come.
+    if (colors_.hasLeft(stamp) && depths_.hasLeft(stamp))
       return {distance <= tolerance_ ? nearest : std::nullopt, true};
     if (!nearest || distance > tolerance_)
       return {std::nullopt, depths_.nextIsLaterBy(stamp, tolerance_) > tolerance_};
@@ -202,10 +215,10 @@ class FramePairer {
     return {nearest, no_nearer_depth && no_nearer_color};
   }
 
-  void count(const ImageArrival& arrival, int* repeated, int* late) {
-    unpaired_.unstamped += arrival.kind == ImageArrival::kUnstamped ? 1 : 0;
-    *repeated += arrival.kind == ImageArrival::kRepeated ? 1 : 0;
-    *late += arrival.kind == ImageArrival::kLate ? 1 : 0;
+  void count(const StampVerdict& verdict, int* repeated, int* late) {
+    unpaired_.unstamped += verdict.kind == StampVerdict::kUnstamped ? 1 : 0;
+    *repeated += verdict.kind == StampVerdict::kRepeated ? 1 : 0;
+    *late += verdict.kind == StampVerdict::kLate ? 1 : 0;
   }
 
   Nanoseconds tolerance_;

@@ -47,8 +47,8 @@ class ToolTracker {
   explicit ToolTracker(const ToolDescription& tool, const ToolTrackerConfig& config = {});
   ~ToolTracker();
 
-  /// The tool's pose; nothing if it is neither seen nor bridged, and reason() says why. An older stamp than
-  /// the last one resets the tracker. Motion is predicted in the fixed frame: without a camera pose there
+  /// The tool's pose; nothing if it is neither seen nor bridged, and reason() says why. A frame of
+  /// another pass resets the tracker. Motion is predicted in the fixed frame: without a camera pose there
   /// (frame.placed) the tool is neither predicted nor bridged. @param timer may be null.
   std::optional<ToolObservation> track(const RgbdFrame& frame, StageTimer* timer);
 

@@ -41,15 +41,18 @@ class BodyTracker {
   explicit BodyTracker(const TrackerConfig& config);
   ~BodyTracker();
 
-  /// Sets the body's models. If their revision is greater, they are the same body after an edit. Then
-  /// tracking continues, and the next state must have this revision. Otherwise tracking starts again.
+  /// Sets the body's models. The same ones again change nothing. If their revision is greater, they are the
+  /// same body after an edit. Then tracking continues, and the next state must have this revision. Otherwise
+  /// tracking starts again.
   /// @throw std::invalid_argument if the volume has no tet, or if a tet or a triangle names a missing vertex.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   /// Whether the models are set.
   bool ready() const;
 
-  /// Tracks the body in one frame.
-  /// @param volume newest state of the volume in the fixed frame; nullptr without one.
+  /// Tracks the body in one frame. A frame of another pass resets the tracker.
+  /// @param volume newest state of the volume in the fixed frame; nullptr without one, also when the
+  /// simulator has started again: the targets then have `reset`. If the states stay out for a second, the
+  /// status is DEGRADED and says so.
   /// @throw std::invalid_argument unless colour and depth have the camera's size.
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
 

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
-#include <iterator>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -12,8 +11,8 @@
 namespace softbody {
 
 /// Frames that wait for the mask with the same stamp. They leave in the order in which they came. A frame
-/// leaves without a mask after a timeout, or when the mask of a later frame has come: the segmentation
-/// skipped it. A frame with an older stamp than the last one clears the queue.
+/// leaves without a mask after a timeout, or when the mask of a frame behind it has come: the segmentation
+/// skipped it.
 template <typename Frame, typename Mask>
 class MaskQueue {
  public:
@@ -26,34 +25,30 @@ class MaskQueue {
 
   /// @param now_s of any monotonic clock; ready() uses the same clock.
   void addFrame(Nanoseconds stamp, Frame frame, double now_s) {
-    if (stamp < newest_) {
-      frames_.clear();
-      masks_.erase(masks_.upper_bound(last_taken_),
-                   masks_.end());  // earlier masks belong to the restarted bag
-      last_taken_ = stamp;
-    }
-    newest_ = stamp;
     frames_.push_back({stamp, now_s, std::move(frame)});
   }
 
+  /// A mask may come before its frame, and masks in any order.
   void addMask(Nanoseconds stamp, Mask mask) {
-    // Masks may come out of order, from a segmentation that processes several frames at a time.
-    if (!masks_.empty() && masks_.rbegin()->first - stamp >= kRestartGap) masks_.clear();
-    masks_[stamp] = std::move(mask);
-    if (masks_.size() > kMaxMasks) masks_.erase(masks_.begin());
+    masks_.emplace_back(stamp, std::move(mask));
+    if (masks_.size() > kMaxMasks) masks_.pop_front();
   }
+
+  /// Time has jumped back: the frames belong to the pass before.
+  void forgetFrames() { frames_.clear(); }
 
   /// The first frame, if it does not have to wait any longer.
   std::optional<Ready> ready(double now_s) {
     if (frames_.empty()) return std::nullopt;
-    const Waiting& first = frames_.front();
-    const auto mask = masks_.lower_bound(first.stamp);
-    const bool there = mask != masks_.end() && mask->first == first.stamp;
-    if (mask == masks_.end() && now_s - first.since_s < timeout_s_) return std::nullopt;
+    const auto masked = std::find_if(frames_.begin(), frames_.end(), [this](const Waiting& frame) {
+      return maskOf(frame.stamp) != masks_.end();
+    });
+    if (masked == frames_.end() && now_s - frames_.front().since_s < timeout_s_) return std::nullopt;
     Ready result{std::move(frames_.front().frame), std::nullopt};
-    if (there) result.mask = std::move(mask->second);
-    masks_.erase(masks_.begin(), there ? std::next(mask) : mask);
-    last_taken_ = first.stamp;
+    if (const auto mask = maskOf(frames_.front().stamp); mask != masks_.end()) {
+      result.mask = std::move(mask->second);
+      masks_.erase(mask);
+    }
     frames_.pop_front();
     return result;
   }
@@ -64,14 +59,19 @@ class MaskQueue {
     double since_s;
     Frame frame;
   };
-  static constexpr std::size_t kMaxMasks = 100;  // masks without a frame; bounds the memory
-  static constexpr Nanoseconds kRestartGap =
-      1'000'000'000;  // [ns] a mask this much older is from a restarted bag
+  static constexpr std::size_t kMaxMasks = 30;  // masks of a second; bounds the memory
+
+  /// The newest mask of a stamp.
+  auto maskOf(Nanoseconds stamp) {
+    auto mask = masks_.end();
+    for (auto it = masks_.begin(); it != masks_.end(); ++it)
+      if (it->first == stamp) mask = it;
+    return mask;
+  }
 
   double timeout_s_;
   std::deque<Waiting> frames_;
-  std::map<Nanoseconds, Mask> masks_;
-  Nanoseconds newest_ = 0, last_taken_ = 0;  ///< stamps of the last frame that came and of the last that left
+  std::deque<std::pair<Nanoseconds, Mask>> masks_;  ///< in the order of arrival
 };
 
 }  // namespace softbody

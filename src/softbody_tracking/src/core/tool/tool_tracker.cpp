@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "softbody_common/time.h"
 #include "softbody_tracking/tool/marker_detector.h"
 #include "tool/pose_motion.h"
 #include "tool/tool_hypotheses.h"
@@ -134,7 +135,7 @@ struct ToolTracker::Implementation {
   }
 
   void forgetOldMotion(Nanoseconds stamp) {
-    const auto bridged = static_cast<Nanoseconds>(1e9 * config.bridge_time_s);
+    const auto bridged = nanoseconds(config.bridge_time_s);
     if (motion && stamp - motion->stamp() > bridged) motion.reset();
   }
 
@@ -174,7 +175,7 @@ struct ToolTracker::Implementation {
   MarkerDetector detector;
   std::optional<PoseMotion> motion;             ///< in the fixed frame
   std::vector<MarkerMeasurement> measurements;  ///< of the current frame; hypotheses point into it
-  Nanoseconds last_stamp = 0;
+  int pass = 0;                                 ///< of the last frame
   std::string reason = "no frame yet";
 };
 
@@ -187,8 +188,8 @@ std::optional<ToolObservation> ToolTracker::track(const RgbdFrame& frame, StageT
   Implementation& self = *implementation_;
   StageTimer unused;
   const auto stage = (timer != nullptr ? timer : &unused)->stage("Tool Tracking");
-  if (frame.stamp < self.last_stamp) reset();
-  self.last_stamp = frame.stamp;
+  if (frame.pass != self.pass) reset();
+  self.pass = frame.pass;
   self.forgetOldMotion(frame.stamp);
   std::optional<ToolObservation> observation = self.observe(frame);
   if (!observation) return self.bridge(frame);
@@ -202,7 +203,6 @@ const std::string& ToolTracker::reason() const { return implementation_->reason;
 
 void ToolTracker::reset() {
   implementation_->motion.reset();
-  implementation_->last_stamp = 0;
   implementation_->reason = "no frame yet";
 }
 

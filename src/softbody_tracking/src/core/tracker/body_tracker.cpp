@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +10,8 @@
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/same_matrix.h"
+#include "softbody_common/time.h"
 #include "targets/knn_targets.h"
 #include "targets/position_prior.h"
 #include "tracker/frame_observer.h"
@@ -18,6 +21,9 @@
 
 namespace softbody {
 namespace {
+
+// Without a state for this long the simulator is not running, or far too slow: a step takes milliseconds.
+constexpr Nanoseconds kLongestSilence = 1'000'000'000;
 
 std::string sizeText(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
@@ -38,15 +44,17 @@ struct BodyTracker::Implementation {
 
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
+  bool hasTopologies(const TetTopology& volume, const MeshTopology& surface) const;
   void reset();
 
   const TetTopology& model() const { return observer->surface().volume(); }
   std::uint32_t knownFeatures() const { return static_cast<std::uint32_t>(observer->features().size()); }
-  bool isAnswer(const MeshState* volume, Nanoseconds stamp) const;
+  bool isAnswer(const MeshState* volume) const;
   Points predict(const RgbdFrame& frame, const MeshState* answer);
   std::vector<Association> associationsOf(const Observation& seen,
                                           const Eigen::Matrix3d& R_camera_fixed) const;
   TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations) const;
+  TrackingStatus withSilence(TrackingStatus status) const;
   TargetSet targetSetOf(const RgbdFrame& frame, const Observation& seen,
                         const std::vector<Association>& associations, const MeshState* answer) const;
   void learnFeatures(const RgbdFrame& frame, const Observation& seen);
@@ -59,8 +67,10 @@ struct BodyTracker::Implementation {
   std::unique_ptr<RigidPrediction> prediction;
   std::unique_ptr<PositionPrior> hold;
   HeldPieces held;
-  std::vector<bool> moving;  ///< pieces whose velocity is known well enough to predict them; empty: all
-  Nanoseconds last_stamp = 0;
+  std::vector<bool> moving;     ///< pieces whose velocity is known well enough to predict them; empty: all
+  Nanoseconds stamp = 0;        ///< of the present frame
+  Nanoseconds last_answer = 0;  ///< stamp of the last state that was an answer
+  int pass = 0;                 ///< of the last frame
 };
 
 TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
@@ -101,8 +111,9 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
 TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const MeshState* volume,
                                                   StageTimer* timer) {
   if (observer == nullptr) return waiting("waiting for the topologies of simulator and surface");
-  if (frame.stamp < last_stamp) reset();
-  last_stamp = frame.stamp;
+  if (frame.pass != pass) reset();
+  pass = frame.pass;
+  stamp = frame.stamp;
   const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
   if (outcome == Relocalizer::Outcome::kNotFound)
     return waiting("the body was not found: nothing of its size and shape stands free in the depth image");
@@ -111,7 +122,8 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
 
   const auto scope = timer->stage("Feature-Point Tracking", just_found);
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
-  const MeshState* answer = !just_found && isAnswer(volume, frame.stamp) ? volume : nullptr;
+  const MeshState* answer = !just_found && isAnswer(volume) ? volume : nullptr;
+  if (answer != nullptr) last_answer = answer->observed;
   const Points predicted = transformed(predict(frame, answer), T_camera_fixed);
   const Observation seen = observer->observe(frame, predicted);
   relocalizer.setPose(frame.T_fixed_camera *
@@ -135,6 +147,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
 }
 
 void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
+  if (hasTopologies(volume, surface)) return;
   const bool edited = observer != nullptr && volume.revision > model().revision;
   if (edited) {
     knn.rebind(model(), volume);
@@ -150,18 +163,28 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   if (!edited) reset();
 }
 
+/// A node that starts again sends what is known.
+bool BodyTracker::Implementation::hasTopologies(const TetTopology& volume,
+                                                const MeshTopology& surface) const {
+  if (observer == nullptr) return false;
+  const MeshTopology& known = observer->surface().topology();
+  return volume.revision == model().revision && sameMatrix(volume.rest_vertices, model().rest_vertices) &&
+         sameMatrix(volume.tets, model().tets) && sameMatrix(surface.rest_vertices, known.rest_vertices) &&
+         sameMatrix(surface.triangles, known.triangles);
+}
+
 void BodyTracker::Implementation::reset() {
   relocalizer.reset();
   if (observer != nullptr) observer->reset();
   if (prediction != nullptr) prediction->reset();
-  last_stamp = 0;
+  last_answer = 0;
   moving.clear();
   held.reset();
   knn.reset();
 }
 
 /// Whether a state of the volume answers targets that were sent since the body was found.
-bool BodyTracker::Implementation::isAnswer(const MeshState* volume, Nanoseconds stamp) const {
+bool BodyTracker::Implementation::isAnswer(const MeshState* volume) const {
   return volume != nullptr && volume->observed >= relocalizer.foundAt() && volume->observed <= stamp &&
          volume->revision == model().revision && volume->vertices.rows() == model().rest_vertices.rows();
 }
@@ -203,6 +226,17 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
   TrackingStatus status = statusOf(seen, associations);
   if (status.state == TrackingState::kTracking && relocalizer.alike() > 1)
     status.reason = "tracked in one of " + std::to_string(relocalizer.alike()) + " poses that look alike";
+  return withSilence(std::move(status));
+}
+
+/// Without states of the simulator the prediction is a guess, however well the frame agrees with it.
+TrackingStatus BodyTracker::Implementation::withSilence(TrackingStatus status) const {
+  const Nanoseconds silence = stamp - std::max(last_answer, relocalizer.foundAt());
+  if (silence <= kLongestSilence || status.state == TrackingState::kLost) return status;
+  const std::string reason = fmt::format(
+      "no state from the simulator for {:.1f} s: it is not running, or too slow", seconds(silence));
+  status.state = TrackingState::kDegraded;
+  status.reason = status.reason.empty() ? reason : reason + "; " + status.reason;
   return status;
 }
 

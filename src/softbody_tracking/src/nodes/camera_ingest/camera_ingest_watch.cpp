@@ -27,7 +27,7 @@ CameraIngestWatch::CameraIngestWatch(ros::NodeHandle handle, const ros::NodeHand
                                      std::function<StreamTopics()> topics)
     : silence_timeout_s_(silence_timeout_s),
       topics_(std::move(topics)),
-      monitor_(pairing.exact ? 0 : pairing.tolerance, toNanoseconds(ros::Time(silence_timeout_s))),
+      monitor_(pairing.exact ? 0 : pairing.tolerance, nanoseconds(silence_timeout_s)),
       start_(ros::WallTime::now()),
       last_diagnosis_(start_),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
@@ -37,32 +37,32 @@ CameraIngestWatch::CameraIngestWatch(ros::NodeHandle handle, const ros::NodeHand
   timer_ = handle.createWallTimer(ros::WallDuration(kCheckPeriod_s), [this](const auto&) { check(); });
 }
 
-void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const ImageArrival& arrival) {
-  const double gap_s = 1e-9 * static_cast<double>(arrival.gap);
-  switch (arrival.kind) {
-    case ImageArrival::kUnstamped:
+void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const StampVerdict& verdict) {
+  switch (verdict.kind) {
+    case StampVerdict::kUnstamped:
       monitor_.noteUnstamped(stream);
-      return logDropped(stream, "an image without a stamp", "is dropped: its time is not known");
-    case ImageArrival::kLate:
-      return logDropped(
-          stream, "a late image",
-          fmt::format("is dropped: its stamp is {:.3f} s before that of the last image", -gap_s));
-    case ImageArrival::kRepeated:
-      return logDropped(stream, "a second image",
-                        fmt::format("with the stamp {:.6f} is dropped", stamp.toSec()));
-    case ImageArrival::kRestarted:
-      if (stream == Stream::kColor) ROS_INFO_STREAM("time jumped back by " << -gap_s << " s");
+      return logDropped(stream, "an image without a stamp", verdict);
+    case StampVerdict::kLate:
+      return logDropped(stream, "a late image", verdict);
+    case StampVerdict::kRepeated:
+      return logDropped(stream, fmt::format("a second image with the stamp {:.6f}", stamp.toSec()), verdict);
+    case StampVerdict::kOutlier:
+      return logDropped(stream, fmt::format("an image with the odd stamp {:.6f}", stamp.toSec()), verdict);
+    case StampVerdict::kJumpedBack:
+      if (stream == Stream::kColor)
+        ROS_INFO_STREAM("time jumped back by " << -seconds(verdict.gap) << " s: a new pass starts");
       monitor_.noteFrame();
       break;
-    case ImageArrival::kAccepted:
+    default:
       break;
   }
   monitor_.noteArrival(stream, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
 }
 
-void CameraIngestWatch::logDropped(Stream stream, const std::string& what, const std::string& why) {
+void CameraIngestWatch::logDropped(Stream stream, const std::string& what, const StampVerdict& verdict) {
   const std::string topic = topics_()[static_cast<std::size_t>(stream)].name;
-  throttle_.warn(topic + what, fmt::format("{}: {} {}", topic, what, why));
+  throttle_.warn(fmt::format("{} {}", topic, static_cast<int>(verdict.kind)),
+                 fmt::format("{}: {} is dropped: {}", topic, what, whyRefused(verdict)));
 }
 
 void CameraIngestWatch::noteInfo(const ros::Time& stamp) {
@@ -72,7 +72,7 @@ void CameraIngestWatch::noteInfo(const ros::Time& stamp) {
 void CameraIngestWatch::noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth) {
   ++frames_;
   last_frame_ = ros::Time::now();
-  latency_s_ = (last_frame_ - color.stamp).toSec();
+  latency_s_ = secondsBetween(color.stamp, last_frame_);
   color_frame_ = withoutSlash(color.frame_id);
   if (depth != nullptr) depth_frame_ = withoutSlash(depth->frame_id);
   monitor_.noteFrame();
@@ -87,7 +87,7 @@ void CameraIngestWatch::noteRefusal(const std::string& why) {
 double CameraIngestWatch::secondsWithoutFrame() const {
   // Before the first frame /clock itself may be missing. Later a paused bag is not silent.
   if (last_frame_.isZero()) return (ros::WallTime::now() - start_).toSec();
-  return (ros::Time::now() - last_frame_).toSec();
+  return secondsBetween(last_frame_, ros::Time::now());
 }
 
 bool CameraIngestWatch::isStarting() const {

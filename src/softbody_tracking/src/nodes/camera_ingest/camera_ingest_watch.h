@@ -25,7 +25,7 @@ class CameraIngestWatch {
                     std::function<StreamTopics()> topics);
 
   /// An image reached the pairer. Logs why it was dropped.
-  void noteImage(Stream stream, const ros::Time& stamp, const ImageArrival& arrival);
+  void noteImage(Stream stream, const ros::Time& stamp, const StampVerdict& verdict);
   void noteInfo(const ros::Time& stamp);
   /// @param depth null: the frame has no depth image.
   void noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth);
@@ -39,7 +39,7 @@ class CameraIngestWatch {
 
   void check();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void logDropped(Stream stream, const std::string& what, const std::string& why);
+  void logDropped(Stream stream, const std::string& what, const StampVerdict& verdict);
   double secondsWithoutFrame() const;
   bool isStarting() const;
   std::string silence() const;

@@ -17,11 +17,14 @@ constexpr int kBladeQueue = 100;  // blades that may arrive while one frame is t
 
 }  // namespace
 
-BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up) : look_up_(std::move(look_up)) {
+BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up)
+    : look_up_(std::move(look_up)), stamps_(handle.resolveName(topics::kToolBlade)) {
   subscriber_ = handle.subscribe(topics::kToolBlade, kBladeQueue, &BladeSubscriber::onBlade, this);
 }
 
 void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {
+  const StampVerdict verdict = stamps_.judge(message->header.stamp);
+  if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
   blades_.add(
       {toNanoseconds(message->header.stamp), message->header.frame_id, fromMessage(message->polygon)});
 }
@@ -45,7 +48,7 @@ RgbdFrame BladeSubscriber::withoutBlade(const RgbdFrame& frame) {
     ROS_WARN_STREAM_THROTTLE(
         5.0, fmt::format("the blade does not cover the body: its stamp is {:.1f} s ahead of the frame's. "
                          "Both must come from one clock",
-                         1e-9 * static_cast<double>(rejected.lead)));
+                         seconds(rejected.lead)));
   return mask_.withoutBlade(frame);
 }
 

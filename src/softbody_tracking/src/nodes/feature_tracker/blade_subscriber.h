@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 
+#include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tool/tool_mask.h"
 #include "tool/blade_buffer.h"
 
@@ -31,6 +32,7 @@ class BladeSubscriber {
   void onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message);
 
   PoseLookup look_up_;
+  StampGate stamps_;
   BladeBuffer blades_;
   ToolMask mask_;
   ros::Subscriber subscriber_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/same_matrix.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
@@ -18,7 +19,8 @@ void checkVertexCount(const MeshState& state, const TetTopology& topology) {
 
 }  // namespace
 
-BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker) : tracker_(tracker) {
+BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker)
+    : stamps_(handle.resolveName(topics::kVolumeState)), tracker_(tracker) {
   volume_subscriber_ = handle.subscribe(topics::kVolumeTopology, 1, &BodySubscriber::onVolumeTopology, this);
   surface_subscriber_ =
       handle.subscribe(topics::kSurfaceTopology, 1, &BodySubscriber::onSurfaceTopology, this);
@@ -27,10 +29,12 @@ BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker) : t
 
 void BodySubscriber::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) try {
   TetTopology topology = fromMessage(*message);
+  // A simulator whose body is not placed has no state: those that came are of an earlier simulation.
+  if (message->header.stamp.isZero()) clearStates();
   // The topology is sent again every second. Only a changed one counts.
-  const bool same = volume_ && topology.revision == volume_->revision &&
-                    topology.rest_vertices == volume_->rest_vertices && topology.tets == volume_->tets;
-  if (same) return;
+  if (volume_ && topology.revision == volume_->revision &&
+      sameMatrix(topology.rest_vertices, volume_->rest_vertices) && sameMatrix(topology.tets, volume_->tets))
+    return;
   volume_ = std::move(topology);
   adoptTopologies();
 } catch (const std::exception& error) {
@@ -39,10 +43,10 @@ void BodySubscriber::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr
 
 void BodySubscriber::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
   MeshTopology topology = fromMessage(*message);
-  const bool same = surface_ && topology.revision == surface_->revision &&
-                    topology.rest_vertices == surface_->rest_vertices &&
-                    topology.triangles == surface_->triangles;
-  if (same) return;
+  if (surface_ && topology.revision == surface_->revision &&
+      sameMatrix(topology.rest_vertices, surface_->rest_vertices) &&
+      sameMatrix(topology.triangles, surface_->triangles))
+    return;
   surface_ = std::move(topology);
   adoptTopologies();
 } catch (const std::exception& error) {
@@ -50,6 +54,10 @@ void BodySubscriber::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstP
 }
 
 void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) try {
+  if (message->observed > message->header.stamp)
+    throw std::invalid_argument("observed is after header.stamp");
+  const StampVerdict verdict = stamps_.judge(message->header.stamp);
+  if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
   newest_state_ = message;
   if (message->revision == adopted_revision_) {
     adopted_state_ = message;
@@ -57,8 +65,8 @@ void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) 
     adoptTopologies();
   }
 } catch (const std::exception& error) {
-  ROS_ERROR_STREAM_THROTTLE(
-      5.0, "the topologies of revision " << message->revision << " are unusable: " << error.what());
+  ROS_ERROR_STREAM_THROTTLE(5.0, "the state or the topologies of revision "
+                                     << message->revision << " are unusable: " << error.what());
 }
 
 /// Gives the tracker both topologies when their revisions are equal. After an edit it also waits for the

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 
 namespace softbody {
@@ -19,7 +20,8 @@ class BodySubscriber {
   /// @param tracker must outlive this.
   BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker);
 
-  /// The newest state with the tracker's topology. Empty before the first one, or if it is malformed.
+  /// The newest state with the tracker's topology. Empty before the first one, if it is malformed, and when
+  /// the simulator has started again.
   std::optional<MeshState> state() const;
 
   /// Forgets all states, for when time has jumped back.
@@ -31,6 +33,7 @@ class BodySubscriber {
   void onState(const softbody_msgs::MeshState::ConstPtr& message);
   void adoptTopologies();
 
+  StampGate stamps_;  ///< of the states
   BodyTracker* tracker_;
   std::optional<TetTopology> volume_;                                ///< newest topology
   std::optional<MeshTopology> surface_;                              ///< newest topology

@@ -5,6 +5,7 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/ros_parameters.h"
+#include "softbody_common/topics.h"
 #include "softbody_common/tracking_state.h"
 
 namespace softbody {
@@ -28,6 +29,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
     : output_frame_(parameters),
       tracker_(readTrackerConfig(parameters)),
       publisher_(handle, parameters.text("body_frame", "softbody")),
+      stamps_(handle.resolveName(topics::kRgbRect)),
       body_(handle, &tracker_),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
       set_pose_(private_handle.advertiseService("set_pose", &FeatureTrackerNode::onSetPose, this)),
@@ -55,6 +57,10 @@ bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
 }
 
 void FeatureTrackerNode::onFrame(const RectifiedImages& images) {
+  const StampVerdict verdict = stamps_.judge(images.color->header.stamp);
+  if (!verdict.accepted()) return;
+  if (verdict.kind == StampVerdict::kJumpedBack) forgetPass();
+  watchdog_.frameArrived();
   if (mask_synchronizer_) return mask_synchronizer_->addFrame(images);
   track(images, cv::Mat1b());
 }
@@ -62,10 +68,11 @@ void FeatureTrackerNode::onFrame(const RectifiedImages& images) {
 /// @param mask empty: all pixels count.
 void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& mask) try {
   const std_msgs::Header& header = images.color->header;
-  startFrame(header);
+  camera_frame_ = header.frame_id;
   const std::optional<Eigen::Isometry3d> T_fixed_camera = cameraPose(header);
   if (!T_fixed_camera) return;
   RgbdFrame frame = frameFromImages(images);
+  frame.pass = stamps_.pass();
   frame.T_fixed_camera = *T_fixed_camera;
   if (!mask.empty()) frame.depth = maskedDepth(frame.depth, mask);
   frame = blade_.withoutBlade(frame);
@@ -79,12 +86,11 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
                             "frame " << images.color->header.stamp << " cannot be tracked: " << error.what());
 }
 
-void FeatureTrackerNode::startFrame(const std_msgs::Header& header) {
-  // A bag has started again: states and blades from the end of it are invalid.
-  if (header.stamp < last_stamp_) body_.clearStates(), blade_.clear();
-  camera_frame_ = header.frame_id;
-  last_stamp_ = header.stamp;
-  watchdog_.frameArrived();
+/// A bag has started again: states, blades and frames from the end of it are invalid.
+void FeatureTrackerNode::forgetPass() {
+  body_.clearStates();
+  blade_.clear();
+  if (mask_synchronizer_) mask_synchronizer_->forgetFrames();
 }
 
 /// If tf does not know the camera's pose, the frame is skipped and the status says why.

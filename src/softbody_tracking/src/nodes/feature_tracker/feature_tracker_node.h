@@ -17,6 +17,7 @@
 #include "nodes/output_frame.h"
 #include "nodes/rectified_image_subscriber.h"
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 
 namespace softbody {
@@ -34,7 +35,7 @@ class FeatureTrackerNode {
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
   void track(const RectifiedImages& images, const cv::Mat1b& mask);
-  void startFrame(const std_msgs::Header& header);
+  void forgetPass();
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame, const TrackingResult& result);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
@@ -45,7 +46,7 @@ class FeatureTrackerNode {
   TrackingPublisher publisher_;
   TrackingStatus last_status_;
   std::string camera_frame_;  ///< of the last frame; empty before the first
-  ros::Time last_stamp_;      ///< of the last frame
+  StampGate stamps_;          ///< of the frames
   FrameWatchdog watchdog_;
 
   BodySubscriber body_;

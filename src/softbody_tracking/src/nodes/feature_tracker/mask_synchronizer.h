@@ -25,6 +25,8 @@ class MaskSynchronizer {
 
   MaskSynchronizer(ros::NodeHandle handle, double timeout_s, Callback callback);
   void addFrame(const RectifiedImages& images);
+  /// Forgets the frames that wait, for when time has jumped back.
+  void forgetFrames() { queue_.forgetFrames(); }
 
  private:
   void onMask(const sensor_msgs::ImageConstPtr& message);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "softbody_common/ros/ros_parameters.h"
+#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {
@@ -26,15 +27,18 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
     : output_frame_(parameters),
       tracker_(loadTool(parameters), readToolTrackerConfig(parameters)),
       publisher_(handle, tracker_.tool().blade, parameters.text("tool_frame", "tool")),
+      stamps_(handle.resolveName(topics::kRgbRect)),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
       diagnostics_(handle, private_handle, "tool", [this](auto& status) { diagnose(status); }) {
   warnUnknown(parameters);
 }
 
 void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
-  watchdog_.frameArrived();
   const std_msgs::Header& header = images.color->header;
   RgbdFrame frame = frameFromImages(images);
+  if (!stamps_.judge(header.stamp).accepted()) return;
+  frame.pass = stamps_.pass();
+  watchdog_.frameArrived();
   placeCamera(header, &frame);
   StageTimer timer;
   last_ = tracker_.track(frame, &timer);

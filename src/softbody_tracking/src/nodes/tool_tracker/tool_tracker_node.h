@@ -12,6 +12,7 @@
 #include "nodes/rectified_image_subscriber.h"
 #include "nodes/tool_tracker/tool_publisher.h"
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 
@@ -38,6 +39,7 @@ class ToolTrackerNode {
   ToolTracker tracker_;
   ToolPublisher publisher_;
   ToolDropoutMonitor dropouts_;
+  StampGate stamps_;                     ///< of the frames
   std::optional<ToolObservation> last_;  ///< of the last frame
   std::string frame_error_;              ///< why the last frame could not be used; empty: it could
   std::string tf_error_;  ///< why tf gave no pose of the camera for the last frame; empty: it did
