@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""A simulator that is killed and started again before a live camera: the status tells of it, and states come back."""
+import os
+import signal
+import sys
+import unittest
+import xmlrpc.client
+
+import rospy
+import rostest
+from softbody_msgs.msg import MeshState, Targets, TetTopology, TrackingStatus
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+SIMULATOR = "/softbody/simulator"
+FRAMES = 10
+MOST_FRAMES_TO_RECOVER = 20  # two seconds
+
+
+def process_of(node):
+    uri = rospy.get_master().lookupNode(node)[2]
+    return xmlrpc.client.ServerProxy(uri).getPid("/test")[2]
+
+
+class SimulatorRestart(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(softbody__volume__state=MeshState, softbody__volume__topology=TetTopology,
+                                softbody__surface__state=MeshState, softbody__status=TrackingStatus,
+                                softbody__targets=Targets)
+
+    def count(self, name):
+        return len(self.recorder.messages[name])
+
+    def wait_for_more(self, name, count=FRAMES):
+        before = self.count(name)
+        self.recorder.wait(lambda seen: len(seen[name]) >= before + count, f"{count} more messages on {name}")
+
+    def test_states_come_back(self):
+        self.wait_for_more("softbody/surface/state")
+        for _ in range(2):
+            topologies = self.count("softbody/volume/topology")
+            os.kill(process_of(SIMULATOR), signal.SIGKILL)
+            self.wait_for_silence()
+            before = self.count("softbody/status")
+            said = self.recorder.wait(
+                lambda seen: next((status for status in seen["softbody/status"][before:]
+                                   if "no state from the simulator" in status.reason), None), "a status that tells of it")
+            self.assertEqual(said.state, TrackingStatus.DEGRADED)
+            self.recorder.wait(lambda seen: len(seen["softbody/volume/topology"]) > topologies, "the new simulator")
+            targets = self.count("softbody/targets")
+            self.wait_for_more("softbody/volume/state", 1)
+            self.assertLess(self.count("softbody/targets") - targets, MOST_FRAMES_TO_RECOVER)
+            before = self.count("softbody/status")
+            self.wait_for_more("softbody/surface/state")
+            self.recorder.wait(lambda seen: any(status.state == TrackingStatus.TRACKING
+                                                for status in seen["softbody/status"][before:]), "TRACKING")
+
+    def wait_for_silence(self):
+        states = -1
+        while states != self.count("softbody/volume/state"):
+            states = self.count("softbody/volume/state")
+            self.wait_for_more("softbody/status", 3)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_simulator_restart")
+    rostest.rosrun("softbody_bringup", "test_simulator_restart", SimulatorRestart, sys.argv)
