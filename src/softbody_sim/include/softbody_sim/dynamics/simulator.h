@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "softbody_common/cut.h"
+#include "softbody_common/edit_history.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/dynamics/simulator_config.h"
@@ -54,9 +54,26 @@ class Simulator {
   /// Edits the topology. Positions, velocities and confidences are continuous. Targets of the last few
   /// revisions are still accepted. A patch that crosses no tet edge changes only the revision.
   /// @return false if the cut is refused; then nothing changes.
-  /// @param reason of the refusal: the cut is not for the next revision, or there is nothing to undo or redo.
+  /// @param reason of the refusal: the cut is not for the next revision, there is nothing to undo or redo, or
+  /// the body has too many cuts.
   /// @throw std::invalid_argument if the patch is not finite or has an invalid index.
   bool apply(const Cut& cut, std::string* reason);
+  /// Whether a cut would cut a tet. @param reason why not. @throw as apply does.
+  bool crosses(const Cut& cut, std::string* reason) const;
+
+  /// All edits since the uncut body.
+  const EditHistory& edits() const;
+  /// The body before all edits; its revision may be a later one.
+  const TetTopology& uncut() const;
+  /// Identifies the uncut body in edits().
+  void setBody(std::uint64_t body);
+  /// Makes the strokes that are in force in a history of the same uncut body, and can undo and redo its
+  /// strokes. Positions, velocities and confidences are continuous.
+  /// @throw std::invalid_argument as apply does; nothing has changed.
+  void adopt(const EditHistory& edits);
+  /// Number of strokes whose undo or redo has to cut the body again, because undo_memory_mb was full.
+  std::size_t droppedVersions() const;
+
   /// Converts targets of one of the last few revisions to the current one; other targets stay as they are. To
   /// keep targets through many edits, convert them after each edit.
   TargetSet toCurrentRevision(TargetSet targets) const;

@@ -33,6 +33,7 @@ struct SimulatorConfig {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   double contact_stiffness = 20.0;  ///< pressure at a depth of one mean edge length, in units of E
   double contact_spacing = 0.5;     ///< of the contact points on the surface [mean edge lengths]
+  double undo_memory_mb = 40.0;     ///< as in CuttingConfig
 };
 
 /// Maximum of weight times target_stiffness, in units of E * mean edge length. With stiffer targets, the

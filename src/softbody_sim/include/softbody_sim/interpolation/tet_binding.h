@@ -20,6 +20,9 @@ class TetBinding {
   const std::vector<MaterialPoint>& places() const { return places_; }
   void setRevision(std::uint32_t revision) { volume_.revision = revision; }
 
+  /// Memory.
+  std::size_t bytes() const;
+
   /// Makes corrections: the points are at `positions` when the vertices of the volume are at `vertices`.
   void correctTo(const Points& vertices, const Points& positions);
 

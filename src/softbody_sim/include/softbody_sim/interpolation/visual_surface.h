@@ -28,7 +28,10 @@ class VisualSurface {
   /// Sets the revision of mesh and binding.
   void setRevision(std::uint32_t revision);
 
-  /// Number of visual vertices that lie outside the low-resolution surface by more than a rounding error.
+  /// Memory without the weights, which copies share.
+  std::size_t bytes() const;
+
+    /// Number of visual vertices that lie outside the low-resolution surface by more than a rounding error.
   int outsideCount() const;
 
   /// Visual vertices, and their confidences, for a state of the volume.

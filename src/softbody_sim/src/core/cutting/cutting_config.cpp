@@ -8,6 +8,8 @@ CuttingConfig readCuttingConfig(Parameters& parameters) {
   config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
   config.max_gap_s = parameters.number("max_gap_s", config.max_gap_s, 0.0, 60.0);
   config.tear_strain = parameters.number("tear_strain", config.tear_strain, 0.0, 100.0);
+  config.max_pieces = parameters.integer("max_pieces", config.max_pieces, 1, 100000);
+  config.undo_memory_mb = parameters.number("undo_memory_mb", config.undo_memory_mb, 0.0, 1e5);
   return config;
 }
 

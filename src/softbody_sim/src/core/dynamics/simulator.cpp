@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cutting/volume/edited_volume.h"
+#include "cutting/volume/undo_versions.h"
 #include "dynamics/body_model.h"
 #include "dynamics/body_state.h"
 #include "dynamics/direct_deformation.h"
@@ -30,6 +31,9 @@ struct Simulator::Implementation {
   Implementation(const TetTopology& topology, const Material& material_in, const SimulatorConfig& config_in);
 
   void setTopology(const TetTopology& topology);
+  std::size_t undoBytes() const { return static_cast<std::size_t>(1e6 * config.undo_memory_mb); }
+  /// Takes over an edited volume and the body in its shape.
+  void setEdited(EditedVolume edited, BodyState next);
   /// The targets for the present revision. @param storage holds them if they were for an earlier one.
   const TargetSet& toCurrentRevision(const TargetSet& targets, TargetSet* storage) const;
   void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
@@ -59,7 +63,7 @@ Simulator::Implementation::Implementation(const TetTopology& topology, const Mat
       material(material_in),
       config(config_in),
       edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
-      volume(topology),
+      volume(topology, undoBytes()),
       integrator(config_in, material_in.damping) {
   setTopology(topology);
 }
@@ -190,10 +194,18 @@ void Simulator::reset() {
   Implementation& s = *implementation_;
   s.body = {};
   if (s.model->topology.revision != s.uncut.revision) {
-    s.volume = EditedVolume(s.uncut);
+    s.volume = EditedVolume(s.uncut, s.undoBytes());
     s.setTopology(s.uncut);
   }
   s.body.mesh.revision = s.uncut.revision;
+}
+
+void Simulator::Implementation::setEdited(EditedVolume edited, BodyState next_body) {
+  setTopology(edited.topology());
+  if (next_body.placed) model->load_estimator.balance(next_body.mesh.vertices, &next_body.loads);
+  next_body.mesh.revision = edited.topology().revision;
+  volume = std::move(edited);
+  body = std::move(next_body);
 }
 
 bool Simulator::apply(const Cut& cut, std::string* reason) {
@@ -203,12 +215,37 @@ bool Simulator::apply(const Cut& cut, std::string* reason) {
   if (!edit) return false;
   BodyState next = s.body;
   if (next.placed) transferToEdit(*edit, s.model->topology.tets, &next);
-  s.setTopology(edit->topology);
-  if (next.placed) s.model->load_estimator.balance(next.mesh.vertices, &next.loads);
-  next.mesh.revision = edit->topology.revision;
-  s.volume = std::move(edited);
-  s.body = std::move(next);
+  s.setEdited(std::move(edited), std::move(next));
   return true;
+}
+
+bool Simulator::crosses(const Cut& cut, std::string* reason) const {
+  return implementation_->volume.crosses(cut, reason);
+}
+
+const EditHistory& Simulator::edits() const { return implementation_->volume.history().edits(); }
+
+const TetTopology& Simulator::uncut() const { return implementation_->uncut; }
+
+void Simulator::setBody(std::uint64_t body) { implementation_->volume.setBody(body); }
+
+std::size_t Simulator::droppedVersions() const {
+  return softbody::droppedVersions(implementation_->volume.history());
+}
+
+void Simulator::adopt(const EditHistory& edits) {
+  Implementation& s = *implementation_;
+  EditedVolume edited = s.volume;
+  BodyState next = s.body;
+  for (const Cut& cut : editsBetween(edited.history().edits(), edits)) {
+    const Tets before = edited.topology().tets;
+    std::string reason;
+    const std::optional<TetEdit> edit = edited.apply(cut, &reason);
+    if (!edit) throw std::invalid_argument(reason);
+    if (next.placed) transferToEdit(*edit, before, &next);
+  }
+  edited.take(edits);
+  s.setEdited(std::move(edited), std::move(next));
 }
 
 TargetSet Simulator::toCurrentRevision(TargetSet targets) const {

@@ -45,6 +45,7 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.contact_stiffness = parameters.number("contact_stiffness", config.contact_stiffness, 1e-3, 1e4);
   config.contact_spacing = parameters.number("contact_spacing", config.contact_spacing, 0.1, 100.0);
   config.max_time_step_s = parameters.number("max_time_step_s", config.max_time_step_s, 1e-3, 10.0);
+  config.undo_memory_mb = parameters.number("undo_memory_mb", config.undo_memory_mb, 0.0, 1e5);
   const std::vector<double> gravity = parameters.numbers("gravity_m_s2", {0.0, 0.0, 0.0});
   config.gravity = {gravity[0], gravity[1], gravity[2]};
   requireConsistent(config);

@@ -113,6 +113,14 @@ class TetBinding::Corrector {
   std::map<int, std::vector<int>> neighbours_;  ///< of flat tets
 };
 
+std::size_t TetBinding::bytes() const {
+  const std::size_t indices = static_cast<std::size_t>(volume_.tets.size() + volume_.surface.size()) +
+                              volume_.vertex_parents.size() + volume_.tet_pieces.size();
+  const std::size_t doubles = static_cast<std::size_t>(volume_.rest_vertices.size()) + strains_.size();
+  return indices * sizeof(int) + doubles * sizeof(double) + places_.size() * sizeof(MaterialPoint) +
+         corrections_.size() * sizeof(Correction);
+}
+
 void TetBinding::correctTo(const Points& vertices, const Points& positions) {
   strains_ = squaredStrains(vertices);
   corrections_.resize(places_.size());

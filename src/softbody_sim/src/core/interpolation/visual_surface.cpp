@@ -68,6 +68,15 @@ void VisualSurface::setRevision(std::uint32_t revision) {
   binding_.setRevision(revision);
 }
 
+std::size_t VisualSurface::bytes() const {
+  const auto coordinates =
+      static_cast<std::size_t>(visual_.rest_vertices.size() + visual_.texture_coordinates.size());
+  const std::size_t indices = static_cast<std::size_t>(visual_.triangles.size()) +
+                              visual_.vertex_parents.size() + visual_.triangle_pieces.size() +
+                              surface_vertices_.size() + inside_.size() + by_tet_.size();
+  return coordinates * sizeof(double) + indices * sizeof(int) + visual_.cut.size() / 8 + binding_.bytes();
+}
+
 int VisualSurface::outsideCount() const {
   constexpr double kRounding =
       1e-5;  // over the height of a tet; above the error of single-precision coordinates

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/cut.h"
+#include "softbody_common/edit_history.h"
 #include "softbody_sim/cutting/cutting_config.h"
 #include "softbody_sim/interpolation/visual_surface.h"
 
@@ -31,11 +31,25 @@ class CuttableSurface {
 
   const VisualSurface& surface() const;
   const TetTopology& volume() const;
+  /// The tets before all edits; their revision may be a later one.
+  const TetTopology& uncutVolume() const;
+  /// All edits since the uncut body.
+  const EditHistory& edits() const;
+  /// Identifies the uncut body in edits().
+  void setBody(std::uint64_t body);
+  /// Number of strokes whose undo or redo has to cut the body again, because undo_memory_mb was full.
+  std::size_t droppedVersions() const;
+
+  /// Makes the strokes that are in force in a history of the same uncut body, and can undo and redo its
+  /// strokes. The visual mesh may then differ from the one that was cut while it moved, by less than the
+  /// bending within a tet. @throw std::invalid_argument if the patches are not usable; nothing has changed.
+  void adopt(const EditHistory& edits);
 
   /// Cuts along the motion of the blade since the last call. @return the cut that was made, if any.
   /// @param blade polygon in the frame of the volume's state, the same in every call [m].
   /// @param volume state of the volume at that time. If its revision differs, nothing is cut.
   /// @param stamp of the blade. Motion across a gap or a jump back in time cuts nothing.
+  /// @throw std::invalid_argument if the stroke is too long, or the cut would leave too many pieces.
   std::optional<Cut> follow(const Points& blade, const MeshState& volume, Nanoseconds stamp);
 
   /// To be called when the blade is not seen.
@@ -53,7 +67,8 @@ class CuttableSurface {
 
   /// Makes a cut. If it returns false, with a `reason`, or throws, nothing has changed. @param volume state
   /// of the volume before the cut; in this state the cut does not move the visual mesh. @throw
-  /// std::invalid_argument if the patch is not an oriented surface.
+  /// std::invalid_argument if the patch is not an oriented surface, or the cut would leave
+  /// too many pieces.
   bool apply(const Cut& cut, const MeshState& volume, std::string* reason);
 
   /// To be called when the simulator has reached this revision. It frees the memory of earlier revisions, so
@@ -64,7 +79,7 @@ class CuttableSurface {
   /// @return false, without any change, if the revision is in the future or earlier than a confirmed one.
   bool rollBack(std::uint32_t revision);
 
-  /// The result of separateCut(patch). @throw std::invalid_argument if the patch is not an oriented surface.
+  /// The result of separateCut(patch). @throw std::invalid_argument as apply.
   CutPreview preview(const TriangleMesh& patch) const;
 
  private:

@@ -1,6 +1,8 @@
 #include "cutting/volume/cut_history.h"
 
 #include <algorithm>
+#include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace softbody {
@@ -45,12 +47,13 @@ TetEdit composed(const TetTopology& start, const TetEdit& first, TetEdit second)
   return second;
 }
 
-/// The inverse of a cut. Cuts keep the indices of vertices, so every earlier vertex still exists.
-TetEdit inverted(const TetEdit& cut, const TetEdit& before) {
-  TetEdit edit{before.topology, before.cut, {}, {}};
-  edit.vertex_origins = placesOfVertices(cut.topology);
-  edit.vertex_origins.resize(static_cast<std::size_t>(before.topology.rest_vertices.rows()));
-  for (const int parent : parentsOf(cut)) edit.successors.push_back({parent});
+/// The edit back to an earlier version. Cuts keep the indices of vertices, so every earlier vertex still
+/// exists. @param parents per tet of the later topology, the earlier tet that contains it.
+TetEdit inverted(const TetTopology& later, const std::vector<int>& parents, const TetEdit& earlier) {
+  TetEdit edit{earlier.topology, earlier.cut, {}, {}};
+  edit.vertex_origins = placesOfVertices(later);
+  edit.vertex_origins.resize(static_cast<std::size_t>(earlier.topology.rest_vertices.rows()));
+  for (const int parent : parents) edit.successors.push_back({parent});
   return edit;
 }
 
@@ -61,11 +64,41 @@ TetEdit unchanged(const TetTopology& topology, const std::vector<bool>& cut) {
   return edit;
 }
 
+template <typename Element>
+std::size_t bytesOf(const std::vector<Element>& elements) {
+  return elements.size() * sizeof(Element);
+}
+
+std::size_t bytesOf(const TetEdit& edit) {
+  const TetTopology& t = edit.topology;
+  std::size_t bytes = static_cast<std::size_t>(t.rest_vertices.size()) * sizeof(double) +
+                      static_cast<std::size_t>(t.tets.size() + t.surface.size()) * sizeof(int) +
+                      bytesOf(t.vertex_parents) + bytesOf(t.tet_pieces) + edit.cut.size() / 8 +
+                      bytesOf(edit.vertex_origins) + bytesOf(edit.successors);
+  constexpr std::size_t kAllocation = 16;  // overhead of each
+  for (const std::vector<int>& successors : edit.successors) bytes += bytesOf(successors) + kAllocation;
+  return bytes;
+}
+
 }  // namespace
 
 CutHistory::CutHistory(const TetTopology& uncut, const SubdivisionSettings& settings) : settings_(settings) {
   const std::vector<bool> none(static_cast<std::size_t>(uncut.surface.rows()), false);
-  versions_.push_back(std::make_shared<TetEdit>(unchanged(uncut, none)));
+  std::vector<int> own(static_cast<std::size_t>(uncut.tets.rows()));
+  std::iota(own.begin(), own.end(), 0);
+  versions_.push_back(makeVersion(unchanged(uncut, none), std::move(own)));
+  edits_.revision = uncut.revision;
+}
+
+std::shared_ptr<const CutHistory::Version> CutHistory::makeVersion(TetEdit edit,
+                                                                   std::vector<int> uncut_tets) {
+  const std::size_t bytes = bytesOf(edit) + bytesOf(uncut_tets);
+  return std::make_shared<Version>(Version{std::move(edit), std::move(uncut_tets), bytes});
+}
+
+std::shared_ptr<const TetEdit> CutHistory::version() const {
+  const std::shared_ptr<const Version>& version = versions_[edits_.in_force];
+  return {version, &version->edit};
 }
 
 CutStroke CutHistory::strokeFor(std::uint32_t number) const {
@@ -81,26 +114,26 @@ std::optional<TetEdit> CutHistory::preview(const CutPatch& patch, std::uint32_t 
 std::optional<TetEdit> CutHistory::grow(const CutPatch& patch, std::uint32_t stroke, std::string* reason) {
   CutStroke grown = strokeFor(stroke);
   std::optional<TetEdit> edit = cutTets(topology(), cut(), patch, settings_, &grown, reason);
-  stroke_has_version_ = stroke_has_version_ && stroke_number_ == stroke;
+  edits_.is_open = edits_.is_open && stroke_number_ == stroke;
   stroke_ = std::move(grown);
   stroke_number_ = stroke;
   return edit;
 }
 
-void CutHistory::record(const TetEdit& edit) {
-  versions_.resize(at_ + 1);
-  if (stroke_has_version_) {
-    versions_[at_] = std::make_shared<TetEdit>(composed(versions_[at_ - 1]->topology, *versions_[at_], edit));
-  } else {
-    versions_.push_back(std::make_shared<TetEdit>(edit));
-    ++at_;
-    stroke_has_version_ = true;
-  }
+void CutHistory::record(const TetEdit& edit, const CutPatch& patch) {
+  std::vector<int> uncut_tets = parentsOf(edit);
+  for (int& tet : uncut_tets) tet = present().uncut_tets[static_cast<std::size_t>(tet)];
+  TetEdit whole = edit;
+  if (edits_.is_open)
+    whole = composed(versions_[edits_.in_force - 1]->edit.topology, present().edit, std::move(whole));
+  addEdit({edit.topology.revision, *stroke_number_, CutKind::kCut, patch}, &edits_);
+  versions_.resize(edits_.in_force);
+  versions_.push_back(makeVersion(std::move(whole), std::move(uncut_tets)));
 }
 
 std::optional<TetEdit> CutHistory::cut(const CutPatch& patch, std::uint32_t stroke, std::string* reason) {
   std::optional<TetEdit> edit = grow(patch, stroke, reason);
-  if (edit) record(*edit);
+  if (edit) record(*edit, patch);
   return edit;
 }
 
@@ -111,37 +144,78 @@ TetEdit CutHistory::cutOrAdvance(const CutPatch& patch, std::uint32_t stroke) {
     edit = unchanged(topology(), cut());
     ++edit->topology.revision;
   }
-  record(*edit);
+  record(*edit, patch);
   return *edit;
 }
 
-std::optional<TetEdit> CutHistory::undo() { return at_ == 0 ? std::nullopt : moveTo(at_ - 1); }
-
-std::optional<TetEdit> CutHistory::redo() {
-  return at_ + 1 == versions_.size() ? std::nullopt : moveTo(at_ + 1);
+std::optional<TetEdit> CutHistory::undo() {
+  return edits_.in_force == 0 ? std::nullopt : moveTo(edits_.in_force - 1, CutKind::kUndo);
 }
 
-std::optional<TetEdit> CutHistory::reset() { return at_ == 0 ? std::nullopt : moveTo(0); }
+std::optional<TetEdit> CutHistory::redo() {
+  return edits_.in_force == edits_.strokes.size() ? std::nullopt
+                                                  : moveTo(edits_.in_force + 1, CutKind::kRedo);
+}
 
-std::optional<TetEdit> CutHistory::moveTo(std::size_t version) {
-  const std::uint32_t revision = topology().revision + 1;
-  TetEdit edit;
-  if (version > at_) {
-    edit = *versions_[version];
-  } else {
-    TetEdit cuts = *versions_[version + 1];
-    for (std::size_t v = version + 2; v <= at_; ++v)
-      cuts = composed(versions_[version]->topology, cuts, *versions_[v]);
-    edit = inverted(cuts, *versions_[version]);
-  }
-  at_ = version;
-  TetEdit renumbered = *versions_[at_];
-  renumbered.topology.revision = edit.topology.revision = revision;
-  versions_[at_] = std::make_shared<TetEdit>(std::move(renumbered));
+std::optional<TetEdit> CutHistory::reset() {
+  return edits_.in_force == 0 ? std::nullopt : moveTo(0, CutKind::kReset);
+}
+
+std::optional<TetEdit> CutHistory::moveTo(std::size_t version, CutKind kind) {
+  if (!has(version)) throw std::logic_error("the version of an undo or redo was dropped");
+  TetEdit edit = versions_[version]->edit;
+  if (kind == CutKind::kUndo) edit = inverted(topology(), parentsOf(present().edit), edit);
+  if (kind == CutKind::kReset) edit = inverted(topology(), present().uncut_tets, edit);
+  edit.topology.revision = edits_.revision + 1;
+  addEdit({edit.topology.revision, 0, kind, {}}, &edits_);
+  setRevision(edit.topology.revision);
+  closeStroke();
+  return edit;
+}
+
+void CutHistory::setRevision(std::uint32_t revision) {
+  edits_.revision = revision;
+  if (topology().revision == revision) return;
+  auto renumbered = std::make_shared<Version>(present());
+  renumbered->edit.topology.revision = revision;
+  versions_[edits_.in_force] = std::move(renumbered);
+}
+
+void CutHistory::closeStroke() {
   stroke_ = {};
   stroke_number_.reset();
-  stroke_has_version_ = false;
-  return edit;
+  edits_.is_open = false;
+}
+
+void CutHistory::take(const EditHistory& edits) {
+  if (!sameEdits(edits_, edits)) {
+    if (!edits.is_open) closeStroke();
+    versions_.resize(edits_.in_force + 1);
+    versions_.resize(edits.strokes.size() + 1);
+  }
+  edits_ = edits;
+  setRevision(edits.revision);
+}
+
+CutHistory CutHistory::upTo(std::size_t version) const {
+  CutHistory copy = *this;
+  copy.closeStroke();
+  copy.versions_.resize(version + 1);
+  copy.edits_.strokes.resize(version);
+  copy.edits_.in_force = version;
+  copy.edits_.revision = copy.topology().revision;
+  return copy;
+}
+
+void CutHistory::cutStroke(const Stroke& stroke) {
+  for (const CutPatch& patch : stroke.patches) cutOrAdvance(patch, stroke.number);
+  closeStroke();
+}
+
+void CutHistory::takeVersions(const CutHistory& other) {
+  for (std::size_t k = 0; k < std::min(versions_.size(), other.versions_.size()); ++k) {
+    if (!versions_[k]) versions_[k] = other.versions_[k];
+  }
 }
 
 }  // namespace softbody

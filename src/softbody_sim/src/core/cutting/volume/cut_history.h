@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cutting/volume/tet_cutter.h"
+#include "softbody_common/edit_history.h"
 
 namespace softbody {
 
@@ -16,12 +17,16 @@ class CutHistory {
  public:
   explicit CutHistory(const TetTopology& uncut, const SubdivisionSettings& settings = {});
 
-  const TetTopology& topology() const { return versions_[at_]->topology; }
+  const TetTopology& topology() const { return present().edit.topology; }
   /// Per triangle of the topology's surface: true if it was inside the uncut body.
-  const std::vector<bool>& cut() const { return versions_[at_]->cut; }
+  const std::vector<bool>& cut() const { return present().edit.cut; }
   /// The topology and the edit that made it from the previous version. The uncut body has an edit without
   /// changes.
-  std::shared_ptr<const TetEdit> version() const { return versions_[at_]; }
+  std::shared_ptr<const TetEdit> version() const;
+  /// The uncut body; its revision may be a later one.
+  const TetTopology& uncut() const { return versions_.front()->edit.topology; }
+  /// All edits since the uncut body.
+  const EditHistory& edits() const { return edits_; }
 
   /// Cuts along a patch. A new stroke begins if the stroke number differs from that of the last call. After
   /// undo, redo or reset, any number begins a new stroke. If there is no edit, only the progress of the
@@ -36,24 +41,45 @@ class CutHistory {
   /// The result of cut, without changing anything.
   std::optional<TetEdit> preview(const CutPatch& patch, std::uint32_t stroke, std::string* reason) const;
 
-  std::optional<TetEdit> undo();   ///< nothing if there is no stroke to undo
-  std::optional<TetEdit> redo();   ///< nothing if there is no stroke to redo
+  /// Nothing if there is no stroke to undo or redo. @throw std::logic_error if the version was dropped.
+  std::optional<TetEdit> undo();
+  std::optional<TetEdit> redo();
   std::optional<TetEdit> reset();  ///< to the uncut body; strokes can be redone one by one
 
+  /// Takes over revision, body and undone strokes of a history with the same strokes in force.
+  void take(const EditHistory& edits);
+  void setBody(std::uint64_t body) { edits_.body = body; }
+
+  // The versions, as undo_versions.h uses them.
+  bool has(std::size_t version) const { return versions_[version] != nullptr; }
+  std::size_t bytes(std::size_t version) const { return versions_[version]->bytes; }
+  void drop(std::size_t version) { versions_[version].reset(); }
+  CutHistory upTo(std::size_t version) const;
+  void cutStroke(const Stroke& stroke);
+  void closeStroke();
+  void takeVersions(const CutHistory& other);
+
  private:
+  struct Version {
+    TetEdit edit;                 ///< of the previous version
+    std::vector<int> uncut_tets;  ///< per tet, the tet of the uncut body that contains it
+    std::size_t bytes = 0;
+  };
+  static std::shared_ptr<const Version> makeVersion(TetEdit edit, std::vector<int> uncut_tets);
+
+  const Version& present() const { return *versions_[edits_.in_force]; }
   CutStroke strokeFor(std::uint32_t number) const;
   std::optional<TetEdit> grow(const CutPatch& patch, std::uint32_t stroke, std::string* reason);
-  void record(const TetEdit& edit);
-  std::optional<TetEdit> moveTo(std::size_t version);
+  void record(const TetEdit& edit, const CutPatch& patch);
+  std::optional<TetEdit> moveTo(std::size_t version, CutKind kind);
+  void setRevision(std::uint32_t revision);
 
   SubdivisionSettings settings_;
-  /// The uncut body, then one version per stroke, as an edit of the previous one. Copies of the history share
-  /// them.
-  std::vector<std::shared_ptr<const TetEdit>> versions_;
-  std::size_t at_ = 0;
+  EditHistory edits_;
+  /// The uncut body, then one version per stroke; null: dropped. Copies of the history share them.
+  std::vector<std::shared_ptr<const Version>> versions_;
   CutStroke stroke_;
   std::optional<std::uint32_t> stroke_number_;  ///< of stroke_
-  bool stroke_has_version_ = false;
 };
 
 }  // namespace softbody

@@ -1,9 +1,9 @@
 #include "cutting/volume/edited_volume.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
+
+#include "cutting/volume/undo_versions.h"
 
 namespace softbody {
 namespace {
@@ -31,41 +31,43 @@ std::vector<Target> mapped(std::vector<Target> targets, const TetTopology& befor
 }  // namespace
 
 std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string* reason) {
-  const std::uint32_t revision = history->topology().revision;
-  if (cut.revision != revision + 1) {
-    *reason = fmt::format("its revision is {}, but the body is at revision {}", cut.revision, revision);
-    return std::nullopt;
-  }
-  std::optional<TetEdit> edit;
+  *reason = refusalOf(cut, history->edits());
+  if (!reason->empty()) return std::nullopt;
   switch (cut.kind) {
     case CutKind::kCut:
       return history->cutOrAdvance(cut.patch, cut.stroke);
     case CutKind::kUndo:
-      edit = history->undo();
-      if (!edit) *reason = "there is no cut to undo";
-      return edit;
+      return history->undo();
     case CutKind::kRedo:
-      edit = history->redo();
-      if (!edit) *reason = "there is no cut to redo";
-      return edit;
+      return history->redo();
     case CutKind::kReset:
-      edit = history->reset();
-      if (!edit) *reason = "the body is not cut";
-      return edit;
+      return history->reset();
   }
-  *reason = "its kind is unknown";
   return std::nullopt;
 }
 
-EditedVolume::EditedVolume(const TetTopology& uncut) : history_(uncut) {}
+EditedVolume::EditedVolume(const TetTopology& uncut, std::size_t undo_bytes)
+    : undo_bytes_(undo_bytes), history_(uncut) {}
 
 std::optional<TetEdit> EditedVolume::apply(const Cut& cut, std::string* reason) {
+  const std::size_t version = versionAfter(cut, history_.edits());
+  if (!history_.has(version)) restoreVersion(version, undo_bytes_, &history_);
   std::shared_ptr<const TetEdit> before = history_.version();
   std::optional<TetEdit> edit = applyCut(cut, &history_, reason);
   if (!edit) return edit;
   recent_.push_back({std::move(before), std::make_shared<TetEdit>(*edit)});
   if (recent_.size() > kRemembered) recent_.pop_front();
+  dropVersions(undo_bytes_, &history_);
   return edit;
+}
+
+bool EditedVolume::crosses(const Cut& cut, std::string* reason) const {
+  return history_.preview(cut.patch, cut.stroke, reason).has_value();
+}
+
+void EditedVolume::take(const EditHistory& edits) {
+  if (edits.revision != topology().revision) recent_.clear();
+  history_.take(edits);
 }
 
 TargetSet EditedVolume::toCurrentRevision(TargetSet targets) const {
