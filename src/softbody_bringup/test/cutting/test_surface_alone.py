@@ -104,6 +104,29 @@ class SurfaceAlone(unittest.TestCase):
         stamps = [message.header.stamp for message in self.recorder.messages["softbody/surface/state"]]
         self.assertNotIn(rospy.Time(20), stamps)
 
+    def test_publishes_a_state_that_came_before_its_topology(self):
+        state = MeshState(vertices=points32(self.corners), confidence=[1.0] * 8, revision=7)
+        state.header.stamp = rospy.Time(22)
+        self.state_publisher.publish(state)
+        rospy.sleep(0.5)  # two topics have no common order
+        later = copy.deepcopy(self.topology)
+        later.revision = 7
+        self.topology_publisher.publish(later)
+        answer = self.recorder.wait(
+            lambda seen: next((s for s in seen["softbody/surface/state"] if s.header.stamp == state.header.stamp), None),
+            "the state that was held")
+        self.assertEqual(answer.revision, 7)
+        self.topology_publisher.publish(self.topology)
+        self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 0, "revision 0 again")
+
+    def test_refuses_a_volume_without_surface(self):
+        bare = copy.deepcopy(self.topology)
+        bare.revision, bare.surface_triangles = 1, []
+        self.topology_publisher.publish(bare)
+        self.recorder.wait_for_log("/softbody/surface", "surface_triangles is empty", Log.ERROR)
+        self.assertEqual(self.surface_for(self.corners, 23).revision, 0)
+        self.topology_publisher.publish(self.topology)
+
     def test_publishes_an_edit_with_its_first_state(self):
         edited = copy.deepcopy(self.topology)
         edited.revision, edited.header.stamp = 1, rospy.Time(40)

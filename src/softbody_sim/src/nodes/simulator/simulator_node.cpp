@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/tet_topology_check.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
@@ -31,12 +31,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       simulator_(makeSimulator(object.model, options.simulator, &timer_)),
       surroundings_(node, options.obstacles, options.pins),
       stamps_(node.resolveName(topics::kTargets)),
-      publisher_(node, options.body_frame, object.model.volume),
+      publisher_(node, options.body_frame),
       diagnostics_(node, private_node, &simulator_, &surroundings_) {
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
+  publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   targets_subscriber_ = node.subscribe(topics::kTargets, 1, &SimulatorNode::onTargets, this, hints);
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SimulatorNode::onCut, this, hints);
+  edits_subscriber_ = node.subscribe(topics::kSurfaceCuts, 1, &SimulatorNode::onSurfaceEdits, this, hints);
   pin_subscriber_ = node.subscribe(topics::kPin, 10, &SimulatorNode::onPin, this);
   if (options.free_run_rate_hz > 0.0) {
     free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
@@ -86,7 +88,7 @@ void SimulatorNode::restart() {
   simulator_.reset();
   surroundings_.updatePins(simulator_.topology().rest_vertices, {});
   last_ = {};
-  publisher_.publishTopology(simulator_.topology(), {});
+  keepOwnBody();
 }
 
 /// Without images nobody knows whether the hands that deform the body are gone. So the last targets stay.
@@ -107,7 +109,10 @@ void SimulatorNode::onFreeRun() {
   publishState(header);
 }
 
+/// The surface decides on cuts, because only it knows whether the visual mesh can be cut. Its edits come with
+/// its history. Without it, the tets decide.
 void SimulatorNode::onCut(const softbody_msgs::CutConstPtr& message) {
+  if (edits_subscriber_.getNumPublishers() > 0) return;
   if (message->revision <= simulator_.topology().revision) return;  // sent again
   std::string reason;
   try {
@@ -120,13 +125,61 @@ void SimulatorNode::onCut(const softbody_msgs::CutConstPtr& message) {
 
 bool SimulatorNode::applyCut(const softbody_msgs::Cut& message, std::string* reason) {
   const auto scope = timer_.stage("Cutting");
-  if (!simulator_.apply(fromMessage(message), reason)) return false;
+  const Cut cut = fromMessage(message);
+  if (cut.kind == CutKind::kCut && !simulator_.crosses(cut, reason)) return false;
+  if (!simulator_.apply(cut, reason)) return false;
+  if (simulator_.edits().body == 0) simulator_.setBody(ros::WallTime::now().toNSec());
+  publishEdited(message.header.stamp);
+  return true;
+}
+
+/// Follows the surface. Where the two nodes disagree, the surface follows the simulator. But a simulator that
+/// has just started has nothing to say.
+void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message) {
+  const EditHistory& own = simulator_.edits();
+  const bool is_new = own.body == 0;
+  if (message->body == 0 || (!is_new && message->body != own.body)) return;
+  if (!is_new && message->revision <= own.revision) return;
+  try {
+    const auto scope = timer_.stage("Cutting");
+    if (adopt(fromMessage(*message))) return publishEdited(message->header.stamp);
+    ROS_WARN("the cuts of the surface are not made: they are of another object");
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM("the cuts of the surface up to revision " << message->revision
+                                                              << " are not made: " << error.what());
+  }
+  if (is_new) keepOwnBody();
+}
+
+/// @return false if they are of another object.
+bool SimulatorNode::adopt(const EditedBody& theirs) {
+  if (!sameRestBody(theirs.uncut, simulator_.uncut())) return false;
+  const bool skips = theirs.edits.revision > simulator_.edits().revision + 1;
+  simulator_.adopt(theirs.edits);
+  if (skips) {
+    ROS_INFO("taken over from the surface: revision %u with %zu strokes of cuts", theirs.edits.revision,
+             theirs.edits.in_force);
+  }
+  return true;
+}
+
+/// The other nodes follow this body.
+void SimulatorNode::keepOwnBody() {
+  simulator_.setBody(ros::WallTime::now().toNSec());
+  publisher_.publishEdited(simulator_, {});
+}
+
+void SimulatorNode::publishEdited(const ros::Time& stamp) {
   surroundings_.updatePins(simulator_.topology().rest_vertices, simulator_.state().vertices);
   // Only before the body is placed the stamp is 0: then the topology gets the stamp of the first frame.
-  const ros::Time& stamp = message.header.stamp.isZero() ? last_.header.stamp : message.header.stamp;
-  publisher_.publishTopology(simulator_.topology(), simulator_.placed() ? stamp : ros::Time());
+  const ros::Time& of_frame = stamp.isZero() ? last_.header.stamp : stamp;
+  publisher_.publishEdited(simulator_, simulator_.placed() ? of_frame : ros::Time());
   last_.set = simulator_.toCurrentRevision(std::move(last_.set));
-  return true;
+  if (simulator_.droppedVersions() > 0) {
+    ROS_INFO_ONCE(
+        "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "
+        "cut again");
+  }
 }
 
 void SimulatorNode::onPin(const softbody_msgs::PinRegionConstPtr& message) {

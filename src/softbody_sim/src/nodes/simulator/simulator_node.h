@@ -1,7 +1,6 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <softbody_msgs/Cut.h>
 #include <softbody_msgs/PinRegion.h>
 #include <softbody_msgs/Targets.h>
 
@@ -9,6 +8,7 @@
 #include "nodes/simulator/simulator_options.h"
 #include "nodes/simulator/surroundings_tracker.h"
 #include "nodes/simulator/volume_publisher.h"
+#include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_sim/dynamics/simulator.h"
@@ -31,6 +31,7 @@ class SimulatorNode {
 
   void onTargets(const softbody_msgs::TargetsConstPtr& message);
   void onCut(const softbody_msgs::CutConstPtr& message);
+  void onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message);
   void onPin(const softbody_msgs::PinRegionConstPtr& message);
   void onFreeRun();
 
@@ -38,6 +39,9 @@ class SimulatorNode {
   bool admits(const ros::Time& stamp);
   void restart();
   bool applyCut(const softbody_msgs::Cut& message, std::string* reason);
+  bool adopt(const EditedBody& theirs);
+  void keepOwnBody();
+  void publishEdited(const ros::Time& stamp);
   void publishState(const std_msgs::Header& header);
 
   /// The last targets that were used.
@@ -57,7 +61,7 @@ class SimulatorNode {
   VolumePublisher publisher_;
   SimulatorDiagnostics diagnostics_;
   // Last, so that callbacks end before the members that they use.
-  ros::Subscriber targets_subscriber_, cut_subscriber_, pin_subscriber_;
+  ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_, pin_subscriber_;
   ros::Timer free_run_timer_;
 };
 

@@ -7,18 +7,31 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
 
-VolumePublisher::VolumePublisher(ros::NodeHandle node, std::string body_frame, const TetTopology& topology)
+VolumePublisher::VolumePublisher(ros::NodeHandle node, std::string body_frame)
     : body_frame_(std::move(body_frame)),
+      edits_publisher_(node.advertise<softbody_msgs::CutHistory>(topics::kVolumeCuts, 1, true)),
       topology_publisher_(node.advertise<softbody_msgs::TetTopology>(topics::kVolumeTopology, 1, true)),
       state_publisher_(node.advertise<softbody_msgs::MeshState>(topics::kVolumeState, 1)),
       timing_publisher_(node.advertise<softbody_msgs::StageTiming>(topics::kTiming, 10)) {
-  publishTopology(topology, {});
-  topology_timer_ = node.createTimer(
-      ros::Duration(1.0), [this](const ros::TimerEvent&) { topology_publisher_.publish(topology_); });
+  topology_timer_ = node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) {
+    if (edits_) edits_publisher_.publish(edits_);
+    if (topology_) topology_publisher_.publish(topology_);
+  });
+}
+
+void VolumePublisher::publishEdited(const Simulator& simulator, const ros::Time& stamp) {
+  const auto edits =
+      boost::make_shared<softbody_msgs::CutHistory>(toMessage(simulator.edits(), simulator.uncut()));
+  edits->header.frame_id = body_frame_;
+  edits->header.stamp = stamp;
+  edits_ = edits;
+  edits_publisher_.publish(edits_);
+  publishTopology(simulator.topology(), stamp);
 }
 
 void VolumePublisher::publishTopology(const TetTopology& topology, const ros::Time& stamp) {

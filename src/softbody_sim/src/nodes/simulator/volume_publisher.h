@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <softbody_msgs/CutHistory.h>
 #include <softbody_msgs/TetTopology.h>
 
 #include <string>
@@ -8,17 +9,20 @@
 
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
+#include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
 
-/// Publishes the volume's topology, state and stage times. The topology is latched and sent again every
-/// second.
+/// Publishes the volume's topology, edits, state and stage times. Topology and edits are latched; the
+/// topology is sent again every second.
 class VolumePublisher {
  public:
-  VolumePublisher(ros::NodeHandle node, std::string body_frame, const TetTopology& topology);
+  VolumePublisher(ros::NodeHandle node, std::string body_frame);
 
   /// @param stamp of the first frame with this topology; 0: the body is not placed.
   void publishTopology(const TetTopology& topology, const ros::Time& stamp);
+  /// Publishes a topology and the edits that it comes from.
+  void publishEdited(const Simulator& simulator, const ros::Time& stamp);
   /// Whether the published topology has the stamp of a frame.
   bool topologyHasStamp() const { return !topology_->header.stamp.isZero(); }
 
@@ -27,8 +31,9 @@ class VolumePublisher {
 
  private:
   std::string body_frame_;
+  softbody_msgs::CutHistoryConstPtr edits_;
   softbody_msgs::TetTopologyPtr topology_;
-  ros::Publisher topology_publisher_, state_publisher_, timing_publisher_;
+  ros::Publisher edits_publisher_, topology_publisher_, state_publisher_, timing_publisher_;
   ros::Timer topology_timer_;
 };
 

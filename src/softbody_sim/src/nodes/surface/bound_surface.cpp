@@ -2,8 +2,8 @@
 
 #include <boost/make_shared.hpp>
 
-#include "cutting/patch/cut_patch.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/tet_topology_check.h"
 
 namespace softbody {
 
@@ -21,12 +21,9 @@ bool sameMesh(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopol
 }
 
 bool sameTets(const TetTopology& volume, const softbody_msgs::TetTopology& message) {
-  if (volume.revision != message.revision ||
-      static_cast<std::size_t>(volume.tets.rows()) != message.tets.size())
-    return false;
-  const TetTopology other = fromMessage(message);
-  return volume.rest_vertices.rows() == other.rest_vertices.rows() &&
-         inSinglePrecision(volume.rest_vertices) == other.rest_vertices && volume.tets == other.tets;
+  return volume.revision == message.revision &&
+         static_cast<std::size_t>(volume.tets.rows()) == message.tets.size() &&
+         sameRestBody(volume, fromMessage(message));
 }
 
 }  // namespace softbody

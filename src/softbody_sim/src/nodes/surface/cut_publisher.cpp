@@ -15,23 +15,36 @@ constexpr double kLongestLag = 3.0;  // [s]
 }  // namespace
 
 CutPublisher::CutPublisher(ros::NodeHandle node, std::string body_frame)
-    : body_frame_(std::move(body_frame)), publisher_(node.advertise<softbody_msgs::Cut>(topics::kCut, 20)) {}
+    : body_frame_(std::move(body_frame)),
+      cut_publisher_(node.advertise<softbody_msgs::Cut>(topics::kCut, 20)),
+      edits_publisher_(node.advertise<softbody_msgs::CutHistory>(topics::kSurfaceCuts, 1, true)) {}
 
 void CutPublisher::publish(const Cut& cut, const ros::Time& stamp) {
-  pending_ = boost::make_shared<softbody_msgs::Cut>(toMessage(cut));
-  pending_->header.stamp = stamp;
-  pending_->header.frame_id = body_frame_;
-  publisher_.publish(pending_);
+  const auto message = boost::make_shared<softbody_msgs::Cut>(toMessage(cut));
+  message->header.stamp = stamp;
+  message->header.frame_id = body_frame_;
+  cut_publisher_.publish(message);
+}
+
+void CutPublisher::publishEdits(const CuttableSurface& body, const ros::Time& stamp, bool pending) {
+  const auto message =
+      boost::make_shared<softbody_msgs::CutHistory>(toMessage(body.edits(), body.uncutVolume()));
+  message->header.stamp = stamp;
+  message->header.frame_id = body_frame_;
+  edits_ = message;
+  edits_publisher_.publish(edits_);
+  pending_ = pending ? std::optional(message->revision) : std::nullopt;
+  lag_.reset();
 }
 
 void CutPublisher::confirm(std::uint32_t revision) {
-  if (pending_ && pending_->revision <= revision) pending_.reset();
+  if (pending_ && *pending_ <= revision) pending_.reset();
 }
 
 void CutPublisher::resend(std::uint32_t simulator_revision) {
-  if (!pending_ || pending_->revision != simulator_revision + 1) return;
-  ROS_WARN("the simulator has not made the cut of revision %u; it is sent again", pending_->revision);
-  publisher_.publish(boost::make_shared<softbody_msgs::Cut>(*pending_));
+  if (!pending_ || *pending_ != simulator_revision + 1) return;
+  ROS_WARN("the simulator has not made the cut of revision %u; it is sent again", *pending_);
+  edits_publisher_.publish(boost::make_shared<softbody_msgs::CutHistory>(*edits_));
 }
 
 bool CutPublisher::isOverdue(std::uint32_t surface_revision, std::uint32_t simulator_revision) {
@@ -42,11 +55,6 @@ bool CutPublisher::isOverdue(std::uint32_t surface_revision, std::uint32_t simul
   const ros::WallTime now = ros::WallTime::now();
   if (!lag_ || lag_->simulator_revision != simulator_revision) lag_ = Lag{now, simulator_revision};
   return (now - lag_->since).toSec() > kLongestLag;
-}
-
-void CutPublisher::reset() {
-  pending_.reset();
-  lag_.reset();
 }
 
 }  // namespace softbody

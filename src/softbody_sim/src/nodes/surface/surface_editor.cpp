@@ -4,36 +4,54 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/tet_topology_check.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
+namespace {
 
-SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, const CuttingConfig& config,
-                             std::function<void()> on_cut)
-    : config_(config),
-      on_cut_(std::move(on_cut)),
+constexpr std::size_t kMostRecordedCuts = 100;  // that wait
+
+}  // namespace
+
+SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, MeshTopology visual,
+                             const CuttingConfig& config, std::function<void()> on_edit)
+    : visual_(std::move(visual)),
+      config_(config),
+      on_edit_(std::move(on_edit)),
       cuts_(node, body_frame),
       blade_(node, [this](const Points& polygon, const ros::Time& stamp) { onBlade(polygon, stamp); }) {
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SurfaceEditor::onRecordedCut, this,
                                    ros::TransportHints().tcpNoDelay());
 }
 
-void SurfaceEditor::start(const MeshTopology& visual, const TetTopology& volume) {
-  body_ = CuttableSurface(visual, volume, config_);
-  start_vertices_ = visual.rest_vertices;
+void SurfaceEditor::start(const TetTopology& volume) {
+  MeshTopology visual = visual_;
+  visual.revision = volume.revision;
+  body_.emplace(CuttableSurface(visual, volume, config_));
+  resetInputs();
+  cuts_.publishEdits(*body_, {}, false);
+}
+
+/// What waits belongs to an earlier body.
+void SurfaceEditor::resetInputs() {
   state_.reset();
   blade_.reset();
-  cuts_.reset();
+  recorded_cuts_.clear();
 }
 
 void SurfaceEditor::onState(const MeshState& state, const std_msgs::Header& header) {
   state_ = state;
   state_stamp_ = header.stamp;
-  cuts_.confirm(state.revision);
-  if (body_) body_->confirm(state.revision);
+  confirm(state.revision);
+  makeRecordedCuts();
   blade_.onState(header);
   tear();
+}
+
+void SurfaceEditor::confirm(std::uint32_t revision) {
+  cuts_.confirm(revision);
+  if (body_) body_->confirm(revision);
 }
 
 void SurfaceEditor::onBlade(const Points& polygon, const ros::Time& stamp) {
@@ -49,7 +67,7 @@ void SurfaceEditor::onBlade(const Points& polygon, const ros::Time& stamp) {
 }
 
 void SurfaceEditor::tear() {
-  if (!body_) return;
+  if (!body_ || !state_) return;
   try {
     const std::optional<Cut> cut = body_->tear(*state_);
     if (!cut) return;
@@ -62,11 +80,23 @@ void SurfaceEditor::tear() {
 
 void SurfaceEditor::publish(const Cut& cut, const ros::Time& stamp) {
   cuts_.publish(cut, stamp);
-  on_cut_();
+  finishEdit(stamp);
+}
+
+void SurfaceEditor::finishEdit(const ros::Time& stamp) {
+  if (body_->edits().body == 0) body_->setBody(ros::WallTime::now().toNSec());
+  cuts_.publishEdits(*body_, stamp, true);
+  if (body_->droppedVersions() > 0) {
+    ROS_INFO_ONCE(
+        "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "
+        "cut again");
+  }
+  on_edit_();
 }
 
 void SurfaceEditor::onVolumeTopology(std::uint32_t revision) {
-  if (!state_) cuts_.confirm(revision);  // a body that is not placed has no states that confirm
+  if (!state_) confirm(revision);  // a body that is not placed has no states that confirm
+  makeRecordedCuts();
   const std::uint32_t own_revision = body_ ? body_->volume().revision : 0;
   if (cuts_.isOverdue(own_revision, revision)) return rollBack(revision);
   cuts_.resend(revision);
@@ -76,26 +106,75 @@ void SurfaceEditor::onVolumeTopology(std::uint32_t revision) {
 void SurfaceEditor::rollBack(std::uint32_t volume_revision) {
   const std::uint32_t revision = body_->volume().revision;
   if (!body_->rollBack(volume_revision)) return;  // another body: it starts with its topology
-  cuts_.reset();
+  cuts_.publishEdits(*body_, state_stamp_, false);
   ROS_ERROR(
       "the simulator stays at revision %u and does not make the cut of revision %u: the surface takes it "
       "back",
       volume_revision, revision);
 }
 
+/// A simulator that has just started takes over the edits of the surface. Otherwise the simulator is right.
+/// An edit that it has not made yet is on its way.
+void SurfaceEditor::onVolumeEdits(const EditedBody& theirs) {
+  if (!body_) return adopt(theirs);
+  const EditHistory& own = body_->edits();
+  if (theirs.edits.body == 0) return;
+  const bool same_body = theirs.edits.body == own.body;
+  if (same_body && theirs.edits.revision < own.revision) return;
+  if (same_body && theirs.edits.revision == own.revision && sameEdits(theirs.edits, own)) return;
+  adopt(theirs);
+}
+
+void SurfaceEditor::adopt(const EditedBody& theirs) {
+  const bool same_rest = body_ && sameRestBody(body_->uncutVolume(), theirs.uncut);
+  const bool same_body = same_rest && body_->edits().body == theirs.edits.body;
+  if (same_rest) {
+    body_->adopt(theirs.edits);
+  } else {
+    MeshTopology visual = visual_;
+    visual.revision = theirs.uncut.revision;
+    CuttableSurface body(visual, theirs.uncut, config_);
+    body.adopt(theirs.edits);
+    body_.emplace(std::move(body));
+  }
+  if (!same_body) resetInputs();
+  cuts_.publishEdits(*body_, {}, false);
+  if (theirs.edits.revision > 0) {
+    ROS_INFO("taken over from the simulator: revision %u with %zu strokes of cuts", theirs.edits.revision,
+             theirs.edits.in_force);
+  }
+}
+
 /// Also receives the own cuts, which are already made.
 void SurfaceEditor::onRecordedCut(const softbody_msgs::CutConstPtr& message) {
   if (!body_ || message->revision <= body_->volume().revision) return;
+  if (recorded_cuts_.size() >= kMostRecordedCuts) {
+    ROS_WARN_THROTTLE(1.0,
+                      "cuts come faster than the simulator makes them: the cut of revision %u is not made",
+                      message->revision);
+    return;
+  }
+  recorded_cuts_.push_back(message);
+  makeRecordedCuts();
+}
+
+void SurfaceEditor::makeRecordedCuts() {
+  while (body_ && !cuts_.isPending() && !recorded_cuts_.empty()) {
+    const softbody_msgs::CutConstPtr message = recorded_cuts_.front();
+    recorded_cuts_.pop_front();
+    makeRecordedCut(*message);
+  }
+}
+
+void SurfaceEditor::makeRecordedCut(const softbody_msgs::Cut& message) {
+  if (message.revision <= body_->volume().revision) return;  // sent again
   std::string reason;
   try {
-    if (body_->apply(fromMessage(*message), stateOrRest(), &reason)) {
-      on_cut_();
-      return;
-    }
+    if (body_->apply(fromMessage(message), stateOrRest(), &reason)) return finishEdit(message.header.stamp);
   } catch (const std::exception& error) {
     reason = error.what();
   }
-  ROS_WARN_STREAM("the cut of revision " << message->revision << " is not made: " << reason);
+  ROS_WARN_STREAM("the cut of revision " << message.revision << " is not made: " << reason);
 }
 
 /// The last state if it has the present revision, otherwise the rest shape.

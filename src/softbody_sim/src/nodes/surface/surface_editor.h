@@ -3,38 +3,42 @@
 #include <ros/ros.h>
 #include <softbody_msgs/Cut.h>
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "nodes/surface/blade_input.h"
 #include "nodes/surface/cut_publisher.h"
+#include "softbody_common/ros/cut_messages.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 
 namespace softbody {
 
 /// Cuts the surface: by the blade, by tearing, by services and by recorded cuts. A cut is made here at once
-/// and published for the simulator, whose next topology and state confirm it. One cut at a time is pending.
+/// and published with all edits of the body. The simulator follows them; its next topology and state confirm
+/// them. Where the simulator's edits differ, the surface follows the simulator.
 class SurfaceEditor {
  public:
-  /// @param on_cut called after each cut.
-  SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, const CuttingConfig& config,
-                std::function<void()> on_cut);
+  /// @param visual the uncut visual mesh. @param on_edit called after each edit.
+  SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, MeshTopology visual,
+                const CuttingConfig& config, std::function<void()> on_edit);
 
-  /// Starts with an uncut body, or one whose cuts are not known.
+  /// Starts with a body whose cuts are not known; its visual mesh is assumed to be uncut.
   /// @throw std::invalid_argument as CuttableSurface; the body before stays.
-  void start(const MeshTopology& visual, const TetTopology& volume);
+  void start(const TetTopology& volume);
   bool started() const { return body_.has_value(); }
   const CuttableSurface& body() const { return *body_; }
   /// Vertices of the visual mesh at the start [m].
-  const Points& startVertices() const { return start_vertices_; }
+  const Points& startVertices() const { return visual_.rest_vertices; }
   /// Whether a state of the volume has come.
   bool placed() const { return state_.has_value(); }
 
   void onState(const MeshState& state, const std_msgs::Header& header);
-  /// The simulator has sent its topology. A pending cut that it has not made is sent again, and finally taken
-  /// back.
+  /// The simulator has sent its topology. An edit that it has not made is sent again, and finally taken back.
   void onVolumeTopology(std::uint32_t revision);
+  /// The simulator has sent its edits. @throw std::invalid_argument as CuttableSurface; nothing has changed.
+  void onVolumeEdits(const EditedBody& theirs);
 
   /// Whether an edit is possible now. @param reason why not.
   bool isReady(std::string* reason) const;
@@ -42,20 +46,27 @@ class SurfaceEditor {
   bool apply(const Cut& cut, std::string* reason);
 
  private:
+  void confirm(std::uint32_t revision);
   void onBlade(const Points& polygon, const ros::Time& stamp);
   void onRecordedCut(const softbody_msgs::CutConstPtr& message);
+  void makeRecordedCuts();
+  void makeRecordedCut(const softbody_msgs::Cut& message);
   void tear();
   void publish(const Cut& cut, const ros::Time& stamp);
+  void finishEdit(const ros::Time& stamp);
   void rollBack(std::uint32_t volume_revision);
+  void adopt(const EditedBody& theirs);
+  void resetInputs();
   MeshState stateOrRest() const;
 
-  CuttingConfig config_;
-  std::function<void()> on_cut_;
+  const MeshTopology visual_;
+  const CuttingConfig config_;
+  std::function<void()> on_edit_;
   std::optional<CuttableSurface> body_;
-  Points start_vertices_;
   std::optional<MeshState> state_;  ///< the last one
   ros::Time state_stamp_;
   CutPublisher cuts_;
+  std::deque<softbody_msgs::CutConstPtr> recorded_cuts_;  ///< they wait for a pending edit
   // Last, so that callbacks end before the members that they use.
   BladeInput blade_;
   ros::Subscriber cut_subscriber_;

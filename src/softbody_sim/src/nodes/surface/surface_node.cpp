@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_sim/object/object_description.h"
@@ -11,10 +12,23 @@
 namespace softbody {
 namespace {
 
-/// A topology whose cut has not come after this time was cut by somebody who does not publish cuts.
-constexpr double kLongestWaitForCut = 0.5;  // [s]
+/// A topology without edits that explain it after this time comes from somebody who does not publish edits.
+constexpr double kLongestWaitForEdits = 0.5;  // [s]
 
 constexpr char kStage[] = "Resolution Enhancement";
+
+void warnOfOutside(const VisualSurface& surface) {
+  if (surface.topology().revision != 0 || surface.outsideCount() == 0) return;
+  ROS_WARN_ONCE("%d of %d visual vertices lie outside of the volume; they follow the nearest tet",
+                surface.outsideCount(), static_cast<int>(surface.topology().rest_vertices.rows()));
+}
+
+/// Whether two messages carry the same edits; their headers may differ.
+bool sameHistory(const softbody_msgs::CutHistory& a, const softbody_msgs::CutHistory& b) {
+  return a.body == b.body && a.revision == b.revision && a.cuts == b.cuts &&
+         a.stroke_sizes == b.stroke_sizes && a.strokes_in_force == b.strokes_in_force &&
+         a.stroke_is_open == b.stroke_is_open && sameMesh(a.uncut, b.uncut);
+}
 
 }  // namespace
 
@@ -39,37 +53,34 @@ SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_nod
 
 SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, Options options)
     : body_frame_(options.body_frame),
-      visual_(std::move(options.visual)),
       stamps_(node.resolveName(topics::kVolumeState)),
       publisher_(node),
       cut_display_(node),
-      editor_(node, body_frame_, options.cutting, [this] { useWaitingTopology(); }),
+      editor_(node, body_frame_, std::move(options.visual), options.cutting,
+              [this] { useWaitingTopology(); }),
       services_(private_node, body_frame_, &editor_, [this](const CutPreview& preview) {
         cut_display_.startPreview(preview, editor_.body().volume());
       }) {
-  cut_timeout_ = node.createWallTimer(
-      ros::WallDuration(kLongestWaitForCut),
-      [this](const ros::WallTimerEvent&) {
-        if (const auto waiting = waiting_topology_) onTopology(waiting);
-      },
-      true, false);
+  edits_timeout_ = node.createWallTimer(
+      ros::WallDuration(kLongestWaitForEdits), [this](const ros::WallTimerEvent&) { onLateEdits(); }, true,
+      false);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  edits_subscriber_ = node.subscribe(topics::kVolumeCuts, 1, &SurfaceNode::onVolumeEdits, this, hints);
   topology_subscriber_ = node.subscribe(topics::kVolumeTopology, 1, &SurfaceNode::onTopology, this, hints);
   state_subscriber_ = node.subscribe(topics::kVolumeState, 1, &SurfaceNode::onState, this, hints);
 }
 
 void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) {
-  editor_.onVolumeTopology(message->revision);
-  if (updateStamp(*message)) return;
-  const softbody_msgs::TetTopologyConstPtr waiting = std::exchange(waiting_topology_, nullptr);
+  const softbody_msgs::TetTopologyConstPtr waited = std::exchange(waiting_topology_, nullptr);
   try {
-    if (!useTopology(message, waiting && sameMesh(*waiting, *message))) return;
+    const bool is_published = updateStamp(*message);
+    if (!is_published) fromMessage(*message);  // throws if it is no topology
+    editor_.onVolumeTopology(message->revision);
+    if (!is_published) useTopology(message, waited && sameMesh(*waited, *message));
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(
         1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
-    return;
   }
-  if (waiting_state_ && waiting_state_->revision == message->revision) useState(waiting_state_);
 }
 
 /// Topologies are sent again every second. @return whether this one is known; then only its stamp is new.
@@ -82,60 +93,74 @@ bool SurfaceNode::updateStamp(const softbody_msgs::TetTopology& message) {
   return false;
 }
 
-/// @param cut_is_late the topology has waited for its cut already. @return false if it has to wait now.
-bool SurfaceNode::useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool cut_is_late) {
-  const bool is_edit = binding_ && message->revision != binding_->volume->revision;
-  if (is_edit && sameTets(editor_.body().volume(), *message)) {
-    useEdit(message);
-    return true;
-  }
-  if (binding_ && message->revision == editor_.body().volume().revision + 1 && !cut_is_late) {
-    waitForCut(message);
-    return false;
-  }
-  startBody(message);
-  return true;
+/// @param is_late the topology has waited already.
+void SurfaceNode::useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool is_late) {
+  const bool is_known = editor_.started() && sameTets(editor_.body().volume(), *message);
+  if (!is_known && explanationMayCome(*message, is_late)) return waitForEdits(message);
+  // An edit of a body that is placed is published with its first state. Before it is placed there is none.
+  const bool with_next_state = !is_known || editor_.placed();
+  if (!is_known) startBody(*message);
+  bind(message, with_next_state);
+  useWaitingState();
 }
 
-/// An edit is published together with its first state; until then the earlier surface stays. A body that is
-/// not placed has no states, and gets none before the tracker knows the edit.
-void SurfaceNode::useEdit(const softbody_msgs::TetTopologyConstPtr& message) {
-  BoundSurface binding = bindTo(message, editor_.body().surface(), body_frame_);
-  if (editor_.placed())
-    next_binding_ = std::move(binding);
-  else
-    setBinding(std::move(binding));
+/// Whether edits could come that make the surface of a topology.
+bool SurfaceNode::explanationMayCome(const softbody_msgs::TetTopology& message, bool is_late) const {
+  if (!editor_.started() && message.revision == 0) return false;
+  if (edits_subscriber_.getNumPublishers() == 0) return !is_late;
+  if (!volume_edits_) return true;
+  // A simulator that has just started will take over the edits of the surface, or keep its own body.
+  if (volume_edits_->body == 0) return editor_.started() && editor_.body().edits().body != 0;
+  return volume_edits_->revision != message.revision;
 }
 
-/// Another node publishes the cut of this topology.
-void SurfaceNode::waitForCut(const softbody_msgs::TetTopologyConstPtr& message) {
-  fromMessage(*message);  // throws if it is no topology
+void SurfaceNode::waitForEdits(const softbody_msgs::TetTopologyConstPtr& message) {
+  ROS_WARN_THROTTLE(5.0, "waiting for the cuts that explain the volume's topology of revision %u",
+                    message->revision);
   waiting_topology_ = message;
-  cut_timeout_.stop();
-  cut_timeout_.start();
+  edits_timeout_.stop();
+  edits_timeout_.start();
+}
+
+void SurfaceNode::onLateEdits() {
+  if (topology_subscriber_.getNumPublishers() == 0) waiting_topology_.reset();  // its simulator has ended
+  if (const auto waiting = waiting_topology_) onTopology(waiting);
+}
+
+void SurfaceNode::onVolumeEdits(const softbody_msgs::CutHistoryConstPtr& message) {
+  if (volume_edits_ && sameHistory(*volume_edits_, *message)) return;  // sent again
+  try {
+    const auto scope = timer_.stage(kStage, true);
+    editor_.onVolumeEdits(fromMessage(*message));
+    volume_edits_ = message;
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM("the simulator's cuts up to revision " << message->revision
+                                                            << " are not used: " << error.what());
+    return;
+  }
+  useWaitingTopology();
 }
 
 void SurfaceNode::useWaitingTopology() {
-  if (waiting_topology_ && sameTets(editor_.body().volume(), *waiting_topology_))
-    onTopology(std::exchange(waiting_topology_, nullptr));
+  const softbody_msgs::TetTopologyConstPtr waiting = waiting_topology_;
+  if (waiting && editor_.started() && sameTets(editor_.body().volume(), *waiting)) onTopology(waiting);
 }
 
-/// Starts with an unknown body; its visual mesh is assumed to be uncut.
-void SurfaceNode::startBody(const softbody_msgs::TetTopologyConstPtr& message) {
-  {
-    const auto scope = timer_.stage(kStage, true);
-    MeshTopology visual = visual_;
-    visual.revision = message->revision;
-    editor_.start(visual, fromMessage(*message));
+/// Starts with a body whose cuts are not known.
+void SurfaceNode::startBody(const softbody_msgs::TetTopology& message) {
+  if (message.revision > 0) {
+    ROS_WARN("nobody has published the cuts of the volume's revision %u: the surface starts uncut",
+             message.revision);
   }
-  const VisualSurface& surface = editor_.body().surface();
-  if (surface.outsideCount() > 0) {
-    ROS_WARN("%d of %d visual vertices lie outside of the volume; they follow the nearest tet",
-             surface.outsideCount(), static_cast<int>(visual_.rest_vertices.rows()));
-  }
-  BoundSurface binding = bindTo(message, surface, body_frame_);
-  // A later revision is an edit whose cut is not known: it is published with its first state, too.
-  if (binding_ && message->revision > binding_->volume->revision)
+  const auto scope = timer_.stage(kStage, true);
+  editor_.start(fromMessage(message));
+}
+
+/// @param with_next_state publish a later revision together with its first state; until then the earlier
+/// surface stays.
+void SurfaceNode::bind(const softbody_msgs::TetTopologyConstPtr& message, bool with_next_state) {
+  BoundSurface binding = bindTo(message, editor_.body().surface(), body_frame_);
+  if (with_next_state && binding_ && message->revision > binding_->volume->revision)
     next_binding_ = std::move(binding);
   else
     setBinding(std::move(binding));
@@ -146,6 +171,7 @@ void SurfaceNode::setBinding(BoundSurface binding) {
   next_binding_.reset();
   cut_display_.onTopologyChanged();
   publisher_.setTopology(binding_->topology);
+  warnOfOutside(binding_->surface);
 }
 
 /// A state may belong to the stamp of the last one: it is then newer.
@@ -156,7 +182,7 @@ void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) {
 
 void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {
   if (next_binding_ && next_binding_->volume->revision == message->revision)
-    setBinding(std::move(*next_binding_));
+    setBinding(*std::exchange(next_binding_, std::nullopt));
   if (!binding_ || binding_->volume->revision != message->revision) {
     waiting_state_ = message;
     ROS_WARN_THROTTLE(5.0, "waiting for the volume's topology of revision %u", message->revision);
@@ -169,6 +195,12 @@ void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {
     ROS_WARN_STREAM_THROTTLE(1.0,
                              "volume state of " << message->header.stamp << " is not used: " << error.what());
   }
+}
+
+/// The state may be of the topology that is published now, or of the next one.
+void SurfaceNode::useWaitingState() {
+  if (const softbody_msgs::MeshStateConstPtr waiting = std::exchange(waiting_state_, nullptr))
+    useState(waiting);
 }
 
 void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <softbody_msgs/CutHistory.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/TetTopology.h>
 
@@ -18,8 +19,8 @@
 
 namespace softbody {
 
-/// Subscribes to states of the volumetric model; publishes states of the visual mesh; cuts both. Parameters:
-/// ~object, ~body_frame and those of CuttingConfig.
+/// Subscribes to states and edits of the volumetric model; publishes states of the visual mesh; decides on
+/// cuts. Parameters: ~object, ~body_frame and those of CuttingConfig.
 class SurfaceNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -35,33 +36,37 @@ class SurfaceNode {
   SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, Options options);
 
   void onTopology(const softbody_msgs::TetTopologyConstPtr& message);
+  void onVolumeEdits(const softbody_msgs::CutHistoryConstPtr& message);
   void onState(const softbody_msgs::MeshStateConstPtr& message);
 
   bool updateStamp(const softbody_msgs::TetTopology& message);
-  bool useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool cut_is_late);
-  void useEdit(const softbody_msgs::TetTopologyConstPtr& message);
-  void waitForCut(const softbody_msgs::TetTopologyConstPtr& message);
-  void startBody(const softbody_msgs::TetTopologyConstPtr& message);
+  void useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool is_late);
+  bool explanationMayCome(const softbody_msgs::TetTopology& message, bool is_late) const;
+  void waitForEdits(const softbody_msgs::TetTopologyConstPtr& message);
+  void onLateEdits();
+  void startBody(const softbody_msgs::TetTopology& message);
+  void bind(const softbody_msgs::TetTopologyConstPtr& message, bool with_next_state);
   void useWaitingTopology();
+  void useWaitingState();
   void setBinding(BoundSurface binding);
   void useState(const softbody_msgs::MeshStateConstPtr& message);
   void publishState(const softbody_msgs::MeshState& volume);
 
   const std::string body_frame_;
-  const MeshTopology visual_;
   StampGate stamps_;  ///< of the volume's states
   StageTimer timer_;
   SurfacePublisher publisher_;
   CutDisplay cut_display_;
   std::optional<BoundSurface> binding_;                  ///< published
   std::optional<BoundSurface> next_binding_;             ///< of an edit that no state has come for yet
-  softbody_msgs::TetTopologyConstPtr waiting_topology_;  ///< its cut has not come yet
+  softbody_msgs::CutHistoryConstPtr volume_edits_;       ///< the last ones of the simulator
+  softbody_msgs::TetTopologyConstPtr waiting_topology_;  ///< the edits that explain it have not come yet
   softbody_msgs::MeshStateConstPtr waiting_state_;       ///< its topology has not come yet
   // Last, so that callbacks end before the members that they use.
   SurfaceEditor editor_;  ///< may be ahead of what is published
   CutServices services_;
-  ros::WallTimer cut_timeout_;  ///< ends the wait of waiting_topology_
-  ros::Subscriber topology_subscriber_, state_subscriber_;
+  ros::WallTimer edits_timeout_;  ///< ends the wait of waiting_topology_
+  ros::Subscriber topology_subscriber_, edits_subscriber_, state_subscriber_;
 };
 
 }  // namespace softbody

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""The memory of simulator and surface stays bounded over many cuts and undos. Prints what they need."""
+import sys
+import time
+import unittest
+from xmlrpc.client import ServerProxy
+
+import numpy as np
+import rosgraph
+import rospy
+import rostest
+from geometry_msgs.msg import Point, Vector3
+from softbody_msgs.msg import MeshTopology
+from softbody_msgs.srv import CutBody
+from std_srvs.srv import Trigger
+
+PATIENCE_S = 120.0
+
+
+def memory_mb(node, entry):
+    """An entry of /proc/PID/status: VmRSS, resident now, or VmHWM, the most so far."""
+    pid = ServerProxy(rosgraph.Master("/test_cut_memory").lookupNode(node)).getPid("/test_cut_memory")[2]
+    with open(f"/proc/{pid}/status", encoding="ascii") as status:
+        return next(int(line.split()[1]) / 1024 for line in status if line.startswith(entry + ":"))
+
+
+def when_ready(call):
+    """Calls until the edit before is made."""
+    end = time.monotonic() + PATIENCE_S
+    while time.monotonic() < end:
+        answer = call()
+        if "still on its way" not in answer.message:
+            return answer
+        time.sleep(0.005)
+    raise AssertionError("the simulator does not make a cut")
+
+
+class CutMemory(unittest.TestCase):
+    def slice_up(self, body, count):
+        """Tilted planes across the longest axis, in random order."""
+        topology = rospy.wait_for_message(f"/{body}/surface/topology", MeshTopology, PATIENCE_S)
+        rest = np.array([[p.x, p.y, p.z] for p in topology.rest_vertices])
+        low, high = rest.min(axis=0), rest.max(axis=0)
+        axis = np.eye(3)[np.argmax(high - low)]
+        rospy.wait_for_service(f"/{body}/surface/cut", PATIENCE_S)
+        cut = rospy.ServiceProxy(f"/{body}/surface/cut", CutBody, persistent=True)
+        random = np.random.default_rng(18)
+        made = 0
+        for _ in range(3 * count):
+            point, normal = random.uniform(low, high), axis + random.uniform(-0.1, 0.1, 3)
+            answer = when_ready(lambda: cut(point=Point(*point), normal=Vector3(*normal)))
+            made += answer.success
+            if made == count:
+                return
+        self.fail(f"only {made} of {count} cuts were made; the last refusal: {answer.message}")
+
+    def expect_bounded(self, body, cuts, limit_mb):
+        begin = time.monotonic()
+        self.slice_up(body, cuts)
+        topology = rospy.wait_for_message(f"/{body}/surface/topology", MeshTopology, PATIENCE_S)
+        print(f"{body}: {cuts} cuts in {time.monotonic() - begin:.1f} s, {1 + max(topology.triangle_bodies)} pieces, "
+              f"{len(topology.triangles)} triangles")
+        undo = rospy.ServiceProxy(f"/{body}/surface/undo", Trigger, persistent=True)
+        for steps in (0, cuts // 2):
+            begin = time.monotonic()
+            for _ in range(steps):
+                answer = when_ready(undo)
+                self.assertTrue(answer.success, answer.message)
+            for node in ("simulator", "surface"):
+                now, most = (memory_mb(f"/{body}/{node}", entry) for entry in ("VmRSS", "VmHWM"))
+                print(f"{body}: {node} after {steps} undos in {time.monotonic() - begin:.1f} s: {now:.0f} MB, "
+                      f"at most {most:.0f} MB", flush=True)
+                self.assertLess(most, limit_mb, f"{body}: {node}")
+
+    def test_sponge(self):
+        self.expect_bounded("sponge", 100, 300)
+
+    def test_doll(self):
+        self.expect_bounded("doll", 50, 600)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_cut_memory")
+    rostest.rosrun("softbody_bringup", "cut_memory", CutMemory, sys.argv)
