@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kQueue = 100;  // as tf2_ros
 constexpr std::size_t kMostFrames = 10'000;
-constexpr double kWarningPeriod_s = 5.0;
 constexpr char kAuthority[] = "tf";
 
 }  // namespace
@@ -32,8 +31,8 @@ void TransformInput::add(const geometry_msgs::TransformStamped& transform) try {
   requireTime(transform);
   buffer_.setTransform(transform, kAuthority);
 } catch (const std::exception& error) {
-  ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s, "the transform of '" << transform.child_frame_id
-                                                                  << "' is not used: " << error.what());
+  ROS_WARN_STREAM_THROTTLE(
+      5.0, "the transform of '" << transform.child_frame_id << "' is not used: " << error.what());
 }
 
 /// tf2 itself says what is late or repeated. @throw std::exception if the stamp is refused.

@@ -16,10 +16,10 @@ namespace softbody {
 namespace {
 
 using testing::boxTopology;
+using testing::kFrame;
 using testing::placing;
 using testing::vertexTargets;
 
-constexpr Nanoseconds kFrame = 33333333;
 constexpr double kAccuracy = 0.001, kNoise = 0.0005;  // [m]
 
 using Offset = std::function<Eigen::Vector3d(double)>;  // over seconds
