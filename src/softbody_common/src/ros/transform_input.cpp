@@ -28,15 +28,15 @@ TransformInput::TransformInput() : spinner_(1, &queue_) {
 }
 
 void TransformInput::add(const geometry_msgs::TransformStamped& transform) try {
-  requireTime(transform);
-  buffer_.setTransform(transform, kAuthority);
+  if (isNew(transform)) buffer_.setTransform(transform, kAuthority);
 } catch (const std::exception& error) {
   ROS_WARN_STREAM_THROTTLE(
       5.0, "the transform of '" << transform.child_frame_id << "' is not used: " << error.what());
 }
 
-/// tf2 itself says what is late or repeated. @throw std::exception if the stamp is refused.
-void TransformInput::requireTime(const geometry_msgs::TransformStamped& transform) {
+/// A bag that loops, or a publisher that is faster than its sensor, repeats transforms: no warning for that.
+/// tf2 itself says what is late. @throw std::exception if the stamp is refused.
+bool TransformInput::isNew(const geometry_msgs::TransformStamped& transform) {
   const std::string& child = transform.child_frame_id;
   if (timelines_.size() >= kMostFrames && timelines_.count(child) == 0)
     throw std::length_error(fmt::format("tf has {} frames already", kMostFrames));
@@ -49,6 +49,7 @@ void TransformInput::requireTime(const geometry_msgs::TransformStamped& transfor
     pass_ = timeline.pass();
     buffer_.clear();
   }
+  return verdict.kind != StampVerdict::kRepeated;
 }
 
 }  // namespace softbody

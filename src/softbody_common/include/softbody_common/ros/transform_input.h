@@ -25,7 +25,7 @@ class TransformInput {
 
  private:
   void add(const geometry_msgs::TransformStamped& transform);
-  void requireTime(const geometry_msgs::TransformStamped& transform);
+  bool isNew(const geometry_msgs::TransformStamped& transform);
 
   tf2_ros::Buffer buffer_;
   std::map<std::string, Timeline> timelines_;  ///< by child frame
