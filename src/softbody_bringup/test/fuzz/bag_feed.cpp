@@ -3,9 +3,9 @@
 #include <sensor_msgs/Image.h>
 #include <std_msgs/String.h>
 
-#include "byte_source.h"
-#include "feeds.h"
-#include "scratch_files.h"
+#include "fuzz/byte_source.h"
+#include "fuzz/feeds.h"
+#include "fuzz/scratch_files.h"
 #include "softbody_common/camera_topics.h"
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/facts_reader.h"

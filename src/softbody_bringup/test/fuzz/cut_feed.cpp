@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "byte_source.h"
-#include "feeds.h"
-#include "scratch_files.h"
+#include "fuzz/byte_source.h"
+#include "fuzz/feeds.h"
+#include "fuzz/scratch_files.h"
 #include "softbody_common/ros/cut_messages.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/object/object_model.h"

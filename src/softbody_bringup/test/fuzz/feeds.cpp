@@ -1,4 +1,4 @@
-#include "feeds.h"
+#include "fuzz/feeds.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,5 +1,5 @@
-#include "feeds.h"
-#include "scratch_files.h"
+#include "fuzz/feeds.h"
+#include "fuzz/scratch_files.h"
 #include "softbody_recordings/image_folder/image_folder.h"
 #include "softbody_recordings/ros/graph_config.h"
 #include "softbody_sim/io/tet_files.h"

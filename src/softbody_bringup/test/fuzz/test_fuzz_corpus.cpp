@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "feeds.h"
+#include "fuzz/feeds.h"
 #include "softbody_common/input_file.h"
 
 namespace softbody::fuzz {

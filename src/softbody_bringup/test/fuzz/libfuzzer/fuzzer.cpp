@@ -1,7 +1,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "feeds.h"
+#include "fuzz/feeds.h"
 
 /// libFuzzer's entry. The environment variable FEED names the reader. A fault ends the process by its
 /// exception.

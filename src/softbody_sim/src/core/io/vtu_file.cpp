@@ -8,7 +8,7 @@
 
 #include "io/stack_rows.h"
 #include "io/text_reader.h"
-#include "io/xml_elements.h"
+#include "xml/xml_elements.h"
 
 namespace softbody {
 namespace {

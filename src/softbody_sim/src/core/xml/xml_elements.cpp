@@ -1,4 +1,4 @@
-#include "io/xml_elements.h"
+#include "xml/xml_elements.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cage/volume_maker.h"
+#include "fixtures/object_model_test.h"
+#include "report/model_folder.h"
+#include "softbody_common/input_file.h"
+
+namespace softbody {
+namespace {
+
+using test::complaint;
+using test::expectSound;
+using test::ObjectModelTest;
+using test::stretched;
+
+TEST_F(ObjectModelTest, PreparedFolderGivesTheSameModel) {
+  const ObjectDescription description = describe(stretched(test::torus(0.1, 0.03, 60, 24), 1000, 1000, 1000));
+  std::ostringstream progress;
+  prepareModel({description.visual_mesh, "mm"}, folder_.file("out"), {}, progress);
+  const ObjectModel prepared = buildObjectModel(loadObjectDescription(folder_.file("out/object.yaml")));
+  expectSound(prepared);
+  EXPECT_TRUE(prepared.warnings.empty()) << prepared.warnings.front();
+  EXPECT_GT(std::filesystem::file_size(folder_.file("out/report/models.png")), 1000U);
+  ObjectDescription scaled = description;
+  scaled.unit_m = 0.001;
+  EXPECT_EQ(prepared.volume.rest_vertices, buildObjectModel(scaled).volume.rest_vertices);
+}
+
+TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
+  std::filesystem::create_directories(folder_.file("out"));
+  folder_.write("out/object.yaml", "mine");
+  folder_.write("bad.obj", "v 0 0 0\nf 1 1 1\n");
+  std::ostringstream progress;
+  EXPECT_NE(complaint([&] { prepareModel({folder_.file("bad.obj")}, folder_.file("out"), {}, progress); }),
+            "");
+  EXPECT_EQ(readFile(folder_.file("out/object.yaml")), "mine");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.file("."))) {
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(ObjectModelTest, AFolderIsPreparedAgainButFilesOfTheUserStay) {
+  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  std::ostringstream progress;
+  const auto prepare = [&](const std::string& name) {
+    return complaint([&] { prepareModel({description.visual_mesh}, folder_.file(name), {}, progress); });
+  };
+  std::filesystem::create_directories(folder_.file("theirs"));
+  folder_.write("theirs/cage.obj", "mine");
+  EXPECT_NE(prepare("theirs").find("theirs/cage.obj was not made by prepare_model"), std::string::npos);
+  EXPECT_EQ(readFile(folder_.file("theirs/cage.obj")), "mine");
+  EXPECT_EQ(prepare("out"), "");
+  folder_.write("out/notes.txt", "mine");
+  EXPECT_EQ(prepare("out"), "");
+  EXPECT_EQ(readFile(folder_.file("out/notes.txt")), "mine");
+  std::filesystem::remove(folder_.file("out/tets.vtu"));
+  std::filesystem::create_directories(folder_.file("out/tets.vtu"));
+  folder_.write("out/visual.obj", "mine");
+  EXPECT_NE(prepare("out").find("out/tets.vtu was not made by prepare_model"), std::string::npos);
+  EXPECT_EQ(readFile(folder_.file("out/visual.obj")), "mine");
+}
+
+TriangleMesh flatSheet(int cells, double size) {
+  TriangleMesh mesh{Points((cells + 1) * (cells + 1), 3), Triangles(2 * cells * cells, 3)};
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= cells; ++j) mesh.vertices.row(i * (cells + 1) + j) << i, j, 0.0;
+  mesh.vertices *= size / cells;
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const int a = i * (cells + 1) + j, b = a + cells + 1, f = 2 * (i * cells + j);
+      mesh.triangles.row(f) << a, b, b + 1;
+      mesh.triangles.row(f + 1) << a, b + 1, a + 1;
+    }
+  }
+  return mesh;
+}
+
+TEST_F(ObjectModelTest, AMeshWithoutVolumeIsRefusedOrGetsTheStatedThickness) {
+  const TriangleMesh triangle{(Points(3, 3) << 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0).finished(),
+                              (Triangles(1, 3) << 0, 1, 2).finished()};
+  TriangleMesh two_sided = flatSheet(8, 0.2);
+  two_sided.triangles.conservativeResize(256, 3);
+  two_sided.triangles.bottomRows(128) = two_sided.triangles.topRows(128).rowwise().reverse();
+  std::ostringstream progress;
+  for (const TriangleMesh& mesh : {triangle, flatSheet(8, 0.2), two_sided}) {
+    ObjectDescription description = describe(mesh);
+    const std::string said = complaint([&] { buildObjectModel(description); });
+    EXPECT_TRUE(said.find("visual.obj: encloses no volume") != std::string::npos ||
+                said.find("visual.obj: no triangle") != std::string::npos)
+        << said;
+  }
+  for (const TriangleMesh& mesh : {triangle, flatSheet(8, 0.2)}) {
+    describe(mesh);
+    prepareModel({folder_.file("visual.obj"), "m", 0.01}, folder_.file("sheet"), {}, progress);
+    const ObjectModel model = buildObjectModel(loadObjectDescription(folder_.file("sheet/object.yaml")));
+    expectSound(model);
+    EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
+    const Points& visual = model.visual.rest_vertices;
+    EXPECT_NEAR(visual.col(2).maxCoeff() - visual.col(2).minCoeff(), 0.01, 1e-12);
+    EXPECT_NEAR(enclosedVolume(visual, model.visual.triangles), 0.01 * areaOf(mesh), 1e-9);
+  }
+}
+
+TEST_F(ObjectModelTest, AClosedBodyGetsNoThickness) {
+  describe(test::torus(0.1, 0.03, 60, 24));
+  std::ostringstream progress;
+  const std::string said = complaint([&] {
+    prepareModel({folder_.file("visual.obj"), "m", 0.01}, folder_.file("out"), {}, progress);
+  });
+  EXPECT_NE(said.find("visual.obj: has no open edges"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace softbody
