@@ -24,6 +24,13 @@ struct OpenFile {
   int number;
 };
 
+/// Absolute, with links and ".." resolved as far as the system can.
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  const fs::path result = fs::weakly_canonical(fs::absolute(path), error);
+  return error ? fs::absolute(path).lexically_normal() : result;
+}
+
 [[noreturn]] void failToRead(const fs::path& path, const std::string& reason) {
   throw std::invalid_argument(fmt::format("{}: cannot be read: {}", path.string(), reason));
 }
@@ -48,8 +55,7 @@ std::string readFile(const fs::path& path) {
 }
 
 bool isInside(const fs::path& file, const fs::path& folder) {
-  const fs::path relative =
-      fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(fs::absolute(folder)));
+  const fs::path relative = resolved(file).lexically_relative(resolved(folder));
   return !relative.empty() && *relative.begin() != "..";
 }
 
@@ -58,7 +64,7 @@ std::string outsideSentence(const fs::path& file, const fs::path& folder) {
       "{} is outside of the folder {}; move it there, or allow this with --allow-outside (nodes and launch "
       "files: "
       "allow_outside)",
-      fs::weakly_canonical(file).string(), fs::weakly_canonical(fs::absolute(folder)).string());
+      resolved(file).string(), resolved(folder).string());
 }
 
 }  // namespace softbody

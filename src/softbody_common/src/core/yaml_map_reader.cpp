@@ -112,7 +112,8 @@ std::string YamlMapReader::file(const std::string& key, FileScope scope) {
   if (scope == FileScope::kOwnFolder && !isInside(file, folder)) {
     fail(get(key), fmt::format("{}{} is '{}': {}", prefix_, key, name, outsideSentence(file, folder)));
   }
-  if (!std::filesystem::is_regular_file(file)) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown)) {
     fail(get(key), fmt::format("{}{} is '{}'; there is no file {}", prefix_, key, name,
                                file.lexically_normal().string()));
   }

@@ -102,6 +102,7 @@ class PlyReader {
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0) line.pop_back();
     position_ = end + 1;
     ++line_;
+    if (line.find('\0') != std::string::npos) fail(fmt::format("line {}", line_), "holds a zero byte");
     return line;
   }
 

@@ -42,7 +42,8 @@ fs::path namedFile(const Line& line, const fs::path& folder, FileScope scope) {
     throw std::invalid_argument(fmt::format("{}: {} names '{}': {}", line.place, line.keyword, line.rest,
                                             outsideSentence(path, folder)));
   }
-  if (!fs::is_regular_file(path)) {
+  std::error_code unknown;
+  if (!fs::is_regular_file(path, unknown)) {
     throw std::invalid_argument(fmt::format("{}: {} names '{}', but there is no file {}", line.place,
                                             line.keyword, line.rest, path.string()));
   }
