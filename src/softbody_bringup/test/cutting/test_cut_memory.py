@@ -37,7 +37,7 @@ def when_ready(call):
 
 class CutMemory(unittest.TestCase):
     def slice_up(self, body, count):
-        """Tilted planes across the longest axis, in random order."""
+        """Slices across the longest axis, in random order; neighbours can cross."""
         topology = rospy.wait_for_message(f"/{body}/surface/topology", MeshTopology, PATIENCE_S)
         rest = np.array([[p.x, p.y, p.z] for p in topology.rest_vertices])
         low, high = rest.min(axis=0), rest.max(axis=0)
@@ -47,7 +47,7 @@ class CutMemory(unittest.TestCase):
         random = np.random.default_rng(18)
         made = 0
         for _ in range(3 * count):
-            point, normal = random.uniform(low, high), axis + random.uniform(-0.1, 0.1, 3)
+            point, normal = random.uniform(low, high), axis + random.uniform(-0.01, 0.01, 3)
             answer = when_ready(lambda: cut(point=Point(*point), normal=Vector3(*normal)))
             made += answer.success
             if made == count:

@@ -1,5 +1,7 @@
 #include "nodes/simulator/simulator_node.h"
 
+#include <malloc.h>
+
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
@@ -175,6 +177,7 @@ void SimulatorNode::publishEdited(const ros::Time& stamp) {
   const ros::Time& of_frame = stamp.isZero() ? last_.header.stamp : stamp;
   publisher_.publishEdited(simulator_, simulator_.placed() ? of_frame : ros::Time());
   last_.set = simulator_.toCurrentRevision(std::move(last_.set));
+  malloc_trim(0);  // returns the memory of the model before the edit
   if (simulator_.droppedVersions() > 0) {
     ROS_INFO_ONCE(
         "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "

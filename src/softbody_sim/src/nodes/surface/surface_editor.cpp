@@ -1,5 +1,7 @@
 #include "nodes/surface/surface_editor.h"
 
+#include <malloc.h>
+
 #include <stdexcept>
 #include <utility>
 
@@ -86,6 +88,7 @@ void SurfaceEditor::publish(const Cut& cut, const ros::Time& stamp) {
 void SurfaceEditor::finishEdit(const ros::Time& stamp) {
   if (body_->edits().body == 0) body_->setBody(ros::WallTime::now().toNSec());
   cuts_.publishEdits(*body_, stamp, true);
+  malloc_trim(0);  // returns the memory of dropped versions
   if (body_->droppedVersions() > 0) {
     ROS_INFO_ONCE(
         "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "

@@ -55,7 +55,10 @@ std::optional<TetEdit> EditedVolume::apply(const Cut& cut, std::string* reason) 
   std::shared_ptr<const TetEdit> before = history_.version();
   std::optional<TetEdit> edit = applyCut(cut, &history_, reason);
   if (!edit) return edit;
-  recent_.push_back({std::move(before), std::make_shared<TetEdit>(*edit)});
+  // The first cut of a stroke is its version, which is shared.
+  const std::shared_ptr<const TetEdit> after = history_.version();
+  const bool is_version = history_.edits().is_open && history_.edits().strokes.back().patches.size() == 1;
+  recent_.push_back({std::move(before), is_version ? after : std::make_shared<TetEdit>(*edit)});
   if (recent_.size() > kRemembered) recent_.pop_front();
   dropVersions(undo_bytes_, &history_);
   return edit;
