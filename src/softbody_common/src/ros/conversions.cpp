@@ -6,42 +6,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "softbody_common/plausibility.h"
 #include "softbody_common/tet_topology_check.h"
 
 namespace softbody {
 namespace {
 
 constexpr double kUnitTolerance = 1e-3;  // the values were rounded to float
-
-geometry_msgs::Point32 toPoint32(const Eigen::Vector3d& p) {
-  geometry_msgs::Point32 message;
-  message.x = static_cast<float>(p.x());
-  message.y = static_cast<float>(p.y());
-  message.z = static_cast<float>(p.z());
-  return message;
-}
-
-Eigen::Vector3d fromPoint32(const geometry_msgs::Point32& message) {
-  return {message.x, message.y, message.z};
-}
-
-std::vector<geometry_msgs::Point32> toPoint32s(const Points& points) {
-  std::vector<geometry_msgs::Point32> message(static_cast<std::size_t>(points.rows()));
-  for (std::size_t i = 0; i < message.size(); ++i)
-    message[i] = toPoint32(points.row(static_cast<Eigen::Index>(i)));
-  return message;
-}
-
-Points fromPoint32s(const std::vector<geometry_msgs::Point32>& message, const char* field) {
-  Points points(static_cast<Eigen::Index>(message.size()), 3);
-  for (std::size_t i = 0; i < message.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = fromPoint32(message[i]);
-    if (!points.row(static_cast<Eigen::Index>(i)).allFinite()) {
-      throw std::invalid_argument(fmt::format("{}[{}] is not finite", field, i));
-    }
-  }
-  return points;
-}
 
 /// Conversions of fixed-size index tuples (MeshTriangle, Tetrahedron).
 template <typename Element, typename Matrix>
@@ -77,49 +48,55 @@ void requireSize(std::size_t size, std::size_t expected, const char* field) {
   }
 }
 
-}  // namespace
-
-geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
-  return message;
+void requireCount(std::size_t count, std::size_t most, const char* field) {
+  if (count <= most) return;
+  throw std::invalid_argument(fmt::format("{} has {} entries; allowed: up to {}", field, count, most));
 }
 
-geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.linear());
-  geometry_msgs::Pose message;
-  message.position.x = pose.translation().x();
-  message.position.y = pose.translation().y();
-  message.position.z = pose.translation().z();
-  message.orientation.x = q.x();
-  message.orientation.y = q.y();
-  message.orientation.z = q.z();
-  message.orientation.w = q.w();
-  return message;
-}
-
-Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& message) {
-  const Eigen::Quaterniond q(message.orientation.w, message.orientation.x, message.orientation.y,
-                             message.orientation.z);
-  const Eigen::Vector3d t(message.position.x, message.position.y, message.position.z);
-  if (!t.allFinite() || !(std::abs(q.norm() - 1.0) < kUnitTolerance)) {
+/// Piece numbers begin at 0 without a gap, so each is less than the number of elements.
+void requirePieces(const std::vector<std::uint32_t>& pieces, const char* field) {
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i] < pieces.size()) continue;
     throw std::invalid_argument(
-        fmt::format("pose ({} {} {}; {} {} {} {}): not finite, or the quaternion is not of unit length",
-                    t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()));
+        fmt::format("{}[{}] is {}; allowed: below {}", field, i, pieces[i], pieces.size()));
   }
-  return Eigen::Translation3d(t) * q.normalized();
 }
 
-Points fromMessage(const geometry_msgs::Polygon& polygon) {
-  Points corners(static_cast<Eigen::Index>(polygon.points.size()), 3);
-  for (Eigen::Index i = 0; i < corners.rows(); ++i) {
-    const geometry_msgs::Point32& p = polygon.points[static_cast<std::size_t>(i)];
-    corners.row(i) << p.x, p.y, p.z;
+void requireFinite(const std::vector<geometry_msgs::Point32>& points, const char* field) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
+      throw std::invalid_argument(fmt::format("{}[{}] is not finite", field, i));
   }
-  return corners;
 }
+
+/// @throw std::invalid_argument without the target's index.
+Target targetFrom(const softbody_msgs::Target& in) {
+  if (in.kind > softbody_msgs::Target::MANUAL)
+    throw std::invalid_argument(fmt::format("kind {} is unknown", in.kind));
+  if (in.tet > static_cast<std::uint32_t>(std::numeric_limits<int>::max()))
+    throw std::invalid_argument(fmt::format("tet {} is out of range", in.tet));
+  Target target;
+  target.kind = static_cast<TargetKind>(in.kind);
+  target.place.tet = static_cast<int>(in.tet);
+  for (int k = 0; k < 4; ++k) target.place.barycentric[k] = in.barycentric[k];
+  target.position = fromPoint32(in.position);
+  target.normal = fromPoint32(in.normal);
+  target.weight = in.weight;
+  if (!isPlausible(target.position)) {
+    throw std::invalid_argument(
+        fmt::format("its position is not finite or not within {:.0f} m of the origin", kLargestCoordinate_m));
+  }
+  if (!(std::abs(target.place.barycentric.sum() - 1.0) <= kUnitTolerance))
+    throw std::invalid_argument("its barycentric coordinates do not sum to 1");
+  const double length = target.normal.norm();
+  if (length != 0.0 && !(std::abs(length - 1.0) <= kUnitTolerance))
+    throw std::invalid_argument("its normal is neither zero nor of unit length");
+  if (!(target.weight > 0.0 && std::isfinite(target.weight)))
+    throw std::invalid_argument(fmt::format("its weight is {}; allowed: above 0", target.weight));
+  return target;
+}
+
+}  // namespace
 
 softbody_msgs::TetTopology toMessage(const TetTopology& topology) {
   softbody_msgs::TetTopology message;
@@ -165,7 +142,16 @@ softbody_msgs::MeshTopology toMessage(const MeshTopology& topology) {
 }
 
 MeshTopology fromMessage(const softbody_msgs::MeshTopology& message) {
-  const std::size_t n = message.rest_vertices.size();
+  const std::size_t n = message.rest_vertices.size(), triangles = message.triangles.size();
+  if (triangles == 0) throw std::invalid_argument("triangles is empty");
+  requireCount(triangles, kMostTriangles, "triangles");
+  requireSize(message.vertex_parents.size(), n, "vertex_parents");
+  requireSize(message.triangle_bodies.size(), triangles, "triangle_bodies");
+  requireSize(message.cut_triangles.size(), triangles, "cut_triangles");
+  requirePieces(message.triangle_bodies, "triangle_bodies");
+  requireFinite(message.texture_coordinates, "texture_coordinates");
+  if (!message.texture_coordinates.empty())
+    requireSize(message.texture_coordinates.size(), 3 * triangles, "texture_coordinates");
   MeshTopology topology;
   topology.revision = message.revision;
   topology.rest_vertices = fromPoint32s(message.rest_vertices, "rest_vertices");
@@ -173,13 +159,10 @@ MeshTopology fromMessage(const softbody_msgs::MeshTopology& message) {
   topology.vertex_parents = message.vertex_parents;
   topology.triangle_pieces = message.triangle_bodies;
   topology.cut.assign(message.cut_triangles.begin(), message.cut_triangles.end());
-  topology.texture_coordinates = fromPoint32s(message.texture_coordinates, "texture_coordinates");
-  requireSize(topology.vertex_parents.size(), n, "vertex_parents");
-  requireSize(topology.triangle_pieces.size(), message.triangles.size(), "triangle_bodies");
-  requireSize(topology.cut.size(), message.triangles.size(), "cut_triangles");
-  if (topology.texture_coordinates.rows() != 0) {
-    requireSize(message.texture_coordinates.size(), 3 * message.triangles.size(), "texture_coordinates");
-  }
+  topology.texture_coordinates.resize(static_cast<Eigen::Index>(message.texture_coordinates.size()), 3);
+  for (std::size_t i = 0; i < message.texture_coordinates.size(); ++i)
+    topology.texture_coordinates.row(static_cast<Eigen::Index>(i)) =
+        fromPoint32(message.texture_coordinates[i]);
   return topology;
 }
 
@@ -193,12 +176,13 @@ softbody_msgs::MeshState toMessage(const MeshState& state) {
 }
 
 MeshState fromMessage(const softbody_msgs::MeshState& message) {
+  if (message.vertices.empty()) throw std::invalid_argument("vertices is empty");
+  requireSize(message.confidence.size(), message.vertices.size(), "confidence");
   MeshState state;
   state.observed = toNanoseconds(message.observed);
   state.revision = message.revision;
   state.vertices = fromPoint32s(message.vertices, "vertices");
   state.confidence = message.confidence;
-  requireSize(state.confidence.size(), message.vertices.size(), "confidence");
   for (std::size_t i = 0; i < state.confidence.size(); ++i) {
     if (!(state.confidence[i] >= 0.0f && state.confidence[i] <= 1.0f)) {
       throw std::invalid_argument(
@@ -228,40 +212,18 @@ softbody_msgs::Targets toMessage(const TargetSet& targets) {
 }
 
 TargetSet fromMessage(const softbody_msgs::Targets& message) {
+  requireCount(message.targets.size(), kMostTargets, "targets");
   TargetSet targets;
   targets.revision = message.revision;
   targets.reset = message.reset;
   targets.body_pose = fromMessage(message.body_pose);
   targets.targets.reserve(message.targets.size());
   for (std::size_t i = 0; i < message.targets.size(); ++i) {
-    const softbody_msgs::Target& in = message.targets[i];
-    if (in.kind > softbody_msgs::Target::MANUAL) {
-      throw std::invalid_argument(fmt::format("targets[{}]: kind {} is unknown", i, in.kind));
+    try {
+      targets.targets.push_back(targetFrom(message.targets[i]));
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("targets[{}]: {}", i, error.what()));
     }
-    if (in.tet > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) {
-      throw std::invalid_argument(fmt::format("targets[{}]: tet {} is out of range", i, in.tet));
-    }
-    Target target;
-    target.kind = static_cast<TargetKind>(in.kind);
-    target.place.tet = static_cast<int>(in.tet);
-    for (int k = 0; k < 4; ++k) target.place.barycentric[k] = in.barycentric[k];
-    target.position = fromPoint32(in.position);
-    target.normal = fromPoint32(in.normal);
-    target.weight = in.weight;
-    const bool finite = target.place.barycentric.allFinite() && target.position.allFinite() &&
-                        target.normal.allFinite() && std::isfinite(target.weight);
-    if (!finite || target.weight <= 0.0) {
-      throw std::invalid_argument(fmt::format("targets[{}]: not finite, or its weight is not above 0", i));
-    }
-    if (std::abs(target.place.barycentric.sum() - 1.0) > kUnitTolerance) {
-      throw std::invalid_argument(fmt::format("targets[{}]: its barycentric coordinates do not sum to 1", i));
-    }
-    const double length = target.normal.norm();
-    if (length != 0.0 && std::abs(length - 1.0) > kUnitTolerance) {
-      throw std::invalid_argument(
-          fmt::format("targets[{}]: its normal is neither zero nor of unit length", i));
-    }
-    targets.targets.push_back(target);
   }
   return targets;
 }
@@ -288,42 +250,6 @@ softbody_msgs::StageTiming timingMessage(const std::string& node, const std::vec
     message.stages.push_back(row);
   }
   return message;
-}
-
-Pinhole pinholeFromMessage(const sensor_msgs::CameraInfo& info) {
-  const bool has_projection = info.P[0] != 0.0;
-  Pinhole camera;
-  camera.width = static_cast<int>(info.width);
-  camera.height = static_cast<int>(info.height);
-  camera.fx = has_projection ? info.P[0] : info.K[0];
-  camera.fy = has_projection ? info.P[5] : info.K[4];
-  camera.cx = has_projection ? info.P[2] : info.K[2];
-  camera.cy = has_projection ? info.P[6] : info.K[5];
-  if (camera.width <= 0 || camera.height <= 0) {
-    throw std::invalid_argument(fmt::format("camera_info: the image size is {}x{}", info.width, info.height));
-  }
-  if (!std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
-    throw std::invalid_argument(
-        fmt::format("camera_info: the centre ({}, {}) is not finite", camera.cx, camera.cy));
-  }
-  if (!(camera.fx > 0.0 && camera.fy > 0.0 && std::isfinite(camera.fx * camera.fy))) {
-    throw std::invalid_argument(
-        fmt::format("camera_info: focal lengths fx {} and fy {} must be above 0 (is the camera calibrated?)",
-                    camera.fx, camera.fy));
-  }
-  return camera;
-}
-
-sensor_msgs::CameraInfo toMessage(const Pinhole& camera) {
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(camera.width);
-  info.height = static_cast<std::uint32_t>(camera.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
-  info.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
 }
 
 }  // namespace softbody

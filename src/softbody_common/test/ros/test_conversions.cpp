@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "random_meshes.h"
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/tet_geometry.h"
@@ -312,6 +313,78 @@ TEST(Conversions, EveryFieldOfATargetIsChecked) {
       good, [](Message& m) { m.body_pose.orientation.x = 7.0; }, "pose");
 }
 
+/// Beyond ten kilometres single precision rounds by more than half a millimetre.
+TEST(Conversions, PositionsThatNobodyMeasuredAreRefused) {
+  for (const float far : {1.1e4f, -1e10f, 1e20f, 3e38f}) {
+    expectRefused<softbody_msgs::Targets>(
+        toMessage(randomTargets(2)), [far](auto& m) { m.targets[6].position.y = far; }, "targets[6]");
+    expectRefused<softbody_msgs::Targets>(
+        toMessage(randomTargets(2)), [far](auto& m) { m.body_pose.position.z = far; }, "pose");
+    expectRefused<softbody_msgs::MeshTopology>(
+        toMessage(randomSurface(0)), [far](auto& m) { m.rest_vertices[1].x = far; }, "rest_vertices[1]");
+  }
+}
+
+/// What the receivers' time or memory grows with.
+TEST(Conversions, CountsAreBounded) {
+  expectRefused<softbody_msgs::Targets>(
+      toMessage(randomTargets(2)), [](auto& m) { m.targets.resize(1'000'000, m.targets[0]); }, "targets has");
+  expectRefused<softbody_msgs::MeshTopology>(
+      toMessage(randomSurface(0)), [](auto& m) { m.triangle_bodies[3] = 0xffffffffu; }, "triangle_bodies[3]");
+  expectRefused<softbody_msgs::MeshTopology>(
+      toMessage(randomSurface(0)),
+      [](auto& m) {
+        m.triangles.clear();
+        m.triangle_bodies.clear();
+        m.cut_triangles.clear();
+        m.texture_coordinates.clear();
+      },
+      "triangles is empty");
+}
+
+geometry_msgs::Polygon roundBlade(int corners) {
+  geometry_msgs::Polygon blade;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * M_PI * i / corners;
+    blade.points.push_back(toPoint32({0.1 * std::cos(angle), 0.05 * std::sin(angle), 0.5}));
+  }
+  return blade;
+}
+
+TEST(Conversions, ABladeIsASmallPlanarPolygonOfFewCorners) {
+  using Message = geometry_msgs::Polygon;
+  EXPECT_EQ(fromMessage(roundBlade(64)).rows(), 64);
+  const Message good = roundBlade(8);
+  expectRefused<Message>(
+      good, [](Message& m) { m = roundBlade(1'000'000); }, "1000000 corners; allowed: 3 to 64");
+  expectRefused<Message>(
+      good, [](Message& m) { m = roundBlade(65); }, "65 corners");
+  expectRefused<Message>(
+      good, [](Message& m) { m.points.resize(2); }, "2 corners");
+  expectRefused<Message>(
+      good, [](Message& m) { m.points[3].x = kNaN; }, "polygon.points[3]");
+  expectRefused<Message>(
+      good, [](Message& m) { m.points[3].x = 5.0f; }, "spans");
+  expectRefused<Message>(
+      good, [](Message& m) { m.points[3].z += 0.1f; }, "planar");
+  expectRefused<Message>(
+      good,
+      [](Message& m) {
+        for (auto& p : m.points) p.y = 0.0f;
+      },
+      "no area");
+}
+
+TEST(Conversions, TransformsAreCheckedAsPosesAre) {
+  geometry_msgs::Transform transform;
+  transform.rotation.w = 1.0;
+  EXPECT_TRUE(fromMessage(transform).isApprox(Eigen::Isometry3d::Identity()));
+  expectRefused<geometry_msgs::Transform>(
+      transform, [](auto& m) { m.translation.x = 1e20; }, "transform");
+  expectRefused<geometry_msgs::Transform>(
+      transform, [](auto& m) { m.rotation.w = 0.0; }, "transform");
+}
+
 TEST(Conversions, StatusKeepsItsWords) {
   TrackingStatus status;
   status.state = TrackingState::kLost;
@@ -346,6 +419,10 @@ TEST(Conversions, UnusableCamerasAreRefused) {
   refused([](auto& info) { info.P[0] = NAN; });
   refused([](auto& info) { info.P[0] = INFINITY; });
   refused([](auto& info) { info.P[2] = NAN; });
+  refused([](auto& info) { info.P[0] = 1e300; });
+  refused([](auto& info) { info.P[5] = 1e-300; });
+  refused([](auto& info) { info.P[6] = 1e20; });
+  refused([](auto& info) { info.width = 1u << 20; });
 }
 
 TEST(Conversions, StampsKeepEveryNanosecond) {

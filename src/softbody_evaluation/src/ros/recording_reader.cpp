@@ -13,6 +13,7 @@
 
 #include "ros/typed_topic.h"
 #include "softbody_common/camera_topics.h"
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_tracking/camera/frame_pairer.h"

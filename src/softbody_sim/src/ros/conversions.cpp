@@ -7,6 +7,7 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_sim/constraints/obstacle_description.h"
 
 namespace softbody {
 namespace {
@@ -19,6 +20,17 @@ std_msgs::ColorRGBA shade(const Eigen::Vector3d& position, const Eigen::Vector3d
 }
 
 }  // namespace
+
+PinRegion fromMessage(const softbody_msgs::PinRegion& message) {
+  requireTopicName(message.name);
+  const PinRegion region{message.name, message.header.frame_id, fromPoint32(message.min),
+                         fromPoint32(message.max)};
+  if ((region.min.array() <= region.max.array()).all()) return region;  // false for NaN
+  throw std::invalid_argument(fmt::format(
+      "the box of pin '{}' is empty: min ({:.6g}, {:.6g}, {:.6g}) is not below max ({:.6g}, {:.6g}, {:.6g})",
+      region.name, region.min.x(), region.min.y(), region.min.z(), region.max.x(), region.max.y(),
+      region.max.z()));
+}
 
 std_msgs::ColorRGBA colorMessage(const Eigen::Vector3f& rgb) {
   std_msgs::ColorRGBA color;

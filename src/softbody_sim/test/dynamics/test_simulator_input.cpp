@@ -7,6 +7,7 @@ namespace softbody {
 namespace {
 
 using testing::kFrame;
+using testing::largestDistance;
 using testing::placing;
 using testing::somePose;
 using testing::sponge;
@@ -48,6 +49,48 @@ TEST(Simulator, RefusesUnusableTargetsAndKeepsItsState) {
   simulator.reset();
   EXPECT_FALSE(simulator.placed());
   EXPECT_EQ(simulator.state().vertices.rows(), 0);
+}
+
+TEST(Simulator, RefusesTargetsThatAreNotOfTheBody) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), SimulatorConfig());
+  simulator.step(placing(somePose()), 0);
+  const Points placed = simulator.state().vertices;
+  TargetSet targets;
+  targets.body_pose = somePose();
+  targets.targets = vertexTargets(topology, placed);
+  for (const double far : {5.0, 1e4, 1e10, 1e20, 1e300}) {
+    TargetSet bad = targets;
+    bad.targets[7].position.y() = far;
+    EXPECT_THROW(simulator.step(bad, kFrame), std::invalid_argument) << far;
+    EXPECT_TRUE(simulator.state().vertices == placed) << far;
+    EXPECT_FALSE(simulator.hasLeft(bad)) << "one outlier is not the body";
+  }
+  // A program by hand may move the body without a body_pose.
+  targets.body_pose.setIdentity();
+  for (Target& target : targets.targets) target.position.x() += 0.3;
+  EXPECT_NO_THROW(simulator.step(targets, kFrame));
+}
+
+/// In whatever way the body was driven away: targets that agree with their body_pose bring it back.
+TEST(Simulator, ABodyThatWasDrivenAwayIsBroughtBack) {
+  const TetTopology topology = sponge();
+  TargetSet targets;
+  targets.body_pose = somePose();
+  targets.targets = vertexTargets(topology, transformed(topology.rest_vertices, somePose()));
+  for (const double away : {3.0, 1e4, 1e17}) {
+    Simulator simulator(topology, Material(), SimulatorConfig());
+    EXPECT_FALSE(simulator.hasLeft(targets)) << "not placed";
+    simulator.step(placing(somePose()), 0);
+    EXPECT_FALSE(simulator.hasLeft(targets));
+    simulator.setVertices(simulator.state().vertices.rowwise() + Eigen::RowVector3d(away, 0.0, 0.0));
+    ASSERT_TRUE(simulator.hasLeft(targets)) << away;
+    TargetSet again = targets;
+    again.reset = true;
+    simulator.step(again, kFrame);
+    EXPECT_LT(largestDistance(simulator.state().vertices, transformed(topology.rest_vertices, somePose())),
+              1e-4);
+  }
 }
 
 /// With stiffer targets, rounding would move the body.

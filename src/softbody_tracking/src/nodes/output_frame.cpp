@@ -1,7 +1,10 @@
 #include "nodes/output_frame.h"
 
 #include <ros/ros.h>
-#include <tf2_eigen/tf2_eigen.h>
+
+#include <stdexcept>
+
+#include "softbody_common/ros/geometry_messages.h"
 
 namespace softbody {
 namespace {
@@ -41,7 +44,12 @@ Eigen::Isometry3d OutputFrame::lookUp(const std::string& target, const std_msgs:
          ros::WallTime::now() < deadline) {
     ros::WallDuration(kPoll_s).sleep();
   }
-  return tf2::transformToEigen(transforms_.buffer().lookupTransform(target, source.frame_id, source.stamp));
+  const auto T_target_source = transforms_.buffer().lookupTransform(target, source.frame_id, source.stamp);
+  try {
+    return fromMessage(T_target_source.transform);
+  } catch (const std::invalid_argument& error) {
+    throw tf2::TransformException(source.frame_id + " in " + target + ": " + error.what());
+  }
 }
 
 }  // namespace softbody

@@ -24,7 +24,8 @@ class OutputFrame {
   /// The camera's header with the fixed frame as its frame_id.
   std_msgs::Header fixedHeader(const std_msgs::Header& camera_header) const;
 
-  /// T_fixed_camera at the header's stamp. @throw tf2::TransformException if tf does not know it in time.
+  /// T_fixed_camera at the header's stamp. @throw tf2::TransformException if tf does not know it in time, or
+  /// the transform is not usable.
   Eigen::Isometry3d cameraPose(const std_msgs::Header& camera_header) const;
 
   /// T_fixed_frame of any frame at the header's stamp. @param header an empty frame_id means the camera's

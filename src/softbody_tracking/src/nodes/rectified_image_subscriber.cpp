@@ -1,19 +1,13 @@
 #include "nodes/rectified_image_subscriber.h"
 
-#include <cv_bridge/cv_bridge.h>
-#include <sensor_msgs/image_encodings.h>
-
 #include <utility>
 
-#include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
+#include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
 RgbdFrame frameFromImages(const RectifiedImages& images) {
-  const auto color = cv_bridge::toCvShare(images.color, sensor_msgs::image_encodings::BGR8);
-  const auto depth = cv_bridge::toCvShare(images.depth, sensor_msgs::image_encodings::TYPE_32FC1);
-  return {toNanoseconds(images.color->header.stamp), pinholeFromMessage(*images.info), color->image,
-          depth->image};
+  return frameFromRectified(*images.color, *images.depth, *images.info);
 }
 
 RectifiedImageSubscriber::RectifiedImageSubscriber(ros::NodeHandle handle, Callback callback)
@@ -29,6 +23,13 @@ RectifiedImageSubscriber::RectifiedImageSubscriber(ros::NodeHandle handle, Callb
   });
   info_ = handle.subscribe<CameraInfo>(
       topics::kRgbInfo, 1, [this, stamp](const auto& info) { pass(assembler_.addInfo(stamp(info), info)); });
+}
+
+/// The synchroniser must not be destroyed while a subscriber calls it, and the subscribers not before it.
+RectifiedImageSubscriber::~RectifiedImageSubscriber() {
+  color_.unsubscribe();
+  depth_.unsubscribe();
+  info_.unsubscribe();
 }
 
 }  // namespace softbody

@@ -19,7 +19,7 @@ struct RectifiedImages {
 };
 
 /// The images as a frame whose T_fixed_camera is the identity. The frame may share the messages' memory, so
-/// the messages must outlive it. @throw cv_bridge::Exception or std::invalid_argument for malformed messages.
+/// the messages must outlive it. @throw std::invalid_argument as frameFromRectified.
 RgbdFrame frameFromImages(const RectifiedImages& images);
 
 /// Receives frames from camera_ingest.
@@ -28,6 +28,9 @@ class RectifiedImageSubscriber {
   using Callback = std::function<void(const RectifiedImages& images)>;
 
   RectifiedImageSubscriber(ros::NodeHandle handle, Callback callback);
+  ~RectifiedImageSubscriber();
+  RectifiedImageSubscriber(const RectifiedImageSubscriber&) = delete;
+  RectifiedImageSubscriber& operator=(const RectifiedImageSubscriber&) = delete;
 
  private:
   using Assembler = FrameAssembler<sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;

@@ -9,6 +9,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "softbody_common/plausibility.h"
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 
 namespace enc = sensor_msgs::image_encodings;
@@ -16,13 +18,13 @@ namespace enc = sensor_msgs::image_encodings;
 namespace softbody {
 namespace {
 
-// Pixels in a row or column. Products of a corrupt header's numbers must not overflow.
-constexpr std::uint32_t kMaxSide = 1u << 14;
+constexpr double kFarthestDepth_m = 100.0;  // the largest max_depth_m of camera_ingest
 
 void checkLayout(const sensor_msgs::Image& image, const char* name) {
-  if (image.width == 0 || image.height == 0 || image.width > kMaxSide || image.height > kMaxSide) {
-    throw std::invalid_argument(
-        fmt::format("the {} image has {}x{} pixels", name, image.width, image.height));
+  const bool empty = image.width == 0 || image.height == 0;
+  if (empty || image.width > kLargestImageSide || image.height > kLargestImageSide) {
+    throw std::invalid_argument(fmt::format("the {} image has {}x{} pixels; allowed: 1 to {} a side", name,
+                                            image.width, image.height, kLargestImageSide));
   }
   std::size_t bytes = 0;
   try {
@@ -47,6 +49,20 @@ cv_bridge::CvImageConstPtr share(const sensor_msgs::Image& image, const std::str
     throw std::invalid_argument(
         fmt::format("the {} image's encoding '{}' cannot be used: {}", name, image.encoding, error.what()));
   }
+}
+
+void requireSize(const cv::Mat& image, const Pinhole& camera, const char* name) {
+  if (image.cols == camera.width && image.rows == camera.height) return;
+  throw std::invalid_argument(fmt::format("the {} image has {}x{} pixels, but its camera_info says {}x{}",
+                                          name, image.cols, image.rows, camera.width, camera.height));
+}
+
+/// Depth without numbers that are none: a copy, where there is one.
+cv::Mat1f usableDepth(const cv::Mat& depth) {
+  if (cv::checkRange(depth, true, nullptr, 0.0, kFarthestDepth_m)) return depth;
+  cv::Mat1f usable = depth.clone();
+  for (float& z : usable) z = z >= 0.0f && z < kFarthestDepth_m ? z : 0.0f;  // false for NaN
+  return usable;
 }
 
 cv::Matx33d matrix(const boost::array<double, 9>& values) { return cv::Matx33d(values.data()); }
@@ -98,6 +114,27 @@ RgbdFrame frameFromMessages(const sensor_msgs::Image& color, const sensor_msgs::
   const cv::Mat raw_depth = depth != nullptr ? depthFromMessage(*depth) : cv::Mat();
   return ingest->process(bgr, raw_depth, distortionFromMessage(info), pinholeFromMessage(info),
                          toNanoseconds(color.header.stamp));
+}
+
+RgbdFrame frameFromRectified(const sensor_msgs::Image& color, const sensor_msgs::Image& depth,
+                             const sensor_msgs::CameraInfo& info) {
+  const Pinhole camera = pinholeFromMessage(info);
+  checkLayout(color, "colour");
+  checkLayout(depth, "depth");
+  if (depth.encoding != enc::TYPE_32FC1) {
+    throw std::invalid_argument(
+        fmt::format("the rectified depth image's encoding is '{}'; expected 32FC1 [m]", depth.encoding));
+  }
+  const cv::Mat bgr = share(color, enc::BGR8, "colour")->image, metres = share(depth, "", "depth")->image;
+  requireSize(bgr, camera, "colour");
+  requireSize(metres, camera, "depth");
+  return {toNanoseconds(color.header.stamp), camera, bgr, usableDepth(metres)};
+}
+
+cv::Mat1b maskFromMessage(const sensor_msgs::Image& image) {
+  checkLayout(image, "mask");
+  const cv::Mat1b mask = share(image, enc::MONO8, "mask")->image;
+  return mask.data == image.data.data() ? cv::Mat1b(mask.clone()) : mask;
 }
 
 std::string withoutSlash(const std::string& frame) {

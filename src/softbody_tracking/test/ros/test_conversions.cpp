@@ -5,6 +5,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_tracking/ros/conversions.h"
 

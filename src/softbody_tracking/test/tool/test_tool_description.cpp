@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -39,6 +40,17 @@ const char kMarker[] = "{id: 7, size_m: 0.064, pose: [0.1, 0, 0, 0, 0, 0, 1]}";
 
 std::string tool(const std::string& dictionary, const std::string& markers, const std::string& rest = "") {
   return "tool:\n  dictionary: " + dictionary + "\n  markers: [" + markers + "]\n" + rest;
+}
+
+/// A blade with this many corners.
+std::string circle(int corners) {
+  std::string list;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * M_PI * i / corners;
+    list += (i == 0 ? "[0, " : ", [0, ") + std::to_string(0.1 * std::cos(angle)) + ", " +
+            std::to_string(0.1 * std::sin(angle)) + "]";
+  }
+  return "[" + list + "]";
 }
 
 TEST_F(ToolDescriptionTest, AGoodFileIsRead) {
@@ -81,6 +93,7 @@ TEST_F(ToolDescriptionTest, BadFilesAreRefusedWithKeyAndValue) {
       {tool("DICT_4X4_50", "{id: 5, size_m: 0.06, pose: [0, 0, 0, 0, 0, 0, 2]}"), {"pose", "length 2"}},
       {tool("DICT_4X4_50", std::string(kMarker) + ", " + kMarker), {"tool/markers[1]/id", "7", "differ"}},
       {tool("DICT_4X4_50", kMarker, blade + "[[0, 0, 0], [1, 0, 0]]\n"), {"tool/blade", "three"}},
+      {tool("DICT_4X4_50", kMarker, blade + circle(65) + "\n"), {"tool/blade", "three to 64"}},
       {tool("DICT_4X4_50", kMarker, blade + "[[0, 0, 0], [1, 0, 0], [1, x, 0]]\n"), {"tool/blade[2]", "x"}},
       {tool("DICT_4X4_50", kMarker, blade + "[[0, 0, 0], [1, 0, 0], [.inf, 1, 0]]\n"), {"tool/blade[2]"}},
       {tool("DICT_4X4_50", kMarker, blade + "[[0, 0, 0], [0, 8, 0], [0, 8, 5]]\n"),

@@ -280,6 +280,10 @@ TEST(BodyTracker, IgnoresStatesThatDoNotAnswerItsTargets) {
   EXPECT_TRUE(resetsWith({0, 5000, rest, {}})) << "from a later pass of a looping bag";
   EXPECT_TRUE(resetsWith({7, 1000, rest, {}})) << "of another revision";
   EXPECT_TRUE(resetsWith({0, 1000, rest.topRows(5), {}})) << "of another size";
+  for (const double away : {4.0, 1e17}) {
+    const Points far = rest.rowwise() + Eigen::RowVector3d(0.0, away, 0.0);
+    EXPECT_TRUE(resetsWith({0, 1000, far, {}})) << "the body was driven away: the reset brings it back";
+  }
   EXPECT_FALSE(resetsWith({0, 1000, rest, {}}));
 }
 

@@ -3,6 +3,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_virtual_camera/ros/messages.h"
 

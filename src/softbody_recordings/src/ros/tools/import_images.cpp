@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_recordings/image_folder/image_folder.h"

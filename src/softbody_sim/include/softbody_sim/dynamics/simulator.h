@@ -35,8 +35,13 @@ class Simulator {
   /// steps after a change of topology, and when the number of targets or contacts exceeds all earlier ones.
   /// @throw std::invalid_argument if the body is not placed, if the revision is not the topology's or one of
   /// the last few, or if a target cannot be used (tet, finite numbers, barycentric coordinates within 100,
-  /// weight within largestStiffness). @throw std::runtime_error if the step has no finite solution.
+  /// weight within largestStiffness, within reachOf() of its place in the body or in the rest shape at
+  /// body_pose). @throw std::runtime_error if the step has no finite solution.
   void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
+
+  /// Whether the body has been driven away: it is placed, but not one target is within reachOf() of its place
+  /// in it. Then `reset` brings the body back. @throw std::invalid_argument as step does.
+  bool hasLeft(const TargetSet& targets) const;
 
   /// Like step, but without a new observation. Earlier targets still act, without their `reset`. `observed`
   /// stays, and the confidence halves every 0.5 s.

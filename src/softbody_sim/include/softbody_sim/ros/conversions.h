@@ -1,11 +1,17 @@
 #pragma once
 
+#include <softbody_msgs/PinRegion.h>
 #include <visualization_msgs/Marker.h>
 
 #include "softbody_common/types.h"
+#include "softbody_sim/object/pin_region.h"
 
-/// Conversions from the core's structs to messages. The caller sets the headers.
+/// Conversions between the core's structs and messages. The caller sets the headers.
 namespace softbody {
+
+/// The box may be infinite. @throw std::invalid_argument if the name cannot be part of a topic name, a number
+/// is missing (NaN), or the box is inside out.
+PinRegion fromMessage(const softbody_msgs::PinRegion& message);
 
 /// Opaque. @param rgb 0 to 1.
 std_msgs::ColorRGBA colorMessage(const Eigen::Vector3f& rgb);

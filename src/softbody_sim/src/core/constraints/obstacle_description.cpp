@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 #include <stdexcept>
 
 namespace softbody {
 namespace {
 
-constexpr double kLargestSize = 10.0;  // [m]
+constexpr double kLargestSize = 10.0;      // [m]
+constexpr std::size_t kLongestName = 100;  // of what has a topic
 
 Obstacle readShape(Parameters& parameters, const std::string& name) {
   const std::string shape = parameters.choice("shape", "sphere", {"plane", "sphere", "capsule", "box"});
@@ -48,10 +48,14 @@ Eigen::Isometry3d readPose(Parameters& parameters, const std::string& name) {
 }  // namespace
 
 void requireTopicName(const std::string& name) {
-  static const std::regex kForm("[A-Za-z][A-Za-z0-9_]*");
-  if (!std::regex_match(name, kForm))
-    throw std::invalid_argument(
-        fmt::format("name is '{}'; allowed: letters, digits and _, starting with a letter", name));
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const bool usable = !name.empty() && name.size() <= kLongestName && isLetter(name.front()) &&
+                      std::all_of(name.begin(), name.end(),
+                                  [&](char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; });
+  if (usable) return;
+  throw std::invalid_argument(
+      fmt::format("name is '{}'; allowed: up to {} letters, digits and _, starting with a letter",
+                  name.substr(0, kLongestName), kLongestName));
 }
 
 std::vector<ObstacleDescription> readObstacles(Parameters& parameters, std::vector<std::string>* unknown) {

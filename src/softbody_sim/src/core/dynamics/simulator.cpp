@@ -134,6 +134,9 @@ void Simulator::requireUsable(const TargetSet& targets) const {
   const TargetSet& current = s.toCurrentRevision(targets, &storage);
   const bool fits = current.revision == s.model->topology.revision;
   softbody::requireUsable(fits ? current : targets, fits ? s.model->topology : s.uncut, largest_weight);
+  static const Points kNotPlaced;
+  requireWithinReach(fits ? current : targets, fits ? s.model->topology : s.uncut,
+                     fits && !targets.reset ? s.body.mesh.vertices : kNotPlaced);
 }
 
 void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundings& surroundings) {
@@ -141,6 +144,8 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   TargetSet storage;
   const TargetSet& targets = s.toCurrentRevision(given, &storage);
   s.requireUsable(targets, surroundings);
+  static const Points kNotPlaced;
+  requireWithinReach(targets, s.model->topology, targets.reset ? kNotPlaced : s.body.mesh.vertices);
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp);
   s.advance(targets, stamp, surroundings);
@@ -149,6 +154,14 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   s.model->vertex_confidence.compute(targets.targets, &s.next.mesh.confidence);
   if (!targets.targets.empty()) s.next.mesh.observed = stamp;
   std::swap(s.body, s.next);
+}
+
+bool Simulator::hasLeft(const TargetSet& given) const {
+  const Implementation& s = *implementation_;
+  TargetSet storage;
+  const TargetSet& targets = s.toCurrentRevision(given, &storage);
+  s.requireUsable(targets, {});
+  return softbody::hasLeft(targets, s.model->topology, s.body.mesh.vertices);
 }
 
 void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const Surroundings& surroundings) {

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "softbody_common/plausibility.h"
+#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
@@ -30,6 +34,11 @@ void requireUsable(const Target& target, std::size_t index, Eigen::Index tet_cou
   }
 }
 
+/// Of a target from its material point [m].
+double distanceOf(const Target& target, const Points& vertices, const Tets& tets) {
+  return (target.position - positionOf(target.place, vertices, tets)).norm();
+}
+
 }  // namespace
 
 void requireUsable(const TargetSet& targets, const TetTopology& topology, double largest_weight) {
@@ -41,6 +50,30 @@ void requireUsable(const TargetSet& targets, const TetTopology& topology, double
     throw std::invalid_argument("body_pose is not finite");
   for (std::size_t i = 0; i < targets.targets.size(); ++i)
     requireUsable(targets.targets[i], i, topology.tets.rows(), largest_weight);
+}
+
+bool hasLeft(const TargetSet& targets, const TetTopology& topology, const Points& vertices) {
+  if (targets.targets.empty() || vertices.rows() == 0) return false;
+  const double reach = reachOf(topology.rest_vertices);
+  return std::none_of(targets.targets.begin(), targets.targets.end(), [&](const Target& target) {
+    return distanceOf(target, vertices, topology.tets) <= reach;
+  });
+}
+
+void requireWithinReach(const TargetSet& targets, const TetTopology& topology, const Points& vertices) {
+  const double reach = reachOf(topology.rest_vertices);
+  const Eigen::Isometry3d T_body_frame = targets.body_pose.inverse();
+  for (std::size_t i = 0; i < targets.targets.size(); ++i) {
+    const Target& target = targets.targets[i];
+    if (vertices.rows() > 0 && distanceOf(target, vertices, topology.tets) <= reach) continue;
+    const Eigen::Vector3d rest = positionOf(target.place, topology.rest_vertices, topology.tets);
+    const double distance = (T_body_frame * target.position - rest).norm();
+    if (distance <= reach) continue;
+    throw std::invalid_argument(fmt::format(
+        "targets[{}] is {:.3g} m from its place at body_pose, and not near the body either; allowed: "
+        "up to {:.3g} m, ten times the body's size",
+        i, distance, reach));
+  }
 }
 
 }  // namespace softbody

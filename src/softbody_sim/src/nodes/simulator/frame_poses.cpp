@@ -1,6 +1,8 @@
 #include "nodes/simulator/frame_poses.h"
 
-#include <tf2_eigen/tf2_eigen.h>
+#include <stdexcept>
+
+#include "softbody_common/ros/geometry_messages.h"
 
 namespace softbody {
 
@@ -11,10 +13,11 @@ std::optional<FramePoses::StampedPose> FramePoses::find(const std::string& frame
   for (const ros::Time& time : {stamp, ros::Time()}) {  // time zero: the latest transform
     try {
       const auto transform = transforms_.buffer().lookupTransform(target_frame, frame, time);
-      return StampedPose{Eigen::Isometry3d(tf2::transformToEigen(transform).matrix()),
-                         transform.header.stamp};
+      return StampedPose{fromMessage(transform.transform), transform.header.stamp};
     } catch (const tf2::TransformException&) {
       continue;
+    } catch (const std::invalid_argument& error) {
+      ROS_WARN_STREAM_THROTTLE(5.0, "tf of frame " << frame << " is not used: " << error.what());
     }
   }
   return {};

@@ -1,12 +1,15 @@
 #include "nodes/simulator/simulator_node.h"
 
+#include <fmt/format.h>
 #include <malloc.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/tet_topology_check.h"
 #include "softbody_common/topics.h"
+#include "softbody_sim/ros/conversions.h"
 
 namespace softbody {
 namespace {
@@ -63,8 +66,13 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
 /// @return whether the stamp is accepted; if not, nothing changes. @throw std::invalid_argument likewise.
 bool SimulatorNode::step(const softbody_msgs::Targets& message) {
   TargetSet targets = fromMessage(message);
+  requireBodyFrame(targets, message.header.frame_id);
   simulator_.requireUsable(targets);
   if (!admits(message.header.stamp)) return false;
+  if (!targets.reset && simulator_.hasLeft(targets)) {
+    ROS_WARN("the body is far from all targets: it is placed again at body_pose");
+    targets.reset = true;
+  }
   const auto scope = timer_.stage(kStage);
   if (targets.reset) surroundings_.forgetPinPositions();
   // When the body is placed, its pins take their positions after this step.
@@ -76,6 +84,14 @@ bool SimulatorNode::step(const softbody_msgs::Targets& message) {
   surroundings_.findConflicts(last_.set.targets, simulator_.topology().tets, simulator_.state().vertices);
   diagnostics_.countStep();
   return true;
+}
+
+/// The state is in the targets' frame; only targets with reset may change it.
+void SimulatorNode::requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const {
+  if (targets.reset || !simulator_.placed() || frame_id == last_.header.frame_id) return;
+  throw std::invalid_argument(fmt::format(
+      "their frame_id is '{}', but the body is in '{}': only targets with reset may change the frame",
+      frame_id, last_.header.frame_id));
 }
 
 /// Several target sets may belong to one stamp.
@@ -191,11 +207,8 @@ void SimulatorNode::onPin(const softbody_msgs::PinRegionConstPtr& message) {
       ROS_WARN_STREAM("no pin to release: none has the name '" << message->name << "'");
     return;
   }
-  const PinRegion region{message->name, message->header.frame_id,
-                         Eigen::Vector3d(message->min.x, message->min.y, message->min.z),
-                         Eigen::Vector3d(message->max.x, message->max.y, message->max.z)};
   try {
-    surroundings_.addPin(region, simulator_.topology().rest_vertices);
+    surroundings_.addPin(fromMessage(*message), simulator_.topology().rest_vertices);
   } catch (const std::exception& error) {
     ROS_WARN_STREAM("the pin is not added: " << error.what());
   }

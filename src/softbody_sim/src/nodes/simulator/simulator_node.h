@@ -36,6 +36,7 @@ class SimulatorNode {
   void onFreeRun();
 
   bool step(const softbody_msgs::Targets& message);
+  void requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const;
   bool admits(const ros::Time& stamp);
   void restart();
   bool applyCut(const softbody_msgs::Cut& message, std::string* reason);

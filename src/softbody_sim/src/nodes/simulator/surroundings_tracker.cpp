@@ -8,6 +8,11 @@
 #include "softbody_sim/constraints/pin_conflict.h"
 
 namespace softbody {
+namespace {
+
+constexpr std::size_t kMostPins = 1000;  // the time of a step grows with them
+
+}  // namespace
 
 SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node,
                                          const std::vector<ObstacleDescription>& obstacles,
@@ -26,6 +31,8 @@ void SurroundingsTracker::addPin(const PinRegion& region, const Points& rest_ver
     if (obstacle.description.name == region.name)
       throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
   }
+  if (pins_.size() >= kMostPins && pins_.count(region.name) == 0)
+    throw std::invalid_argument(fmt::format("{} pins are held already: release one first", pins_.size()));
   HeldRegion held(region, rest_vertices);
   FollowedFrame frame(fmt::format("pin '{}'", region.name), region.frame, options_.frame_timeout_s);
   pins_.insert_or_assign(

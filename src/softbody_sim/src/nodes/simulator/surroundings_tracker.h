@@ -35,7 +35,7 @@ class SurroundingsTracker {
                       const PinOptions& options);
 
   /// Holds the vertices of a region from the next surroundingsAt() on, in place of a region of the same name.
-  /// @throw std::invalid_argument if the region has no vertex, or its name is not usable.
+  /// @throw std::invalid_argument if the region has no vertex, its name is not usable, or too many are held.
   void addPin(const PinRegion& region, const Points& rest_vertices);
   /// @return false if no pin has the name.
   bool removePin(const std::string& name);

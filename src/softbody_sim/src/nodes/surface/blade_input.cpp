@@ -1,9 +1,9 @@
 #include "nodes/surface/blade_input.h"
 
 #include <fmt/format.h>
-#include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "softbody_common/rigid_fit.h"
@@ -39,54 +39,62 @@ void BladeInput::reset() {
 
 void BladeInput::onState(const std_msgs::Header& header) {
   state_ = header;
-  geometry_msgs::PolygonStampedConstPtr last;
-  while (!waiting_.empty() && waiting_.front()->header.stamp <= header.stamp) {
-    last = waiting_.front();
+  std::optional<Blade> last;
+  while (!waiting_.empty() && waiting_.front().header.stamp <= header.stamp) {
+    last = std::move(waiting_.front());
     waiting_.pop_front();
   }
   if (last) passOn(*last);
 }
 
 void BladeInput::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
-  const StampVerdict verdict = stamps_.judge(message->header.stamp);
+  try {
+    add({message->header, fromMessage(message->polygon)});
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic() << " is not used: " << error.what());
+  }
+}
+
+void BladeInput::add(Blade blade) {
+  const ros::Time stamp = blade.header.stamp;
+  const StampVerdict verdict = stamps_.judge(stamp);
   if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
   if (verdict.kind == StampVerdict::kJumpedBack) waiting_.clear();
-  if (state_ && message->header.stamp <= state_->stamp) return passOn(*message);
-  waiting_.push_back(message);
-  while (stampOf(*message) - stampOf(*waiting_.front()) > kLongestWait || waiting_.size() > kMostWaiting) {
-    skip(*waiting_.front());
+  if (state_ && stamp <= state_->stamp) return passOn(blade);
+  waiting_.push_back(std::move(blade));
+  while (toNanoseconds(stamp) - toNanoseconds(waiting_.front().header.stamp) > kLongestWait ||
+         waiting_.size() > kMostWaiting) {
+    skip(waiting_.front().header.stamp);
     waiting_.pop_front();
   }
 }
 
-void BladeInput::passOn(const geometry_msgs::PolygonStamped& blade) {
-  if (std::abs(toNanoseconds(state_->stamp) - stampOf(blade)) > kSameInstant) return skip(blade);
+void BladeInput::passOn(const Blade& blade) {
+  if (std::abs(toNanoseconds(state_->stamp) - toNanoseconds(blade.header.stamp)) > kSameInstant)
+    return skip(blade.header.stamp);
   skipped_ = 0;
   const std::optional<Points> polygon = toStateFrame(blade);
   if (polygon) on_blade_(*polygon, blade.header.stamp);
 }
 
-void BladeInput::skip(const geometry_msgs::PolygonStamped& blade) {
+void BladeInput::skip(const ros::Time& stamp) {
   if (!state_ || ++skipped_ < kMostSkipped) return;
-  const double ahead = secondsBetween(state_->stamp, blade.header.stamp);
+  const double ahead = secondsBetween(state_->stamp, stamp);
   ROS_WARN_STREAM_THROTTLE(
       5.0,
       fmt::format("the blade cannot cut: its stamp {:.3f} s is {:.3f} s {} the body's last state; a blade "
                   "needs the stamp of an image in which the body is tracked",
-                  blade.header.stamp.toSec(), std::abs(ahead), ahead > 0.0 ? "after" : "before"));
+                  stamp.toSec(), std::abs(ahead), ahead > 0.0 ? "after" : "before"));
 }
 
-std::optional<Points> BladeInput::toStateFrame(const geometry_msgs::PolygonStamped& blade) {
-  Points points = fromMessage(blade.polygon);
-  if (blade.header.frame_id == state_->frame_id) return points;
+std::optional<Points> BladeInput::toStateFrame(const Blade& blade) {
+  if (blade.header.frame_id == state_->frame_id) return blade.corners;
   if (!transforms_) transforms_ = std::make_unique<TransformInput>();
   try {
-    const Eigen::Isometry3d T(
-        tf2::transformToEigen(transforms_->buffer().lookupTransform(state_->frame_id, blade.header.frame_id,
-                                                                    blade.header.stamp))
-            .matrix());
-    return transformed(points, T);
-  } catch (const tf2::TransformException& error) {
+    const auto T =
+        transforms_->buffer().lookupTransform(state_->frame_id, blade.header.frame_id, blade.header.stamp);
+    return transformed(blade.corners, fromMessage(T.transform));
+  } catch (const std::exception& error) {  // of tf2, or of a transform that is not usable
     ROS_WARN_STREAM_THROTTLE(5.0, "tf does not give the blade's pose: " << error.what());
     return std::nullopt;
   }

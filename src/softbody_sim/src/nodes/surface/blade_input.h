@@ -29,15 +29,21 @@ class BladeInput {
   void reset();
 
  private:
+  struct Blade {
+    std_msgs::Header header;
+    Points corners;  ///< [m], in the header's frame
+  };
+
   void onBlade(const geometry_msgs::PolygonStampedConstPtr& message);
-  void passOn(const geometry_msgs::PolygonStamped& blade);
-  void skip(const geometry_msgs::PolygonStamped& blade);
-  std::optional<Points> toStateFrame(const geometry_msgs::PolygonStamped& blade);
+  void add(Blade blade);
+  void passOn(const Blade& blade);
+  void skip(const ros::Time& stamp);
+  std::optional<Points> toStateFrame(const Blade& blade);
 
   Callback on_blade_;
   StampGate stamps_;
-  std::optional<std_msgs::Header> state_;                      ///< of the last state
-  std::deque<geometry_msgs::PolygonStampedConstPtr> waiting_;  ///< for their states
+  std::optional<std_msgs::Header> state_;       ///< of the last state
+  std::deque<Blade> waiting_;                   ///< for their states
   int skipped_ = 0;                             ///< consecutive blades without a state of their time
   std::unique_ptr<TransformInput> transforms_;  ///< only if the blade is in another frame than the body
   ros::Subscriber subscriber_;

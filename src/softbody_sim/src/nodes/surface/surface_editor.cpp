@@ -59,8 +59,6 @@ void SurfaceEditor::confirm(std::uint32_t revision) {
 void SurfaceEditor::onBlade(const Points& polygon, const ros::Time& stamp) {
   if (!body_ || !state_) return;
   try {
-    if (polygon.rows() < 3 || !polygon.allFinite())
-      throw std::invalid_argument("it needs at least three corners, all finite");
     const std::optional<Cut> cut = body_->follow(polygon, *state_, toNanoseconds(stamp));
     if (cut) publish(*cut, stamp);
   } catch (const std::exception& error) {

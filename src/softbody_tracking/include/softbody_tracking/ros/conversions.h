@@ -28,6 +28,15 @@ Distortion distortionFromMessage(const sensor_msgs::CameraInfo& info);
 RgbdFrame frameFromMessages(const sensor_msgs::Image& color, const sensor_msgs::Image* depth,
                             const sensor_msgs::CameraInfo& info, CameraIngest* ingest);
 
+/// A frame of rectified images of one size (depth 32FC1 [m]), with an identity T_fixed_camera. Depth that is
+/// not finite, below 0 or beyond 100 m becomes 0. The frame may share the messages' memory, so they must
+/// outlive it.
+RgbdFrame frameFromRectified(const sensor_msgs::Image& color, const sensor_msgs::Image& depth,
+                             const sensor_msgs::CameraInfo& info);
+
+/// The mask in its own memory: grey, 0 where nothing counts.
+cv::Mat1b maskFromMessage(const sensor_msgs::Image& image);
+
 /// A frame_id for tf2, which refuses the leading slash of old drivers and bags.
 std::string withoutSlash(const std::string& frame);
 

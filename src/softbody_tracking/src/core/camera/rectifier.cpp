@@ -32,8 +32,9 @@ bool isAlreadyRectified(const Distortion& distortion, const Pinhole& rectified) 
 void checkRotation(const cv::Matx33d& R, const cv::Matx33d& K) {
   const double centre[] = {K(0, 2), K(1, 2)};
   const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]);
-  // The comparison is negated so that NaN is refused too.
-  if (!finite || !(std::abs(cv::determinant(R) - 1.0) < 1e-3)) {
+  const double skew = cv::norm(R * R.t() - cv::Matx33d::eye());
+  // The comparisons are negated so that NaN is refused too.
+  if (!finite || !(skew < 1e-2) || !(cv::determinant(R) > 0.0)) {
     throw std::invalid_argument("camera_info: the centre in K is not finite, or R is not a rotation");
   }
 }

@@ -3,22 +3,18 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "softbody_common/blade.h"
 #include "softbody_common/yaml_map_reader.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 namespace softbody {
 namespace {
 
-constexpr double kMaxSize_m = 2.0;      // [m] a larger tool was probably given in mm
 constexpr double kMinMarker_m = 0.001;  // [m] smallest side of a marker
-constexpr double kFlatness =
-    0.02;  // of the blade's length; how far its corners may lie apart across its plane
-constexpr double kMinWidth = 1e-3;  // of the blade's length; a narrower blade is a line
 
 std::string readDictionary(YamlMapReader& tool, FileScope scope) {
   std::string name = tool.text("dictionary");
@@ -35,7 +31,7 @@ std::string readDictionary(YamlMapReader& tool, FileScope scope) {
 ToolMarker readMarker(YamlMapReader& reader, int count) {
   ToolMarker marker;
   marker.id = reader.requiredInteger("id", 0, count - 1);
-  marker.size_m = reader.requiredNumber("size_m", kMinMarker_m, kMaxSize_m);
+  marker.size_m = reader.requiredNumber("size_m", kMinMarker_m, kLargestTool_m);
   if (reader.has("pose")) marker.T_tool_marker = reader.pose("pose");
   return marker;
 }
@@ -60,8 +56,9 @@ void readMarkers(YamlMapReader& tool, const std::string& path, ToolDescription* 
 Points readBlade(YamlMapReader& tool) {
   const YAML::Node list = tool.get("blade");
   if (!list.IsDefined()) return Points(0, 3);
-  if (!list.IsSequence() || list.size() < 3)
-    tool.fail(list, "tool/blade must be a list of at least three corners [x, y, z]");
+  if (!list.IsSequence() || list.size() < 3 || list.size() > kMostBladeCorners)
+    tool.fail(list,
+              fmt::format("tool/blade must be a list of three to {} corners [x, y, z]", kMostBladeCorners));
   Points blade(static_cast<Eigen::Index>(list.size()), 3);
   for (std::size_t i = 0; i < list.size(); ++i) {
     std::vector<double> corner;
@@ -84,10 +81,10 @@ void checkSize(YamlMapReader& tool, const ToolDescription& description) {
   Eigen::AlignedBox3d box;
   const auto check = [&](const std::string& key) {
     const double span = box.isEmpty() ? 0.0 : box.diagonal().norm();
-    if (span <= kMaxSize_m) return;
+    if (span <= kLargestTool_m) return;
     tool.fail(tool.get(key),
               fmt::format("with tool/{} the tool spans {:.4g} m; allowed: up to {} m; lengths are in metres",
-                          key, span, kMaxSize_m));
+                          key, span, kLargestTool_m));
   };
   for (const auto& corner : description.blade.rowwise()) box.extend(corner.transpose());
   check("blade");
@@ -96,22 +93,6 @@ void checkSize(YamlMapReader& tool, const ToolDescription& description) {
     for (int k = 0; k < 4; ++k) box.extend(corners.col(k));
   }
   check("markers");
-}
-
-/// Refuses a blade without area and a blade that is not planar, by its extents along the principal axes.
-void checkBlade(YamlMapReader& tool, const Points& blade) {
-  const Points centred = blade.rowwise() - blade.colwise().mean();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinV);
-  const Eigen::MatrixXd along = centred * svd.matrixV();
-  const Eigen::RowVector3d extent = along.colwise().maxCoeff() - along.colwise().minCoeff();
-  if (extent(1) <= kMinWidth * extent(0) || extent(0) <= 0.0)
-    tool.fail(tool.get("blade"), "tool/blade has no area: its corners lie on one line");
-  if (extent(2) > kFlatness * extent(0)) {
-    tool.fail(tool.get("blade"),
-              fmt::format("tool/blade is not planar: its corners lie up to {:.1f} mm apart "
-                          "across their common plane",
-                          1e3 * extent(2)));
-  }
 }
 
 }  // namespace
@@ -124,7 +105,10 @@ ToolDescription loadToolDescription(const std::string& yaml_path, FileScope scop
   readMarkers(tool, yaml_path, &description);
   description.blade = readBlade(tool);
   checkSize(tool, description);
-  if (description.blade.rows() > 0) checkBlade(tool, description.blade);
+  if (description.blade.rows() > 0) {
+    const std::string fault = bladeFault(description.blade);
+    if (!fault.empty()) tool.fail(tool.get("blade"), "tool/blade " + fault);
+  }
   tool.warnOfUnknown(&description.warnings);
   file.warnOfUnknown(&description.warnings);
   return description;

@@ -1,6 +1,7 @@
 #include "softbody_tracking/tool/tool_mask.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
@@ -52,10 +53,19 @@ struct ImagePolygon {
     return cv::pointPolygonTest(outline, cv::Point2f(static_cast<float>(u), static_cast<float>(v)), true) >
            -margin;
   }
-  cv::Rect region() const {
-    const int border = static_cast<int>(std::ceil(margin)) + 1;
-    const cv::Rect box = cv::boundingRect(outline);
-    return {box.x - border, box.y - border, box.width + 2 * border, box.height + 2 * border};
+  /// Pixels of an image near the polygon, which may lie far outside of it.
+  cv::Rect region(const cv::Size& image) const {
+    const double border = std::ceil(margin) + 1.0;
+    const auto within = [](double x, int size) { return static_cast<int>(std::clamp<double>(x, 0, size)); };
+    cv::Point first(image.width, image.height), end;
+    for (const cv::Point2f& p : outline) {
+      const double u = std::floor(p.x), v = std::floor(p.y);
+      first.x = std::min(first.x, within(u - border, image.width));
+      first.y = std::min(first.y, within(v - border, image.height));
+      end.x = std::max(end.x, within(u + 1.0 + border, image.width));
+      end.y = std::max(end.y, within(v + 1.0 + border, image.height));
+    }
+    return {first, end};
   }
 
   std::vector<cv::Point2f> outline;  ///< [px]
@@ -76,8 +86,7 @@ RgbdFrame ToolMask::withoutBlade(const RgbdFrame& frame) const {
   if (corners.col(2).minCoeff() < kMinDistance) return frame;
   const PlanePolygon blade(corners);
   const ImagePolygon in_image(frame.camera, corners);
-  const cv::Rect region = in_image.region() & cv::Rect(0, 0, frame.camera.width, frame.camera.height) &
-                          cv::Rect(cv::Point(), frame.depth.size());
+  const cv::Rect region = in_image.region(frame.depth.size());
   RgbdFrame result = frame;
   result.depth = frame.depth.clone();
   result.covered = cv::Mat1b(frame.depth.size(), 0);

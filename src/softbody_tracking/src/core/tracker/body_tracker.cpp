@@ -9,6 +9,7 @@
 
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
+#include "softbody_common/plausibility.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/same_matrix.h"
 #include "softbody_common/time.h"
@@ -183,10 +184,13 @@ void BodyTracker::Implementation::reset() {
   knn.reset();
 }
 
-/// Whether a state of the volume answers targets that were sent since the body was found.
+/// Whether a state of the volume answers targets that were sent since the body was found. A state far from
+/// the tracked pose does not: targets with reset bring that body back.
 bool BodyTracker::Implementation::isAnswer(const MeshState* volume) const {
   return volume != nullptr && volume->observed >= relocalizer.foundAt() && volume->observed <= stamp &&
-         volume->revision == model().revision && volume->vertices.rows() == model().rest_vertices.rows();
+         volume->revision == model().revision &&
+         isWithinReach(volume->vertices, transformed(model().rest_vertices, relocalizer.pose()),
+                       reachOf(model().rest_vertices));
 }
 
 /// The volume's vertices at the frame's stamp, fixed frame. @param answer nullptr without one.

@@ -8,6 +8,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
 #include "softbody_tracking/camera/point_cloud.h"

@@ -4,6 +4,7 @@
 #include <tf2/exceptions.h>
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -22,11 +23,13 @@ BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up)
   subscriber_ = handle.subscribe(topics::kToolBlade, kBladeQueue, &BladeSubscriber::onBlade, this);
 }
 
-void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) {
+void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {
   const StampVerdict verdict = stamps_.judge(message->header.stamp);
   if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
   blades_.add(
       {toNanoseconds(message->header.stamp), message->header.frame_id, fromMessage(message->polygon)});
+} catch (const std::invalid_argument& error) {
+  ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic() << " is not used: " << error.what());
 }
 
 RgbdFrame BladeSubscriber::withoutBlade(const RgbdFrame& frame) {

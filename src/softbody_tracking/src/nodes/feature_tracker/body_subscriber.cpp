@@ -11,7 +11,7 @@
 namespace softbody {
 namespace {
 
-void checkVertexCount(const MeshState& state, const TetTopology& topology) {
+void requireVertexCount(const MeshState& state, const TetTopology& topology) {
   if (topology.revision != state.revision || topology.rest_vertices.rows() == state.vertices.rows()) return;
   throw std::invalid_argument(std::to_string(state.vertices.rows()) + " vertices, but the topology has " +
                               std::to_string(topology.rest_vertices.rows()));
@@ -35,8 +35,8 @@ void BodySubscriber::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr
   if (volume_ && topology.revision == volume_->revision &&
       sameMatrix(topology.rest_vertices, volume_->rest_vertices) && sameMatrix(topology.tets, volume_->tets))
     return;
-  volume_ = std::move(topology);
-  adoptTopologies();
+  const auto before = std::exchange(volume_, std::move(topology));
+  adoptTopologiesOr([&] { volume_ = before; });
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, volume_subscriber_.getTopic() << " is unusable: " << error.what());
 }
@@ -47,8 +47,8 @@ void BodySubscriber::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstP
       sameMatrix(topology.rest_vertices, surface_->rest_vertices) &&
       sameMatrix(topology.triangles, surface_->triangles))
     return;
-  surface_ = std::move(topology);
-  adoptTopologies();
+  const auto before = std::exchange(surface_, std::move(topology));
+  adoptTopologiesOr([&] { surface_ = before; });
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, surface_subscriber_.getTopic() << " is unusable: " << error.what());
 }
@@ -56,17 +56,27 @@ void BodySubscriber::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstP
 void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) try {
   if (message->observed > message->header.stamp)
     throw std::invalid_argument("observed is after header.stamp");
+  PlacedState state{message->header.frame_id, fromMessage(*message)};
+  if (volume_) requireVertexCount(state.mesh, *volume_);
   const StampVerdict verdict = stamps_.judge(message->header.stamp);
   if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
-  newest_state_ = message;
+  newest_state_ = std::move(state);
   if (message->revision == adopted_revision_) {
-    adopted_state_ = message;
+    adopted_state_ = newest_state_;
   } else {
     adoptTopologies();
   }
 } catch (const std::exception& error) {
-  ROS_ERROR_STREAM_THROTTLE(5.0, "the state or the topologies of revision "
-                                     << message->revision << " are unusable: " << error.what());
+  ROS_ERROR_STREAM_THROTTLE(5.0, state_subscriber_.getTopic() << " of revision " << message->revision
+                                                              << " is not used: " << error.what());
+}
+
+/// A topology that the tracker refuses is forgotten.
+void BodySubscriber::adoptTopologiesOr(const std::function<void()>& forget) try {
+  adoptTopologies();
+} catch (const std::exception&) {
+  forget();
+  throw;
 }
 
 /// Gives the tracker both topologies when their revisions are equal. After an edit it also waits for the
@@ -76,20 +86,19 @@ void BodySubscriber::adoptTopologies() {
   const std::uint32_t revision = volume_->revision;
   if (surface_->revision != revision) return;
   const bool edited = tracker_->ready() && revision > adopted_revision_;
-  if (edited && newest_state_ && newest_state_->revision != revision) return;
+  if (edited && newest_state_ && newest_state_->mesh.revision != revision) return;
   tracker_->setTopologies(*volume_, *surface_);
   adopted_revision_ = revision;
-  adopted_state_ = edited ? newest_state_ : nullptr;
+  adopted_state_ = edited ? newest_state_ : std::nullopt;
 }
 
-std::optional<MeshState> BodySubscriber::state() const try {
-  if (!adopted_state_) return std::nullopt;
-  MeshState state = fromMessage(*adopted_state_);
-  if (volume_) checkVertexCount(state, *volume_);
-  return state;
-} catch (const std::invalid_argument& error) {
-  ROS_ERROR_STREAM_THROTTLE(5.0, state_subscriber_.getTopic() << " is unusable: " << error.what());
-  return std::nullopt;
+const MeshState* BodySubscriber::state(const std::string& frame_id) const {
+  if (!adopted_state_) return nullptr;
+  if (adopted_state_->frame_id == frame_id) return &adopted_state_->mesh;
+  ROS_WARN_STREAM_THROTTLE(5.0, state_subscriber_.getTopic() << " is in frame '" << adopted_state_->frame_id
+                                                             << "', but the body is tracked in '" << frame_id
+                                                             << "': the body is placed again");
+  return nullptr;
 }
 
 void BodySubscriber::clearStates() {

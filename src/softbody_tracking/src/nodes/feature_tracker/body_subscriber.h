@@ -6,7 +6,9 @@
 #include <softbody_msgs/TetTopology.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tracker/body_tracker.h"
@@ -20,25 +22,31 @@ class BodySubscriber {
   /// @param tracker must outlive this.
   BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker);
 
-  /// The newest state with the tracker's topology. Empty before the first one, if it is malformed, and when
-  /// the simulator has started again.
-  std::optional<MeshState> state() const;
+  /// The newest state with the tracker's topology; nullptr before the first one, if it is in another frame,
+  /// and when the simulator has started again.
+  const MeshState* state(const std::string& frame_id) const;
 
   /// Forgets all states, for when time has jumped back.
   void clearStates();
 
  private:
+  struct PlacedState {
+    std::string frame_id;
+    MeshState mesh;
+  };
+
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
   void onState(const softbody_msgs::MeshState::ConstPtr& message);
   void adoptTopologies();
+  void adoptTopologiesOr(const std::function<void()>& forget);
 
   StampGate stamps_;  ///< of the states
   BodyTracker* tracker_;
-  std::optional<TetTopology> volume_;                                ///< newest topology
-  std::optional<MeshTopology> surface_;                              ///< newest topology
-  std::uint32_t adopted_revision_ = 0;                               ///< of the tracker's topologies
-  softbody_msgs::MeshState::ConstPtr newest_state_, adopted_state_;  ///< of any, and of the adopted revision
+  std::optional<TetTopology> volume_;                        ///< newest topology
+  std::optional<MeshTopology> surface_;                      ///< newest topology
+  std::uint32_t adopted_revision_ = 0;                       ///< of the tracker's topologies
+  std::optional<PlacedState> newest_state_, adopted_state_;  ///< of any, and of the adopted revision
   ros::Subscriber volume_subscriber_, surface_subscriber_, state_subscriber_;
 };
 

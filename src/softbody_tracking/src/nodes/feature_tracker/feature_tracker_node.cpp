@@ -76,9 +76,9 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   frame.T_fixed_camera = *T_fixed_camera;
   if (!mask.empty()) frame.depth = maskedDepth(frame.depth, mask);
   frame = blade_.withoutBlade(frame);
-  const std::optional<MeshState> state = body_.state();
+  const MeshState* state = body_.state(output_frame_.fixedHeader(header).frame_id);
   StageTimer timer;
-  const TrackingResult result = tracker_.track(frame, state ? &*state : nullptr, &timer);
+  const TrackingResult result = tracker_.track(frame, state, &timer);
   publish(header, frame, result);
   publisher_.publishTiming(header, timer.take());
 } catch (const std::exception& error) {

@@ -1,14 +1,12 @@
 #include "nodes/feature_tracker/mask_synchronizer.h"
 
-#include <cv_bridge/cv_bridge.h>
-#include <sensor_msgs/image_encodings.h>
-
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
+#include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
 namespace {
@@ -42,9 +40,7 @@ void MaskSynchronizer::addFrame(const RectifiedImages& images) {
 }
 
 void MaskSynchronizer::onMask(const sensor_msgs::ImageConstPtr& message) try {
-  // A copy: the queue may keep the mask longer than the message lives.
-  const cv::Mat1b mask = cv_bridge::toCvCopy(message, sensor_msgs::image_encodings::MONO8)->image;
-  queue_.addMask(toNanoseconds(message->header.stamp), mask);
+  queue_.addMask(toNanoseconds(message->header.stamp), maskFromMessage(*message));
   passReadyFrames();
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, subscriber_.getTopic() << " is unusable: " << error.what());

@@ -1,5 +1,9 @@
 #include "nodes/pose_marker/pose_marker.h"
 
+#include <stdexcept>
+#include <utility>
+
+#include "softbody_common/ros/geometry_messages.h"
 #include "softbody_tracking/ros/pose_marker_message.h"
 
 namespace softbody {
@@ -12,18 +16,37 @@ constexpr double kDefaultDistance_m = 0.5;  // [m] before the camera, if the obj
 
 }  // namespace
 
-PoseMarker::PoseMarker(const ros::NodeHandle& handle, const Callback& on_track)
-    : server_(handle.resolveName(kTopicNamespace)) {
+PoseMarker::PoseMarker(const ros::NodeHandle& handle, Callback on_track)
+    : on_track_(std::move(on_track)),
+      calls_(handle.getCallbackQueue()),
+      server_(handle.resolveName(kTopicNamespace)) {
   start_pose_.position.z = kDefaultDistance_m;
   start_pose_.orientation.w = 1.0;
-  menu_.insert("track from here", [on_track](const auto& feedback) { on_track(*feedback); });
+  menu_.insert("track from here", [this](const FeedbackPtr& feedback) {
+    calls_.add([this, feedback] { on_track_(*feedback); });
+  });
 }
 
 void PoseMarker::setStartPose(const geometry_msgs::Pose& pose) {
-  start_pose_ = pose;
+  start_pose_ = pose_.pose = pose;
   if (!isShown()) return;
-  server_.setPose(kMarkerName, start_pose_);
+  server_.setPose(kMarkerName, pose_.pose, pose_.header);
   server_.applyChanges();
+}
+
+/// The server has taken the pose already. A pose that is not usable is taken back.
+void PoseMarker::onFeedback(const Feedback& feedback) {
+  if (feedback.event_type != Feedback::POSE_UPDATE) return;
+  try {
+    fromMessage(feedback.pose);
+    if (feedback.header.frame_id.empty()) throw std::invalid_argument("its pose has no frame_id");
+    pose_.header = feedback.header;
+    pose_.pose = feedback.pose;
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "the marker stays where it is: " << error.what());
+    server_.setPose(kMarkerName, pose_.pose, pose_.header);
+  }
+  server_.applyChanges();  // sends the pose to the other rviz windows too
 }
 
 bool PoseMarker::isSameMesh(const softbody_msgs::MeshTopology& mesh) const {
@@ -33,21 +56,17 @@ bool PoseMarker::isSameMesh(const softbody_msgs::MeshTopology& mesh) const {
 
 void PoseMarker::show(const softbody_msgs::MeshTopology::ConstPtr& mesh, const std::string& frame) {
   if (isSameMesh(*mesh)) return;
-  geometry_msgs::PoseStamped pose;
-  pose.header.frame_id = frame;
-  pose.pose = start_pose_;
-  visualization_msgs::InteractiveMarker shown;
-  if (server_.get(kMarkerName, shown)) {
-    pose.header = shown.header;
-    pose.pose = shown.pose;
+  geometry_msgs::PoseStamped pose = pose_;
+  if (!isShown()) {
+    pose.header.frame_id = frame;
+    pose.pose = start_pose_;
   }
-  // applyChanges() sends the new pose to the other rviz windows too.
-  server_.insert(makePoseMarker(*mesh, pose),
-                 [this](const visualization_msgs::InteractiveMarkerFeedbackConstPtr& feedback) {
-                   if (feedback->event_type == feedback->POSE_UPDATE) server_.applyChanges();
-                 });
+  server_.insert(makePoseMarker(*mesh, pose), [this](const FeedbackPtr& feedback) {
+    calls_.add([this, feedback] { onFeedback(*feedback); });
+  });
   menu_.apply(server_, kMarkerName);
   server_.applyChanges();
+  pose_ = pose;
   mesh_ = mesh;
 }
 

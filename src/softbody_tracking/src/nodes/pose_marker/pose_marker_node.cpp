@@ -2,6 +2,9 @@
 
 #include <softbody_msgs/SetPose.h>
 
+#include <stdexcept>
+
+#include "softbody_common/ros/geometry_messages.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 
@@ -45,13 +48,16 @@ void PoseMarkerNode::warnIfNotShown() {
 }
 
 void PoseMarkerNode::onInfo(const sensor_msgs::CameraInfo::ConstPtr& message) {
+  if (message->header.frame_id.empty()) return;
   info_subscriber_.shutdown();  // a camera keeps its frame
   frame_ = message->header.frame_id;
 }
 
-void PoseMarkerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) {
+void PoseMarkerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) try {
+  if (isGiven(message->initial_pose)) marker_.setStartPose(toMessage(fromMessage(message->initial_pose)));
   volume_topology_subscriber_.shutdown();  // only its initial pose is used
-  if (isGiven(message->initial_pose)) marker_.setStartPose(message->initial_pose);
+} catch (const std::invalid_argument& error) {
+  ROS_ERROR_STREAM_THROTTLE(5.0, volume_topology_subscriber_.getTopic() << " is not used: " << error.what());
 }
 
 void PoseMarkerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
