@@ -12,11 +12,11 @@
 namespace softbody {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;  // the values were rounded to float
+constexpr double kQuaternionTolerance = 1e-3;  // the values were rounded to float
 
 /// @param what the pose is of.
 Eigen::Isometry3d poseOf(const Eigen::Vector3d& t, const Eigen::Quaterniond& q, const char* what) {
-  if (!isPlausible(t) || !(std::abs(q.norm() - 1.0) < kUnitTolerance)) {
+  if (!isPlausible(t) || !(std::abs(q.norm() - 1.0) < kQuaternionTolerance)) {
     throw std::invalid_argument(
         fmt::format("{} ({:.6g} {:.6g} {:.6g}; {:.6g} {:.6g} {:.6g} {:.6g}) is not usable: the position must "
                     "be finite and "
