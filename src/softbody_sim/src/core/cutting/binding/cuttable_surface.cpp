@@ -1,7 +1,5 @@
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <deque>
 #include <functional>
@@ -9,10 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cutting/binding/surface_history.h"
+#include "cutting/binding/cut_models.h"
 #include "cutting/blade/blade_stroke.h"
 #include "cutting/blade/tearing.h"
-#include "cutting/volume/edited_volume.h"
 #include "cutting/volume/undo_versions.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/time.h"
@@ -56,123 +53,6 @@ std::vector<double> volumesOf(const MeshTopology& mesh) {
   return volumes;
 }
 
-/// State of a body at rest.
-MeshState restOf(const TetTopology& volume) {
-  MeshState rest;
-  rest.revision = volume.revision;
-  rest.vertices = volume.rest_vertices;
-  rest.confidence.assign(static_cast<std::size_t>(rest.vertices.rows()), 0.0f);
-  return rest;
-}
-
-std::size_t pieceCount(const MeshTopology& mesh) {
-  const auto& pieces = mesh.triangle_pieces;
-  return pieces.empty() ? 0 : *std::max_element(pieces.begin(), pieces.end()) + 1;
-}
-
-/// Bounds of a body that is cut.
-struct Limits {
-  std::size_t pieces = 0;
-  std::size_t undo_bytes = 0;
-};
-
-/// @throw std::invalid_argument if a cut leaves too many.
-void requireFewPieces(const MeshTopology& mesh, const Limits& limits) {
-  const std::size_t pieces = pieceCount(mesh);
-  if (pieces > limits.pieces) {
-    throw std::invalid_argument(
-        fmt::format("the cut would leave {} pieces; max_pieces allows up to {}", pieces, limits.pieces));
-  }
-}
-
-/// The state that cuts change. Copies share everything that an edit does not change.
-struct Models {
-  CutHistory tets;
-  SurfaceHistory surface;
-
-  bool cut(const Cut& cut, const MeshState& state, const Limits& limits, std::string* reason);
-  bool move(const Cut& cut, const Limits& limits, std::string* reason);
-  /// Cuts the tets, and the visual mesh where that is possible. The body is at rest.
-  void cutAtRest(const CutPatch& patch, std::uint32_t stroke);
-  void adopt(const EditHistory& edits, const Limits& limits);
-
-  // The versions, as undo_versions.h uses them.
-  const EditHistory& edits() const { return tets.edits(); }
-  bool has(std::size_t version) const { return tets.has(version) && surface.has(version); }
-  std::size_t bytes(std::size_t version) const { return tets.bytes(version) + surface.bytes(version); }
-  void drop(std::size_t version) { tets.drop(version), surface.drop(version); }
-  Models upTo(std::size_t version) const { return {tets.upTo(version), surface.upTo(version)}; }
-  void cutStroke(const Stroke& stroke);
-  void takeVersions(const Models& other);
-};
-
-bool Models::cut(const Cut& cut, const MeshState& state, const Limits& limits, std::string* reason) {
-  *reason = refusalOf(cut, edits());
-  if (!reason->empty()) return false;
-  SurfaceCut surface_cut = surface.preview(cut.patch, cut.stroke);
-  *reason = surface_cut.reason;
-  if (surface_cut.outcome != CutOutcome::kCut) return false;
-  requireFewPieces(surface_cut.mesh, limits);
-  const TetEdit edit = tets.cutOrAdvance(cut.patch, cut.stroke);
-  surface.cut(cut.patch, cut.stroke, std::move(surface_cut), edit, state);
-  dropVersions(limits.undo_bytes, this);
-  return true;
-}
-
-bool Models::move(const Cut& cut, const Limits& limits, std::string* reason) {
-  const std::size_t version = versionAfter(cut, edits());
-  if (!has(version)) restoreVersion(version, limits.undo_bytes, this);
-  const std::optional<TetEdit> edit = applyCut(cut, &tets, reason);
-  if (!edit) return false;
-  const std::uint32_t revision = edit->topology.revision;
-  if (cut.kind == CutKind::kUndo) surface.undo(revision);
-  if (cut.kind == CutKind::kRedo) surface.redo(revision);
-  if (cut.kind == CutKind::kReset) surface.reset(revision);
-  dropVersions(limits.undo_bytes, this);
-  return true;
-}
-
-void Models::cutAtRest(const CutPatch& patch, std::uint32_t stroke) {
-  const MeshState rest = restOf(tets.topology());
-  SurfaceCut surface_cut = surface.uncutPreview(stroke);
-  try {
-    SurfaceCut preview = surface.preview(patch, stroke);
-    if (preview.outcome == CutOutcome::kCut) surface_cut = std::move(preview);
-  } catch (const std::invalid_argument&) {
-    // Another program cut the tets along a patch that the visual mesh cannot follow.
-  }
-  const TetEdit edit = tets.cutOrAdvance(patch, stroke);
-  surface.cut(patch, stroke, std::move(surface_cut), edit, rest);
-}
-
-void Models::cutStroke(const Stroke& stroke) {
-  for (const CutPatch& patch : stroke.patches) cutAtRest(patch, stroke.number);
-  tets.closeStroke();
-  surface.closeStroke();
-}
-
-void Models::takeVersions(const Models& other) {
-  tets.takeVersions(other.tets);
-  surface.takeVersions(other.surface);
-}
-
-void Models::adopt(const EditHistory& edits, const Limits& limits) {
-  for (const Cut& edit : editsBetween(tets.edits(), edits)) {
-    std::string reason;
-    if (edit.kind == CutKind::kCut)
-      cutAtRest(edit.patch, edit.stroke);
-    else if (!move(edit, limits, &reason))
-      throw std::invalid_argument(reason);
-    dropVersions(limits.undo_bytes, this);
-  }
-  const bool same_strokes = sameEdits(tets.edits(), edits);
-  tets.take(edits);
-  surface.setRevision(edits.revision);
-  if (same_strokes) return;
-  surface.setStrokeCount(edits.strokes.size());
-  if (!edits.is_open) surface.closeStroke();
-}
-
 }  // namespace
 
 struct CuttableSurface::Implementation {
@@ -185,7 +65,7 @@ struct CuttableSurface::Implementation {
 
   bool apply(const Cut& cut, const MeshState& state, std::string* reason);
   void liftAfterGap(Nanoseconds stamp);
-  Limits limits() const {
+  CutLimits limits() const {
     return {static_cast<std::size_t>(config.max_pieces),
             static_cast<std::size_t>(1e6 * config.undo_memory_mb)};
   }
@@ -196,8 +76,8 @@ struct CuttableSurface::Implementation {
   }
 
   CuttingConfig config;
-  Models models;
-  std::deque<Models>
+  CutModels models;
+  std::deque<CutModels>
       unconfirmed;  ///< state before each cut that the simulator has not confirmed, oldest first
   RestSolid solid;
   BladeStroke blade;
@@ -207,7 +87,7 @@ struct CuttableSurface::Implementation {
 
 /// Works on a copy, so that tets and surface stay consistent if an edit throws.
 bool CuttableSurface::Implementation::apply(const Cut& cut, const MeshState& state, std::string* reason) {
-  Models next = models;
+  CutModels next = models;
   const bool made =
       cut.kind == CutKind::kCut ? next.cut(cut, state, limits(), reason) : next.move(cut, limits(), reason);
   if (!made) return false;
@@ -243,7 +123,7 @@ std::size_t CuttableSurface::droppedVersions() const {
 
 void CuttableSurface::adopt(const EditHistory& edits) {
   Implementation& s = *implementation_;
-  Models next = s.models;
+  CutModels next = s.models;
   next.adopt(edits, s.limits());
   s.models = std::move(next);
   s.unconfirmed.clear();
@@ -312,14 +192,14 @@ bool CuttableSurface::apply(const Cut& cut, const MeshState& volume, std::string
 }
 
 void CuttableSurface::confirm(std::uint32_t revision) {
-  std::deque<Models>& before = implementation_->unconfirmed;
+  std::deque<CutModels>& before = implementation_->unconfirmed;
   while (!before.empty() && before.front().tets.topology().revision < revision) before.pop_front();
 }
 
 bool CuttableSurface::rollBack(std::uint32_t revision) {
   Implementation& s = *implementation_;
   if (volume().revision == revision) return true;
-  const auto kept = std::find_if(s.unconfirmed.begin(), s.unconfirmed.end(), [=](const Models& models) {
+  const auto kept = std::find_if(s.unconfirmed.begin(), s.unconfirmed.end(), [=](const CutModels& models) {
     return models.tets.topology().revision == revision;
   });
   if (kept == s.unconfirmed.end()) return false;
