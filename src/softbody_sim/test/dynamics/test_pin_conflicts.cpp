@@ -31,7 +31,7 @@ Offset sine(const Eigen::Vector3d& amplitude, double hz) {
   return [=](double s) { return Eigen::Vector3d(amplitude * std::sin(2.0 * M_PI * hz * s)); };
 }
 
-TetTopology sponge() { return boxTopology({10, 5, 2}, {0.2, 0.1, 0.04}); }
+TetTopology thickSponge() { return boxTopology({10, 5, 2}, {0.2, 0.1, 0.04}); }
 
 /// The soft toy Spot, 0.2 m long, its lowest corner at the origin.
 TetTopology doll() {
@@ -172,12 +172,12 @@ void expectBounded(const TetTopology& topology) {
   }
 }
 
-TEST(PinConflicts, StayBoundedOnTheSponge) { expectBounded(sponge()); }
+TEST(PinConflicts, StayBoundedOnTheSponge) { expectBounded(thickSponge()); }
 
 TEST(PinConflicts, StayBoundedOnTheDoll) { expectBounded(doll()); }
 
 TEST(PinConflicts, EndAtTheMeanWeightedByInverseVariances) {
-  const HeldBody body(sponge(), 2e4);
+  const HeldBody body(thickSponge(), 2e4);
   constexpr double kOffset = 0.005;
   for (const double pin_accuracy_m : {0.0005, 0.001, 0.002}) {
     const double pin = 1.0 / (pin_accuracy_m * pin_accuracy_m), camera = 1.0 / (0.001 * 0.001);
@@ -186,7 +186,7 @@ TEST(PinConflicts, EndAtTheMeanWeightedByInverseVariances) {
 }
 
 TEST(PinConflicts, AreMeasuredWhateverTheWeights) {
-  const HeldBody body(sponge(), 2e4);
+  const HeldBody body(thickSponge(), 2e4);
   for (const double accuracy_m : {0.0, 0.0005, 0.001, 0.004}) {
     EXPECT_NEAR(body.settle(0.005, accuracy_m).second, 0.005, 5e-4) << accuracy_m;
     EXPECT_LT(body.settle(0.0, accuracy_m).second, 1e-6) << accuracy_m;
@@ -195,7 +195,7 @@ TEST(PinConflicts, AreMeasuredWhateverTheWeights) {
 
 /// Pins turned about the middle of the pinned end: the mean offset is zero.
 TEST(PinConflicts, CountRotations) {
-  const TetTopology topology = sponge();
+  const TetTopology topology = thickSponge();
   const Points& rest = topology.rest_vertices;
   const Eigen::Vector3d center(0.01, 0.05, 0.02);
   const Eigen::AngleAxisd turn(0.1, Eigen::Vector3d::UnitZ());
@@ -213,7 +213,7 @@ TEST(PinConflicts, CountRotations) {
 }
 
 TEST(PinConflicts, AreNoneWhereTheCameraSeesNothing) {
-  const TetTopology topology = sponge();
+  const TetTopology topology = thickSponge();
   const Points& rest = topology.rest_vertices;
   std::vector<Target> far, across;
   for (const Target& target : vertexTargets(topology, rest)) {
