@@ -25,11 +25,4 @@ RectifiedImageSubscriber::RectifiedImageSubscriber(ros::NodeHandle handle, Callb
       topics::kRgbInfo, 1, [this, stamp](const auto& info) { pass(assembler_.addInfo(stamp(info), info)); });
 }
 
-/// The synchroniser must not be destroyed while a subscriber calls it, and the subscribers not before it.
-RectifiedImageSubscriber::~RectifiedImageSubscriber() {
-  color_.unsubscribe();
-  depth_.unsubscribe();
-  info_.unsubscribe();
-}
-
 }  // namespace softbody

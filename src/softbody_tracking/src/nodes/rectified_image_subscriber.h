@@ -28,7 +28,6 @@ class RectifiedImageSubscriber {
   using Callback = std::function<void(const RectifiedImages& images)>;
 
   RectifiedImageSubscriber(ros::NodeHandle handle, Callback callback);
-  ~RectifiedImageSubscriber();
   RectifiedImageSubscriber(const RectifiedImageSubscriber&) = delete;
   RectifiedImageSubscriber& operator=(const RectifiedImageSubscriber&) = delete;
 
