@@ -74,8 +74,8 @@ void cutAtRandom(const MeshTopology& mesh, int count, unsigned seed) {
     MeshTopology before = mesh;
     for (int repeat = 0; repeat <= k % 3; ++repeat) {
       const int kind =
-          repeat == 0 ? k % static_cast<int>(CutKind::kCount) : static_cast<int>(cuts.uniform(0, 3));
-      const SurfaceCut cut = cutSurface(before, cuts.next(static_cast<CutKind>(kind)));
+          repeat == 0 ? k % static_cast<int>(PatchKind::kCount) : static_cast<int>(cuts.uniform(0, 3));
+      const SurfaceCut cut = cutSurface(before, cuts.next(static_cast<PatchKind>(kind)));
       SCOPED_TRACE(fmt::format("cut {}.{} of kind {}", k, repeat, kind));
       ++made;
       if (cut.outcome != CutOutcome::kCut) {
