@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/staged_output.h"
 
 namespace softbody::fuzz {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "fuzz/feeds.h"
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody::fuzz {
 namespace {

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "softbody_common/input_file.h"
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/input_file.h"
+#include "softbody_common/files/staged_output.h"
 
 namespace softbody {
 

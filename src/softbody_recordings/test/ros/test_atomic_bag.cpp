@@ -7,7 +7,7 @@
 #include <csignal>
 #include <random>
 
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody {
 namespace {

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <random>
 
+#include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
-#include "softbody_common/staged_output.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/io/tet_files.h"

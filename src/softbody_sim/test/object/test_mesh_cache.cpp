@@ -2,8 +2,8 @@
 #include <sys/stat.h>
 
 #include "fixtures/object_model_test.h"
-#include "softbody_common/input_file.h"
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/input_file.h"
+#include "softbody_common/files/staged_output.h"
 
 namespace softbody {
 namespace {

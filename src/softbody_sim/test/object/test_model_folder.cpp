@@ -5,7 +5,7 @@
 #include "cage/volume_maker.h"
 #include "fixtures/object_model_test.h"
 #include "report/model_folder.h"
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody {
 namespace {

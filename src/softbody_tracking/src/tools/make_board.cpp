@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
-#include "softbody_common/staged_output.h"
 #include "softbody_tracking/marker_board/marker_board.h"
 #include "softbody_tracking/marker_board/marker_board_drawing.h"
 #include "softbody_tracking/tool/marker_detector.h"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody::evaluation {
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "softbody_common/input_file.h"
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/input_file.h"
+#include "softbody_common/files/staged_output.h"
 
 namespace softbody::evaluation {
 namespace {

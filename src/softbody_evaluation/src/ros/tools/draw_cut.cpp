@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
-#include "softbody_common/staged_output.h"
 #include "softbody_common/topics.h"
 #include "softbody_evaluation/report/cut_pictures.h"
 #include "softbody_evaluation/ros/recording_reader.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 #include "softbody_common/pinhole.h"
 #include "softbody_common/types.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/staged_output.h"
 
 namespace softbody {
 

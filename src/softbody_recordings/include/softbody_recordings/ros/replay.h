@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 #include "softbody_common/types.h"
 #include "softbody_recordings/ros/bag_frames.h"
 

@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "image_folder/tum_folder.h"
-#include "softbody_common/yaml_map_reader.h"
+#include "softbody_common/files/yaml_map_reader.h"
 
 namespace fs = std::filesystem;
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "softbody_common/files/yaml_map_reader.h"
 #include "softbody_common/parameters.h"
-#include "softbody_common/yaml_map_reader.h"
 
 namespace softbody {
 namespace {

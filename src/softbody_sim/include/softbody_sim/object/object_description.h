@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 #include "softbody_sim/io/warnings.h"
 #include "softbody_sim/object/material.h"
 #include "softbody_sim/object/pin_region.h"

@@ -12,7 +12,7 @@
 
 #include "io/stack_rows.h"
 #include "io/text_reader.h"
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody {
 namespace {

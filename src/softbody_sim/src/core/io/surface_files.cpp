@@ -10,7 +10,7 @@
 #include "io/ply_file.h"
 #include "io/stl_file.h"
 #include "io/text_reader.h"
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/staged_output.h"
 
 namespace softbody {
 namespace {

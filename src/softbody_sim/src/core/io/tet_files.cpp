@@ -15,8 +15,8 @@
 #include "io/text_reader.h"
 #include "io/veg_file.h"
 #include "io/vtu_file.h"
-#include "softbody_common/input_file.h"
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/input_file.h"
+#include "softbody_common/files/staged_output.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody {
 namespace {

@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "io/vtu_file.h"
-#include "softbody_common/input_file.h"
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/input_file.h"
+#include "softbody_common/files/staged_output.h"
 #include "softbody_sim/io/tet_files.h"
 
 namespace softbody {

@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "softbody_common/yaml_map_reader.h"
+#include "softbody_common/files/yaml_map_reader.h"
 
 namespace softbody {
 namespace {

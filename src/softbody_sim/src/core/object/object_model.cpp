@@ -11,7 +11,7 @@
 #include "cage/enclosure.h"
 #include "cage/volume_maker.h"
 #include "object/mesh_cache.h"
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/tet_files.h"
 #include "softbody_sim/object/visual_mesh.h"

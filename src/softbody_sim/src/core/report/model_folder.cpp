@@ -11,8 +11,8 @@
 
 #include "report/model_picture.h"
 #include "report/model_quality.h"
-#include "softbody_common/input_file.h"
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/input_file.h"
+#include "softbody_common/files/staged_output.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/staged_output.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 namespace softbody {

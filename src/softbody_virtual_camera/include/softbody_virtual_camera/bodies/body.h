@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 #include "softbody_common/types.h"
 #include "softbody_virtual_camera/textures/uv_texture.h"
 

@@ -8,7 +8,7 @@
 #include <opencv2/aruco.hpp>
 #include <stdexcept>
 
-#include "softbody_common/yaml_map_reader.h"
+#include "softbody_common/files/yaml_map_reader.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 
 namespace softbody::virtual_camera {

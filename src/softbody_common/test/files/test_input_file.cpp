@@ -1,4 +1,4 @@
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "scratch_folder.h"
-#include "softbody_common/staged_output.h"
-#include "softbody_common/yaml_map_reader.h"
+#include "softbody_common/files/staged_output.h"
+#include "softbody_common/files/yaml_map_reader.h"
 
 namespace softbody {
 namespace {

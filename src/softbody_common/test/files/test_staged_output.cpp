@@ -1,4 +1,4 @@
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/staged_output.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "scratch_folder.h"
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_common/input_file.h"
+#include "softbody_common/files/input_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

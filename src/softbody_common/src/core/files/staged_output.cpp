@@ -1,4 +1,4 @@
-#include "softbody_common/staged_output.h"
+#include "softbody_common/files/staged_output.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "softbody_common/yaml_map_reader.h"
+#include "softbody_common/files/yaml_map_reader.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
