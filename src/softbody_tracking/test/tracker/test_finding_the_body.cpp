@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "fixtures/tracked_box.h"
+
+namespace softbody {
+namespace {
+
+TEST(FindingTheBody, FindsABodyThatNobodyPointedOut) {
+  BoxBody box = makeBox();
+  BodyTracker tracker{TrackerConfig()};
+  tracker.setTopologies(box.volume, box.surface);
+  StageTimer timer;
+  const Points truth = posedBox(box, 0.03, 0.4);
+  const TrackingResult result = tracker.track(renderFrame(box, truth, 1000), nullptr, &timer);
+  ASSERT_TRUE(result.has_targets) << result.status.reason;
+  EXPECT_EQ(result.status.state, TrackingState::kTracking);
+  // A box looks the same in four poses; its surface is at the same place in all of them.
+  const Points found = transformed(box.volume.rest_vertices, result.targets.body_pose);
+  for (Eigen::Index v = 0; v < found.rows(); ++v)
+    EXPECT_LT((truth.rowwise() - found.row(v)).rowwise().norm().minCoeff(), 0.003);
+  EXPECT_NE(result.status.reason.find("look alike"), std::string::npos) << result.status.reason;
+}
+
+TEST(FindingTheBody, FindsABodyThatComesBackElsewhereAndTurned) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(posedBox(tracked.box()), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  const Points elsewhere = posedBox(tracked.box(), 0.08, 0.5);
+  ASSERT_TRUE(tracked.tracksWithin(15, elsewhere));
+  const TrackingResult result = tracked.show(elsewhere);
+  // Its features distinguish the four poses that are alike in depth.
+  EXPECT_LT((transformed(tracked.box().volume.rest_vertices, result.targets.body_pose) - elsewhere)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.003);
+}
+
+TEST(FindingTheBody, FindsACubeThatComesBackTurned) {
+  BoxBody cube = makeBox(6, 6, 6);
+  for (Points* vertices : {&cube.volume.rest_vertices, &cube.surface.rest_vertices})
+    *vertices *= Eigen::Vector3d(0.5, 1.0, 2.5).asDiagonal();
+  TrackedBox tracked(TrackerConfig(), cube);
+  for (int i = 0; i < 5; ++i) tracked.show(posedBox(cube));
+  for (int i = 0; i < 15; ++i) {
+    tracked.show(posedBox(cube), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  // In depth it looks the same in 24 poses.
+  const Points elsewhere = posedBox(cube, 0.06, 0.4);
+  EXPECT_EQ(tracked.show(elsewhere).status.state, TrackingState::kTracking) << "in the very first frame";
+  const TrackingResult result = tracked.show(elsewhere);
+  EXPECT_LT((transformed(cube.volume.rest_vertices, result.targets.body_pose) - elsewhere)
+                .rowwise()
+                .norm()
+                .maxCoeff(),
+            0.003);
+}
+
+/// Largest distance of a vertex between the found pose and another one [m].
+double distanceTo(const BoxBody& box, const TrackingResult& result, const Eigen::Isometry3d& pose) {
+  return (transformed(box.volume.rest_vertices, result.targets.body_pose) -
+          transformed(box.volume.rest_vertices, pose))
+      .rowwise()
+      .norm()
+      .maxCoeff();
+}
+
+TEST(FindingTheBody, StartsAnewNearAPoseSetByHand) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  for (int i = 0; i < 5; ++i) tracked.show(rest);
+  // Half a turn about each axis gives the same depth; only the user knows which pose is right.
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+    const Eigen::Isometry3d meant = boxPose() * Eigen::AngleAxisd(M_PI, axis);
+    const Eigen::Isometry3d rough =
+        Eigen::Translation3d(0.015, -0.01, 0.02) * meant * Eigen::AngleAxisd(0.15, Eigen::Vector3d::UnitY());
+    tracked.tracker().restart(rough);
+    const TrackingResult result = tracked.show(rest);
+    ASSERT_TRUE(result.has_targets) << result.status.reason;
+    EXPECT_TRUE(result.targets.reset);
+    EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+    EXPECT_LT(distanceTo(tracked.box(), result, meant), 0.003) << "about " << axis.transpose();
+  }
+}
+
+TEST(FindingTheBody, APoseSetByHandHoldsUntilAReset) {
+  TrackedBox tracked;
+  const Points rest = posedBox(tracked.box());
+  const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
+  tracked.tracker().restart(turned);
+  EXPECT_LT(distanceTo(tracked.box(), tracked.show(rest), turned), 0.003);
+  tracked.tracker().reset();
+  EXPECT_LT(distanceTo(tracked.box(), tracked.show(rest), boxPose()), 0.003);
+}
+
+TEST(FindingTheBody, RestartEndsBeingLost) {
+  TrackedBox tracked;
+  tracked.show(posedBox(tracked.box()));
+  for (int i = 0; i < 12; ++i) {
+    tracked.show(posedBox(tracked.box()), [](RgbdFrame* frame) {
+      frame->depth.setTo(1.2f);
+      frame->color.setTo(cv::Vec3b(200, 190, 60));
+    });
+  }
+  const Eigen::Isometry3d elsewhere = Eigen::Translation3d(0.06, 0.03, 0.06) * boxPose();
+  tracked.tracker().restart(elsewhere);
+  const TrackingResult result = tracked.show(posedBox(tracked.box(), 0.06));
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << "in the very next frame";
+  EXPECT_LT(distanceTo(tracked.box(), result, elsewhere), 0.003);
+}
+
+TEST(FindingTheBody, RefusesARestartWithoutABody) {
+  EXPECT_THROW(BodyTracker(TrackerConfig()).restart(Eigen::Isometry3d::Identity()), std::logic_error);
+}
+
+}  // namespace
+}  // namespace softbody
