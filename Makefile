@@ -10,8 +10,8 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data cuts demo bench evaluate figures corpus validation sanitize soak error-table tidy format clean help dependencies
-.PHONY: build test shared-data cuts demo bench evaluate figures fuzz validation tidy format clean help dependencies
+.PHONY: build test shared-data cuts demo bench fuzz evaluate figures validation sanitize soak error-table tidy format
+.PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
@@ -37,7 +37,7 @@ demo: build  ## track a virtual sponge: in rviz with a display, otherwise with p
 bench: build  ## run the benchmarks; writes bench/summary.json
 	scripts/bench
 
-fuzz: build  ## give mutated bytes to every reader of files and of cuts, FUZZ_SECONDS each (60)
+fuzz: build  ## give mutated files to every reader and mutated cuts to the cutter, FUZZ_SECONDS=60 each
 	scripts/install_dependencies scripts/apt-packages-fuzz.txt
 	scripts/fuzz
 
@@ -53,13 +53,13 @@ validation: build  ## compare the simulator with known solutions; writes docs/va
 sanitize: dependencies  ## build with sanitizers (address and undefined, thread) and run tests, replay and the live graph (hours)
 	scripts/sanitize
 
-soak: build  ## an hour of two live graphs with faults, cuts and killed nodes; SOAK_MINUTES=60, KILLS=500: one every 3 s
+soak: build  ## run two live graphs for SOAK_MINUTES=60 with faults, cuts and killed nodes. KILLS=500: until 500 kills, one every 3 s
 	bash -c '. catkin_ws/devel/setup.bash && exec scripts/soak --minutes $(or $(SOAK_MINUTES),60) $(if $(KILLS),--kills $(KILLS))'
 
 error-table:  ## write the table of all messages in docs/troubleshooting.md from the sources
 	scripts/error_table
 
-tidy: build  ## run clang-tidy on all sources (slow)
+tidy: build  ## run clang-tidy on all sources except tests (slow)
 	scripts/install_dependencies scripts/apt-packages-tidy.txt
 	scripts/tidy
 
