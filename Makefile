@@ -26,7 +26,7 @@ shared-data: dependencies  ## run the tests on meshes, photographs and a toy rec
 	scripts/build tests
 	scripts/checks/shared_data
 
-cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,000 times at random (slow); make test makes a few cuts
+cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,000 times at random, and measure the memory of cut bodies (slow)
 	scripts/build
 	scripts/build tests
 	scripts/cuts
