@@ -3,7 +3,10 @@
 import os
 import sys
 import unittest
+from xmlrpc.client import ServerProxy
 
+import rosgraph
+import rosnode
 import rospy
 import rostest
 from geometry_msgs.msg import Point, Point32, PolygonStamped, TransformStamped, Vector3
@@ -28,6 +31,12 @@ def odd_stamps():
             now + rospy.Duration(20), now + rospy.Duration(100))
 
 
+def processes(nodes):
+    """Process id by node, as each node itself says. An error if a node has ended."""
+    master = rosgraph.Master("/test_odd_stamps")
+    return {node: ServerProxy(master.lookupNode(node)).getPid("/test_odd_stamps")[2] for node in nodes}
+
+
 class OddStamps(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -39,6 +48,8 @@ class OddStamps(unittest.TestCase):
         assert answer.success, answer.message
         cls.revision = answer.revision
         cls.recorder.wait(lambda seen: seen[STATES][-1].revision == cls.revision, "a state of the cut")
+        cls.recorder.wait(lambda _: "/softbody/tool_tracker" in rosnode.get_node_names("/softbody"), "the tool tracker")
+        cls.processes = processes(rosnode.get_node_names("/softbody"))
 
     def publisher(self, topic, kind):
         publisher = rospy.Publisher(topic, kind, queue_size=10)
@@ -46,7 +57,7 @@ class OddStamps(unittest.TestCase):
         return publisher
 
     def expect_to_go_on(self, what):
-        """States of new frames come, cut as before, and none has an odd stamp."""
+        """States of new frames come from the same processes, cut as before, and none has an odd stamp."""
         before = len(self.recorder.messages[STATES])
         self.recorder.wait(lambda seen: len(seen[STATES]) >= before + FRAMES, f"states after {what}")
         states = self.recorder.messages[STATES][before:]
@@ -54,6 +65,7 @@ class OddStamps(unittest.TestCase):
         now = rospy.Time.now().to_sec()
         for state in states:
             self.assertLess(abs(state.header.stamp.to_sec() - now), 15.0, what)
+        self.assertEqual(processes(self.processes), self.processes, what)
 
     def test_messages_of_the_graph(self):
         for topic, kind in TOPICS.items():
