@@ -13,16 +13,17 @@ def row(figure, measured, limit, unit=""):
 
 
 def memory_growth(memory):
-    """The largest growth of a process from the second to the last quarter of its life [%], and its name."""
-    worst = (0.0, "no process lived long enough")
+    """The largest growth of a process from the second to the last quarter of its life [%], and its name. None if none lived
+    long enough."""
+    growths = []
     for (name, _), samples in memory.items():
         if samples[-1][0] - samples[0][0] < LIFE_S:
             continue
         quarter = len(samples) // 4
         early, late = (statistics.median(size for _, size in part)
                        for part in (samples[quarter:2 * quarter], samples[-quarter:]))
-        worst = max(worst, (100.0 * (late - early) / max(early, 1.0), name))
-    return worst
+        growths.append((100.0 * (late - early) / max(early, 1.0), name))
+    return max(growths, default=(None, "no process lived long enough"))
 
 
 def latency_ratio(side, begin, end, window):
@@ -36,7 +37,7 @@ def rows(options, graph, sides, begin, end, calm, memory, editors, killer):
     table = [row("nodes that ended by themselves, or did not end when asked", len(graph.faults), 0),
              row("kills", killer.done, None),
              row(f"memory growth of a process that lived {LIFE_S / 60:.0f} minutes ({node})", growth,
-                 5.0 if judged else None, "%")]
+                 5.0 if judged and growth is not None else None, "%")]
     for side, editor in zip(sides, editors):
         name = side.namespace
         missing, due = side.unanswered(begin, end - 2.0)
