@@ -36,7 +36,7 @@ TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
   EXPECT_NE(complaint([&] { prepareModel({folder_.file("bad.obj")}, folder_.file("out"), {}, progress); }),
             "");
   EXPECT_EQ(readFile(folder_.file("out/object.yaml")), "mine");
-  for (const auto& entry : std::filesystem::directory_iterator(folder_.file("."))) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.file("."))) {
     EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
   }
 }
