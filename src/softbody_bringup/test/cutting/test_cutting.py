@@ -226,8 +226,8 @@ class Cutting(unittest.TestCase):
         self.step()
         blade = PolygonStamped()
         blade.header.frame_id = FRAME
-        for stamp, corners, words in ((rospy.Time(), 4, "no stamp"), (self.stamp, 2, "three corners")):
-            blade.header.stamp, blade.polygon.points = stamp, [Point32(k, k * k, 5) for k in range(corners)]
+        for stamp, corners, words in ((rospy.Time(), 4, "no stamp"), (self.stamp, 2, "2 corners; allowed: 3 to")):
+            blade.header.stamp, blade.polygon.points = stamp, [Point32(0.01 * k, 0.01 * k * k, 5) for k in range(corners)]
             for _ in range(6):
                 self.blade.publish(blade)
                 rospy.sleep(0.05)

@@ -55,7 +55,7 @@ class SetPoseByHand(unittest.TestCase):
         before = len(self.recorder.messages["softbody/targets"])
         for pose, words in ((pose_in("nowhere"), "nowhere"),
                             (pose_in(OPTICAL_FRAME, (0, 0, 0.5), (0, 0, 0, 0)), "quaternion"),
-                            (pose_in(OPTICAL_FRAME, (0, float("nan"), 0.5)), "not finite")):
+                            (pose_in(OPTICAL_FRAME, (0, float("nan"), 0.5)), "finite")):
             response = self.service(pose)
             self.assertFalse(response.success)
             self.assertIn(words, response.message)

@@ -31,6 +31,8 @@ def vector(v):
 
 
 class Surroundings(unittest.TestCase):
+    stamp = None  # of the last frame; steps are faster than time, and the next test goes on from there
+
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState,
@@ -51,7 +53,6 @@ class Surroundings(unittest.TestCase):
     def setUp(self):
         self.places = {"finger": FAR, "gripper": FAR, "camera": [0.0, 0.0, 0.0]}
         self.camera_yaw = 0.0
-        self.stamp = None
         self.step(reset=True)
 
     def tearDown(self):
@@ -73,6 +74,7 @@ class Surroundings(unittest.TestCase):
         """One frame of 1/30 s. @return its state, and the messages of reactions."""
         now = rospy.Time.now()
         self.stamp = now if self.stamp is None else max(now, self.stamp + rospy.Duration(nsecs=33333333))
+        Surroundings.stamp = self.stamp
         self.broadcast(self.stamp)
         rospy.sleep(0.02)  # tf arrives on a way of its own
         message = Targets(reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)), targets=targets)

@@ -23,6 +23,10 @@ struct StampVerdict {
   int in_a_row = 0;     ///< of an outlier: 1 for the first stamp there, 2 for the next
 
   bool accepted() const { return kind <= kJumpedBack; }
+  /// Accepted, or one more message of the last accepted stamp.
+  bool acceptedOrSame() const { return accepted() || (kind == kRepeated && gap == 0); }
+  /// Accepted, and time went back.
+  bool wentBack() const { return accepted() && gap < 0; }
 };
 
 /// Why a stamp is refused, as in "its stamp is 2.000 s after the last one and alone there".
@@ -38,8 +42,8 @@ class Timeline {
   static constexpr Nanoseconds kLeap = 1'000'000'000;
   static constexpr int kStays = 3;
 
-  /// @param now time of arrival on the receiver's clock, of any epoch. Without it only stamps count, and the
-  /// same stamps always give the same verdicts.
+  /// @param now time of arrival on the receiver's clock, of any epoch; not above 0: the clock has not
+  /// started. Without it only stamps count, and the same stamps always give the same verdicts.
   StampVerdict judge(Nanoseconds stamp, std::optional<Nanoseconds> now = std::nullopt);
 
   /// The last accepted stamp; 0: none.

@@ -26,6 +26,7 @@ std::string whyRefused(const StampVerdict& verdict) {
 
 StampVerdict Timeline::judge(Nanoseconds stamp, std::optional<Nanoseconds> now) {
   if (stamp <= 0) return {StampVerdict::kUnstamped};
+  if (now && *now <= 0) now.reset();
   if (last_ == 0) return accept(StampVerdict::kInOrder, stamp, now);
   const Nanoseconds gap = stamp - last_;
   if (gap == 0 || (run_.count > 0 && stamp == run_.last)) return {StampVerdict::kRepeated, gap};

@@ -12,6 +12,8 @@
 namespace softbody {
 namespace {
 
+constexpr Nanoseconds kLongestWithoutImage = 3'600'000'000'000;
+
 constexpr double kUnitTolerance = 1e-3;  // the values were rounded to float
 
 /// Conversions of fixed-size index tuples (MeshTriangle, Tetrahedron).
@@ -190,6 +192,16 @@ MeshState fromMessage(const softbody_msgs::MeshState& message) {
     }
   }
   return state;
+}
+
+ros::Time stampOfImage(const softbody_msgs::MeshState& message) {
+  if (message.observed.isZero()) return message.header.stamp;
+  const Nanoseconds without_image = toNanoseconds(message.header.stamp) - toNanoseconds(message.observed);
+  if (without_image < 0 || without_image > kLongestWithoutImage) {
+    throw std::invalid_argument(fmt::format("header.stamp is {:.3f} s after observed; allowed: 0 to {:.0f} s",
+                                            seconds(without_image), seconds(kLongestWithoutImage)));
+  }
+  return message.observed;
 }
 
 softbody_msgs::Targets toMessage(const TargetSet& targets) {

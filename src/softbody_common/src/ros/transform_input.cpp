@@ -45,7 +45,9 @@ bool TransformInput::isNew(const geometry_msgs::TransformStamped& transform) {
       timeline.judge(toNanoseconds(transform.header.stamp), toNanoseconds(ros::Time::now()));
   if (verdict.kind == StampVerdict::kUnstamped || verdict.kind == StampVerdict::kOutlier)
     throw std::invalid_argument(whyRefused(verdict));
-  if (timeline.pass() > pass_) {
+  // tf2 refuses everything before the newest transform that it has.
+  const bool returns = verdict.kind == StampVerdict::kMoved && verdict.wentBack();
+  if (timeline.pass() > pass_ || returns) {
     pass_ = timeline.pass();
     buffer_.clear();
   }

@@ -28,6 +28,10 @@ MeshTopology fromMessage(const softbody_msgs::MeshTopology& message);
 
 softbody_msgs::MeshState toMessage(const MeshState& state);
 MeshState fromMessage(const softbody_msgs::MeshState& message);
+/// Stamp of the last image that went into a state; without one, the stamp of the state. States without images
+/// run ahead of the next image, so that only this stamp shows how time goes.
+/// @throw std::invalid_argument if the two stamps do not fit together.
+ros::Time stampOfImage(const softbody_msgs::MeshState& message);
 
 softbody_msgs::Targets toMessage(const TargetSet& targets);
 /// Does not check tet indices, because the topology is not known here; the simulator checks them.

@@ -31,7 +31,7 @@ class VisualSurface {
   /// Memory without the weights, which copies share.
   std::size_t bytes() const;
 
-    /// Number of visual vertices that lie outside the low-resolution surface by more than a rounding error.
+  /// Number of visual vertices that lie outside the low-resolution surface by more than a rounding error.
   int outsideCount() const;
 
   /// Visual vertices, and their confidences, for a state of the volume.

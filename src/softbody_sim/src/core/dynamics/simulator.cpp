@@ -16,6 +16,7 @@
 #include "dynamics/target_validation.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/time.h"
+#include "softbody_common/timeline.h"
 
 namespace softbody {
 namespace {
@@ -104,7 +105,8 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
     moveToTargets(targets.targets, model->topology, &next.mesh.vertices);
     next.report = {0, true};
   }
-  next.stamp = std::max(next.stamp, stamp);
+  // A step without images may be ahead of the next image, but not by much.
+  next.stamp = next.stamp - stamp > Timeline::kLeap ? stamp : std::max(next.stamp, stamp);
 }
 
 /// The forces of the targets' springs show which loads are still unknown.
@@ -158,6 +160,7 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
 
 bool Simulator::hasLeft(const TargetSet& given) const {
   const Implementation& s = *implementation_;
+  if (!s.body.placed) return false;
   TargetSet storage;
   const TargetSet& targets = s.toCurrentRevision(given, &storage);
   s.requireUsable(targets, {});

@@ -98,7 +98,7 @@ void SimulatorNode::requireBodyFrame(const TargetSet& targets, const std::string
 bool SimulatorNode::admits(const ros::Time& stamp) {
   const StampVerdict verdict = stamps_.judge(stamp);
   if (verdict.kind == StampVerdict::kJumpedBack) restart();
-  return verdict.accepted() || verdict.kind == StampVerdict::kRepeated;
+  return verdict.acceptedOrSame();
 }
 
 void SimulatorNode::restart() {
@@ -184,7 +184,7 @@ bool SimulatorNode::adopt(const EditedBody& theirs) {
 /// The other nodes follow this body.
 void SimulatorNode::keepOwnBody() {
   simulator_.setBody(ros::WallTime::now().toNSec());
-  publisher_.publishEdited(simulator_, {});
+  publisher_.publishEdited(simulator_, simulator_.placed() ? last_.header.stamp : ros::Time());
 }
 
 void SimulatorNode::publishEdited(const ros::Time& stamp) {
@@ -193,6 +193,9 @@ void SimulatorNode::publishEdited(const ros::Time& stamp) {
   const ros::Time& of_frame = stamp.isZero() ? last_.header.stamp : stamp;
   publisher_.publishEdited(simulator_, simulator_.placed() ? of_frame : ros::Time());
   last_.set = simulator_.toCurrentRevision(std::move(last_.set));
+  // After several edits at once the earlier targets cannot be found again.
+  if (last_.set.revision != simulator_.topology().revision) last_.set.targets.clear();
+  last_.set.revision = simulator_.topology().revision;
   malloc_trim(0);  // returns the memory of the model before the edit
   if (simulator_.droppedVersions() > 0) {
     ROS_INFO_ONCE(

@@ -22,8 +22,6 @@ constexpr int kBladeQueue = 100;                     // a fast tool sends many p
 /// Fewer skipped blades also occur when a bag starts again; they need no warning.
 constexpr int kMostSkipped = 5;
 
-Nanoseconds stampOf(const geometry_msgs::PolygonStamped& blade) { return toNanoseconds(blade.header.stamp); }
-
 }  // namespace
 
 BladeInput::BladeInput(ros::NodeHandle node, Callback on_blade)
@@ -58,8 +56,8 @@ void BladeInput::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
 void BladeInput::add(Blade blade) {
   const ros::Time stamp = blade.header.stamp;
   const StampVerdict verdict = stamps_.judge(stamp);
-  if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
-  if (verdict.kind == StampVerdict::kJumpedBack) waiting_.clear();
+  if (!verdict.acceptedOrSame()) return;
+  if (verdict.wentBack()) waiting_.clear();
   if (state_ && stamp <= state_->stamp) return passOn(blade);
   waiting_.push_back(std::move(blade));
   while (toNanoseconds(stamp) - toNanoseconds(waiting_.front().header.stamp) > kLongestWait ||

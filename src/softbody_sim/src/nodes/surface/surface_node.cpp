@@ -174,10 +174,13 @@ void SurfaceNode::setBinding(BoundSurface binding) {
   warnOfOutside(binding_->surface);
 }
 
-/// A state may belong to the stamp of the last one: it is then newer.
-void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) {
-  const StampVerdict verdict = stamps_.judge(message->header.stamp);
-  if (verdict.accepted() || verdict.kind == StampVerdict::kRepeated) useState(message);
+/// A state may belong to the image of the last one: it is then newer.
+void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) try {
+  fromMessage(*message);  // throws if it is no state
+  if (stamps_.judge(stampOfImage(*message)).acceptedOrSame()) useState(message);
+} catch (const std::exception& error) {
+  ROS_WARN_STREAM_THROTTLE(1.0,
+                           "volume state of " << message->header.stamp << " is not used: " << error.what());
 }
 
 void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {

@@ -136,7 +136,7 @@ struct ToolTracker::Implementation {
 
   void forgetOldMotion(Nanoseconds stamp) {
     const auto bridged = nanoseconds(config.bridge_time_s);
-    if (motion && stamp - motion->stamp() > bridged) motion.reset();
+    if (motion && (stamp < motion->stamp() || stamp - motion->stamp() > bridged)) motion.reset();
   }
 
   /// Predicted pose in the camera's frame.

@@ -112,7 +112,7 @@ TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volum
 TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const MeshState* volume,
                                                   StageTimer* timer) {
   if (observer == nullptr) return waiting("waiting for the topologies of simulator and surface");
-  if (frame.pass != pass) reset();
+  if (frame.pass != pass || frame.stamp < stamp) reset();
   pass = frame.pass;
   stamp = frame.stamp;
   const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);

@@ -24,10 +24,9 @@ BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up)
 }
 
 void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {
-  const StampVerdict verdict = stamps_.judge(message->header.stamp);
-  if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
-  blades_.add(
-      {toNanoseconds(message->header.stamp), message->header.frame_id, fromMessage(message->polygon)});
+  Points corners = fromMessage(message->polygon);
+  if (!stamps_.judge(message->header.stamp).acceptedOrSame()) return;
+  blades_.add({toNanoseconds(message->header.stamp), message->header.frame_id, std::move(corners)});
 } catch (const std::invalid_argument& error) {
   ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic() << " is not used: " << error.what());
 }

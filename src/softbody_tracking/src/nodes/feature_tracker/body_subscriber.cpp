@@ -54,12 +54,9 @@ void BodySubscriber::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstP
 }
 
 void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) try {
-  if (message->observed > message->header.stamp)
-    throw std::invalid_argument("observed is after header.stamp");
   PlacedState state{message->header.frame_id, fromMessage(*message)};
   if (volume_) requireVertexCount(state.mesh, *volume_);
-  const StampVerdict verdict = stamps_.judge(message->header.stamp);
-  if (!verdict.accepted() && verdict.kind != StampVerdict::kRepeated) return;
+  if (!stamps_.judge(stampOfImage(*message)).acceptedOrSame()) return;
   newest_state_ = std::move(state);
   if (message->revision == adopted_revision_) {
     adopted_state_ = newest_state_;
