@@ -25,25 +25,23 @@ macro(softbody_sanitize)
 endmacro()
 
 # The sources of a folder are compiled as one, which halves the time of a build. So names that are local to a source differ
-# within its folder. CMAKE_UNITY_BUILD=OFF compiles each source alone.
+# within its folder. CMAKE_UNITY_BUILD=OFF compiles each source alone. A source that Highway compiles once for each vector
+# width stands alone, without precompiled headers: those would bring back the options that it switches off.
 function(softbody_unite_folders target)
-  if(DEFINED CMAKE_UNITY_BUILD AND NOT CMAKE_UNITY_BUILD)
-    return()
-  endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     get_filename_component(source ${source} ABSOLUTE)
     get_filename_component(folder ${source} DIRECTORY)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
     string(MAKE_C_IDENTIFIER "${folder}" group)
-    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
-    # A source that Highway compiles once for each vector width stands alone.
     file(STRINGS ${source} vector_widths REGEX foreach_target)
-    if(vector_widths)
-      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endif()
+    string(COMPARE NOTEQUAL "${vector_widths}" "" alone)
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group}
+      SKIP_UNITY_BUILD_INCLUSION ${alone} SKIP_PRECOMPILE_HEADERS ${alone})
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  if(NOT DEFINED CMAKE_UNITY_BUILD OR CMAKE_UNITY_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  endif()
 endfunction()
 
 # softbody_quick_build(TARGET HEADER...): for a target that gets its sources later. The headers from outside that most
