@@ -134,7 +134,7 @@ class PageRunner:
             file.write(example.text)
         for mesh in ("sponge.obj", "sponge_cage.obj", "sponge_tets.vtu", "doll.obj"):
             if not os.path.exists(f"{self.folder}/my_object/{mesh}"):
-                os.symlink(f"{self.folder}/config/{mesh}", f"{self.folder}/my_object/{mesh}")
+                shutil.copy(f"{self.folder}/config/{mesh}", f"{self.folder}/my_object/{mesh}")
         keys = set(yaml.safe_load(example.text))
         if "object" in keys:
             self.load_object(name)

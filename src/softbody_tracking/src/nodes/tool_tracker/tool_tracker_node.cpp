@@ -34,11 +34,11 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
 }
 
 void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
+  watchdog_.frameArrived();
   const std_msgs::Header& header = images.color->header;
   RgbdFrame frame = frameFromImages(images);
   if (!stamps_.judge(header.stamp).accepted()) return;
   frame.pass = stamps_.pass();
-  watchdog_.frameArrived();
   placeCamera(header, &frame);
   StageTimer timer;
   last_ = tracker_.track(frame, &timer);
