@@ -90,7 +90,7 @@ TEST(Evaluator, StatesThatAreNoAnswersAreCountedAndSaid) {
   EXPECT_EQ(report.vertex_error->all.max, 0.0);
   ASSERT_EQ(report.notes.size(), 1u);
   EXPECT_NE(report.notes[0].find("4 of 20 states"), std::string::npos) << report.notes[0];
-  EXPECT_NE(report.notes[0].find("vertices[7] is not finite"), std::string::npos) << report.notes[0];
+  EXPECT_NE(report.notes[0].find("vertices[7]"), std::string::npos) << report.notes[0];
 
   options.result = resultFromTruth("mixed.bag", [](softbody_msgs::MeshState* s, int frame) {
     if (frame > 10) s->header.frame_id = "world";
