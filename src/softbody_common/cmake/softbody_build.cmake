@@ -24,7 +24,7 @@ macro(softbody_sanitize)
   endif()
 endmacro()
 
-# The sources of a folder are compiled as one, which halves the time of a build. So names that are local to a source differ
+# The sources of a folder are compiled as one: what they include is read once. So names that are local to a source differ
 # within its folder. CMAKE_UNITY_BUILD=OFF compiles each source alone. A source that Highway compiles once for each vector
 # width stands alone, without precompiled headers: those would bring back the options that it switches off.
 function(softbody_unite_folders target)
