@@ -57,7 +57,7 @@ void requireSize(const cv::Mat& image, const Pinhole& camera, const char* name) 
                                           name, image.cols, image.rows, camera.width, camera.height));
 }
 
-/// Depth without numbers that are none: a copy, where there is one.
+/// Depth with 0 in place of NaN, negative and too large values. It is copied only if it has such values.
 cv::Mat1f usableDepth(const cv::Mat& depth) {
   if (cv::checkRange(depth, true, nullptr, 0.0, kFarthestDepth_m)) return depth;
   cv::Mat1f usable = depth.clone();

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr char kDocument[] = "report.json", kPage[] = "report.html";
 
-/// The files of an earlier report, as its report.json lists them. Empty if there is none.
+/// The files of an earlier report, as its report.json lists them. Empty without an earlier report.
 std::set<std::string> filesOfReport(const fs::path& folder) {
   if (!fs::is_regular_file(fs::symlink_status(folder / kDocument))) return {};
   const auto document = nlohmann::json::parse(readFile(folder / kDocument), nullptr, false);

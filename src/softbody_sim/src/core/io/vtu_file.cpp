@@ -38,7 +38,7 @@ class VtuReader {
 
   const XmlElement& element(int index) const { return elements_[static_cast<std::size_t>(index)]; }
 
-  /// The first child of that name; null if there is none.
+  /// The first child of that name, or null.
   const XmlElement* child(const XmlElement& parent, std::string_view name) const {
     for (const int index : parent.children) {
       if (element(index).name == name) return &element(index);

@@ -97,7 +97,7 @@ bool SurfaceNode::updateStamp(const softbody_msgs::TetTopology& message) {
 void SurfaceNode::useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool is_late) {
   const bool is_known = editor_.started() && sameTets(editor_.body().volume(), *message);
   if (!is_known && explanationMayCome(*message, is_late)) return waitForEdits(message);
-  // An edit of a body that is placed is published with its first state. Before it is placed there is none.
+  // An edit is published together with its first state. A body that is not placed has no states.
   const bool with_next_state = !is_known || editor_.placed();
   if (!is_known) startBody(*message);
   bind(message, with_next_state);

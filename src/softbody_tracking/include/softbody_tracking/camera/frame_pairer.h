@@ -227,7 +227,7 @@ class FramePairer {
   Queue<ColorPtr> colors_;
   Queue<DepthPtr> depths_;
   InfoPtr info_{};
-  int without_depth_ = kMostWithoutDepth;  ///< frames in a row; at the start none is allowed
+  int without_depth_ = kMostWithoutDepth;  ///< frames in a row; the first frame needs depth
   UnpairedImages unpaired_;
 };
 
