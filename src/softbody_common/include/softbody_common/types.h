@@ -85,6 +85,8 @@ struct MeshState {
   Nanoseconds observed = 0;       ///< stamp of the last image that was used
   Points vertices;                ///< [m]
   std::vector<float> confidence;  ///< per vertex, 0..1
+  std::vector<float> standard_deviation =
+      {};  ///< per vertex, of its distance from the truth [m]; empty: not estimated
 };
 
 enum class TrackingState : std::uint8_t {

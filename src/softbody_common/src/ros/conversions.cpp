@@ -174,8 +174,25 @@ softbody_msgs::MeshState toMessage(const MeshState& state) {
   message.revision = state.revision;
   message.vertices = toPoint32s(state.vertices);
   message.confidence = state.confidence;
+  message.standard_deviation = state.standard_deviation;
   return message;
 }
+
+namespace {
+
+std::vector<float> standardDeviations(const softbody_msgs::MeshState& message) {
+  const std::vector<float>& values = message.standard_deviation;
+  if (!values.empty()) requireSize(values.size(), message.vertices.size(), "standard_deviation");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!(values[i] >= 0.0f && std::isfinite(values[i]))) {
+      throw std::invalid_argument(
+          fmt::format("standard_deviation[{}] is {}; allowed: 0 or more", i, values[i]));
+    }
+  }
+  return values;
+}
+
+}  // namespace
 
 MeshState fromMessage(const softbody_msgs::MeshState& message) {
   if (message.vertices.empty()) throw std::invalid_argument("vertices is empty");
@@ -191,6 +208,7 @@ MeshState fromMessage(const softbody_msgs::MeshState& message) {
           fmt::format("confidence[{}] is {}; allowed: 0 to 1", i, state.confidence[i]));
     }
   }
+  state.standard_deviation = standardDeviations(message);
   return state;
 }
 

@@ -52,11 +52,13 @@ TEST_P(RoundTrip, MeshState) {
   before.observed = 1'600'000'000'123'456'789LL;
   before.vertices = Points::Random(30, 3);
   before.confidence.assign(30, 0.25f);
+  before.standard_deviation.assign(30, 0.001f * static_cast<float>(GetParam()));
   const MeshState after = fromMessage(toMessage(before));
   EXPECT_EQ(after.revision, before.revision);
   EXPECT_EQ(after.observed, before.observed);
   EXPECT_LT((after.vertices - before.vertices).cwiseAbs().maxCoeff(), 1e-7);
   EXPECT_EQ(after.confidence, before.confidence);
+  EXPECT_EQ(after.standard_deviation, before.standard_deviation);
 }
 
 TEST_P(RoundTrip, Targets) {

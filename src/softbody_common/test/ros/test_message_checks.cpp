@@ -145,6 +145,16 @@ TEST(MessageChecks, EveryFieldOfAStateIsChecked) {
     expectRefused<Message>(
         good, [bad](Message& m) { m.confidence[3] = bad; }, "confidence[3]");
   }
+  expectRefused<Message>(
+      good, [](Message& m) { m.standard_deviation.assign(3, 0.001f); }, "standard_deviation");
+  for (const float bad : {-0.1f, INFINITY, kNaN}) {
+    expectRefused<Message>(
+        good,
+        [bad](Message& m) {
+          m.standard_deviation = {0.0f, 0.0f, bad, 0.0f};
+        },
+        "standard_deviation[2]");
+  }
 }
 
 TEST(MessageChecks, EveryFieldOfATargetIsChecked) {

@@ -41,6 +41,7 @@ class VisualSurface {
  private:
   void bindInside(const TetTopology& volume);
   void applyInside(const MeshState& volume, MeshState* state) const;
+  std::vector<float> standardDeviations(const MeshState& volume) const;
 
   MeshTopology visual_;
   TetBinding binding_;

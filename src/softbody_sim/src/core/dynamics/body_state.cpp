@@ -6,6 +6,24 @@
 #include "softbody_common/tet_locator.h"
 
 namespace softbody {
+namespace {
+
+/// Values of the edited volume's vertices. @param values of the vertices before; may be empty.
+std::vector<float> transferred(const std::vector<MaterialPoint>& origins, const Tets& tets,
+                               const std::vector<float>& values) {
+  std::vector<float> result;
+  if (values.empty()) return result;
+  result.reserve(origins.size());
+  for (const MaterialPoint& origin : origins) {
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k)
+      sum += origin.barycentric[k] * values[static_cast<std::size_t>(tets(origin.tet, k))];
+    result.push_back(static_cast<float>(sum));
+  }
+  return result;
+}
+
+}  // namespace
 
 void placeAtRest(const Points& rest_vertices, const Eigen::Isometry3d& pose, Nanoseconds stamp,
                  BodyState* body) {
@@ -17,14 +35,9 @@ void placeAtRest(const Points& rest_vertices, const Eigen::Isometry3d& pose, Nan
 }
 
 void transferToEdit(const TetEdit& edit, const Tets& tets, BodyState* body) {
-  std::vector<float> confidence;
-  for (const MaterialPoint& origin : edit.vertex_origins) {
-    double sum = 0.0;
-    for (int k = 0; k < 4; ++k)
-      sum += origin.barycentric[k] * body->mesh.confidence[static_cast<std::size_t>(tets(origin.tet, k))];
-    confidence.push_back(static_cast<float>(sum));
-  }
-  body->mesh.confidence = std::move(confidence);
+  MeshState& mesh = body->mesh;
+  mesh.confidence = transferred(edit.vertex_origins, tets, mesh.confidence);
+  mesh.standard_deviation = transferred(edit.vertex_origins, tets, mesh.standard_deviation);
   body->mesh.vertices = applyBinding(edit.vertex_origins, body->mesh.vertices, tets);
   body->velocity = applyBinding(edit.vertex_origins, body->velocity, tets);
   body->loads = applyBinding(edit.vertex_origins, body->loads, tets);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -89,7 +90,8 @@ MeshState VisualSurface::apply(const MeshState& volume) const {
   const TetTopology& bound = binding_.volume();
   const auto vertex_count = static_cast<std::size_t>(bound.rest_vertices.rows());
   if (volume.revision != bound.revision || volume.vertices.rows() != bound.rest_vertices.rows() ||
-      volume.confidence.size() != vertex_count) {
+      volume.confidence.size() != vertex_count ||
+      (!volume.standard_deviation.empty() && volume.standard_deviation.size() != vertex_count)) {
     throw std::invalid_argument(fmt::format(
         "state of revision {} with {} vertices and {} confidences; the volume is at revision {} with {} "
         "vertices",
@@ -102,7 +104,23 @@ MeshState VisualSurface::apply(const MeshState& volume) const {
   state.confidence.resize(static_cast<std::size_t>(visual_.rest_vertices.rows()));
   applyInside(volume, &state);
   binding_.apply(volume, by_tet_, &state);
+  if (!volume.standard_deviation.empty()) state.standard_deviation = standardDeviations(volume);
   return state;
+}
+
+/// The errors of a tet's vertices are nearly the same error, so they are interpolated like positions.
+std::vector<float> VisualSurface::standardDeviations(const MeshState& volume) const {
+  const Tets& tets = binding_.volume().tets;
+  std::vector<float> result;
+  result.reserve(binding_.places().size());
+  for (const MaterialPoint& place : binding_.places()) {
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k)
+      sum += std::abs(place.barycentric[k]) *
+             volume.standard_deviation[static_cast<std::size_t>(tets(place.tet, k))];
+    result.push_back(static_cast<float>(sum));
+  }
+  return result;
 }
 
 void VisualSurface::applyInside(const MeshState& volume, MeshState* state) const {
