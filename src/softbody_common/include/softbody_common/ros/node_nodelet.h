@@ -2,6 +2,7 @@
 
 #include <nodelet/nodelet.h>
 #include <ros/callback_queue.h>
+#include <ros/node_handle.h>
 #include <ros/spinner.h>
 
 #include <exception>
