@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "softbody_common/ros/time.h"
 #include "softbody_common/topics.h"
 #include "softbody_tracking/ros/conversions.h"
 
