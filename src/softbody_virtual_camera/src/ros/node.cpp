@@ -9,6 +9,7 @@
 #include "softbody_common/topics.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/ros/messages.h"
+#include "softbody_virtual_camera/textures/contrast.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -19,6 +20,7 @@ CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
   CameraSetup setup = defaults;
   setup.scene = parameters->choice("scene", setup.scene, sceneNames());
   setup.camera_motion = parameters->choice("camera_motion", setup.camera_motion, cameraMotionNames());
+  setup.texture = parameters->choice("texture", setup.texture, textureNames());
   setup.body = parameters->text("body", setup.body);
   setup.unit = parameters->choice("unit", setup.unit, {"m", "cm", "mm", "inch"});
   setup.seed =

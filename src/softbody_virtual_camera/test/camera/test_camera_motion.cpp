@@ -51,8 +51,8 @@ TEST(CameraMotion, EverythingStaysWhereItIsInTheWorld) {
         EXPECT_LT((there - here).cwiseAbs().maxCoeff(), 1e-12);
       }
       EXPECT_TRUE((T_world_camera * state.T_camera_body).isApprox(T_world_start * expected.T_camera_body));
-      EXPECT_TRUE(
-          (T_world_camera.linear() * state.to_light).isApprox(T_world_start.linear() * expected.to_light));
+      EXPECT_TRUE((T_world_camera.linear() * state.lights.to_main)
+                      .isApprox(T_world_start.linear() * expected.lights.to_main));
     }
   }
 }

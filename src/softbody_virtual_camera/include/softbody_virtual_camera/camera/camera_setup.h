@@ -11,6 +11,7 @@ namespace softbody::virtual_camera {
 struct CameraSetup {
   std::string scene = "bend";
   std::string camera_motion = "none";
+  std::string texture = "rich";             ///< of the body: rich, weak or plain
   std::string body;                         ///< OBJ, PLY, STL or OFF; empty: the scene's body
   std::string unit = "m";                   ///< unit of the body's file: m, cm, mm or inch
   FileScope scope = FileScope::kOwnFolder;  ///< of the files that the body's OBJ names
@@ -23,8 +24,8 @@ struct CameraSetup {
 };
 
 /// @param warnings if not null, gets a sentence about each ignored part of the body's file.
-/// @throw std::invalid_argument if the scene or the camera motion is unknown, or if the body cannot be read
-/// or does not fit the scene.
+/// @throw std::invalid_argument if the scene, the texture or the camera motion is unknown, or if the body
+/// cannot be read or does not fit the scene.
 VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* warnings = nullptr);
 
 /// The parts of the noise: exposure, blur, color, disparity, quantization, edges, holes.

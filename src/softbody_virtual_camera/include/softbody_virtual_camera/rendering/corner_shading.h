@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "softbody_common/types.h"
+#include "softbody_virtual_camera/scenes/scene.h"
 
 namespace softbody::virtual_camera {
 
@@ -13,8 +14,8 @@ class CornerShading {
   /// creases.
   void add(const TriangleMesh& rest, double crease_angle_rad);
 
-  /// Computes the brightness. @param triangles of all meshes. @param to_light unit vector.
-  void light(const Points& vertices, const Triangles& triangles, const Eigen::Vector3d& to_light);
+  /// Computes the brightness from the normals of these vertices (Lambert). @param triangles of all meshes.
+  void light(const Points& vertices, const Triangles& triangles, const Lights& lights);
 
   /// Brightness (0..1) at a corner (0..2) of a triangle, from the last call of light().
   float at(int triangle, int corner) const {

@@ -27,8 +27,8 @@ class Layer {
   explicit Layer(const Pinhole& camera) : camera_(camera) {}
   void add(const Actor& actor);
 
-  /// @param vertices of the actors, in the order of add(), in the camera's frame [m]. @param to_light unit.
-  void place(const std::vector<const Points*>& vertices, const Eigen::Vector3d& to_light);
+  /// @param vertices of the actors, in the order of add(), in the camera's frame [m].
+  void place(const std::vector<const Points*>& vertices, const Lights& lights);
 
   /// Draws the placed actors. @param color gets the size of the canvas.
   void drawColor(const Canvas& behind, cv::Mat3b* color);

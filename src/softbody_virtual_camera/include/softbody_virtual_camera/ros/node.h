@@ -10,9 +10,9 @@
 
 namespace softbody::virtual_camera {
 
-/// The virtual camera as a node. Parameters: scene, body, unit, seed, noise, width, height, rate [Hz], loop,
-/// publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...) and optical
-/// frame -> ground_truth_softbody.
+/// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, seed, noise, width,
+/// height, rate [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth
+/// (ground_truth/...) and optical frame -> ground_truth_softbody.
 class VirtualCameraNode {
  public:
   /// @param setup defaults of the parameters.

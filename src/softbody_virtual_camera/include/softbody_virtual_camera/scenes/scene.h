@@ -21,13 +21,20 @@ struct Actor {
   bool still = false;             ///< never moves in the camera's frame, so it is rendered once
 };
 
+/// Distant lights. The shares of ambient, main and fill light add up to 1.
+struct Lights {
+  Eigen::Vector3d to_main = -Eigen::Vector3d::UnitZ();  ///< unit vector, in the optical frame
+  Eigen::Vector3d to_fill = Eigen::Vector3d::Zero();    ///< the same; zero: no fill light
+  float ambient = 0.40f, fill = 0.0f;
+};
+
 /// The poses of all things at one time.
 struct SceneState {
   Eigen::Isometry3d T_camera_body = Eigen::Isometry3d::Identity();  ///< the body's frame in the optical frame
   std::vector<Points> vertices;  ///< per actor, in the colour optical frame [m]
   std::uint32_t revision = 0;    ///< of the body's topology
   std::optional<Eigen::Isometry3d> T_camera_tool = std::nullopt;
-  Eigen::Vector3d to_light = -Eigen::Vector3d::UnitZ();            ///< unit vector, in the optical frame
+  Lights lights = {};
   std::optional<Eigen::Isometry3d> T_world_camera = std::nullopt;  ///< only with a moving camera
 };
 
@@ -60,9 +67,11 @@ std::vector<std::string> sceneNames();
 std::string objectOf(const std::string& scene);
 
 /// @param body from 50 mm to 2 m long. The scene is scaled and turned to fit the body's longest axis.
-/// @param seed of the textures. @param tool_file YAML, only for scenes with a tool.
-/// @throw std::invalid_argument with the known names if the scene is unknown, or if the body does not fit.
+/// @param seed of the textures. @param tool_file YAML, only for scenes with a tool. @param texture of the
+/// body.
+/// @throw std::invalid_argument with the known names if the scene or the texture is unknown, or if the body
+/// does not fit.
 Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed,
-                const std::string& tool_file = "");
+                const std::string& tool_file = "", const std::string& texture = "rich");
 
 }  // namespace softbody::virtual_camera

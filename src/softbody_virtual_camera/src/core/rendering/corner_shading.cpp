@@ -8,8 +8,6 @@
 namespace softbody::virtual_camera {
 namespace {
 
-constexpr float kAmbient = 0.40f;  // share of the ambient light
-
 /// Normals with twice the area of the triangle as length.
 Points areaNormals(const Points& vertices, const Triangles& triangles) {
   Points normals(triangles.rows(), 3);
@@ -60,15 +58,16 @@ void CornerShading::add(const TriangleMesh& rest, double crease_angle_rad) {
   }
 }
 
-void CornerShading::light(const Points& vertices, const Triangles& triangles,
-                          const Eigen::Vector3d& to_light) {
+void CornerShading::light(const Points& vertices, const Triangles& triangles, const Lights& lights) {
   const Points normals = areaNormals(vertices, triangles);
   brightness_.resize(first_.size() - 1);
   for (std::size_t i = 0; i < brightness_.size(); ++i) {
     Eigen::RowVector3d normal = Eigen::RowVector3d::Zero();
     for (std::size_t j = first_[i]; j < first_[i + 1]; ++j) normal += normals.row(triangles_[j]);
-    const float diffuse = static_cast<float>(std::max(0.0, normal.normalized().dot(to_light)));
-    brightness_[i] = kAmbient + (1.0f - kAmbient) * diffuse;
+    normal.normalize();
+    const float main = static_cast<float>(std::max(0.0, normal.dot(lights.to_main))),
+                fill = static_cast<float>(std::max(0.0, normal.dot(lights.to_fill)));
+    brightness_[i] = lights.ambient + (1.0f - lights.ambient - lights.fill) * main + lights.fill * fill;
   }
 }
 

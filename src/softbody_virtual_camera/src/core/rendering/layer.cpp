@@ -63,14 +63,14 @@ void Layer::add(const Actor& actor) {
   texture_.add(actor.rest, actor.texture, actor.skin, actor.texel_m);
 }
 
-void Layer::place(const std::vector<const Points*>& vertices, const Eigen::Vector3d& to_light) {
+void Layer::place(const std::vector<const Points*>& vertices, const Lights& lights) {
   Eigen::Index row = 0;
   for (const Points* actor : vertices) {
     vertices_.middleRows(row, actor->rows()) = *actor;
     row += actor->rows();
   }
   project(camera_, vertices_, triangles_, one_sided_, &projection_);
-  shading_.light(vertices_, triangles_, to_light);
+  shading_.light(vertices_, triangles_, lights);
   for (PixelWeights& t : projection_.weights) {
     for (int k = 0; k < 3; ++k) t.brightness[k] = shading_.at(t.index, k);
   }

@@ -26,7 +26,7 @@ Renderer::Renderer(const Scene& scene, const Pinhole& camera)
     (still_.back() ? still : moving_).add(scene.actors[i]);
   }
   const SceneState start = scene.state(0.0);
-  still.place(select(start.vertices, still_, true), start.to_light);
+  still.place(select(start.vertices, still_, true), start.lights);
   backdrop_ = still.draw(emptyCanvas(camera));
 }
 
@@ -47,7 +47,7 @@ void Renderer::renderDepth(const SceneState& state, RenderedImage* image) {
 }
 
 void Renderer::place(const SceneState& state) {
-  moving_.place(select(state.vertices, still_, false), state.to_light);
+  moving_.place(select(state.vertices, still_, false), state.lights);
 }
 
 void Renderer::drawDepth(RenderedImage* image) {

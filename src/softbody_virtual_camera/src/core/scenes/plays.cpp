@@ -69,6 +69,19 @@ Play shakePlay(const Stage& stage) {
   return play;
 }
 
+Play rigidPlay(const Stage& stage) {
+  constexpr double kAngle = kPi / 6.0;
+  const Eigen::Vector3d way = 0.05 * Eigen::Vector3d(0.7, -0.3, 0.65).normalized();  // [m]
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.35, -0.25, 0.9).normalized();
+  Play play;
+  play.name = "rigid";
+  play.T_camera_body = [=, start = stage.T_camera_body](double t) -> Eigen::Isometry3d {
+    const double share = plateau(t, {0.5, 1.5, 1.0});
+    return Eigen::Translation3d(share * way) * start * Eigen::AngleAxisd(share * kAngle, axis);
+  };
+  return play;
+}
+
 Play leavePlay(const Stage& stage) {
   constexpr double kDistance = 0.5;  // [m]
   Play play;

@@ -10,6 +10,7 @@
 #include "scenes/cut_scenes.h"
 #include "scenes/plays.h"
 #include "scenes/plays_with_hands.h"
+#include "softbody_virtual_camera/textures/contrast.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -21,9 +22,9 @@ using CutMaker = Scene (*)(const Stage& stage, const Tool& tool);
 
 const std::map<std::string, PlayMaker>& plays() {
   static const std::map<std::string, PlayMaker> makers = {
-      {"still", stillPlay}, {"bend", bendPlay},   {"twist", twistPlay},
-      {"push", pushPlay},   {"pull", pullPlay},   {"shake", shakePlay},
-      {"leave", leavePlay}, {"press", pressPlay}, {"occlude", occludePlay}};
+      {"still", stillPlay},     {"bend", bendPlay},   {"twist", twistPlay}, {"push", pushPlay},
+      {"pull", pullPlay},       {"shake", shakePlay}, {"leave", leavePlay}, {"press", pressPlay},
+      {"occlude", occludePlay}, {"rigid", rigidPlay}};
   return makers;
 }
 
@@ -59,7 +60,8 @@ std::vector<std::string> sceneNames() {
 
 std::string objectOf(const std::string& scene) { return isDoll(scene) ? "doll" : "sponge"; }
 
-Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, const std::string& tool_file) {
+Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, const std::string& tool_file,
+                const std::string& texture) {
   const std::string plain = isDoll(name) ? name.substr(kDoll.size()) : name;
   const auto play = plays().find(plain);
   const auto cut = cuts().find(plain);
@@ -68,8 +70,8 @@ Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, c
         fmt::format("there is no scene '{}'; known: {}", name, fmt::join(sceneNames(), ", ")));
   }
   const BodyFrame frame = frameOf(body.rest.vertices);
-  const Stage stage =
-      makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed);
+  const Stage stage = makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin},
+                                seed, contrastOf(texture));
   Scene scene = play != plays().end() ? perform(stage, play->second(stage))
                                       : cut->second(stage, scaled(readTool(tool_file), 1.0 / frame.scale));
   scene.name = name;

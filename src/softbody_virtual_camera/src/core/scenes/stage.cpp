@@ -6,6 +6,7 @@
 
 #include "softbody_common/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
+#include "softbody_virtual_camera/textures/contrast.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -30,7 +31,7 @@ double heightOf(const TriangleMesh& body) {
 
 }  // namespace
 
-Stage makeStage(const Body& body, std::uint64_t seed) {
+Stage makeStage(const Body& body, std::uint64_t seed, float contrast) {
   constexpr double kDistance = 0.5, kElevation = 42.0 * kDegree, kYaw = 25.0 * kDegree;
   const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest));
   const Eigen::Vector3d eye =
@@ -41,11 +42,17 @@ Stage makeStage(const Body& body, std::uint64_t seed) {
       stage.T_camera_world * Eigen::Translation3d(center) * Eigen::AngleAxisd(kYaw, Eigen::Vector3d::UnitZ());
   const TriangleMesh table = rectangle({-0.8, -0.3, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.8, 0.0});
   const TriangleMesh wall = rectangle({-0.8, 0.5, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.0, 0.8});
-  stage.actors = {{body.rest, cellTexture(hash(seed, 1))},
+  stage.actors = {{body.rest, withContrast(cellTexture(hash(seed, 1)), contrast)},
                   {table, woodTexture(hash(seed, 2)), 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
-  stage.actors[0].skin = body.skin;
+  stage.actors[0].skin = withContrast(body.skin, contrast);
   stage.actors[1].still = stage.actors[2].still = true;
+  const Eigen::Matrix3d R_camera_world = stage.T_camera_world.linear();
+  stage.lights.to_main = R_camera_world * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
+  if (contrast == 0.0f) {
+    stage.lights.to_fill = R_camera_world * Eigen::Vector3d(0.70, -0.65, 0.30).normalized();
+    stage.lights.ambient = stage.lights.fill = 0.25f;
+  }
   return stage;
 }
 
@@ -54,8 +61,6 @@ Scene perform(const Stage& stage, const Play& play) {
   scene.name = play.name;
   scene.duration_s = play.duration_s;
   scene.T_camera_world = stage.T_camera_world;
-  const Eigen::Vector3d to_light =
-      stage.T_camera_world.linear() * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
   scene.actors = stage.actors;
   for (const Prop& prop : play.props) scene.actors.push_back(prop.actor);
   scene.hands = play.props.size();
@@ -68,7 +73,7 @@ Scene perform(const Stage& stage, const Play& play) {
       for (Eigen::Index i = 0; i < rest.rows(); ++i) body.row(i) = play.deformation(rest.row(i), t);
     }
     SceneState state;
-    state.to_light = to_light;
+    state.lights = stage.lights;
     state.T_camera_body = play.T_camera_body ? play.T_camera_body(t) : stage.T_camera_body;
     state.vertices = {transformed(state.T_camera_body, body), table, wall};
     for (const Prop& prop : play.props) {

@@ -13,8 +13,10 @@ namespace softbody::virtual_camera {
 struct Stage {
   Eigen::Isometry3d T_camera_world, T_camera_body;  ///< the body's frame at the start
   std::vector<Actor> actors;                        ///< body, table, wall
+  Lights lights;
 };
-Stage makeStage(const Body& body, std::uint64_t seed);
+/// @param contrast of the body's texture; a body of one colour has a second light, to show its shape.
+Stage makeStage(const Body& body, std::uint64_t seed, float contrast);
 
 /// A rigid thing that moves in front of the camera.
 struct Prop {

@@ -12,6 +12,7 @@
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 #include "softbody_virtual_camera/ros/node.h"
+#include "softbody_virtual_camera/textures/contrast.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -35,6 +36,10 @@ void declare(CLI::App* app, Arguments* arguments) {
   app->add_option("--camera-motion", setup.camera_motion,
                   "orbit: the camera moves around the body; the truth and /tf then have the frame world")
       ->check(CLI::IsMember(cameraMotionNames()))
+      ->capture_default_str();
+  app->add_option("--texture", setup.texture,
+                  "texture of the body: rich; weak, like foam or cloth; plain: one colour")
+      ->check(CLI::IsMember(textureNames()))
       ->capture_default_str();
   app->add_option("--body", setup.body,
                   "soft body at rest: OBJ (with the images of its materials), PLY, STL or OFF; default: "
