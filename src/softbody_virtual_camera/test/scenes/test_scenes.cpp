@@ -24,6 +24,9 @@ Scene ownScene(const std::string& name) {
 
 const Pinhole kCamera = d435(640, 480);
 
+/// Distance beyond that of the other scenes [m].
+double fartherAway(const std::string& name) { return name == "far" || name == "doll_far" ? 0.4 : 0.0; }
+
 /// Of the vertices that both have: a cut appends its own.
 double largestStep(const Points& a, const Points& b) {
   const Eigen::Index common = std::min(a.rows(), b.rows());
@@ -69,9 +72,10 @@ TEST(Scenes, ShippedObjectsAreClosedAndOfTheStatedSize) {
 }
 
 TEST(Scenes, BeginWithTheRestShapeForHalfASecondAtOnePose) {
-  const Eigen::Isometry3d pose = makeScene("still", spongeBody(), 1).state(0.0).T_camera_body;
+  const Eigen::Isometry3d usual = makeScene("still", spongeBody(), 1).state(0.0).T_camera_body;
   for (const std::string& name : sceneNames()) {
     const Scene scene = ownScene(name);
+    const Eigen::Isometry3d pose = Eigen::Translation3d(0.0, 0.0, fartherAway(name)) * usual;
     for (const double t : {0.0, 0.25, 0.5}) {
       EXPECT_LT(largestStep(scene.state(t).vertices[0], transformed(pose, scene.actors[0].rest.vertices)),
                 1e-12)
@@ -101,9 +105,14 @@ TEST(Scenes, KeepTheVolumeWhereTheBodyIsNeitherPulledNorPressed) {
     const TriangleMesh& rest = scene.actors[0].rest;
     const double rest_volume = enclosedVolume(rest.vertices, rest.triangles);
     const auto is = [&](const std::string& play) { return name == play || name == "doll_" + play; };
+    const bool squeezed = is("squeeze");
     const bool compressed = is("push") || is("pull") || is("press") || is("cut-partial");
-    const bool bent = is("bend") || is("occlude");  // changes the volume of what is not symmetric to z = 0
-    const double tolerance = compressed ? 0.15 : bent && objectOf(name) == "doll" ? 0.25 : 0.005;
+    const bool bent = is("bend") || is("occlude") || is("touch") || is("far") || is("fast") ||
+                      is("dim");  // changes the volume of what is not symmetric to z = 0
+    const double tolerance = squeezed                           ? 0.2
+                             : compressed                       ? 0.15
+                             : bent && objectOf(name) == "doll" ? 0.25
+                                                                : 0.005;
     for (double t = 0.0; t < scene.duration_s; t += 0.1) {
       // The twisted sides are polyhedra between the exact places of their vertices.
       const SceneState state = scene.state(t);
@@ -218,8 +227,8 @@ TEST(Scenes, TheExamplesInitialPosesAreRoughlyWhereTheBodiesBegin) {
     const std::string file = std::string(CONFIG_DIR) + "/" + objectOf(name) + ".yaml";
     const auto p = YAML::LoadFile(file)["object"]["initial_pose"].as<std::vector<double>>();
     ASSERT_EQ(p.size(), 7u);
-    const Eigen::Isometry3d rough =
-        Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(p[6], p[3], p[4], p[5]).normalized();
+    const Eigen::Isometry3d rough = Eigen::Translation3d(p[0], p[1], p[2] + fartherAway(name)) *
+                                    Eigen::Quaterniond(p[6], p[3], p[4], p[5]).normalized();
     const Eigen::Isometry3d error = ownScene(name).state(0.0).T_camera_body.inverse() * rough;
     EXPECT_LT(error.translation().norm(), 0.02) << name;
     EXPECT_LT(Eigen::AngleAxisd(error.linear()).angle(), 0.14) << name;

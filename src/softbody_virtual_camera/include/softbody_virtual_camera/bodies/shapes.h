@@ -10,8 +10,11 @@ namespace softbody::virtual_camera {
 TriangleMesh rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& edge_u,
                        const Eigen::Vector3d& edge_v);
 
-/// A closed cylinder from a to b with hemispheres at its ends.
+/// A closed cylinder from a to b with hemispheres at its ends; the first half of the vertices is at a.
 TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_m);
+/// The same with two radii.
+TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a_m,
+                     double radius_b_m);
 
 /// All meshes in one, with vertices and triangles in their order.
 TriangleMesh merge(const std::vector<TriangleMesh>& meshes);

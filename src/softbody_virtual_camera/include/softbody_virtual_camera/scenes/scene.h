@@ -35,6 +35,7 @@ struct SceneState {
   std::uint32_t revision = 0;    ///< of the body's topology
   std::optional<Eigen::Isometry3d> T_camera_tool = std::nullopt;
   Lights lights = {};
+  double brightness = 1.0;  ///< factor of the colour image: the lamp's power
   std::optional<Eigen::Isometry3d> T_world_camera = std::nullopt;  ///< only with a moving camera
 };
 
@@ -51,8 +52,9 @@ struct Scene {
   std::string name;
   double duration_s = 0.0;  ///< of one run; the motion continues after it
   std::vector<Actor> actors;
-  std::size_t hands = 0;    ///< number of hands and fingers, the last actors; a tool is not one of them
-  std::vector<Edit> edits;  ///< from revision 1 on; each is one stroke of the blade
+  double color_noise = 1.0;  ///< factor of the colour camera's noise: its gain in low light
+  std::size_t hands = 0;     ///< number of hands and fingers, the last actors; a tool is not one of them
+  std::vector<Edit> edits;   ///< from revision 1 on; each is one stroke of the blade
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< at the start; z is up
   std::function<SceneState(double t)> state;                         ///< t in seconds from the start
 };

@@ -39,19 +39,25 @@ TriangleMesh rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& edg
 }
 
 TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_m) {
+  return capsule(a, b, radius_m, radius_m);
+}
+
+TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a_m,
+                     double radius_b_m) {
   const Eigen::Vector3d axis = (b - a).normalized(), x = axis.unitOrthogonal(), y = axis.cross(x);
   constexpr int kRings = 2 * kRingsPerEnd;
   TriangleMesh mesh{Points(2 + kRings * kSectors, 3), ringTriangles(kRings)};
-  mesh.vertices.topRows(1) = (a - radius_m * axis).transpose();
-  mesh.vertices.bottomRows(1) = (b + radius_m * axis).transpose();
+  mesh.vertices.topRows(1) = (a - radius_a_m * axis).transpose();
+  mesh.vertices.bottomRows(1) = (b + radius_b_m * axis).transpose();
   for (int i = 0; i < kRings; ++i) {
     const bool first_end = i < kRingsPerEnd;
     const double latitude = 0.5 * kPi * (i + (first_end ? 1 : 0) - kRingsPerEnd) / kRingsPerEnd;
-    const Eigen::Vector3d center = (first_end ? a : b) + radius_m * std::sin(latitude) * axis;
+    const double radius = first_end ? radius_a_m : radius_b_m;
+    const Eigen::Vector3d center = (first_end ? a : b) + radius * std::sin(latitude) * axis;
     for (int j = 0; j < kSectors; ++j) {
       const double longitude = 2.0 * kPi * j / kSectors;
       mesh.vertices.row(1 + i * kSectors + j) =
-          center + radius_m * std::cos(latitude) * (std::cos(longitude) * x + std::sin(longitude) * y);
+          center + radius * std::cos(latitude) * (std::cos(longitude) * x + std::sin(longitude) * y);
     }
   }
   return mesh;

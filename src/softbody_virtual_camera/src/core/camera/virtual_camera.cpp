@@ -37,6 +37,12 @@ double largestMotion(const Pinhole& camera, const SceneState& from, const SceneS
   return largest;
 }
 
+ColorNoiseOptions amplified(ColorNoiseOptions noise, double factor) {
+  noise.std_dark *= factor;
+  noise.std_bright *= factor;
+  return noise;
+}
+
 }  // namespace
 
 Pinhole d435(int width, int height) {
@@ -59,7 +65,7 @@ VirtualCamera::VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOpti
       camera_(camera),
       blur_(noise.blur),
       exposure_drift_(noise.exposure, hash(seed, 103)),
-      color_noise_(noise.color, hash(seed, 101)),
+      color_noise_(amplified(noise.color, scene_.color_noise), hash(seed, 101)),
       depth_noise_(noise.depth, hash(seed, 102)) {
   const Body body{scene_.actors.at(0).rest, scene_.actors.at(0).skin};
   topologies_.push_back(topologyOf(body));
@@ -86,6 +92,7 @@ Capture VirtualCamera::capture(int frame, double t) {
     renderer.renderDepth(state, &image_);
     capture.color = blurredColor(t, images);
   }
+  if (state.brightness != 1.0) capture.color *= state.brightness;
   exposure_drift_.apply(t, &capture.color);
   color_noise_.apply(frame, &capture.color);
   depth_noise_.apply(frame, camera_.fx, &image_.depth);

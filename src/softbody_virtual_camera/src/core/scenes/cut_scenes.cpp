@@ -120,7 +120,7 @@ Scene performCuts(const Stage& stage, const Tool& tool, const Cuts& cuts, const 
   const auto T_camera_tool = [=, start = stage.T_camera_body](double t) -> Eigen::Isometry3d {
     return start * toolPose(cuts.strokes, tool, t);
   };
-  for (const Actor& actor : toolActors(tool)) play.props.push_back({actor, T_camera_tool});
+  for (const Actor& actor : toolActors(tool)) play.props.push_back(rigidProp(actor, T_camera_tool));
   Scene scene = perform(stage, play);
   scene.hands = 0;  // the props are the tool
   scene.edits = cuts.edits;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <stdexcept>
 
 #include "softbody_virtual_camera/motion/deformations.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"
@@ -38,6 +39,49 @@ Play bendPlay(const Stage&) {
   play.deformation = [](const Eigen::Vector3d& rest, double t) {
     return bend(rest, kLargestCurvature * swing(t));
   };
+  return play;
+}
+
+Play fastPlay(const Stage& stage) {
+  constexpr double kSpeed = 0.7;                                                                 // [m/s]
+  constexpr double kBending = 1.0 * 2.0 * kPi, kSwinging = 1.25 * 2.0 * kPi;                     // [rad/s]
+  const Eigen::Vector3d way = kSpeed / kSwinging * Eigen::Vector3d(0.9, 0.0, 0.4).normalized();  // [m]
+  const auto share = [](double t) { return plateau(t, {0.5, 0.5, 3.0}); };
+  Play play;
+  play.name = "fast";
+  play.deformation = [=](const Eigen::Vector3d& rest, double t) {
+    return bend(rest, kLargestCurvature * share(t) * std::sin(kBending * (t - 0.5)));
+  };
+  play.T_camera_body = [=, start = stage.T_camera_body](double t) -> Eigen::Isometry3d {
+    return Eigen::Translation3d(share(t) * std::sin(kSwinging * (t - 0.5)) * way) * start;
+  };
+  return play;
+}
+
+Play rollPlay(const Stage& stage) {
+  constexpr double kCurvature = 14.0, kThickest = 0.8;  // [1/m]; half thickness over radius
+  const Eigen::RowVector3d half = stage.actors.at(0).rest.vertices.cwiseAbs().colwise().maxCoeff();
+  const bool upwards = kCurvature * half.z() < kThickest;
+  if (!upwards && kCurvature * half.y() >= kThickest)
+    throw std::invalid_argument(
+        "the body is too thick for this scene; its length must be at least 1.8 times "
+        "its smaller thickness");
+  // Sideways: the body lies on its side while it bends.
+  const Eigen::AngleAxisd turn(upwards ? 0.0 : 0.5 * kPi, Eigen::Vector3d::UnitX());
+  Play play;
+  play.name = "roll";
+  play.deformation = [=](const Eigen::Vector3d& rest, double t) -> Eigen::Vector3d {
+    return turn.inverse() * bend(turn * rest, kCurvature * plateau(t, {0.5, 1.5, 1.0}));
+  };
+  return play;
+}
+
+Play dimPlay(const Stage& stage) {
+  constexpr double kBrightness = 0.35, kFlicker = 0.25, kFrequency = 7.0 * 2.0 * kPi;  // [rad/s]
+  Play play = bendPlay(stage);
+  play.name = "dim";
+  play.color_noise = 3.0;
+  play.brightness = [](double t) { return kBrightness * (1.0 + kFlicker * std::sin(kFrequency * t)); };
   return play;
 }
 

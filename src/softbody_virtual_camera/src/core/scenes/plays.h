@@ -12,6 +12,9 @@ Play pushPlay(const Stage& stage);
 Play pullPlay(const Stage& stage);
 Play shakePlay(const Stage& stage);  ///< rigid; up to 1 m/s and 180 deg/s
 Play rigidPlay(const Stage& stage);  ///< 5 cm and 30 deg away, and back
+Play fastPlay(const Stage& stage);   ///< bends twice a second and swings at up to 0.7 m/s
+Play rollPlay(const Stage& stage);   ///< bends upwards to 14 1/m; a body that is too thick for it, sideways
+Play dimPlay(const Stage& stage);    ///< bends in low light from a lamp that flickers
 Play leavePlay(const Stage& stage);  ///< out of view to the left and back
 
 }  // namespace softbody::virtual_camera

@@ -1,10 +1,13 @@
 #include "scenes/plays_with_hands.h"
 
 #include <Eigen/Dense>
+#include <cmath>
 
+#include "scenes/hand.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/deformations.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"
+#include "softbody_virtual_camera/textures/contrast.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -18,6 +21,24 @@ Eigen::Vector3d topOf(const Points& rest, double x, double y) {
     if (near && rest(i, 2) > top.z() + 1e-9) top = rest.row(i);
   }
   return top;
+}
+
+/// When a hand is there, and when it holds the body.
+constexpr Plateau kThere{0.5, 0.8, 2.4}, kHolding{1.2, 0.3, 2.0};
+
+/// A hand in the body's own colour, which holds the body while it deforms.
+/// @param deformation at one time. @param strain of the body along its length at one time.
+Prop holdingHand(const Stage& stage, const Grip& grip,
+                 const std::function<Deformation(double t)>& deformation,
+                 const std::function<double(double t)>& strain) {
+  constexpr double kFarAway = 0.45;  // [m]
+  const Hand hand = makeHand(stage.actors.at(0).rest, grip);
+  const auto vertices = [=, T_camera_body = stage.T_camera_body](double t) {
+    const HandPose pose{deformation(t), strain(t), 1.0 - plateau(t, kHolding),
+                        kFarAway * (1.0 - plateau(t, kThere))};
+    return transformed(T_camera_body, posed(hand, pose));
+  };
+  return {{hand.mesh, [](const Eigen::Vector3d&) { return plainColor(); }, 1.0}, vertices};
 }
 
 }  // namespace
@@ -43,7 +64,7 @@ Play pressPlay(const Stage& stage) {
     return start * Eigen::Translation3d(deepest.contact + (kRadius - depth(t)) * up + away * along);
   };
   const TriangleMesh finger = capsule(Eigen::Vector3d::Zero(), 0.15 * along, kRadius);
-  play.props = {{{finger, skinTexture(), 1.0e-3}, pose}};
+  play.props = {rigidProp({finger, skinTexture(), 1.0e-3}, pose)};
   return play;
 }
 
@@ -59,7 +80,43 @@ Play occludePlay(const Stage&) {
     return Eigen::Translation3d(covering + (1.0 - plateau(t, {0.5, 0.75, 2.0})) * travel) *
            Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitY());
   };
-  play.props = {{{hand(), skinTexture(), 2.0e-3}, pose}};
+  play.props = {rigidProp({hand(), skinTexture(), 2.0e-3}, pose)};
+  return play;
+}
+
+Play touchPlay(const Stage& stage) {
+  constexpr double kCurvature = 5.0;  // [1/m]
+  const Points& rest = stage.actors.at(0).rest.vertices;
+  const Eigen::Vector3d outward = Eigen::Vector3d::UnitX(), fixed = rest.col(0).minCoeff() * outward;
+  const auto deformation = [=](double t) -> Deformation {
+    const double curvature = kCurvature * plateau(t, {1.5, 0.9, 0.2});
+    return [=](const Eigen::Vector3d& place) -> Eigen::Vector3d {
+      return fixed + bend(place - fixed, curvature);
+    };
+  };
+  Play play;
+  play.name = "touch";
+  play.deformation = [=](const Eigen::Vector3d& place, double t) { return deformation(t)(place); };
+  play.props = {holdingHand(stage, holdingGrip(rest, outward), deformation, [](double) { return 0.0; })};
+  return play;
+}
+
+Play squeezePlay(const Stage& stage) {
+  constexpr double kStrain = -0.3, kPoissonRatio = 0.2;
+  const auto strain = [](double t) { return kStrain * plateau(t, {1.5, 0.8, 0.4}); };
+  const auto deformation = [=](double t) -> Deformation {
+    const double along = 1.0 + strain(t), across = std::pow(along, -kPoissonRatio);
+    return [=](const Eigen::Vector3d& place) -> Eigen::Vector3d {
+      return place.cwiseProduct(Eigen::Vector3d(along, across, across));
+    };
+  };
+  Play play;
+  play.name = "squeeze";
+  play.deformation = [=](const Eigen::Vector3d& place, double t) { return deformation(t)(place); };
+  for (const double end : {1.0, -1.0}) {
+    const Grip grip = pushingGrip(stage.actors.at(0).rest.vertices, end * Eigen::Vector3d::UnitX());
+    play.props.push_back(holdingHand(stage, grip, deformation, strain));
+  }
   return play;
 }
 

@@ -18,14 +18,23 @@ namespace {
 const std::string kDoll = "doll_";
 
 using PlayMaker = Play (*)(const Stage& stage);
+/// A scene without a tool.
+struct Setting {
+  PlayMaker play;
+  double distance_m = kNear_m;
+};
+
 using CutMaker = Scene (*)(const Stage& stage, const Tool& tool);
 
-const std::map<std::string, PlayMaker>& plays() {
-  static const std::map<std::string, PlayMaker> makers = {
-      {"still", stillPlay},     {"bend", bendPlay},   {"twist", twistPlay}, {"push", pushPlay},
-      {"pull", pullPlay},       {"shake", shakePlay}, {"leave", leavePlay}, {"press", pressPlay},
-      {"occlude", occludePlay}, {"rigid", rigidPlay}};
-  return makers;
+const std::map<std::string, Setting>& plays() {
+  static const std::map<std::string, Setting> settings = {
+      {"still", {stillPlay}},    {"bend", {bendPlay}},       {"twist", {twistPlay}},
+      {"push", {pushPlay}},      {"pull", {pullPlay}},       {"shake", {shakePlay}},
+      {"rigid", {rigidPlay}},    {"fast", {fastPlay}},       {"roll", {rollPlay}},
+      {"dim", {dimPlay}},        {"far", {bendPlay, 0.9}},   {"leave", {leavePlay}},
+      {"press", {pressPlay}},    {"occlude", {occludePlay}}, {"touch", {touchPlay}},
+      {"squeeze", {squeezePlay}}};
+  return settings;
 }
 
 const std::map<std::string, CutMaker>& cuts() {
@@ -70,9 +79,10 @@ Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, c
         fmt::format("there is no scene '{}'; known: {}", name, fmt::join(sceneNames(), ", ")));
   }
   const BodyFrame frame = frameOf(body.rest.vertices);
-  const Stage stage = makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin},
-                                seed, contrastOf(texture));
-  Scene scene = play != plays().end() ? perform(stage, play->second(stage))
+  const Stage stage =
+      makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed,
+                contrastOf(texture), play != plays().end() ? play->second.distance_m : kNear_m);
+  Scene scene = play != plays().end() ? perform(stage, play->second.play(stage))
                                       : cut->second(stage, scaled(readTool(tool_file), 1.0 / frame.scale));
   scene.name = name;
   return toBodyFrame(frame, scene, body.rest);

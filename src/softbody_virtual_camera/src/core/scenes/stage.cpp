@@ -31,11 +31,11 @@ double heightOf(const TriangleMesh& body) {
 
 }  // namespace
 
-Stage makeStage(const Body& body, std::uint64_t seed, float contrast) {
-  constexpr double kDistance = 0.5, kElevation = 42.0 * kDegree, kYaw = 25.0 * kDegree;
+Stage makeStage(const Body& body, std::uint64_t seed, float contrast, double distance_m) {
+  constexpr double kElevation = 42.0 * kDegree, kYaw = 25.0 * kDegree;
   const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest));
   const Eigen::Vector3d eye =
-      center + kDistance * Eigen::Vector3d(0.0, -std::cos(kElevation), std::sin(kElevation));
+      center + distance_m * Eigen::Vector3d(0.0, -std::cos(kElevation), std::sin(kElevation));
   Stage stage;
   stage.T_camera_world = lookAt(eye, center);
   stage.T_camera_body =
@@ -56,6 +56,10 @@ Stage makeStage(const Body& body, std::uint64_t seed, float contrast) {
   return stage;
 }
 
+Prop rigidProp(const Actor& actor, const std::function<Eigen::Isometry3d(double t)>& T_camera_prop) {
+  return {actor, [=](double t) { return transformed(T_camera_prop(t), actor.rest.vertices); }};
+}
+
 Scene perform(const Stage& stage, const Play& play) {
   Scene scene;
   scene.name = play.name;
@@ -64,6 +68,7 @@ Scene perform(const Stage& stage, const Play& play) {
   scene.actors = stage.actors;
   for (const Prop& prop : play.props) scene.actors.push_back(prop.actor);
   scene.hands = play.props.size();
+  scene.color_noise = play.color_noise;
   const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
   const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);
   scene.state = [=, rest = stage.actors.at(0).rest.vertices](double time) {
@@ -74,10 +79,11 @@ Scene perform(const Stage& stage, const Play& play) {
     }
     SceneState state;
     state.lights = stage.lights;
+    if (play.brightness) state.brightness = play.brightness(t);
     state.T_camera_body = play.T_camera_body ? play.T_camera_body(t) : stage.T_camera_body;
     state.vertices = {transformed(state.T_camera_body, body), table, wall};
     for (const Prop& prop : play.props) {
-      state.vertices.push_back(transformed(prop.T_camera_prop(t), prop.actor.rest.vertices));
+      state.vertices.push_back(prop.vertices(t));
     }
     return state;
   };

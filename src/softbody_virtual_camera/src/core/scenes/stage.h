@@ -9,20 +9,23 @@
 /// World frame of the scenes: origin on the table below the body, z up. The camera looks along +y and down.
 namespace softbody::virtual_camera {
 
-/// What all scenes share: a camera, a body half a metre away from it above a table, and a wall.
+/// What all scenes share: a camera, a body above a table, and a wall.
 struct Stage {
   Eigen::Isometry3d T_camera_world, T_camera_body;  ///< the body's frame at the start
   std::vector<Actor> actors;                        ///< body, table, wall
   Lights lights;
 };
+constexpr double kNear_m = 0.5;  ///< usual distance between camera and body
 /// @param contrast of the body's texture; a body of one colour has a second light, to show its shape.
-Stage makeStage(const Body& body, std::uint64_t seed, float contrast);
+/// @param distance_m between the camera and the middle of the body.
+Stage makeStage(const Body& body, std::uint64_t seed, float contrast, double distance_m = kNear_m);
 
-/// A rigid thing that moves in front of the camera.
+/// A thing that moves in front of the camera.
 struct Prop {
   Actor actor;
-  std::function<Eigen::Isometry3d(double t)> T_camera_prop;
+  std::function<Points(double t)> vertices;  ///< in the optical frame
 };
+Prop rigidProp(const Actor& actor, const std::function<Eigen::Isometry3d(double t)>& T_camera_prop);
 
 /// The motion in a scene. A repeating motion must end at rest, as it begins.
 struct Play {
@@ -32,6 +35,8 @@ struct Play {
   std::function<Eigen::Vector3d(const Eigen::Vector3d& rest, double t)> deformation;  ///< empty: rigid
   std::function<Eigen::Isometry3d(double t)> T_camera_body;  ///< empty: the body does not move
   std::vector<Prop> props;
+  std::function<double(double t)> brightness;  ///< of the colour image; empty: 1
+  double color_noise = 1.0;                    ///< factor of the noise of colour
 };
 Scene perform(const Stage& stage, const Play& play);
 
