@@ -99,11 +99,14 @@ TEST(Motions, RollBendsATallBodySidewaysAndRefusesACube) {
 TEST(Motions, FarIsTheBendingBodyNineTenthsOfAMetreAway) {
   const Scene near = motionScene("bend"), far = motionScene("far");
   EXPECT_NEAR(far.state(0.0).T_camera_body.translation().norm(), 0.9, 1e-9);
-  for (const double t : {0.0, 1.5, 3.5}) {
+  for (const double t : {0.0, 1.5, 3.5, 4.9}) {
     const SceneState there = far.state(t), here = near.state(t);
     EXPECT_TRUE(transformed(there.T_camera_body.inverse(), there.vertices[0])
                     .isApprox(transformed(here.T_camera_body.inverse(), here.vertices[0])));
   }
+  EXPECT_EQ(far.duration_s, 8.0);
+  for (double time = 5.0; time < 8.5; time += 0.1)
+    EXPECT_TRUE(far.state(time).vertices[0].isApprox(far.state(0.0).vertices[0])) << time;
 }
 
 /// Standard deviation of the green channel's noise on the middle of the image.

@@ -76,6 +76,17 @@ Play rollPlay(const Stage& stage) {
   return play;
 }
 
+Play farPlay(const Stage&) {
+  constexpr double kBending = 5.0, kResting = 3.0;  // [s]
+  Play play;
+  play.name = "far";
+  play.duration_s = kBending + kResting;
+  play.deformation = [](const Eigen::Vector3d& rest, double t) {
+    return bend(rest, t < kBending ? kLargestCurvature * swing(t) : 0.0);
+  };
+  return play;
+}
+
 Play dimPlay(const Stage& stage) {
   constexpr double kBrightness = 0.35, kFlicker = 0.25, kFrequency = 7.0 * 2.0 * kPi;  // [rad/s]
   Play play = bendPlay(stage);

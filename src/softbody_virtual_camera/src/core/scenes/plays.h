@@ -14,6 +14,7 @@ Play shakePlay(const Stage& stage);  ///< rigid; up to 1 m/s and 180 deg/s
 Play rigidPlay(const Stage& stage);  ///< 5 cm and 30 deg away, and back
 Play fastPlay(const Stage& stage);   ///< bends twice a second and swings at up to 0.7 m/s
 Play rollPlay(const Stage& stage);   ///< bends upwards to 14 1/m; a body that is too thick for it, sideways
+Play farPlay(const Stage& stage);    ///< bends, then rests for 3 s
 Play dimPlay(const Stage& stage);    ///< bends in low light from a lamp that flickers
 Play leavePlay(const Stage& stage);  ///< out of view to the left and back
 
