@@ -118,7 +118,11 @@ Measured measure(const EvaluatorOptions& options) {
 
   report.frames = {result.states.size(), result.states.size(), {}};
   report.volume = volumeOf(result);
-  report.states = readTrackingStates(options.result, options.result_namespace + "/" + topics::kStatus);
+  for (const auto& [stamp, state] :
+       readTrackingStates(options.result, options.result_namespace + "/" + topics::kStatus)) {
+    ++report.states[state];
+    report.state_of[stamp] = state;
+  }
   report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
   if (!recording.empty()) compareInCamera(options, recording, result, truth ? &*truth : nullptr, &measured);
   if (truth) {

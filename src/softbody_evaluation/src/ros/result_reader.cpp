@@ -62,18 +62,20 @@ StageTimes readStageTimes(const std::string& path, const std::string& topic) {
   return times;
 }
 
-std::map<std::string, std::size_t> readTrackingStates(const std::string& path, const std::string& topic) {
+std::vector<std::pair<Nanoseconds, std::string>> readTrackingStates(const std::string& path,
+                                                                    const std::string& topic) {
   const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
-  std::map<std::string, std::size_t> frames;
+  std::vector<std::pair<Nanoseconds, std::string>> states;
   for (const rosbag::MessageInstance& instance : view) {
     const auto status = instance.instantiate<softbody_msgs::TrackingStatus>();
     if (!status || status->state > softbody_msgs::TrackingStatus::RECOVERING)
       throw std::invalid_argument(fmt::format(
           "{}: {} is not of type softbody_msgs/TrackingStatus, or has an unknown state", path, topic));
-    ++frames[nameOf(static_cast<TrackingState>(status->state))];
+    states.emplace_back(toNanoseconds(status->header.stamp),
+                        nameOf(static_cast<TrackingState>(status->state)));
   }
-  return frames;
+  return states;
 }
 
 }  // namespace softbody::evaluation

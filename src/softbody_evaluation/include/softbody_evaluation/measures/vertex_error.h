@@ -18,11 +18,12 @@ struct VertexGroups {
 /// Distances to the truth of one frame [m].
 struct FrameVertexError {
   Nanoseconds stamp = 0;
-  std::vector<float> visible, hidden;      ///< by the truth's confidence
-  std::vector<float> near_cut;             ///< of all these: near a cut
-  std::vector<float> covered;              ///< of the hidden ones: visible at first
-  std::vector<std::vector<float>> pieces;  ///< by true piece
-  std::size_t unmatched = 0;               ///< vertices without a match in the truth
+  std::vector<float> visible, hidden;                        ///< by the truth's confidence
+  std::vector<float> visible_deviations, hidden_deviations;  ///< predicted for these; empty: not estimated
+  std::vector<float> near_cut;                               ///< of all these: near a cut
+  std::vector<float> covered;                                ///< of the hidden ones: visible at first
+  std::vector<std::vector<float>> pieces;                    ///< by true piece
+  std::size_t unmatched = 0;                                 ///< vertices without a match in the truth
 
   double mean() const;
 };
@@ -37,12 +38,15 @@ struct VertexErrorReport {
   Summary all, visible, hidden, near_cut;
   std::vector<Summary> pieces;      ///< by true piece, of frames with several pieces
   double unmatched_share = 0.0;     ///< of the result's vertices, 0..1
+  double first_time_s = 0.0;        ///< of the first of these frames, since the truth's first one
   std::vector<double> times;        ///< of the frames, since the first [s]
   std::vector<double> frame_means;  ///< [m]
-  double drift_m_per_s = 0.0;       ///< slope of frame_means over time
-  double drift_window_s = 0.0;      ///< 5 s, or half of a shorter sequence
-  double drift_m = 0.0;             ///< mean error in the last window minus that in the first
-  double drift_ratio = kNothing;    ///< last / first
+  /// The same for parts of each frame [m]; NaN for a frame without such vertices.
+  std::vector<double> frame_visible_means, frame_visible_largest, frame_hidden_means, frame_covered_means;
+  double drift_m_per_s = 0.0;     ///< slope of frame_means over time
+  double drift_window_s = 0.0;    ///< 5 s, or half of a shorter sequence
+  double drift_m = 0.0;           ///< mean error in the last window minus that in the first
+  double drift_ratio = kNothing;  ///< last / first
 };
 
 VertexErrorReport summarize(const std::vector<FrameVertexError>& frames);

@@ -13,6 +13,10 @@ namespace softbody::evaluation {
 cv::Mat3b linePlot(const std::string& title, const std::string& x_label, const std::vector<double>& x,
                    const std::vector<double>& y);
 
+/// Marked values and a line from zero where y is x. @param x increasing.
+cv::Mat3b calibrationPlot(const std::string& title, const std::string& x_label, const std::vector<double>& x,
+                          const std::vector<double>& y);
+
 /// A histogram from zero to the 99.5th percentile. Larger values are in the last bin.
 /// @param scale from the unit of the values to the unit of the label.
 cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values,

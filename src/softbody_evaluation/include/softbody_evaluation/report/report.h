@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "softbody_evaluation/measures/absences.h"
+#include "softbody_evaluation/measures/calibration.h"
 #include "softbody_evaluation/measures/cut_surface.h"
 #include "softbody_evaluation/measures/depth_residual.h"
 #include "softbody_evaluation/measures/pose_error.h"
@@ -35,9 +36,12 @@ struct PiecesReport {
 /// Everything that was measured of a result.
 struct Report {
   FrameCount frames;
-  std::map<std::string, std::size_t> states;  ///< frames by the tracker's state, if the result has states
-  std::vector<std::string> notes;             ///< what was left out, in sentences
+  std::map<std::string, std::size_t> states;    ///< frames by the tracker's state, if the result has states
+  std::map<Nanoseconds, std::string> state_of;  ///< the last state of each stamp
+  std::vector<std::string> frame_states;        ///< of the frames of vertex_error; empty text: unknown
+  std::vector<std::string> notes;               ///< what was left out, in sentences
   std::optional<VertexErrorReport> vertex_error;
+  std::optional<CalibrationReport> calibration;  ///< if the result has standard deviations
   std::optional<PiecesReport> pieces;
   std::optional<CutSurfaceReport> cut_surface;   ///< if the truth is cut
   std::vector<Absence> absences;                 ///< occlusions and times out of view

@@ -2,6 +2,8 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "softbody_common/types.h"
 #include "softbody_evaluation/measures/pose_error.h"
@@ -19,8 +21,9 @@ std::map<Nanoseconds, Points> readBlades(const std::string& path, const std::str
 /// Reads times of type StageTiming. Empty if the topic is missing.
 StageTimes readStageTimes(const std::string& path, const std::string& topic);
 
-/// Counts frames by the name of their TrackingStatus. Empty if the topic is missing.
+/// Stamps and names of the TrackingStatus messages, in the order of the bag. Empty if the topic is missing.
 /// @throw std::invalid_argument if the topic has another type or an unknown state.
-std::map<std::string, std::size_t> readTrackingStates(const std::string& path, const std::string& topic);
+std::vector<std::pair<Nanoseconds, std::string>> readTrackingStates(const std::string& path,
+                                                                    const std::string& topic);
 
 }  // namespace softbody::evaluation

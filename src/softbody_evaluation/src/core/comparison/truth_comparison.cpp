@@ -191,6 +191,16 @@ void plotVertexErrors(const VertexErrorReport& report, const std::vector<FrameVe
   (*pictures)["vertex_error_histogram.png"] = histogram("vertex error", "[mm]", all, 1e3);
 }
 
+void plotCalibration(const CalibrationReport& report, Pictures* pictures) {
+  std::vector<double> predicted, measured;
+  for (const CalibrationBin& bin : report.bins) {
+    predicted.push_back(1e3 * bin.predicted_rms);
+    measured.push_back(1e3 * bin.error_rms);
+  }
+  (*pictures)["calibration.png"] = calibrationPlot("RMS error [mm] over predicted standard deviation [mm]",
+                                                   "predicted [mm]", predicted, measured);
+}
+
 }  // namespace
 
 void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
@@ -217,6 +227,12 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
   report->frames.answered = errors.size();
   if (errors.empty()) return;
   report->vertex_error = summarize(errors);
+  report->vertex_error->first_time_s = seconds(errors.front().stamp - truth.states.begin()->first);
+  report->calibration = calibration(errors);
+  for (const FrameVertexError& error : errors) {
+    const auto state = report->state_of.find(error.stamp);
+    report->frame_states.push_back(state == report->state_of.end() ? "" : state->second);
+  }
   if (unhidden != nullptr) addUnhidden(options, *unhidden, truth, &occlusions, &report->notes);
   report->absences = absences(occlusions);
   report->jitter = jitterWhereStill(result, truth);
@@ -224,6 +240,7 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
   report->cut_surface = cutSurface(result, truth);
   report->volume.error = volumeError(result, truth);
   plotVertexErrors(*report->vertex_error, errors, pictures);
+  if (report->calibration) plotCalibration(*report->calibration, pictures);
 }
 
 }  // namespace softbody::evaluation

@@ -74,6 +74,19 @@ void requireVertices(const MeshState& result, const MeshState& truth, const std:
 
 double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
+double meanOf(const std::vector<float>& values) {
+  return values.empty() ? kNothing : sum(values) / static_cast<double>(values.size());
+}
+
+void addFrame(const FrameVertexError& frame, VertexErrorReport* report) {
+  const auto largest = std::max_element(frame.visible.begin(), frame.visible.end());
+  report->frame_means.push_back(frame.mean());
+  report->frame_visible_means.push_back(meanOf(frame.visible));
+  report->frame_visible_largest.push_back(largest == frame.visible.end() ? kNothing : *largest);
+  report->frame_hidden_means.push_back(meanOf(frame.hidden));
+  report->frame_covered_means.push_back(meanOf(frame.covered));
+}
+
 }  // namespace
 
 double FrameVertexError::mean() const {
@@ -95,6 +108,9 @@ FrameVertexError vertexError(const MeshState& result, const MeshState& truth, co
         (result.vertices.row(static_cast<Eigen::Index>(i)) - truth.vertices.row(matches[i])).norm());
     const bool visible = truth.confidence.at(match) > 0.5f;
     (visible ? error.visible : error.hidden).push_back(distance);
+    if (!result.standard_deviation.empty())
+      (visible ? error.visible_deviations : error.hidden_deviations)
+          .push_back(result.standard_deviation.at(i));
     if (!groups.near_cut.empty() && groups.near_cut[match]) error.near_cut.push_back(distance);
     if (!groups.seen_at_first.empty() && groups.seen_at_first[match] && !visible)
       error.covered.push_back(distance);
@@ -114,7 +130,7 @@ VertexErrorReport summarize(const std::vector<FrameVertexError>& frames) {
     append(frame.near_cut, &near_cut);
     unmatched += frame.unmatched;
     report.times.push_back(seconds(frame.stamp - frames.front().stamp));
-    report.frame_means.push_back(frame.mean());
+    addFrame(frame, &report);
   }
   addDrift(&report);
   report.pieces = summarizePieces(frames);

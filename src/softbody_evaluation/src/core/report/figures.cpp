@@ -37,6 +37,12 @@ void addVertexError(const VertexErrorReport& report, std::vector<Figure>* figure
   figures->push_back({"drift, last / first seconds", "ratio", report.drift_ratio});
 }
 
+void addCalibration(const CalibrationReport& report, std::vector<Figure>* figures) {
+  figures->push_back({"visible vertices within their 90 % bound", "%", 100.0 * report.within_visible});
+  figures->push_back({"hidden vertices within their 90 % bound", "%", 100.0 * report.within_hidden});
+  figures->push_back({"90 % bound over error, median", "ratio", report.median_ratio});
+}
+
 void addCut(const Report& report, std::vector<Figure>* figures) {
   if (report.pieces) {
     figures->push_back({"frames with the true number of pieces", "%", 100.0 * report.pieces->frames_right});
@@ -90,6 +96,7 @@ std::vector<Figure> figures(const Report& report) {
   all.push_back({"frames answered", "%", 100.0 * static_cast<double>(report.frames.answered) / expected});
   if (!report.states.empty()) addStates(report.states, &all);
   if (report.vertex_error) addVertexError(*report.vertex_error, &all);
+  if (report.calibration) addCalibration(*report.calibration, &all);
   addCut(report, &all);
   addAbsences(report.absences, &all);
   if (report.jitter) all.push_back({"jitter while still, RMS", "mm", 1e3 * report.jitter->per_vertex.rms});

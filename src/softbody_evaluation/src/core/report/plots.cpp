@@ -68,6 +68,21 @@ cv::Mat3b linePlot(const std::string& title, const std::string& x_label, const s
   return image;
 }
 
+cv::Mat3b calibrationPlot(const std::string& title, const std::string& x_label, const std::vector<double>& x,
+                          const std::vector<double>& y) {
+  double largest = x.empty() ? 0.0 : x.back();
+  for (const double value : y) largest = std::max(largest, value);
+  const Axes axes{1.1 * axisEnd(largest), 1.1 * axisEnd(largest)};
+  cv::Mat3b image = drawAxes(title, x_label, axes);
+  cv::line(image, axes.place(0.0, 0.0), axes.place(axes.end_x, axes.end_y), kInk, 1, cv::LINE_AA);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (i > 0)
+      cv::line(image, axes.place(x[i - 1], y[i - 1]), axes.place(x[i], y[i]), kCurve, 2, cv::LINE_AA);
+    cv::circle(image, axes.place(x[i], y[i]), 4, kCurve, cv::FILLED, cv::LINE_AA);
+  }
+  return image;
+}
+
 cv::Mat3b histogram(const std::string& title, const std::string& x_label, const std::vector<float>& values,
                     double scale) {
   constexpr int kBins = 60;

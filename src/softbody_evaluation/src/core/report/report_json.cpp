@@ -15,11 +15,28 @@ json inMillimetres(const Summary& s) {
           {"median_mm", mm(s.median)}, {"p95_mm", mm(s.p95)},   {"max_mm", mm(s.max)}};
 }
 
+json allInMillimetres(const std::vector<double>& lengths) {
+  json values = json::array();
+  for (const double length : lengths) values.push_back(mm(length));
+  return values;
+}
+
+json toJson(const CalibrationReport& report) {
+  json bins = json::array();
+  for (const CalibrationBin& bin : report.bins) {
+    bins.push_back({{"count", bin.count},
+                    {"predicted_rms_mm", mm(bin.predicted_rms)},
+                    {"error_rms_mm", mm(bin.error_rms)}});
+  }
+  return {{"within_90_visible", report.within_visible},
+          {"within_90_hidden", report.within_hidden},
+          {"median_ratio", report.median_ratio},
+          {"bins", bins}};
+}
+
 json toJson(const VertexErrorReport& report) {
   json pieces = json::array();
   for (const Summary& piece : report.pieces) pieces.push_back(inMillimetres(piece));
-  json means = json::array();
-  for (const double mean : report.frame_means) means.push_back(mm(mean));
   return {{"all", inMillimetres(report.all)},
           {"visible", inMillimetres(report.visible)},
           {"hidden", inMillimetres(report.hidden)},
@@ -30,8 +47,13 @@ json toJson(const VertexErrorReport& report) {
           {"drift_mm", mm(report.drift_m)},
           {"drift_ratio", report.drift_ratio},
           {"drift_window_s", report.drift_window_s},
+          {"first_time_s", report.first_time_s},
           {"frame_times_s", report.times},
-          {"frame_mean_mm", means}};
+          {"frame_mean_mm", allInMillimetres(report.frame_means)},
+          {"frame_visible_mean_mm", allInMillimetres(report.frame_visible_means)},
+          {"frame_visible_max_mm", allInMillimetres(report.frame_visible_largest)},
+          {"frame_hidden_mean_mm", allInMillimetres(report.frame_hidden_means)},
+          {"frame_covered_mean_mm", allInMillimetres(report.frame_covered_means)}};
 }
 
 json toJson(const ResidualReport& report) {
@@ -136,6 +158,8 @@ json toJson(const Report& report) {
   json document = {{"frames", {{"expected", report.frames.expected}, {"answered", report.frames.answered}}},
                    {"volume", toJson(report.volume)}};
   if (report.vertex_error) document["vertex_error"] = toJson(*report.vertex_error);
+  if (report.calibration) document["calibration"] = toJson(*report.calibration);
+  if (!report.frame_states.empty()) document["frame_states"] = report.frame_states;
   if (!report.notes.empty()) document["notes"] = report.notes;
   if (!report.states.empty()) document["states"] = report.states;
   if (report.frames.recorded) document["frames"]["recorded"] = *report.frames.recorded;

@@ -92,6 +92,13 @@ std::string absenceLine(const Absence& absence) {
 
 std::string optionalLines(const Report& report) {
   std::string text = cutLines(report);
+  if (report.calibration) {
+    text += fmt::format(
+        "within the 90 % bound: {:.1f} % of the visible vertices, {:.1f} % of the hidden ones; bound "
+        "over error {:.2f} median\n",
+        100.0 * report.calibration->within_visible, 100.0 * report.calibration->within_hidden,
+        report.calibration->median_ratio);
+  }
   for (const Absence& absence : report.absences) text += absenceLine(absence);
   if (report.jitter) {
     text += fmt::format("jitter while still: {:.4f} mm RMS over {} frames, {:.4f} mm at the p95 vertex\n",

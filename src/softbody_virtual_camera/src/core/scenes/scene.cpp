@@ -31,7 +31,7 @@ const std::map<std::string, Setting>& plays() {
       {"still", {stillPlay}},    {"bend", {bendPlay}},       {"twist", {twistPlay}},
       {"push", {pushPlay}},      {"pull", {pullPlay}},       {"shake", {shakePlay}},
       {"rigid", {rigidPlay}},    {"fast", {fastPlay}},       {"roll", {rollPlay}},
-      {"dim", {dimPlay}},        {"far", {farPlay, 0.9}},   {"leave", {leavePlay}},
+      {"dim", {dimPlay}},        {"far", {farPlay, 0.9}},    {"leave", {leavePlay}},
       {"press", {pressPlay}},    {"occlude", {occludePlay}}, {"touch", {touchPlay}},
       {"squeeze", {squeezePlay}}};
   return settings;
