@@ -6,6 +6,8 @@ from evaluation.goals import goal_table
 from evaluation.summary import summary_table
 from evaluation.tables import (absences, accuracy, cuts, faults, long_runs, moving_camera, noise, stage_times, toys,
                                volumes)
+from evaluation.world_tables import (CALIBRATION_PLOT, plain_bodies, plot_calibration, predicted_errors,
+                                     wrong_objects)
 from markdown_lines import paragraph
 from replace_file import replace_file
 
@@ -32,7 +34,8 @@ def document(root, reports):
              *paragraph("A part of the error comes from the volume (the tets) and its material. Tracking can hardly "
                         "remove this part: [what the volume allows](#what-the-volume-allows)."), "",
              *goal_table(reports)]
-    for part in (accuracy, noise, moving_camera, volumes, long_runs, absences, cuts, faults, toys, stage_times):
+    for part in (accuracy, plain_bodies, noise, moving_camera, volumes, long_runs, absences, cuts, faults,
+                 predicted_errors, wrong_objects, toys, stage_times):
         lines += part(reports)
     return "\n".join(lines).rstrip() + "\n"
 
@@ -43,5 +46,6 @@ def write(root, text, reports):
     before, rest = readme.read_text().split(BEGIN)
     after = rest.split(END)[1]
     quoted = "\n".join([f"Measured by {origin(root)}:", "", *summary_table(reports)])
+    plot_calibration(reports, root / CALIBRATION_PLOT)
     replace_file(root / "docs/evaluation.md", text)
     replace_file(readme, f"{before}{BEGIN}\n{quoted}{END}{after}")

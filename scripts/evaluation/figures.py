@@ -1,6 +1,13 @@
 """Figures from the reports of `evaluate`, by scene and kind of run."""
 
+import math
+
 NOISE_FREE = ("bend", "push", "pull", "twist", "press")
+# Scenes with a body of one colour.
+PLAIN_MOTIONS = ("bend", "push", "pull", "twist", "press")
+PLAIN = (*PLAIN_MOTIONS, "still", "rigid")
+FALSE_AFTER_S = 1.0
+STARTS = 20  # rough poses of each plain scene
 MOVING = ("still", "bend", "push", "twist")
 # Scenes with faults. Several seeds of wrong matches, because the error differs by a third between them.
 WRONG_MATCH_SEEDS = {"bend": (1, 2, 3, 4), "push": (1, 2), "twist": (1, 2)}
@@ -75,11 +82,81 @@ def fault_times(reports, scene, fault):
     return None if base is None or faulty is None else faulty / base
 
 
+def within(report, key, first_s=0.0, last_s=math.inf):
+    """Values of a list by frame, at times of the scene from first_s to last_s; without missing ones."""
+    error = get(report, "vertex_error")
+    if error is None:
+        return []
+    return [value for time, value in zip(error["frame_times_s"], error[key])
+            if value is not None and first_s <= error["first_time_s"] + time <= last_s]
+
+
+def mean_within(report, key, first_s=0.0, last_s=math.inf):
+    values = within(report, key, first_s, last_s)
+    return sum(values) / len(values) if values else None
+
+
+def visible_while_tracking(report):
+    """Of every frame called TRACKING: its largest error of a visible vertex [mm]."""
+    return [largest for state, largest in zip(get(report, "frame_states") or [],
+                                              get(report, "vertex_error", "frame_visible_max_mm") or [])
+            if state == "tracking" and largest is not None]
+
+
+def false_tracking(report):
+    """Frames called TRACKING after the first second, of a result with a wrong object."""
+    return sum(state == "tracking" for time, state in report["states_by_time"] if time >= FALSE_AFTER_S)
+
+
+def time_until_normal(report, unhidden, after_s):
+    """Seconds from the first frame without hidden vertices, after a time, until the error stays at most 1.2 times that
+    of the same motion without hands, for 0.2 s; infinite: never."""
+    error, normal = get(report, "vertex_error"), get(unhidden, "vertex_error")
+    if error is None or normal is None:
+        return None
+    times = [error["first_time_s"] + time for time in error["frame_times_s"]]
+    usual = dict(zip((round(normal["first_time_s"] + time, 3) for time in normal["frame_times_s"]),
+                     normal["frame_mean_mm"]))
+    gone = next((time for time, covered in zip(times, error["frame_covered_mean_mm"])
+                 if time >= after_s and covered is None), None)
+    if gone is None:
+        return math.inf
+    since = None
+    for time, mean in zip(times, error["frame_mean_mm"]):
+        if time < gone:
+            continue
+        if mean > 1.2 * usual.get(round(time, 3), 0.0):
+            since = None
+        elif since is None:
+            since = time
+        if since is not None and time - since >= 0.2:
+            return since - gone
+    return math.inf
+
+
+def calibration_bins(reports):
+    """{bin: [count, sum of squared predictions, sum of squared errors]} over all scenes [mm^2]."""
+    bins = {}
+    for (kind, _), report in reports.items():
+        for row in (get(report, "calibration", "bins") or []) if kind in ("scene", "plain") else []:
+            total = bins.setdefault(math.floor(2.0 * math.log2(max(row["predicted_rms_mm"], 1e-3))), [0, 0.0, 0.0])
+            total[0] += row["count"]
+            total[1] += row["count"] * row["predicted_rms_mm"] ** 2
+            total[2] += row["count"] * row["error_rms_mm"] ** 2
+    return dict(sorted(bins.items()))
+
+
 def summary_line(reports):
     """One line with the mean error of each scene and fault."""
     words = []
     for (kind, name), report in reports.items():
         if not report:
+            continue
+        if kind == "starts":
+            words.append(f"{name}, {STARTS} starts: {number(report['max_mm'])} mm apart")
+            continue
+        if kind == "wrong":
+            words.append(f"{name}: {false_tracking(report)} frames tracking")
             continue
         error = get(report, "vertex_error", "all", "mean_mm")
         what = ", ".join(name) if kind == "fault" else name if kind in ("scene", name) else f"{name}, {kind}"

@@ -3,6 +3,7 @@ import math
 
 from evaluation.figures import (DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, fault_times, get,
                                 moving_times, number, worst, wrong_matches)
+from evaluation.world_goals import world_goals
 from markdown_lines import table
 
 
@@ -87,5 +88,6 @@ def verdict(goal, unit, value):
 
 
 def goal_table(reports):
-    rows = [[figure, *verdict(goal, unit, value)] for figure, goal, unit, value in goals(reports)]
+    rows = [[figure, *verdict(goal, unit, value)]
+            for figure, goal, unit, value in [*goals(reports), *world_goals(reports)]]
     return table(["figure", "goal", "measured", "reached"], rows)

@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""What the evaluation reads from bags of `replay` itself, as JSON. Runs in the environment of the built workspace.
+
+Usage: bags.py spread RESULT.bag...     how far apart the surfaces of several results are [mm]
+       bags.py states RESULT.bag        (time since the first state [s], name of the state) of every frame
+"""
+import json
+import sys
+
+import numpy
+import rosbag
+
+SURFACE, STATUS = "/softbody/surface/state", "/softbody/status"
+SETTLED_S = 0.5
+NAMES = ["initializing", "tracking", "degraded", "lost", "recovering"]
+
+
+def surfaces(path):
+    """Vertices [mm] by stamp [s]."""
+    with rosbag.Bag(path) as bag:
+        return {message.header.stamp.to_sec(): 1e3 * numpy.array([(p.x, p.y, p.z) for p in message.vertices])
+                for _, message, _ in bag.read_messages(topics=[SURFACE])}
+
+
+def spread(paths):
+    """The mean distance of the vertices, between the two results of each frame that are farthest apart."""
+    results = [surfaces(path) for path in paths]
+    common = sorted(set.intersection(*(set(result) for result in results)))
+    worst = []
+    for stamp in common:
+        if stamp < common[0] + SETTLED_S:
+            continue
+        shapes = [result[stamp] for result in results]
+        worst.append(max(numpy.linalg.norm(a - b, axis=1).mean() for i, a in enumerate(shapes) for b in shapes[:i]))
+    return {"starts": len(paths), "frames": len(worst), "mean_mm": float(numpy.mean(worst)) if worst else None,
+            "max_mm": float(max(worst)) if worst else None}
+
+
+def states(path):
+    with rosbag.Bag(path) as bag:
+        found = [(message.header.stamp.to_sec(), NAMES[message.state])
+                 for _, message, _ in bag.read_messages(topics=[STATUS])]
+    return [(round(stamp - found[0][0], 3), name) for stamp, name in found]
+
+
+if __name__ == "__main__":
+    command, *files = sys.argv[1:]
+    print(json.dumps(spread(files) if command == "spread" else states(*files)))

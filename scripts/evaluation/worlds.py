@@ -1,0 +1,98 @@
+"""Runs of scenes like the real world: bodies of one colour, from many starts, and objects that are not there."""
+import json
+import math
+import random
+import re
+import subprocess
+
+from evaluation.figures import PLAIN, STARTS
+from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, measure, object_of, pose_of, tool, track, with_pose
+
+PLAIN_CAMERA = {"still": ("--duration", "10")}
+START_M, START_RAD = 0.001, math.radians(0.5)  # from the middle, so starts are within 2 mm and 1 degree of each other
+WRONG_S = "2"
+
+
+def bags(command, *files):
+    """The answer of bags.py."""
+    run = subprocess.run([DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/evaluation/bags.py", command, *files],
+                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    if run.returncode != 0:
+        raise ToolFailed(f"bags.py {command} {' '.join(map(str, files))}\n{run.stderr}")
+    return json.loads(run.stdout)
+
+
+def turned_by(quaternion, axis, angle):
+    """A rotation (x, y, z, w) after a turn about a unit vector."""
+    x, y, z, w = quaternion
+    a, b, c = (math.sin(0.5 * angle) * part for part in axis)
+    d = math.cos(0.5 * angle)
+    return [d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x, d * z + a * y - b * x + c * w,
+            d * w - a * x - b * y - c * z]
+
+
+def direction(drawn):
+    vector = [drawn.gauss(0.0, 1.0) for _ in range(3)]
+    length = math.hypot(*vector)
+    return [part / length for part in vector]
+
+
+def starts(pose, count=STARTS, seed=1):
+    """Poses near a pose, evenly distributed in all directions."""
+    drawn = random.Random(seed)
+    poses = []
+    for _ in range(count):
+        way, axis = direction(drawn), direction(drawn)
+        distance, angle = START_M * drawn.random() ** (1.0 / 3.0), START_RAD * drawn.random()
+        place = [p + distance * w for p, w in zip(pose[:3], way)]
+        poses.append([*place, *turned_by(pose[3:], axis, angle)])
+    return poses
+
+
+def plain_run(scene):
+    """A body of one colour: the report, and how far apart the results from several starts are."""
+    name = f"{scene}_plain"
+    recording, config = OUTPUT / f"{name}.bag", object_of(scene)
+    tool("virtual_camera", "--scene", scene, "--texture", "plain", "--output", recording,
+         *PLAIN_CAMERA.get(scene, ()))
+    reports = {("plain", scene): measure(name, recording, config, "--truth", recording)}
+    results = []
+    for number, pose in enumerate(starts(pose_of(config)), 1):
+        start = f"{name}_start_{number}"
+        results.append(track(start, recording, with_pose(config, start, pose), "--allow-outside"))
+    reports[("starts", scene)] = bags("spread", *results)
+    for used in (recording, *results):
+        used.unlink()
+    return reports
+
+
+def scaled_object(config, factor):
+    """The object with another size, at the same rough pose; its cage and tets are made at the start of `replay`."""
+    mesh = OUTPUT / "wrong_scaled.obj"
+    lines = (config.parent / re.search(r"visual_mesh: *(\S+)", config.read_text())[1]).read_text().splitlines()
+    mesh.write_text("\n".join("v " + " ".join(str(factor * float(x)) for x in line.split()[1:4])
+                              if line.startswith("v ") else line for line in lines) + "\n")
+    scaled = OUTPUT / "wrong_scaled.yaml"
+    scaled.write_text(f"object:\n  visual_mesh: {mesh}\n  initial_pose: {pose_of(config)}\n")
+    return scaled
+
+
+def wrong_object_runs():
+    """The scene bend with an object that is not there; {("wrong", what): the states}."""
+    sponge, doll = ROOT / "config/sponge.yaml", ROOT / "config/doll.yaml"
+    recording = OUTPUT / "wrong.bag"
+    tool("virtual_camera", "--scene", "bend", "--duration", WRONG_S, "--output", recording)
+    cases = {"the object 1.3 times as large": scaled_object(sponge, 1.3),
+             "another object of the same length": with_pose(doll, "wrong_doll", pose_of(sponge))}
+    reports = {}
+    for number, (what, config) in enumerate(cases.items(), 1):
+        result = track(f"wrong_{number}", recording, config, "--allow-outside")
+        reports[("wrong", what)] = {"states_by_time": bags("states", result)}
+    recording.unlink()
+    return reports
+
+
+def world_runs(scenes):
+    """Pieces of work as (words, function)."""
+    work = [(f"{scene}, plain", lambda scene=scene: plain_run(scene)) for scene in PLAIN if scene in scenes]
+    return work + ([("wrong objects", wrong_object_runs)] if "bend" in scenes else [])
