@@ -36,7 +36,7 @@ struct MaterialPoint {
 };
 
 /// The measurement behind a target (softbody_msgs/Target).
-enum class TargetKind : std::uint8_t { kFeature = 0, kDepth = 1, kVertex = 2, kManual = 3 };
+enum class TargetKind : std::uint8_t { kFeature = 0, kDepth = 1, kVertex = 2, kManual = 3, kPrior = 4 };
 
 /// A material point and its measured position. With a normal, only the distance along the normal counts.
 struct Target {

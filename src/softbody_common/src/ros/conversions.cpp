@@ -73,7 +73,7 @@ void requireFinite(const std::vector<geometry_msgs::Point32>& points, const char
 
 /// @throw std::invalid_argument without the target's index.
 Target targetFrom(const softbody_msgs::Target& in) {
-  if (in.kind > softbody_msgs::Target::MANUAL)
+  if (in.kind > softbody_msgs::Target::PRIOR)
     throw std::invalid_argument(fmt::format("kind {} is unknown", in.kind));
   if (in.tet > static_cast<std::uint32_t>(std::numeric_limits<int>::max()))
     throw std::invalid_argument(fmt::format("tet {} is out of range", in.tet));

@@ -271,7 +271,7 @@ TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
     const cv::Mat3b plain(frame_.color.size(), cv::Vec3b(90, 90, 90));
     RgbdFrame frame = frame_;
     frame.color = plain;
-    return FrameObserver(config, box_.volume, box_.surface).observe(frame, beside).outline.size();
+    return FrameObserver(config, box_.volume, box_.surface).observe(frame, beside).outline.associations.size();
   };
   EXPECT_EQ(outlines(false, false), 0u);
   EXPECT_EQ(outlines(true, true), 0u);

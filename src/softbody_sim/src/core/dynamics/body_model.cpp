@@ -74,6 +74,7 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
       solver(makeSolver(topology, material, config, edge_length)),
       constrained_step(makeStep(topology, material, config, edge_length, target_stiffness, solver.get())),
       vertex_confidence(topology.rest_vertices, topology.tets),
+      vertex_deviation(topology),
       load_estimator(topology, masses, config.load_fade_s),
       occluded_piece_damping(topology) {}
 

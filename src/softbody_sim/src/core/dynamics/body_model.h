@@ -5,6 +5,7 @@
 #include "dynamics/load_estimator.h"
 #include "dynamics/occluded_piece_damping.h"
 #include "dynamics/vertex_confidence.h"
+#include "dynamics/vertex_deviation.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/constrained_step.h"
 #include "time_step/step_solver.h"
@@ -24,6 +25,7 @@ struct BodyModel {
   const std::unique_ptr<StepSolver> solver;
   ConstrainedStep constrained_step;
   VertexConfidence vertex_confidence;
+  VertexDeviation vertex_deviation;
   LoadEstimator load_estimator;
   OccludedPieceDamping occluded_piece_damping;
 };

@@ -10,10 +10,14 @@
 namespace softbody {
 namespace {
 
-/// M + l^2 L, with the Laplacian weighted by density. l is the edge of a cube with the body's volume.
+// Length over which loads are spread, in edges of a cube with the body's volume. Hands press on a part of a
+// side; shorter, loads would follow noise.
+constexpr double kSpread = 0.5;
+
+/// M + l^2 L, with the Laplacian weighted by density.
 TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& masses) {
   const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
-  const double length = std::cbrt(volumes.sum()), density = masses.sum() / volumes.sum();
+  const double length = kSpread * std::cbrt(volumes.sum()), density = masses.sum() / volumes.sum();
   TetMatrix matrix(topology.tets, topology.rest_vertices.rows());
   matrix.addToDiagonal(masses);
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {

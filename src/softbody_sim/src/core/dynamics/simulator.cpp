@@ -40,6 +40,8 @@ struct Simulator::Implementation {
   void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
   void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings);
+  /// Confidence and standard deviation after a step with these targets.
+  void judgeVertices(const TargetSet& targets);
   void estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
 
   const TetTopology uncut;
@@ -109,6 +111,11 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
   next.stamp = next.stamp - stamp > Timeline::kLeap ? stamp : std::max(next.stamp, stamp);
 }
 
+void Simulator::Implementation::judgeVertices(const TargetSet& targets) {
+  model->vertex_confidence.compute(targets.targets, &next.mesh.confidence);
+  model->vertex_deviation.compute(targets.targets, next.mesh.vertices, &next.mesh.standard_deviation);
+}
+
 /// The forces of the targets' springs show which loads are still unknown.
 void Simulator::Implementation::estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins,
                                               double elapsed_s) {
@@ -153,7 +160,7 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   s.advance(targets, stamp, surroundings);
   if (s.config.simulate && stamp > s.body.stamp)
     s.estimateLoads(targets, surroundings.pins, seconds(stamp - s.body.stamp));
-  s.model->vertex_confidence.compute(targets.targets, &s.next.mesh.confidence);
+  s.judgeVertices(targets);
   if (!targets.targets.empty()) s.next.mesh.observed = stamp;
   std::swap(s.body, s.next);
 }
@@ -190,7 +197,7 @@ void Simulator::settle(const TargetSet& given, const Surroundings& surroundings)
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, s.body.stamp);
   s.integrator.settle(s.model.get(), targets.targets, surroundings, &s.next);
-  s.model->vertex_confidence.compute(targets.targets, &s.next.mesh.confidence);
+  s.judgeVertices(targets);
   std::swap(s.body, s.next);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
+#include "dynamics/edge_distances.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
@@ -14,22 +14,14 @@ class VertexConfidence {
   VertexConfidence(const Points& rest_vertices, const Tets& tets);
 
   /// A vertex is observed if its barycentric coordinates, times the targets' weights, sum to at least 1/4.
-  /// Allocates nothing. @param confidence #V.
+  /// Targets of kind PRIOR do not count. Allocates nothing. @param confidence #V.
   void compute(const std::vector<Target>& targets, std::vector<float>* confidence);
 
  private:
-  struct Neighbor {
-    int vertex;
-    double distance;  ///< [m]
-  };
-  /// From the vertices with enough support.
-  void findDistances();
-
   const Tets tets_;
-  std::vector<std::vector<Neighbor>> neighbors_;
-  double decay_length_ = 0.0;               ///< [m]
+  EdgeDistances edges_;
   std::vector<double> support_, distance_;  ///< per vertex
-  std::vector<std::pair<double, int>> queue_;
+  std::vector<char> observed_;              ///< per vertex
 };
 
 }  // namespace softbody

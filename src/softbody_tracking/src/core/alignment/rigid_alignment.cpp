@@ -100,11 +100,13 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
 
 RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
                           const SurfaceSamples& samples, const ColorModel& colors,
-                          const std::vector<FeatureMatch>& matches, DepthAssociator* depth) {
+                          const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
+                          DepthAssociator* depth) {
   RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
   std::vector<Association> features;
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features);
+  features.insert(features.end(), outline.begin(), outline.end());
   std::vector<Association> moved_features = features;
   for (int i = 0; i < kIterations; ++i) {
     const DepthAssociations& seen =

@@ -27,9 +27,11 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
 
 /// The rigid motion of each piece that aligns the prediction with depth and features (point-to-plane ICP).
 /// Pieces with poor observability do not move.
-/// @param samples of the surface as rendered. @param depth associates with these samples.
+/// @param outline as rendered. @param samples of the surface as rendered. @param depth associates with these
+/// samples.
 RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
                           const SurfaceSamples& samples, const ColorModel& colors,
-                          const std::vector<FeatureMatch>& matches, DepthAssociator* depth);
+                          const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
+                          DepthAssociator* depth);
 
 }  // namespace softbody

@@ -11,6 +11,8 @@ namespace {
 constexpr double kMinCosine = 0.1;  // between normal and ray; at more grazing angles depth is unreliable
 constexpr double kMinSlope =
     0.05;  // normal times ray at z = 1; below it the plane's depth is ill-conditioned
+constexpr double kDepthScale = 4.0;      // of the robust loss, in median residuals
+constexpr float kBehind = 0.01f;         // [m] what is not the body and farther than this is behind it
 constexpr double kOccluderStep = 0.003;  // [m] an occluder's end is at least this far before the prediction
 constexpr double kOccluderContinuity =
     0.008;                             // [m] largest depth step between neighbouring blocks of an occluder
@@ -34,7 +36,8 @@ Offsets offsetsInside(int a, int b, int size, int length) {
 /// Classifies a block by the majority of its pixels. Around the sample, the predicted shape is the rendered
 /// one.
 void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& rendered_center, int size,
-             int step, const ColorModel& colors, double max_distance, Block* block) {
+             int step, const RegionColors& colors, const DepthEvidence& evidence, double max_distance,
+             Block* block) {
   const cv::Point& center = block->center;
   const Offsets columns = offsetsInside(rendered_center.x, center.x, size, frame.depth.cols);
   const Offsets rows = offsetsInside(rendered_center.y, center.y, size, frame.depth.rows);
@@ -50,10 +53,10 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
       if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
       ++measured;
       const float difference = depth[i] - rendered[i] - nearer_by;
-      if (difference > gate) {
-        ++farther;
-      } else if (difference < -gate || !colors.belongs(color[i])) {
-        ++nearer;
+      const bool body = std::abs(difference) <= gate &&
+                        colors.logOdds(color[i]) + evidence.logOdds(difference, block->predicted) > 0.0;
+      if (!body) {
+        ++(difference > kBehind ? farther : nearer);
       } else {
         ++agreeing;
         sum += difference;
@@ -75,7 +78,8 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
 
 /// Moves a sample by the rigid motion, and compares it with the frame's depth there.
 Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSample& sample, int size,
-              int step, const Eigen::Isometry3d& motion, const ColorModel& colors, double max_distance) {
+              int step, const Eigen::Isometry3d& motion, const RegionColors& colors,
+              const DepthEvidence& evidence, double max_distance) {
   Block block;
   block.position = motion * sample.position;
   block.normal = motion.linear() * sample.normal;
@@ -86,7 +90,7 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
   if (-slope < kMinSlope) return block;
   block.predicted = block.normal.dot(block.position) / slope;
-  measure(frame, image, sample.center, size, step, colors, max_distance, &block);
+  measure(frame, image, sample.center, size, step, colors, evidence, max_distance, &block);
   return block;
 }
 
@@ -181,8 +185,8 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
   const int step = std::min(pixel_step, surface.block_px);
   blocks_.clear();
   for (const SurfaceSample& sample : surface.samples) {
-    blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.piece], colors,
-                              config_.max_distance_m));
+    blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.piece],
+                              colors.region(), evidence_, config_.max_distance_m));
   }
   markProtrusions(surface, &blocks_);
   growOccluders(surface.grid, &blocks_);
@@ -214,6 +218,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     association.weight = std::min(weight, kLargestTargetWeight);
     found_.associations.push_back(association);
   }
+  weighByResidual(kDepthScale, &found_.associations);
   return found_;
 }
 

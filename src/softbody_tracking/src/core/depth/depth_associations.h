@@ -5,6 +5,7 @@
 #include "depth/depth_noise_estimator.h"
 #include "prediction/association.h"
 #include "prediction/color_model.h"
+#include "prediction/depth_evidence.h"
 #include "prediction/surface_samples.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tracker_config.h"
@@ -51,6 +52,7 @@ class DepthAssociator {
 
  private:
   DepthConfig config_;
+  DepthEvidence evidence_;
   double volume_edge_m_;
   std::vector<DepthBlock> blocks_;
   std::vector<double> second_differences_;

@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kEnoughForMedian = 500;
 // Smallest scale of the Cauchy weights [m]: residuals below the depth noise are no outliers.
 constexpr double kSmallestScale = 0.003;
+// Smallest median residual [m]: measurements are not more precise than that.
+constexpr double kSmallestMedian = 0.001;
 // Stiffness added in every direction, as a share of the mean: a direction without data does not move.
 constexpr double kRegularization = 1e-3;
 // Absolute part of it, for data that fix nothing.
@@ -75,6 +77,14 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
   if (angle > 0.0) T.linear() = Eigen::AngleAxisd(angle, motion.head<3>() / angle).toRotationMatrix();
   T.translation() = center + motion.tail<3>() - T.linear() * center;
   return T;
+}
+
+void weighByResidual(double scale, std::vector<Association>* associations) {
+  const double length = scale * std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
+  for (Association& association : *associations) {
+    const double ratio = association.residual() / length;
+    association.weight /= 1.0 + ratio * ratio;
+  }
 }
 
 double rmsResidual(const std::vector<Association>& associations) {

@@ -44,6 +44,10 @@ inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
 /// @return identity if the associations do not determine a motion.
 Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held = {});
 
+/// Robust loss (Cauchy): reduces the weights of associations whose residuals are large beside the others'.
+/// @param scale in median residuals, which are at least 1 mm: there the weight is halved.
+void weighByResidual(double scale, std::vector<Association>* associations);
+
 /// Root mean square of the residuals [m]; 0 for none.
 double rmsResidual(const std::vector<Association>& associations);
 

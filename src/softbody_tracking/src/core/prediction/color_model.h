@@ -3,6 +3,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "prediction/region_colors.h"
+
 namespace softbody {
 
 /// Which colours belong to the body: a histogram over chroma and lightness (CIE L*a*b*), learned where the
@@ -21,10 +23,15 @@ class ColorModel {
   /// before learn().
   cv::Mat1b mask(const cv::Mat3b& color, const cv::Rect& region) const;
 
+  /// Colours beside and on the body in the last frames, and how they tell the two apart.
+  const RegionColors& region() const { return region_; }
+  void learnRegion(const RgbdFrame& frame, const RasterImage& rendered) { region_.learn(frame, rendered); }
+
   /// Forgets what was learned.
-  void reset() { of_body_.clear(); }
+  void reset() { of_body_.clear(), region_.reset(); }
 
  private:
+  RegionColors region_;
   std::vector<unsigned char>
       of_body_;  ///< an entry for every block of 8 by 8 by 8 colours; empty before learn()
 };

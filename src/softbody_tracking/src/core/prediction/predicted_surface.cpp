@@ -1,12 +1,47 @@
 #include "prediction/predicted_surface.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "softbody_common/surface_binding.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 
 namespace softbody {
+
+namespace {
+
+// Cosine of the smallest angle between two sides that light shows as a crease: 40 degrees.
+constexpr double kCreaseCosine = 0.766;
+
+Eigen::Vector3d normalOf(const Points& vertices, const Eigen::RowVector3i& triangle) {
+  const Eigen::Vector3d a = vertices.row(triangle[0]), b = vertices.row(triangle[1]),
+                        c = vertices.row(triangle[2]);
+  return (b - a).cross(c - a).normalized();
+}
+
+/// For each triangle, whether another triangle at one of its vertices has quite another normal.
+std::vector<bool> trianglesAtCreases(const MeshTopology& surface) {
+  const Eigen::Index count = surface.triangles.rows();
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<std::vector<Eigen::Index>> around(static_cast<std::size_t>(surface.rest_vertices.rows()));
+  for (Eigen::Index t = 0; t < count; ++t) {
+    normals.push_back(normalOf(surface.rest_vertices, surface.triangles.row(t)));
+    for (int k = 0; k < 3; ++k) around[static_cast<std::size_t>(surface.triangles(t, k))].push_back(t);
+  }
+  std::vector<bool> at_crease(static_cast<std::size_t>(count), false);
+  for (const std::vector<Eigen::Index>& triangles : around) {
+    for (const Eigen::Index a : triangles) {
+      for (const Eigen::Index b : triangles) {
+        if (normals[static_cast<std::size_t>(a)].dot(normals[static_cast<std::size_t>(b)]) < kCreaseCosine)
+          at_crease[static_cast<std::size_t>(a)] = true;
+      }
+    }
+  }
+  return at_crease;
+}
+
+}  // namespace
 
 PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology& surface)
     : volume_(volume),
@@ -16,6 +51,8 @@ PredictedSurface::PredictedSurface(const TetTopology& volume, const MeshTopology
       vertex_pieces_(vertexPieces(volume.tets, tet_pieces_, volume.rest_vertices.rows())),
       pieces_(verticesOfPieces(volume.tets, volume.rest_vertices.rows())),
       at_cut_(static_cast<std::size_t>(surface.rest_vertices.rows()), false),
+      at_crease_(trianglesAtCreases(surface)),
+      has_creases_(std::find(at_crease_.begin(), at_crease_.end(), true) != at_crease_.end()),
       binding_(bindSurface(surface, volume)) {
   surface_pieces_.resize(pieces_.size());
   for (std::size_t t = 0; t < surface.triangle_pieces.size(); ++t)

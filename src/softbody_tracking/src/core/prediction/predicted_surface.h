@@ -42,6 +42,10 @@ class PredictedSurface {
   /// The volume's vertices, each moved by the motion of its piece.
   Points movedVolume(const RigidMotions& motions) const;
 
+  /// Whether a triangle touches an edge of the rest shape at which two sides meet at an angle, and whether
+  /// there is such a triangle.
+  bool isAtCrease(int triangle) const { return at_crease_[static_cast<std::size_t>(triangle)]; }
+  bool hasCreases() const { return has_creases_; }
   /// Whether a triangle fills a cut or touches one that does.
   bool isAtCut(int triangle) const;
 
@@ -82,7 +86,9 @@ class PredictedSurface {
   std::vector<std::uint32_t> tet_pieces_, vertex_pieces_;  ///< piece of each tet and vertex of the volume
   std::vector<std::vector<int>> pieces_;                   ///< the volume's vertices of each
   std::vector<std::set<std::uint32_t>> surface_pieces_;    ///< see piecesOfSurface()
-  std::vector<bool> at_cut_;  ///< #V of the surface: corner of a triangle that fills a cut
+  std::vector<bool> at_cut_;     ///< #V of the surface: corner of a triangle that fills a cut
+  std::vector<bool> at_crease_;  ///< of each triangle, see isAtCrease()
+  bool has_creases_ = false;
   std::vector<MaterialPoint> binding_;
   std::vector<Eigen::Matrix3d> rest_inverse_;  ///< #T: maps offsets from a tet's first vertex to weights
   Pinhole camera_;

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
+#include "prediction/tracking_signal.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
 
 /// Predicts the volume's vertices: each piece continues with the velocity and spin of its rigid motion.
+/// Velocity and spin are averaged the more, the better the predictions are (see TrackingSignal).
 class RigidPrediction {
  public:
   /// @param pieces vertices of each connected piece.
@@ -22,9 +25,9 @@ class RigidPrediction {
   /// The vertices at a later stamp. If there is only one state, or if the last state is too old, they stay as
   /// last observed. There must be at least one state.
   /// @param moving for each piece; false: its velocity is unknown, so it stays. Empty: all move.
-  Points at(Nanoseconds stamp, const std::vector<bool>& moving = {}) const;
+  Points at(Nanoseconds stamp, const std::vector<bool>& moving = {});
 
-  void reset() { last_.reset(), before_.reset(); }
+  void reset();
 
  private:
   struct Placed {
@@ -32,10 +35,23 @@ class RigidPrediction {
     std::vector<Eigen::Isometry3d> poses;
     Nanoseconds stamp;
   };
+  /// Velocity of a piece's centre [m/s], and its spin [rad/s].
+  struct Velocity {
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  };
+
+  Eigen::Vector3d restCenter(std::size_t piece) const;
+  Placed placed(const Points& vertices, Nanoseconds stamp) const;
+  void updateVelocities(const Placed& now);
+  double gainOf(const std::vector<int>& piece) const;
 
   Points rest_;
   std::vector<std::vector<int>> pieces_;  ///< vertices of each
-  std::optional<Placed> last_, before_;
+  std::optional<Placed> last_;
+  double interval_s_ = 0.0;                  ///< between the last two states; 0: there is one state
+  std::vector<Velocity> velocities_;         ///< of each piece
+  std::map<Nanoseconds, Points> predicted_;  ///< not yet compared with a state
+  TrackingSignal signal_;
 };
 
 }  // namespace softbody

@@ -124,7 +124,7 @@ std::optional<FoundPose> searchAnywhere(const RgbdFrame& frame, const ColorModel
                                         const FeatureShare& feature_share, const RegistrationConfig& config) {
   std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config.distance_scale_m);
   const auto implausible = [&](const PoseHypothesis& pose) {
-    return pose.cost > std::min(kWorstPlausibleCost, config.max_cost) ||
+    return pose.cost > config.max_cost ||
            foreignShare(frame, colors, meshes.full, pose.pose) > kLargestForeignShare;
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());

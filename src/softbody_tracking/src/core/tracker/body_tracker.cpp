@@ -206,9 +206,11 @@ std::vector<Association> BodyTracker::Implementation::associationsOf(
     return knn.associations(observer->features(), seen.matches, observer->surface(), R_camera_fixed);
   std::vector<Association> associations = inliers(seen.matches);
   if (config.use_depth) {
-    associations.reserve(associations.size() + seen.depth.associations.size() + seen.outline.size());
+    associations.reserve(associations.size() + seen.depth.associations.size() +
+                         seen.outline.associations.size());
     associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
-    associations.insert(associations.end(), seen.outline.begin(), seen.outline.end());
+    const std::vector<Association>& outline = seen.outline.associations;
+    associations.insert(associations.end(), outline.begin(), outline.end());
   }
   return associations;
 }

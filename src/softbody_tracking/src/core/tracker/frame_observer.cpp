@@ -37,16 +37,20 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& predict
   prediction_.render(frame.camera, predicted);
   if (!colors_.learned())
     colors_.learn(frame.color, agreeingPixels(prediction_.surface().image().depth, frame.depth));
+  if (!colors_.region().learned()) colors_.learnRegion(frame, prediction_.surface().image());
   FollowedFeatures features = follower_.follow(followedBody(frame), &prediction_);
   const double visible_vertices = shownVertices(prediction_.samples(), prediction_.surface().volume()) *
                                   features.expected.unoccludedShare();
   weighByAgreement(&features.found.matches);
   weighByDensity(visible_vertices, &features.found.matches);
-  const RigidMotions motions = prediction_.align(frame, colors_, features.found.matches);
+  const RigidMotions still(prediction_.surface().pieceCount(), Eigen::Isometry3d::Identity());
+  const std::vector<Association> outline = prediction_.associateOutline(frame, still, colors_).associations;
+  const RigidMotions motions = prediction_.align(frame, colors_, features.found.matches, outline);
   Observation seen = measure(frame, motions, std::move(features));
   seen.visible_vertices = visible_vertices;
   tracked_before_ = seen.atLeast(Observability::kPartial);
   map_.score(seen.expected, seen.matches, tracked_before_);
+  colors_.learnRegion(frame, prediction_.surface().image());
   prediction_.move(motions);
   for (FeatureMatch& match : seen.matches)
     match.association.predicted = motions[match.association.piece] * match.association.predicted;

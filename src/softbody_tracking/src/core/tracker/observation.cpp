@@ -23,7 +23,7 @@ Observation restrictedToObservable(Observation seen, const SurfaceSamples& sampl
   seen.matched_features = matchesOn(tracked, seen.matches);
   for (std::size_t p = 0; p < good.size(); ++p) seen.learnable[p] = seen.learnable[p] || good[p];
   const auto is_uncertain = [&](const Association& association) { return !good[association.piece]; };
-  for (std::vector<Association>* found : {&seen.depth.associations, &seen.outline})
+  for (std::vector<Association>* found : {&seen.depth.associations, &seen.outline.associations})
     found->erase(std::remove_if(found->begin(), found->end(), is_uncertain), found->end());
   for (FeatureMatch& match : seen.matches) match.inlier = match.inlier && tracked[match.association.piece];
   return seen;

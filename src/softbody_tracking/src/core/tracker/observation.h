@@ -6,6 +6,7 @@
 #include "alignment/piece_observability.h"
 #include "depth/depth_associations.h"
 #include "features/feature_matching.h"
+#include "outline/outline_associations.h"
 
 namespace softbody {
 
@@ -19,7 +20,7 @@ struct Observation {
   int matched_features = 0;                  ///< on the same pieces, with outliers
   DepthAssociations depth;                   ///< its associations only for pieces with good observability
   std::size_t agreeing_blocks = 0;           ///< of depth, on all pieces
-  std::vector<Association> outline;          ///< of pieces with good observability
+  OutlineAssociations outline;               ///< of pieces with good observability
   std::vector<Observability> observability;  ///< of each piece
   std::vector<bool> in_view;                 ///< of each piece, see piecesInView()
   std::vector<bool> learnable;               ///< per piece: new features can be learned on it

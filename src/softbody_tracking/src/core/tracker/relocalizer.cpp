@@ -10,6 +10,8 @@ namespace {
 
 // Consecutive lost frames after which the body is searched for; a hand may cover it for a moment.
 constexpr int kLostFramesBeforeSearch = 10;
+// Largest cost of a pose that features then have to confirm: a lost body may be bent.
+constexpr double kDeformedCost = 0.5;
 // Frames from one search that failed to the next: a search anywhere takes about a second.
 constexpr int kFramesBetweenSearches = 10;
 
@@ -70,9 +72,10 @@ void Relocalizer::startTracking(const RgbdFrame& frame, const FoundPose& found) 
 }
 
 std::optional<FoundPose> Relocalizer::acceptableNear(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                                     const Eigen::Isometry3d& rough_pose) const {
+                                                     const Eigen::Isometry3d& rough_pose,
+                                                     double max_cost) const {
   const PoseHypothesis found = searchNearPose(frame, meshes, rough_pose, config_.distance_scale_m);
-  if (found.cost > config_.max_cost) return std::nullopt;
+  if (found.cost > max_cost) return std::nullopt;
   return FoundPose{found.pose, 1};
 }
 
@@ -84,7 +87,7 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   frames_to_feature_search_ = rough ? kFramesBetweenSearches : 0;
   if (!rough) return std::nullopt;
   const auto scope = timer->stage("Model Registration", true);
-  const auto found = acceptableNear(frame, meshesOf(observer->surface().topology()), *rough);
+  const auto found = acceptableNear(frame, meshesOf(observer->surface().topology()), *rough, kDeformedCost);
   // Features distinguish poses that are alike in depth.
   if (!found || !confirms(observer->featureShare(frame, found->pose))) return std::nullopt;
   return found;
@@ -98,7 +101,8 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   const SearchMeshes& meshes = meshesOf(observer->surface().topology());
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   if (given_ && !recovering_) {
-    if (const auto found = acceptableNear(frame, meshes, T_camera_fixed * *given_)) return found;
+    if (const auto found = acceptableNear(frame, meshes, T_camera_fixed * *given_, config_.max_cost))
+      return found;
   }
   std::vector<Eigen::Isometry3d> guesses;
   if (recovering_ || given_) guesses.push_back(T_camera_fixed * pose_);

@@ -55,7 +55,7 @@ class Relocalizer {
                                             StageTimer* timer);
   std::optional<FoundPose> searchByDepth(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer);
   std::optional<FoundPose> acceptableNear(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                          const Eigen::Isometry3d& rough_pose) const;
+                                          const Eigen::Isometry3d& rough_pose, double max_cost) const;
   const SearchMeshes& meshesOf(const MeshTopology& surface);
   void startTracking(const RgbdFrame& frame, const FoundPose& found);
 

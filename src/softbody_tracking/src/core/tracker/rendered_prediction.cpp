@@ -7,6 +7,9 @@
 namespace softbody {
 namespace {
 
+// Scale of the robust loss, in median residuals. A line may find another edge beside the contour.
+constexpr double kContourScale = 1.5;
+
 /// Weight 0 if no target would use the outline: then it is not sampled.
 OutlineConfig usedOutline(const TrackerConfig& config) {
   OutlineConfig outline = config.outline;
@@ -22,17 +25,20 @@ RenderedPrediction::RenderedPrediction(const TrackerConfig& config, const TetTop
       volume_edge_m_(meanEdgeLength(volume.rest_vertices, volume.tets)),
       surface_(volume, surface),
       depth_(config.depth, volume_edge_m_),
-      outline_(usedOutline(config), volume_edge_m_) {}
+      outline_(usedOutline(config), volume_edge_m_),
+      creases_(usedOutline(config), volume_edge_m_) {}
 
 void RenderedPrediction::render(const Pinhole& camera, const Points& volume_vertices) {
   surface_.render(camera, volume_vertices);
   samples_ = sampleSurface(surface_, wanted_samples_, std::move(samples_));
   outline_.sample(surface_);
+  creases_.sample(surface_);
 }
 
 RigidMotions RenderedPrediction::align(const RgbdFrame& frame, const ColorModel& colors,
-                                       const std::vector<FeatureMatch>& matches) {
-  return alignRigidly(frame, surface_, samples_, colors, matches, &depth_);
+                                       const std::vector<FeatureMatch>& matches,
+                                       const std::vector<Association>& outline) {
+  return alignRigidly(frame, surface_, samples_, colors, matches, outline, &depth_);
 }
 
 const DepthAssociations& RenderedPrediction::associateDepth(const RgbdFrame& frame,
@@ -41,10 +47,13 @@ const DepthAssociations& RenderedPrediction::associateDepth(const RgbdFrame& fra
   return depth_.associate(frame, surface_.image(), samples_, motions, colors);
 }
 
-const std::vector<Association>& RenderedPrediction::associateOutline(const RgbdFrame& frame,
-                                                                     const RigidMotions& motions,
-                                                                     const ColorModel& colors) {
-  return outline_.associate(frame, surface_.image(), motions, colors);
+const OutlineAssociations& RenderedPrediction::associateOutline(const RgbdFrame& frame,
+                                                                const RigidMotions& motions,
+                                                                const ColorModel& colors) {
+  contours_ = outline_.associate(frame, surface_.image(), motions, colors.region());
+  creases_.associate(frame, surface_, motions, &contours_.associations);
+  weighByResidual(kContourScale, &contours_.associations);
+  return contours_;
 }
 
 }  // namespace softbody

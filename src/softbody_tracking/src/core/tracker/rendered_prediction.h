@@ -4,7 +4,8 @@
 
 #include "alignment/rigid_alignment.h"
 #include "depth/depth_associations.h"
-#include "depth/outline_associations.h"
+#include "outline/crease_associations.h"
+#include "outline/outline_associations.h"
 #include "prediction/predicted_surface.h"
 #include "prediction/surface_samples.h"
 #include "softbody_tracking/tracker_config.h"
@@ -27,13 +28,13 @@ class RenderedPrediction {
 
   /// See alignRigidly().
   RigidMotions align(const RgbdFrame& frame, const ColorModel& colors,
-                     const std::vector<FeatureMatch>& matches);
+                     const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline = {});
   /// Depth of the frame on the surface, which is moved by the motions. Valid until the next call or align().
   const DepthAssociations& associateDepth(const RgbdFrame& frame, const RigidMotions& motions,
                                           const ColorModel& colors);
-  /// The outline of the surface in the frame. Valid until the next call.
-  const std::vector<Association>& associateOutline(const RgbdFrame& frame, const RigidMotions& motions,
-                                                   const ColorModel& colors);
+  /// The outline and the creases of the surface in the frame. Valid until the next call.
+  const OutlineAssociations& associateOutline(const RgbdFrame& frame, const RigidMotions& motions,
+                                              const ColorModel& colors);
 
   /// Moves the pieces without rendering again.
   void move(const RigidMotions& motions) { surface_.move(motions); }
@@ -45,6 +46,8 @@ class RenderedPrediction {
   SurfaceSamples samples_;
   DepthAssociator depth_;
   OutlineAssociator outline_;
+  CreaseAssociator creases_;
+  OutlineAssociations contours_;
 };
 
 }  // namespace softbody

@@ -13,6 +13,8 @@ namespace {
 
 // Share of the visible surface that must agree in depth; with less, most of the body is not measured.
 constexpr double kDegradedShare = 0.3;
+// Largest area between predicted and measured outline, as a share of the body's.
+constexpr double kLargestDisagreement = 0.12;
 // Share of the expected features that must be found; with fewer, something covers them or the light changed.
 constexpr double kFewestTracked = 0.05;
 // Smallest share of inliers among the matches.
@@ -26,6 +28,13 @@ std::string whyDegraded(const Observation& seen, int kept) {
   if (explained < kDegradedShare * seen.depth.visible_blocks) {
     return seen.depth.occluded_blocks > seen.depth.absent_blocks ? "most of the body is occluded"
                                                                  : "most of the body is not where predicted";
+  }
+  if (seen.outline.disagreement > kLargestDisagreement) {
+    return fmt::format(
+        "the outlines of image and mesh enclose different areas, by {:.0f} % of the body: the mesh, its "
+        "scale or its "
+        "pose is wrong",
+        100.0 * seen.outline.disagreement);
   }
   if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestTracked * seen.expected_features)
     return "hardly any of the expected features are found";

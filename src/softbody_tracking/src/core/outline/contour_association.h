@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "outline/contour_posterior.h"
+#include "prediction/association.h"
+#include "softbody_common/pinhole.h"
+
+namespace softbody {
+
+/// A pixel beside a predicted contour: an outline, or a crease between two sides of the body.
+struct ContourSample {
+  cv::Point pixel;
+  Eigen::Vector2d outward;  ///< unit, in the image, across the contour
+  double to_edge = 0.0;     ///< distance from the pixel's centre to the contour, along outward [px]
+  MaterialPoint place;
+  std::uint32_t piece = 0;   ///< of the body
+  Eigen::Vector3d position;  ///< camera frame [m]
+};
+
+/// How much contours count.
+struct ContourWeight {
+  double per_edge = 1.0;    ///< of a contour that is one mean edge of the tets long and precise to 1 mm
+  double edge_m = 0.0;      ///< mean edge of the tets
+  double spacing_px = 1.0;  ///< between neighbouring samples
+};
+
+/// Only the distance across the contour in the image counts. @param predicted position of the sample, camera
+/// frame [m]. @param end on the line across the sample.
+Association contourAssociation(const Pinhole& camera, const ContourSample& sample,
+                               const Eigen::Vector3d& predicted, const ContourPosterior& end,
+                               const ContourWeight& weight);
+
+}  // namespace softbody

@@ -1,0 +1,180 @@
+#include "outline/crease_associations.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace softbody {
+namespace {
+
+constexpr int kWantedCreases = 240;    // wanted number of samples, if the creases were as long as the outline
+constexpr int kCreaseBorder = 8;       // [px] from the image border
+constexpr double kSharp = 0.85;        // cosine between the sides' normals, below which light shows a crease
+constexpr float kSameSurface = 0.02f;  // [m] largest step of depth between neighbouring pixels of a surface
+constexpr double kSameSide = 0.95;     // cosine between normals of one side along a line
+constexpr int kCreaseReach = 8;        // [px] each way; how far the crease is searched
+constexpr int kSideReach = 16;         // [px] each way; how far the sides' colours are measured
+constexpr double kFewestOfSide = 4;    // pixels that tell the colour of a side
+constexpr double kContrast = 4.0;      // least difference of the sides, in standard deviations of a pixel
+constexpr double kGreyNoise = 2.0;     // smallest standard deviation of a channel
+constexpr double kTextureLength = 8.0; // [px] neighbouring pixels of a texture are alike over about this length
+constexpr double kPixelLimit = 8.0;    // largest log odds of a pixel: any pixel may be wrong
+constexpr double kLargestCreaseDeviation = 2.0;  // [px] with more, the crease is nearly anywhere
+constexpr double kDepthAgrees = 0.02;            // [m] with more, something else is there
+
+/// The line in the image where the planes of two sides meet: signed distance from a pixel, and the direction
+/// across.
+struct PlanesMeet {
+  Eigen::Vector2d across;  ///< unit
+  double distance;         ///< from the pixel along across [px]
+};
+
+/// On a plane, the inverse depth is linear in the pixel: 1 / z = n . ray / (n . p).
+std::optional<PlanesMeet> meetingLine(const Pinhole& camera, const cv::Point& pixel,
+                                      const Eigen::Vector3d& n_a, const Eigen::Vector3d& p_a,
+                                      const Eigen::Vector3d& n_b, const Eigen::Vector3d& p_b) {
+  const Eigen::Vector3d difference = n_a / n_a.dot(p_a) - n_b / n_b.dot(p_b);
+  const Eigen::Vector2d gradient(difference.x() / camera.fx, difference.y() / camera.fy);
+  const double length = gradient.norm();
+  if (!(length > 0.0)) return std::nullopt;
+  const double value = difference.dot(camera.unproject(pixel.x, pixel.y, 1.0));
+  return PlanesMeet{gradient / length, -value / length};
+}
+
+/// Colours of one side of a crease.
+struct SideColors {
+  Eigen::Array3d mean = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
+  double count = 0.0;
+
+  void add(const Eigen::Array3d& color) {
+    mean += color;
+    squares += color * color;
+    count += 1.0;
+  }
+  void finish() {
+    mean /= count;
+    squares = squares / count - mean * mean;  // variance
+  }
+};
+
+}  // namespace
+
+void CreaseAssociator::sample(const PredictedSurface& surface) {
+  samples_.clear();
+  if (config_.weight <= 0.0 || !surface.hasCreases()) return;
+  const cv::Mat1f& rendered = surface.image().depth;
+  const cv::Rect region =
+      surface.image().region & cv::Rect(kCreaseBorder, kCreaseBorder, rendered.cols - 2 * kCreaseBorder,
+                                        rendered.rows - 2 * kCreaseBorder);
+  const int spacing = std::max(1, 2 * (region.width + region.height) / kWantedCreases);
+  spacing_px_ = spacing;
+  for (int v = region.y + spacing / 2; v < region.br().y; v += spacing) {
+    for (int u = region.x + 1; u < region.br().x; ++u) addSample(surface, {u - 1, v}, {u, v});
+  }
+  for (int v = region.y + 1; v < region.br().y; ++v) {
+    for (int u = region.x + spacing / 2; u < region.br().x; u += spacing)
+      addSample(surface, {u, v - 1}, {u, v});
+  }
+}
+
+/// Adds the crease between two neighbouring pixels, if there is one. A crease whose normal is nearer to the
+/// other direction of the pixel grid is sampled in that direction.
+void CreaseAssociator::addSample(const PredictedSurface& surface, const cv::Point& a, const cv::Point& b) {
+  const RasterImage& image = surface.image();
+  const int triangle_a = image.triangle(a), triangle_b = image.triangle(b);
+  if (triangle_a == triangle_b || triangle_a < 0 || triangle_b < 0) return;
+  if (!surface.isAtCrease(triangle_a) || !surface.isAtCrease(triangle_b)) return;
+  if (std::abs(image.depth(a) - image.depth(b)) > kSameSurface) return;
+  const Eigen::Vector3d n_a = surface.normal(triangle_a), n_b = surface.normal(triangle_b);
+  if (n_a.dot(n_b) > kSharp || surface.isAtCut(triangle_a) || surface.isAtCut(triangle_b)) return;
+  const Eigen::Vector3d p_a = surface.camera().unproject(a.x, a.y, image.depth(a));
+  const Eigen::Vector3d p_b = surface.camera().unproject(b.x, b.y, image.depth(b));
+  const auto meet = meetingLine(surface.camera(), a, n_a, p_a, n_b, p_b);
+  if (!meet) return;
+  const Eigen::Vector2d step(b.x - a.x, b.y - a.y);
+  const double sign = meet->across.dot(step) < 0.0 ? -1.0 : 1.0;
+  if (sign * meet->across.dot(step) < std::sqrt(0.5) || std::abs(meet->distance) > 1.5) return;
+  Crease crease;
+  crease.pixel = a;
+  crease.outward = sign * meet->across;
+  crease.to_edge = sign * meet->distance;
+  crease.place = surface.materialPoint(triangle_a, a);
+  crease.piece = surface.pieceOf(crease.place);
+  crease.position = p_a;
+  crease.before = n_a;
+  crease.behind = n_b;
+  samples_.push_back(crease);
+}
+
+/// The pixels on the line across a crease, as far as the prediction shows the two sides and depth agrees.
+/// @return false if the crease is covered, or not in the image.
+bool CreaseAssociator::collect(const RgbdFrame& frame, const PredictedSurface& surface, const Crease& crease,
+                               const Eigen::Vector3d& moved) {
+  distances_.clear();
+  colors_.clear();
+  const RasterImage& image = surface.image();
+  const Eigen::Vector2d start = frame.camera.project(moved), rendered_start(crease.pixel.x, crease.pixel.y);
+  const cv::Rect inside(cv::Point(), image.depth.size());
+  const double farther_by = moved.z() - crease.position.z();
+  const auto usable = [&](int step, cv::Point* pixel) {
+    *pixel = {cvRound(start.x() + step * crease.outward.x()), cvRound(start.y() + step * crease.outward.y())};
+    const cv::Point rendered(cvRound(rendered_start.x() + step * crease.outward.x()),
+                             cvRound(rendered_start.y() + step * crease.outward.y()));
+    if (!inside.contains(*pixel) || !inside.contains(rendered)) return false;
+    const int triangle = image.triangle(rendered);
+    if (triangle < 0) return false;
+    const Eigen::Vector3d normal = surface.normal(triangle);
+    if (normal.dot(step <= 0 ? crease.before : crease.behind) < kSameSide && std::abs(step) > 1) return false;
+    const float measured = frame.depth(*pixel);
+    if (!frame.covered.empty() && frame.covered(*pixel) != 0) return false;
+    return measured <= 0.0f ||
+           std::abs(measured - image.depth(rendered) - farther_by) < kDepthAgrees * std::max(1.0, moved.z());
+  };
+  cv::Point pixel;
+  int first = 0, last = 0;
+  while (first > -kSideReach && usable(first - 1, &pixel)) --first;
+  while (last < kSideReach && usable(last + 1, &pixel)) ++last;
+  if (!usable(0, &pixel)) return false;
+  for (int step = first; step <= last; ++step) {
+    usable(step, &pixel);
+    const double distance = (Eigen::Vector2d(pixel.x, pixel.y) - start).dot(crease.outward) - crease.to_edge;
+    if (!distances_.empty() && distance <= distances_.back()) continue;
+    const cv::Vec3b& color = frame.color(pixel);
+    distances_.push_back(distance);
+    colors_.emplace_back(color[0], color[1], color[2]);
+  }
+  return true;
+}
+
+void CreaseAssociator::associate(const RgbdFrame& frame, const PredictedSurface& surface,
+                                 const RigidMotions& motions, std::vector<Association>* associations) {
+  const ContourWeight weight{config_.weight, volume_edge_m_, spacing_px_};
+  for (const Crease& crease : samples_) {
+    const Eigen::Vector3d moved = motions[crease.piece] * crease.position;
+    if (!(moved.z() > 0.0) || !collect(frame, surface, crease, moved)) continue;
+    SideColors before, behind;
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      if (distances_[i] < -0.5 * kCreaseReach) before.add(colors_[i]);
+      if (distances_[i] > 0.5 * kCreaseReach) behind.add(colors_[i]);
+    }
+    if (before.count < kFewestOfSide || behind.count < kFewestOfSide) continue;
+    before.finish();
+    behind.finish();
+    const Eigen::Array3d variance = kGreyNoise * kGreyNoise + kTextureLength * 0.5 * (before.squares + behind.squares);
+    if (((before.mean - behind.mean).square() / variance).sum() < kContrast * kContrast) continue;
+    line_.clear();
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      if (std::abs(distances_[i]) > kCreaseReach) continue;
+      const Eigen::Array3d to_before = colors_[i] - before.mean, to_behind = colors_[i] - behind.mean;
+      const double log_odds = ((to_behind.square() - to_before.square()) / (2.0 * variance)).sum();
+      line_.push_back({distances_[i], std::clamp(log_odds, -kPixelLimit, kPixelLimit)});
+    }
+    if (line_.size() < 2) continue;
+    const ContourPosterior end = contourPosterior(line_);
+    if (end.beyond || end.variance > kLargestCreaseDeviation * kLargestCreaseDeviation) continue;
+    associations->push_back(contourAssociation(frame.camera, crease, moved, end, weight));
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,125 @@
+#include "outline/outline_associations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace softbody {
+namespace {
+
+constexpr int kWantedSamples = 240;  // wanted number of samples around the body
+constexpr int kBorder = 8;           // [px] at the image border an outline may be the image's own
+constexpr int kNormalWindow = 4;     // [px] each way; window in which the outline's direction is measured
+constexpr float kFarther = 0.02f;  // [m] the background is at least this far behind the body; far above noise
+constexpr std::size_t kFewestPixels = 8;   // of a line that can show where the body ends
+constexpr double kLargestDeviation = 3.0;  // [px] with more, the end is nearly anywhere
+
+/// Whether a surface ends at a pixel of this depth, given the depth beside it. Depth 0: no surface.
+bool endsAt(float depth, float beside) {
+  return depth > 0.0f && (beside <= 0.0f || beside - depth > kFarther);
+}
+
+/// Whether a surface ends between two neighbouring pixels. Depth 0: nothing is rendered.
+bool isStep(float a, float b) { return std::abs(a - b) > kFarther; }
+
+/// A straight outline beside a pixel.
+struct OutlineEdge {
+  Eigen::Vector2d outward;  ///< unit
+  double distance;          ///< from the pixel's centre [px]
+};
+
+/// The outline that divides a window around a pixel as the surface does; nothing if the parts balance.
+std::optional<OutlineEdge> edgeAt(const cv::Mat1f& rendered, const cv::Point& pixel) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int outside = 0;
+  const float farthest = rendered(pixel) + kFarther;
+  for (int j = -kNormalWindow; j <= kNormalWindow; ++j) {
+    const float* depth = rendered[pixel.y + j] + pixel.x;
+    for (int i = -kNormalWindow; i <= kNormalWindow; ++i) {
+      if (depth[i] > 0.0f && depth[i] <= farthest) continue;
+      sum += Eigen::Vector2d(i, j);
+      ++outside;
+    }
+  }
+  const double length = sum.norm();
+  if (length < 4 * kNormalWindow) return std::nullopt;
+  const Eigen::Vector2d outward = sum / length;
+  // A line near the centre divides the window's area in halves, plus its distance times its length in the
+  // window.
+  constexpr double kSide = 2 * kNormalWindow + 1;
+  const double distance = (0.5 * kSide * kSide - outside) * outward.cwiseAbs().maxCoeff() / kSide;
+  return OutlineEdge{outward, std::clamp(distance, 0.0, 1.0)};
+}
+
+}  // namespace
+
+void OutlineAssociator::sample(const PredictedSurface& surface) {
+  samples_.clear();
+  if (config_.weight <= 0.0) return;
+  const cv::Mat1f& rendered = surface.image().depth;
+  const cv::Rect region = surface.image().region & cv::Rect(kBorder, kBorder, rendered.cols - 2 * kBorder,
+                                                            rendered.rows - 2 * kBorder);
+  covered_px_ = std::max(1, cv::countNonZero(rendered(surface.image().region)));
+  spacing_px_ = std::max(1, 2 * (region.width + region.height) / kWantedSamples);
+  // Rows of pixels cross the steep parts of the outline, columns cross the flat parts.
+  for (int v = region.y + spacing_px_ / 2; v < region.br().y; v += spacing_px_) {
+    const float* row = rendered[v];
+    for (int u = region.x; u <= region.br().x; ++u) {
+      if (isStep(row[u - 1], row[u])) addEnds(surface, {u - 1, v}, {u, v});
+    }
+  }
+  for (int v = region.y; v <= region.br().y; ++v) {
+    const float *above = rendered[v - 1], *row = rendered[v];
+    for (int u = region.x + spacing_px_ / 2; u < region.br().x; u += spacing_px_) {
+      if (isStep(above[u], row[u])) addEnds(surface, {u, v - 1}, {u, v});
+    }
+  }
+}
+
+void OutlineAssociator::addEnds(const PredictedSurface& surface, const cv::Point& a, const cv::Point& b) {
+  const cv::Mat1f& rendered = surface.image().depth;
+  const float depth_a = rendered(a), depth_b = rendered(b);
+  if (endsAt(depth_a, depth_b)) addSample(surface, a, b - a);
+  if (endsAt(depth_b, depth_a)) addSample(surface, b, a - b);
+}
+
+/// Skips cuts, where two pieces touch and no outline shows. Also skips places whose normal is nearer to the
+/// other direction of the pixel grid: they are sampled in that direction.
+void OutlineAssociator::addSample(const PredictedSurface& surface, const cv::Point& pixel,
+                                  const cv::Point& across) {
+  const RasterImage& image = surface.image();
+  const std::optional<OutlineEdge> edge = edgeAt(image.depth, pixel);
+  if (!edge || edge->outward.dot(Eigen::Vector2d(across.x, across.y)) < std::sqrt(0.5)) return;
+  const int triangle = image.triangle(pixel);
+  if (surface.isAtCut(triangle)) return;
+  const MaterialPoint place = surface.materialPoint(triangle, pixel);
+  samples_.push_back({pixel, edge->outward, edge->distance, place, surface.pieceOf(place),
+                      surface.camera().unproject(pixel.x, pixel.y, image.depth(pixel))});
+}
+
+const OutlineAssociations& OutlineAssociator::associate(const RgbdFrame& frame, const RasterImage& image,
+                                                        const RigidMotions& motions,
+                                                        const RegionColors& colors) {
+  found_.associations.clear();
+  OutlineLine line(frame, image.depth, colors);
+  const ContourWeight weight{config_.weight, volume_edge_m_, static_cast<double>(spacing_px_)};
+  double apart_px = 0.0;
+  int shown = 0;
+  for (const ContourSample& sample : samples_) {
+    const Eigen::Vector3d predicted = motions[sample.piece] * sample.position;
+    if (!(predicted.z() > 0.0)) continue;
+    const std::vector<LinePixel>& pixels = line.across(sample, predicted);
+    if (pixels.size() < kFewestPixels) continue;
+    const ContourPosterior end = contourPosterior(pixels);
+    if (!end.beyond && end.variance > kLargestDeviation * kLargestDeviation) continue;
+    ++shown;
+    apart_px += end.beyond ? OutlineLine::kReach : std::abs(end.mean);
+    if (end.beyond) continue;
+    found_.associations.push_back(contourAssociation(frame.camera, sample, predicted, end, weight));
+  }
+  const double length_px = static_cast<double>(samples_.size()) * spacing_px_;
+  found_.disagreement = shown == 0 ? 0.0 : apart_px / shown * length_px / covered_px_;
+  return found_;
+}
+
+}  // namespace softbody

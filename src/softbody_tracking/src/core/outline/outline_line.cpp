@@ -1,0 +1,62 @@
+#include "outline/outline_line.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace softbody {
+namespace {
+
+// Step of the predicted depth [m] between neighbouring pixels at which a part of the body ends.
+constexpr double kStep = 0.02;
+// Largest log odds of one pixel, by colour and by depth: any pixel may be wrong. Depth is ragged at edges.
+constexpr double kColorLimit = 3.0, kDepthLimit = 1.5;
+// Pixels beside the predicted outline that something nearer must not cover.
+constexpr double kUncovered = 3.0;
+
+}  // namespace
+
+OutlineLine::OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors)
+    : frame_(frame), rendered_(rendered), colors_(colors) {
+  pixels_.reserve(2 * kReach + 1);
+}
+
+double OutlineLine::depthLogOdds(double measured, double predicted, double behind) const {
+  const double log_odds = behind > 0.0 ? DepthEvidence::logOddsBefore(behind, measured, predicted)
+                                       : evidence_.logOdds(measured - predicted, predicted);
+  return std::clamp(log_odds, -kDepthLimit, kDepthLimit);
+}
+
+const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, const Eigen::Vector3d& moved) {
+  pixels_.clear();
+  const Eigen::Vector2d start = frame_.camera.project(moved), &outward = sample.outward;
+  const Eigen::Vector2d rendered_start(sample.pixel.x, sample.pixel.y);
+  const cv::Rect image(cv::Point(), frame_.depth.size());
+  const double farther_by = moved.z() - sample.position.z();
+  double body = 0.0;  // predicted depth of the body at the pixel
+  for (int step = -kReach; step <= kReach; ++step) {
+    const cv::Point pixel(cvRound(start.x() + step * outward.x()), cvRound(start.y() + step * outward.y()));
+    const cv::Point rendered_pixel(cvRound(rendered_start.x() + step * outward.x()),
+                                   cvRound(rendered_start.y() + step * outward.y()));
+    if (!image.contains(pixel) || !image.contains(rendered_pixel)) return pixels_.clear(), pixels_;
+    const double distance = (Eigen::Vector2d(pixel.x, pixel.y) - start).dot(outward) - sample.to_edge;
+    const double predicted = rendered_(rendered_pixel) > 0.0f ? rendered_(rendered_pixel) + farther_by : 0.0;
+    // Where the prediction ends on its other side, as on a limb narrower than the reach, the line begins.
+    const bool begins = step <= 0 && (predicted <= 0.0 || std::abs(predicted - body) > kStep);
+    if (begins) pixels_.clear();
+    body = step <= 0 ? predicted : moved.z();
+    if (begins || (!pixels_.empty() && distance <= pixels_.back().distance)) continue;
+    const double measured = frame_.depth(pixel);
+    LinePixel result{distance, 0.0};
+    const bool covered = (measured > 0.0 && DepthEvidence::isNearer(measured - body, body)) ||
+                         (!frame_.covered.empty() && frame_.covered(pixel) != 0);
+    if (covered && std::abs(distance) < kUncovered) return pixels_.clear(), pixels_;
+    if (!covered) {
+      result.log_odds = std::clamp(colors_.logOdds(frame_.color(pixel)), -kColorLimit, kColorLimit);
+      if (measured > 0.0) result.log_odds += depthLogOdds(measured, body, step > 0 ? predicted : 0.0);
+    }
+    pixels_.push_back(result);
+  }
+  return pixels_;
+}
+
+}  // namespace softbody

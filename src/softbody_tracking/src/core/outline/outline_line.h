@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "outline/contour_association.h"
+#include "outline/contour_posterior.h"
+#include "prediction/depth_evidence.h"
+#include "prediction/predicted_surface.h"
+#include "prediction/region_colors.h"
+#include "softbody_tracking/rgbd_frame.h"
+
+namespace softbody {
+
+/// The body's evidence along a line across its predicted outline, from colour and depth of each pixel.
+class OutlineLine {
+ public:
+  static constexpr int kReach = 16;  ///< [px] each way; how far the end of the body is searched
+
+  /// @param rendered depth of the prediction, from which the sample was taken.
+  OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors);
+
+  /// @param moved the sample's present position, camera frame [m]. @return distances refer to the predicted
+  /// outline beside the moved sample. Empty if the line leaves the image, or if something nearer hides where
+  /// the body should end.
+  const std::vector<LinePixel>& across(const ContourSample& sample, const Eigen::Vector3d& moved);
+
+ private:
+  /// Log odds by depth alone. @param predicted of the body there [m]. @param behind depth of another part of
+  /// the body that is predicted there, or 0.
+  double depthLogOdds(double measured, double predicted, double behind) const;
+
+  const RgbdFrame& frame_;
+  const cv::Mat1f& rendered_;
+  const RegionColors& colors_;
+  DepthEvidence evidence_;
+  std::vector<LinePixel> pixels_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,50 @@
+#include "prediction/depth_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace softbody {
+namespace {
+
+// Standard deviation of depth around the prediction [m], at up to 1 m: error of the prediction, slope and
+// noise.
+constexpr double kDeviation = 0.012;
+// Share of the surroundings that touch the body without a step, like the table below it, and how closely [m].
+constexpr double kTouchingShare = 0.3, kTouchingDeviation = 0.03;
+// Density of the depth of other surroundings [1/m]: anywhere within a metre.
+constexpr double kAnywhere = 1.0;
+// Share of pixels whose depth is wrong: filled holes, and edges.
+constexpr double kWrongShare = 0.05;
+// Nearer than the body by more deviations than this is something before it.
+constexpr double kNearer = 2.0;
+
+double gauss(double x, double deviation) {
+  const double ratio = x / deviation;
+  return std::exp(-0.5 * ratio * ratio) / (deviation * std::sqrt(2.0 * M_PI));
+}
+
+/// @param elsewhere density of the surroundings that do not touch.
+double logOddsOf(double difference, double scale, double elsewhere) {
+  const double body = (1.0 - kWrongShare) * gauss(difference, scale * kDeviation) + kWrongShare * kAnywhere;
+  const double other =
+      kTouchingShare * gauss(difference, scale * kTouchingDeviation) + (1.0 - kTouchingShare) * elsewhere;
+  return std::log(body / other);
+}
+
+}  // namespace
+
+DepthEvidence::DepthEvidence() : table_() {
+  for (int i = 0; i <= 2 * kHalf; ++i)
+    table_[static_cast<std::size_t>(i)] = logOddsOf((i - kHalf) * kCell, 1.0, kAnywhere);
+}
+
+double DepthEvidence::logOddsBefore(double behind, double measured, double predicted) {
+  const double scale = std::max(1.0, predicted);
+  return logOddsOf(measured - predicted, scale, gauss(measured - behind, scale * kDeviation));
+}
+
+bool DepthEvidence::isNearer(double difference, double predicted) {
+  return difference < -kNearer * kDeviation * std::max(1.0, predicted);
+}
+
+}  // namespace softbody

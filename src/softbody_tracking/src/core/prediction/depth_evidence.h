@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace softbody {
+
+/// How much the depth of a pixel speaks for the body, where the body is predicted. What is not the body is
+/// anywhere within a metre, or touches the body like the table below it.
+class DepthEvidence {
+ public:
+  DepthEvidence();
+
+  /// Log odds of the body against everything else. @param difference measured minus predicted depth [m].
+  /// @param predicted depth of the body [m]; beyond 1 m the deviation grows with the distance.
+  double logOdds(double difference, double predicted) const {
+    const double scaled = predicted > 1.0 ? difference / predicted : difference;
+    const auto cell = static_cast<int>(scaled / kCell + kHalf + 0.5);
+    return cell < 0 ? table_.front() : table_[static_cast<std::size_t>(cell < 2 * kHalf ? cell : 2 * kHalf)];
+  }
+
+  /// The same where another part of the body is predicted behind. @param behind its depth [m].
+  static double logOddsBefore(double behind, double measured, double predicted);
+
+  /// Whether something is nearer than the body can be.
+  static bool isNearer(double difference, double predicted);
+
+ private:
+  static constexpr int kHalf = 128;        // cells on each side
+  static constexpr double kCell = 0.0005;  // [m]
+  std::array<double, 2 * kHalf + 1> table_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,80 @@
+#include "prediction/region_colors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace softbody {
+namespace {
+
+// Width [px] of the surroundings around the body.
+constexpr int kAround = 24;
+// Distance [px] from the outline at which a pixel shows the body alone.
+constexpr int kInside = 3;
+// Largest difference of depth where the body is seen [m], at up to 1 m; a little above noise and
+// registration.
+constexpr float kAgrees = 0.01f;
+// Every second pixel of every second row is enough for a histogram.
+constexpr int kStep = 2;
+// Pixels on each side, below which nothing is learned: a few pixels may show anything.
+constexpr float kFewest = 100.0f;
+// Share of the newest frame in the statistics: they follow a lamp that flickers within a few frames.
+constexpr float kRate = 0.2f;
+// Density of a colour that was never seen: it speaks for neither side.
+constexpr float kUnseen = 1e-3f;
+
+/// Whether depth and prediction agree at a pixel that is not at the outline.
+bool isSurelyBody(const cv::Mat1f& rendered, const cv::Mat1f& measured, int u, int v) {
+  const float z = rendered(v, u);
+  return z > 0.0f && std::abs(z - measured(v, u)) < kAgrees * std::max(1.0f, z) &&
+         rendered(v, u - kInside) > 0.0f && rendered(v, u + kInside) > 0.0f &&
+         rendered(v - kInside, u) > 0.0f && rendered(v + kInside, u) > 0.0f;
+}
+
+}  // namespace
+
+RegionColors::RegionColors() { reset(); }
+
+void RegionColors::reset() {
+  body_.clear();
+  surroundings_.clear();
+  log_odds_.assign(kBins, 0.0f);
+}
+
+void RegionColors::blend(const std::vector<float>& counts, std::vector<float>* densities) {
+  const float sum = std::accumulate(counts.begin(), counts.end(), 0.0f);
+  const float rate = densities->empty() ? 1.0f : kRate;
+  densities->resize(kBins, 0.0f);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    (*densities)[i] += rate * (counts[i] / sum - (*densities)[i]);
+}
+
+void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered) {
+  counts_of_body_.assign(kBins, 0.0f);
+  counts_around_.assign(kBins, 0.0f);
+  const cv::Rect& covered = rendered.region;
+  const cv::Rect region =
+      cv::Rect(covered.x - kAround, covered.y - kAround, covered.width + 2 * kAround,
+               covered.height + 2 * kAround) &
+      cv::Rect(kInside, kInside, frame.color.cols - 2 * kInside, frame.color.rows - 2 * kInside);
+  float on_body = 0.0f, around = 0.0f;
+  for (int v = region.y; v < region.br().y; v += kStep) {
+    for (int u = region.x; u < region.br().x; u += kStep) {
+      const std::size_t color = bin(frame.color(v, u));
+      if (isSurelyBody(rendered.depth, frame.depth, u, v)) {
+        counts_of_body_[color] += 1.0f;
+        on_body += 1.0f;
+      } else if (rendered.triangle(v, u) < 0) {
+        counts_around_[color] += 1.0f;
+        around += 1.0f;
+      }
+    }
+  }
+  if (on_body < kFewest || around < kFewest) return;
+  blend(counts_of_body_, &body_);
+  blend(counts_around_, &surroundings_);
+  for (std::size_t i = 0; i < log_odds_.size(); ++i)
+    log_odds_[i] = std::log((body_[i] + kUnseen) / (surroundings_[i] + kUnseen));
+}
+
+}  // namespace softbody

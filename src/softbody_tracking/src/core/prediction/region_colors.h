@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "softbody_common/rasterizer.h"
+#include "softbody_tracking/rgbd_frame.h"
+
+namespace softbody {
+
+/// Statistics of the colours on both sides of the body's outline (Tjaden et al. 2018): how much more often a
+/// colour occurs on the body than in its surroundings. They follow the light from frame to frame.
+class RegionColors {
+ public:
+  RegionColors();
+
+  /// Learns from a frame. The body is where the depth agrees with the rendered body. What is beside the
+  /// rendered body are its surroundings.
+  void learn(const RgbdFrame& frame, const RasterImage& rendered);
+
+  bool learned() const { return !body_.empty(); }
+  /// Log odds that a pixel of this colour (blue, green, red) shows the body; 0 before learn().
+  double logOdds(const cv::Vec3b& color) const { return log_odds_[bin(color)]; }
+
+  /// Forgets what was learned.
+  void reset();
+
+ private:
+  static constexpr int kBins = 16 * 16 * 16;
+  static std::size_t bin(const cv::Vec3b& color) {
+    return static_cast<std::size_t>((color[0] >> 4) << 8 | (color[1] >> 4) << 4 | color[2] >> 4);
+  }
+  void blend(const std::vector<float>& counts, std::vector<float>* densities);
+
+  std::vector<float> body_, surroundings_;  ///< share of the pixels in each bin; empty before learn()
+  std::vector<float> log_odds_, counts_of_body_, counts_around_;
+};
+
+}  // namespace softbody
