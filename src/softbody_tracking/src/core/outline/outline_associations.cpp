@@ -111,7 +111,7 @@ const OutlineAssociations& OutlineAssociator::associate(const RgbdFrame& frame, 
     const std::vector<LinePixel>& pixels = line.across(sample, predicted);
     if (pixels.size() < kFewestPixels) continue;
     const ContourPosterior end = contourPosterior(pixels);
-    if (!end.beyond && end.variance > kLargestDeviation * kLargestDeviation) continue;
+    if (end.variance > kLargestDeviation * kLargestDeviation) continue;
     ++shown;
     apart_px += end.beyond ? OutlineLine::kReach : std::abs(end.mean);
     if (end.beyond) continue;
