@@ -23,6 +23,7 @@ TEST(PositionPrior, KeepsEachVertexOfThePieceAndNoOther) {
       EXPECT_EQ(targets[i].position.transpose(), positions.row(piece[i]));
       EXPECT_TRUE(targets[i].normal.isZero());
       EXPECT_EQ(targets[i].weight, PositionPrior::kPriorWeight);
+      EXPECT_EQ(targets[i].kind, TargetKind::kPrior);
     }
   }
 }

@@ -48,7 +48,7 @@ TEST(CutBody, HoldsAPieceThatDoesNotShowUntilItDoes) {
       << result.status.reason;
   int held = 0;
   for (const Target& target : result.targets.targets) {
-    if (target.kind != TargetKind::kVertex) continue;
+    if (target.kind != TargetKind::kPrior) continue;
     EXPECT_LT((target.position - positionOf(target.place, rest, volume.tets)).norm(), 1e-9);
     ++held;
   }
@@ -84,13 +84,13 @@ TEST(CutBody, IsHeldIfNoPieceIsWellObservable) {
   for (int i = 0; i < 20; ++i) {
     result = tracked.show(rest, [](RgbdFrame* frame) { coverAround(24, frame); });
     EXPECT_EQ(result.status.state, TrackingState::kDegraded) << "some blocks agree: it is not lost";
-    EXPECT_EQ(countOf(TargetKind::kVertex, result), rest.rows());
+    EXPECT_EQ(countOf(TargetKind::kPrior, result), rest.rows());
     EXPECT_EQ(countOf(TargetKind::kDepth, result) + countOf(TargetKind::kFeature, result), 0);
-    EXPECT_EQ(tracked.worstTarget(result, rest, TargetKind::kVertex), 0.0);
+    EXPECT_EQ(tracked.worstTarget(result, rest, TargetKind::kPrior), 0.0);
   }
   result = tracked.show(rest);
   EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
-  EXPECT_EQ(countOf(TargetKind::kVertex, result), 0);
+  EXPECT_EQ(countOf(TargetKind::kPrior, result), 0);
 }
 
 TEST(CutBody, IsLostIfNothingOfItIsVisible) {
@@ -271,7 +271,9 @@ TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
     const cv::Mat3b plain(frame_.color.size(), cv::Vec3b(90, 90, 90));
     RgbdFrame frame = frame_;
     frame.color = plain;
-    return FrameObserver(config, box_.volume, box_.surface).observe(frame, beside).outline.associations.size();
+    return FrameObserver(config, box_.volume, box_.surface)
+        .observe(frame, beside)
+        .outline.associations.size();
   };
   EXPECT_EQ(outlines(false, false), 0u);
   EXPECT_EQ(outlines(true, true), 0u);

@@ -28,6 +28,11 @@ TEST(StatusOf, GivesTheReasonForDegradedTracking) {
   covered.depth.occluded_blocks = 0;
   covered.depth.absent_blocks = 900;
   EXPECT_EQ(degraded(covered), "most of the body is not where predicted");
+  Observation displaced = wellSeen();
+  displaced.outline.disagreement = 0.2;
+  EXPECT_NE(degraded(displaced).find("20 % of the body"), std::string::npos) << degraded(displaced);
+  displaced.outline.disagreement = 0.05;
+  EXPECT_EQ(degraded(displaced), "") << "as noise and a fast motion do";
   Observation unknown = wellSeen(2, 0);
   unknown.expected_features = 100;
   EXPECT_EQ(degraded(unknown), "hardly any of the expected features are found");

@@ -1,0 +1,289 @@
+#include "outline/outline_associations.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "fixtures/synthetic_scene.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+constexpr double kFocal = 615.0;                   // [px]
+constexpr double kBoxDepth = 0.5;                  // [m] of the box's centre
+constexpr double kRimDepth = kBoxDepth - 0.02;     // [m] of the rim, the box's face towards the camera
+constexpr double kPixel = kRimDepth / kFocal;      // [m] that one pixel shows there
+const Eigen::Vector3d kFlat(0.0, 0.0, kBoxDepth);  // the box as seen from above
+const cv::Rect kRightHalf(330, 0, 310, 480);
+
+/// A box seen from above, turned in the image so that its outline crosses the pixels everywhere.
+class OutlineAssociationsTest : public ::testing::Test {
+ protected:
+  OutlineAssociationsTest() : surface_(box_.volume, box_.surface) {
+    show(kFlat);
+    learnColors();
+  }
+
+  static Eigen::Isometry3d poseAt(const Eigen::Vector3d& position) {
+    return Eigen::Translation3d(position) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
+  }
+  Points boxAt(const Eigen::Vector3d& position) const {
+    return transformed(box_.volume.rest_vertices, poseAt(position));
+  }
+  Points shiftedBox(double pixels) const { return boxAt(kFlat + Eigen::Vector3d(pixels * kPixel, 0.0, 0.0)); }
+  void show(const Eigen::Vector3d& position) { frame_ = renderFrame(box_, boxAt(position), 1); }
+
+  /// From the frame as it is, with the prediction at its true position.
+  void learnColors() {
+    surface_.render(frame_.camera, boxAt(kFlat));
+    colors_.reset();
+    colors_.learn(frame_, surface_.image());
+  }
+
+  OutlineAssociations associate(const Points& predicted,
+                                const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
+                                double weight = 1.0) {
+    surface_.render(frame_.camera, predicted);
+    OutlineAssociator outline({weight}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+    outline.sample(surface_);
+    return outline.associate(frame_, surface_.image(), RigidMotions(surface_.pieceCount(), motion), colors_);
+  }
+  std::vector<Association> associateShifted(double pixels) {
+    return associate(shiftedBox(pixels)).associations;
+  }
+
+  /// Measured minus true distance across the outline [px], if the prediction is shifted by some pixels.
+  static double error(const Association& a, double pixels) {
+    return (a.residual() + pixels * kPixel * a.normal.x()) / kPixel;
+  }
+
+  static double meanError(const std::vector<Association>& found, double pixels) {
+    double sum = 0.0;
+    for (const Association& a : found) sum += error(a, pixels);
+    return sum / static_cast<double>(found.size());
+  }
+  static double meanAbsoluteError(const std::vector<Association>& found, double pixels) {
+    double sum = 0.0;
+    for (const Association& a : found) sum += std::abs(error(a, pixels));
+    return sum / static_cast<double>(found.size());
+  }
+  /// The shift along x that all associations together ask for [px].
+  static double pulledBy(const std::vector<Association>& found) {
+    double sum = 0.0, weights = 0.0;
+    for (const Association& a : found) {
+      sum += a.weight * a.normal.x() * a.residual() / kPixel;
+      weights += a.weight * a.normal.x() * a.normal.x();
+    }
+    return sum / weights;
+  }
+  void expectOnlyTheLeftHalf() {
+    for (const double pixels : {4.0, -4.0}) {
+      const std::vector<Association> found = associateShifted(pixels);
+      EXPECT_GT(found.size(), 50u);
+      for (const Association& a : found) EXPECT_LT(frame_.camera.project(a.predicted).x(), kRightHalf.x);
+      EXPECT_LT(std::abs(meanError(found, pixels)), 0.3);
+    }
+  }
+
+  BoxBody box_ = makeBox();
+  PredictedSurface surface_;
+  RgbdFrame frame_;
+  RegionColors colors_;
+};
+
+/// Sub-pixel, and without a dead zone. Single samples are as inexact as a pixel; at corners more.
+TEST_F(OutlineAssociationsTest, PullAShiftedOutlineBack) {
+  for (const double pixels : {0.0, 0.3, -0.5, 0.7, -1.0, 1.5, -2.0, 3.0, -4.0, 6.0, -6.0}) {
+    const std::vector<Association> found = associateShifted(pixels);
+    EXPECT_GT(found.size(), 100u);
+    EXPECT_LT(std::abs(meanError(found, pixels)), 0.2) << pixels;
+    EXPECT_LT(meanAbsoluteError(found, pixels), 0.7) << pixels;
+    EXPECT_NEAR(pulledBy(found), -pixels, 0.3);
+  }
+}
+
+TEST_F(OutlineAssociationsTest, OnlyTheDistanceAcrossTheOutlineCounts) {
+  for (const Association& a : associateShifted(8.0)) {
+    EXPECT_NEAR(a.normal.norm(), 1.0, 1e-9);
+    EXPECT_NEAR(a.normal.dot(a.measured.normalized()), 0.0, 1e-9) << "along its ray nothing counts";
+    EXPECT_LT((positionOf(a.place, surface_.volumeVertices(), box_.volume.tets) - a.predicted).norm(), 1e-6);
+  }
+}
+
+/// Turned, shifted bodies find back.
+TEST_F(OutlineAssociationsTest, LeadBackToTheBody) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shift(-8.0 * kPixel, 8.0 * kPixel), angle(-0.05, 0.05);
+  const Points truth = boxAt(kFlat);
+  for (int i = 0; i < 5; ++i) {
+    const Eigen::Isometry3d error = Eigen::Translation3d(shift(random), shift(random), kBoxDepth) *
+                                    Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ()) *
+                                    Eigen::Translation3d(0.0, 0.0, -kBoxDepth);
+    Points predicted = transformed(truth, error);
+    for (int step = 0; step < 6; ++step) {
+      const OutlineAssociations found = associate(predicted);
+      predicted = transformed(predicted, rigidStep(refsTo(found.associations)));
+    }
+    const Points offsets = predicted - truth;
+    EXPECT_LT(offsets.leftCols<2>().rowwise().norm().mean(), 0.3 * kPixel);
+  }
+}
+
+TEST_F(OutlineAssociationsTest, MoveWithTheirSamples) {
+  const Eigen::Isometry3d error(Eigen::Translation3d(12.0 * kPixel, -7.0 * kPixel, 0.0));
+  const OutlineAssociations found = associate(transformed(boxAt(kFlat), error), error.inverse());
+  EXPECT_GT(found.associations.size(), 100u);
+  EXPECT_LT(meanAbsoluteError(found.associations, 0.0), 0.4);
+  EXPECT_LT(found.disagreement, 0.01);
+}
+
+/// What stands before the body hides where it ends.
+TEST_F(OutlineAssociationsTest, OccludersSayNothing) {
+  frame_.depth(kRightHalf) = 0.3f;
+  expectOnlyTheLeftHalf();
+}
+
+TEST_F(OutlineAssociationsTest, ATrackedBladeSaysNothing) {
+  frame_.covered = cv::Mat1b(frame_.depth.size(), static_cast<uchar>(0));
+  frame_.covered(kRightHalf) = 255;
+  expectOnlyTheLeftHalf();
+}
+
+TEST_F(OutlineAssociationsTest, ColorFindsTheEndWithoutDepth) {
+  frame_.depth.setTo(0.0f);
+  for (const double pixels : {0.3, 3.0, -6.0}) {
+    const std::vector<Association> found = associateShifted(pixels);
+    EXPECT_GT(found.size(), 100u);
+    EXPECT_LT(std::abs(meanError(found, pixels)), 0.2);
+  }
+}
+
+TEST_F(OutlineAssociationsTest, DepthFindsTheEndOfAGreyBodyBeforeGrey) {
+  frame_.color.setTo(cv::Vec3b(90, 90, 90));
+  learnColors();
+  for (const double pixels : {0.3, 3.0, -6.0}) {
+    const std::vector<Association> found = associateShifted(pixels);
+    EXPECT_GT(found.size(), 100u);
+    EXPECT_LT(std::abs(meanError(found, pixels)), 0.2);
+  }
+}
+
+TEST_F(OutlineAssociationsTest, NeitherColorNorDepthSayNothing) {
+  frame_.color.setTo(cv::Vec3b(90, 90, 90));
+  learnColors();
+  frame_.depth.setTo(0.0f);
+  const OutlineAssociations found = associate(shiftedBox(6.0));
+  EXPECT_TRUE(found.associations.empty());
+  EXPECT_EQ(found.disagreement, 0.0) << "what is not seen does not disagree";
+}
+
+/// A table of the body's colour goes on from the body without a step.
+TEST_F(OutlineAssociationsTest, WhatTheBodyTouchesSaysNothing) {
+  frame_.color.setTo(cv::Vec3b(90, 90, 90));
+  learnColors();
+  frame_.depth.setTo(static_cast<float>(kRimDepth));
+  for (const double pixels : {6.0, -6.0}) EXPECT_TRUE(associateShifted(pixels).empty());
+}
+
+/// A hand beside the body, at its depth. Its colour was learned with the surroundings.
+TEST_F(OutlineAssociationsTest, AHandOfAnotherColorDoesNotPull) {
+  const cv::Mat1b body(frame_.depth < 1.0f);
+  cv::Mat1b on_hand(body.size(), static_cast<uchar>(0));
+  on_hand(kRightHalf & cv::Rect(0, 180, 640, 120)).setTo(255, ~body(kRightHalf & cv::Rect(0, 180, 640, 120)));
+  frame_.depth.setTo(static_cast<float>(kRimDepth), on_hand);
+  frame_.color.setTo(cv::Vec3b(250, 20, 20), on_hand);
+  learnColors();
+  EXPECT_LT(meanAbsoluteError(associateShifted(0.0), 0.0), 0.5);
+  EXPECT_LT(std::abs(meanError(associateShifted(4.0), 4.0)), 0.3);
+}
+
+TEST_F(OutlineAssociationsTest, TheImagesBorderIsNoOutline) {
+  const Eigen::Vector3d half_out = kFlat + Eigen::Vector3d(0.2, 0.0, 0.0);
+  show(half_out);
+  for (const double pixels : {4.0, -4.0}) {
+    const auto found = associate(boxAt(half_out + Eigen::Vector3d(pixels * kPixel, 0.0, 0.0))).associations;
+    EXPECT_GT(found.size(), 20u);
+    for (const Association& a : found) EXPECT_LT(frame_.camera.project(a.predicted).x(), 632.0);
+    EXPECT_LT(std::abs(meanError(found, pixels)), 0.3);
+  }
+}
+
+TEST_F(OutlineAssociationsTest, TellThePieces) {
+  box_ = cutBox(box_);
+  surface_ = PredictedSurface(box_.volume, box_.surface);
+  ASSERT_EQ(surface_.pieceCount(), 2u);
+  constexpr double kShift = 6.0;  // [px] along x, of one piece
+  Points predicted = boxAt(kFlat);
+  for (const int v : surface_.pieces()[1]) predicted(v, 0) += kShift * kPixel;
+  const std::vector<Association> found = associate(predicted).associations;
+  std::vector<Association> of_piece[2];
+  for (const Association& a : found) of_piece[a.piece].push_back(a);
+  for (const auto& associations : of_piece) EXPECT_GT(associations.size(), 20u);
+  EXPECT_LT(meanAbsoluteError(of_piece[0], 0.0), 0.7);
+  EXPECT_LT(meanAbsoluteError(of_piece[1], kShift), 0.7);
+}
+
+/// A limb of 10 px before the rim of a trunk is gone from where it was predicted: behind its other side the
+/// trunk ends, which says nothing of the limb.
+TEST_F(OutlineAssociationsTest, WhatIsBeyondALimbIsNotTheLimb) {
+  const BoxBody trunk = box_;
+  const Eigen::Index count = trunk.volume.rest_vertices.rows();
+  Points& vertices = box_.volume.rest_vertices;
+  vertices.conservativeResize(2 * count, 3);
+  vertices.bottomRows(count) = trunk.volume.rest_vertices * Eigen::Vector3d(0.035, 0.6, 0.2).asDiagonal();
+  vertices.bottomRows(count).rowwise() += Eigen::RowVector3d(0.0835, 0.0, -0.1);
+  const auto both = [&](const auto& once) {
+    auto twice = once;
+    twice.conservativeResize(2 * once.rows(), Eigen::NoChange);
+    twice.bottomRows(once.rows()) = once.array() + static_cast<int>(count);
+    return twice;
+  };
+  box_.volume.tets = both(trunk.volume.tets);
+  box_.volume.surface = box_.surface.triangles = both(trunk.volume.surface);
+  box_.surface.rest_vertices = vertices;
+  surface_ = PredictedSurface(box_.volume, box_.surface);
+  ASSERT_EQ(surface_.pieceCount(), 2u);
+  Points moved = boxAt(kFlat);
+  moved.bottomRows(count).rowwise() += Eigen::RowVector3d(0.06, 0.0, 0.0);
+  frame_ = renderFrame(box_, moved, 1);
+  colors_.reset();
+  for (const Association& a : associate(boxAt(kFlat)).associations) EXPECT_NE(a.piece, 1u);
+}
+
+TEST_F(OutlineAssociationsTest, WeightsFollowTheParameterAndTheEvidence) {
+  const auto total = [&](double weight) {
+    double sum = 0.0;
+    const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+    for (const Association& a : associate(shiftedBox(3.0), still, weight).associations) sum += a.weight;
+    return sum;
+  };
+  const double once = total(1.0);
+  EXPECT_GT(once, 0.0);
+  EXPECT_NEAR(total(2.0), 2.0 * once, 1e-9);
+  EXPECT_EQ(total(0.0), 0.0);
+  colors_.reset();
+  EXPECT_LT(total(1.0), 0.5 * once) << "depth alone is ragged";
+}
+
+/// The area that a shift leaves on one side and covers on the other.
+TEST_F(OutlineAssociationsTest, DisagreementIsTheAreaBetweenTheOutlines) {
+  const double height = 0.1 * std::cos(0.3) + 0.2 * std::sin(0.3), area = 0.2 * 0.1;  // [m], [m^2]
+  EXPECT_LT(associate(shiftedBox(0.0)).disagreement, 0.01);
+  for (const double pixels : {2.0, -4.0, 6.0, 10.0}) {
+    const double between = 2.0 * height * std::abs(pixels) * kPixel / area;
+    EXPECT_NEAR(associate(shiftedBox(pixels)).disagreement, between, 0.1 * between);
+  }
+}
+
+TEST_F(OutlineAssociationsTest, AMeshOfTheWrongSizeDisagrees) {
+  for (const double scale : {1.3, 1.0 / 1.3}) {
+    const Points predicted = transformed(scale * box_.volume.rest_vertices, poseAt(kFlat));
+    EXPECT_GT(associate(predicted).disagreement, 0.12) << scale;
+  }
+}
+
+}  // namespace
+}  // namespace softbody

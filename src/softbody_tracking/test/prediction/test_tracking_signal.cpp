@@ -1,0 +1,95 @@
+#include "prediction/tracking_signal.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace softbody {
+namespace {
+
+constexpr double kInterval = 1.0 / 30.0;  // [s]
+constexpr Eigen::Index kVertices = 200;
+
+/// Corrections without a common direction [m].
+Points noiseOf(double deviation, std::mt19937* random) {
+  std::normal_distribution<double> noise(0.0, deviation);
+  return Points::NullaryExpr(kVertices, 3, [&] { return noise(*random); });
+}
+
+double meanGain(const TrackingSignal& signal) {
+  double sum = 0.0;
+  for (Eigen::Index v = 0; v < kVertices; ++v) sum += signal.gain(v);
+  return sum / kVertices;
+}
+
+TEST(TrackingSignal, FollowsEverythingUntilItKnows) {
+  std::mt19937 random(1);
+  TrackingSignal signal;
+  EXPECT_EQ(signal.gain(0), 1.0);
+  signal.observe(noiseOf(1e-3, &random), kInterval);
+  EXPECT_EQ(meanGain(signal), 1.0);
+}
+
+TEST(TrackingSignal, RandomCorrectionsAreNoise) {
+  std::mt19937 random(2);
+  TrackingSignal signal;
+  for (int i = 0; i < 60; ++i) signal.observe(noiseOf(1e-3, &random), kInterval);
+  EXPECT_LT(meanGain(signal), 0.2);
+}
+
+TEST(TrackingSignal, PersistentCorrectionsAreMotion) {
+  std::mt19937 random(3);
+  const Points motion = Points::Constant(kVertices, 3, 1e-3);
+  TrackingSignal still, noisy;
+  for (int i = 0; i < 60; ++i) {
+    noisy.observe(noiseOf(1e-3, &random), kInterval);
+    still.observe(Points::Zero(kVertices, 3), kInterval);
+  }
+  still.observe(motion, kInterval);
+  EXPECT_NEAR(meanGain(still), 1.0, 1e-9) << "without noise, motion is known at once";
+  for (int i = 0; i < 15; ++i) noisy.observe(motion + noiseOf(2e-4, &random), kInterval);
+  EXPECT_GT(meanGain(noisy), 0.85);
+  for (int i = 0; i < 60; ++i) noisy.observe(noiseOf(1e-3, &random), kInterval);
+  EXPECT_LT(meanGain(noisy), 0.2) << "it ends with the motion";
+}
+
+TEST(TrackingSignal, VerticesHaveTheirOwn) {
+  std::mt19937 random(4);
+  TrackingSignal signal;
+  for (int i = 0; i < 60; ++i) {
+    Points corrections = noiseOf(1e-3, &random);
+    corrections.row(7) = Eigen::RowVector3d(0.0, 2e-3, 0.0);
+    signal.observe(corrections, kInterval);
+  }
+  EXPECT_NEAR(signal.gain(7), 1.0, 1e-9);
+  EXPECT_LT(meanGain(signal), 0.2);
+}
+
+/// Only directions and ratios count, not the unit.
+TEST(TrackingSignal, TheScaleOfTheCorrectionsDoesNotCount) {
+  std::mt19937 random(5);
+  TrackingSignal small, large;
+  for (int i = 0; i < 20; ++i) {
+    const Points corrections = noiseOf(1e-3, &random) + Points::Constant(kVertices, 3, 5e-4);
+    small.observe(corrections, kInterval);
+    large.observe(1000.0 * corrections, kInterval);
+    for (Eigen::Index v = 0; v < kVertices; ++v) {
+      EXPECT_NEAR(small.gain(v), large.gain(v), 1e-12);
+      EXPECT_GT(small.gain(v), 0.0) << "no error may last";
+      EXPECT_LE(small.gain(v), 1.0);
+    }
+  }
+}
+
+TEST(TrackingSignal, ResetForgets) {
+  std::mt19937 random(6);
+  TrackingSignal signal;
+  for (int i = 0; i < 20; ++i) signal.observe(noiseOf(1e-3, &random), kInterval);
+  signal.reset();
+  EXPECT_EQ(meanGain(signal), 1.0);
+  signal.observe(Points::Zero(3, 3), kInterval);
+  EXPECT_EQ(signal.gain(2), 1.0) << "a body with another number of vertices";
+}
+
+}  // namespace
+}  // namespace softbody
