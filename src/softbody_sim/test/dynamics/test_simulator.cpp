@@ -226,6 +226,7 @@ TEST(Simulator, RunsTheSameTwice) {
   const MeshState a = run(), b = run();
   EXPECT_TRUE(a.vertices == b.vertices);
   EXPECT_EQ(a.confidence, b.confidence);
+  EXPECT_EQ(a.standard_deviation, b.standard_deviation);
 }
 
 TEST(Simulator, ConfidenceIsOneWhereObservedAndDecaysFromThere) {
@@ -248,6 +249,24 @@ TEST(Simulator, ConfidenceIsOneWhereObservedAndDecaysFromThere) {
   EXPECT_LT(confidence.back(), 0.05f);
   simulator.step({}, 100 + 2 * kFrame);
   EXPECT_EQ(simulator.state().observed, 100 + kFrame);
+}
+
+TEST(Simulator, PriorsAreNoObservation) {
+  const TetTopology topology = sponge();
+  Simulator simulator(topology, Material(), SimulatorConfig());
+  simulator.step(placing(Eigen::Isometry3d::Identity()), 0);
+  TargetSet targets;
+  targets.targets = vertexTargets(topology, topology.rest_vertices);
+  simulator.step(targets, kFrame);
+  const MeshState seen = simulator.state();
+  ASSERT_EQ(seen.standard_deviation.size(), seen.confidence.size());
+  for (Target& target : targets.targets) target.kind = TargetKind::kPrior;
+  simulator.step(targets, 2 * kFrame);
+  for (std::size_t v = 0; v < seen.confidence.size(); ++v) {
+    EXPECT_EQ(seen.confidence[v], 1.0f);
+    EXPECT_EQ(simulator.state().confidence[v], 0.0f);
+    EXPECT_GT(simulator.state().standard_deviation[v], 2.0f * seen.standard_deviation[v]);
+  }
 }
 
 TEST(Simulator, WithoutSimulationOnlyTargetedSurfaceVerticesMove) {

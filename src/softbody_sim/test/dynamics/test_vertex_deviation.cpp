@@ -1,0 +1,137 @@
+#include "dynamics/vertex_deviation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fixtures/test_meshes.h"
+
+namespace softbody {
+namespace {
+
+class VertexDeviationTest : public ::testing::Test {
+ protected:
+  /// Targets on the vertices at one end of the sponge (x below 30 mm), where they are.
+  std::vector<Target> targetsAtOneEnd(const Points& vertices) const {
+    std::vector<Target> targets;
+    const std::vector<Target> all = testing::vertexTargets(topology_, vertices);
+    for (const Target& target : all) {
+      if (positionOf(target.place, topology_.rest_vertices, topology_.tets).x() < 0.03)
+        targets.push_back(target);
+    }
+    return targets;
+  }
+  std::vector<float> deviations(const std::vector<Target>& targets, const Points& vertices) {
+    std::vector<float> result;
+    deviation_.compute(targets, vertices, &result);
+    return result;
+  }
+  static double meanOf(const std::vector<float>& values) {
+    double sum = 0.0;
+    for (const float value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
+  /// The sponge, stretched along x.
+  Points stretched(double factor) const {
+    return topology_.rest_vertices * Eigen::Vector3d(factor, 1.0, 1.0).asDiagonal();
+  }
+
+  const TetTopology topology_ = testing::sponge();
+  const Points& rest_ = topology_.rest_vertices;
+  VertexDeviation deviation_{topology_};
+};
+
+TEST_F(VertexDeviationTest, IsLargestWithoutTargets) {
+  const float unmeasured = deviations({}, rest_).front();
+  for (const float value : deviations({}, rest_)) EXPECT_EQ(value, unmeasured);
+  for (const float value : deviations(targetsAtOneEnd(rest_), rest_)) EXPECT_LT(value, unmeasured);
+  for (const float value : deviations(testing::vertexTargets(topology_, rest_), rest_))
+    EXPECT_LT(value, 0.2f * unmeasured);
+}
+
+TEST_F(VertexDeviationTest, GrowsWithTheDistanceFromTheMeasuredEnd) {
+  const std::vector<float> found = deviations(targetsAtOneEnd(rest_), rest_);
+  // Along x the vertices lie in planes, 20 mm apart.
+  std::vector<float> smallest(11, 1.0f), largest(11, 0.0f);
+  for (Eigen::Index v = 0; v < rest_.rows(); ++v) {
+    const auto plane = static_cast<std::size_t>(std::lround(rest_(v, 0) / 0.02));
+    smallest[plane] = std::min(smallest[plane], found[static_cast<std::size_t>(v)]);
+    largest[plane] = std::max(largest[plane], found[static_cast<std::size_t>(v)]);
+  }
+  EXPECT_EQ(smallest[0], largest[1]) << "measured";
+  for (std::size_t plane = 2; plane < 11; ++plane) {
+    EXPECT_GT(smallest[plane], smallest[plane - 1]);
+    EXPECT_GT(largest[plane], largest[plane - 1]);
+  }
+}
+
+TEST_F(VertexDeviationTest, GrowsWithTheStrainNotWithTheMotion) {
+  const std::vector<float> still = deviations(targetsAtOneEnd(rest_), rest_);
+  const Points moved = transformed(rest_, testing::somePose());
+  const std::vector<float> after = deviations(targetsAtOneEnd(moved), moved);
+  for (std::size_t v = 0; v < still.size(); ++v) EXPECT_NEAR(after[v], still[v], 1e-6f);
+  double last = meanOf(still);
+  for (const double factor : {1.05, 1.1, 1.2}) {
+    const double mean = meanOf(deviations(targetsAtOneEnd(stretched(factor)), stretched(factor)));
+    EXPECT_GT(mean, 1.1 * last);
+    last = mean;
+  }
+}
+
+/// What targets say of a vertex is wrong by at least their distance from it.
+TEST_F(VertexDeviationTest, CoversTheResidualsOfTheTargets) {
+  Points beside = rest_;
+  beside.col(2).array() += 0.003;
+  for (const float value : deviations(testing::vertexTargets(topology_, beside), rest_))
+    EXPECT_GE(value, 0.003f);
+}
+
+TEST_F(VertexDeviationTest, ADirectionIsLessThanAPlace) {
+  std::vector<Target> planes = targetsAtOneEnd(rest_);
+  for (Target& target : planes) target.normal = Eigen::Vector3d::UnitZ();
+  const std::vector<float> in_plane = deviations(planes, rest_),
+                           all = deviations(targetsAtOneEnd(rest_), rest_), none = deviations({}, rest_);
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    EXPECT_GT(in_plane[v], all[v]);
+    EXPECT_LT(in_plane[v], none[v]);
+  }
+  // Three directions together are a place.
+  std::vector<Target> three;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (Target target : planes) {
+      target.normal = Eigen::Vector3d::Unit(axis);
+      three.push_back(target);
+    }
+  }
+  const std::vector<float> together = deviations(three, rest_);
+  for (std::size_t v = 0; v < all.size(); ++v) EXPECT_NEAR(together[v], all[v], 1e-9f);
+}
+
+TEST_F(VertexDeviationTest, PriorsMeasureNothing) {
+  std::vector<Target> priors = testing::vertexTargets(topology_, rest_);
+  for (Target& target : priors) target.kind = TargetKind::kPrior;
+  EXPECT_EQ(deviations(priors, rest_), deviations({}, rest_));
+}
+
+TEST_F(VertexDeviationTest, PiecesAreMeasuredOnTheirOwn) {
+  const TetTopology both = testing::twoBoxes({2, 1, 1}, {0.1, 0.05, 0.05});
+  VertexDeviation deviation(both);
+  std::vector<Target> targets = testing::vertexTargets(both, both.rest_vertices);
+  const auto count = static_cast<std::size_t>(both.rest_vertices.rows());
+  targets.erase(std::remove_if(targets.begin(), targets.end(),
+                               [](const Target& target) { return target.position.x() > 0.2; }),
+                targets.end());
+  std::vector<float> found, none;
+  deviation.compute(targets, both.rest_vertices, &found);
+  deviation.compute({}, both.rest_vertices, &none);
+  for (std::size_t v = 0; v < count; ++v) {
+    if (v < count / 2)
+      EXPECT_LT(found[v], none[v]);
+    else
+      EXPECT_EQ(found[v], none[v]);
+  }
+}
+
+}  // namespace
+}  // namespace softbody
