@@ -47,7 +47,7 @@ inline TargetSet randomTargets(unsigned seed) {
   set.body_pose = randomMotion(&random);
   for (int i = 0; i < 20; ++i) {
     Target target;
-    target.kind = static_cast<TargetKind>(i % 4);
+    target.kind = static_cast<TargetKind>(i % 5);
     target.place.tet = i;
     const Eigen::Vector3d weights = randomPoint(-2.0, 2.0, &random);
     target.place.barycentric << weights, 1.0 - weights.sum();

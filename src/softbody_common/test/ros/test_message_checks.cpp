@@ -164,7 +164,7 @@ TEST(MessageChecks, EveryFieldOfATargetIsChecked) {
     expectRefused<Message>(
         good, [&spoil](Message& m) { spoil(m.targets[6]); }, "targets[6]");
   };
-  refused([](auto& t) { t.kind = 9; });
+  refused([](auto& t) { t.kind = softbody_msgs::Target::PRIOR + 1; });
   refused([](auto& t) { t.tet = 0x80000000u; });
   refused([](auto& t) { t.barycentric[2] = kNaN; });
   refused([](auto& t) { t.barycentric[0] += 0.1f; });
