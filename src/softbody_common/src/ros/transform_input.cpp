@@ -9,8 +9,8 @@
 namespace softbody {
 namespace {
 
-constexpr int kQueue = 100;  // as tf2_ros
-constexpr std::size_t kMostFrames = 10'000;
+constexpr int kQueue = 100;                                      // as tf2_ros
+constexpr std::size_t kMostFrames = 10'000, kLongestName = 256;  // tf2 never forgets a frame
 constexpr char kAuthority[] = "tf";
 
 }  // namespace
@@ -19,38 +19,51 @@ TransformInput::TransformInput() : spinner_(1, &queue_) {
   buffer_.setUsingDedicatedThread(true);
   node_.setCallbackQueue(&queue_);
   moving_ = node_.subscribe<tf2_msgs::TFMessage>("/tf", kQueue, [this](const auto& message) {
-    for (const auto& transform : message->transforms) add(transform);
+    for (const auto& transform : message->transforms) add(transform, false);
   });
   fixed_ = node_.subscribe<tf2_msgs::TFMessage>("/tf_static", kQueue, [this](const auto& message) {
-    for (const auto& transform : message->transforms) buffer_.setTransform(transform, kAuthority, true);
+    for (const auto& transform : message->transforms) add(transform, true);
   });
   spinner_.start();
 }
 
-void TransformInput::add(const geometry_msgs::TransformStamped& transform) try {
-  if (isNew(transform)) buffer_.setTransform(transform, kAuthority);
+void TransformInput::add(const geometry_msgs::TransformStamped& transform, bool is_fixed) try {
+  admit(transform.header.frame_id);
+  admit(transform.child_frame_id);
+  if (is_fixed || isNew(transform)) buffer_.setTransform(transform, kAuthority, is_fixed);
 } catch (const std::exception& error) {
-  ROS_WARN_STREAM_THROTTLE(
-      5.0, "the transform of '" << transform.child_frame_id << "' is not used: " << error.what());
+  ROS_WARN_STREAM_THROTTLE(5.0, "the transform of '" << transform.child_frame_id.substr(0, kLongestName)
+                                                     << "' is not used: " << error.what());
+}
+
+/// Frames are bounded, because any sender can name new ones. @throw std::length_error
+void TransformInput::admit(const std::string& frame) {
+  if (frames_.count(frame) > 0) return;
+  if (frame.size() > kLongestName)
+    throw std::length_error(
+        fmt::format("a frame's name has {} characters; allowed: up to {}", frame.size(), kLongestName));
+  if (frames_.size() >= kMostFrames)
+    throw std::length_error(fmt::format(
+        "tf has {} frames, which is the limit; find the sender of new names, and start this node again",
+        kMostFrames));
+  frames_.insert(frame);
 }
 
 /// A bag that loops, or a publisher that is faster than its sensor, repeats transforms: no warning for that.
 /// tf2 itself says what is late. @throw std::exception if the stamp is refused.
 bool TransformInput::isNew(const geometry_msgs::TransformStamped& transform) {
-  const std::string& child = transform.child_frame_id;
-  if (timelines_.size() >= kMostFrames && timelines_.count(child) == 0)
-    throw std::length_error(fmt::format("tf has {} frames already", kMostFrames));
-  Timeline& timeline = timelines_[child];
+  Child& child = children_[transform.child_frame_id];
   const StampVerdict verdict =
-      timeline.judge(toNanoseconds(transform.header.stamp), toNanoseconds(ros::Time::now()));
+      child.timeline.judge(toNanoseconds(transform.header.stamp), toNanoseconds(ros::Time::now()));
   if (verdict.kind == StampVerdict::kUnstamped || verdict.kind == StampVerdict::kOutlier)
     throw std::invalid_argument(whyRefused(verdict));
-  // tf2 refuses everything before the newest transform that it has.
-  const bool returns = verdict.kind == StampVerdict::kMoved && verdict.wentBack();
-  if (timeline.pass() > pass_ || returns) {
-    pass_ = timeline.pass();
+  // tf2 refuses everything before the newest transform of a child that it has. When a bag starts again, the
+  // first child that goes back clears the buffer for all.
+  if (verdict.wentBack() && child.clears == clears_) {
+    ++clears_;
     buffer_.clear();
   }
+  if (verdict.accepted()) child.clears = clears_;
   return verdict.kind != StampVerdict::kRepeated;
 }
 

@@ -6,6 +6,7 @@
 #include <tf2_ros/buffer.h>
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "softbody_common/timeline.h"
@@ -14,7 +15,7 @@ namespace softbody {
 
 /// Receives /tf and /tf_static in a thread of its own. Transforms with an odd stamp are refused: in tf2 one
 /// of them ends the process or hides all later transforms of its frame. When time jumps back, the transforms
-/// of the pass before are forgotten.
+/// of the pass before are forgotten. The number of frames and the length of their names are bounded.
 class TransformInput {
  public:
   TransformInput();
@@ -24,12 +25,18 @@ class TransformInput {
   const tf2_ros::Buffer& buffer() const { return buffer_; }
 
  private:
-  void add(const geometry_msgs::TransformStamped& transform);
+  struct Child {
+    Timeline timeline;
+    int clears = -1;  ///< clears_ when its last transform was accepted
+  };
+  void add(const geometry_msgs::TransformStamped& transform, bool is_fixed);
+  void admit(const std::string& frame);
   bool isNew(const geometry_msgs::TransformStamped& transform);
 
   tf2_ros::Buffer buffer_;
-  std::map<std::string, Timeline> timelines_;  ///< by child frame
-  int pass_ = 0;                               ///< greatest of the timelines
+  std::set<std::string> frames_;           ///< parents and children that tf2 knows
+  std::map<std::string, Child> children_;  ///< of moving transforms
+  int clears_ = 0;                         ///< of the buffer
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   // Last, so that callbacks end before the members that they use.
