@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
 #include <random>
 
 namespace softbody {
@@ -104,6 +106,34 @@ TEST(EditHistory, OneEditFurtherNeedsOneEdit) {
     ASSERT_EQ(edits.size(), 1u) << round;
     EXPECT_EQ(edits[0].revision, next.revision);
   }
+}
+
+/// However often revisions leap, each leap that is accepted leaves room for the edits that follow.
+TEST(EditHistory, OneMessageCannotUseUpTheRevisions) {
+  std::mt19937 random(5);
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  EditHistory own;
+  for (int k = 0; k < 1000; ++k) {
+    EditHistory theirs;
+    theirs.body = own.body == 0 || random() % 10 == 0 ? 1 + random() % 3 : own.body;
+    theirs.revision = random() % 4 == 0 ? kMost - random() % 100 : own.revision + random() % 2'000'000;
+    const bool same_body = theirs.body == own.body;
+    if (!refusalOf(theirs, own).empty()) continue;
+    EXPECT_LE(theirs.revision, (same_body ? own.revision : kMost / 2) + 1'000'000u);
+    own = theirs;
+    if (own.revision > kMost / 2) own = {};
+  }
+  EditHistory next = own;
+  next.revision += 1;
+  EXPECT_EQ(refusalOf(next, own), "");
+  EditHistory last;
+  last.body = 7;
+  last.revision = kMost;
+  EXPECT_NE(refusalOf(last, EditHistory{}), "");
+  EditHistory first = last;
+  first.revision = 3;
+  EXPECT_NE(refusalOf(last, first), "");
+  EXPECT_EQ(refusalOf(first, last), "");
 }
 
 }  // namespace

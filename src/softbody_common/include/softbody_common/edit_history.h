@@ -32,6 +32,10 @@ struct EditHistory {
 /// Why an edit is not possible; empty if it is.
 std::string refusalOf(const Cut& edit, const EditHistory& history);
 
+/// Why the edits that another node sends cannot be taken over; empty if they can. A revision is never taken
+/// back, so one wrong message must not use up the numbers.
+std::string refusalOf(const EditHistory& theirs, const EditHistory& own);
+
 /// Adds a possible edit. A cut discards the undone strokes.
 void addEdit(const Cut& edit, EditHistory* history);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace softbody {
@@ -105,6 +106,16 @@ std::string refusalOf(const Cut& edit, const EditHistory& history) {
       return history.in_force == 0 ? "the body is not cut" : "";
   }
   return "its kind is unknown";
+}
+
+std::string refusalOf(const EditHistory& theirs, const EditHistory& own) {
+  constexpr std::uint32_t kLargestLead = 1'000'000;        // nine hours of a cut in every frame
+  constexpr std::uint32_t kLargestFirst = 2'000'000'000u;  // leaves as many for what follows
+  const bool same_body = theirs.body == own.body;
+  const std::uint32_t before = same_body ? own.revision : 0, most = same_body ? kLargestLead : kLargestFirst;
+  if (theirs.revision <= before || theirs.revision - before <= most) return "";
+  return fmt::format("their revision {} is more than {} after {}; start the node that sends it again",
+                     theirs.revision, most, before);
 }
 
 void addEdit(const Cut& edit, EditHistory* history) {

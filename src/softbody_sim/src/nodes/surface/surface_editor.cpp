@@ -117,8 +117,11 @@ void SurfaceEditor::rollBack(std::uint32_t volume_revision) {
 /// A simulator that has just started takes over the edits of the surface. Otherwise the simulator is right.
 /// An edit that it has not made yet is on its way.
 void SurfaceEditor::onVolumeEdits(const EditedBody& theirs) {
+  static const EditHistory kNone;
+  const EditHistory& own = body_ ? body_->edits() : kNone;
+  const std::string refusal = refusalOf(theirs.edits, own);
+  if (!refusal.empty()) throw std::invalid_argument(refusal);
   if (!body_) return adopt(theirs);
-  const EditHistory& own = body_->edits();
   if (theirs.edits.body == 0) return;
   const bool same_body = theirs.edits.body == own.body;
   if (same_body && theirs.edits.revision < own.revision) return;
