@@ -73,8 +73,7 @@ SurfaceRecord readSurface(const std::string& path, const std::string& topology_t
       MeshState state = usableState(*message, record.topologies);
       const Nanoseconds stamp = toNanoseconds(message->header.stamp);
       const StampVerdict verdict = timeline.judge(stamp, toNanoseconds(instance.getTime()));
-      if (verdict.kind == StampVerdict::kUnstamped || verdict.kind == StampVerdict::kOutlier)
-        throw std::invalid_argument(whyRefused(verdict));
+      if (!verdict.acceptedOrSame()) throw std::invalid_argument(whyRefused(verdict));
       record.states[stamp] = std::move(state);
     } catch (const std::invalid_argument& error) {
       if (left_out++ == 0)
