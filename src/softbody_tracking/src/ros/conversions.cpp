@@ -51,6 +51,15 @@ cv_bridge::CvImageConstPtr share(const sensor_msgs::Image& image, const std::str
   }
 }
 
+/// The depth of an image that has been checked. cv_bridge 1.16 swaps the bytes of a big-endian image, but
+/// returns them as bytes.
+cv::Mat sharedDepth(const sensor_msgs::Image& message) {
+  const cv::Mat image = share(message, "", "depth")->image;
+  const int type = message.encoding == enc::TYPE_32FC1 ? CV_32FC1 : CV_16UC1;
+  if (image.type() == type) return image;
+  return cv::Mat(image.rows, image.cols, type, image.data, image.step).clone();
+}
+
 void requireSize(const cv::Mat& image, const Pinhole& camera, const char* name) {
   if (image.cols == camera.width && image.rows == camera.height) return;
   throw std::invalid_argument(fmt::format("the {} image has {}x{} pixels, but its camera_info says {}x{}",
@@ -88,7 +97,7 @@ cv::Mat depthFromMessage(const sensor_msgs::Image& image) {
     throw std::invalid_argument(
         fmt::format("the depth image's encoding is '{}'; expected 16UC1 [mm] or 32FC1 [m]", image.encoding));
   }
-  return share(image, "", "depth")->image;
+  return sharedDepth(image);
 }
 
 Distortion distortionFromMessage(const sensor_msgs::CameraInfo& info) {
@@ -125,7 +134,7 @@ RgbdFrame frameFromRectified(const sensor_msgs::Image& color, const sensor_msgs:
     throw std::invalid_argument(
         fmt::format("the rectified depth image's encoding is '{}'; expected 32FC1 [m]", depth.encoding));
   }
-  const cv::Mat bgr = share(color, enc::BGR8, "colour")->image, metres = share(depth, "", "depth")->image;
+  const cv::Mat bgr = share(color, enc::BGR8, "colour")->image, metres = sharedDepth(depth);
   requireSize(bgr, camera, "colour");
   requireSize(metres, camera, "depth");
   return {toNanoseconds(color.header.stamp), camera, bgr, usableDepth(metres)};

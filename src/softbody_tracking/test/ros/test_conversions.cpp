@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 #include <stdexcept>
@@ -59,12 +60,22 @@ TEST(TrackingConversions, DepthKeepsItsNumbers) {
   EXPECT_EQ(depthFromMessage(imageOf("mono16", 2)).type(), CV_16UC1);
 }
 
-TEST(TrackingConversions, BigEndianDepthIsRead) {
-  sensor_msgs::Image image = imageOf("16UC1", 2);
-  image.is_bigendian = 1;
-  image.data[0] = 0x03;
-  image.data[1] = 0x20;
-  EXPECT_EQ(depthFromMessage(image).at<std::uint16_t>(0, 0), 0x0320);
+TEST(TrackingConversions, BigEndianDepthHasTheSameNumbers) {
+  for (const auto& [encoding, bytes] :
+       {std::pair("16UC1", 2), std::pair("mono16", 2), std::pair("32FC1", 4)}) {
+    const sensor_msgs::Image little = imageOf(encoding, bytes, 6, 4, 4);
+    sensor_msgs::Image big = little;
+    big.is_bigendian = 1;
+    for (std::size_t v = 0; v < 4; ++v) {
+      for (auto number = big.data.begin() + v * big.step;
+           number < big.data.begin() + v * big.step + 6 * bytes; number += bytes)
+        std::reverse(number, number + bytes);
+    }
+    const cv::Mat expected = depthFromMessage(little), depth = depthFromMessage(big);
+    ASSERT_EQ(depth.type(), expected.type()) << encoding;
+    for (int v = 0; v < 4; ++v)
+      EXPECT_EQ(std::memcmp(depth.ptr(v), expected.ptr(v), 6 * bytes), 0) << encoding << " row " << v;
+  }
 }
 
 TEST(TrackingConversions, MalformedImagesAreRefused) {
