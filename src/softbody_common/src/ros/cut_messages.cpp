@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/make_shared.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -122,6 +123,14 @@ softbody_msgs::CutHistory toMessage(const EditHistory& edits, const TetTopology&
   }
   message.strokes_in_force = static_cast<std::uint32_t>(edits.in_force);
   message.stroke_is_open = static_cast<std::uint8_t>(edits.is_open);
+  return message;
+}
+
+softbody_msgs::CutHistoryPtr historyMessage(const EditHistory& edits, const TetTopology& uncut,
+                                            const std::string& body_frame, const ros::Time& stamp) {
+  const auto message = boost::make_shared<softbody_msgs::CutHistory>(toMessage(edits, uncut));
+  message->header.frame_id = body_frame;
+  message->header.stamp = stamp;
   return message;
 }
 

@@ -3,6 +3,8 @@
 #include <softbody_msgs/Cut.h>
 #include <softbody_msgs/CutHistory.h>
 
+#include <string>
+
 #include "softbody_common/edit_history.h"
 
 /// Cuts as messages. The caller sets and reads the headers.
@@ -21,6 +23,10 @@ struct EditedBody {
 };
 
 softbody_msgs::CutHistory toMessage(const EditHistory& edits, const TetTopology& uncut);
+
+/// The same, to publish. @param body_frame of the patches; @param stamp of the last edit.
+softbody_msgs::CutHistoryPtr historyMessage(const EditHistory& edits, const TetTopology& uncut,
+                                            const std::string& body_frame, const ros::Time& stamp);
 
 /// @throw std::invalid_argument as for its cuts and its topology, or if the strokes do not fit the cuts.
 EditedBody fromMessage(const softbody_msgs::CutHistory& message);

@@ -25,11 +25,7 @@ VolumePublisher::VolumePublisher(ros::NodeHandle node, std::string body_frame)
 }
 
 void VolumePublisher::publishEdited(const Simulator& simulator, const ros::Time& stamp) {
-  const auto edits =
-      boost::make_shared<softbody_msgs::CutHistory>(toMessage(simulator.edits(), simulator.uncut()));
-  edits->header.frame_id = body_frame_;
-  edits->header.stamp = stamp;
-  edits_ = edits;
+  edits_ = historyMessage(simulator.edits(), simulator.uncut(), body_frame_, stamp);
   edits_publisher_.publish(edits_);
   publishTopology(simulator.topology(), stamp);
 }

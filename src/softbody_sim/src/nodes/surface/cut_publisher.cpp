@@ -27,13 +27,9 @@ void CutPublisher::publish(const Cut& cut, const ros::Time& stamp) {
 }
 
 void CutPublisher::publishEdits(const CuttableSurface& body, const ros::Time& stamp, bool pending) {
-  const auto message =
-      boost::make_shared<softbody_msgs::CutHistory>(toMessage(body.edits(), body.uncutVolume()));
-  message->header.stamp = stamp;
-  message->header.frame_id = body_frame_;
-  edits_ = message;
+  edits_ = historyMessage(body.edits(), body.uncutVolume(), body_frame_, stamp);
   edits_publisher_.publish(edits_);
-  pending_ = pending ? std::optional(message->revision) : std::nullopt;
+  pending_ = pending ? std::optional(edits_->revision) : std::nullopt;
   lag_.reset();
 }
 
