@@ -32,6 +32,7 @@ struct Simulator::Implementation {
   Implementation(const TetTopology& topology, const Material& material_in, const SimulatorConfig& config_in);
 
   void setTopology(const TetTopology& topology);
+  void makeModel(const TetTopology& topology);
   std::size_t undoBytes() const { return static_cast<std::size_t>(1e6 * config.undo_memory_mb); }
   /// Takes over an edited volume and the body in its shape.
   void setEdited(EditedVolume edited, BodyState next);
@@ -75,8 +76,21 @@ void Simulator::Implementation::setTopology(const TetTopology& topology) {
   if (model && sameTets(model->topology, topology))
     model->topology.revision = topology.revision;
   else
-    model = std::make_unique<BodyModel>(topology, material, config, edge_length);
+    makeModel(topology);
   body.mesh.revision = topology.revision;
+}
+
+/// The model of a body with many cuts takes most of the memory, so the old one goes first. If the new one
+/// cannot be made, the old one comes back.
+void Simulator::Implementation::makeModel(const TetTopology& topology) {
+  const TetTopology before = model ? std::move(model->topology) : topology;
+  model.reset();
+  try {
+    model = std::make_unique<BodyModel>(topology, material, config, edge_length);
+  } catch (...) {
+    model = std::make_unique<BodyModel>(before, material, config, edge_length);
+    throw;
+  }
 }
 
 const TargetSet& Simulator::Implementation::toCurrentRevision(const TargetSet& targets,
