@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "camera/frame_assembler.h"
+#include "softbody_common/ros/newest_only.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
@@ -22,7 +23,7 @@ struct RectifiedImages {
 /// the messages must outlive it. @throw std::invalid_argument as frameFromRectified.
 RgbdFrame frameFromImages(const RectifiedImages& images);
 
-/// Receives frames from camera_ingest.
+/// Receives frames from camera_ingest. While the node is busy with a frame, only the newest one waits.
 class RectifiedImageSubscriber {
  public:
   using Callback = std::function<void(const RectifiedImages& images)>;
@@ -31,14 +32,17 @@ class RectifiedImageSubscriber {
   RectifiedImageSubscriber(const RectifiedImageSubscriber&) = delete;
   RectifiedImageSubscriber& operator=(const RectifiedImageSubscriber&) = delete;
 
+  /// Frames since the start that did not wait.
+  int dropped() const { return frames_.dropped(); }
+
  private:
   using Assembler = FrameAssembler<sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
-  void pass(const std::optional<Assembler::Frame>& frame) const {
-    if (frame) callback_({frame->color, frame->depth, frame->info});
+  void pass(const std::optional<Assembler::Frame>& frame) {
+    if (frame) frames_.add({frame->color, frame->depth, frame->info});
   }
 
-  Callback callback_;
+  NewestOnly<RectifiedImages> frames_;
   Assembler assembler_;
   // Last, so that callbacks end before the members that they use.
   ros::Subscriber color_, depth_, info_;

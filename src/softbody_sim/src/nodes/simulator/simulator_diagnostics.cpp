@@ -58,6 +58,7 @@ void SimulatorDiagnostics::report(DiagnosticStatusWrapper* status) {
   status->add("steps", steps_);
   status->add("steps not converged", steps_not_converged_);
   status->add("messages refused", refused_);
+  status->add("messages dropped to keep up", dropped_);
   status->add("iterations of the last step", last.iterations);
   status->add("last step converged", last.converged);
   status->add("residual of the last step [N]", fmt::format("{:.3g}", last.residual_n));

@@ -17,6 +17,8 @@ class SimulatorDiagnostics {
 
   void countStep();
   void countRefusedMessage() { ++refused_; }
+  /// @param dropped messages since the start that were not used because newer ones had come.
+  void setDropped(int dropped) { dropped_ = dropped; }
 
  private:
   void summarize(const SurroundingsTracker::Faults& faults,
@@ -26,6 +28,7 @@ class SimulatorDiagnostics {
   const Simulator* simulator_;
   const SurroundingsTracker* surroundings_;
   int steps_ = 0, steps_not_converged_ = 0, refused_ = 0;  ///< since the last report
+  int dropped_ = 0;
   diagnostic_updater::Updater updater_;
   ros::WallTimer timer_;
 };

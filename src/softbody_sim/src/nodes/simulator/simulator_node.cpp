@@ -4,6 +4,7 @@
 #include <malloc.h>
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
@@ -15,6 +16,7 @@ namespace softbody {
 namespace {
 
 constexpr char kStage[] = "Soft-body Simulation";
+constexpr int kTargetsQueue = 10;  // target sets, until the newest of them is taken
 
 Simulator makeSimulator(const ObjectModel& model, const SimulatorConfig& config, StageTimer* timer) {
   const auto scope = timer->stage(kStage, true);
@@ -37,11 +39,13 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       surroundings_(node, options.obstacles, options.pins),
       stamps_(node.resolveName(topics::kTargets)),
       publisher_(node, options.body_frame),
-      diagnostics_(node, private_node, &simulator_, &surroundings_) {
+      diagnostics_(node, private_node, &simulator_, &surroundings_),
+      targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }) {
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
   publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  targets_subscriber_ = node.subscribe(topics::kTargets, 1, &SimulatorNode::onTargets, this, hints);
+  targets_subscriber_ = node.subscribe<softbody_msgs::Targets>(
+      topics::kTargets, kTargetsQueue, [this](const auto& message) { targets_.add(message); }, {}, hints);
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SimulatorNode::onCut, this, hints);
   edits_subscriber_ = node.subscribe(topics::kSurfaceCuts, 1, &SimulatorNode::onSurfaceEdits, this, hints);
   pin_subscriber_ = node.subscribe(topics::kPin, 10, &SimulatorNode::onPin, this);
@@ -60,6 +64,7 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
                              "targets of " << message->header.stamp << " are not used: " << error.what());
     return;
   }
+  diagnostics_.setDropped(targets_.dropped());
   publishState(message->header);
 }
 
@@ -169,9 +174,11 @@ void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& mess
   if (is_new) keepOwnBody();
 }
 
-/// @return false if they are of another object.
+/// @return false if they are of another object. @throw std::invalid_argument if they cannot be made.
 bool SimulatorNode::adopt(const EditedBody& theirs) {
   if (!sameRestBody(theirs.uncut, simulator_.uncut())) return false;
+  const std::string refusal = refusalOf(theirs.edits, simulator_.edits());
+  if (!refusal.empty()) throw std::invalid_argument(refusal);
   const bool skips = theirs.edits.revision > simulator_.edits().revision + 1;
   simulator_.adopt(theirs.edits);
   if (skips) {

@@ -9,6 +9,7 @@
 #include "nodes/simulator/surroundings_tracker.h"
 #include "nodes/simulator/volume_publisher.h"
 #include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/ros/newest_only.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_sim/dynamics/simulator.h"
@@ -62,6 +63,7 @@ class SimulatorNode {
   VolumePublisher publisher_;
   SimulatorDiagnostics diagnostics_;
   // Last, so that callbacks end before the members that they use.
+  NewestOnly<softbody_msgs::TargetsConstPtr> targets_;
   ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_, pin_subscriber_;
   ros::Timer free_run_timer_;
 };

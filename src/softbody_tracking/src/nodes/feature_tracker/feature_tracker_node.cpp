@@ -34,7 +34,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
       set_pose_(private_handle.advertiseService("set_pose", &FeatureTrackerNode::onSetPose, this)),
       mask_synchronizer_(makeMaskSynchronizer(
-          handle, parameters, [this](const auto& images, const auto& mask) { track(images, mask); })),
+          handle, parameters, [this](const auto& frame, const auto& mask) { track(frame, mask); })),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
       diagnostics_(handle, private_handle, "tracking", [this](auto& status) { diagnose(status); }) {
   warnUnknown(parameters);
@@ -56,23 +56,28 @@ bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
   return true;
 }
 
-void FeatureTrackerNode::onFrame(const RectifiedImages& images) {
+void FeatureTrackerNode::onFrame(const RectifiedImages& images) try {
+  RgbdFrame frame =
+      frameFromImages(images);  // before its stamp is judged: what is refused must not move time
   const StampVerdict verdict = stamps_.judge(images.color->header.stamp);
   if (!verdict.accepted()) return;
   if (verdict.kind == StampVerdict::kJumpedBack) forgetPass();
   watchdog_.frameArrived();
-  if (mask_synchronizer_) return mask_synchronizer_->addFrame(images);
-  track(images, cv::Mat1b());
+  frame.pass = stamps_.pass();
+  const ReceivedFrame received{images, frame};
+  if (mask_synchronizer_) return mask_synchronizer_->addFrame(received);
+  track(received, cv::Mat1b());
+} catch (const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(5.0, "frame " << images.color->header.stamp << " is not used: " << error.what());
 }
 
 /// @param mask empty: all pixels count.
-void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& mask) try {
-  const std_msgs::Header& header = images.color->header;
+void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& mask) try {
+  const std_msgs::Header& header = received.images.color->header;
   camera_frame_ = header.frame_id;
   const std::optional<Eigen::Isometry3d> T_fixed_camera = cameraPose(header);
   if (!T_fixed_camera) return;
-  RgbdFrame frame = frameFromImages(images);
-  frame.pass = stamps_.pass();
+  RgbdFrame frame = received.frame;
   frame.T_fixed_camera = *T_fixed_camera;
   if (!mask.empty()) frame.depth = maskedDepth(frame.depth, mask);
   frame = blade_.withoutBlade(frame);
@@ -82,8 +87,8 @@ void FeatureTrackerNode::track(const RectifiedImages& images, const cv::Mat1b& m
   publish(header, frame, result);
   publisher_.publishTiming(header, timer.take());
 } catch (const std::exception& error) {
-  ROS_ERROR_STREAM_THROTTLE(5.0,
-                            "frame " << images.color->header.stamp << " cannot be tracked: " << error.what());
+  ROS_ERROR_STREAM_THROTTLE(
+      5.0, "frame " << received.images.color->header.stamp << " cannot be tracked: " << error.what());
 }
 
 /// A bag has started again: states, blades and frames from the end of it are invalid.
@@ -127,6 +132,7 @@ void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& s
   status.add("features bound", last_status_.features_total);
   status.add("inlier ratio", last_status_.inlier_ratio);
   status.add("residual rms [m]", last_status_.residual_rms);
+  status.add("frames dropped to keep up", images_.dropped());
 }
 
 }  // namespace softbody

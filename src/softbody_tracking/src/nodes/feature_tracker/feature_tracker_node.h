@@ -34,7 +34,7 @@ class FeatureTrackerNode {
   void onFrame(const RectifiedImages& images);
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
 
-  void track(const RectifiedImages& images, const cv::Mat1b& mask);
+  void track(const ReceivedFrame& received, const cv::Mat1b& mask);
   void forgetPass();
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame, const TrackingResult& result);

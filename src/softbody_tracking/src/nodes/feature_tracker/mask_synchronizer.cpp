@@ -34,8 +34,8 @@ MaskSynchronizer::MaskSynchronizer(ros::NodeHandle handle, double timeout_s, Cal
                                   [this](const ros::WallTimerEvent&) { passReadyFrames(); });
 }
 
-void MaskSynchronizer::addFrame(const RectifiedImages& images) {
-  queue_.addFrame(toNanoseconds(images.color->header.stamp), images, ros::WallTime::now().toSec());
+void MaskSynchronizer::addFrame(const ReceivedFrame& frame) {
+  queue_.addFrame(frame.frame.stamp, frame, ros::WallTime::now().toSec());
   passReadyFrames();
 }
 
@@ -49,7 +49,7 @@ void MaskSynchronizer::onMask(const sensor_msgs::ImageConstPtr& message) try {
 void MaskSynchronizer::passReadyFrames() {
   while (const auto ready = queue_.ready(ros::WallTime::now().toSec())) {
     if (!ready->mask) {
-      ROS_WARN_STREAM_THROTTLE(5.0, "frame " << ready->frame.color->header.stamp
+      ROS_WARN_STREAM_THROTTLE(5.0, "frame " << ready->frame.images.color->header.stamp
                                              << " is tracked without a mask: no mask on "
                                              << subscriber_.getTopic() << " within " << timeout_s_
                                              << " s, or only the mask of a later frame");

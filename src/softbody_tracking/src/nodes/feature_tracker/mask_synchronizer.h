@@ -16,15 +16,21 @@ namespace softbody {
 /// Depth where the mask is not zero, 0 elsewhere. @throw std::invalid_argument if the sizes differ.
 cv::Mat1f maskedDepth(const cv::Mat1f& depth, const cv::Mat1b& mask);
 
+/// A frame, and the messages whose memory it shares.
+struct ReceivedFrame {
+  RectifiedImages images;
+  RgbdFrame frame;
+};
+
 /// Holds each frame until its segmentation mask arrives on the topic `mask`. Warns about frames without a
 /// mask.
 class MaskSynchronizer {
  public:
   /// @param mask empty if none arrived in time.
-  using Callback = std::function<void(const RectifiedImages& images, const cv::Mat1b& mask)>;
+  using Callback = std::function<void(const ReceivedFrame& frame, const cv::Mat1b& mask)>;
 
   MaskSynchronizer(ros::NodeHandle handle, double timeout_s, Callback callback);
-  void addFrame(const RectifiedImages& images);
+  void addFrame(const ReceivedFrame& frame);
   /// Forgets the frames that wait, for when time has jumped back.
   void forgetFrames() { queue_.forgetFrames(); }
 
@@ -34,7 +40,7 @@ class MaskSynchronizer {
 
   Callback callback_;
   double timeout_s_;
-  MaskQueue<RectifiedImages, cv::Mat1b> queue_;
+  MaskQueue<ReceivedFrame, cv::Mat1b> queue_;
   ros::Subscriber subscriber_;
   ros::WallTimer timer_;
 };

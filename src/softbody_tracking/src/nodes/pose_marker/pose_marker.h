@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-#include "nodes/pose_marker/queued_calls.h"
+#include "softbody_common/ros/queued_calls.h"
 
 namespace softbody {
 

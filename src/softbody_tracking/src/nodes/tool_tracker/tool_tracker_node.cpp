@@ -77,6 +77,7 @@ void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   if (watchdog_.isExpired()) return status.summary(DiagnosticStatus::WARN, FrameWatchdog::message());
   if (!frame_error_.empty())
     return status.summary(DiagnosticStatus::ERROR, "frames come, but cannot be used: " + frame_error_);
+  status.add("frames dropped to keep up", images_.dropped());
   if (!dropouts_.missedFrames().empty()) status.add("not seen in", dropouts_.missedFrames());
   if (!last_) return status.summary(DiagnosticStatus::WARN, "not seen: " + tracker_.reason());
   if (last_->bridged) {
