@@ -37,7 +37,7 @@ demo: build  ## track a virtual sponge: in rviz with a display, otherwise with p
 bench: build  ## run the benchmarks; writes bench/summary.json
 	scripts/bench
 
-fuzz: build  ## give mutated files to every reader and mutated cuts to the cutter, FUZZ_SECONDS=60 each
+fuzz: build  ## give mutated files to every reader and mutated messages to every node, FUZZ_SECONDS=60 each
 	scripts/install_dependencies scripts/apt-packages-fuzz.txt
 	scripts/fuzz
 

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace softbody::fuzz {
+
+/// When a run ends: at the first of both.
+struct FuzzLimits {
+  std::size_t messages = 0;  ///< mutated ones
+  double seconds = 0.0;
+};
+
+struct FuzzReport {
+  std::size_t messages = 0;  ///< mutated ones that reached the node
+  double seconds = 0.0;
+  double slowest_s = 0.0;  ///< of one message
+  double grown_mb = 0.0;   ///< memory of the process, since a tenth of the run
+  std::string fault;       ///< empty: none
+};
+
+/// Gives mutated messages to a node of targetKinds(), and after some of them looks whether it still does its
+/// work. A crash or a hang ends the process, with the seed and the number of the message.
+/// @throw std::out_of_range if there is no such node.
+FuzzReport fuzzNode(const std::string& node, std::uint64_t seed, const FuzzLimits& limits);
+
+}  // namespace softbody::fuzz
