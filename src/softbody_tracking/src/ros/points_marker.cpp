@@ -3,7 +3,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kPointSize_m = 0.002;
+constexpr double kPointSize_m = 0.0008;
 
 std_msgs::ColorRGBA colorMessage(std::uint32_t rgb) {
   std_msgs::ColorRGBA color;

@@ -1,0 +1,68 @@
+#include "surface/surface_model.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+
+bool showsValues(SurfaceColoring coloring) { return coloring >= SurfaceColoring::kStandardDeviation; }
+
+SurfaceModel::SurfaceModel(MeshTopology topology, double crease_angle)
+    : topology_(std::move(topology)),
+      layout_(layoutOfSurface(topology_, crease_angle)),
+      strain_(topology_),
+      pieces_(softbody::vertexPieces(topology_.triangles, topology_.triangle_pieces,
+                                     topology_.rest_vertices.rows())) {}
+
+void SurfaceModel::setState(MeshState state) {
+  if (state.revision != topology_.revision || state.vertices.rows() != topology_.rest_vertices.rows()) {
+    throw std::invalid_argument(fmt::format(
+        "the state has {} vertices of revision {}, but the topology has {} of revision {}",
+        state.vertices.rows(), state.revision, topology_.rest_vertices.rows(), topology_.revision));
+  }
+  state_ = std::move(state);
+}
+
+std::vector<PlacedVertex> SurfaceModel::placed() const {
+  return place(layout_, state_->vertices, topology_.triangles);
+}
+
+std::vector<float> SurfaceModel::values(SurfaceColoring coloring) const {
+  switch (coloring) {
+    case SurfaceColoring::kStandardDeviation:
+      return state_->standard_deviation;
+    case SurfaceColoring::kConfidence:
+      return state_->confidence;
+    case SurfaceColoring::kDistanceFromRest:
+      return distancesFromRest(topology_, state_->vertices);
+    case SurfaceColoring::kStrain:
+      return strain_.at(state_->vertices);
+    default:
+      return {};
+  }
+}
+
+std::vector<Color> SurfaceModel::painted(const SurfacePaint& paint, const std::vector<float>& values) const {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  std::vector<Color> colors(layout_.vertices.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const int triangle = layout_.triangles[i];
+    if (showsValues(paint.coloring)) {
+      colors[i] = colorOf(paint.map, (values.empty() ? kNone : values[layout_.vertices[i]]) / paint.maximum);
+    } else if (topology_.cut[triangle]) {
+      colors[i] = paint.cut;
+    } else if (paint.coloring == SurfaceColoring::kPiece) {
+      colors[i] = pieceColor(topology_.triangle_pieces[triangle]);
+    } else {
+      colors[i] = paint.coloring == SurfaceColoring::kTexture ? Color{255, 255, 255, 255} : paint.skin;
+    }
+  }
+  return colors;
+}
+
+}  // namespace softbody

@@ -1,0 +1,237 @@
+#include "ros/displays/soft_body_display.h"
+
+#include <OgreSceneNode.h>
+#include <fmt/format.h>
+#include <rviz/display_context.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <cmath>
+
+#include "ros/displays/color_conversion.h"
+#include "softbody_common/ros/conversions.h"
+#include "texture/object_texture.h"
+
+namespace softbody {
+namespace {
+
+const ValueKind& kindOf(SurfaceColoring coloring) {
+  switch (coloring) {
+    case SurfaceColoring::kStandardDeviation:
+      return kDeviationValues;
+    case SurfaceColoring::kConfidence:
+      return kConfidenceValues;
+    case SurfaceColoring::kDistanceFromRest:
+      return kDistanceValues;
+    default:
+      return kStrainValues;
+  }
+}
+
+}  // namespace
+
+SoftBodyDisplay::SoftBodyDisplay() {
+  addTopics("softbody_msgs/MeshTopology", "/softbody/surface/topology", "/softbody/surface/state");
+  addColoringProperties();
+  addLookProperties();
+}
+
+SoftBodyDisplay::~SoftBodyDisplay() {
+  unsubscribe();
+  clearScene();
+}
+
+void SoftBodyDisplay::addColoringProperties() {
+  coloring_ = new rviz::EnumProperty("Color By", "One color", "What the colours of the surface show.", this,
+                                     SLOT(updateColors()), this);
+  const auto add = [&](const char* name, SurfaceColoring option) {
+    coloring_->addOption(name, static_cast<int>(option));
+  };
+  add("Texture", SurfaceColoring::kTexture);
+  add("One color", SurfaceColoring::kOneColor);
+  add("Piece", SurfaceColoring::kPiece);
+  add("Standard deviation", SurfaceColoring::kStandardDeviation);
+  add("Confidence", SurfaceColoring::kConfidence);
+  add("Distance from rest", SurfaceColoring::kDistanceFromRest);
+  add("Strain", SurfaceColoring::kStrain);
+  color_ = new rviz::ColorProperty("Color", QColor(225, 150, 90), "Colour of the skin.", this,
+                                   SLOT(updateColors()), this);
+  cut_color_ = new rviz::ColorProperty("Cut Faces", QColor(190, 45, 45),
+                                       "Colour of faces that fill cuts. They show values if the skin does.",
+                                       this, SLOT(updateColors()), this);
+  image_ = new rviz::StringProperty(
+      "Texture Image", "",
+      "File with the image of the texture. Empty: the image that the object's OBJ names; the node 'surface' "
+      "has the object YAML as a parameter. Squares if there is none.",
+      this, SLOT(updateColors()), this);
+  scale_ = std::make_unique<ValueScale>(this, SLOT(updateColors()), this, true);
+}
+
+void SoftBodyDisplay::addLookProperties() {
+  style_ = new rviz::EnumProperty("Style", "Faces", "Faces, edges of the triangles, or both.", this,
+                                  SLOT(updateLook()), this);
+  style_->addOption("Faces", static_cast<int>(Style::kFaces));
+  style_->addOption("Faces and edges", static_cast<int>(Style::kFacesAndEdges));
+  style_->addOption("Edges", static_cast<int>(Style::kEdges));
+  edge_color_ = new rviz::ColorProperty("Edge Color", QColor(40, 40, 44), "Colour of edges.", this,
+                                        SLOT(updateLook()), this);
+  alpha_ = new rviz::FloatProperty("Alpha", 1.0f, "0: invisible, 1: opaque.", this, SLOT(updateLook()), this);
+  alpha_->setMin(0.0f);
+  alpha_->setMax(1.0f);
+  crease_angle_ = new rviz::FloatProperty(
+      "Crease Angle", 50.0f, "Edges whose faces meet at more than this angle at rest stay sharp [degrees].",
+      this, SLOT(updateLayout()), this);
+  crease_angle_->setMin(0.0f);
+  crease_angle_->setMax(180.0f);
+}
+
+void SoftBodyDisplay::onInitialize() {
+  scale_->initialize();
+  skin_material_ = std::make_unique<BodyMaterial>();
+  cut_material_ = std::make_unique<BodyMaterial>();
+  mesh_ = std::make_unique<DynamicMesh>(scene_manager_, scene_node_);
+  VertexSelection::Mesh picked;
+  picked.drawn = mesh_.get();
+  picked.colors = [this] { return colors_; };
+  picked.vertex = [this](int drawn) { return model_->layout().vertices[drawn]; };
+  picked.rows = [this](int vertex) { return rowsOf(vertex); };
+  picked.place = [this](int vertex) {
+    const Eigen::Vector3f p = model_->state()->vertices.row(vertex).cast<float>();
+    return scene_node_->convertLocalToWorldPosition({p.x(), p.y(), p.z()});
+  };
+  selection_.reset(new VertexSelection(context_, picked));
+  updateLook();
+}
+
+SurfaceColoring SoftBodyDisplay::coloring() const {
+  return static_cast<SurfaceColoring>(coloring_->getOptionInt());
+}
+
+void SoftBodyDisplay::setTopology(const softbody_msgs::MeshTopology& message) {
+  model_.emplace(fromMessage(message), crease_angle_->getFloat() * M_PI / 180.0);
+  fillMesh();
+  updateLook();
+}
+
+void SoftBodyDisplay::fillMesh() {
+  mesh_->fill(model_->layout(), {skin_material_->get(), cut_material_->get()});
+  if (mesh_->entity() != nullptr) selection_->addTrackedObject(mesh_->entity());
+}
+
+void SoftBodyDisplay::setState(const softbody_msgs::MeshState& message) {
+  const bool first = !model_->state();
+  model_->setState(fromMessage(message));
+  if (first || showsValues(coloring())) paint();
+  mesh_->place(model_->placed());
+}
+
+void SoftBodyDisplay::paint() {
+  if (!model_ || !model_->state()) return;
+  SurfacePaint paint{coloring(), toColor(color_->getColor()), toColor(cut_color_->getColor()), scale_->map(),
+                     1.0};
+  const std::vector<float> values = model_->values(paint.coloring);
+  if (showsValues(paint.coloring)) {
+    paint.maximum = scale_->show(kindOf(paint.coloring), values);
+  } else {
+    scale_->hide();
+  }
+  colors_ = model_->painted(paint, values);
+  mesh_->paint(colors_);
+}
+
+void SoftBodyDisplay::updateColors() {
+  if (!skin_material_) return;  // still loading the configuration
+  updateLook();
+  paint();
+  queueRender();
+}
+
+void SoftBodyDisplay::updateLook() {
+  if (!skin_material_) return;
+  loadTexture();
+  Look look;
+  look.style = static_cast<Style>(style_->getOptionInt());
+  look.edge_color = edge_color_->getOgreColor();
+  look.alpha = alpha_->getFloat();
+  cut_material_->set(look);
+  look.texture = texture_.get();
+  skin_material_->set(look);
+  queueRender();
+}
+
+void SoftBodyDisplay::updateLayout() {
+  if (!model_) return;
+  const std::optional<MeshState> state = model_->state();
+  model_.emplace(model_->topology(), crease_angle_->getFloat() * M_PI / 180.0);
+  fillMesh();
+  if (!state) return;
+  model_->setState(*state);
+  paint();
+  mesh_->place(model_->placed());
+  queueRender();
+}
+
+void SoftBodyDisplay::loadTexture() {
+  texture_.clear();
+  deleteStatus("Texture");
+  if (coloring() != SurfaceColoring::kTexture || !model_) return;
+  if (model_->layout().texture.empty()) {
+    setStatus(rviz::StatusProperty::Warn, "Texture", "the mesh has no texture coordinates");
+    return;
+  }
+  try {
+    const std::string image = image_->getStdString().empty() ? objectImage() : image_->getStdString();
+    if (!image.empty()) texture_.load(image);
+    accept("Texture", image.empty() ? "squares: the object names no image" : image);
+  } catch (const std::exception& error) {
+    setStatusStd(rviz::StatusProperty::Warn, "Texture", error.what());
+  }
+  if (!texture_.get()) texture_.makeChequers();
+}
+
+std::string SoftBodyDisplay::objectImage() const {
+  // The parameters of the node that publishes the topology, "/softbody/surface" by default.
+  const std::string node =
+      ros::names::parentNamespace(update_nh_.resolveName(topology_topic_->getTopicStd()));
+  std::string yaml;
+  bool anywhere = false;
+  if (!update_nh_.getParam(node + "/object", yaml)) return {};
+  update_nh_.getParam(node + "/allow_outside", anywhere);
+  return textureImageOf(yaml, anywhere ? FileScope::kAnywhere : FileScope::kOwnFolder);
+}
+
+std::string SoftBodyDisplay::topologyText() const {
+  const MeshTopology& topology = model_->topology();
+  return fmt::format("revision {}: {} vertices, {} triangles", topology.revision,
+                     topology.rest_vertices.rows(), topology.triangles.rows());
+}
+
+std::string SoftBodyDisplay::stateText() const {
+  return fmt::format("revision {}, {}", model_->state()->revision,
+                     model_->state()->standard_deviation.empty() ? "standard deviation not estimated"
+                                                                 : "with standard deviations");
+}
+
+VertexRows SoftBodyDisplay::rowsOf(int vertex) const {
+  const MeshState& state = *model_->state();
+  const auto at = [&](SurfaceColoring values) { return model_->values(values)[vertex]; };
+  const Eigen::Vector3d place = state.vertices.row(vertex);
+  const std::string deviation = state.standard_deviation.empty()
+                                    ? "not estimated"
+                                    : fmt::format("{:.2f} mm", 1e3 * state.standard_deviation[vertex]);
+  return {{"Place [m]", fmt::format("{:.4f}; {:.4f}; {:.4f}", place.x(), place.y(), place.z())},
+          {"Standard deviation", deviation},
+          {"Confidence", fmt::format("{:.2f}", state.confidence[vertex])},
+          {"Piece", fmt::format("{}", model_->vertexPieces()[vertex])},
+          {"Distance from rest", fmt::format("{:.2f} mm", 1e3 * at(SurfaceColoring::kDistanceFromRest))},
+          {"Strain", fmt::format("{:.1f} %", 1e2 * at(SurfaceColoring::kStrain))}};
+}
+
+void SoftBodyDisplay::clearScene() {
+  if (mesh_) mesh_->clear();
+  model_.reset();
+  scale_->hide();
+}
+
+}  // namespace softbody
+
+PLUGINLIB_EXPORT_CLASS(softbody::SoftBodyDisplay, rviz::Display)

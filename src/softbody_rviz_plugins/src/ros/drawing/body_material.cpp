@@ -1,0 +1,144 @@
+#include "ros/drawing/body_material.h"
+
+#include <OgreHighLevelGpuProgram.h>
+#include <OgreHighLevelGpuProgramManager.h>
+#include <OgreMaterialManager.h>
+#include <OgrePass.h>
+#include <OgreResourceGroupManager.h>
+#include <OgreTechnique.h>
+#include <OgreTextureUnitState.h>
+
+#include <string>
+
+namespace softbody {
+namespace {
+
+const std::string& group() { return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME; }
+
+constexpr char kVertexShader[] = R"(#version 120
+uniform mat4 to_screen;
+uniform mat4 to_view;
+varying vec3 normal;
+varying vec3 place;
+void main() {
+  gl_Position = to_screen * gl_Vertex;
+  normal = mat3(to_view) * gl_Normal;
+  place = (to_view * gl_Vertex).xyz;
+  gl_FrontColor = gl_Color;
+  gl_BackColor = gl_Color;
+  gl_TexCoord[0] = gl_MultiTexCoord0;
+})";
+
+// A lamp a little above and beside the viewer, so that round shapes look round.
+constexpr char kFragmentShader[] = R"(#version 120
+uniform sampler2D image;
+uniform float textured;
+uniform float alpha;
+varying vec3 normal;
+varying vec3 place;
+void main() {
+  vec3 n = normalize(normal);
+  vec3 to_viewer = -normalize(place);
+  vec3 to_lamp = normalize(to_viewer + vec3(-0.35, 0.45, 0.0));
+  if (dot(n, to_viewer) < 0.0) n = -n;
+  float diffuse = max(dot(n, to_lamp), 0.0);
+  float gloss = pow(max(dot(n, normalize(to_lamp + to_viewer)), 0.0), 40.0);
+  vec3 color = gl_Color.rgb;
+  if (textured > 0.5) color *= texture2D(image, gl_TexCoord[0].st).rgb;
+  gl_FragColor = vec4(color * (0.32 + 0.68 * diffuse) + vec3(0.10 * gloss), alpha);
+})";
+
+constexpr char kEdgeShader[] = R"(#version 120
+uniform vec4 color;
+void main() { gl_FragColor = color; })";
+
+std::string program(const char* name, Ogre::GpuProgramType type, const char* source) {
+  auto& manager = Ogre::HighLevelGpuProgramManager::getSingleton();
+  if (!manager.getByName(name, group())) {
+    const auto made = manager.createProgram(name, group(), "glsl", type);
+    made->setSource(source);
+    made->load();
+  }
+  return name;
+}
+
+void setVertexProgram(Ogre::Pass* pass) {
+  pass->setVertexProgram(program("softbody vertices", Ogre::GPT_VERTEX_PROGRAM, kVertexShader));
+  const auto parameters = pass->getVertexProgramParameters();
+  parameters->setNamedAutoConstant("to_screen", Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
+  parameters->setNamedAutoConstant("to_view", Ogre::GpuProgramParameters::ACT_WORLDVIEW_MATRIX);
+}
+
+void setFlatColor(Ogre::Pass* pass, const Ogre::ColourValue& color) {
+  pass->setFragmentProgram(program("softbody edges", Ogre::GPT_FRAGMENT_PROGRAM, kEdgeShader));
+  pass->getFragmentProgramParameters()->setNamedConstant("color", color);
+}
+
+Ogre::Pass* addPass(Ogre::Technique* technique, const Look& look) {
+  Ogre::Pass* pass = technique->createPass();
+  pass->setLightingEnabled(false);
+  pass->setCullingMode(Ogre::CULL_NONE);
+  pass->setManualCullingMode(Ogre::MANUAL_CULL_NONE);
+  if (look.alpha < 1.0) pass->setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
+  return pass;
+}
+
+void addFaces(Ogre::Technique* technique, const Look& look) {
+  if (look.alpha < 1.0) {  // the nearest faces only: first their depth, then their colour
+    Ogre::Pass* depth = addPass(technique, look);
+    depth->setColourWriteEnabled(false);
+    setVertexProgram(depth);
+    setFlatColor(depth, look.edge_color);
+  }
+  Ogre::Pass* pass = addPass(technique, look);
+  setVertexProgram(pass);
+  pass->setFragmentProgram(program("softbody faces", Ogre::GPT_FRAGMENT_PROGRAM, kFragmentShader));
+  const auto parameters = pass->getFragmentProgramParameters();
+  parameters->setNamedConstant("textured", Ogre::Real(look.texture ? 1.0 : 0.0));
+  parameters->setNamedConstant("alpha", Ogre::Real(look.alpha));
+  parameters->setNamedConstant("image", 0);
+  if (look.texture) pass->createTextureUnitState()->setTexture(look.texture);
+}
+
+void addEdges(Ogre::Technique* technique, const Look& look) {
+  Ogre::Pass* pass = addPass(technique, look);
+  pass->setPolygonMode(Ogre::PM_WIREFRAME);
+  pass->setDepthBias(1.0f, 1.0f);
+  setVertexProgram(pass);
+  Ogre::ColourValue color = look.edge_color;
+  color.a = static_cast<float>(look.alpha);
+  setFlatColor(pass, color);
+}
+
+/// rviz draws with this scheme when it asks which vertex was picked: every triangle in the colour of its last
+/// vertex.
+void addPickTechnique(Ogre::Material* material) {
+  Ogre::Technique* technique = material->createTechnique();
+  technique->setSchemeName("Pick1");
+  Ogre::Pass* pass = technique->createPass();
+  pass->setLightingEnabled(false);
+  pass->setCullingMode(Ogre::CULL_NONE);
+  pass->setShadingMode(Ogre::SO_FLAT);
+}
+
+}  // namespace
+
+BodyMaterial::BodyMaterial() {
+  static int count = 0;
+  material_ =
+      Ogre::MaterialManager::getSingleton().create("softbody material " + std::to_string(count++), group());
+  set({});
+}
+
+BodyMaterial::~BodyMaterial() { Ogre::MaterialManager::getSingleton().remove(material_); }
+
+void BodyMaterial::set(const Look& look) {
+  material_->removeAllTechniques();
+  Ogre::Technique* technique = material_->createTechnique();
+  if (look.style != Style::kEdges) addFaces(technique, look);
+  if (look.style != Style::kFaces) addEdges(technique, look);
+  addPickTechnique(material_.get());
+  material_->compile();
+}
+
+}  // namespace softbody

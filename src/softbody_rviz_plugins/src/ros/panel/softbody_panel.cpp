@@ -1,0 +1,156 @@
+#include "ros/panel/softbody_panel.h"
+
+#include <fmt/format.h>
+#include <ros/service.h>
+#include <softbody_msgs/SetPose.h>
+
+#include <QGroupBox>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/topics.h"
+#include "timing/status_words.h"
+
+namespace softbody {
+namespace {
+
+constexpr int kRefresh_ms = 100;
+constexpr double kSilent_s = 2.0;
+
+const char* colorOf(TrackingState state) {
+  switch (state) {
+    case TrackingState::kTracking:
+      return "#2f8f4e";
+    case TrackingState::kDegraded:
+      return "#c98a12";
+    case TrackingState::kInitializing:
+      return "#4a6fa5";
+    default:
+      return "#b5382c";
+  }
+}
+
+void setBanner(QLabel* label, const QString& text, const char* color) {
+  label->setText(text);
+  label->setStyleSheet(
+      QString("background: %1; color: white; font-weight: bold; padding: 6px; border-radius: 4px;")
+          .arg(color));
+}
+
+QLabel* addLabel(QLayout* layout) {
+  auto* label = new QLabel;
+  label->setWordWrap(true);
+  layout->addWidget(label);
+  return label;
+}
+
+}  // namespace
+
+SoftbodyPanel::SoftbodyPanel(QWidget* parent) : Panel(parent) {
+  auto* rows = new QVBoxLayout(this);
+  addState();
+  addTimes();
+  cut_ = new CutControls(node_, &caller_, this);
+  rows->addWidget(cut_);
+  answer_ = addLabel(rows);
+  rows->addStretch();
+}
+
+void SoftbodyPanel::addState() {
+  auto* rows = new QVBoxLayout;
+  static_cast<QVBoxLayout*>(layout())->addLayout(rows);
+  state_ = addLabel(rows);
+  reason_ = addLabel(rows);
+  numbers_ = addLabel(rows);
+  find_ = new QPushButton("Find again at the initial pose");
+  find_->setEnabled(false);
+  find_->setToolTip("Restarts tracking at the initial pose of the object YAML");
+  rows->addWidget(find_);
+  connect(find_, &QPushButton::clicked, [this] { findAgain(); });
+  setBanner(state_, "No status yet", "#666666");
+}
+
+void SoftbodyPanel::addTimes() {
+  auto* box = new QGroupBox("Time per frame: mean of a second, and the longest");
+  layout()->addWidget(box);
+  auto* rows = new QVBoxLayout(box);
+  bars_ = new TimeBars(box);
+  rows->addWidget(bars_);
+  latency_ = addLabel(rows);
+}
+
+void SoftbodyPanel::onInitialize() {
+  subscribe();
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, [this] { refresh(); });
+  timer->start(kRefresh_ms);
+}
+
+void SoftbodyPanel::subscribe() {
+  subscribers_ = {node_.subscribe(topics::kStatus, 1, &SoftbodyPanel::onStatus, this),
+                  node_.subscribe(topics::kTiming, 50, &SoftbodyPanel::onTiming, this),
+                  node_.subscribe(topics::kVolumeTopology, 1, &SoftbodyPanel::onTopology, this)};
+}
+
+void SoftbodyPanel::onStatus(const softbody_msgs::TrackingStatus& message) {
+  TrackingStatus status;
+  status.state = static_cast<TrackingState>(message.state);
+  status.features_tracked = message.features_tracked;
+  status.features_total = message.features_total;
+  status.inlier_ratio = message.inlier_ratio;
+  status.residual_rms = message.residual_rms;
+  setBanner(state_, QString::fromStdString(sentenceOf(status.state)), colorOf(status.state));
+  reason_->setText(QString::fromStdString(message.reason));
+  reason_->setVisible(!message.reason.empty());
+  numbers_->setText(QString::fromStdString(numbersOf(status)));
+  last_status_ = ros::SteadyTime::now();
+}
+
+void SoftbodyPanel::onTiming(const softbody_msgs::StageTiming& message) {
+  std::vector<StageTime> stages;
+  for (const softbody_msgs::StageTime& row : message.stages)
+    stages.push_back({row.stage, row.milliseconds, row.initialization != 0});
+  times_.add(message.node, toNanoseconds(message.header.stamp), stages);
+}
+
+void SoftbodyPanel::onTopology(const softbody_msgs::TetTopology& message) {
+  try {
+    const TetTopology topology = fromMessage(message);
+    cut_->setBody(topology.rest_vertices);
+    if (topology.has_initial_pose) initial_pose_ = message.initial_pose;
+  } catch (const std::invalid_argument& error) {
+    answer_->setText(QString("The topology was refused: ") + error.what());
+  }
+}
+
+void SoftbodyPanel::findAgain() {
+  softbody_msgs::SetPose service;
+  service.request.pose.pose = *initial_pose_;  // without a frame: the colour optical frame
+  caller_.start([name = node_.resolveName("feature_tracker/set_pose"), service]() mutable {
+    if (!ros::service::call(name, service))
+      return "The service " + name + " does not answer. Is the graph running?";
+    return service.response.success ? "Tracking starts again at the initial pose."
+                                    : "Not started again: " + service.response.message;
+  });
+}
+
+void SoftbodyPanel::refresh() {
+  const auto period = times_.framePeriod();
+  bars_->show(times_.bars(), period);
+  const auto latency = times_.latency();
+  latency_->setText(QString::fromStdString(fmt::format(
+      "Camera to mesh: {}. Frames: {}", latency ? fmt::format("{:.0f} ms", *latency) : "not known",
+      period ? fmt::format("{:.1f} Hz", 1e3 / *period) : "none")));
+  if (!last_status_.isZero() && (ros::SteadyTime::now() - last_status_).toSec() > kSilent_s)
+    setBanner(state_, "Silent: no status for some seconds", "#666666");
+  if (const auto answer = caller_.take()) answer_->setText(QString::fromStdString(*answer));
+  cut_->setBusy(caller_.isBusy());
+  find_->setEnabled(initial_pose_.has_value() && !caller_.isBusy());
+}
+
+}  // namespace softbody
+
+PLUGINLIB_EXPORT_CLASS(softbody::SoftbodyPanel, rviz::Panel)

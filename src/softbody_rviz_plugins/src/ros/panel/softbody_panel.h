@@ -1,0 +1,53 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <rviz/panel.h>
+#include <softbody_msgs/StageTiming.h>
+#include <softbody_msgs/TetTopology.h>
+#include <softbody_msgs/TrackingStatus.h>
+
+#include <QLabel>
+#include <QPushButton>
+#include <optional>
+#include <vector>
+
+#include "ros/panel/cut_controls.h"
+#include "ros/panel/service_caller.h"
+#include "ros/panel/time_bars.h"
+#include "timing/frame_times.h"
+
+namespace softbody {
+
+/// State of the tracker in words, times of the stages, and buttons for the services of the graph.
+class SoftbodyPanel : public rviz::Panel {
+  Q_OBJECT
+
+ public:
+  explicit SoftbodyPanel(QWidget* parent = nullptr);
+
+  void onInitialize() override;
+
+ private:
+  void addState();
+  void addTimes();
+  void subscribe();
+  void onStatus(const softbody_msgs::TrackingStatus& message);
+  void onTiming(const softbody_msgs::StageTiming& message);
+  void onTopology(const softbody_msgs::TetTopology& message);
+  void findAgain();
+  void refresh();
+
+  ros::NodeHandle node_{"/softbody"};
+  ServiceCaller caller_;
+  QLabel *state_, *reason_, *numbers_, *latency_, *answer_;
+  QPushButton* find_;
+  TimeBars* bars_;
+  CutControls* cut_;
+  FrameTimes times_;
+  std::optional<geometry_msgs::Pose> initial_pose_;
+  ros::SteadyTime last_status_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace softbody
