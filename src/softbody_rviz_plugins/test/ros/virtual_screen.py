@@ -18,7 +18,7 @@ class VirtualScreen:
     def __enter__(self):
         reader, writer = os.pipe()
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", self.size, "-fbdir", self.folder.name, "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", self.size, "-fbdir", self.folder.name, "-nolisten", "tcp", "-nocursor"],
             pass_fds=[writer], stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as numbers:  # Xvfb writes its number when it is ready

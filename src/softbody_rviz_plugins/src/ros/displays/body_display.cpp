@@ -45,10 +45,11 @@ void BodyDisplayBase::fixedFrameChanged() {
 
 void BodyDisplayBase::moveTo(const std_msgs::Header& header) {
   shown_ = header;
-  Ogre::Vector3 position;
-  Ogre::Quaternion orientation;
+  Ogre::Vector3 position = Ogre::Vector3::ZERO;
+  Ogre::Quaternion orientation = Ogre::Quaternion::IDENTITY;
   rviz::FrameManager* frames = context_->getFrameManager();
-  const bool known = frames->getTransform(header, position, orientation) ||
+  const bool same = header.frame_id == fixed_frame_.toStdString();  // tf need not know it
+  const bool known = same || frames->getTransform(header, position, orientation) ||
                      frames->getTransform(header.frame_id, ros::Time(), position, orientation);
   scene_node_->setVisible(known);
   if (!known) {

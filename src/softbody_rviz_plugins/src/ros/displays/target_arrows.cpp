@@ -32,6 +32,9 @@ void TargetArrows::addProperties(rviz::Display* display, const char* redraw, con
 void TargetArrows::initialize(Ogre::SceneManager* scene, Ogre::SceneNode* node) {
   for (Kind& kind : kinds_) {
     kind.material = std::make_unique<BodyMaterial>();
+    Look look;
+    look.lit = false;
+    kind.material->set(look);
     kind.mesh = std::make_unique<DynamicMesh>(scene, node);
   }
 }

@@ -34,6 +34,7 @@ constexpr char kFragmentShader[] = R"(#version 120
 uniform sampler2D image;
 uniform float textured;
 uniform float alpha;
+uniform float lit;
 varying vec3 normal;
 varying vec3 place;
 void main() {
@@ -41,11 +42,12 @@ void main() {
   vec3 to_viewer = -normalize(place);
   vec3 to_lamp = normalize(to_viewer + vec3(-0.35, 0.45, 0.0));
   if (dot(n, to_viewer) < 0.0) n = -n;
-  float diffuse = max(dot(n, to_lamp), 0.0);
+  float facing = 0.5 + 0.5 * dot(n, to_lamp);
+  float light = mix(1.0, 0.25 + 0.75 * facing * facing, lit);
   float gloss = pow(max(dot(n, normalize(to_lamp + to_viewer)), 0.0), 40.0);
   vec3 color = gl_Color.rgb;
   if (textured > 0.5) color *= texture2D(image, gl_TexCoord[0].st).rgb;
-  gl_FragColor = vec4(color * (0.32 + 0.68 * diffuse) + vec3(0.10 * gloss), alpha);
+  gl_FragColor = vec4(color * light + vec3(0.08 * lit * gloss), alpha);
 })";
 
 constexpr char kEdgeShader[] = R"(#version 120
@@ -95,6 +97,7 @@ void addFaces(Ogre::Technique* technique, const Look& look) {
   pass->setFragmentProgram(program("softbody faces", Ogre::GPT_FRAGMENT_PROGRAM, kFragmentShader));
   const auto parameters = pass->getFragmentProgramParameters();
   parameters->setNamedConstant("textured", Ogre::Real(look.texture ? 1.0 : 0.0));
+  parameters->setNamedConstant("lit", Ogre::Real(look.lit ? 1.0 : 0.0));
   parameters->setNamedConstant("alpha", Ogre::Real(look.alpha));
   parameters->setNamedConstant("image", 0);
   if (look.texture) pass->createTextureUnitState()->setTexture(look.texture);

@@ -13,6 +13,7 @@ struct Look {
   Style style = Style::kFaces;
   Ogre::ColourValue edge_color = Ogre::ColourValue::Black;
   double alpha = 1.0;  ///< below 1: what is behind the nearest faces shines through
+  bool lit = true;     ///< false: the colours as they are
   Ogre::TexturePtr texture = {};
 };
 
