@@ -1,5 +1,6 @@
 """A screen without hardware (Xvfb), and what is on it as numpy arrays and PNG files."""
 import os
+import socket
 import struct
 import subprocess
 import tempfile
@@ -56,3 +57,10 @@ def write_png(path, picture):
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
                    chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
+
+
+def free_port():
+    """A TCP port for a ROS master."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
