@@ -13,8 +13,10 @@
 
 #include <QApplication>
 #include <QElapsedTimer>
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -81,8 +83,8 @@ void measure(const Row& row, rviz::VisualizationManager* manager, FrameCounter* 
   timer.start();
   runFor(kMeasured_s);
   const double seconds = 1e-3 * static_cast<double>(timer.elapsed());
-  fmt::print("| {} | {:.1f} | {:.2f} |\n", row.name, counter->frames / seconds,
-             (cpuSeconds() - cpu) / seconds);
+  fmt::print("| {} | {:.1f} | {:.0f} |\n", row.name, counter->frames / seconds,
+             1e3 * (cpuSeconds() - cpu) / std::max(1, counter->frames));
   std::fflush(stdout);
   delete display;
 }
@@ -103,8 +105,11 @@ int main(int argc, char** argv) {
   look(&manager);
   FrameCounter counter;
   Ogre::Root::getSingleton().addFrameListener(&counter);
-  fmt::print("| display | rviz frames per second | CPU s/s of rviz |\n| --- | --- | --- |\n");
-  for (const Row& row : rows()) measure(row, &manager, &counter);
+  fmt::print("| display | rviz frames per second | CPU time of rviz per frame [ms] |\n| --- | --- | --- |\n");
+  const std::string chosen = argc > 1 ? argv[1] : "";
+  for (const Row& row : rows()) {
+    if (std::string(row.name).find(chosen) != std::string::npos) measure(row, &manager, &counter);
+  }
   Ogre::Root::getSingleton().removeFrameListener(&counter);
   return 0;
 }

@@ -16,6 +16,7 @@ SurfaceModel::SurfaceModel(MeshTopology topology, double crease_angle)
     : topology_(std::move(topology)),
       layout_(layoutOfSurface(topology_, crease_angle)),
       strain_(topology_),
+      closed_(softbody::isClosed(topology_.triangles)),
       pieces_(softbody::vertexPieces(topology_.triangles, topology_.triangle_pieces,
                                      topology_.rest_vertices.rows())) {}
 

@@ -52,6 +52,8 @@ class SurfaceModel {
   /// Per drawn vertex. @param values as values() gives them.
   std::vector<Color> painted(const SurfacePaint& paint, const std::vector<float>& values) const;
 
+  /// Whether the mesh has no boundary, so that nobody sees it from inside.
+  bool isClosed() const { return closed_; }
   /// The piece of each vertex.
   const std::vector<std::uint32_t>& vertexPieces() const { return pieces_; }
 
@@ -59,6 +61,7 @@ class SurfaceModel {
   MeshTopology topology_;
   MeshLayout layout_;
   SurfaceStrain strain_;
+  bool closed_;
   std::vector<std::uint32_t> pieces_;
   std::optional<MeshState> state_;
 };

@@ -152,6 +152,7 @@ void SoftBodyDisplay::updateLook() {
   look.style = static_cast<Style>(style_->getOptionInt());
   look.edge_color = edge_color_->getOgreColor();
   look.alpha = alpha_->getFloat();
+  look.closed = model_ && model_->isClosed();
   cut_material_->set(look);
   look.texture = texture_.get();
   skin_material_->set(look);

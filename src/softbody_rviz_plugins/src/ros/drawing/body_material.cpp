@@ -15,40 +15,32 @@ namespace {
 
 const std::string& group() { return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME; }
 
+// Light is computed per vertex: in software, the many small triangles of a fine mesh make pixels expensive.
+// The lamp is a little above and beside the viewer, so that round shapes look round.
 constexpr char kVertexShader[] = R"(#version 120
 uniform mat4 to_screen;
 uniform mat4 to_view;
-varying vec3 normal;
-varying vec3 place;
-void main() {
-  gl_Position = to_screen * gl_Vertex;
-  normal = mat3(to_view) * gl_Normal;
-  place = (to_view * gl_Vertex).xyz;
-  gl_FrontColor = gl_Color;
-  gl_BackColor = gl_Color;
-  gl_TexCoord[0] = gl_MultiTexCoord0;
-})";
-
-// A lamp a little above and beside the viewer, so that round shapes look round.
-constexpr char kFragmentShader[] = R"(#version 120
-uniform sampler2D image;
-uniform float textured;
 uniform float alpha;
 uniform float lit;
-varying vec3 normal;
-varying vec3 place;
 void main() {
-  vec3 n = normalize(normal);
-  vec3 to_viewer = -normalize(place);
+  gl_Position = to_screen * gl_Vertex;
+  gl_TexCoord[0] = gl_MultiTexCoord0;
+  vec3 n = normalize(mat3(to_view) * gl_Normal);
+  vec3 to_viewer = -normalize((to_view * gl_Vertex).xyz);
   vec3 to_lamp = normalize(to_viewer + vec3(-0.35, 0.45, 0.0));
   if (dot(n, to_viewer) < 0.0) n = -n;
   float facing = 0.5 + 0.5 * dot(n, to_lamp);
   float light = mix(1.0, 0.25 + 0.75 * facing * facing, lit);
-  float gloss = pow(max(dot(n, normalize(to_lamp + to_viewer)), 0.0), 40.0);
-  vec3 color = gl_Color.rgb;
-  if (textured > 0.5) color *= texture2D(image, gl_TexCoord[0].st).rgb;
-  gl_FragColor = vec4(color * light + vec3(0.08 * lit * gloss), alpha);
+  gl_FrontColor = vec4(gl_Color.rgb * light, alpha);
+  gl_BackColor = gl_FrontColor;
 })";
+
+constexpr char kFaceShader[] = R"(#version 120
+void main() { gl_FragColor = gl_Color; })";
+
+constexpr char kTextureShader[] = R"(#version 120
+uniform sampler2D image;
+void main() { gl_FragColor = vec4(gl_Color.rgb * texture2D(image, gl_TexCoord[0].st).rgb, gl_Color.a); })";
 
 constexpr char kEdgeShader[] = R"(#version 120
 uniform vec4 color;
@@ -64,11 +56,13 @@ std::string program(const char* name, Ogre::GpuProgramType type, const char* sou
   return name;
 }
 
-void setVertexProgram(Ogre::Pass* pass) {
+void setVertexProgram(Ogre::Pass* pass, const Look& look) {
   pass->setVertexProgram(program("softbody vertices", Ogre::GPT_VERTEX_PROGRAM, kVertexShader));
   const auto parameters = pass->getVertexProgramParameters();
   parameters->setNamedAutoConstant("to_screen", Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
   parameters->setNamedAutoConstant("to_view", Ogre::GpuProgramParameters::ACT_WORLDVIEW_MATRIX);
+  parameters->setNamedConstant("alpha", Ogre::Real(look.alpha));
+  parameters->setNamedConstant("lit", Ogre::Real(look.lit ? 1.0 : 0.0));
 }
 
 void setFlatColor(Ogre::Pass* pass, const Ogre::ColourValue& color) {
@@ -79,7 +73,7 @@ void setFlatColor(Ogre::Pass* pass, const Ogre::ColourValue& color) {
 Ogre::Pass* addPass(Ogre::Technique* technique, const Look& look) {
   Ogre::Pass* pass = technique->createPass();
   pass->setLightingEnabled(false);
-  pass->setCullingMode(Ogre::CULL_NONE);
+  pass->setCullingMode(look.closed ? Ogre::CULL_CLOCKWISE : Ogre::CULL_NONE);
   pass->setManualCullingMode(Ogre::MANUAL_CULL_NONE);
   if (look.alpha < 1.0) pass->setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
   return pass;
@@ -89,25 +83,25 @@ void addFaces(Ogre::Technique* technique, const Look& look) {
   if (look.alpha < 1.0) {  // the nearest faces only: first their depth, then their colour
     Ogre::Pass* depth = addPass(technique, look);
     depth->setColourWriteEnabled(false);
-    setVertexProgram(depth);
+    setVertexProgram(depth, look);
     setFlatColor(depth, look.edge_color);
   }
   Ogre::Pass* pass = addPass(technique, look);
-  setVertexProgram(pass);
-  pass->setFragmentProgram(program("softbody faces", Ogre::GPT_FRAGMENT_PROGRAM, kFragmentShader));
-  const auto parameters = pass->getFragmentProgramParameters();
-  parameters->setNamedConstant("textured", Ogre::Real(look.texture ? 1.0 : 0.0));
-  parameters->setNamedConstant("lit", Ogre::Real(look.lit ? 1.0 : 0.0));
-  parameters->setNamedConstant("alpha", Ogre::Real(look.alpha));
-  parameters->setNamedConstant("image", 0);
-  if (look.texture) pass->createTextureUnitState()->setTexture(look.texture);
+  setVertexProgram(pass, look);
+  if (look.texture) {
+    pass->setFragmentProgram(program("softbody texture", Ogre::GPT_FRAGMENT_PROGRAM, kTextureShader));
+    pass->getFragmentProgramParameters()->setNamedConstant("image", 0);
+    pass->createTextureUnitState()->setTexture(look.texture);
+  } else {
+    pass->setFragmentProgram(program("softbody faces", Ogre::GPT_FRAGMENT_PROGRAM, kFaceShader));
+  }
 }
 
 void addEdges(Ogre::Technique* technique, const Look& look) {
   Ogre::Pass* pass = addPass(technique, look);
   pass->setPolygonMode(Ogre::PM_WIREFRAME);
   pass->setDepthBias(1.0f, 1.0f);
-  setVertexProgram(pass);
+  setVertexProgram(pass, look);
   Ogre::ColourValue color = look.edge_color;
   color.a = static_cast<float>(look.alpha);
   setFlatColor(pass, color);

@@ -12,8 +12,9 @@ enum class Style { kFaces, kFacesAndEdges, kEdges };
 struct Look {
   Style style = Style::kFaces;
   Ogre::ColourValue edge_color = Ogre::ColourValue::Black;
-  double alpha = 1.0;  ///< below 1: what is behind the nearest faces shines through
-  bool lit = true;     ///< false: the colours as they are
+  double alpha = 1.0;   ///< below 1: what is behind the nearest faces shines through
+  bool lit = true;      ///< false: the colours as they are
+  bool closed = false;  ///< the backs of the faces cannot be seen, and are not drawn
   Ogre::TexturePtr texture = {};
 };
 
