@@ -6,6 +6,9 @@ from softbody_msgs.msg import MeshState, MeshTopology
 
 FRAME = "camera"
 SIDE = 0.2  # of a square [m]
+LEFT, RIGHT = (86, 180, 233), (230, 159, 0)  # colours of the pieces
+BODY_DISPLAY = {"Class": "softbody_rviz_plugins/SoftBody", "Name": "Body", "Enabled": True, "Color By": "Piece",
+                "Topology Topic": "/test/topology", "State Topic": "/test/state"}
 STRIP = 0.1  # height of the strip below the squares [m]
 
 

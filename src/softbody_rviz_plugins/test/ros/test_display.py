@@ -1,78 +1,36 @@
 #!/usr/bin/env python3
 """rviz on a virtual screen draws a hand-made body: what is on the screen has the right colours, sizes and places."""
-import os
-import subprocess
-import tempfile
 import time
 import unittest
 
 import numpy as np
 import rospy
 import rostest
-import yaml
 
-from hand_made_body import FRAME, SIDE, STRIP, Body
-from virtual_screen import VirtualScreen, write_png
+from hand_made_body import BODY_DISPLAY, FRAME, LEFT, RIGHT, SIDE, STRIP, Body
+from rviz_screen import Rviz, pixels_of
 
 PIXELS_PER_M = 1000.0
-LEFT, RIGHT, CUT = (86, 180, 233), (230, 159, 0), (190, 45, 45)  # pieces 0 and 1, and the default colour of cut faces
-PATIENCE_S = 15.0
+CUT = (190, 45, 45)  # default colour of cut faces
 
 
-def configuration(folder):
-    """Only the display, seen from +z with a known scale."""
-    path = os.path.join(folder, "test.rviz")
-    display = {"Class": "softbody_rviz_plugins/SoftBody", "Name": "Body", "Enabled": True, "Color By": "Piece",
-               "Topology Topic": "/test/topology", "State Topic": "/test/state"}
-    view = {"Class": "rviz/TopDownOrtho", "Name": "View", "Angle": 0.0, "Scale": PIXELS_PER_M, "X": 0.0, "Y": 0.0,
-            "Target Frame": FRAME}
-    config = {"Panels": [], "Visualization Manager": {
-        "Class": "", "Displays": [display], "Enabled": True, "Name": "root", "Tools": [], "Value": True,
-        "Global Options": {"Background Color": "0; 0; 0", "Fixed Frame": FRAME, "Frame Rate": 10},
-        "Views": {"Current": view}}, "Window Geometry": {"Width": 800, "Height": 600}}
-    with open(path, "w", encoding="utf-8") as file:
-        yaml.safe_dump(config, file)
-    return path
-
-
-def pixels_of(picture, color):
-    """Rows and columns of the pixels of a colour, under light of any strength."""
-    values = picture.astype(float)
-    length = np.linalg.norm(values, axis=2)
-    cosine = values @ np.array(color, float) / np.maximum(length, 1.0) / np.linalg.norm(color)
-    return np.nonzero((cosine > 0.99) & (length > 80.0))
+VIEW = {"Class": "rviz/TopDownOrtho", "Name": "View", "Angle": 0.0, "Scale": PIXELS_PER_M, "X": 0.0, "Y": 0.0,
+        "Target Frame": FRAME}  # from +z, with a known scale
 
 
 class TestDisplay(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("test_display")
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.screen = VirtualScreen(800, 600)
-        cls.screen.__enter__()
         cls.body = Body()
-        cls.body.send_topology()
-        cls.body.send_state()
-        cls.rviz = subprocess.Popen(["/usr/lib/rviz/rviz", "-d", configuration(cls.folder.name)],
-                                    env=cls.screen.environment, start_new_session=True)
+        cls.rviz = Rviz([BODY_DISPLAY], VIEW)
 
     @classmethod
     def tearDownClass(cls):
-        if output := os.environ.get("SOFTBODY_TEST_PICTURE"):
-            write_png(output, cls.screen.picture())
-        cls.rviz.terminate()
-        cls.rviz.wait()
-        cls.screen.__exit__()
-        cls.folder.cleanup()
+        cls.rviz.end()
 
     def wait_for(self, condition, what):
-        deadline = time.monotonic() + PATIENCE_S
-        while time.monotonic() < deadline:
-            if condition(self.screen.picture()):
-                return
-            self.assertIsNone(self.rviz.poll(), "rviz has ended")
-            time.sleep(0.2)
-        self.fail(f"{what}: not on the screen within {PATIENCE_S:.0f} s")
+        self.assertTrue(self.rviz.wait_for(condition), f"not on the screen in time: {what}")
 
     def area(self, picture, color):
         """Area of a colour on the screen [m^2]."""
@@ -80,7 +38,7 @@ class TestDisplay(unittest.TestCase):
 
     def place(self, color):
         """Middle of a colour on the screen [m]; x to the right, y up, from any fixed point."""
-        rows, columns = pixels_of(self.screen.picture(), color)
+        rows, columns = pixels_of(self.rviz.picture(), color)
         return np.array([columns.mean(), -rows.mean()]) / PIXELS_PER_M
 
     def shows(self, left, right, cut):
@@ -109,7 +67,7 @@ class TestDisplay(unittest.TestCase):
         self.start_again()
         self.body.send_state(revision=1, cut=True)
         time.sleep(1.0)
-        self.assertTrue(self.shows(SIDE**2, SIDE**2, 0.0)(self.screen.picture()), "still the uncut body")
+        self.assertTrue(self.shows(SIDE**2, SIDE**2, 0.0)(self.rviz.picture()), "still the uncut body")
         self.body.send_topology(revision=1, cut=True)
         self.wait_for(self.shows(SIDE**2, SIDE**2, 2 * SIDE * STRIP), "the cut face")
 
@@ -119,8 +77,8 @@ class TestDisplay(unittest.TestCase):
         time.sleep(1.0)
         self.body.send_state(cut=True)  # too many vertices
         time.sleep(1.0)
-        self.assertTrue(self.shows(SIDE**2, SIDE**2, 0.0)(self.screen.picture()))
-        self.assertIsNone(self.rviz.poll(), "rviz has ended")
+        self.assertTrue(self.shows(SIDE**2, SIDE**2, 0.0)(self.rviz.picture()))
+        self.assertTrue(self.rviz.is_alive())
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ void TimeBars::paintEvent(QPaintEvent* /*event*/) {
                      colorOf(bar.milliseconds / budget));
     painter.fillRect(QRect(at(bar.largest), y + 2, 2, kRow - 4), palette().color(QPalette::Mid));
     painter.drawText(QRect(width() - kNumbers, y, kNumbers, kRow), Qt::AlignVCenter | Qt::AlignRight,
-                     QString::number(bar.milliseconds, 'f', 1) + " ms");
+                     QString::number(bar.milliseconds, 'f', bar.milliseconds < 1.0 ? 2 : 1) + " ms");
   }
   painter.setPen(QPen(palette().color(QPalette::WindowText), 1, Qt::DashLine));
   painter.drawLine(at(budget), kTop - 2, at(budget), kTop + kRow * static_cast<int>(bars_.size()));
