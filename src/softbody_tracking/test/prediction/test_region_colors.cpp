@@ -1,4 +1,4 @@
-#include "outline/region_colors.h"
+#include "prediction/region_colors.h"
 
 #include <gtest/gtest.h>
 
