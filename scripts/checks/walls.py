@@ -46,7 +46,7 @@ class Source:
     @property
     def may_use_ros(self):
         return self.package == "softbody_bringup" or self.is_below(
-            f"{self.public}/ros", "src/ros", "src/nodes", "test")
+            f"{self.public}/ros", "src/ros", "src/nodes", "bench/ros", "test")
 
     @property
     def room(self):
