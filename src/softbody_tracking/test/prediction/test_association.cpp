@@ -104,6 +104,27 @@ TEST(MedianResidual, OfManyIsThatOfEnoughOfThem) {
   EXPECT_LT(std::sqrt(sum / 20.0), 0.1);
 }
 
+TEST(WeighByResidual, LowersWhatIsFarFromTheOthers) {
+  std::vector<Association> associations(11);
+  for (Association& a : associations) {
+    a.normal = Eigen::Vector3d::UnitZ();
+    a.measured.z() = 0.002;
+  }
+  associations[5].measured.z() = 0.008;  // four medians
+  weighByResidual(4.0, &associations);
+  EXPECT_DOUBLE_EQ(associations[5].weight, 0.5);
+  EXPECT_NEAR(associations[0].weight, 16.0 / 17.0, 1e-12);
+}
+
+/// Differences of less than the precision of any measurement are no outliers.
+TEST(WeighByResidual, DoesNotJudgeTinyResiduals) {
+  std::vector<Association> associations(11);
+  for (Association& a : associations) a.normal = Eigen::Vector3d::UnitZ();
+  associations[5].measured.z() = 0.0005;
+  weighByResidual(4.0, &associations);
+  EXPECT_GT(associations[5].weight, 0.98);
+}
+
 TEST(RigidStep, NothingGivesIdentity) {
   EXPECT_TRUE(rigidStep({}).isApprox(Eigen::Isometry3d::Identity(), 0.0));
   EXPECT_EQ(rmsResidual({}), 0.0);

@@ -1,0 +1,103 @@
+#include "outline/crease_associations.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "fixtures/synthetic_scene.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+/// A tilted box of one colour, with another brightness on each side, and some noise.
+class CreaseAssociationsTest : public ::testing::Test {
+ protected:
+  CreaseAssociationsTest() : surface_(box_.volume, box_.surface), frame_(renderFrame(box_, truth(), 1)) {
+    surface_.render(frame_.camera, truth());
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0.0, 2.0);
+    for (int v = 0; v < frame_.color.rows; ++v) {
+      for (int u = 0; u < frame_.color.cols; ++u) {
+        const int triangle = surface_.image().triangle(v, u);
+        if (triangle < 0) continue;
+        const double light = 90.0 + 90.0 * surface_.normal(triangle).dot(Eigen::Vector3d(0.3, 0.5, -0.8));
+        const auto gray = cv::saturate_cast<uchar>(light + noise(random));
+        frame_.color(v, u) = {gray, gray, gray};
+      }
+    }
+  }
+
+  Points truth() const { return transformed(box_.volume.rest_vertices, boxPose()); }
+
+  std::vector<Association> associate(const Eigen::Vector3d& shift) {
+    const Points predicted = transformed(truth(), Eigen::Isometry3d(Eigen::Translation3d(shift)));
+    surface_.render(frame_.camera, predicted);
+    CreaseAssociator creases({1.0}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
+    creases.sample(surface_);
+    std::vector<Association> found;
+    creases.associate(frame_, surface_, RigidMotions(1, Eigen::Isometry3d::Identity()), &found);
+    return found;
+  }
+
+  /// Root mean square of what the associations still lack after the true motion [px].
+  double errorAfter(const std::vector<Association>& found, const Eigen::Vector3d& shift) const {
+    double sum = 0.0;
+    for (const Association& a : found) {
+      const double error =
+          a.normal.dot(a.measured - (a.predicted - shift)) * frame_.camera.fx / a.predicted.z();
+      sum += error * error;
+    }
+    return std::sqrt(sum / static_cast<double>(found.size()));
+  }
+
+  BoxBody box_ = makeBox();
+  PredictedSurface surface_;
+  RgbdFrame frame_;
+};
+
+TEST_F(CreaseAssociationsTest, FindTheCreasesToAPartOfAPixel) {
+  for (const double millimetres : {0.0, 0.5, -1.0, 2.0, -3.0}) {
+    const Eigen::Vector3d shift(0.7e-3 * millimetres, 0.7e-3 * millimetres, 0.0);
+    const std::vector<Association> found = associate(shift);
+    ASSERT_GT(found.size(), 20u) << millimetres;
+    EXPECT_LT(errorAfter(found, shift), 0.6) << millimetres;
+  }
+}
+
+/// Both visible creases together fix the position in the image.
+TEST_F(CreaseAssociationsTest, LeadBackToTheBody) {
+  const Eigen::Vector3d shift(0.002, -0.0015, 0.0);
+  const std::vector<Association> found = associate(shift);
+  const Eigen::Isometry3d step = rigidStep(refsTo(found));
+  const Eigen::Vector3d center =
+      transformed(truth(), Eigen::Isometry3d(Eigen::Translation3d(shift))).colwise().mean();
+  EXPECT_LT((step * center - center + shift).head<2>().norm(), 0.5 * shift.norm());
+}
+
+TEST_F(CreaseAssociationsTest, WithoutLightThereIsNoCrease) {
+  frame_.color.setTo(cv::Vec3b(120, 120, 120));
+  EXPECT_TRUE(associate(Eigen::Vector3d::Zero()).empty());
+}
+
+/// Texture makes edges of its own, so a crease in it counts for little or nothing.
+TEST_F(CreaseAssociationsTest, TextureHidesThem) {
+  const auto weightOf = [](const std::vector<Association>& found) {
+    double sum = 0.0;
+    for (const Association& a : found) sum += a.weight;
+    return sum;
+  };
+  const double plain = weightOf(associate(Eigen::Vector3d::Zero()));
+  frame_ = renderFrame(box_, truth(), 1);
+  EXPECT_LT(weightOf(associate(Eigen::Vector3d::Zero())), 0.1 * plain);
+}
+
+TEST_F(CreaseAssociationsTest, WhatCoversThemSaysNothing) {
+  frame_.depth.setTo(0.3f);
+  EXPECT_TRUE(associate(Eigen::Vector3d::Zero()).empty());
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,41 @@
+#include "prediction/depth_evidence.h"
+
+#include <gtest/gtest.h>
+
+namespace softbody {
+namespace {
+
+TEST(DepthEvidence, SpeaksForTheBodyWhereItIsPredicted) {
+  const DepthEvidence evidence;
+  EXPECT_GT(evidence.logOdds(0.0, 0.5), 1.0);
+  EXPECT_LT(evidence.logOdds(0.06, 0.5), -1.0);
+  EXPECT_LT(evidence.logOdds(-0.06, 0.5), -1.0);
+  EXPECT_DOUBLE_EQ(evidence.logOdds(10.0, 0.5), evidence.logOdds(0.2, 0.5)) << "beyond the table";
+}
+
+TEST(DepthEvidence, FallsWithTheDifference) {
+  const DepthEvidence evidence;
+  for (double difference = 0.0; difference < 0.03; difference += 0.001) {
+    EXPECT_GE(evidence.logOdds(difference, 0.5), evidence.logOdds(difference + 0.001, 0.5)) << difference;
+    EXPECT_NEAR(evidence.logOdds(difference, 0.5), evidence.logOdds(-difference, 0.5), 0.1) << difference;
+  }
+}
+
+/// Depth is less precise far away, so the same difference says less there.
+TEST(DepthEvidence, ToleratesMoreFarAway) {
+  const DepthEvidence evidence;
+  EXPECT_GT(evidence.logOdds(0.02, 2.0), evidence.logOdds(0.02, 0.5));
+  EXPECT_NEAR(evidence.logOdds(0.04, 2.0), evidence.logOdds(0.02, 1.0), 1e-9);
+  EXPECT_TRUE(DepthEvidence::isNearer(-0.03, 1.0));
+  EXPECT_FALSE(DepthEvidence::isNearer(-0.03, 2.0));
+  EXPECT_FALSE(DepthEvidence::isNearer(0.03, 1.0));
+}
+
+/// Depth of the part behind speaks for that part.
+TEST(DepthEvidence, KnowsThePartBehind) {
+  EXPECT_LT(DepthEvidence::logOddsBefore(0.54, 0.54, 0.50), -1.0);
+  EXPECT_GT(DepthEvidence::logOddsBefore(0.54, 0.50, 0.50), 1.0);
+}
+
+}  // namespace
+}  // namespace softbody
