@@ -9,7 +9,7 @@ namespace softbody {
 namespace {
 
 /// Each edge once, lower vertex first, sorted.
-std::vector<std::pair<int, int>> edgesOf(const Tets& tets) {
+std::vector<std::pair<int, int>> uniqueEdges(const Tets& tets) {
   std::vector<std::pair<int, int>> edges;
   edges.reserve(static_cast<std::size_t>(6 * tets.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
@@ -26,7 +26,7 @@ std::vector<std::pair<int, int>> edgesOf(const Tets& tets) {
 
 EdgeDistances::EdgeDistances(const Points& rest_vertices, const Tets& tets)
     : neighbors_(static_cast<std::size_t>(rest_vertices.rows())) {
-  const std::vector<std::pair<int, int>> edges = edgesOf(tets);
+  const std::vector<std::pair<int, int>> edges = uniqueEdges(tets);
   for (const auto& [a, b] : edges) {
     const double length = (rest_vertices.row(a) - rest_vertices.row(b)).norm();
     neighbors_[a].push_back({b, length});
