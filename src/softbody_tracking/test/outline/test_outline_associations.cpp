@@ -226,6 +226,23 @@ TEST_F(OutlineAssociationsTest, TellThePieces) {
   EXPECT_LT(meanAbsoluteError(of_piece[1], kShift), 0.7);
 }
 
+/// A side that is seen at a grazing angle: its depth grows by more than a step from pixel to pixel.
+TEST_F(OutlineAssociationsTest, ASteepSideIsNoEndOfTheBody) {
+  BoxBody cube = makeBox(6, 6, 6);
+  for (Points* vertices : {&cube.volume.rest_vertices, &cube.surface.rest_vertices})
+    *vertices *= Eigen::Vector3d(0.5, 1.0, 2.5).asDiagonal();
+  box_ = cube;
+  surface_ = PredictedSurface(box_.volume, box_.surface);
+  const Points truth = transformed(box_.volume.rest_vertices, boxPose());
+  frame_ = renderFrame(box_, truth, 1);
+  surface_.render(frame_.camera, truth);
+  colors_.reset();
+  colors_.learn(frame_, surface_.image());
+  const OutlineAssociations found = associate(truth);
+  EXPECT_LT(found.disagreement, 0.04);
+  EXPECT_LT(meanAbsoluteError(found.associations, 0.0), 0.7);
+}
+
 /// A limb of 10 px before the rim of a trunk is gone from where it was predicted: behind its other side the
 /// trunk ends, which says nothing of the limb.
 TEST_F(OutlineAssociationsTest, WhatIsBeyondALimbIsNotTheLimb) {

@@ -40,8 +40,8 @@ const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, c
     if (!image.contains(pixel) || !image.contains(rendered_pixel)) return pixels_.clear(), pixels_;
     const double distance = (Eigen::Vector2d(pixel.x, pixel.y) - start).dot(outward) - sample.to_edge;
     const double predicted = rendered_(rendered_pixel) > 0.0f ? rendered_(rendered_pixel) + farther_by : 0.0;
-    // Where the prediction ends on its other side, as on a limb narrower than the reach, the line begins.
-    const bool begins = step <= 0 && (predicted <= 0.0 || std::abs(predicted - body) > kStep);
+    // On a limb narrower than the reach the line begins at its other side: behind that nothing of it shows.
+    const bool begins = step <= 0 && (predicted <= 0.0 || body - predicted > kStep);
     if (begins) pixels_.clear();
     body = step <= 0 ? predicted : moved.z();
     if (begins || (!pixels_.empty() && distance <= pixels_.back().distance)) continue;
