@@ -1,4 +1,8 @@
+#include "nodes/compact_heap.h"
 #include "nodes/surface/surface_node.h"
 #include "softbody_common/ros/run_node.h"
 
-int main(int argc, char** argv) { return softbody::runNode<softbody::SurfaceNode>(argc, argv, "surface"); }
+int main(int argc, char** argv) {
+  softbody::keepHeapCompact();
+  return softbody::runNode<softbody::SurfaceNode>(argc, argv, "surface");
+}
