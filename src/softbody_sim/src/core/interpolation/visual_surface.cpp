@@ -93,9 +93,10 @@ MeshState VisualSurface::apply(const MeshState& volume) const {
       volume.confidence.size() != vertex_count ||
       (!volume.standard_deviation.empty() && volume.standard_deviation.size() != vertex_count)) {
     throw std::invalid_argument(fmt::format(
-        "state of revision {} with {} vertices and {} confidences; the volume is at revision {} with {} "
-        "vertices",
-        volume.revision, volume.vertices.rows(), volume.confidence.size(), bound.revision, vertex_count));
+        "state of revision {} with {} vertices, {} confidences and {} standard deviations; the volume is at "
+        "revision {} with {} vertices",
+        volume.revision, volume.vertices.rows(), volume.confidence.size(), volume.standard_deviation.size(),
+        bound.revision, vertex_count));
   }
   MeshState state;
   state.revision = visual_.revision;

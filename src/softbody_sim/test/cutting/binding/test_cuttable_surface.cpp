@@ -97,6 +97,7 @@ TEST(CuttableSurface, CutsThatTheSimulatorDoesNotMakeAreRolledBack) {
     state.revision = scene.surface.volume().revision;
     state.vertices = scene.surface.volume().rest_vertices;
     state.confidence.assign(static_cast<std::size_t>(state.vertices.rows()), 1.0f);
+    state.standard_deviation.clear();
     ASSERT_TRUE(scene.surface.apply(cut, state, &reason)) << reason;
   }
   EXPECT_FALSE(scene.surface.rollBack(tets.revision - 1)) << "that is confirmed";
