@@ -6,24 +6,23 @@
 namespace softbody {
 
 VertexConfidence::VertexConfidence(const Points& rest_vertices, const Tets& tets)
-    : tets_(tets), edges_(rest_vertices, tets) {
-  const auto count = static_cast<std::size_t>(rest_vertices.rows());
-  support_.reserve(count);
-  distance_.reserve(count);
-  observed_.reserve(count);
+    : tets_(tets),
+      edges_(rest_vertices, tets),
+      support_(static_cast<std::size_t>(rest_vertices.rows())),
+      observed_(support_.size()) {
+  distance_.reserve(support_.size());
 }
 
 void VertexConfidence::compute(const std::vector<Target>& targets, std::vector<float>* confidence) {
   constexpr double kObserved = 0.25;
-  support_.assign(support_.capacity(), 0.0);
+  std::fill(support_.begin(), support_.end(), 0.0);
   for (const Target& target : targets) {
     if (target.kind == TargetKind::kPrior) continue;
     for (int k = 0; k < 4; ++k) {
       support_[tets_(target.place.tet, k)] += target.weight * std::max(0.0, target.place.barycentric[k]);
     }
   }
-  observed_.clear();
-  for (const double support : support_) observed_.push_back(support >= kObserved ? 1 : 0);
+  for (std::size_t v = 0; v < support_.size(); ++v) observed_[v] = support_[v] >= kObserved ? 1 : 0;
   edges_.fromNearest(observed_, &distance_);
   confidence->resize(distance_.size());
   for (std::size_t v = 0; v < distance_.size(); ++v)

@@ -20,8 +20,9 @@ class VertexConfidence {
  private:
   const Tets tets_;
   EdgeDistances edges_;
-  std::vector<double> support_, distance_;  ///< per vertex
-  std::vector<char> observed_;              ///< per vertex
+  std::vector<double> support_;   ///< per vertex: sum of the targets' weights
+  std::vector<char> observed_;    ///< per vertex
+  std::vector<double> distance_;  ///< per vertex, to the nearest observed one [m]
 };
 
 }  // namespace softbody
