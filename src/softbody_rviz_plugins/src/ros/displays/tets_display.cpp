@@ -127,8 +127,8 @@ void TetsDisplay::drawState() {
   paint();
   tets_->place(model_->placed());
   surface_->place(model_->placedSurface());
-  if (tets_->entity() != nullptr) tets_->entity()->setVisible(tets_shown_->getBool());
-  if (surface_->entity() != nullptr) surface_->entity()->setVisible(surface_shown_->getBool());
+  tets_->show(tets_shown_->getBool());
+  surface_->show(surface_shown_->getBool());
   try {
     arrows_.draw(*model_);
     deleteStatus("Targets");

@@ -55,8 +55,7 @@ DynamicMesh::~DynamicMesh() { clear(); }
 
 void DynamicMesh::clear() {
   if (entity_ != nullptr) {
-    node_->detachObject(entity_);
-    scene_->destroyEntity(entity_);
+    scene_->destroyEntity(entity_);  // also leaves the node
     entity_ = nullptr;
   }
   if (mesh_) Ogre::MeshManager::getSingleton().remove(mesh_);
@@ -64,6 +63,7 @@ void DynamicMesh::clear() {
   places_.reset();
   colors_.reset();
   vertex_count_ = 0;
+  placed_ = false;
 }
 
 void DynamicMesh::fill(const MeshLayout& layout, const std::vector<Ogre::MaterialPtr>& materials) {
@@ -86,12 +86,10 @@ void DynamicMesh::fill(const MeshLayout& layout, const std::vector<Ogre::Materia
   mesh_->_setBounds(Ogre::AxisAlignedBox::BOX_INFINITE);
   mesh_->load();
   entity_ = scene_->createEntity(mesh_);
-  entity_->setVisible(false);
   unsigned int drawn = 0;
   for (std::size_t part = 0; part < layout.parts.size(); ++part) {
     if (!layout.parts[part].empty()) entity_->getSubEntity(drawn++)->setMaterial(materials[part]);
   }
-  node_->attachObject(entity_);
 }
 
 void DynamicMesh::addParts(const MeshLayout& layout) {
@@ -114,8 +112,19 @@ void DynamicMesh::place(const std::vector<PlacedVertex>& vertices) {
   for (const PlacedVertex& vertex : vertices)
     box.merge(Ogre::Vector3(vertex.position.x(), vertex.position.y(), vertex.position.z()));
   mesh_->_setBounds(box, false);
-  entity_->setVisible(true);
+  placed_ = true;
+  show(shown_);
   node_->needUpdate();
+}
+
+void DynamicMesh::show(bool shown) {
+  shown_ = shown;
+  if (entity_ == nullptr || !placed_ || shown == entity_->isAttached()) return;
+  if (shown) {
+    node_->attachObject(entity_);
+  } else {
+    node_->detachObject(entity_);
+  }
 }
 
 void DynamicMesh::paint(const std::vector<Color>& colors) {

@@ -30,6 +30,8 @@ class DynamicMesh {
   void place(const std::vector<PlacedVertex>& vertices);
   void paint(const std::vector<Color>& colors);
   void clear();
+  /// Hidden meshes are not in the scene: rviz makes everything in it visible at times.
+  void show(bool shown);
 
   std::size_t vertexCount() const { return vertex_count_; }
   /// Null before the first fill().
@@ -44,6 +46,7 @@ class DynamicMesh {
   Ogre::Entity* entity_ = nullptr;
   Ogre::HardwareVertexBufferSharedPtr places_, colors_;
   std::size_t vertex_count_ = 0;
+  bool shown_ = true, placed_ = false;
 };
 
 }  // namespace softbody
