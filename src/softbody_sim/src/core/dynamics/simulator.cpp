@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "cutting/volume/edited_volume.h"
 #include "cutting/volume/undo_versions.h"
@@ -247,6 +248,7 @@ void Simulator::Implementation::setEdited(EditedVolume edited, BodyState next_bo
 
 bool Simulator::apply(const Cut& cut, std::string* reason) {
   Implementation& s = *implementation_;
+  s.volume.makeRoomFor(cut);
   EditedVolume edited = s.volume;
   const std::optional<TetEdit> edit = edited.apply(cut, reason);
   if (!edit) return false;
@@ -272,9 +274,11 @@ std::size_t Simulator::droppedVersions() const {
 
 void Simulator::adopt(const EditHistory& edits) {
   Implementation& s = *implementation_;
+  const std::vector<Cut> cuts = editsBetween(s.volume.history().edits(), edits);
+  if (!cuts.empty()) s.volume.makeRoomFor(cuts.front());
   EditedVolume edited = s.volume;
   BodyState next = s.body;
-  for (const Cut& cut : editsBetween(edited.history().edits(), edits)) {
+  for (const Cut& cut : cuts) {
     const Tets before = edited.topology().tets;
     std::string reason;
     const std::optional<TetEdit> edit = edited.apply(cut, &reason);

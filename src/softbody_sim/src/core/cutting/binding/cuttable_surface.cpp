@@ -87,6 +87,7 @@ struct CuttableSurface::Implementation {
 
 /// Works on a copy, so that tets and surface stay consistent if an edit throws.
 bool CuttableSurface::Implementation::apply(const Cut& cut, const MeshState& state, std::string* reason) {
+  makeRoomFor(cut, &models);
   CutModels next = models;
   const bool made =
       cut.kind == CutKind::kCut ? next.cut(cut, state, limits(), reason) : next.move(cut, limits(), reason);

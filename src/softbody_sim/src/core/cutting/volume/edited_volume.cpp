@@ -49,6 +49,8 @@ std::optional<TetEdit> applyCut(const Cut& cut, CutHistory* history, std::string
 EditedVolume::EditedVolume(const TetTopology& uncut, std::size_t undo_bytes)
     : undo_bytes_(undo_bytes), history_(uncut) {}
 
+void EditedVolume::makeRoomFor(const Cut& cut) { softbody::makeRoomFor(cut, &history_); }
+
 std::optional<TetEdit> EditedVolume::apply(const Cut& cut, std::string* reason) {
   const std::size_t version = versionAfter(cut, history_.edits());
   if (!history_.has(version)) restoreVersion(version, undo_bytes_, &history_);

@@ -24,6 +24,8 @@ class EditedVolume {
   const TetTopology& topology() const { return history_.topology(); }
   const CutHistory& history() const { return history_; }
 
+  /// See undo_versions.h.
+  void makeRoomFor(const Cut& cut);
   /// See applyCut.
   std::optional<TetEdit> apply(const Cut& cut, std::string* reason);
   /// Whether a cut would cut a tet. @param reason why not.

@@ -57,6 +57,13 @@ inline std::size_t versionAfter(const Cut& edit, const EditHistory& edits) {
   return edits.in_force;
 }
 
+/// Drops versions if an edit returns to one that has to be made again, because that needs their memory. Call
+/// it before the body is copied: copies share versions. @param edit the next one of `body`.
+template <typename Body>
+void makeRoomFor(const Cut& edit, Body* body) {
+  if (!body->has(versionAfter(edit, body->edits()))) dropVersions(0, body);
+}
+
 /// Number of strokes, in force or undone, whose versions were dropped.
 template <typename Body>
 std::size_t droppedVersions(const Body& body) {
