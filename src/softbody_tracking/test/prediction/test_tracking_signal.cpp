@@ -7,7 +7,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kInterval = 1.0 / 30.0;  // [s]
+constexpr double kFrameInterval = 1.0 / 30.0;  // [s]
 constexpr Eigen::Index kVertices = 200;
 
 /// Corrections without a common direction [m].
@@ -26,14 +26,14 @@ TEST(TrackingSignal, FollowsEverythingUntilItKnows) {
   std::mt19937 random(1);
   TrackingSignal signal;
   EXPECT_EQ(signal.gain(0), 1.0);
-  signal.observe(noiseOf(1e-3, &random), kInterval);
+  signal.observe(noiseOf(1e-3, &random), kFrameInterval);
   EXPECT_EQ(meanGain(signal), 1.0);
 }
 
 TEST(TrackingSignal, RandomCorrectionsAreNoise) {
   std::mt19937 random(2);
   TrackingSignal signal;
-  for (int i = 0; i < 60; ++i) signal.observe(noiseOf(1e-3, &random), kInterval);
+  for (int i = 0; i < 60; ++i) signal.observe(noiseOf(1e-3, &random), kFrameInterval);
   EXPECT_LT(meanGain(signal), 0.2);
 }
 
@@ -42,14 +42,14 @@ TEST(TrackingSignal, PersistentCorrectionsAreMotion) {
   const Points motion = Points::Constant(kVertices, 3, 1e-3);
   TrackingSignal still, noisy;
   for (int i = 0; i < 60; ++i) {
-    noisy.observe(noiseOf(1e-3, &random), kInterval);
-    still.observe(Points::Zero(kVertices, 3), kInterval);
+    noisy.observe(noiseOf(1e-3, &random), kFrameInterval);
+    still.observe(Points::Zero(kVertices, 3), kFrameInterval);
   }
-  still.observe(motion, kInterval);
+  still.observe(motion, kFrameInterval);
   EXPECT_NEAR(meanGain(still), 1.0, 1e-9) << "without noise, motion is known at once";
-  for (int i = 0; i < 15; ++i) noisy.observe(motion + noiseOf(2e-4, &random), kInterval);
+  for (int i = 0; i < 15; ++i) noisy.observe(motion + noiseOf(2e-4, &random), kFrameInterval);
   EXPECT_GT(meanGain(noisy), 0.85);
-  for (int i = 0; i < 60; ++i) noisy.observe(noiseOf(1e-3, &random), kInterval);
+  for (int i = 0; i < 60; ++i) noisy.observe(noiseOf(1e-3, &random), kFrameInterval);
   EXPECT_LT(meanGain(noisy), 0.2) << "it ends with the motion";
 }
 
@@ -59,7 +59,7 @@ TEST(TrackingSignal, VerticesHaveTheirOwn) {
   for (int i = 0; i < 60; ++i) {
     Points corrections = noiseOf(1e-3, &random);
     corrections.row(7) = Eigen::RowVector3d(0.0, 2e-3, 0.0);
-    signal.observe(corrections, kInterval);
+    signal.observe(corrections, kFrameInterval);
   }
   EXPECT_NEAR(signal.gain(7), 1.0, 1e-9);
   EXPECT_LT(meanGain(signal), 0.2);
@@ -71,8 +71,8 @@ TEST(TrackingSignal, TheScaleOfTheCorrectionsDoesNotCount) {
   TrackingSignal small, large;
   for (int i = 0; i < 20; ++i) {
     const Points corrections = noiseOf(1e-3, &random) + Points::Constant(kVertices, 3, 5e-4);
-    small.observe(corrections, kInterval);
-    large.observe(1000.0 * corrections, kInterval);
+    small.observe(corrections, kFrameInterval);
+    large.observe(1000.0 * corrections, kFrameInterval);
     for (Eigen::Index v = 0; v < kVertices; ++v) {
       EXPECT_NEAR(small.gain(v), large.gain(v), 1e-12);
       EXPECT_GT(small.gain(v), 0.0) << "no error may last";
@@ -84,10 +84,10 @@ TEST(TrackingSignal, TheScaleOfTheCorrectionsDoesNotCount) {
 TEST(TrackingSignal, ResetForgets) {
   std::mt19937 random(6);
   TrackingSignal signal;
-  for (int i = 0; i < 20; ++i) signal.observe(noiseOf(1e-3, &random), kInterval);
+  for (int i = 0; i < 20; ++i) signal.observe(noiseOf(1e-3, &random), kFrameInterval);
   signal.reset();
   EXPECT_EQ(meanGain(signal), 1.0);
-  signal.observe(Points::Zero(3, 3), kInterval);
+  signal.observe(Points::Zero(3, 3), kFrameInterval);
   EXPECT_EQ(signal.gain(2), 1.0) << "a body with another number of vertices";
 }
 
