@@ -18,8 +18,9 @@ constexpr int kSideReach = 16;         // [px] each way; how far the sides' colo
 constexpr double kFewestOfSide = 4;    // pixels that tell the colour of a side
 constexpr double kContrast = 4.0;      // least difference of the sides, in standard deviations of a pixel
 constexpr double kGreyNoise = 2.0;     // smallest standard deviation of a channel
-constexpr double kTextureLength = 8.0; // [px] neighbouring pixels of a texture are alike over about this length
-constexpr double kPixelLimit = 8.0;    // largest log odds of a pixel: any pixel may be wrong
+constexpr double kTextureLength =
+    8.0;                             // [px] neighbouring pixels of a texture are alike over about this length
+constexpr double kPixelLimit = 8.0;  // largest log odds of a pixel: any pixel may be wrong
 constexpr double kLargestCreaseDeviation = 2.0;  // [px] with more, the crease is nearly anywhere
 constexpr double kDepthAgrees = 0.02;            // [m] with more, something else is there
 
@@ -161,7 +162,8 @@ void CreaseAssociator::associate(const RgbdFrame& frame, const PredictedSurface&
     if (before.count < kFewestOfSide || behind.count < kFewestOfSide) continue;
     before.finish();
     behind.finish();
-    const Eigen::Array3d variance = kGreyNoise * kGreyNoise + kTextureLength * 0.5 * (before.squares + behind.squares);
+    const Eigen::Array3d variance =
+        kGreyNoise * kGreyNoise + kTextureLength * 0.5 * (before.squares + behind.squares);
     if (((before.mean - behind.mean).square() / variance).sum() < kContrast * kContrast) continue;
     line_.clear();
     for (std::size_t i = 0; i < distances_.size(); ++i) {
