@@ -207,11 +207,11 @@ TEST_F(NoisyBox, TrustsDepthAlikeWhileAHandCoversIt) {
 }
 
 TEST_F(NoisyBox, IsAsNoisyAfterACut) {
-  double before = 0.0;
-  for (int i = 0; i < 5; ++i) before = meanWeight(0.018f);
+  const double usual = meanWeight(0.001f);
+  for (int i = 0; i < 5; ++i) meanWeight(0.018f);
   box_ = cutBox(box_);
   observer_->setTopologies(box_.volume, box_.surface);
-  EXPECT_NEAR(meanWeight(0.0f, {0, 0, 390, 480}), before, 0.2 * before) << "little shows";
+  EXPECT_LT(meanWeight(0.0f, {0, 0, 390, 480}), 0.7 * usual) << "little shows";
 }
 
 TEST_F(NoisyBox, ForgetsTheNoiseWhenReset) {

@@ -24,8 +24,10 @@ constexpr double kRestStrain = 0.0005;
 // Error for each metre over which the simulation carries a position, for a strain of 1: to vertices that are
 // measured in no direction, and along a surface that is measured across only.
 constexpr double kAcross = 0.25, kAlong = 0.26;
-// Largest distance that is used [m]: a piece without any measurement is nowhere near one.
+// Largest distance along the surface [m]; a piece may be measured in one direction only.
 constexpr double kFarthest = 0.3;
+// Standard deviation of a vertex of a piece without any measurement [m]: it may be anywhere near.
+constexpr double kUnknown = 0.1;
 
 }  // namespace
 
@@ -98,10 +100,11 @@ void VertexDeviation::compute(const std::vector<Target>& targets, const Points& 
   for (std::size_t v = 0; v < information_.size(); ++v) {
     const double misfit =
         weight_[v] > 0.0 ? misfit_.row(static_cast<Eigen::Index>(v)).norm() / weight_[v] : 0.0;
-    const double across = std::min(to_measured_[v], kFarthest), along = std::min(to_fixed_[v], kFarthest);
-    const double extrapolated = carried * (kAcross * across + kAlong * along);
-    (*deviation)[v] = static_cast<float>(std::sqrt(kSmallest * kSmallest + kNoise * kNoise * noise_ * noise_ +
-                                                   misfit * misfit + extrapolated * extrapolated));
+    const double along = std::min(to_fixed_[v], kFarthest);
+    const double extrapolated = carried * (kAcross * to_measured_[v] + kAlong * along);
+    const double result = std::sqrt(kSmallest * kSmallest + kNoise * kNoise * noise_ * noise_ +
+                                    misfit * misfit + extrapolated * extrapolated);
+    (*deviation)[v] = static_cast<float>(std::min(result, kUnknown));
   }
 }
 

@@ -89,7 +89,8 @@ RgbdFrame ToolMask::withoutBlade(const RgbdFrame& frame) const {
   const cv::Rect region = in_image.region(frame.depth.size());
   RgbdFrame result = frame;
   result.depth = frame.depth.clone();
-  result.covered = cv::Mat1b(frame.depth.size(), 0);
+  result.covered =
+      frame.covered.empty() ? cv::Mat1b(frame.depth.size(), 0) : cv::Mat1b(frame.covered.clone());
   for (int v = region.y; v < region.br().y; ++v) {
     for (int u = region.x; u < region.br().x; ++u) {
       float& z = result.depth(v, u);

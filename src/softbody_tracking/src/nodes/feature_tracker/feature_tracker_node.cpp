@@ -79,7 +79,7 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
   if (!T_fixed_camera) return;
   RgbdFrame frame = received.frame;
   frame.T_fixed_camera = *T_fixed_camera;
-  if (!mask.empty()) frame.depth = maskedDepth(frame.depth, mask);
+  if (!mask.empty()) frame = masked(frame, mask);
   frame = blade_.withoutBlade(frame);
   const MeshState* state = body_.state(output_frame_.fixedHeader(header).frame_id);
   StageTimer timer;

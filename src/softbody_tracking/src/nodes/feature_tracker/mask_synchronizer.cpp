@@ -16,14 +16,16 @@ constexpr double kTimerPeriod_s = 0.01;  // [s] between two checks for timeouts;
 
 }  // namespace
 
-cv::Mat1f maskedDepth(const cv::Mat1f& depth, const cv::Mat1b& mask) {
-  if (mask.size() != depth.size()) {
+RgbdFrame masked(const RgbdFrame& frame, const cv::Mat1b& mask) {
+  if (mask.size() != frame.depth.size()) {
     throw std::invalid_argument("the mask is " + std::to_string(mask.cols) + "x" + std::to_string(mask.rows) +
-                                ", the rectified image " + std::to_string(depth.cols) + "x" +
-                                std::to_string(depth.rows));
+                                ", the rectified image " + std::to_string(frame.depth.cols) + "x" +
+                                std::to_string(frame.depth.rows));
   }
-  cv::Mat1f result(depth.size(), 0.0f);
-  depth.copyTo(result, mask);
+  RgbdFrame result = frame;
+  result.depth = cv::Mat1f(frame.depth.size(), 0.0f);
+  frame.depth.copyTo(result.depth, mask);
+  result.covered = mask == 0;
   return result;
 }
 

@@ -13,8 +13,9 @@
 
 namespace softbody {
 
-/// Depth where the mask is not zero, 0 elsewhere. @throw std::invalid_argument if the sizes differ.
-cv::Mat1f maskedDepth(const cv::Mat1f& depth, const cv::Mat1b& mask);
+/// The frame in which something covers all that the mask leaves out: there it has no depth, and its colours
+/// say nothing. @param mask not 0: the body. @throw std::invalid_argument if the sizes differ.
+RgbdFrame masked(const RgbdFrame& frame, const cv::Mat1b& mask);
 
 /// A frame, and the messages whose memory it shares.
 struct ReceivedFrame {
