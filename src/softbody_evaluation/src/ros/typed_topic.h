@@ -13,7 +13,8 @@ namespace softbody::evaluation {
 inline void requireTopic(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   if (view.size() != 0) return;
-  throw std::invalid_argument(fmt::format("{}: there is no message on {}", bag.getFileName(), topic));
+  throw std::invalid_argument(
+      fmt::format("{}: there is no message on {}; rosbag info lists its topics", bag.getFileName(), topic));
 }
 
 /// The message of an instance. @throw std::invalid_argument if the instance has another type.

@@ -25,7 +25,7 @@ YAML::Node parseYamlFile(const std::string& path) {
     return YAML::Load(text);
   } catch (const YAML::DeepRecursion& error) {
     throw std::invalid_argument(
-        fmt::format("{}:{}: not YAML: it is nested too deeply", path, error.mark.line + 1));
+        fmt::format("{}:{}: not YAML: it is nested too deeply; take levels out", path, error.mark.line + 1));
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(fmt::format("{}:{}: not YAML: {}", path, error.mark.line + 1, error.msg));
   }

@@ -106,7 +106,8 @@ std::vector<ImageFile> numberedFiles(const fs::path& directory, double rate_hz,
     const auto [other, inserted] = numbered.emplace(fileNumber(entry.path()), entry.path());
     if (!inserted) fail("{} and {} have the same number", other->second.string(), entry.path().string());
   }
-  if (numbered.empty()) fail("{}: the folder has no image", directory.string());
+  if (numbered.empty())
+    fail("{}: the folder has no image; it needs files like 000001.png", directory.string());
   if (const std::string gap = gapWarning(directory, numbered); !gap.empty()) warnings->push_back(gap);
   std::vector<ImageFile> files;
   files.reserve(numbered.size());
@@ -118,7 +119,8 @@ std::vector<ImageFile> numberedFiles(const fs::path& directory, double rate_hz,
 
 cv::Mat readImage(const fs::path& file, const Pinhole& camera) {
   cv::Mat image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
-  if (image.empty()) fail("{}: cannot be read as an image", file.string());
+  if (image.empty())
+    fail("{}: cannot be read as an image; write it again as PNG, or remove it", file.string());
   if (image.cols != camera.width || image.rows != camera.height) {
     fail("{}: {}x{} pixels, but the camera has {}x{}", file.string(), image.cols, image.rows, camera.width,
          camera.height);
@@ -210,7 +212,8 @@ FolderCamera readFolderCamera(const fs::path& file) {
 
 ImageFolder readImageFolder(const fs::path& directory, const fs::path& camera_file, double rate_hz,
                             FileScope scope) {
-  if (!fs::is_directory(directory)) fail("{}: there is no such folder", directory.string());
+  if (!fs::is_directory(directory))
+    fail("{}: there is no such folder; relative paths start in the current folder", directory.string());
   const bool is_tum = fs::exists(directory / "rgb.txt") && fs::exists(directory / "depth.txt");
   const fs::path camera = camera_file.empty() ? directory / "camera.yaml" : camera_file;
   if (scope == FileScope::kOwnFolder && camera_file.empty()) requireInside(directory, camera);

@@ -28,7 +28,9 @@ FolderCamera freiburg1() {
 
 std::vector<ImageFile> readList(const fs::path& list) {
   std::ifstream input(list);
-  if (!input) throw std::runtime_error(fmt::format("{}: cannot be opened", list.string()));
+  if (!input)
+    throw std::runtime_error(
+        fmt::format("{}: cannot be opened; check that it exists and may be read", list.string()));
   std::vector<ImageFile> files;
   std::string line;
   for (int number = 1; std::getline(input, line); ++number) {
@@ -82,8 +84,10 @@ ImageFolder readTumFolder(const fs::path& directory) {
     folder.depth.push_back({color[c].stamp, depth[d].path});
   }
   if (folder.color.empty()) {
-    throw std::runtime_error(fmt::format("{}: no colour image of {} has a depth image of {} within 20 ms",
-                                         directory.string(), color.size(), depth.size()));
+    throw std::runtime_error(
+        fmt::format("{}: no colour image of {} has a depth image of {} within 20 ms; the stamps of both "
+                    "lists must be of one clock",
+                    directory.string(), color.size(), depth.size()));
   }
   if (folder.color.size() < std::max(color.size(), depth.size())) {
     folder.warnings.push_back(fmt::format("{}: {} pairs within 20 ms from {} colour and {} depth images",

@@ -27,7 +27,8 @@ void requireTopics(const rosbag::Bag& bag, const std::vector<std::string>& topic
   for (const std::string& topic : topics) {
     if (present.count(topic) == 0) {
       throw std::invalid_argument(
-          fmt::format("{} has no topic {}; it has: {}", bag.getFileName(), topic, fmt::join(present, ", ")));
+          fmt::format("{} has no topic {}; it has: {}; record it, or rename one of these", bag.getFileName(),
+                      topic, fmt::join(present, ", ")));
     }
   }
 }
@@ -110,7 +111,8 @@ BagFramesReport readBagFrames(
                             cameraTopic(config.camera, topics::kCameraDepth)};
   requireTopics(bag, {topics.color, topics.info, topics.depth});
   if (rosbag::View(bag, rosbag::TopicQuery(topics.info)).size() == 0)
-    throw std::invalid_argument(fmt::format("{}: {} has no message", bag.getFileName(), topics.info));
+    throw std::invalid_argument(fmt::format("{}: {} has no message; record it together with the images",
+                                            bag.getFileName(), topics.info));
   rosbag::View view(bag, rosbag::TopicQuery({topics.color, topics.info, topics.depth}));
   Reader reader(config.pairing, topics, ingest, use);
   const double total = view.size();

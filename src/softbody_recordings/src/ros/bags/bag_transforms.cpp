@@ -178,7 +178,9 @@ void BagTransforms::addSamples(const std::string& frame, const ros::Time& stamp,
   const double gap_s = secondsBetween(first->stamp, after->stamp);
   const bool moved = first->parent != after->parent || differ(first->transform, after->transform);
   if (gap_s > kLongestGap_s && moved)
-    throw tf2::ExtrapolationException(fmt::format("/tf has no transform of {} for {:.3f} s", frame, gap_s));
+    throw tf2::ExtrapolationException(fmt::format(
+        "/tf has no transform of {} for {:.3f} s; record /tf with the images, from their first to their last",
+        frame, gap_s));
 }
 
 /// Gives tf2 only the samples around the stamp, because its search through a whole bag is linear.

@@ -17,7 +17,9 @@ namespace encodings = sensor_msgs::image_encodings;
 cv::Mat pixels(const std::string& topic, int type, sensor_msgs::Image* image) {
   const std::size_t row = static_cast<std::size_t>(image->width) * CV_ELEM_SIZE(type);
   if (image->step < row || image->data.size() < static_cast<std::size_t>(image->step) * image->height)
-    throw std::invalid_argument(fmt::format("{}: an image has a wrong number of bytes for its size", topic));
+    throw std::invalid_argument(fmt::format(
+        "{}: an image has a wrong number of bytes for its size; validate_bag says more about the recording",
+        topic));
   return cv::Mat(static_cast<int>(image->height), static_cast<int>(image->width), type, image->data.data(),
                  image->step);
 }

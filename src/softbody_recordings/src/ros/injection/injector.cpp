@@ -27,7 +27,8 @@ class ImageStream {
     for (const rosbag::MessageInstance& instance : view)
       received.push_back(toNanoseconds(instance.getTime()));
     if (received.empty())
-      throw std::invalid_argument(fmt::format("{}: there is no message on {}", options.input, topic_));
+      throw std::invalid_argument(
+          fmt::format("{}: there is no message on {}; rosbag info lists its topics", options.input, topic_));
     const bool wanted = is_depth ? options.in_depth : options.in_color;
     arrivals_ = planArrivals(received, wanted ? options.deliveries : DeliveryFaults());
   }

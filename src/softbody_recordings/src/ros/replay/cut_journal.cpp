@@ -13,7 +13,8 @@ namespace softbody {
 CutJournal::CutJournal(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   if (view.size() == 0)
-    throw std::invalid_argument(fmt::format("{} has no cuts on {}", bag.getFileName(), topic));
+    throw std::invalid_argument(
+        fmt::format("{} has no cuts on {}; record this topic while you cut", bag.getFileName(), topic));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<softbody_msgs::Cut>();
     if (!message) {

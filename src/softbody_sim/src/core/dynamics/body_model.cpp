@@ -22,7 +22,8 @@ Eigen::VectorXd lumpedMasses(const TetTopology& topology, double density_kg_m3) 
   }
   for (Eigen::Index v = 0; v < masses.size(); ++v) {
     if (!(masses[v] > 0.0))
-      throw std::invalid_argument(fmt::format("vertex {} has no mass: it belongs to no tet", v));
+      throw std::invalid_argument(
+          fmt::format("vertex {} has no mass: it belongs to no tet; remove it from the mesh", v));
   }
   return masses;
 }

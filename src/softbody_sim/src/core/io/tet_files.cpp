@@ -123,7 +123,9 @@ void checkFaces(const std::string& path, const Tets& tets) {
 TetMesh readTetFile(const std::string& path, Warnings* warnings) {
   TetMesh mesh = readTetsByExtension(path, warnings);
   mesh.tets = stackRows<Tets>(soundTets(path, mesh, warnings));
-  if (mesh.tets.rows() == 0) throw std::invalid_argument(path + ": no tet of positive volume");
+  if (mesh.tets.rows() == 0)
+    throw std::invalid_argument(path +
+                                ": no tet of positive volume; check the unit, and whether the mesh is flat");
   checkFaces(path, mesh.tets);
   return withoutUnusedVertices(path, mesh, warnings);
 }

@@ -26,7 +26,7 @@ fs::path cacheFolder() {
   const char* home = std::getenv("HOME");
   if (cache_home != nullptr && *cache_home != '\0') return fs::path(cache_home) / "softbody";
   if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "softbody";
-  throw std::runtime_error("neither XDG_CACHE_HOME nor HOME is set");
+  throw std::runtime_error("neither XDG_CACHE_HOME nor HOME is set; set one of them to a folder");
 }
 
 /// The last line of an entry: what it was made from, and the hash of the lines above. XML readers skip it.

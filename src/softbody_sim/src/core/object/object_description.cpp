@@ -79,7 +79,8 @@ ObjectDescription loadObjectDescription(const std::string& yaml_path, FileScope 
   ObjectDescription description;
   description.visual_mesh = object.file("visual_mesh", scope);
   if (description.visual_mesh.empty())
-    object.fail(object.get("visual_mesh"), "object/visual_mesh is missing");
+    object.fail(object.get("visual_mesh"),
+                "object/visual_mesh is missing; name the file of the surface mesh");
   description.cage_mesh = object.file("cage_mesh", scope);
   description.tet_mesh = object.file("tet_mesh", scope);
   if (scope == FileScope::kOwnFolder) requireCompanionInside(object, description.tet_mesh);

@@ -32,8 +32,7 @@ TriangleMesh loadCage(const ObjectDescription& description, Warnings* warnings) 
   if (!edges.closed() || edges.inconsistent > 0) {
     throw std::invalid_argument(fmt::format(
         "{}: the cage must be closed; {} edges have one triangle, {} more than two (one between vertices {} "
-        "and {}), {} have "
-        "inconsistent orientation",
+        "and {}), {} have inconsistent orientation",
         description.cage_mesh, edges.open, edges.branching,
         edges.example[0] < 0 ? -1 : cage.vertex_parents[static_cast<std::size_t>(edges.example[0])],
         edges.example[1] < 0 ? -1 : cage.vertex_parents[static_cast<std::size_t>(edges.example[1])],
@@ -58,8 +57,7 @@ void requireVolume(const std::string& name, const TriangleMesh& visual) {
   if (thickness > kThinnest * sizeOf(visual.vertices)) return;
   throw std::invalid_argument(
       fmt::format("{}: encloses no volume: the mean thickness is {:.2g} mm. If it is a sheet, make a model "
-                  "with prepare_model "
-                  "--thickness",
+                  "with prepare_model --thickness",
                   name, 1e3 * thickness));
 }
 
@@ -133,17 +131,22 @@ void warnOfEnclosure(const MeshTopology& visual, const TetTopology& volume, Warn
   const auto outside =
       pointsOutside(visual.rest_vertices, {volume.rest_vertices, volume.tets}, volume.surface);
   if (outside.empty()) return;
-  warnings->push_back(fmt::format("{} of {} visual vertices lie outside of the tets, by up to {:.2g} mm",
-                                  outside.size(), visual.rest_vertices.rows(),
-                                  1e3 * largestDistance(outside)));
+  warnings->push_back(fmt::format(
+      "{} of {} visual vertices lie outside of the tets, by up to {:.2g} mm; they follow the nearest tet",
+      outside.size(), visual.rest_vertices.rows(), 1e3 * largestDistance(outside)));
 }
 
 void warnOfPieces(const TetTopology& volume, Warnings* warnings) {
   const std::uint32_t last = *std::max_element(volume.tet_pieces.begin(), volume.tet_pieces.end());
-  if (last > 0) warnings->push_back(fmt::format("the volume has {} separate pieces", last + 1));
+  if (last > 0)
+    warnings->push_back(fmt::format(
+        "the volume has {} separate pieces; if the body is one piece, join them in the mesh", last + 1));
   const EdgeReport edges = examineEdges(volume.surface);
   if (edges.branching > 0) {
-    warnings->push_back(fmt::format("the tets' boundary touches itself along {} edges", edges.branching));
+    warnings->push_back(
+        fmt::format("the tets' boundary touches itself along {} edges; if the body does not touch itself "
+                    "there, make finer tets",
+                    edges.branching));
   }
 }
 

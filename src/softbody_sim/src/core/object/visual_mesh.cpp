@@ -22,13 +22,19 @@ void warnOfSize(const std::string& name, const Points& vertices, Warnings* warni
 void warnOfEdges(const std::string& name, const Triangles& triangles, Warnings* warnings) {
   const EdgeReport edges = examineEdges(triangles);
   if (edges.open > 0)
-    warnings->push_back(fmt::format("{}: not closed, {} edges have one triangle", name, edges.open));
+    warnings->push_back(
+        fmt::format("{}: not closed, {} edges have one triangle; fill the holes if they are not meant", name,
+                    edges.open));
   if (edges.branching > 0) {
-    warnings->push_back(fmt::format("{}: {} edges have more than two triangles", name, edges.branching));
+    warnings->push_back(
+        fmt::format("{}: {} edges have more than two triangles; repair the mesh if this is not meant", name,
+                    edges.branching));
   }
   if (edges.inconsistent > 0) {
     warnings->push_back(
-        fmt::format("{}: cannot be oriented: {} edges are inconsistent", name, edges.inconsistent));
+        fmt::format("{}: cannot be oriented: {} edges are inconsistent; repair the mesh, so that all "
+                    "triangles show outward",
+                    name, edges.inconsistent));
   }
 }
 
