@@ -116,6 +116,7 @@ class SurfaceAlone(unittest.TestCase):
             lambda seen: next((s for s in seen["softbody/surface/state"] if s.header.stamp == state.header.stamp), None),
             "the state that was held")
         self.assertEqual(answer.revision, 7)
+        self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 7, "revision 7")
         self.topology_publisher.publish(self.topology)
         self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 0, "revision 0 again")
 
