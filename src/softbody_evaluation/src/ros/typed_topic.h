@@ -23,9 +23,14 @@ boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& inst
                                              const rosbag::Bag& bag) {
   const auto message = instance.instantiate<Message>();
   if (message) return message;
+  const std::string expected = ros::message_traits::datatype<Message>();
+  if (instance.getDataType() == expected) {
+    throw std::invalid_argument(
+        fmt::format("{}: {} has another version of {}; record or replay it again with this version",
+                    bag.getFileName(), instance.getTopic(), expected));
+  }
   throw std::invalid_argument(fmt::format("{}: {} is of type {} instead of {}", bag.getFileName(),
-                                          instance.getTopic(), instance.getDataType(),
-                                          ros::message_traits::datatype<Message>()));
+                                          instance.getTopic(), instance.getDataType(), expected));
 }
 
 }  // namespace softbody::evaluation
