@@ -233,8 +233,10 @@ TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
 }
 
 TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
-  const cv::Mat3b other(frame_.color.size(), cv::Vec3b(250, 20, 20));
-  colors_.learn(other, cv::Mat1b(other.size(), 255));
+  associate();  // renders
+  colors_.learnRegion(frame_, surface_.image());
+  EXPECT_EQ(associate().occluded_blocks, 0);
+  frame_.color.setTo(frame_.color(10, 10));  // the wall's
   const DepthAssociations found = associate();
   EXPECT_EQ(found.occluded_blocks, found.visible_blocks);
   EXPECT_TRUE(found.associations.empty());
@@ -290,6 +292,8 @@ TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
 TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
   constexpr double kHeight = 0.03, kRadiusPx = 90.0;
   const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
+  associate();  // renders
+  colors_.learnRegion(frame_, surface_.image());
   for (int v = 0; v < frame_.depth.rows; ++v) {
     for (int u = 0; u < frame_.depth.cols; ++u) {
       const double distance = (Eigen::Vector2d(u, v) - middle).norm();
