@@ -233,7 +233,6 @@ TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
 }
 
 TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
-  associate();  // renders
   colors_.learnRegion(frame_, surface_.image());
   EXPECT_EQ(associate().occluded_blocks, 0);
   frame_.color.setTo(frame_.color(10, 10));  // the wall's
@@ -292,7 +291,6 @@ TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
 TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
   constexpr double kHeight = 0.03, kRadiusPx = 90.0;
   const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
-  associate();  // renders
   colors_.learnRegion(frame_, surface_.image());
   for (int v = 0; v < frame_.depth.rows; ++v) {
     for (int u = 0; u < frame_.depth.cols; ++u) {
