@@ -3,6 +3,7 @@
 #include <random>
 
 #include "cutting/fixtures/cut_visual_body.h"
+#include "cutting/fixtures/same_topology.h"
 #include "cutting/volume/undo_versions.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
@@ -43,26 +44,13 @@ struct Body {
   CuttableSurface surface;
 };
 
-void expectSame(const TetTopology& a, const TetTopology& b) {
-  EXPECT_EQ(a.revision, b.revision);
-  EXPECT_EQ(a.rest_vertices, b.rest_vertices);
-  EXPECT_EQ(a.tets, b.tets);
-  EXPECT_EQ(a.surface, b.surface);
-  EXPECT_EQ(a.vertex_parents, b.vertex_parents);
-  EXPECT_EQ(a.tet_pieces, b.tet_pieces);
-}
-
-void expectSame(const MeshTopology& a, const MeshTopology& b) {
-  EXPECT_EQ(a.revision, b.revision);
-  EXPECT_EQ(a.rest_vertices, b.rest_vertices);
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.vertex_parents, b.vertex_parents);
-  EXPECT_EQ(a.triangle_pieces, b.triangle_pieces);
-  EXPECT_EQ(a.cut, b.cut);
-}
+using testing::expectSame;
 
 /// Bit for bit, and so is the shape that the surface takes.
 void expectSame(const Body& a, const Body& b) {
+  EXPECT_EQ(a.simulator.topology().revision, b.simulator.topology().revision);
+  EXPECT_EQ(a.surface.volume().revision, b.surface.volume().revision);
+  EXPECT_EQ(a.surface.surface().topology().revision, b.surface.surface().topology().revision);
   expectSame(a.simulator.topology(), b.simulator.topology());
   expectSame(a.surface.volume(), b.surface.volume());
   expectSame(a.simulator.topology(), b.surface.volume());

@@ -1,22 +1,15 @@
 #include <gtest/gtest.h>
 
 #include "cutting/fixtures/cut_bodies.h"
+#include "cutting/fixtures/same_topology.h"
 #include "cutting/volume/cut_history.h"
 #include "cutting/volume/manifold.h"
 
 namespace softbody {
 namespace {
 
+using testing::expectSame;
 using testing::RandomCuts;
-
-/// Equal bit for bit, except for the revision.
-void expectSame(const TetTopology& one, const TetTopology& other) {
-  EXPECT_EQ(one.rest_vertices, other.rest_vertices);
-  EXPECT_EQ(one.tets, other.tets);
-  EXPECT_EQ(one.surface, other.surface);
-  EXPECT_EQ(one.vertex_parents, other.vertex_parents);
-  EXPECT_EQ(one.tet_pieces, other.tet_pieces);
-}
 
 /// Positions of a bent and rotated body.
 Points deformed(const Points& rest) {
