@@ -29,13 +29,6 @@ std::string whyDegraded(const Observation& seen, int kept) {
     return seen.depth.occluded_blocks > seen.depth.absent_blocks ? "most of the body is occluded"
                                                                  : "most of the body is not where predicted";
   }
-  if (seen.outline.disagreement > kLargestDisagreement) {
-    return fmt::format(
-        "the outlines of image and mesh enclose different areas, by {:.0f} % of the body: the mesh, its "
-        "scale or its "
-        "pose is wrong",
-        100.0 * seen.outline.disagreement);
-  }
   if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestTracked * seen.expected_features)
     return "hardly any of the expected features are found";
   if (seen.matched_features >= kFewestExpectedFeatures && kept < kWorstInlierRatio * seen.matched_features)
@@ -70,6 +63,10 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
   }
   status.reason = whyDegraded(seen, kept);
   status.state = status.reason.empty() ? TrackingState::kTracking : TrackingState::kDegraded;
+  if (status.reason.empty() && seen.outline.disagreement > kLargestDisagreement) {
+    status.reason = fmt::format("the outlines of image and mesh differ by {:.0f} % of the body's area",
+                                100.0 * seen.outline.disagreement);
+  }
   return status;
 }
 
