@@ -44,7 +44,8 @@ class SurfaceTarget : public Target {
   std::string check() override {
     softbody_msgs::CutBody::Response response;
     std::string fault = frames();
-    for (int tries = 0; fault.empty() && tries < kMostTries && !response.success; ++tries) {
+    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(kPatience_s);
+    while (fault.empty() && !response.success && ros::WallTime::now() < deadline) {
       call<std_srvs::Trigger>("reset", {});
       fault = frames();
       if (fault.empty()) response = call<softbody_msgs::CutBody>("cut", middle<softbody_msgs::CutBody>());
@@ -60,7 +61,8 @@ class SurfaceTarget : public Target {
   }
 
  private:
-  static constexpr int kMostTries = 10;
+  // A cut that the simulator does not make is taken back after 3 s.
+  static constexpr double kPatience_s = 10.0;
   static constexpr int kMostFrames = 100;  // some seconds, in which the simulator sends its topology again
 
   void process() {
