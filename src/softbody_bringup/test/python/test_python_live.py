@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""The live body in Python: whole states during cuts, services as functions, pins, and the examples."""
+import collections
+import os
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import numpy as np
+import rospkg
+import rospy
+import rostest
+from geometry_msgs.msg import Pose, Quaternion
+from softbody_msgs.msg import MeshState, Targets
+from softbody_msgs.srv import SetPose, SetPoseResponse
+
+import softbody
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+EXAMPLES = rospkg.RosPack().get_path("softbody_python") + "/examples"
+PERIOD = rospy.Duration(nsecs=33333333)
+
+
+class Frames(threading.Thread):
+    """Sends frames without targets, as a tracker does whose camera sees nothing, until it is stopped."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.publisher = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
+        self.stamp, self.revision, self.stopped = rospy.Time(1000), 0, threading.Event()
+        rospy.Subscriber("/softbody/volume/state", MeshState, self.follow)
+
+    def follow(self, state):
+        self.revision = state.revision
+
+    def run(self):
+        while not self.stopped.wait(0.033):
+            message = Targets(revision=self.revision, body_pose=Pose(orientation=Quaternion(w=1.0)),
+                              reset=self.stamp < rospy.Time(1003))
+            self.stamp += PERIOD
+            message.header.stamp, message.header.frame_id = self.stamp, "made_by_hand"
+            self.publisher.publish(message)
+
+
+def volume_of(state):
+    """Of the visual mesh, by the divergence theorem."""
+    a, b, c = (state.rest_vertices[state.triangles[:, k]].astype(float) for k in range(3))
+    return np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+
+
+class PythonLive(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        # Own subscriptions of a program work beside those of Body, before it and after it.
+        cls.recorder = Recorder(softbody__surface__state=MeshState)
+        cls.body = softbody.Body(service_timeout_s=60)
+        cls.frames = Frames()
+        cls.frames.start()
+        cls.addClassCleanup(cls.frames.stopped.set)
+        cls.first = cls.body.wait(timeout_s=60)
+        cls.middle = cls.first.rest_vertices.mean(axis=0)
+
+    def test_states_are_the_messages(self):
+        state = self.body.wait(timeout_s=60, after=self.first)
+        message = self.recorder.wait(lambda seen: next((m for m in seen["softbody/surface/state"]
+                                                        if m.header.stamp == state.stamp), None), "the same state")
+        np.testing.assert_array_equal(state.vertices, np.float32([[p.x, p.y, p.z] for p in message.vertices]))
+        self.assertEqual((state.frame, state.revision), ("made_by_hand", message.revision))
+        self.assertIsNotNone(state.volume)
+
+    def test_cuts_during_the_subscription(self):
+        """Every state is whole: topologies, volume and positions of one revision, in order."""
+        states = collections.deque()
+        self.body.on_state(states.append)
+        plane = {"point": self.middle, "normal": [1, 0.1, 0]}
+        first = self.body.wait(timeout_s=60, after=self.body.latest())
+        volumes = self.body.preview_cut(**plane)
+        self.assertEqual(len(volumes), 2)
+        self.assertAlmostEqual(sum(volumes) / volume_of(first), 1, delta=1e-4)
+        revision = self.body.cut(**plane)
+        self.assertEqual(revision, first.revision + 1)
+        self.assertEqual(self.body.wait(timeout_s=60, revision=revision).triangle_pieces.max(), 1)
+        for edit, pieces in ((self.body.undo, 1), (self.body.redo, 2), (self.body.reset_cuts, 1)):
+            edit()
+            revision += 1
+            state = self.body.wait(timeout_s=60, revision=revision)
+            self.assertEqual((state.revision, 1 + state.triangle_pieces.max()), (revision, pieces))
+        with self.assertRaisesRegex(softbody.Refused, "/softbody/surface/undo: there is no cut to undo"):
+            self.body.undo()
+        self.expect_whole(list(states), first.revision, revision)
+
+    def expect_whole(self, states, first, last):
+        self.assertEqual({state.revision for state in states}, set(range(first, last + 1)))
+        self.assertEqual(states, sorted(states, key=lambda state: state.stamp))
+        self.assertEqual(len({state.stamp for state in states}), len(states))
+        for state in states:
+            self.assertEqual({state.topology.revision, state.volume.topology.revision}, {state.revision})
+            self.assertEqual(state.vertices.shape, state.rest_vertices.shape)
+            self.assertEqual(state.volume.vertices.shape, state.volume.topology.rest_vertices.shape)
+            self.assertEqual(state.triangle_pieces.max(), state.volume.tet_pieces.max())
+
+    def test_a_polygon_that_is_refused(self):
+        bent = [[0, 0, 0], [0, 1, 0], [0, 1, 1], [0, 0.9, 0.1]]
+        with self.assertRaisesRegex(softbody.Refused, "convex"):
+            self.body.preview_cut(polygon=bent)
+        for arguments in ({}, {"point": [0, 0, 0]}, {"point": [0] * 3, "normal": [1, 0, 0], "polygon": bent}):
+            with self.assertRaisesRegex(ValueError, "a point and a normal, or a polygon"):
+                self.body.cut(**arguments)
+
+    def test_pin(self):
+        def reacts():
+            return "/softbody/reaction/grip" in [name for name, _ in rospy.get_published_topics()]
+
+        self.body.pin("grip", [-1, -1, -1], self.middle)
+        self.wait(reacts)
+        self.body.release("grip")
+        self.wait(lambda: not reacts())
+
+    def wait(self, condition):
+        end = time.monotonic() + 60
+        while not condition():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.1)
+
+    def test_find_again(self):
+        """A stand-in for the tracker gets the pose; its reason is that of the exception."""
+        requests = []
+
+        def answer(request):
+            requests.append(request.pose)
+            return SetPoseResponse(success=len(requests) == 1, message="no such frame")
+
+        rospy.Service("/softbody/feature_tracker/set_pose", SetPose, answer)
+        self.body.find_again([1, 2, 3], [0, 0, 0.6, 0.8], frame="world")
+        pose = requests[0].pose
+        self.assertEqual((requests[0].header.frame_id, pose.position.y, pose.orientation.w), ("world", 2, 0.8))
+        with self.assertRaisesRegex(softbody.Refused, "no such frame"):
+            self.body.find_again([1, 2, 3], [0, 0, 0.6, 0.8])
+
+    def test_what_does_not_come(self):
+        nobody = softbody.Body("/nobody", service_timeout_s=0.3)
+        with self.assertRaisesRegex(TimeoutError, "no state on /nobody/surface/state within 0.2 s"):
+            nobody.wait(timeout_s=0.2)
+        with self.assertRaisesRegex(rospy.ROSException, "/nobody/surface/undo"):
+            nobody.undo()
+        with self.assertRaisesRegex(rospy.ROSException, "nobody listens to /nobody/pin"):
+            nobody.release("grip", timeout_s=0.2)
+        with self.assertRaisesRegex(TimeoutError, "no state of revision 99"):
+            self.body.wait(timeout_s=0.2, revision=99)
+        nobody.close()
+
+    def example(self, name, *arguments):
+        return subprocess.run(["python3", f"{EXAMPLES}/{name}", *map(str, arguments)], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, timeout=120, check=True).stdout
+
+    def test_example_distance(self):
+        """100 mm above the top of the body, in the direction in which its vertices lie on a plane."""
+        vertices = self.body.wait(timeout_s=60).vertices
+        top = vertices[vertices[:, 2].argmax()]
+        output = self.example("distance_to_body.py", *(top + [0, 0, 0.1]), 3).splitlines()
+        self.assertEqual(len(output), 3)
+        self.assertIn(": 100.0 mm to vertex", output[-1])
+
+    def test_example_pin(self):
+        self.assertRegex(self.example("pin_to_gripper.py", "gripper", 0.5), "^[1-9][0-9]* vertices of the volume follow gripper")
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_python_live")
+    rostest.rosrun("softbody_bringup", "python_live", PythonLive, sys.argv)

@@ -1,0 +1,187 @@
+"""The tracked body, live. Call rospy.init_node first."""
+import collections
+import threading
+import time
+
+import rospy
+from geometry_msgs.msg import Point, Point32, PoseStamped, Vector3
+from softbody_msgs.msg import MeshState, MeshTopology, PinRegion, TetTopology
+from softbody_msgs.srv import CutBody, CutBodyRequest, PreviewCut, PreviewCutRequest, SetPose
+from std_srvs.srv import Trigger
+
+from softbody.join import Joiner
+from softbody.lazy import bytes_of, lazy
+from softbody.wire import WrongMessage, decode
+
+QUEUE_SIZE, BUFFER_SIZE = 30, 1 << 24  # messages; bytes, which hold the largest message
+
+
+class Refused(Exception):
+    """The graph has refused a request. The message is its reason."""
+
+
+class Body:
+    """States by subscription, and the services of the graph as functions.
+
+    Every function that asks the graph raises rospy.ServiceException or rospy.ROSException if it does not answer, and
+    Refused with the graph's reason if it does not do what was asked.
+    """
+
+    def __init__(self, namespace="/softbody", with_volume=True, service_timeout_s=10.0):
+        """@param with_volume: states wait for the tets of the same frame."""
+        self.namespace, self.service_timeout_s = rospy.resolve_name(namespace).rstrip("/"), service_timeout_s
+        self._joiner = Joiner(with_volume)
+        self._changed = threading.Condition()
+        self._order = threading.RLock()  # one callback at a time, in the order of the states
+        self._latest, self._undelivered, self._callbacks = None, collections.deque(), []
+        self._pin = rospy.Publisher(self._name("pin"), PinRegion, queue_size=10)
+        subjects = [("surface/topology", MeshTopology, self._joiner.add_topology),
+                    ("surface/state", MeshState, self._joiner.add_surface)]
+        if with_volume:
+            subjects += [("volume/topology", TetTopology, self._joiner.add_topology),
+                         ("volume/state", MeshState, self._joiner.add_volume)]
+        self._subscribers = [rospy.Subscriber(self._name(name), lazy(kind), self._receive, add, QUEUE_SIZE, BUFFER_SIZE,
+                                              tcp_nodelay=True) for name, kind, add in subjects]
+
+    def close(self):
+        """Ends the subscriptions."""
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+        self._pin.unregister()
+
+    # --- states --------------------------------------------------------------------------------------------------
+    def latest(self):
+        """The newest complete state, or None."""
+        with self._changed:
+            return self._latest
+
+    def wait(self, timeout_s=10.0, after=None, revision=0):
+        """The newest state, as soon as it satisfies the conditions.
+
+        @param after: a State or a stamp; the state is later. @param revision: the state has this one or a higher one.
+        @throw TimeoutError.
+        """
+        after = getattr(after, "stamp", after)
+        end = time.monotonic() + timeout_s
+        with self._changed:
+            while True:
+                state = self._latest
+                if state is not None and state.revision >= revision and (after is None or state.stamp > after):
+                    return state
+                if not self._changed.wait(min(0.1, end - time.monotonic())) and time.monotonic() >= end:
+                    raise TimeoutError(self._what_is_missing(state, timeout_s, revision))
+                if rospy.is_shutdown():
+                    raise rospy.ROSInterruptException("the node ends")
+
+    def on_state(self, callback):
+        """Calls `callback(state)` for every later state, in order, in a thread of rospy. It should return quickly."""
+        self._callbacks.append(callback)
+
+    # --- services ------------------------------------------------------------------------------------------------
+    def find_again(self, position, orientation, frame=""):
+        """Restarts tracking near a pose of the rest frame. It may be wrong by a few cm and about 15 degrees.
+
+        @param position: x, y, z [m]. @param orientation: quaternion x, y, z, w. @param frame: any frame of tf; empty:
+        the colour optical frame.
+        """
+        pose = PoseStamped()
+        pose.header.frame_id, pose.pose.position = frame, Point(*position)
+        for name, value in zip("xyzw", orientation):
+            setattr(pose.pose.orientation, name, value)
+        self._call("feature_tracker/set_pose", SetPose, pose)
+
+    def cut(self, point=None, normal=None, polygon=None):
+        """Cuts along a plane (point, normal) or within a convex polygon (K x 3), in the rest frame [m].
+
+        @return the revision of the states after the cut.
+        """
+        return self._call("surface/cut", CutBody, _where(CutBodyRequest(), point, normal, polygon)).revision
+
+    def preview_cut(self, point=None, normal=None, polygon=None):
+        """Volumes [m^3] of the pieces that the cut would leave, largest first. Changes nothing."""
+        request = _where(PreviewCutRequest(), point, normal, polygon)
+        return list(self._call("surface/preview", PreviewCut, request).volumes)
+
+    def undo(self):
+        """Undoes the last stroke. The revision grows by 1."""
+        self._call("surface/undo", Trigger)
+
+    def redo(self):
+        """Makes the last undone stroke again. The revision grows by 1."""
+        self._call("surface/redo", Trigger)
+
+    def reset_cuts(self):
+        """Undoes all strokes. The revision grows by 1."""
+        self._call("surface/reset", Trigger)
+
+    # --- pins ----------------------------------------------------------------------------------------------------
+    def pin(self, name, low, high, frame="", timeout_s=10.0):
+        """Holds the volume's vertices in a box of the rest frame, from now on.
+
+        @param low, high: corners [m]. @param frame: they follow this frame of tf; empty: they stay where they are.
+        """
+        self._send_pin(PinRegion(name=name, min=Point32(*low), max=Point32(*high)), frame, timeout_s)
+
+    def release(self, name, timeout_s=10.0):
+        """Lets go what `pin` holds under this name."""
+        self._send_pin(PinRegion(name=name, release=True), "", timeout_s)
+
+    # --- inside --------------------------------------------------------------------------------------------------
+    def _name(self, name):
+        return f"{self.namespace}/{name}"
+
+    def _receive(self, message, add):
+        try:
+            decoded = decode(message._type, message._md5sum, bytes_of(message))
+        except WrongMessage as error:
+            rospy.logwarn_throttle(5, f"{self.namespace}: a message is not used: {error}")
+            return
+        with self._changed:
+            states = add(decoded)
+            self._undelivered.extend(states)
+            if states:
+                self._latest = states[-1]
+                self._changed.notify_all()
+        self._deliver()
+
+    def _deliver(self):
+        with self._order:
+            while self._undelivered:
+                state = self._undelivered.popleft()
+                for callback in list(self._callbacks):
+                    callback(state)
+
+    def _what_is_missing(self, state, timeout_s, revision):
+        if state is None:
+            return f"no state on {self._name('surface/state')} within {timeout_s} s; is the body found?"
+        return f"no state of revision {revision} or later within {timeout_s} s, or no new one; the last has " \
+               f"revision {state.revision} and stamp {state.time:.3f}"
+
+    def _call(self, name, kind, *arguments):
+        name = self._name(name)
+        rospy.wait_for_service(name, self.service_timeout_s)
+        answer = rospy.ServiceProxy(name, kind)(*arguments)
+        if not answer.success:
+            raise Refused(f"{name}: {answer.message}")
+        return answer
+
+    def _send_pin(self, message, frame, timeout_s):
+        message.header.frame_id, message.header.stamp = frame, rospy.get_rostime()
+        end = time.monotonic() + timeout_s
+        while self._pin.get_num_connections() == 0:
+            if time.monotonic() >= end or rospy.is_shutdown():
+                raise rospy.ROSException(f"nobody listens to {self._name('pin')}; is the simulator running?")
+            time.sleep(0.02)
+        self._pin.publish(message)
+
+
+def _where(request, point, normal, polygon):
+    """Fills a request for a cut."""
+    is_plane = point is not None and normal is not None
+    if is_plane == (polygon is not None):
+        raise ValueError("give a point and a normal, or a polygon")
+    if is_plane:
+        request.point, request.normal = Point(*point), Vector3(*normal)
+    else:
+        request.polygon = [Point32(*corner) for corner in polygon]
+    return request

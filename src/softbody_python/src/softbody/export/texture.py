@@ -1,0 +1,66 @@
+"""The image of an object's visual mesh."""
+import pathlib
+
+import yaml
+
+from softbody.export.errors import ExportError
+
+KINDS = {b"\x89PNG\r\n\x1a\n": ("png", "image/png"), b"\xff\xd8\xff": ("jpg", "image/jpeg")}
+
+
+class Texture:
+    """An image file, and its kind by content."""
+
+    def __init__(self, path):
+        self.path = path
+        self.content = path.read_bytes()
+        kind = next((kind for start, kind in KINDS.items() if self.content.startswith(start)), None)
+        if kind is None:
+            raise ExportError(f"{path}: is no PNG or JPEG; convert it, or export without --object")
+        self.extension, self.mime_type = kind
+
+    @property
+    def name(self):
+        return f"texture.{self.extension}"
+
+
+def texture_of(object_yaml, allow_outside=False):
+    """The texture that the OBJ of an object YAML names: the first map_Kd of its material file. None if it names none.
+
+    @throw ExportError if a file is wrong, or outside of the YAML's folder without `allow_outside`. @throw OSError.
+    """
+    object_yaml = pathlib.Path(object_yaml)
+    folder = object_yaml.resolve().parent
+    mesh = _inside(_visual_mesh(object_yaml), object_yaml, folder, allow_outside)
+    if mesh.suffix.lower() != ".obj":
+        return None
+    materials = _named(mesh, "mtllib", folder, allow_outside)
+    image = materials and _named(materials, "map_Kd", folder, allow_outside)
+    return image and Texture(image)
+
+
+def _visual_mesh(object_yaml):
+    try:
+        document = yaml.safe_load(object_yaml.read_text(encoding="utf-8"))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise ExportError(f"{object_yaml}: is not YAML: {error}") from error
+    section = document.get("object") if isinstance(document, dict) else None
+    name = section.get("visual_mesh") if isinstance(section, dict) else None
+    if not isinstance(name, str):
+        raise ExportError(f"{object_yaml}: has no key object/visual_mesh; give the object YAML that was tracked")
+    return object_yaml.parent / name
+
+
+def _named(file, keyword, folder, allow_outside):
+    """The file that the first line with a keyword names, or None."""
+    for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
+        first, _, value = line.strip().partition(" ")
+        if first == keyword and value.strip():
+            return _inside(file.parent / value.strip(), file, folder, allow_outside)
+    return None
+
+
+def _inside(path, named_in, folder, allow_outside):
+    if not allow_outside and folder not in path.resolve().parents:
+        raise ExportError(f"{named_in}: names {path}, which is outside of {folder}; allow it with --allow-outside")
+    return path
