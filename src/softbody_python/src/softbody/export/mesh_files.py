@@ -62,24 +62,32 @@ class ObjSequence(MeshSequence):
     """OBJ with one group per piece. Materials: body, with the texture, and cut."""
 
     extension = "obj"
+    described = None, ""  # a topology, and the text that it gives
 
     def write(self, path, state):
-        lines = ["mtllib surface.mtl"]
-        lines += ["v %.9g %.9g %.9g" % tuple(place) for place in state.vertices.tolist()]
-        if state.texture_coordinates is not None:
-            lines += ["vt %.9g %.9g" % tuple(place) for place in state.texture_coordinates.reshape(-1, 2).tolist()]
-        for piece in np.unique(state.triangle_pieces):
-            for material, is_cut in (("body", False), ("cut", True)):
-                chosen = np.flatnonzero((state.triangle_pieces == piece) & (state.cut_triangles == is_cut))
-                if len(chosen):
-                    lines += [f"g piece_{piece}", f"usemtl {material}", *_obj_faces(state, chosen)]
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        if state.topology is not self.described[0]:
+            self.described = state.topology, _obj_topology(state)
+        vertices = ["v %.9g %.9g %.9g" % tuple(place) for place in state.vertices.tolist()]
+        path.write_text("\n".join(["mtllib surface.mtl", *vertices, self.described[1]]), encoding="utf-8")
 
     def finish(self):
         image = f"map_Kd {self.texture.name}\n" if self.texture else ""
         color = "Kd 1 1 1" if self.texture else "Kd 0.85 0.7 0.45"
         (self.folder / "surface.mtl").write_text(f"newmtl body\n{color}\n{image}newmtl cut\nKd 0.8 0.3 0.25\n", encoding="utf-8")
         super().finish()
+
+
+def _obj_topology(state):
+    """All that the frames of a revision share."""
+    lines = []
+    if state.texture_coordinates is not None:
+        lines += ["vt %.9g %.9g" % tuple(place) for place in state.texture_coordinates.reshape(-1, 2).tolist()]
+    for piece in np.unique(state.triangle_pieces):
+        for material, is_cut in (("body", False), ("cut", True)):
+            chosen = np.flatnonzero((state.triangle_pieces == piece) & (state.cut_triangles == is_cut))
+            if len(chosen):
+                lines += [f"g piece_{piece}", f"usemtl {material}", *_obj_faces(state, chosen)]
+    return "\n".join(lines) + "\n"
 
 
 def _obj_faces(state, chosen):
