@@ -112,10 +112,11 @@ class Command(unittest.TestCase):
         for kind in FORMATS:
             self.assertEqual(self.export("--format", kind).returncode, 0)
             result = self.export("--format", kind, largest_file=300)
-            self.expect_refused(result, "File too large", self.files())
+            self.expect_refused(result, "export: out: cannot be written: File too large", self.files())
             self.assertEqual({path.name for path in self.folder.iterdir()}, {"result.bag", "out"})
 
     def test_bags_that_cannot_be_exported(self):
+        self.write_object()
         content = self.bag.read_bytes()
         (self.folder / "text.bag").write_text("this is no bag")
         (self.folder / "empty.bag").write_bytes(b"")
@@ -136,8 +137,10 @@ class Command(unittest.TestCase):
                                ("bare.bag", "no state has its topology"),
                                ("wrong.bag", "/softbody/surface/topology is wrong: triangles names a vertex"),
                                (".", "Is a directory")):
-            result = self.run_program(name, "--output", "out", "--format", "ply")
-            self.expect_refused(result, sentence, self.files())
+            for words in ((), ("--object", "object/object.yaml")):
+                result = self.run_program(name, "--output", "new/folder/out", "--format", "ply", *words)
+                self.expect_refused(result, sentence, self.files())
+                self.assertFalse((self.folder / "new").exists())
 
     def test_the_advice_for_a_loop_helps(self):
         with rosbag.Bag(str(self.folder / "looped.bag"), "w") as bag:
@@ -176,7 +179,7 @@ class Command(unittest.TestCase):
                                 (["--format", "vtk", "--object", "x.yaml"], "have no image")):
             self.expect_refused(self.export(*words), sentence, self.files(), code=2)
         self.expect_refused(self.export("--format", "ply", output="x.glb"), "is for --format gltf", self.files(), code=2)
-        self.expect_refused(self.export("--format", "ply", "--from", 7), "no state is between 7 s", self.files())
+        self.expect_refused(self.export("--format", "ply", "--from", 7), "no state is 7 s or more after", self.files())
 
     def write_object(self, image="image.png", mesh="mesh.obj", content=b"\x89PNG\r\n\x1a\n..."):
         (self.folder / "object").mkdir(exist_ok=True)
@@ -208,6 +211,12 @@ class Command(unittest.TestCase):
         result = self.export(*words, "obj")
         self.assertEqual(result.returncode, 0)
         self.assertIn("names no image; exported without", result.stderr)
+        self.write_object()
+        hand_made.write_bag(self.bag, [0, 0], has_texture=False)
+        result = self.export(*words, "obj")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("result.bag has no texture coordinates; exported without", result.stderr)
+        self.assertFalse((self.folder / "out/texture.png").exists())
 
     def test_python_sees_what_the_program_sees(self):
         bag = softbody.ResultBag(self.bag)

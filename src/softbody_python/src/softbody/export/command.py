@@ -78,7 +78,9 @@ def _texture(arguments, bag):
     texture = texture_of(arguments.object, arguments.allow_outside)
     if texture is None:
         print(f"export: warning: the mesh of {arguments.object} names no image; exported without", file=sys.stderr)
-    elif next(iter(bag)).texture_coordinates is None:
+        return None
+    first = next(iter(bag), None)
+    if first is not None and first.texture_coordinates is None:
         print(f"export: warning: {bag.path} has no texture coordinates; exported without {texture.path}", file=sys.stderr)
         return None
     return texture
@@ -99,6 +101,12 @@ def run(arguments):
     return count
 
 
+def _place(error, arguments):
+    """The file that an OSError is about, by the name that the user knows."""
+    is_staged = error.filename is None or ".part-" in str(error.filename)
+    return f"{arguments.output}: cannot be written" if is_staged else error.filename
+
+
 def main(words=None):
     """Returns the exit code: 0 done, 1 the data could not be exported. Wrong usage ends with 2."""
     arguments = _arguments(words)
@@ -108,7 +116,7 @@ def main(words=None):
     except Interrupted as interrupted:
         return end_by_signal(interrupted.number)
     except OSError as error:
-        print(f"export: {error.filename or arguments.output}: {error.strerror or error}", file=sys.stderr)
+        print(f"export: {_place(error, arguments)}: {error.strerror or error}", file=sys.stderr)
         return 1
     except (BagError, ExportError) as error:
         print(f"export: {error}", file=sys.stderr)

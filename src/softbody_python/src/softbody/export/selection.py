@@ -31,4 +31,5 @@ def select(states, begin_s=0.0, end_s=float("inf"), step=1):
 def _nothing(last, begin_s, end_s):
     if last is None:
         return "no state has its topology in the bag; make it again with replay"
-    return f"no state is between {begin_s:g} s and {end_s:g} s after the first; the states that were read end at {last:.3f} s"
+    until = "" if end_s == float("inf") else f" and before {end_s:g} s"
+    return f"no state is {begin_s:g} s or more after the first{until}; the last one that was read is at {last:.3f} s"

@@ -60,10 +60,10 @@ def staged_folder(target, single_file=None):
     """
     target = pathlib.Path(os.path.abspath(target))
     (check_file if single_file else check_folder)(target)
-    target.parent.mkdir(parents=True, exist_ok=True)
+    missing = [parent for parent in target.parents if not parent.exists()]
     folder = _name_beside(target)
     try:
-        folder.mkdir()
+        folder.mkdir(parents=True)
         yield folder
         if single_file:
             os.replace(folder / single_file, target)
@@ -71,6 +71,9 @@ def staged_folder(target, single_file=None):
             _swap(folder, target)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+        for parent in missing:
+            with contextlib.suppress(OSError):  # it has the target
+                parent.rmdir()
 
 
 def _name_beside(target):
