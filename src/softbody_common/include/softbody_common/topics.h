@@ -12,6 +12,7 @@ constexpr char kCameraDepthInfo[] = "camera/aligned_depth_to_color/camera_info";
 constexpr char kRgbRect[] = "rgb/image_rect_color";
 constexpr char kRgbInfo[] = "rgb/camera_info";
 constexpr char kDepthRect[] = "depth/image_rect";
+constexpr char kDepthRectInfo[] = "depth/camera_info";
 constexpr char kPoints[] = "points";
 constexpr char kPointsMarker[] = "points/marker";
 

@@ -85,6 +85,12 @@ cv::Mat3b colorFromMessage(const sensor_msgs::Image& image) {
     throw std::invalid_argument(
         fmt::format("the colour image's encoding is '{}', a depth encoding", image.encoding));
   }
+  if (enc::isMono(image.encoding)) {
+    throw std::invalid_argument(fmt::format(
+        "the colour image's encoding is '{}', which has no colours; set color:= to the topic of a colour "
+        "camera (rgb8, bgr8, rgba8 or bgra8)",
+        image.encoding));
+  }
   const cv_bridge::CvImageConstPtr bgr = share(image, enc::BGR8, "colour");
   return bgr->image.data == image.data.data() ? bgr->image.clone() : bgr->image;
 }
@@ -118,11 +124,12 @@ Distortion distortionFromMessage(const sensor_msgs::CameraInfo& info) {
 }
 
 RgbdFrame frameFromMessages(const sensor_msgs::Image& color, const sensor_msgs::Image* depth,
-                            const sensor_msgs::CameraInfo& info, CameraIngest* ingest) {
+                            const sensor_msgs::CameraInfo& info, CameraIngest* ingest,
+                            const DepthCamera* depth_camera) {
   const cv::Mat3b bgr = colorFromMessage(color);
   const cv::Mat raw_depth = depth != nullptr ? depthFromMessage(*depth) : cv::Mat();
   return ingest->process(bgr, raw_depth, distortionFromMessage(info), pinholeFromMessage(info),
-                         toNanoseconds(color.header.stamp));
+                         toNanoseconds(color.header.stamp), depth_camera);
 }
 
 RgbdFrame frameFromRectified(const sensor_msgs::Image& color, const sensor_msgs::Image& depth,

@@ -27,6 +27,13 @@ struct Distortion {
   bool fisheye = false;                  ///< "equidistant"
 };
 
+/// A depth camera whose images are not registered to colour.
+struct DepthCamera {
+  Pinhole rectified;      ///< after rectification (P of its CameraInfo)
+  Distortion distortion;  ///< of its raw images
+  Eigen::Isometry3d T_color_depth = Eigen::Isometry3d::Identity();  ///< its pose in the raw colour camera
+};
+
 /// Makes a rectified RgbdFrame without flying pixels from raw colour and registered depth.
 class CameraIngest {
  public:
@@ -34,12 +41,14 @@ class CameraIngest {
   ~CameraIngest();
 
   /// @param color BGR; the frame shares its memory if it is already rectified.
-  /// @param depth CV_16UC1 [mm] or CV_32FC1 [m], of color's size; NaN, infinity and 0: no depth at the pixel;
-  /// an empty image: no depth at all.
+  /// @param depth CV_16UC1 [mm] or CV_32FC1 [m]; NaN, infinity and 0: no depth at the pixel; an empty image:
+  /// no depth at all.
   /// @param rectified the camera after rectification (P of CameraInfo).
+  /// @param depth_camera null: depth is registered to colour and has its size; otherwise it is registered
+  /// here.
   /// @throw std::invalid_argument if the sizes, the types or the distortion are wrong.
   RgbdFrame process(const cv::Mat3b& color, const cv::Mat& depth, const Distortion& distortion,
-                    const Pinhole& rectified, Nanoseconds stamp);
+                    const Pinhole& rectified, Nanoseconds stamp, const DepthCamera* depth_camera = nullptr);
 
  private:
   struct Implementation;

@@ -15,6 +15,7 @@ enum class Stream { kColor = 0, kColorInfo = 1, kDepth = 2 };
 struct StreamTopic {
   std::string name;  ///< resolved name
   int publishers = 0;
+  std::string base = {};  ///< the name without that of a transport
 };
 using StreamTopics = std::array<StreamTopic, 3>;  ///< in the order of Stream
 
@@ -36,6 +37,8 @@ class StreamMonitor {
 
   /// Whether the stream has ever had a message, with a stamp or without.
   bool hasArrived(Stream stream) const { return ever_arrived_[static_cast<std::size_t>(stream)]; }
+  /// The streams without a usable message in the timeout.
+  std::vector<Stream> silentStreams(Nanoseconds now) const;
   /// One sentence that explains why no frame came since the last one.
   std::string diagnosis(const StreamTopics& topics, Nanoseconds now) const;
 

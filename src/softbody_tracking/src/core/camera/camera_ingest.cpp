@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "camera/depth_registration.h"
 #include "camera/flying_pixels.h"
 #include "camera/rectifier.h"
 
@@ -12,23 +13,29 @@ namespace {
 
 std::string sizeOf(const cv::Mat& image) { return fmt::format("{}x{}", image.cols, image.rows); }
 
-void checkImages(const cv::Mat3b& color, const cv::Mat& depth, const Pinhole& camera) {
+void checkColor(const cv::Mat3b& color, const Pinhole& camera) {
   if (color.empty()) throw std::invalid_argument("the colour image is empty");
   if (color.cols != camera.width || color.rows != camera.height) {
     throw std::invalid_argument(fmt::format("the colour image has {} pixels, but its camera_info says {}x{}",
                                             sizeOf(color), camera.width, camera.height));
   }
-  if (depth.empty()) return;
-  if (depth.size() != color.size()) {
-    throw std::invalid_argument(
-        fmt::format("the depth image has {} pixels, but colour has {}: depth must be registered "
-                    "to colour (RealSense: align_depth:=true)",
-                    sizeOf(depth), sizeOf(color)));
+}
+
+void checkDepth(const cv::Mat& depth, const Pinhole& camera) {
+  if (depth.cols != camera.width || depth.rows != camera.height) {
+    throw std::invalid_argument(fmt::format("the depth image has {} pixels, but its camera_info says {}x{}",
+                                            sizeOf(depth), camera.width, camera.height));
   }
   if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) {
     throw std::invalid_argument(fmt::format("the depth image is {}; expected 16UC1 [mm] or 32FC1 [m]",
                                             cv::typeToString(depth.type())));
   }
+}
+
+/// From the raw to the rectified camera.
+Eigen::AngleAxisd rotation(const Distortion& distortion) {
+  return Eigen::AngleAxisd(
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(distortion.R.val).eval());
 }
 
 /// Depth in metres, and 0 for depth out of range. NaN fails both comparisons.
@@ -69,7 +76,7 @@ struct CameraIngest::Implementation {
   }
 
   /// The result has its own memory, because the caller keeps it. Intermediate images are reused.
-  cv::Mat1f rectifiedDepth(const cv::Mat& raw) {
+  cv::Mat1f rectifiedDepth(const cv::Mat& raw, const Rectifier& rectifier) {
     cv::Mat1f result;
     if (rectifier.isIdentity()) {
       cleanDepth(raw, &result);
@@ -79,9 +86,19 @@ struct CameraIngest::Implementation {
     return rectifier.depth(clean);
   }
 
+  /// Depth of its own camera, as the rectified colour camera sees it.
+  cv::Mat1f registeredTo(const Distortion& color, const Pinhole& rectified, const cv::Mat& raw,
+                         const DepthCamera& camera) {
+    depth_rectifier.setCamera(camera.distortion, camera.rectified);
+    const Eigen::Isometry3d T_rectified_color(rotation(color)),
+        T_depth_rectified(rotation(camera.distortion).inverse());
+    return registeredDepth(rectifiedDepth(raw, depth_rectifier), camera.rectified,
+                           T_rectified_color * camera.T_color_depth * T_depth_rectified, rectified);
+  }
+
   CameraIngestConfig config;
   FlyingPixelFilter filter;
-  Rectifier rectifier;
+  Rectifier rectifier, depth_rectifier;
   cv::Mat1f metres, clean;
 };
 
@@ -90,16 +107,23 @@ CameraIngest::CameraIngest(const CameraIngestConfig& config)
 CameraIngest::~CameraIngest() = default;
 
 RgbdFrame CameraIngest::process(const cv::Mat3b& color, const cv::Mat& depth, const Distortion& distortion,
-                                const Pinhole& rectified, Nanoseconds stamp) {
-  checkImages(color, depth, rectified);
+                                const Pinhole& rectified, Nanoseconds stamp,
+                                const DepthCamera* depth_camera) {
+  checkColor(color, rectified);
+  if (!depth.empty()) checkDepth(depth, depth_camera != nullptr ? depth_camera->rectified : rectified);
   Rectifier& rectifier = implementation_->rectifier;
   rectifier.setCamera(distortion, rectified);
   RgbdFrame frame;
   frame.stamp = stamp;
   frame.camera = rectified;
   frame.color = rectifier.color(color);
-  frame.depth =
-      depth.empty() ? cv::Mat1f(cv::Mat1f::zeros(color.size())) : implementation_->rectifiedDepth(depth);
+  if (depth.empty()) {
+    frame.depth = cv::Mat1f::zeros(color.size());
+  } else if (depth_camera == nullptr) {
+    frame.depth = implementation_->rectifiedDepth(depth, rectifier);
+  } else {
+    frame.depth = implementation_->registeredTo(distortion, rectified, depth, *depth_camera);
+  }
   return frame;
 }
 

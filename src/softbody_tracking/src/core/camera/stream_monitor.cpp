@@ -58,10 +58,18 @@ bool StreamMonitor::isSilent(Stream stream, Nanoseconds now) const {
   return stream == Stream::kColorInfo ? !hasArrived(stream) : recentStamps(stream, now).empty();
 }
 
+std::vector<Stream> StreamMonitor::silentStreams(Nanoseconds now) const {
+  std::vector<Stream> silent;
+  for (const Stream stream : {Stream::kColor, Stream::kColorInfo, Stream::kDepth})
+    if (isSilent(stream, now)) silent.push_back(stream);
+  return silent;
+}
+
 std::string StreamMonitor::diagnosis(const StreamTopics& topics, Nanoseconds now) const {
   std::vector<std::string> silent;
-  for (std::size_t s = 0; s < topics.size(); ++s) {
-    if (isSilent(static_cast<Stream>(s), now)) silent.push_back(describeSilence(topics[s], unstamped_[s]));
+  for (const Stream stream : silentStreams(now)) {
+    const auto s = static_cast<std::size_t>(stream);
+    silent.push_back(describeSilence(topics[s], unstamped_[s]));
   }
   if (!silent.empty()) return fmt::format("no usable message on {}", fmt::join(silent, ", "));
   if (!refusal_.empty()) return refusal_;

@@ -4,6 +4,7 @@
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_tracking/ros/conversions.h"
+#include "softbody_tracking/ros/unregistered_depth.h"
 
 namespace softbody {
 
@@ -13,41 +14,48 @@ CameraIngestNode::CameraIngestNode(ros::NodeHandle handle, const ros::NodeHandle
   const double voxel_size_m = parameters.number("voxel_size_m", 0.0, 0.0, 1.0);
   const double silence_timeout_s = parameters.number("silence_timeout_s", 2.0, 0.1, 3600.0);
   ingest_.emplace(readCameraIngestConfig(parameters));
-  // Read by image_transport itself.
-  parameters.text("image_transport", "raw");
+  const std::string transport = parameters.text("image_transport", "raw");
+  const Transports transports{parameters.text("color_transport", transport),
+                              parameters.text("depth_transport", transport)};
   warnUnknown(parameters);
   pairer_.emplace(pairing);
   outputs_.emplace(handle, voxel_size_m, static_cast<std::uint32_t>(pairing.queue_size));
   watch_.emplace(handle, private_handle, pairing, silence_timeout_s, [this] { return streamTopics(); });
-  subscribe(handle, private_handle, pairing.queue_size);
+  subscribe(handle, transports, static_cast<std::uint32_t>(pairing.queue_size));
 }
 
 CameraIngestNode::~CameraIngestNode() {
   // No callback may run while its members are destroyed: first the images stop, then the watch that asks for
   // their topics.
-  color_subscriber_.shutdown();
-  depth_subscriber_.shutdown();
-  info_subscriber_.shutdown();
+  color_.reset();
+  depth_.reset();
+  color_info_.shutdown();
+  depth_info_subscriber_.shutdown();
   watch_.reset();
 }
 
-void CameraIngestNode::subscribe(ros::NodeHandle handle, const ros::NodeHandle& private_handle,
-                                 int queue_size) {
-  const auto queue = static_cast<std::uint32_t>(queue_size);
-  const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(), private_handle);
-  transport_.emplace(handle);
-  info_subscriber_ = handle.subscribe(topics::kCameraColorInfo, queue, &CameraIngestNode::onInfo, this);
-  color_subscriber_ =
-      transport_->subscribe(topics::kCameraColor, queue, &CameraIngestNode::onColor, this, hints);
-  depth_subscriber_ =
-      transport_->subscribe(topics::kCameraDepth, queue, &CameraIngestNode::onDepth, this, hints);
+void CameraIngestNode::subscribe(ros::NodeHandle handle, const Transports& transports,
+                                 std::uint32_t queue_size) {
+  const auto refuse = [this](const std::string& why) { watch_->noteRefusal(why); };
+  color_info_ = handle.subscribe(topics::kCameraColorInfo, queue_size, &CameraIngestNode::onInfo, this);
+  depth_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
+      topics::kCameraDepthInfo, queue_size, [this](const auto& info) { depth_info_ = info; });
+  color_.emplace(
+      handle, topics::kCameraColor, transports.color, queue_size,
+      [this](const auto& image) { onColor(image); }, refuse);
+  depth_.emplace(
+      handle, topics::kCameraDepth, transports.depth, queue_size,
+      [this](const auto& image) { onDepth(image); }, refuse);
 }
 
 StreamTopics CameraIngestNode::streamTopics() const {
-  const auto topic = [](const auto& subscriber) {
-    return StreamTopic{subscriber.getTopic(), static_cast<int>(subscriber.getNumPublishers())};
+  const auto images = [](const std::optional<ImageInput>& input) {
+    if (!input) return StreamTopic();
+    return StreamTopic{input->topic(), input->publishers(), input->baseTopic()};
   };
-  return {topic(color_subscriber_), topic(info_subscriber_), topic(depth_subscriber_)};
+  const std::string info = color_info_.getTopic();
+  return {images(color_), StreamTopic{info, static_cast<int>(color_info_.getNumPublishers()), info},
+          images(depth_)};
 }
 
 void CameraIngestNode::onColor(const sensor_msgs::ImageConstPtr& image) {
@@ -72,6 +80,17 @@ void CameraIngestNode::processCompleteFrames() {
   while (const std::optional<Pairer::Frame> frame = pairer_->next()) process(*frame);
 }
 
+std::optional<DepthCamera> CameraIngestNode::depthCamera(const sensor_msgs::Image& color,
+                                                         const sensor_msgs::Image& depth,
+                                                         const sensor_msgs::CameraInfo& color_info) {
+  // The newest transform: the two cameras are fixed to each other.
+  const auto lookup = [this](const std::string& target, const std::string& source, const ros::Time&) {
+    if (!transforms_) transforms_.emplace();
+    return fromMessage(transforms_->buffer().lookupTransform(target, source, ros::Time(0)).transform);
+  };
+  return unregisteredDepthCamera(color, depth, color_info, depth_info_.get(), lookup);
+}
+
 void CameraIngestNode::process(const Pairer::Frame& images) {
   const auto note = [&] {
     watch_->noteFrame(images.color->header, images.depth ? &images.depth->header : nullptr);
@@ -81,7 +100,10 @@ void CameraIngestNode::process(const Pairer::Frame& images) {
     RgbdFrame frame;
     {
       const auto stage = timer_.stage("camera ingest");
-      frame = frameFromMessages(*images.color, images.depth.get(), *images.info, &*ingest_);
+      std::optional<DepthCamera> depth_camera;
+      if (images.depth) depth_camera = depthCamera(*images.color, *images.depth, *images.info);
+      frame = frameFromMessages(*images.color, images.depth.get(), *images.info, &*ingest_,
+                                depth_camera ? &*depth_camera : nullptr);
     }
     std_msgs::Header header = images.color->header;
     header.frame_id = withoutSlash(header.frame_id);

@@ -1,21 +1,23 @@
 #pragma once
 
-#include <image_transport/image_transport.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
 #include <optional>
+#include <string>
 
 #include "nodes/camera_ingest/camera_ingest_outputs.h"
 #include "nodes/camera_ingest/camera_ingest_watch.h"
+#include "nodes/camera_ingest/image_input.h"
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/transform_input.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 
 namespace softbody {
 
-/// Raw colour and registered depth in; rectified images and coloured points out.
+/// Raw colour and depth in; rectified images and coloured points out.
 class CameraIngestNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
@@ -26,7 +28,11 @@ class CameraIngestNode {
   using Pairer =
       FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
-  void subscribe(ros::NodeHandle handle, const ros::NodeHandle& private_handle, int queue_size);
+  struct Transports {
+    std::string color, depth;
+  };
+
+  void subscribe(ros::NodeHandle handle, const Transports& transports, std::uint32_t queue_size);
   StreamTopics streamTopics() const;
 
   void onColor(const sensor_msgs::ImageConstPtr& image);
@@ -34,15 +40,18 @@ class CameraIngestNode {
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void processCompleteFrames();
   void process(const Pairer::Frame& frame);
+  std::optional<DepthCamera> depthCamera(const sensor_msgs::Image& color, const sensor_msgs::Image& depth,
+                                         const sensor_msgs::CameraInfo& color_info);
 
   std::optional<CameraIngest> ingest_;
   std::optional<Pairer> pairer_;
   std::optional<CameraIngestOutputs> outputs_;
   std::optional<CameraIngestWatch> watch_;
   StageTimer timer_;
-  std::optional<image_transport::ImageTransport> transport_;
-  image_transport::Subscriber color_subscriber_, depth_subscriber_;
-  ros::Subscriber info_subscriber_;
+  std::optional<TransformInput> transforms_;  ///< only if depth is not registered
+  sensor_msgs::CameraInfoConstPtr depth_info_;
+  std::optional<ImageInput> color_, depth_;
+  ros::Subscriber color_info_, depth_info_subscriber_;
 };
 
 }  // namespace softbody

@@ -7,6 +7,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include <boost/make_shared.hpp>
+#include <limits>
 
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
@@ -21,6 +22,13 @@ namespace {
 constexpr std::int64_t kMarkerPeriod_ns = 200'000'000;
 constexpr int kMaxMarkerPoints = 20'000;
 
+/// Depth as REP-118 has it: NaN where nothing was measured.
+cv::Mat1f withNaN(const cv::Mat1f& depth) {
+  cv::Mat1f result = depth.clone();
+  result.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0.0f);
+  return result;
+}
+
 }  // namespace
 
 CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m,
@@ -29,25 +37,28 @@ CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_si
       color_(handle.advertise<sensor_msgs::Image>(topics::kRgbRect, queue_size)),
       info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, queue_size)),
       depth_(handle.advertise<sensor_msgs::Image>(topics::kDepthRect, queue_size)),
+      depth_info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kDepthRectInfo, queue_size)),
       points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, queue_size)),
       points_marker_(handle.advertise<visualization_msgs::Marker>(topics::kPointsMarker, 1)),
       timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, queue_size)) {}
 
 bool CameraIngestOutputs::hasSubscriber() const {
-  for (const ros::Publisher* publisher : {&color_, &info_, &depth_, &points_, &points_marker_, &timing_}) {
+  for (const ros::Publisher* publisher :
+       {&color_, &info_, &depth_, &depth_info_, &points_, &points_marker_, &timing_}) {
     if (publisher->getNumSubscribers() > 0) return true;
   }
   return false;
 }
 
 void CameraIngestOutputs::publish(const RgbdFrame& frame, const std_msgs::Header& header, StageTimer* timer) {
-  if (info_.getNumSubscribers() > 0) {
+  for (const ros::Publisher* publisher : {&info_, &depth_info_}) {
+    if (publisher->getNumSubscribers() == 0) continue;
     const auto info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(frame.camera));
     info->header = header;
-    info_.publish(info);
+    publisher->publish(info);
   }
   if (color_.getNumSubscribers() > 0) color_.publish(toMessage(frame.color, header));
-  if (depth_.getNumSubscribers() > 0) depth_.publish(toMessage(frame.depth, header));
+  if (depth_.getNumSubscribers() > 0) depth_.publish(toMessage(withNaN(frame.depth), header));
   if (points_.getNumSubscribers() > 0) {
     const auto stage = timer->stage("point cloud");
     publishPoints(frame, header);

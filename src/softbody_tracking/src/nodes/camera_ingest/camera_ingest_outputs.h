@@ -31,7 +31,7 @@ class CameraIngestOutputs {
 
   double voxel_size_m_;
   std::optional<std::int64_t> last_marker_;  ///< stamp [ns]
-  ros::Publisher color_, info_, depth_, points_, points_marker_, timing_;
+  ros::Publisher color_, info_, depth_, depth_info_, points_, points_marker_, timing_;
 };
 
 }  // namespace softbody

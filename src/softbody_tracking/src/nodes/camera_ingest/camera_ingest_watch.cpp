@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_tracking/camera/stream_advice.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
@@ -27,6 +28,7 @@ CameraIngestWatch::CameraIngestWatch(ros::NodeHandle handle, const ros::NodeHand
                                      std::function<StreamTopics()> topics)
     : silence_timeout_s_(silence_timeout_s),
       topics_(std::move(topics)),
+      own_namespace_(handle.getNamespace()),
       monitor_(pairing.exact ? 0 : pairing.tolerance, nanoseconds(silence_timeout_s)),
       start_(ros::WallTime::now()),
       last_diagnosis_(start_),
@@ -106,7 +108,25 @@ std::string CameraIngestWatch::complaint() const {
   if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
     return "use_sim_time is set, but /clock is silent (rosbag play --clock?)";
   }
-  return monitor_.diagnosis(topics_(), toNanoseconds(ros::Time::now()));
+  const Nanoseconds now = toNanoseconds(ros::Time::now());
+  const StreamTopics topics = topics_();
+  std::string sentence = monitor_.diagnosis(topics, now);
+  const std::vector<Stream> silent = monitor_.silentStreams(now);
+  if (silent.empty()) return sentence;
+  const std::map<std::string, std::string> published = publishedTopics();
+  for (const Stream stream : silent)
+    sentence += "; " + streamAdvice(stream, topics[static_cast<std::size_t>(stream)].base, published);
+  return sentence;
+}
+
+/// Types by topic, without the graph's own topics.
+std::map<std::string, std::string> CameraIngestWatch::publishedTopics() const {
+  ros::master::V_TopicInfo topics;
+  ros::master::getTopics(topics);
+  std::map<std::string, std::string> types;
+  for (const ros::master::TopicInfo& topic : topics)
+    if (topic.name.rfind(own_namespace_ + "/", 0) != 0) types[topic.name] = topic.datatype;
+  return types;
 }
 
 std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {

@@ -5,6 +5,7 @@
 #include <std_msgs/Header.h>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,10 +45,12 @@ class CameraIngestWatch {
   bool isStarting() const;
   std::string silence() const;
   std::string complaint() const;
+  std::map<std::string, std::string> publishedTopics() const;
   std::vector<Remark> remarks() const;
 
   double silence_timeout_s_;
   std::function<StreamTopics()> topics_;
+  std::string own_namespace_;
   StreamMonitor monitor_;
   ThrottledLog throttle_;
   ros::Time last_frame_;             ///< when it was completed

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "softbody_tracking/camera/stream_monitor.h"
+
+namespace softbody {
+
+/// What to do about a stream without messages: names the topics that could be meant, with their types, and
+/// the launch argument to change.
+/// @param topic the stream's topic, without the name of a transport. @param published types by topic.
+std::string streamAdvice(Stream stream, const std::string& topic,
+                         const std::map<std::string, std::string>& published);
+
+}  // namespace softbody

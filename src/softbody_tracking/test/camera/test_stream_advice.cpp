@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include "softbody_tracking/camera/stream_advice.h"
+
+namespace softbody {
+namespace {
+
+using Types = std::map<std::string, std::string>;
+
+const Types kAzureKinect{{"/rgb/image_raw", "sensor_msgs/Image"},
+                         {"/rgb/camera_info", "sensor_msgs/CameraInfo"},
+                         {"/ir/image_raw", "sensor_msgs/Image"},
+                         {"/depth_to_rgb/image_raw", "sensor_msgs/Image"},
+                         {"/depth_to_rgb/camera_info", "sensor_msgs/CameraInfo"},
+                         {"/points2", "sensor_msgs/PointCloud2"}};
+
+bool names(const std::string& advice, const std::string& words) {
+  return advice.find(words) != std::string::npos;
+}
+
+TEST(StreamAdvice, NamesTheTopicsThatFitTheirTypeAndTheArgument) {
+  const std::string color = streamAdvice(Stream::kColor, "/camera/color/image_raw", kAzureKinect);
+  EXPECT_TRUE(names(color, "color:=") && names(color, "/rgb/image_raw (sensor_msgs/Image)")) << color;
+  EXPECT_FALSE(names(color, "/ir/") || names(color, "/depth_to_rgb/") || names(color, "/points2")) << color;
+  const std::string depth = streamAdvice(Stream::kDepth, "/camera/depth", kAzureKinect);
+  EXPECT_TRUE(names(depth, "depth:=") && names(depth, "/depth_to_rgb/image_raw (sensor_msgs/Image)"))
+      << depth;
+  const std::string info = streamAdvice(Stream::kColorInfo, "/camera/color/camera_info", kAzureKinect);
+  EXPECT_TRUE(names(info, "color_info:=") && names(info, "/rgb/camera_info (sensor_msgs/CameraInfo)"))
+      << info;
+}
+
+TEST(StreamAdvice, EachMissingStreamHasItsOwnRemedy) {
+  EXPECT_TRUE(names(streamAdvice(Stream::kColor, "/c", {}), "start the camera's driver"));
+  EXPECT_TRUE(names(streamAdvice(Stream::kColorInfo, "/c", {}), "calibrate the camera"));
+  EXPECT_TRUE(names(streamAdvice(Stream::kDepth, "/c", {}), "align_depth:=true"));
+}
+
+TEST(StreamAdvice, CompressedImagesNeedTheTransport) {
+  const Types types{{"/c/compressed", "sensor_msgs/CompressedImage"},
+                    {"/d/compressedDepth", "sensor_msgs/CompressedImage"}};
+  EXPECT_TRUE(names(streamAdvice(Stream::kColor, "/c", types), "color_transport:=compressed"));
+  EXPECT_TRUE(names(streamAdvice(Stream::kDepth, "/d", types), "depth_transport:=compressedDepth"));
+}
+
+TEST(StreamAdvice, SaysTheTypeThatItFound) {
+  const std::string advice = streamAdvice(Stream::kColor, "/c", {{"/c", "sensor_msgs/PointCloud2"}});
+  EXPECT_TRUE(names(advice, "sensor_msgs/PointCloud2 instead of sensor_msgs/Image")) << advice;
+  EXPECT_TRUE(names(streamAdvice(Stream::kColor, "/c", {{"/c", "sensor_msgs/Image"}}), "silent"));
+}
+
+}  // namespace
+}  // namespace softbody
