@@ -4,13 +4,20 @@
 
 namespace softbody {
 
-/// The topics of a camera in a namespace, e.g. "/camera".
+/// The camera_info beside an image topic: "/rgb/image_raw" has "/rgb/camera_info", as in all of ROS.
+inline std::string infoTopicOf(const std::string& image) {
+  return image.substr(0, image.rfind('/') + 1) + "camera_info";
+}
+
+/// The topics of a camera. The default names are those of realsense2_camera in a namespace, e.g. "/camera".
 struct CameraTopics {
-  explicit CameraTopics(const std::string& camera)
+  CameraTopics(const std::string& camera)
       : color(camera + "/color/image_raw"),
-        color_info(camera + "/color/camera_info"),
+        color_info(infoTopicOf(color)),
         depth(camera + "/aligned_depth_to_color/image_raw"),
-        depth_info(camera + "/aligned_depth_to_color/camera_info") {}
+        depth_info(infoTopicOf(depth)) {}
+  CameraTopics(const char* camera) : CameraTopics(std::string(camera)) {}
+
   std::string color, color_info, depth, depth_info;
 };
 

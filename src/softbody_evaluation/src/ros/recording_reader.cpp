@@ -12,10 +12,10 @@
 #include <stdexcept>
 
 #include "ros/typed_topic.h"
-#include "softbody_common/camera_topics.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/input_bag.h"
+#include "softbody_recordings/ros/recorded_images.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 
 namespace softbody::evaluation {
@@ -73,8 +73,17 @@ RecordedFrame toFrame(const Pairer::Frame& pair, const Undistortion& undistortio
   frame.frame_id = pair.color->header.frame_id;
   frame.camera = undistortion.camera;
   frame.color = undistortion.apply(cv_bridge::toCvCopy(pair.color, "bgr8")->image, cv::INTER_LINEAR);
+  if (pair.depth && (pair.depth->width != pair.color->width || pair.depth->height != pair.color->height))
+    throw std::invalid_argument(
+        "the recording's depth is not registered to colour, which evaluate needs; record the driver's "
+        "registered depth");
   if (pair.depth) frame.depth = undistortion.apply(depthInMetres(*pair.depth), cv::INTER_NEAREST);
   return frame;
+}
+
+sensor_msgs::ImageConstPtr imageOf(const rosbag::MessageInstance& instance, const rosbag::Bag& bag) {
+  const sensor_msgs::ImageConstPtr image = recordedImage(instance);
+  return image ? image : instantiate<sensor_msgs::Image>(instance, bag);
 }
 
 sensor_msgs::CameraInfoConstPtr firstInfo(const rosbag::Bag& bag, const std::string& topic) {
@@ -84,10 +93,10 @@ sensor_msgs::CameraInfoConstPtr firstInfo(const rosbag::Bag& bag, const std::str
 
 }  // namespace
 
-void readRecording(const std::string& path, const std::string& camera,
+void readRecording(const std::string& path, const CameraTopics& camera,
                    const std::function<void(const RecordedFrame&)>& use) {
   const rosbag::Bag bag = openBag(path);
-  const CameraTopics topics(camera);
+  const CameraTopics topics = recordedTopics(bag, camera);
   for (const std::string& topic : {topics.color, topics.depth, topics.color_info}) requireTopic(bag, topic);
   const sensor_msgs::CameraInfoConstPtr info = firstInfo(bag, topics.color_info);
   const Undistortion undistortion(*info);
@@ -100,7 +109,7 @@ void readRecording(const std::string& path, const std::string& camera,
   };
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{topics.color, topics.depth}));
   for (const rosbag::MessageInstance& instance : view) {
-    const auto image = instantiate<sensor_msgs::Image>(instance, bag);
+    const sensor_msgs::ImageConstPtr image = imageOf(instance, bag);
     const Nanoseconds stamp = toNanoseconds(image->header.stamp);
     if (instance.getTopic() == topics.color) {
       pairer.addColor(stamp, image);
@@ -112,17 +121,17 @@ void readRecording(const std::string& path, const std::string& camera,
   drain(true);
 }
 
-std::string recordingFrame(const std::string& path, const std::string& camera) {
+std::string recordingFrame(const std::string& path, const CameraTopics& camera) {
   const rosbag::Bag bag = openBag(path);
-  const CameraTopics topics(camera);
+  const CameraTopics topics = recordedTopics(bag, camera);
   requireTopic(bag, topics.color);
   rosbag::View view(bag, rosbag::TopicQuery(topics.color));
-  return instantiate<sensor_msgs::Image>(*view.begin(), bag)->header.frame_id;
+  return imageOf(*view.begin(), bag)->header.frame_id;
 }
 
-bool hasRecording(const std::string& path, const std::string& camera) {
+bool hasRecording(const std::string& path, const CameraTopics& camera) {
   const rosbag::Bag bag = openBag(path);
-  const CameraTopics topics(camera);
+  const CameraTopics topics = recordedTopics(bag, camera);
   for (const std::string& topic : {topics.color, topics.depth, topics.color_info}) {
     if (rosbag::View(bag, rosbag::TopicQuery(topic)).size() == 0) return false;
   }

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "softbody_common/camera_topics.h"
+
 namespace softbody::evaluation {
 
 /// What is compared, and the limits of the measures.
@@ -10,7 +12,8 @@ struct EvaluatorOptions {
   std::string truth, recording;  ///< bags; empty: none
   std::string unhidden;          ///< bag with the result for the same motion without occluders; empty: none
   std::string report_folder;     ///< empty: no report is written
-  std::string result_namespace = "/softbody", camera = "/camera";
+  std::string result_namespace = "/softbody";
+  CameraTopics camera = "/camera";
   double occluder_m = 0.03;     ///< see depthResidual
   int window = 100;             ///< frames of a row of the depth residual's table
   double near_cut_m = 0.01;     ///< largest distance of "vertices near a cut", at rest

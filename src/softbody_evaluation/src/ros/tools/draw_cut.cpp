@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "softbody_common/camera_options.h"
 #include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_common/topics.h"
@@ -19,7 +20,8 @@ namespace {
 
 struct Options {
   std::vector<std::string> results;
-  std::string recording, output, topic_namespace = "/softbody", camera = "/camera";
+  std::string recording, output, topic_namespace = "/softbody";
+  CameraTopics camera = "/camera";
 };
 
 SurfaceRecord readResult(const Options& options, const std::string& path) {
@@ -66,7 +68,7 @@ void declare(CLI::App* app, Options* options) {
   app->add_option("--output", options->output, "picture to write, e.g. cut.png")->required();
   app->add_option("--namespace", options->topic_namespace, "namespace of the results' topics")
       ->capture_default_str();
-  app->add_option("--camera", options->camera, "namespace of the recording's topics")->capture_default_str();
+  addCameraOptions(app, &options->camera);
   app->callback([options, recording] {
     if (!cv::haveImageWriter(options->output))
       throw CLI::ValidationError("--output", options->output + " is not the name of a picture, e.g. cut.png");

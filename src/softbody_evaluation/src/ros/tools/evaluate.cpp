@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "softbody_common/camera_options.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_evaluation/report/figures.h"
 #include "softbody_evaluation/report/report_json.h"
@@ -32,7 +33,7 @@ void declare(CLI::App* app, EvaluatorOptions* options, std::string* other_result
   app->add_option("--report", options->report_folder, "folder for report.json, report.html and pictures");
   app->add_option("--namespace", options->result_namespace, "namespace of the result's topics")
       ->capture_default_str();
-  app->add_option("--camera", options->camera, "namespace of the recording's topics")->capture_default_str();
+  addCameraOptions(app, &options->camera);
   app->add_option("--occluder", options->occluder_m,
                   "depth that is nearer than the surface by more than this is an occluder [m]")
       ->check(CLI::Range(0.001, 10.0))

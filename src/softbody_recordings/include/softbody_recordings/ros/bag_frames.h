@@ -7,14 +7,15 @@
 #include <functional>
 #include <string>
 
+#include "softbody_common/camera_topics.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 
 namespace softbody {
 
 struct BagFramesConfig {
-  std::string camera = "/camera";  ///< namespace of the camera's topics
-  PairingConfig pairing;           ///< as camera_ingest's
+  CameraTopics camera = "/camera";
+  PairingConfig pairing;  ///< as camera_ingest's
 };
 
 /// What was read.
@@ -22,6 +23,7 @@ struct BagFramesReport {
   int frames = 0;
   int without_depth = 0;   ///< of these, frames with a colour image only
   int unusable = 0;        ///< of these, frames whose images could not be converted
+  int undecoded = 0;       ///< compressed images that are damaged
   std::string last_error;  ///< of the last unusable one
   UnpairedImages unpaired;
 };

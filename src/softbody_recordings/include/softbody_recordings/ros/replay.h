@@ -11,9 +11,9 @@
 namespace softbody {
 
 struct ReplayOptions {
-  std::string input, object, output;          ///< bag, object YAML, bag
-  std::string parameters, tool, journal;      ///< YAML, tool YAML, bag with cuts; empty: none
-  std::string camera = "/camera";             ///< namespace of the camera's topics
+  std::string input, object, output;      ///< bag, object YAML, bag
+  std::string parameters, tool, journal;  ///< YAML, tool YAML, bag with cuts; empty: none
+  CameraTopics camera = "/camera";
   std::string topic_namespace = "/softbody";  ///< of the output topics
   std::string output_frame;                   ///< of targets and states; empty: from the parameters
   std::string simd;                           ///< of the simulator; empty: from the parameters

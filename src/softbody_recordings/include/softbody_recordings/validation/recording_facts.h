@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "softbody_common/types.h"
+#include "softbody_recordings/validation/registration_shift.h"
 
 namespace softbody::validation {
 
@@ -48,6 +49,7 @@ struct RecordingFacts {
   StreamFacts color, color_info, depth, depth_info;
   std::vector<CameraFacts> color_cameras, depth_cameras;  ///< different ones, in order of appearance
   DepthFacts depth_values;
+  std::optional<RegistrationShift> shift;
 };
 
 }  // namespace softbody::validation

@@ -9,10 +9,13 @@ namespace softbody::validation {
 namespace {
 
 // The encodings that cv_bridge converts to bgr8.
-const std::set<std::string> kColorEncodings{"rgb8",        "bgr8",       "rgba8",       "bgra8",
-                                            "mono8",       "yuv422",     "bayer_rggb8", "bayer_bggr8",
-                                            "bayer_gbrg8", "bayer_grbg8"};
+const std::set<std::string> kColorEncodings{
+    "rgb8", "bgr8", "rgba8", "bgra8", "yuv422", "bayer_rggb8", "bayer_bggr8", "bayer_gbrg8", "bayer_grbg8"};
 const std::set<std::string> kDepthEncodings{"16UC1", "mono16", "32FC1"};
+
+// A shift is reported from this share of the image's width on: 13 pixels of 640.
+constexpr double kSmallestShift = 0.02;
+constexpr double kClearSimilarity = 0.15, kClearlyBetter = 1.3;
 
 std::string sizeText(const std::pair<int, int>& size) {
   return fmt::format("{}x{}", size.first, size.second);
@@ -52,15 +55,26 @@ bool similar(const CameraFacts& a, const CameraFacts& b) {
          near(a.cy, b.cy, 2.0);
 }
 
+/// Edges of depth and colour agree clearly better with a shift that no edge is wide.
+bool isShifted(const RegistrationShift& shift, const StreamFacts& color) {
+  if (color.sizes.empty()) return false;
+  const double width = color.sizes.begin()->first.first;
+  return cv::norm(shift.pixels) > kSmallestShift * width && shift.similarity > kClearSimilarity &&
+         shift.similarity > kClearlyBetter * shift.unshifted;
+}
+
 void checkRegistration(const RecordingFacts& facts, Findings* findings) {
   const StreamFacts &color = facts.color, &depth = facts.depth;
   const char remedy[] =
-      "depth must be registered to colour: record the driver's aligned depth (align_depth:=true), or "
-      "register "
-      "it with depth_image_proc";
+      "depth is not registered to colour: record the driver's aligned depth (align_depth:=true), or "
+      "depth's camera_info and /tf_static, from which the tracker registers it";
+  const bool placed = !facts.depth_cameras.empty() &&
+                      (color.frame_ids == depth.frame_ids || facts.topics.count("/tf_static") != 0 ||
+                       facts.topics.count("/tf") != 0);
+  const Severity severity = placed ? Severity::kWarning : Severity::kError;
   if (color.sizes.size() == 1 && depth.sizes.size() == 1 &&
       color.sizes.begin()->first != depth.sizes.begin()->first) {
-    findings->push_back({Severity::kError, "registration", depth.topic,
+    findings->push_back({severity, "registration", depth.topic,
                          fmt::format("is {}, {} is {}; {}", sizeText(depth.sizes.begin()->first), color.topic,
                                      sizeText(color.sizes.begin()->first), remedy)});
     return;
@@ -69,9 +83,17 @@ void checkRegistration(const RecordingFacts& facts, Findings* findings) {
       !similar(facts.color_cameras.front(), facts.depth_cameras.front())) {
     const CameraFacts &a = facts.color_cameras.front(), &b = facts.depth_cameras.front();
     findings->push_back(
-        {Severity::kError, "registration", facts.depth_info.topic,
+        {severity, "registration", facts.depth_info.topic,
          fmt::format("has fx {:.1f} cx {:.1f} cy {:.1f}, {} has fx {:.1f} cx {:.1f} cy {:.1f}; {}", b.fx,
                      b.cx, b.cy, facts.color_info.topic, a.fx, a.cx, a.cy, remedy)});
+  } else if (facts.shift && isShifted(*facts.shift, color)) {
+    findings->push_back(
+        {Severity::kError, "registration", depth.topic,
+         fmt::format(
+             "has its edges {:.0f} pixels beside those of {} (right {:+.0f}, down {:+.0f}); depth is not "
+             "registered, or its camera_info is of another camera: record the driver's aligned depth, and "
+             "calibrate the two cameras to each other",
+             cv::norm(facts.shift->pixels), color.topic, facts.shift->pixels.x, facts.shift->pixels.y)});
   } else if (!color.frame_ids.empty() && !depth.frame_ids.empty() && color.frame_ids != depth.frame_ids) {
     findings->push_back({Severity::kWarning, "frames", depth.topic,
                          fmt::format("is in frame '{}', {} is in '{}'; if depth is registered to colour, use "

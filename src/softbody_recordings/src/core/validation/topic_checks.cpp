@@ -16,24 +16,23 @@ std::vector<std::string> topicsOfType(const RecordingFacts& facts, const std::st
   return names;
 }
 
+/// Whether the topic is that of a transport that the tools decode.
+bool isCompressed(const StreamFacts& stream) {
+  return stream.type == kCompressed && stream.topic.find("/compressed") != std::string::npos;
+}
+
 /// What the user can do about a missing topic.
-std::string remedy(const RecordingFacts& facts, const std::string& topic, const std::string& type) {
-  if (facts.topics.count(topic + "/compressed") != 0) {
-    return fmt::format(
-        "there is {0}/compressed, which is not read; decompress it to {0} with image_transport's "
-        "republish, or record raw images",
-        topic);
+std::string remedy(const RecordingFacts& facts, const std::string& type) {
+  std::vector<std::string> candidates = topicsOfType(facts, type);
+  if (type == kImage) {
+    for (const std::string& name : topicsOfType(facts, kCompressed)) candidates.push_back(name);
   }
-  const std::vector<std::string> candidates = topicsOfType(facts, type);
   if (!candidates.empty()) {
     return fmt::format(
-        "of that type the bag has {}; give the camera's namespace (camera:=, --camera) or remap the topics",
+        "of that type the bag has {}; name the right one (--color, --depth, --color-info, --depth-info; of "
+        "compressed images without the "
+        "transport)",
         fmt::join(candidates, ", "));
-  }
-  const std::vector<std::string> compressed = topicsOfType(facts, kCompressed);
-  if (type == kImage && !compressed.empty()) {
-    return fmt::format("the bag has only compressed images ({}), which are not read; record raw images",
-                       fmt::join(compressed, ", "));
   }
   return "record it";
 }
@@ -41,13 +40,12 @@ std::string remedy(const RecordingFacts& facts, const std::string& topic, const 
 void checkTopic(const RecordingFacts& facts, const StreamFacts& stream, const std::string& type,
                 Severity severity, Findings* findings) {
   if (!stream.present()) {
+    findings->push_back({severity, "topics", stream.topic,
+                         fmt::format("is not in the bag (expected {}); {}", type, remedy(facts, type))});
+  } else if (stream.type != type && !isCompressed(stream)) {
     findings->push_back(
-        {severity, "topics", stream.topic,
-         fmt::format("is not in the bag (expected {}); {}", type, remedy(facts, stream.topic, type))});
-  } else if (stream.type != type) {
-    findings->push_back({severity, "types", stream.topic,
-                         fmt::format("is of type {} instead of {}; {}", stream.type, type,
-                                     remedy(facts, stream.topic, type))});
+        {severity, "types", stream.topic,
+         fmt::format("is of type {} instead of {}; {}", stream.type, type, remedy(facts, type))});
   }
 }
 

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <rosbag/exceptions.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 namespace softbody {
 
 rosbag::Bag openBag(const std::string& path) try {
+  if (!std::filesystem::exists(path)) throw std::invalid_argument(fmt::format("{}: no such file", path));
+  if (!std::filesystem::is_regular_file(path))
+    throw std::invalid_argument(fmt::format("{} is not a file", path));
   return rosbag::Bag(path, rosbag::bagmode::Read);
 } catch (const rosbag::BagUnindexedException&) {
   throw std::invalid_argument(fmt::format("{}: the bag was not closed; run rosbag reindex {}", path, path));

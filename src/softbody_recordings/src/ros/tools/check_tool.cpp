@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "softbody_common/camera_options.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/input_bag.h"
@@ -21,7 +22,7 @@ int runCheckTool(int argc, char** argv) {
       ->required()
       ->check(CLI::ExistingFile);
   app.add_option("--tool", tool, "tool YAML")->required()->check(CLI::ExistingFile);
-  app.add_option("--camera", config.camera, "namespace of the camera's topics")->capture_default_str();
+  addCameraOptions(&app, &config.camera);
   addAllowOutside(&app, &scope);
   return runTool(&app, argc, argv, [&] {
     const ToolDescription description = loadToolDescription(tool, scope);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
+#include "softbody_common/camera_options.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_common/tracking_state.h"
 #include "softbody_recordings/ros/replay.h"
@@ -28,7 +29,7 @@ void declare(CLI::App* app, ReplayOptions* options) {
   app->add_option("--journal", options->journal, "bag with cuts to repeat, instead of a tool")
       ->check(CLI::ExistingFile)
       ->excludes(tool);
-  app->add_option("--camera", options->camera, "namespace of the camera topics")->capture_default_str();
+  addCameraOptions(app, &options->camera);
   app->add_option("--namespace", options->topic_namespace, "namespace of the output topics")
       ->capture_default_str();
   app->add_option(
@@ -54,6 +55,7 @@ void printFrames(const ReplaySummary& summary) {
              summary.skipped);
   const UnpairedImages& unpaired = summary.read.unpaired;
   const std::pair<int, const char*> kinds[] = {
+      {summary.read.undecoded, "compressed images that cannot be decoded"},
       {unpaired.unstamped, "images without a stamp"},
       {unpaired.outliers, "images with an odd stamp, far from those before and after"},
       {unpaired.colors_repeated, "colour images with the stamp of the image before"},
@@ -75,7 +77,7 @@ void printFrames(const ReplaySummary& summary) {
 
 void print(const ReplaySummary& summary, const ReplayOptions& options) {
   printFrames(summary);
-  if (summary.read.unusable > 0) fmt::print("last unusable frame: {}\n", summary.read.last_error);
+  if (!summary.read.last_error.empty()) fmt::print("last unusable frame: {}\n", summary.read.last_error);
   if (!options.tool.empty() || !options.journal.empty())
     fmt::print("frames with the tool {}, cuts {}, pieces {}\n", summary.tools, summary.cuts, summary.pieces);
   if (!summary.tool_missed.empty()) fmt::print("tool not seen in {}\n", summary.tool_missed);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "softbody_common/camera_options.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_recordings/ros/facts_reader.h"
 #include "softbody_recordings/validation/checks.h"
@@ -13,12 +14,13 @@
 namespace softbody::validation {
 
 int runValidateBag(int argc, char** argv) {
-  std::string input, camera = "/camera";
+  std::string input;
+  CameraTopics camera = "/camera";
   CheckLimits limits;
   bool json = false;
   CLI::App app("Checks whether a recording is usable for tracking. Exit code 0: usable; 1: not usable");
   app.add_option("input", input, "bag with the camera's topics")->required()->check(CLI::ExistingFile);
-  app.add_option("--camera", camera, "namespace of the camera's topics")->capture_default_str();
+  addCameraOptions(&app, &camera);
   app.add_option("--sync-tolerance", limits.sync_tolerance_s, "largest time between colour and depth [s]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

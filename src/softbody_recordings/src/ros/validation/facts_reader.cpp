@@ -11,15 +11,16 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "softbody_common/camera_topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/input_bag.h"
+#include "softbody_recordings/ros/recorded_images.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody::validation {
 namespace {
 
-constexpr std::size_t kDepthSamples = 30;
+constexpr std::size_t kDepthSamples = 30, kShiftSamples = 20;
+constexpr double kSameTime_s = 0.015;
 constexpr std::size_t kPixelStep = 7;  // every 7th pixel is enough for the median
 
 bool isMalformed(const sensor_msgs::Image& image) {
@@ -88,14 +89,46 @@ class DepthSampler {
   std::vector<float> values_;
 };
 
-void addImage(const rosbag::MessageInstance& instance, StreamFacts* stream, DepthSampler* sampler) {
-  const auto image = instance.instantiate<sensor_msgs::Image>();
-  if (!image) return;  // another check finds wrong types
+/// Compares colour and depth of some frames.
+class ShiftSampler {
+ public:
+  explicit ShiftSampler(std::size_t images) : step_(std::max<std::size_t>(1, images / kShiftSamples)) {}
+
+  void addColor(const sensor_msgs::ImageConstPtr& image) { compare(color_ = image, depth_); }
+  void addDepth(const sensor_msgs::ImageConstPtr& image) { compare(color_, depth_ = image); }
+  std::optional<RegistrationShift> shift() const { return estimator_.shift(); }
+
+ private:
+  void compare(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth) {
+    if (!color || !depth || std::abs((color->header.stamp - depth->header.stamp).toSec()) > kSameTime_s)
+      return;
+    if (seen_++ % step_ != 0) return;
+    try {
+      cv::Mat1f values;
+      depthFromMessage(*depth).convertTo(values, CV_32F);
+      estimator_.add(colorFromMessage(*color), values);
+    } catch (const std::invalid_argument&) {  // another check finds wrong images
+    }
+  }
+
+  std::size_t step_, seen_ = 0;
+  sensor_msgs::ImageConstPtr color_, depth_;
+  RegistrationShiftEstimator estimator_;
+};
+
+sensor_msgs::ImageConstPtr addImage(const rosbag::MessageInstance& instance, StreamFacts* stream) {
+  sensor_msgs::ImageConstPtr image;
+  try {
+    image = recordedImage(instance);
+  } catch (const std::invalid_argument&) {
+    ++stream->malformed;
+  }
+  if (!image) return nullptr;  // another check finds wrong types
   addTimes(image->header, instance.getTime(), stream);
   ++stream->encodings[image->encoding];
   ++stream->sizes[{static_cast<int>(image->width), static_cast<int>(image->height)}];
   stream->malformed += isMalformed(*image);
-  if (sampler != nullptr) sampler->add(*image);
+  return image;
 }
 
 void addInfo(const rosbag::MessageInstance& instance, StreamFacts* stream,
@@ -109,7 +142,7 @@ void addInfo(const rosbag::MessageInstance& instance, StreamFacts* stream,
 
 }  // namespace
 
-RecordingFacts readFacts(const std::string& path, const std::string& camera,
+RecordingFacts readFacts(const std::string& path, const CameraTopics& camera,
                          const std::function<void(double)>& progress) try {
   const rosbag::Bag bag = openBag(path);
   RecordingFacts facts;
@@ -117,7 +150,7 @@ RecordingFacts readFacts(const std::string& path, const std::string& camera,
   rosbag::View everything(bag);
   for (const rosbag::ConnectionInfo* connection : everything.getConnections())
     facts.topics[connection->topic] = connection->datatype;
-  const CameraTopics topics(camera);
+  const CameraTopics topics = recordedTopics(bag, camera);
   facts.color.topic = topics.color;
   facts.color_info.topic = topics.color_info;
   facts.depth.topic = topics.depth;
@@ -128,18 +161,25 @@ RecordingFacts readFacts(const std::string& path, const std::string& camera,
     if (found != facts.topics.end()) stream->type = found->second;
     names.push_back(stream->topic);
   }
-  DepthSampler sampler(rosbag::View(bag, rosbag::TopicQuery(facts.depth.topic)).size());
+  const std::size_t depth_images = rosbag::View(bag, rosbag::TopicQuery(facts.depth.topic)).size();
+  DepthSampler sampler(depth_images);
+  ShiftSampler shift_sampler(depth_images);
   rosbag::View view(bag, rosbag::TopicQuery(names));
   double count = 0.0;
   for (const rosbag::MessageInstance& instance : view) {
     const std::string topic = instance.getTopic();
-    if (topic == facts.color.topic) addImage(instance, &facts.color, nullptr);
-    if (topic == facts.depth.topic) addImage(instance, &facts.depth, &sampler);
+    if (topic == facts.color.topic) shift_sampler.addColor(addImage(instance, &facts.color));
+    if (topic == facts.depth.topic) {
+      const sensor_msgs::ImageConstPtr image = addImage(instance, &facts.depth);
+      if (image) sampler.add(*image);
+      shift_sampler.addDepth(image);
+    }
     if (topic == facts.color_info.topic) addInfo(instance, &facts.color_info, &facts.color_cameras);
     if (topic == facts.depth_info.topic) addInfo(instance, &facts.depth_info, &facts.depth_cameras);
     progress(++count / static_cast<double>(view.size()));
   }
   facts.depth_values = sampler.facts();
+  facts.shift = shift_sampler.shift();
   return facts;
 } catch (const rosbag::BagException& error) {
   throw std::runtime_error(
