@@ -148,9 +148,10 @@ class LiveGraph {
 
  private:
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth) {
-    const auto* metres = reinterpret_cast<const float*>(depth->data.data());
+    const float centre =
+        reinterpret_cast<const float*>(depth->data.data())[kHeight / 2 * kWidth + kWidth / 2];
     frames_.emplace_back(static_cast<Nanoseconds>(color->header.stamp.toNSec()),
-                         numberOf(metres[kHeight / 2 * kWidth + kWidth / 2]));
+                         numberOf(std::isnan(centre) ? 0.0f : centre));
   }
 
   template <typename Condition>

@@ -21,8 +21,9 @@ CameraTopics recordedTopics(const rosbag::Bag& bag, const CameraTopics& wanted) 
 }
 
 sensor_msgs::ImageConstPtr recordedImage(const rosbag::MessageInstance& instance) {
-  if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>())
-    return decompressed(*compressed);
+  const bool transported = instance.getTopic().find("/compressed") != std::string::npos;
+  const auto compressed = transported ? instance.instantiate<sensor_msgs::CompressedImage>() : nullptr;
+  if (compressed) return decompressed(*compressed);
   return instance.instantiate<sensor_msgs::Image>();
 }
 
