@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Bags with compressed images, with other topic names, with shifted depth, and no bag at all."""
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import rosbag
+import rospkg
+import rostest
+from sensor_msgs.msg import CompressedImage
+
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+from driver_camera import png  # pylint: disable=wrong-import-position
+
+SHARE = rospkg.RosPack().get_path("softbody_bringup")
+BAG, OBJECT = f"{SHARE}/rosbags/bend_small.bag", f"{SHARE}/config/sponge.yaml"
+COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
+RENAMED = {COLOR: "/rgb/image_raw", "/camera/color/camera_info": "/rgb/camera_info",
+           DEPTH: "/depth_to_rgb/image_raw", "/camera/aligned_depth_to_color/camera_info": "/depth_to_rgb/camera_info"}
+NAMES = ["--color", "/rgb/image_raw", "--depth", "/depth_to_rgb/image_raw"]
+
+
+def array(image):
+    if image.encoding == "16UC1":
+        return np.frombuffer(image.data, np.uint16).reshape(image.height, image.width)
+    pixels = np.frombuffer(image.data, np.uint8).reshape(image.height, image.width, 3)
+    return pixels if image.encoding == "rgb8" else pixels[..., ::-1]
+
+
+def compress(topic, image):
+    if topic not in (COLOR, DEPTH):
+        return topic, image
+    packed = CompressedImage(header=image.header)
+    packed.format = f"{image.encoding}; png compressed bgr8" if topic == COLOR else "16UC1; compressedDepth png"
+    packed.data = png(array(image)) if topic == COLOR else struct.pack("<iff", 0, 0, 0) + png(array(image))
+    return topic + ("/compressed" if topic == COLOR else "/compressedDepth"), packed
+
+
+def shift(topic, image):
+    if topic == DEPTH:
+        image.data = np.roll(array(image), 30, axis=1).tobytes()
+    return topic, image
+
+
+def tool(name, *arguments):
+    return subprocess.run(["rosrun", "softbody_bringup", name, *arguments], capture_output=True, text=True, timeout=300,
+                          check=False)
+
+
+class CameraBags(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def copy(self, name, change):
+        with rosbag.Bag(self.path(name), "w") as copied:
+            for topic, message, stamp in rosbag.Bag(BAG):
+                if not topic.startswith("/ground_truth"):
+                    copied.write(*change(topic, message), stamp)
+        return self.path(name)
+
+    def surfaces(self, bag, *names):
+        result = self.path("result.bag")
+        done = tool("replay", bag, "--object", OBJECT, "--output", result, *names)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        vertices = [message.vertices for _, message, _ in rosbag.Bag(result).read_messages("/softbody/surface/state")]
+        self.assertTrue(vertices)
+        return vertices
+
+    def test_compressed_images_are_replayed_like_raw_ones(self):
+        """PNG loses nothing."""
+        compressed = self.copy("compressed.bag", compress)
+        self.assertEqual(self.surfaces(compressed), self.surfaces(BAG))
+        checked = tool("validate_bag", compressed)
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    def test_topics_may_have_other_names(self):
+        renamed = self.copy("renamed.bag", lambda topic, message: (RENAMED.get(topic, topic), message))
+        self.assertEqual(self.surfaces(renamed, *NAMES), self.surfaces(BAG))
+        self.assertEqual(tool("validate_bag", renamed, *NAMES).returncode, 0)
+        refused = tool("replay", renamed, "--object", OBJECT, "--output", self.path("result.bag"))
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("/rgb/image_raw", refused.stderr)
+        self.assertIn("--color", refused.stderr)
+
+    def test_depth_beside_colour_is_found(self):
+        shifted = tool("validate_bag", self.copy("shifted.bag", shift))
+        self.assertEqual(shifted.returncode, 1)
+        self.assertIn("pixels beside those of", shifted.stdout)
+        self.assertEqual(tool("validate_bag", BAG).returncode, 0)
+
+    def test_no_file_is_called_so(self):
+        for name, more in (("validate_bag", []), ("replay", ["--object", OBJECT, "--output", self.path("out.bag")])):
+            refused = tool(name, self.path("nothing.bag"), *more)
+            self.assertEqual(refused.returncode, 2, name)
+            self.assertIn(f"File does not exist: {self.path('nothing.bag')}", refused.stdout + refused.stderr)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("softbody_bringup", "test_camera_bags", CameraBags, sys.argv)
