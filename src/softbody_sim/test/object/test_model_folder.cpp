@@ -28,6 +28,21 @@ TEST_F(ObjectModelTest, PreparedFolderGivesTheSameModel) {
   EXPECT_EQ(prepared.volume.rest_vertices, buildObjectModel(scaled).volume.rest_vertices);
 }
 
+/// The length of the real body replaces the unit, whatever it is.
+TEST_F(ObjectModelTest, TheLengthOrTheScaleReplacesTheUnit) {
+  const ObjectDescription description = describe(stretched(test::torus(0.1, 0.03, 60, 24), 37, 37, 37));
+  std::ostringstream output;
+  const auto longestSide = [&](const ModelSource& source) {
+    prepareModel(source, folder_.file("out"), {}, output);
+    const Points rest =
+        buildObjectModel(loadObjectDescription(folder_.file("out/object.yaml"))).visual.rest_vertices;
+    return (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
+  };
+  EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.0, 0.2}), 0.2, 1e-6);
+  EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.0, 0.0, 0.01}), 37 * 0.26 * 0.01, 1e-4);
+  EXPECT_NE(output.str().find("**Verdict: good.**"), std::string::npos) << output.str();
+}
+
 TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
   std::filesystem::create_directories(folder_.file("out"));
   folder_.write("out/object.yaml", "mine");

@@ -11,6 +11,7 @@
 
 #include "report/model_picture.h"
 #include "report/model_quality.h"
+#include "report/model_verdict.h"
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/files/staged_output.h"
 #include "softbody_common/tet_geometry.h"
@@ -44,7 +45,12 @@ std::string report(const std::string& mesh, const ObjectModel& model, const Mode
   std::string text =
       fmt::format("# {}\n\n{:.1f} x {:.1f} x {:.1f} mm, texture coordinates: {}\n\n", mesh, extent[0],
                   extent[1], extent[2], model.visual.texture_coordinates.rows() > 0 ? "yes" : "no");
-  text += "![visual mesh, cage and tets](models.png)\n\n";
+  std::vector<Judgement> judgements = judge(q, 1e-3 * extent.maxCoeff());
+  for (const std::string& warning : model.warnings) judgements.push_back({Verdict::kLookHere, warning});
+  text += fmt::format("**Verdict: {}.**\n\n| | |\n|---|---|\n", nameOf(worst(judgements)));
+  for (const Judgement& judgement : judgements)
+    text += fmt::format("| {} | {} |\n", nameOf(judgement.verdict), judgement.sentence);
+  text += "\n![visual mesh, cage and tets](models.png)\n\n";
   text += "| | this object | sponge of Kang et al. 2022 | doll of Kang et al. 2022 |\n|---|---|---|---|\n";
   text += fmt::format("| visual vertices | {} | 522 | 18650 |\n| visual triangles | {} | 1040 | 7190 |\n",
                       q.visual_vertices, q.visual_triangles);
@@ -71,8 +77,6 @@ std::string report(const std::string& mesh, const ObjectModel& model, const Mode
       "- mean value coordinates: sum to 1 within {:.1e}, reproduce the visual vertices within {:.1e} of the "
       "size\n",
       q.partition_error, q.reproduction_error / q.size);
-  text += model.warnings.empty() ? "- warnings: none\n" : "- warnings:\n";
-  for (const std::string& warning : model.warnings) text += "  - " + warning + "\n";
   return text;
 }
 
@@ -102,6 +106,18 @@ void moveFiles(const fs::path& from, const fs::path& to) {
   for (const char* file : kFiles) fs::rename(from / file, to / file);
 }
 
+/// Metres per unit of the mesh file. @throw std::invalid_argument if the mesh cannot be read or has no
+/// extent.
+double metresPerUnit(const ModelSource& source) {
+  if (source.length_m <= 0.0) return source.scale > 0.0 ? source.scale : metresPer(source.unit);
+  Warnings repeated;  // reading the model gives them again
+  const Points points = readSurfaceFile(source.mesh, &repeated).mesh.vertices;
+  const double side =
+      points.rows() == 0 ? 0.0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
+  if (!(side > 0.0)) throw std::invalid_argument(fmt::format("{}: the mesh has no extent", source.mesh));
+  return source.length_m / side;
+}
+
 }  // namespace
 
 void prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
@@ -110,7 +126,7 @@ void prepareModel(const ModelSource& source, const std::string& folder, const Vo
   requireReplaceable(target);
   ObjectDescription description;
   description.visual_mesh = source.mesh;
-  description.unit_m = metresPer(source.unit);
+  description.unit_m = metresPerUnit(source);
   description.thickness_m = source.thickness * description.unit_m;
   VolumeSettings making = settings;
   making.progress = [&](double fraction) { settings.progress(kModelProgress * fraction); };

@@ -12,6 +12,8 @@ struct ModelSource {
   std::string mesh;        ///< OBJ, PLY, STL or OFF
   std::string unit = "m";  ///< m, cm, mm or inch
   double thickness = 0.0;  ///< of a sheet, in this unit; 0: the mesh encloses the body
+  double length_m = 0.0;   ///< of the longest side; above 0, it replaces the unit
+  double scale = 0.0;      ///< metres per unit of the mesh; above 0, it replaces the unit
 };
 
 /// Writes FOLDER/{object.yaml, visual.obj, cage.obj, tets.vtu, report/report.md, report/models.png} in
