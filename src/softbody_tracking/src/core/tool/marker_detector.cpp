@@ -6,50 +6,51 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <opencv2/aruco.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "tool/aruco.h"
 #include "tool/marker_edges.h"
 
 namespace softbody {
 namespace {
 
+// With OpenCV's default, the edge of a bright plate around a marker can suppress the marker.
+constexpr double kMinMarkerDistanceRate = 0.02;
 constexpr double kReach = 0.7;        // of a cell: stays within the black border, which is one cell wide
 constexpr double kMinReach_px = 1.5;  // [px] the contour may be off by a pixel
 constexpr double kMaxReach_px = 5.0;  // [px] a longer profile adds only noise
 
-const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME>& predefined() {
+const std::map<std::string, int>& predefined() {
   using namespace cv::aruco;
-  static const std::map<std::string, PREDEFINED_DICTIONARY_NAME> kNames{
-      {"DICT_4X4_50", DICT_4X4_50},
-      {"DICT_4X4_100", DICT_4X4_100},
-      {"DICT_4X4_250", DICT_4X4_250},
-      {"DICT_4X4_1000", DICT_4X4_1000},
-      {"DICT_5X5_50", DICT_5X5_50},
-      {"DICT_5X5_100", DICT_5X5_100},
-      {"DICT_5X5_250", DICT_5X5_250},
-      {"DICT_5X5_1000", DICT_5X5_1000},
-      {"DICT_6X6_50", DICT_6X6_50},
-      {"DICT_6X6_100", DICT_6X6_100},
-      {"DICT_6X6_250", DICT_6X6_250},
-      {"DICT_6X6_1000", DICT_6X6_1000},
-      {"DICT_7X7_50", DICT_7X7_50},
-      {"DICT_7X7_100", DICT_7X7_100},
-      {"DICT_7X7_250", DICT_7X7_250},
-      {"DICT_7X7_1000", DICT_7X7_1000},
-      {"DICT_ARUCO_ORIGINAL", DICT_ARUCO_ORIGINAL},
-      {"DICT_APRILTAG_16h5", DICT_APRILTAG_16h5},
-      {"DICT_APRILTAG_25h9", DICT_APRILTAG_25h9},
-      {"DICT_APRILTAG_36h10", DICT_APRILTAG_36h10},
-      {"DICT_APRILTAG_36h11", DICT_APRILTAG_36h11}};
+  static const std::map<std::string, int> kNames{{"DICT_4X4_50", DICT_4X4_50},
+                                                 {"DICT_4X4_100", DICT_4X4_100},
+                                                 {"DICT_4X4_250", DICT_4X4_250},
+                                                 {"DICT_4X4_1000", DICT_4X4_1000},
+                                                 {"DICT_5X5_50", DICT_5X5_50},
+                                                 {"DICT_5X5_100", DICT_5X5_100},
+                                                 {"DICT_5X5_250", DICT_5X5_250},
+                                                 {"DICT_5X5_1000", DICT_5X5_1000},
+                                                 {"DICT_6X6_50", DICT_6X6_50},
+                                                 {"DICT_6X6_100", DICT_6X6_100},
+                                                 {"DICT_6X6_250", DICT_6X6_250},
+                                                 {"DICT_6X6_1000", DICT_6X6_1000},
+                                                 {"DICT_7X7_50", DICT_7X7_50},
+                                                 {"DICT_7X7_100", DICT_7X7_100},
+                                                 {"DICT_7X7_250", DICT_7X7_250},
+                                                 {"DICT_7X7_1000", DICT_7X7_1000},
+                                                 {"DICT_ARUCO_ORIGINAL", DICT_ARUCO_ORIGINAL},
+                                                 {"DICT_APRILTAG_16h5", DICT_APRILTAG_16h5},
+                                                 {"DICT_APRILTAG_25h9", DICT_APRILTAG_25h9},
+                                                 {"DICT_APRILTAG_36h10", DICT_APRILTAG_36h10},
+                                                 {"DICT_APRILTAG_36h11", DICT_APRILTAG_36h11}};
   return kNames;
 }
 
-cv::Ptr<cv::aruco::Dictionary> readDictionaryFile(const std::string& path) try {
+aruco::Dictionary readDictionaryFile(const std::string& path) try {
   const cv::FileStorage file(path, cv::FileStorage::READ);
-  const auto dictionary = cv::makePtr<cv::aruco::Dictionary>();
-  if (!dictionary->readDictionary(file.root()) || dictionary->bytesList.empty())
+  aruco::Dictionary dictionary;
+  if (!dictionary.readDictionary(file.root()) || dictionary.bytesList.empty())
     throw std::invalid_argument(path +
                                 " is not a marker dictionary: nmarkers, markersize or marker_0 is missing");
   return dictionary;
@@ -57,9 +58,9 @@ cv::Ptr<cv::aruco::Dictionary> readDictionaryFile(const std::string& path) try {
   throw std::invalid_argument(fmt::format("{} is not a marker dictionary: {}", path, error.err));
 }
 
-cv::Ptr<cv::aruco::Dictionary> findDictionary(const std::string& name) {
+aruco::Dictionary findDictionary(const std::string& name) {
   const auto found = predefined().find(name);
-  if (found != predefined().end()) return cv::aruco::getPredefinedDictionary(found->second);
+  if (found != predefined().end()) return aruco::predefinedDictionary(found->second);
   if (std::filesystem::is_regular_file(name)) return readDictionaryFile(name);
   throw std::invalid_argument(fmt::format("the marker dictionary '{}' is unknown; known: {}, or a file", name,
                                           fmt::join(dictionaryNames(), ", ")));
@@ -83,30 +84,27 @@ std::vector<std::string> dictionaryNames() {
   return names;
 }
 
-int markersInDictionary(const std::string& dictionary) { return findDictionary(dictionary)->bytesList.rows; }
+int markersInDictionary(const std::string& dictionary) { return findDictionary(dictionary).bytesList.rows; }
 
 cv::Mat1b markerCells(const std::string& dictionary, int id) {
-  const cv::Ptr<cv::aruco::Dictionary> markers = findDictionary(dictionary);
-  if (id < 0 || id >= markers->bytesList.rows) {
+  const aruco::Dictionary markers = findDictionary(dictionary);
+  if (id < 0 || id >= markers.bytesList.rows) {
     throw std::invalid_argument(
-        fmt::format("marker id is {}; allowed in {}: 0 to {}", id, dictionary, markers->bytesList.rows - 1));
+        fmt::format("marker id is {}; allowed in {}: 0 to {}", id, dictionary, markers.bytesList.rows - 1));
   }
-  cv::Mat1b cells;
-  cv::aruco::drawMarker(markers, id, markers->markerSize + 2, cells);
-  return cells;
+  return aruco::markerImage(markers, id, markers.markerSize + 2);
 }
 
 struct MarkerDetector::Implementation {
-  cv::Ptr<cv::aruco::Dictionary> dictionary;
-  cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
+  explicit Implementation(const aruco::Dictionary& dictionary)
+      : detector(dictionary, kMinMarkerDistanceRate), cells_a_side(dictionary.markerSize + 2) {}
+
+  aruco::Detector detector;
+  int cells_a_side;
 };
 
 MarkerDetector::MarkerDetector(const std::string& dictionary)
-    : implementation_(std::make_unique<Implementation>()) {
-  implementation_->dictionary = findDictionary(dictionary);
-  // With OpenCV's default, the edge of a bright plate around a marker can suppress the marker.
-  implementation_->parameters->minMarkerDistanceRate = 0.02;
-}
+    : implementation_(std::make_unique<Implementation>(findDictionary(dictionary))) {}
 
 MarkerDetector::~MarkerDetector() = default;
 
@@ -116,11 +114,11 @@ std::vector<MarkerDetection> MarkerDetector::detect(const cv::Mat1b& gray, const
   if (part.empty()) return {};
   std::vector<std::vector<cv::Point2f>> found;
   std::vector<int> ids;
-  cv::aruco::detectMarkers(gray(part), implementation_->dictionary, found, ids, implementation_->parameters);
+  implementation_->detector.detect(gray(part), &found, &ids);
   std::vector<MarkerDetection> detections;
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (cv::Point2f& corner : found[i]) corner += cv::Point2f(part.tl());
-    if (!refineCorners(gray, implementation_->dictionary->markerSize + 2, &found[i])) continue;
+    if (!refineCorners(gray, implementation_->cells_a_side, &found[i])) continue;
     MarkerDetection detection;
     detection.id = ids[i];
     for (int k = 0; k < 4; ++k) {

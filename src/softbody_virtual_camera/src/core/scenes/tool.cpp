@@ -5,10 +5,10 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <opencv2/aruco.hpp>
 #include <stdexcept>
 
 #include "softbody_common/files/yaml_map_reader.h"
+#include "softbody_tracking/tool/marker_detector.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 
 namespace softbody::virtual_camera {
@@ -43,8 +43,7 @@ Points readBlade(const YAML::Node& node) {
 /// Black cells on white, in the plane of the marker. The edges are smoothed over one texel.
 Texture markerTexture(const ToolMarker& marker) {
   constexpr double kQuarterTexel = 0.1e-3;  // [m]
-  cv::Mat1b cells;
-  cv::aruco::drawMarker(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50), marker.id, kCells, cells);
+  const cv::Mat1b cells = markerCells("DICT_4X4_50", marker.id);
   const auto level = [=](const Eigen::Vector3d& place) {
     const Eigen::Vector3d p = place / marker.size_m;
     const int column = static_cast<int>(std::floor((p.x() + 0.5) * kCells)),

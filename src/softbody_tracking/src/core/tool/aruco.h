@@ -1,0 +1,71 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+// OpenCV 4.7 moved markers from the contrib module aruco to objdetect, and changed their functions.
+#define SOFTBODY_ARUCO_IN_OBJDETECT (CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 7))
+#if SOFTBODY_ARUCO_IN_OBJDETECT
+#include <opencv2/objdetect/aruco_detector.hpp>
+#else
+#include <opencv2/aruco.hpp>
+#endif
+
+/// OpenCV's markers, the same for every version.
+namespace softbody::aruco {
+
+using cv::aruco::Dictionary;
+
+/// @param number e.g. cv::aruco::DICT_4X4_50.
+inline Dictionary predefinedDictionary(int number) {
+#if SOFTBODY_ARUCO_IN_OBJDETECT
+  return cv::aruco::getPredefinedDictionary(number);
+#else
+  return *cv::aruco::getPredefinedDictionary(number);
+#endif
+}
+
+/// The marker with its border, `side` pixels wide.
+inline cv::Mat1b markerImage(const Dictionary& dictionary, int id, int side) {
+  cv::Mat1b image;
+#if SOFTBODY_ARUCO_IN_OBJDETECT
+  cv::aruco::generateImageMarker(dictionary, id, side, image);
+#else
+  cv::aruco::drawMarker(cv::makePtr<Dictionary>(dictionary), id, side, image);
+#endif
+  return image;
+}
+
+class Detector {
+ public:
+  /// @param min_marker_distance_rate as in cv::aruco::DetectorParameters.
+  Detector(const Dictionary& dictionary, double min_marker_distance_rate) {
+#if SOFTBODY_ARUCO_IN_OBJDETECT
+    cv::aruco::DetectorParameters parameters;
+    parameters.minMarkerDistanceRate = min_marker_distance_rate;
+    detector_ = cv::aruco::ArucoDetector(dictionary, parameters);
+#else
+    dictionary_ = cv::makePtr<Dictionary>(dictionary);
+    parameters_->minMarkerDistanceRate = min_marker_distance_rate;
+#endif
+  }
+
+  void detect(const cv::Mat1b& gray, std::vector<std::vector<cv::Point2f>>* corners,
+              std::vector<int>* ids) const {
+#if SOFTBODY_ARUCO_IN_OBJDETECT
+    detector_.detectMarkers(gray, *corners, *ids);
+#else
+    cv::aruco::detectMarkers(gray, dictionary_, *corners, *ids, parameters_);
+#endif
+  }
+
+ private:
+#if SOFTBODY_ARUCO_IN_OBJDETECT
+  cv::aruco::ArucoDetector detector_;
+#else
+  cv::Ptr<Dictionary> dictionary_;
+  cv::Ptr<cv::aruco::DetectorParameters> parameters_ = cv::aruco::DetectorParameters::create();
+#endif
+};
+
+}  // namespace softbody::aruco
