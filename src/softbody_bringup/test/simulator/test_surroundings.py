@@ -10,9 +10,10 @@ import rospy
 import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import Point32, Pose, Quaternion, TransformStamped, WrenchStamped
+from geometry_msgs.msg import Point, Point32, Pose, Quaternion, TransformStamped, Vector3, WrenchStamped
 from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, PinRegion, Target, Targets, TetTopology
+from softbody_msgs.srv import Pin, Release, SetObstacle
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
@@ -47,6 +48,9 @@ class Surroundings(unittest.TestCase):
         cls.tets = np.array([tet.vertex_indices for tet in topology.tets])
         edges = cls.rest[cls.tets[:, 1:]] - cls.rest[cls.tets[:, :1]]
         cls.weight = DENSITY_KG_M3 * GRAVITY_M_S2 * np.linalg.det(edges).sum() / 6.0
+        cls.pin, cls.release, cls.set_obstacle = (
+            rospy.ServiceProxy(f"/softbody/simulator/{name}", kind)
+            for name, kind in (("pin", Pin), ("release", Release), ("set_obstacle", SetObstacle)))
         for publisher in (cls.targets, cls.pins):
             cls.recorder.wait(lambda _: publisher.get_num_connections() > 0, "a simulator that listens")
 
@@ -187,6 +191,65 @@ class Surroundings(unittest.TestCase):
             rospy.sleep(0.2)
         self.wait_until(lambda: self.reactions() - {"/softbody/reaction/gripper"} == before,
                         "the topics of five pins to end")
+
+    def obstacle(self, place, **fields):
+        """Sets the obstacle `ball`. @return the answer."""
+        request = SetObstacle._request_class(name="ball", pose=Pose(Point(*place), Quaternion(w=1.0)), **fields)
+        request.header.frame_id = FRAME
+        return self.set_obstacle(request)
+
+    def refused(self, answer, *words):
+        self.assertFalse(answer.success)
+        for word in words:
+            self.assertIn(word, answer.message)
+
+    def test_a_pin_by_service_holds_until_it_is_released(self):
+        end = self.rest[:, 0].min() + 0.03
+        request = Pin._request_class(name="gripper", min=Point32(-1.0, -1.0, -1.0), max=Point32(end, 1.0, 1.0))
+        request.header.frame_id = "gripper"
+        answer = self.pin(request)
+        held = self.rest[:, 0] < end
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.vertices, held.sum())
+        before = array(self.step().vertices)
+        self.places["gripper"] = np.add(FAR, [0.0, 0.0, 0.05])
+        np.testing.assert_allclose(array(self.step().vertices)[held], before[held] + [0.0, 0.0, 0.05], atol=1e-4)
+        self.assertTrue(self.release(name="gripper").success)
+        for _ in range(60):
+            state = self.step()
+        self.assertLess(array(state.vertices)[held][:, 2].max(), before[held][:, 2].max() + 0.03)  # it fell
+        self.refused(self.release(name="gripper"), "'gripper'", "ground, finger")
+
+    def test_pins_that_cannot_be_held_are_refused(self):
+        box = {"min": Point32(1.0, 1.0, 1.0), "max": Point32(2.0, 2.0, 2.0)}
+        self.refused(self.pin(name="gripper", **box), "'gripper'", "contains no vertex")
+        self.refused(self.pin(name="finger", **box), "'finger'", "name of an obstacle")
+        self.refused(self.pin(name="gripper", min=box["max"], max=box["min"]), "is empty")
+        self.refused(self.pin(name="no/name", **box), "no/name")
+
+    def test_an_obstacle_comes_moves_and_goes(self):
+        top = self.rest[:, 2].max()
+        self.grip("")
+        self.assertTrue(self.obstacle([0.0, 0.0, top + 0.1], shape="sphere", radius=0.02).success)
+        self.step()
+        for height in np.linspace(0.1, 0.01, 10):
+            answer = self.obstacle([0.0, 0.0, top + height])
+            self.assertTrue(answer.success, answer.message)
+            state = self.step()
+        away = np.linalg.norm(array(state.vertices) - [0.0, 0.0, top + 0.01], axis=1)
+        self.assertGreater(away.min(), 0.018)
+        self.assertIn("/softbody/reaction/ball", self.reactions())
+        self.assertTrue(self.release(name="ball").success)
+        self.wait_until(lambda: "/softbody/reaction/ball" not in self.reactions(), "the topic of an obstacle to end")
+        self.refused(self.obstacle(FAR), "'ball'", "needs a shape")
+
+    def test_obstacles_that_cannot_be_are_refused(self):
+        self.refused(self.obstacle(FAR, shape="cone"), "'ball'", "shape", "capsule")
+        self.refused(self.obstacle(FAR, shape="sphere"), "radius_m", "0")
+        self.refused(self.obstacle(FAR, shape="box", size=Vector3(0.1, 0.1, -0.1)), "size_m", "-0.1")
+        self.refused(self.obstacle([0.0, 0.0, float("nan")], shape="plane"), "pose")
+        self.refused(self.set_obstacle(name="ball", shape="plane"), "quaternion")
+        self.assertNotIn("/softbody/reaction/ball", self.reactions())
 
     def test_a_pin_waits_for_a_frame_that_tf_does_not_know(self):
         unknown, known = "tf does not know frame 'arm'", "the pose of frame 'arm' again"

@@ -1,6 +1,7 @@
 #include "softbody_sim/ros/conversions.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -19,9 +20,9 @@ std_msgs::ColorRGBA shade(const Eigen::Vector3d& position, const Eigen::Vector3d
   return colorMessage(light * (inferred + confidence * (observed - inferred)));
 }
 
-}  // namespace
-
-PinRegion fromMessage(const softbody_msgs::PinRegion& message) {
+/// A message with the box of a pin.
+template <typename Message>
+PinRegion pinRegionOf(const Message& message) {
   requireTopicName(message.name);
   const PinRegion region{message.name, message.header.frame_id, fromPoint32(message.min),
                          fromPoint32(message.max)};
@@ -30,6 +31,29 @@ PinRegion fromMessage(const softbody_msgs::PinRegion& message) {
       "the box of pin '{}' is empty: min ({:.6g}, {:.6g}, {:.6g}) is not below max ({:.6g}, {:.6g}, {:.6g})",
       region.name, region.min.x(), region.min.y(), region.min.z(), region.max.x(), region.max.y(),
       region.max.z()));
+}
+
+}  // namespace
+
+PinRegion fromMessage(const softbody_msgs::PinRegion& message) { return pinRegionOf(message); }
+
+PinRegion fromMessage(const softbody_msgs::PinRequest& request) { return pinRegionOf(request); }
+
+/// The checks are those of the parameter `obstacles`.
+ObstacleDescription fromMessage(const softbody_msgs::SetObstacleRequest& request) {
+  requireTopicName(request.name);
+  YAML::Node map;
+  map["name"] = request.name;
+  map["frame"] = request.header.frame_id;
+  map["shape"] = request.shape;
+  const geometry_msgs::Point& p = request.pose.position;
+  const geometry_msgs::Quaternion& q = request.pose.orientation;
+  map["pose"] = std::vector<double>{p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+  map[request.shape == "box" ? "rounding_m" : "radius_m"] = request.radius;
+  map["length_m"] = request.length;
+  map["size_m"] = std::vector<double>{request.size.x, request.size.y, request.size.z};
+  Parameters parameters(map, "obstacle '" + request.name + "': ");
+  return readObstacle(parameters);
 }
 
 std_msgs::ColorRGBA colorMessage(const Eigen::Vector3f& rgb) {

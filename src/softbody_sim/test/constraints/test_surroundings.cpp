@@ -223,6 +223,23 @@ TEST_P(UnderBothSolvers, ABodyThatIsPlacedAgainMeetsObstaclesAtTheirPoses) {
   }
 }
 
+TEST_P(UnderBothSolvers, AnObstacleThatComesDoesNotSweepFromTheOneThatWent) {
+  config_.gravity.setZero();
+  for (const bool changed : {false, true}) {
+    Simulator simulator(topology_, material_, config_);
+    place(&simulator);
+    Surroundings surroundings;
+    surroundings.obstacles = {Obstacle::sphere(0.02)};
+    surroundings.obstacles[0].pose = Eigen::Translation3d(0.1, 0.05, 0.1);
+    simulator.step({}, kFrame, surroundings);
+    surroundings.obstacles[0].pose = Eigen::Translation3d(0.1, 0.05, -0.1);
+    surroundings.obstacles_changed = changed;
+    simulator.step({}, 2 * kFrame, surroundings);
+    const double moved = (simulator.state().vertices - topology_.rest_vertices).norm();
+    EXPECT_EQ(moved < 1e-9, changed) << moved;  // the same obstacle pushes the body on its way
+  }
+}
+
 TEST_P(UnderBothSolvers, RefuseUnusableSurroundings) {
   Simulator simulator(topology_, material_, config_);
   place(&simulator);

@@ -15,8 +15,12 @@ struct ObstacleDescription {
   Obstacle shape;     ///< its pose is in that frame
 };
 
-/// The parameter `obstacles`: a list of maps with name, frame, shape (plane, sphere, capsule or box), pose,
-/// and the sizes of its shape (radius_m, length_m, size_m, rounding_m).
+/// One obstacle: a map with name, frame, shape (plane, sphere, capsule or box), pose, and the sizes of its
+/// shape (radius_m, length_m, size_m, rounding_m).
+/// @throw std::invalid_argument with key, value and allowed values.
+ObstacleDescription readObstacle(Parameters& map);
+
+/// The parameter `obstacles`: a list of such maps.
 /// @param unknown receives unknown keys.
 /// @throw std::invalid_argument with key, value and allowed values.
 std::vector<ObstacleDescription> readObstacles(Parameters& parameters, std::vector<std::string>* unknown);

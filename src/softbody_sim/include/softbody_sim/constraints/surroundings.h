@@ -20,7 +20,10 @@ struct Pin {
 struct Surroundings {
   std::vector<Pin> pins;
   std::vector<Obstacle> obstacles;  ///< in the same order at every step
-  Points loads;                     ///< #V by 3 forces [N], or empty
+  /// Obstacles came or went since the last step. Then none pushes what lies between its last pose and this
+  /// one.
+  bool obstacles_changed = false;
+  Points loads;  ///< #V by 3 forces [N], or empty
 };
 
 /// What the body does to a pin or an obstacle, in the targets' frame.

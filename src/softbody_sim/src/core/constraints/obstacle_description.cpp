@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace softbody {
 namespace {
@@ -58,21 +59,26 @@ void requireTopicName(const std::string& name) {
                   name.substr(0, kLongestName), kLongestName));
 }
 
+ObstacleDescription readObstacle(Parameters& map) {
+  ObstacleDescription obstacle;
+  obstacle.name = map.requiredText("name");
+  requireTopicName(obstacle.name);
+  obstacle.frame = map.text("frame", "");
+  obstacle.shape = readShape(map, obstacle.name);
+  obstacle.shape.pose = readPose(map, obstacle.name);
+  return obstacle;
+}
+
 std::vector<ObstacleDescription> readObstacles(Parameters& parameters, std::vector<std::string>* unknown) {
   std::vector<ObstacleDescription> obstacles;
   for (Parameters& map : parameters.maps("obstacles")) {
-    ObstacleDescription obstacle;
-    obstacle.name = map.requiredText("name");
-    requireTopicName(obstacle.name);
+    ObstacleDescription obstacle = readObstacle(map);
     const bool taken = std::any_of(obstacles.begin(), obstacles.end(), [&](const ObstacleDescription& other) {
       return other.name == obstacle.name;
     });
     if (taken) throw std::invalid_argument(fmt::format("two obstacles are named '{}'", obstacle.name));
-    obstacle.frame = map.text("frame", "");
-    obstacle.shape = readShape(map, obstacle.name);
-    obstacle.shape.pose = readPose(map, obstacle.name);
     for (const std::string& key : map.unknown()) unknown->push_back(key);
-    obstacles.push_back(obstacle);
+    obstacles.push_back(std::move(obstacle));
   }
   return obstacles;
 }

@@ -62,7 +62,8 @@ void ImplicitEuler::solve(BodyModel* model, const std::vector<Target>& targets,
                           const Surroundings& surroundings, BodyState* body) {
   obstacle_poses_.clear();
   for (const Obstacle& obstacle : surroundings.obstacles) obstacle_poses_.push_back(obstacle.pose);
-  if (body->obstacle_poses.size() != obstacle_poses_.size()) body->obstacle_poses = obstacle_poses_;
+  if (surroundings.obstacles_changed || body->obstacle_poses.size() != obstacle_poses_.size())
+    body->obstacle_poses = obstacle_poses_;
   const ConstrainedStep::Result& result = model->constrained_step.solve(
       free_, targets, surroundings, body->mesh.vertices, body->obstacle_poses, &solution_);
   if (!solution_.allFinite() || !std::isfinite(result.report.residual_n))

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "nodes/simulator/frame_poses.h"
+#include "nodes/frame_poses.h"
 #include "nodes/simulator/lasting_fault.h"
 
 namespace softbody {

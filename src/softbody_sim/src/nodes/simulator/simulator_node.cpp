@@ -40,6 +40,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       stamps_(node.resolveName(topics::kTargets)),
       publisher_(node, options.body_frame),
       diagnostics_(node, private_node, &simulator_, &surroundings_),
+      surroundings_input_(node, private_node, &simulator_, &surroundings_),
       targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }) {
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
   publisher_.publishEdited(simulator_, {});
@@ -48,7 +49,6 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       topics::kTargets, kTargetsQueue, [this](const auto& message) { targets_.add(message); }, {}, hints);
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SimulatorNode::onCut, this, hints);
   edits_subscriber_ = node.subscribe(topics::kSurfaceCuts, 1, &SimulatorNode::onSurfaceEdits, this, hints);
-  pin_subscriber_ = node.subscribe(topics::kPin, 10, &SimulatorNode::onPin, this);
   if (options.free_run_rate_hz > 0.0) {
     free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
                                        [this](const ros::TimerEvent&) { onFreeRun(); });
@@ -208,19 +208,6 @@ void SimulatorNode::publishEdited(const ros::Time& stamp) {
     ROS_INFO_ONCE(
         "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "
         "cut again");
-  }
-}
-
-void SimulatorNode::onPin(const softbody_msgs::PinRegionConstPtr& message) {
-  if (message->release) {
-    if (!surroundings_.removePin(message->name))
-      ROS_WARN_STREAM("no pin to release: none has the name '" << message->name << "'");
-    return;
-  }
-  try {
-    surroundings_.addPin(fromMessage(*message), simulator_.topology().rest_vertices);
-  } catch (const std::exception& error) {
-    ROS_WARN_STREAM("the pin is not added: " << error.what());
   }
 }
 

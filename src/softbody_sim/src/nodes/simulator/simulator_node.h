@@ -1,11 +1,11 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <softbody_msgs/PinRegion.h>
 #include <softbody_msgs/Targets.h>
 
 #include "nodes/simulator/simulator_diagnostics.h"
 #include "nodes/simulator/simulator_options.h"
+#include "nodes/simulator/surroundings_input.h"
 #include "nodes/simulator/surroundings_tracker.h"
 #include "nodes/simulator/volume_publisher.h"
 #include "softbody_common/ros/cut_messages.h"
@@ -16,9 +16,10 @@
 
 namespace softbody {
 
-/// Subscribes to targets, cuts and pins; publishes states of the volumetric model. If the targets stop, for
-/// example because the camera stalls, it continues at its own rate. Parameters: ~object, ~body_frame,
-/// ~obstacles, ~free_run_rate_hz, ~stall_timeout_s and those of SimulatorConfig.
+/// Subscribes to targets, cuts and pins; takes pins and obstacles by service; publishes states of the
+/// volumetric model. If the targets stop, for example because the camera stalls, it continues at its own
+/// rate. Parameters: ~object, ~body_frame, ~obstacles, ~free_run_rate_hz, ~stall_timeout_s and those of
+/// SimulatorConfig.
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -33,7 +34,6 @@ class SimulatorNode {
   void onTargets(const softbody_msgs::TargetsConstPtr& message);
   void onCut(const softbody_msgs::CutConstPtr& message);
   void onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message);
-  void onPin(const softbody_msgs::PinRegionConstPtr& message);
   void onFreeRun();
 
   bool step(const softbody_msgs::Targets& message);
@@ -63,8 +63,9 @@ class SimulatorNode {
   VolumePublisher publisher_;
   SimulatorDiagnostics diagnostics_;
   // Last, so that callbacks end before the members that they use.
+  SurroundingsInput surroundings_input_;
   NewestOnly<softbody_msgs::TargetsConstPtr> targets_;
-  ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_, pin_subscriber_;
+  ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_;
   ros::Timer free_run_timer_;
 };
 

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "softbody_sim/constraints/pin_conflict.h"
 
 namespace softbody {
 namespace {
 
-constexpr std::size_t kMostPins = 1000;  // the time of a step grows with them
+// The time of a step grows with both.
+constexpr std::size_t kMostPins = 1000;
+constexpr std::size_t kMostObstacles = 1000;
 
 }  // namespace
 
@@ -18,25 +21,72 @@ SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node,
                                          const std::vector<ObstacleDescription>& obstacles,
                                          const PinOptions& options)
     : node_(node), options_(options) {
-  for (const ObstacleDescription& obstacle : obstacles) {
-    FollowedFrame frame(fmt::format("obstacle '{}'", obstacle.name), obstacle.frame,
-                        options_.frame_timeout_s);
-    obstacles_.push_back({obstacle, std::move(frame), ReactionPublisher(node, obstacle.name)});
-  }
+  for (const ObstacleDescription& obstacle : obstacles) setObstacle(obstacle);
 }
 
-void SurroundingsTracker::addPin(const PinRegion& region, const Points& rest_vertices) {
+FollowedFrame SurroundingsTracker::frameOf(const ObstacleDescription& description) const {
+  return {fmt::format("obstacle '{}'", description.name), description.frame, options_.frame_timeout_s};
+}
+
+SurroundingsTracker::PlacedObstacle* SurroundingsTracker::find(const std::string& obstacle) {
+  const auto found = std::find_if(obstacles_.begin(), obstacles_.end(), [&](const PlacedObstacle& placed) {
+    return placed.description.name == obstacle;
+  });
+  return found == obstacles_.end() ? nullptr : &*found;
+}
+
+void SurroundingsTracker::setObstacle(const ObstacleDescription& description) {
+  if (pins_.count(description.name) > 0)
+    throw std::invalid_argument(fmt::format("obstacle '{}' has the name of a pin", description.name));
+  PlacedObstacle* known = find(description.name);
+  if (!known && obstacles_.size() >= kMostObstacles)
+    throw std::invalid_argument(
+        fmt::format("there are {} obstacles already: remove one first", obstacles_.size()));
+  PlacedObstacle placed{description, frameOf(description), ReactionPublisher(node_, description.name)};
+  if (known)
+    *known = std::move(placed);
+  else
+    obstacles_.push_back(std::move(placed));
+  obstacles_changed_ = true;
+}
+
+bool SurroundingsTracker::moveObstacle(const std::string& name, const std::string& frame,
+                                       const Eigen::Isometry3d& pose) {
+  PlacedObstacle* known = find(name);
+  if (!known) return false;
+  ObstacleDescription& description = known->description;
+  description.shape.pose = pose;
+  if (std::exchange(description.frame, frame) != frame) known->frame = frameOf(description);
+  return true;
+}
+
+bool SurroundingsTracker::removeObstacle(const std::string& name) {
+  const PlacedObstacle* known = find(name);
+  if (!known) return false;
+  obstacles_.erase(obstacles_.begin() + (known - obstacles_.data()));
+  obstacles_changed_ = true;
+  return true;
+}
+
+std::vector<std::string> SurroundingsTracker::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : pins_) names.push_back(entry.first);
+  for (const PlacedObstacle& obstacle : obstacles_) names.push_back(obstacle.description.name);
+  return names;
+}
+
+std::size_t SurroundingsTracker::addPin(const PinRegion& region, const Points& rest_vertices) {
   requireTopicName(region.name);
-  for (const PlacedObstacle& obstacle : obstacles_) {
-    if (obstacle.description.name == region.name)
-      throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
-  }
+  if (find(region.name))
+    throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
   if (pins_.size() >= kMostPins && pins_.count(region.name) == 0)
     throw std::invalid_argument(fmt::format("{} pins are held already: release one first", pins_.size()));
   HeldRegion held(region, rest_vertices);
+  const std::size_t count = held.vertexCount();
   FollowedFrame frame(fmt::format("pin '{}'", region.name), region.frame, options_.frame_timeout_s);
   pins_.insert_or_assign(
       region.name, HeldPin{std::move(held), std::move(frame), ReactionPublisher(node_, region.name), {}});
+  return count;
 }
 
 bool SurroundingsTracker::removePin(const std::string& name) { return pins_.erase(name) > 0; }
@@ -53,6 +103,7 @@ const Surroundings& SurroundingsTracker::surroundingsAt(const std::string& frame
                                                         const Points& vertices) {
   frame_ = frame;
   surroundings_ = {};
+  surroundings_.obstacles_changed = std::exchange(obstacles_changed_, false);
   placeObstacles(stamp);
   placePins(stamp, vertices);
   return surroundings_;

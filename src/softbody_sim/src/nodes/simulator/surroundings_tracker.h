@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/frame_poses.h"
 #include "nodes/simulator/followed_frame.h"
-#include "nodes/simulator/frame_poses.h"
 #include "nodes/simulator/held_region.h"
 #include "nodes/simulator/lasting_fault.h"
 #include "nodes/simulator/reaction_publisher.h"
@@ -35,10 +35,24 @@ class SurroundingsTracker {
                       const PinOptions& options);
 
   /// Holds the vertices of a region from the next surroundingsAt() on, in place of a region of the same name.
+  /// @return number of vertices that are held.
   /// @throw std::invalid_argument if the region has no vertex, its name is not usable, or too many are held.
-  void addPin(const PinRegion& region, const Points& rest_vertices);
+  std::size_t addPin(const PinRegion& region, const Points& rest_vertices);
   /// @return false if no pin has the name.
   bool removePin(const std::string& name);
+
+  /// Adds an obstacle, or replaces the one of the same name, from the next surroundingsAt() on.
+  /// @throw std::invalid_argument if a pin has the name, or there are too many obstacles.
+  void setObstacle(const ObstacleDescription& description);
+  /// Moves an obstacle. It pushes what lies in its way.
+  /// @param frame that it follows from now on. @param pose in that frame.
+  /// @return false if no obstacle has the name.
+  bool moveObstacle(const std::string& name, const std::string& frame, const Eigen::Isometry3d& pose);
+  /// @return false if no obstacle has the name.
+  bool removeObstacle(const std::string& name);
+
+  /// Names of all pins and obstacles.
+  std::vector<std::string> names() const;
   /// Adds the vertices that a cut created to their regions. @param vertices [m], empty if the body is not
   /// placed.
   void updatePins(const Points& rest_vertices, const Points& vertices);
@@ -73,6 +87,8 @@ class SurroundingsTracker {
     LastingFault conflict;
   };
 
+  FollowedFrame frameOf(const ObstacleDescription& description) const;
+  PlacedObstacle* find(const std::string& obstacle);
   void placeObstacles(const ros::Time& stamp);
   void placePins(const ros::Time& stamp, const Points& vertices);
   void judge(double conflict_m, HeldPin* pin) const;
@@ -84,6 +100,7 @@ class SurroundingsTracker {
   const PinOptions options_;
   FramePoses poses_;
   std::vector<PlacedObstacle> obstacles_;
+  bool obstacles_changed_ = false;  ///< since the last surroundingsAt()
   std::map<std::string, HeldPin> pins_;
   Surroundings surroundings_;  ///< of the last surroundingsAt()
   std::string frame_;          ///< of the targets

@@ -1,4 +1,4 @@
-#include "nodes/simulator/frame_poses.h"
+#include "nodes/frame_poses.h"
 
 #include <stdexcept>
 
