@@ -10,11 +10,14 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from geometry_msgs.msg import Point, Point32, Vector3
+import tf2_ros
+from geometry_msgs.msg import Point, Point32, TransformStamped, Vector3
 from rosgraph_msgs.msg import Log
-from shape_msgs.msg import MeshTriangle
+from shape_msgs.msg import Mesh, MeshTriangle
 from softbody_msgs.msg import Cut, MeshState, MeshTopology, TetTopology, Tetrahedron
-from softbody_msgs.srv import CutBody
+from sensor_msgs.msg import PointCloud2
+from sensor_msgs import point_cloud2
+from softbody_msgs.srv import ClosestPoint, CutBody, SaveMesh
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import Recorder  # pylint: disable=wrong-import-position
@@ -95,6 +98,74 @@ class SurfaceAlone(unittest.TestCase):
             np.testing.assert_allclose(array(state.vertices), rest @ linear.T + offset, atol=2e-6)
             self.assertEqual(state.header.frame_id, FRAME)
             self.assertEqual(state.revision, self.surface.revision)
+
+    def test_answers_with_the_closest_point(self):
+        state = self.surface_for(self.corners, 14)
+        vertices = array(state.vertices)
+        ask = rospy.ServiceProxy("/softbody/surface/closest_point", ClosestPoint)
+        request = ClosestPoint._request_class()
+        request.point.point = Point(0.01, -0.02, 0.5)  # above the sponge, whose top is a plane
+        answer = ask(request)
+        self.assertTrue(answer.success, answer.message)
+        top = vertices[:, 2].max()
+        np.testing.assert_allclose([getattr(answer.surface_point.point, axis) for axis in "xyz"],
+                                   [0.01, -0.02, top], atol=1e-6)
+        np.testing.assert_allclose([getattr(answer.normal, axis) for axis in "xyz"], [0.0, 0.0, 1.0], atol=1e-6)
+        self.assertAlmostEqual(answer.distance, 0.5 - top, places=6)
+        self.assertEqual(answer.surface_point.header.stamp, state.header.stamp)
+        self.assertEqual((answer.surface_point.header.frame_id, answer.piece, answer.revision), (FRAME, 0, 0))
+        self.assertTrue(np.isnan(answer.standard_deviation))  # the state that was made by hand has none
+        # The frame of a hand 1 m above, that looks down: turned by half a turn about x.
+        hand = TransformStamped(child_frame_id="hand")
+        hand.header.frame_id = FRAME
+        hand.transform.translation.z = hand.transform.rotation.x = 1.0
+        tf2_ros.StaticTransformBroadcaster().sendTransform(hand)
+        request.point.header.frame_id, request.point.point = "hand", Point(0.01, 0.02, 0.5)
+        deadline = time.monotonic() + 30.0
+        while not answer.success or answer.surface_point.header.frame_id != "hand":
+            self.assertLess(time.monotonic(), deadline, answer.message)
+            rospy.sleep(0.1)
+            answer = ask(request)
+        np.testing.assert_allclose([getattr(answer.surface_point.point, axis) for axis in "xyz"],
+                                   [0.01, 0.02, 1.0 - top], atol=1e-6)
+        np.testing.assert_allclose([getattr(answer.normal, axis) for axis in "xyz"], [0.0, 0.0, -1.0], atol=1e-6)
+        request.point.header.frame_id = "nowhere"
+        self.assertIn("'nowhere'", ask(request).message)
+        request.point.header.frame_id, request.point.point.x = "", float("inf")
+        self.assertIn("inf", ask(request).message)
+
+    def test_becomes_a_file_as_it_is(self):
+        state = self.surface_for(self.corners * [1.5, 1.0, 1.0], 15)
+        save = rospy.ServiceProxy("/softbody/surface/save_mesh", SaveMesh)
+        name = f"surface_{os.getpid()}.obj"
+        answer = save(name)
+        self.assertTrue(answer.success, answer.message)
+        with open(answer.path, encoding="utf-8") as file:
+            lines = [line.split() for line in file]
+        self.addCleanup(os.remove, answer.path)
+        vertices = np.array([line[1:4] for line in lines if line and line[0] == "v"], dtype=float)
+        np.testing.assert_allclose(vertices, array(state.vertices), atol=1e-6)
+        self.assertEqual(sum(line[:1] == ["f"] for line in lines), len(self.surface.triangles))
+        self.assertEqual((answer.frame_id, answer.stamp), (FRAME, state.header.stamp))
+        self.assertIn("exists already", save(name).message)
+        for bad in ("../up.obj", "/tmp/x.obj", "x.ply", ".obj", ""):
+            self.assertIn("allowed", save(bad).message)
+
+    def test_becomes_standard_messages_for_planners(self):
+        planner = Recorder(softbody__surface__mesh=Mesh, softbody__surface__points=PointCloud2)
+        for subscriber in planner.subscribers:
+            self.recorder.wait(lambda _: subscriber.get_num_connections() > 0, "a surface that publishes")
+        rospy.sleep(0.5)
+        state = self.surface_for(self.corners, 16)
+        mesh, cloud = (planner.wait_for(f"softbody/surface/{name}")[-1] for name in ("mesh", "points"))
+        vertices = array(state.vertices)
+        np.testing.assert_allclose(array(mesh.vertices), vertices, atol=1e-6)
+        self.assertEqual([t.vertex_indices for t in mesh.triangles], [t.vertex_indices for t in self.surface.triangles])
+        points = np.array(list(point_cloud2.read_points(cloud, ("x", "y", "z", "normal_x", "normal_y", "normal_z"))))
+        np.testing.assert_allclose(points[:, :3], vertices, atol=1e-6)
+        np.testing.assert_allclose(np.linalg.norm(points[:, 3:], axis=1), 1.0, atol=1e-5)
+        self.assertTrue((np.einsum("ij,ij->i", points[:, 3:], vertices - vertices.mean(axis=0)) > 0.0).all())
+        self.assertEqual(cloud.header.frame_id, FRAME)
 
     def test_holds_a_state_of_an_unknown_revision(self):
         state = MeshState(vertices=points32(self.corners), confidence=[1.0] * 8, revision=5)

@@ -42,6 +42,7 @@ SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_nod
       parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
   Options options;
   options.body_frame = parameters.text("body_frame", "softbody");
+  options.save_folder = parameters.text("save_folder", ".");
   options.cutting = readCuttingConfig(parameters);
   warnUnknown(parameters);
   const ObjectDescription description = loadObjectDescription(object, scope);
@@ -58,9 +59,10 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_no
       cut_display_(node),
       editor_(node, body_frame_, std::move(options.visual), options.cutting,
               [this] { useWaitingTopology(); }),
-      services_(private_node, body_frame_, &editor_, [this](const CutPreview& preview) {
-        cut_display_.startPreview(preview, editor_.body().volume());
-      }) {
+      services_(
+          private_node, body_frame_, &editor_,
+          [this](const CutPreview& preview) { cut_display_.startPreview(preview, editor_.body().volume()); }),
+      queries_(private_node, options.save_folder) {
   edits_timeout_ = node.createWallTimer(
       ros::WallDuration(kLongestWaitForEdits), [this](const ros::WallTimerEvent&) { onLateEdits(); }, true,
       false);
@@ -167,6 +169,7 @@ void SurfaceNode::bind(const softbody_msgs::TetTopologyConstPtr& message, bool w
 }
 
 void SurfaceNode::setBinding(BoundSurface binding) {
+  queries_.forget();
   binding_ = std::move(binding);
   next_binding_.reset();
   cut_display_.onTopologyChanged();
@@ -216,6 +219,7 @@ void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {
   publisher_.publishState(binding_->surface.topology(), surface, volume.header);
   cut_display_.publish(binding_->surface.topology(), surface, state, volume.header);
   publisher_.publishTiming(timer_.take(), volume.header);
+  queries_.show(&binding_->surface.topology(), std::move(surface), volume.header);
   editor_.onState(state, volume.header);
 }
 

@@ -13,6 +13,7 @@
 #include "nodes/surface/cut_services.h"
 #include "nodes/surface/surface_editor.h"
 #include "nodes/surface/surface_publisher.h"
+#include "nodes/surface/surface_queries.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
@@ -20,7 +21,8 @@
 namespace softbody {
 
 /// Subscribes to states and edits of the volumetric model; publishes states of the visual mesh; decides on
-/// cuts. Parameters: ~object, ~body_frame and those of CuttingConfig.
+/// cuts; answers questions about the surface. Parameters: ~object, ~body_frame, ~save_folder and those of
+/// CuttingConfig.
 class SurfaceNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -29,6 +31,7 @@ class SurfaceNode {
  private:
   struct Options {
     std::string body_frame;
+    std::string save_folder;
     CuttingConfig cutting;
     MeshTopology visual;
   };
@@ -65,6 +68,7 @@ class SurfaceNode {
   // Last, so that callbacks end before the members that they use.
   SurfaceEditor editor_;  ///< may be ahead of what is published
   CutServices services_;
+  SurfaceQueries queries_;
   ros::WallTimer edits_timeout_;  ///< ends the wait of waiting_topology_
   ros::Subscriber topology_subscriber_, edits_subscriber_, state_subscriber_;
 };

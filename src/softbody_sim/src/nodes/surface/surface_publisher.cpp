@@ -9,6 +9,7 @@
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
 #include "softbody_sim/ros/conversions.h"
+#include "softbody_sim/ros/planner_messages.h"
 
 namespace softbody {
 
@@ -16,6 +17,8 @@ SurfacePublisher::SurfacePublisher(ros::NodeHandle node)
     : topology_publisher_(node.advertise<softbody_msgs::MeshTopology>(topics::kSurfaceTopology, 1, true)),
       state_publisher_(node.advertise<softbody_msgs::MeshState>(topics::kSurfaceState, 1)),
       marker_publisher_(node.advertise<visualization_msgs::Marker>(topics::kSurfaceMarker, 1)),
+      mesh_publisher_(node.advertise<shape_msgs::Mesh>(topics::kSurfaceMesh, 1)),
+      points_publisher_(node.advertise<sensor_msgs::PointCloud2>(topics::kSurfacePoints, 1)),
       timing_publisher_(node.advertise<softbody_msgs::StageTiming>(topics::kTiming, 10)),
       topology_timer_(
           node.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publishTopology(); })) {}
@@ -35,10 +38,21 @@ void SurfacePublisher::publishState(const MeshTopology& topology, const MeshStat
   const auto message = boost::make_shared<softbody_msgs::MeshState>(toMessage(state));
   message->header = header;
   state_publisher_.publish(message);
+  publishForPlanners(topology, state, header);
   if (marker_publisher_.getNumSubscribers() == 0) return;
   const auto marker = boost::make_shared<visualization_msgs::Marker>(makeSurfaceMarker(topology, state));
   marker->header = header;
   marker_publisher_.publish(marker);
+}
+
+void SurfacePublisher::publishForPlanners(const MeshTopology& topology, const MeshState& state,
+                                          const std_msgs::Header& header) {
+  if (mesh_publisher_.getNumSubscribers() > 0)
+    mesh_publisher_.publish(boost::make_shared<shape_msgs::Mesh>(makeSurfaceMesh(topology, state)));
+  if (points_publisher_.getNumSubscribers() == 0) return;
+  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(makeSurfaceCloud(topology, state));
+  cloud->header = header;
+  points_publisher_.publish(cloud);
 }
 
 void SurfacePublisher::publishTiming(std::vector<StageTime> stages, const std_msgs::Header& header) {

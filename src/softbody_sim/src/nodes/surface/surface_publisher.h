@@ -10,8 +10,8 @@
 
 namespace softbody {
 
-/// Publishes the visual mesh: topology, state, marker and stage times. The topology is latched and sent again
-/// every second.
+/// Publishes the visual mesh: topology, state, marker, stage times, and what planners read. The topology is
+/// latched and sent again every second.
 class SurfacePublisher {
  public:
   explicit SurfacePublisher(ros::NodeHandle node);
@@ -19,17 +19,20 @@ class SurfacePublisher {
   /// Publishes a topology, now and every second. @param topology its stamp may change afterwards.
   void setTopology(const softbody_msgs::MeshTopologyConstPtr& topology);
 
-  /// The marker is published only while somebody subscribes to it.
+  /// Marker, mesh and points are published only while somebody subscribes to them.
   void publishState(const MeshTopology& topology, const MeshState& state, const std_msgs::Header& header);
 
   /// Adds the latency from the camera to now.
   void publishTiming(std::vector<StageTime> stages, const std_msgs::Header& header);
 
  private:
+  void publishForPlanners(const MeshTopology& topology, const MeshState& state,
+                          const std_msgs::Header& header);
   void publishTopology();
 
   softbody_msgs::MeshTopologyConstPtr topology_;  ///< null: none yet
-  ros::Publisher topology_publisher_, state_publisher_, marker_publisher_, timing_publisher_;
+  ros::Publisher topology_publisher_, state_publisher_, marker_publisher_, mesh_publisher_, points_publisher_,
+      timing_publisher_;
   ros::Timer topology_timer_;
 };
 
