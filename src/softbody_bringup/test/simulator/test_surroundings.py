@@ -13,7 +13,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, TransformStamped, Vector3, WrenchStamped
 from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, PinRegion, Target, Targets, TetTopology
-from softbody_msgs.srv import Pin, Release, SetObstacle
+from softbody_msgs.srv import Pin, Release, SetMaterial, SetObstacle
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
@@ -242,6 +242,18 @@ class Surroundings(unittest.TestCase):
         self.assertTrue(self.release(name="ball").success)
         self.wait_until(lambda: "/softbody/reaction/ball" not in self.reactions(), "the topic of an obstacle to end")
         self.refused(self.obstacle(FAR), "'ball'", "needs a shape")
+
+    def test_with_a_denser_material_the_ground_carries_more(self):
+        set_material = rospy.ServiceProxy("/softbody/simulator/set_material", SetMaterial)
+        material = {"youngs_modulus_pa": 2.0e4, "poisson_ratio": 0.2, "damping": 0.1}
+        answer = set_material(density_kg_m3=2.0 * DENSITY_KG_M3, **material)
+        self.addCleanup(set_material, density_kg_m3=DENSITY_KG_M3, **material)
+        self.assertTrue(answer.success, answer.message)
+        for _ in range(120):
+            self.step()
+        force = vector(self.reaction("ground").wrench.force)
+        np.testing.assert_allclose(force, [0.0, 0.0, -2.0 * self.weight], atol=0.04 * self.weight)
+        self.refused(set_material(density_kg_m3=-1.0, **material), "density_kg_m3", "-1", "0.1 to 30000")
 
     def test_obstacles_that_cannot_be_are_refused(self):
         self.refused(self.obstacle(FAR, shape="cone"), "'ball'", "shape", "capsule")

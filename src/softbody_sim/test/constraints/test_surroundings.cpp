@@ -240,6 +240,30 @@ TEST_P(UnderBothSolvers, AnObstacleThatComesDoesNotSweepFromTheOneThatWent) {
   }
 }
 
+TEST_P(UnderBothSolvers, AMaterialThatIsSetLaterEqualsOneFromTheStart) {
+  Material soft = material_, stiff = material_;
+  stiff.youngs_modulus_pa *= 4.0;
+  stiff.density_kg_m3 *= 1.5;
+  Surroundings surroundings;
+  surroundings.pins = pinsWhere([](const Eigen::Vector3d& p) { return p.x() < 1e-9; });
+  Simulator changed(topology_, soft, config_), expected(topology_, stiff, config_);
+  for (Simulator* simulator : {&changed, &expected}) {
+    place(simulator);
+    simulator->settle({}, surroundings);
+  }
+  const Points before = changed.state().vertices;
+  EXPECT_GT((before - expected.state().vertices).rowwise().norm().maxCoeff(), 1e-3);
+  changed.setMaterial(stiff);
+  EXPECT_TRUE(changed.state().vertices == before);
+  changed.settle({}, surroundings);
+  EXPECT_LT((changed.state().vertices - expected.state().vertices).rowwise().norm().maxCoeff(), 1e-5);
+  soft.poisson_ratio = 0.5;
+  EXPECT_THROW(changed.setMaterial(soft), std::invalid_argument);
+  soft = material_;
+  soft.damping = std::nan("");
+  EXPECT_THROW(changed.setMaterial(soft), std::invalid_argument);
+}
+
 TEST_P(UnderBothSolvers, RefuseUnusableSurroundings) {
   Simulator simulator(topology_, material_, config_);
   place(&simulator);

@@ -83,7 +83,11 @@ class Simulator {
   /// keep targets through many edits, convert them after each edit.
   TargetSet toCurrentRevision(TargetSet targets) const;
 
-  /// Returns to the uncut body of the first revision, not placed.
+  /// Changes the material. Shape, motion and cuts stay. The time is that of the first construction.
+  /// @throw std::invalid_argument if a value is out of its range; nothing has changed.
+  void setMaterial(const Material& material);
+
+  /// Returns to the uncut body of the first revision, not placed. The material stays.
   void reset();
 
   const MeshState& state() const;

@@ -10,4 +10,16 @@ struct Material {
   double damping = 0.1;  ///< fraction of the velocity lost per 1/30 s, 0..1
 };
 
+/// The values that a material may have, both ends included.
+struct MaterialRange {
+  double min, max;
+};
+constexpr MaterialRange kYoungsModulusRange{1.0, 1e12};  // [Pa]
+constexpr MaterialRange kPoissonRatioRange{0.0, 0.495};
+constexpr MaterialRange kDensityRange{0.1, 30000.0};  // [kg/m^3]
+constexpr MaterialRange kDampingRange{0.0, 1.0};
+
+/// @throw std::invalid_argument with key, value and range if a value is out of its range.
+void requireUsable(const Material& material);
+
 }  // namespace softbody

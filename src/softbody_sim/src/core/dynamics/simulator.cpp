@@ -47,7 +47,7 @@ struct Simulator::Implementation {
   void estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
 
   const TetTopology uncut;
-  const Material material;
+  Material material;
   const SimulatorConfig config;
   const double edge_length;  ///< mean, of the uncut body [m]
 
@@ -226,6 +226,15 @@ void Simulator::setVertices(const Points& vertices) {
   body.mesh.vertices = vertices;
   body.velocity.setZero();
   body.obstacle_poses.clear();
+}
+
+void Simulator::setMaterial(const Material& material) {
+  softbody::requireUsable(material);
+  Implementation& s = *implementation_;
+  s.material = material;
+  s.makeModel(TetTopology(s.model->topology));
+  s.integrator = ImplicitEuler(s.config, material.damping);
+  if (s.body.placed) s.model->load_estimator.balance(s.body.mesh.vertices, &s.body.loads);
 }
 
 void Simulator::reset() {

@@ -22,11 +22,14 @@ double readUnit(YamlMapReader& object) {
 }
 
 Material readMaterial(YamlMapReader& material) {
+  const auto read = [&](const char* key, double fallback, const MaterialRange& range) {
+    return material.number(key, fallback, range.min, range.max);
+  };
   Material result;
-  result.youngs_modulus_pa = material.number("youngs_modulus_pa", result.youngs_modulus_pa, 1.0, 1e12);
-  result.poisson_ratio = material.number("poisson_ratio", result.poisson_ratio, 0.0, 0.495);
-  result.density_kg_m3 = material.number("density_kg_m3", result.density_kg_m3, 0.1, 30000.0);
-  result.damping = material.number("damping", result.damping, 0.0, 1.0);
+  result.youngs_modulus_pa = read("youngs_modulus_pa", result.youngs_modulus_pa, kYoungsModulusRange);
+  result.poisson_ratio = read("poisson_ratio", result.poisson_ratio, kPoissonRatioRange);
+  result.density_kg_m3 = read("density_kg_m3", result.density_kg_m3, kDensityRange);
+  result.damping = read("damping", result.damping, kDampingRange);
   return result;
 }
 

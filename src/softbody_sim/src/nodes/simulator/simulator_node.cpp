@@ -49,6 +49,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       topics::kTargets, kTargetsQueue, [this](const auto& message) { targets_.add(message); }, {}, hints);
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SimulatorNode::onCut, this, hints);
   edits_subscriber_ = node.subscribe(topics::kSurfaceCuts, 1, &SimulatorNode::onSurfaceEdits, this, hints);
+  set_material_ =
+      ros::NodeHandle(private_node).advertiseService("set_material", &SimulatorNode::onSetMaterial, this);
   if (options.free_run_rate_hz > 0.0) {
     free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
                                        [this](const ros::TimerEvent&) { onFreeRun(); });
@@ -209,6 +211,17 @@ void SimulatorNode::publishEdited(const ros::Time& stamp) {
         "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "
         "cut again");
   }
+}
+
+bool SimulatorNode::onSetMaterial(softbody_msgs::SetMaterial::Request& request,
+                                  softbody_msgs::SetMaterial::Response& response) try {
+  simulator_.setMaterial(
+      {request.youngs_modulus_pa, request.poisson_ratio, request.density_kg_m3, request.damping});
+  response.success = 1;
+  return true;
+} catch (const std::invalid_argument& error) {
+  response.message = error.what();
+  return true;
 }
 
 void SimulatorNode::publishState(const std_msgs::Header& header) {

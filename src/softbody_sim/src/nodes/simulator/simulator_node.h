@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <softbody_msgs/SetMaterial.h>
 #include <softbody_msgs/Targets.h>
 
 #include "nodes/simulator/simulator_diagnostics.h"
@@ -35,6 +36,8 @@ class SimulatorNode {
   void onCut(const softbody_msgs::CutConstPtr& message);
   void onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message);
   void onFreeRun();
+  bool onSetMaterial(softbody_msgs::SetMaterial::Request& request,
+                     softbody_msgs::SetMaterial::Response& response);
 
   bool step(const softbody_msgs::Targets& message);
   void requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const;
@@ -66,6 +69,7 @@ class SimulatorNode {
   SurroundingsInput surroundings_input_;
   NewestOnly<softbody_msgs::TargetsConstPtr> targets_;
   ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_;
+  ros::ServiceServer set_material_;
   ros::Timer free_run_timer_;
 };
 
