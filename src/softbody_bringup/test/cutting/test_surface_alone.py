@@ -12,6 +12,7 @@ import rospy
 import rostest
 import tf2_ros
 from geometry_msgs.msg import Point, Point32, TransformStamped, Vector3
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rosgraph_msgs.msg import Log
 from shape_msgs.msg import Mesh, MeshTriangle
 from softbody_msgs.msg import Cut, MeshState, MeshTopology, TetTopology, Tetrahedron
@@ -58,7 +59,7 @@ class SurfaceAlone(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
-                                softbody__cut=Cut, rosout=Log)
+                                softbody__cut=Cut, rosout=Log, diagnostics=DiagnosticArray)
         cls.corners, tets = box_tets()
         cls.topology = TetTopology(
             rest_vertices=points32(cls.corners), tets=[Tetrahedron(vertex_indices=tet) for tet in tets],
@@ -166,6 +167,22 @@ class SurfaceAlone(unittest.TestCase):
         np.testing.assert_allclose(np.linalg.norm(points[:, 3:], axis=1), 1.0, atol=1e-5)
         self.assertTrue((np.einsum("ij,ij->i", points[:, 3:], vertices - vertices.mean(axis=0)) > 0.0).all())
         self.assertEqual(cloud.header.frame_id, FRAME)
+
+    def test_becomes_a_warning_when_the_volume_drifts(self):
+        name = "softbody/surface: visual mesh"
+        said = []
+        for i in range(60):
+            self.surface_for(self.corners * [1.5, 1.0, 1.0], 17 + 0.01 * i)
+            rospy.sleep(0.1)
+            with self.recorder.changed:
+                said = [status for message in self.recorder.messages["diagnostics"] for status in message.status
+                        if status.name == name and "volume differs from that at rest by 50 %" in status.message]
+            if said:
+                break
+        self.assertTrue(said, self.recorder.messages["diagnostics"][-1:])
+        self.assertEqual(said[0].level, DiagnosticStatus.WARN)
+        self.assertIn("rate [Hz]", [value.key for value in said[0].values])
+        self.recorder.wait_for_status(name, DiagnosticStatus.WARN, "no state of the volume")
 
     def test_holds_a_state_of_an_unknown_revision(self):
         state = MeshState(vertices=points32(self.corners), confidence=[1.0] * 8, revision=5)

@@ -44,6 +44,7 @@ SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_nod
   options.body_frame = parameters.text("body_frame", "softbody");
   options.save_folder = parameters.text("save_folder", ".");
   options.cutting = readCuttingConfig(parameters);
+  options.limits = readSurfaceLimits(parameters);
   warnUnknown(parameters);
   const ObjectDescription description = loadObjectDescription(object, scope);
   Warnings warnings = description.warnings;
@@ -62,7 +63,8 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_no
       services_(
           private_node, body_frame_, &editor_,
           [this](const CutPreview& preview) { cut_display_.startPreview(preview, editor_.body().volume()); }),
-      queries_(private_node, options.save_folder) {
+      queries_(private_node, options.save_folder),
+      diagnostics_(node, private_node, options.limits) {
   edits_timeout_ = node.createWallTimer(
       ros::WallDuration(kLongestWaitForEdits), [this](const ros::WallTimerEvent&) { onLateEdits(); }, true,
       false);
@@ -182,6 +184,7 @@ void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) try {
   fromMessage(*message);  // throws if it is no state
   if (stamps_.judge(stampOfImage(*message)).acceptedOrSame()) useState(message);
 } catch (const std::exception& error) {
+  diagnostics_.countRefused();
   ROS_WARN_STREAM_THROTTLE(1.0,
                            "volume state of " << message->header.stamp << " is not used: " << error.what());
 }
@@ -198,6 +201,7 @@ void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {
   try {
     publishState(*message);
   } catch (const std::exception& error) {
+    diagnostics_.countRefused();
     ROS_WARN_STREAM_THROTTLE(1.0,
                              "volume state of " << message->header.stamp << " is not used: " << error.what());
   }
@@ -219,6 +223,7 @@ void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {
   publisher_.publishState(binding_->surface.topology(), surface, volume.header);
   cut_display_.publish(binding_->surface.topology(), surface, state, volume.header);
   publisher_.publishTiming(timer_.take(), volume.header);
+  diagnostics_.onState(binding_->surface.topology(), surface, volume.header.stamp);
   queries_.show(&binding_->surface.topology(), std::move(surface), volume.header);
   editor_.onState(state, volume.header);
 }

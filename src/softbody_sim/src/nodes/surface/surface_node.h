@@ -11,6 +11,7 @@
 #include "nodes/surface/bound_surface.h"
 #include "nodes/surface/cut_display.h"
 #include "nodes/surface/cut_services.h"
+#include "nodes/surface/surface_diagnostics.h"
 #include "nodes/surface/surface_editor.h"
 #include "nodes/surface/surface_publisher.h"
 #include "nodes/surface/surface_queries.h"
@@ -33,6 +34,7 @@ class SurfaceNode {
     std::string body_frame;
     std::string save_folder;
     CuttingConfig cutting;
+    SurfaceLimits limits;
     MeshTopology visual;
   };
   static Options readOptions(const ros::NodeHandle& private_node);
@@ -69,6 +71,7 @@ class SurfaceNode {
   SurfaceEditor editor_;  ///< may be ahead of what is published
   CutServices services_;
   SurfaceQueries queries_;
+  SurfaceDiagnostics diagnostics_;
   ros::WallTimer edits_timeout_;  ///< ends the wait of waiting_topology_
   ros::Subscriber topology_subscriber_, edits_subscriber_, state_subscriber_;
 };

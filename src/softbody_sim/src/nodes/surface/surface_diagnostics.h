@@ -1,0 +1,54 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <optional>
+#include <string>
+
+#include "softbody_common/parameters.h"
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Values above which the surface warns.
+struct SurfaceLimits {
+  double latency_s = 0.5;     ///< from the image's stamp to the mesh
+  double volume_drift = 0.3;  ///< change of the enclosed volume since rest, as a fraction
+  double deviation_m = 0.02;  ///< mean standard deviation of the vertices
+};
+
+/// @throw std::invalid_argument as Parameters does.
+SurfaceLimits readSurfaceLimits(Parameters& parameters);
+
+/// Diagnostics of the visual mesh, once a second: rate, latency, volume drift, standard deviation.
+class SurfaceDiagnostics {
+ public:
+  SurfaceDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                     const SurfaceLimits& limits);
+
+  /// A state was published.
+  void onState(const MeshTopology& topology, const MeshState& state, const ros::Time& stamp);
+  /// A state was not used.
+  void countRefused() { ++refused_; }
+
+ private:
+  struct Figures {
+    std::optional<double> latency_s;  ///< empty: the clock does not run with the stamps
+    double volume_drift = 0.0;
+    std::optional<double> deviation_m;  ///< empty: not estimated
+  };
+
+  std::string warning() const;
+  void report(diagnostic_updater::DiagnosticStatusWrapper* status);
+
+  const SurfaceLimits limits_;
+  std::optional<Figures> figures_;  ///< of the first state since the last report
+  int states_ = 0, refused_ = 0;    ///< since the last report
+  ros::WallTime reported_ = ros::WallTime::now();
+  diagnostic_updater::Updater updater_;
+  // Last, so that callbacks end before the members that they use.
+  ros::WallTimer timer_;
+};
+
+}  // namespace softbody
