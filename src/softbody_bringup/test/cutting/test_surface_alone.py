@@ -116,20 +116,21 @@ class SurfaceAlone(unittest.TestCase):
         self.assertEqual(answer.surface_point.header.stamp, state.header.stamp)
         self.assertEqual((answer.surface_point.header.frame_id, answer.piece, answer.revision), (FRAME, 0, 0))
         self.assertTrue(np.isnan(answer.standard_deviation))  # the state that was made by hand has none
-        # The frame of a hand 1 m above, that looks down: turned by half a turn about x.
+        # The frame of a hand 1 m above, turned by a quarter about x: its y axis points up.
         hand = TransformStamped(child_frame_id="hand")
         hand.header.frame_id = FRAME
-        hand.transform.translation.z = hand.transform.rotation.x = 1.0
+        hand.transform.translation.z = 1.0
+        hand.transform.rotation.x = hand.transform.rotation.w = np.sqrt(0.5)
         tf2_ros.StaticTransformBroadcaster().sendTransform(hand)
-        request.point.header.frame_id, request.point.point = "hand", Point(0.01, 0.02, 0.5)
+        request.point.header.frame_id, request.point.point = "hand", Point(0.01, -0.5, 0.02)
         deadline = time.monotonic() + 30.0
         while not answer.success or answer.surface_point.header.frame_id != "hand":
             self.assertLess(time.monotonic(), deadline, answer.message)
             rospy.sleep(0.1)
             answer = ask(request)
         np.testing.assert_allclose([getattr(answer.surface_point.point, axis) for axis in "xyz"],
-                                   [0.01, 0.02, 1.0 - top], atol=1e-6)
-        np.testing.assert_allclose([getattr(answer.normal, axis) for axis in "xyz"], [0.0, 0.0, -1.0], atol=1e-6)
+                                   [0.01, top - 1.0, 0.02], atol=1e-6)
+        np.testing.assert_allclose([getattr(answer.normal, axis) for axis in "xyz"], [0.0, 1.0, 0.0], atol=1e-6)
         request.point.header.frame_id = "nowhere"
         self.assertIn("'nowhere'", ask(request).message)
         request.point.header.frame_id, request.point.point.x = "", float("inf")
