@@ -10,7 +10,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data cuts demo bench fuzz evaluate figures validation sanitize soak error-table tidy format
+.PHONY: build test shared-data cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -46,6 +46,9 @@ evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="ben
 
 figures: build  ## draw the paper's Figures 10 and 11 with our models, in docs/images
 	scripts/figures
+
+paper: build  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": only prints
+	scripts/paper $(PARTS)
 
 validation: build  ## compare the simulator with known solutions; writes docs/validation.md
 	scripts/validate

@@ -1,0 +1,77 @@
+"""Records and tracks the scenes of `make paper`."""
+import concurrent.futures
+import json
+import subprocess
+import sys
+
+from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, tool
+from paper_parts.methods import FEATURES_ALONE, OURS, SCENES, parameters
+
+TIMED = {"sponge": "bend", "doll": "doll_bend"}
+
+
+def recording_of(scene):
+    path = OUTPUT / f"paper_{scene}.bag"
+    tool("virtual_camera", "--scene", scene, "--output", path)
+    return path
+
+
+def run(scene, recording, number, text):
+    """The report of one scene with one text of parameters."""
+    name = f"paper_{scene}_{number}"
+    file = OUTPUT / f"{name}.yaml"
+    file.write_text(text)
+    config, allowed = config_of(scene, name)
+    more = ("--parameters", file) if text else ()
+    report = measure(name, recording, config, "--truth", recording, more=(*allowed, *more))
+    (OUTPUT / f"{name}_result.bag").unlink()
+    return report
+
+
+def accuracy_runs(texts, jobs):
+    """Reports by (scene, parameters); equal parameters run once."""
+    reports, pending = {}, {}
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        recordings = dict(zip(SCENES, pool.map(recording_of, SCENES)))
+        for scene in SCENES:
+            for number, text in enumerate(texts):
+                pending[pool.submit(run, scene, recordings[scene], number, text)] = (scene, text)
+        for future in concurrent.futures.as_completed(pending):
+            reports[pending[future]] = future.result()
+            print(f"[{len(reports)}/{len(pending)}] {pending[future][0]}", file=sys.stderr, flush=True)
+    for recording in recordings.values():
+        recording.unlink()
+    return reports
+
+
+def timed_runs():
+    """Reports by (body, kind), one run at a time: ours, and features alone, which is what the paper times."""
+    kinds = {OURS: "", "features alone": parameters(FEATURES_ALONE)}
+    reports = {}
+    for body, scene in TIMED.items():
+        recording = recording_of(scene)
+        for kind, text in kinds.items():
+            reports[(body, kind)] = run(scene, recording, "time", text)
+        recording.unlink()
+    return reports
+
+
+def model_sizes():
+    """{body: {model: [vertices, polygons]}} from the topologies that the graph publishes."""
+    sizes = {}
+    for body, scene in TIMED.items():
+        recording, result = OUTPUT / f"paper_{body}_model.bag", OUTPUT / f"paper_{body}_model_result.bag"
+        tool("virtual_camera", "--scene", scene, "--duration", "0.2", "--output", recording)
+        tool("replay", recording, "--object", ROOT / f"config/{body}.yaml", "--output", result)
+        sizes[body] = topology_sizes(result)
+        recording.unlink()
+        result.unlink()
+    return sizes
+
+
+def topology_sizes(result):
+    command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/paper_parts/sizes.py", result]
+    answer = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    if answer.returncode != 0:
+        raise ToolFailed(f"sizes.py {result}\n{answer.stderr}")
+    return json.loads(answer.stdout)
