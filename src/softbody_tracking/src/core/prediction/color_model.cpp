@@ -43,17 +43,6 @@ cv::Mat1f smoothed(const cv::Mat1f& counts) {
   return result;
 }
 
-/// The middle of every block of 8 by 8 by 8 colours, in Lab.
-cv::Mat3b paletteInLab() {
-  cv::Mat3b palette(1, 32 * 32 * 32), lab;
-  for (int i = 0; i < palette.cols; ++i) {
-    const auto middle = [](int bin) { return static_cast<uchar>(8 * bin + 4); };
-    palette(0, i) = {middle(i >> 10), middle(i >> 5 & 31), middle(i & 31)};
-  }
-  cv::cvtColor(palette, lab, cv::COLOR_BGR2Lab);
-  return lab;
-}
-
 cv::Mat3b toLab(const cv::Mat3b& color) {
   cv::Mat blurred;
   cv::Mat3b lab;
@@ -63,6 +52,16 @@ cv::Mat3b toLab(const cv::Mat3b& color) {
 }
 
 }  // namespace
+
+cv::Mat3b paletteInLab() {
+  cv::Mat3b palette(1, 32 * 32 * 32), lab;
+  for (int i = 0; i < palette.cols; ++i) {
+    const auto middle = [](int bin) { return static_cast<uchar>(8 * bin + 4); };
+    palette(0, i) = {middle(i >> 10), middle(i >> 5 & 31), middle(i & 31)};
+  }
+  cv::cvtColor(palette, lab, cv::COLOR_BGR2Lab);
+  return lab;
+}
 
 void ColorModel::learn(const cv::Mat3b& color, const cv::Mat1b& mask) {
   if (cv::countNonZero(mask) < kFewestPixels) return;
@@ -76,10 +75,9 @@ void ColorModel::learn(const cv::Mat3b& color, const cv::Mat1b& mask) {
   const cv::Mat1f density = smoothed(counts);
   // Mean density over the body's pixels: sum of squares over sum.
   const double typical = cv::sum(density.mul(counts))[0] / cv::sum(counts)[0];
-  const cv::Mat3b palette = paletteInLab();
-  of_body_.resize(static_cast<std::size_t>(palette.cols));
-  for (int i = 0; i < palette.cols; ++i) {
-    of_body_[i] = density(binOf(palette(0, i))) >= kSmallestDensity * typical ? 1 : 0;
+  of_body_.resize(static_cast<std::size_t>(palette_.cols));
+  for (int i = 0; i < palette_.cols; ++i) {
+    of_body_[i] = density(binOf(palette_(0, i))) >= kSmallestDensity * typical ? 1 : 0;
   }
 }
 

@@ -7,6 +7,9 @@
 
 namespace softbody {
 
+/// The middle of every block of 8 by 8 by 8 colours, in CIE L*a*b*; 1 by 32768.
+cv::Mat3b paletteInLab();
+
 /// Which colours belong to the body: a histogram over chroma and lightness (CIE L*a*b*), learned where the
 /// prediction and the depth agree. It separates most hands and tools from the body that they touch.
 class ColorModel {
@@ -32,6 +35,7 @@ class ColorModel {
 
  private:
   RegionColors region_;
+  cv::Mat3b palette_ = paletteInLab();  ///< made before the first image: OpenCV's tables for Lab take 0.1 s
   std::vector<unsigned char>
       of_body_;  ///< an entry for every block of 8 by 8 by 8 colours; empty before learn()
 };
