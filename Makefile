@@ -47,7 +47,7 @@ evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="ben
 figures: build  ## draw the paper's Figures 10 and 11 with our models, in docs/images
 	scripts/figures
 
-paper: build  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": only prints
+paper: build  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": only that part
 	scripts/paper $(PARTS)
 
 validation: build  ## compare the simulator with known solutions; writes docs/validation.md

@@ -25,9 +25,9 @@ def errors(reports, text):
 def accuracy(reports):
     rows = [["the paper's own recordings: one average", *[number(PAPER_MEAN_ERROR_MM), "", "", ""]]]
     rows += [[method, *errors(reports, text)] for method, text in compared().items()]
-    return section("Accuracy", "Mean error of all vertices [mm]. \"As written\" is config/paper.yaml. Our tracker lends "
-                               "it one part: features are matched by patches with the predicted surface. Matching "
-                               "between two frames, as in the paper, is not measured.",
+    return section("Accuracy", "Mean error of all vertices [mm]. \"As written\" is config/paper.yaml. Our tracker "
+                               "lends it one part: features are matched by patches with the predicted surface. "
+                               "Matching between two frames, as in the paper, is not measured.",
                    ["method", *SCENES], rows)
 
 
