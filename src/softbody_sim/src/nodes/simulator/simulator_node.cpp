@@ -163,7 +163,8 @@ bool SimulatorNode::applyCut(const softbody_msgs::Cut& message, std::string* rea
 void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message) {
   const EditHistory& own = simulator_.edits();
   const bool is_new = own.body == 0;
-  if (message->body == 0 || (!is_new && message->body != own.body)) return;
+  if (is_new && message->body == 0) return;
+  if (!is_new && message->body != own.body) return publishOwnEdits();
   if (!is_new && message->revision <= own.revision) return;
   try {
     const auto scope = timer_.stage("Cutting");
@@ -190,9 +191,13 @@ bool SimulatorNode::adopt(const EditedBody& theirs) {
   return true;
 }
 
-/// The other nodes follow this body.
 void SimulatorNode::keepOwnBody() {
   simulator_.setBody(ros::WallTime::now().toNSec());
+  publishOwnEdits();
+}
+
+/// The other nodes follow this body.
+void SimulatorNode::publishOwnEdits() {
   publisher_.publishEdited(simulator_, simulator_.placed() ? last_.header.stamp : ros::Time());
 }
 

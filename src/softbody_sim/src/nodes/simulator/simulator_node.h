@@ -46,6 +46,7 @@ class SimulatorNode {
   bool applyCut(const softbody_msgs::Cut& message, std::string* reason);
   bool adopt(const EditedBody& theirs);
   void keepOwnBody();
+  void publishOwnEdits();
   void publishEdited(const ros::Time& stamp);
   void publishState(const std_msgs::Header& header);
 

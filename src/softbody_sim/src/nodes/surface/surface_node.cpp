@@ -23,13 +23,6 @@ void warnOfOutside(const VisualSurface& surface) {
                 surface.outsideCount(), static_cast<int>(surface.topology().rest_vertices.rows()));
 }
 
-/// Whether two messages carry the same edits; their headers may differ.
-bool sameHistory(const softbody_msgs::CutHistory& a, const softbody_msgs::CutHistory& b) {
-  return a.body == b.body && a.revision == b.revision && a.cuts == b.cuts &&
-         a.stroke_sizes == b.stroke_sizes && a.strokes_in_force == b.strokes_in_force &&
-         a.stroke_is_open == b.stroke_is_open && sameMesh(a.uncut, b.uncut);
-}
-
 }  // namespace
 
 SurfaceNode::SurfaceNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -132,7 +125,6 @@ void SurfaceNode::onLateEdits() {
 }
 
 void SurfaceNode::onVolumeEdits(const softbody_msgs::CutHistoryConstPtr& message) {
-  if (volume_edits_ && sameHistory(*volume_edits_, *message)) return;  // sent again
   try {
     const auto scope = timer_.stage(kStage, true);
     editor_.onVolumeEdits(fromMessage(*message));
