@@ -230,8 +230,11 @@ TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) c
 TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
                                                   const std::vector<Association>& associations) const {
   TrackingStatus status = statusOf(seen, associations);
-  if (status.state == TrackingState::kTracking && relocalizer.alike() > 1)
+  if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
+    const std::string other = status.reason;
     status.reason = "tracked in one of " + std::to_string(relocalizer.alike()) + " poses that look alike";
+    if (!other.empty()) status.reason += "; " + other;
+  }
   return withSilence(std::move(status));
 }
 
