@@ -146,6 +146,20 @@ class Restarts(unittest.TestCase):
         self.cut(0.03)
         self.expect_agreement(revision + 1, 3)
 
+    def test_3_a_topology_of_another_body(self):
+        """The surface starts with it. The simulator answers with its own cuts."""
+        revision = self.start_with_two_pieces()
+        forged = copy.deepcopy(self.recorder.messages[VOLUME][-1])
+        for vertex in forged.rest_vertices:
+            vertex.x *= 1.1
+        self.recorder.messages["rosout"].clear()
+        self.topologies.publish(forged)
+        self.recorder.wait_for_log(SURFACE_NODE, "starts uncut")
+        self.recorder.wait_for_log(SURFACE_NODE, "taken over from the simulator", Log.INFO)
+        self.expect_agreement(revision, 2)
+        self.assertTrue(self.service("undo")().success)
+        self.expect_agreement(revision + 1, 1)
+
     def test_4_the_surface_is_killed(self):
         revision = self.start_with_two_pieces()
         self.restart(SURFACE_NODE)

@@ -37,7 +37,7 @@ Judgement judgeOutside(const ModelQuality& q) {
   const double share = q.outside / std::max(1.0, static_cast<double>(q.visual_vertices));
   return judged(upTo(share, kFewOutside, kManyOutside),
                 fmt::format("{} of {} visual vertices are outside of the tets", q.outside, q.visual_vertices),
-                "they follow the nearest tet; make the cage anew, with more --cage-vertices");
+                "they follow the nearest tet; make a new cage with more --cage-vertices");
 }
 
 Judgement judgeVolume(const ModelQuality& q) {

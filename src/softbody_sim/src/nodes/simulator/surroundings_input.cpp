@@ -14,8 +14,8 @@ namespace {
 
 std::string nobodyHasTheName(const std::string& name, const SurroundingsTracker& surroundings) {
   const std::vector<std::string> names = surroundings.names();
-  return fmt::format("no pin or obstacle has the name '{}'; there {}", name.substr(0, 100),
-                     names.empty() ? "are none" : fmt::format("are: {}", fmt::join(names, ", ")));
+  return fmt::format("no pin or obstacle has the name '{}'; known names: {}", name.substr(0, 100),
+                     names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
 }
 
 }  // namespace

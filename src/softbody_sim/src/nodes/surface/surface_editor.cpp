@@ -95,23 +95,26 @@ void SurfaceEditor::finishEdit(const ros::Time& stamp) {
   on_edit_();
 }
 
-void SurfaceEditor::onVolumeTopology(std::uint32_t revision) {
+bool SurfaceEditor::onVolumeTopology(std::uint32_t revision) {
   if (!state_) confirm(revision);  // a body that is not placed has no states that confirm
   makeRecordedCuts();
   const std::uint32_t own_revision = body_ ? body_->volume().revision : 0;
   if (cuts_.isOverdue(own_revision, revision)) return rollBack(revision);
   cuts_.resend(revision);
+  return true;
 }
 
 /// The simulator refused the cut, or failed. Without a roll-back no further cut would be possible.
-void SurfaceEditor::rollBack(std::uint32_t volume_revision) {
+/// @return false if the surface has never been at this revision: the simulator has another body.
+bool SurfaceEditor::rollBack(std::uint32_t volume_revision) {
   const std::uint32_t revision = body_->volume().revision;
-  if (!body_->rollBack(volume_revision)) return;  // another body: it starts with its topology
+  if (!body_->rollBack(volume_revision)) return false;
   cuts_.publishEdits(*body_, state_stamp_, false);
   ROS_ERROR(
       "the simulator stays at revision %u and does not make the cut of revision %u: the surface takes it "
       "back",
       volume_revision, revision);
+  return true;
 }
 
 /// A simulator that has just started takes over the edits of the surface. Otherwise the simulator is right.

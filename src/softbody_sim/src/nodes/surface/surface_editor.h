@@ -36,7 +36,9 @@ class SurfaceEditor {
 
   void onState(const MeshState& state, const std_msgs::Header& header);
   /// The simulator has sent its topology. An edit that it has not made is sent again, and finally taken back.
-  void onVolumeTopology(std::uint32_t revision);
+  /// @return false if it cannot be taken back: the simulator has another body, with which the surface must
+  /// start.
+  bool onVolumeTopology(std::uint32_t revision);
   /// The simulator has sent its edits. @throw std::invalid_argument as CuttableSurface; nothing has changed.
   void onVolumeEdits(const EditedBody& theirs);
 
@@ -54,7 +56,7 @@ class SurfaceEditor {
   void tear();
   void publish(const Cut& cut, const ros::Time& stamp);
   void finishEdit(const ros::Time& stamp);
-  void rollBack(std::uint32_t volume_revision);
+  bool rollBack(std::uint32_t volume_revision);
   void adopt(const EditedBody& theirs);
   void resetInputs();
   MeshState stateOrRest() const;

@@ -72,8 +72,9 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
   try {
     const bool is_published = updateStamp(*message);
     if (!is_published) fromMessage(*message);  // throws if it is no topology
-    editor_.onVolumeTopology(message->revision);
-    if (!is_published) useTopology(message, waited && sameMesh(*waited, *message));
+    const bool same_body = editor_.onVolumeTopology(message->revision);
+    if (!same_body) startBody(*message);
+    if (!same_body || !is_published) useTopology(message, waited && sameMesh(*waited, *message));
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(
         1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
