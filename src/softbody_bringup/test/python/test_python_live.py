@@ -115,10 +115,15 @@ class PythonLive(unittest.TestCase):
         def reacts():
             return "/softbody/reaction/grip" in [name for name, _ in rospy.get_published_topics()]
 
-        self.body.pin("grip", [-1, -1, -1], self.middle)
+        rest = self.first.volume.topology.rest_vertices
+        self.assertEqual(self.body.pin("grip", [-1, -1, -1], self.middle), np.all(rest <= self.middle, axis=1).sum())
         self.wait(reacts)
         self.body.release("grip")
         self.wait(lambda: not reacts())
+        with self.assertRaisesRegex(softbody.Refused, "/softbody/simulator/release: .*'grip'"):
+            self.body.release("grip")
+        with self.assertRaisesRegex(softbody.Refused, "/softbody/simulator/pin: "):
+            self.body.pin("grip", [5, 5, 5], [6, 6, 6])
 
     def wait(self, condition):
         end = time.monotonic() + 60
@@ -147,8 +152,8 @@ class PythonLive(unittest.TestCase):
             nobody.wait(timeout_s=0.2)
         with self.assertRaisesRegex(rospy.ROSException, "/nobody/surface/undo"):
             nobody.undo()
-        with self.assertRaisesRegex(rospy.ROSException, "nobody listens to /nobody/pin"):
-            nobody.release("grip", timeout_s=0.2)
+        with self.assertRaisesRegex(rospy.ROSException, "/nobody/simulator/release"):
+            nobody.release("grip")
         with self.assertRaisesRegex(TimeoutError, "no state of revision 99"):
             self.body.wait(timeout_s=0.2, revision=99)
         nobody.close()

@@ -5,8 +5,8 @@ import time
 
 import rospy
 from geometry_msgs.msg import Point, Point32, PoseStamped, Vector3
-from softbody_msgs.msg import MeshState, MeshTopology, PinRegion, TetTopology
-from softbody_msgs.srv import CutBody, CutBodyRequest, PreviewCut, PreviewCutRequest, SetPose
+from softbody_msgs.msg import MeshState, MeshTopology, TetTopology
+from softbody_msgs.srv import CutBody, CutBodyRequest, Pin, PinRequest, PreviewCut, PreviewCutRequest, Release, SetPose
 from std_srvs.srv import Trigger
 
 from softbody.join import Joiner
@@ -34,7 +34,6 @@ class Body:
         self._changed = threading.Condition()
         self._order = threading.RLock()  # one callback at a time, in the order of the states
         self._latest, self._undelivered, self._callbacks = None, collections.deque(), []
-        self._pin = rospy.Publisher(self._name("pin"), PinRegion, queue_size=10)
         subjects = [("surface/topology", MeshTopology, self._joiner.add_topology),
                     ("surface/state", MeshState, self._joiner.add_surface)]
         if with_volume:
@@ -47,7 +46,6 @@ class Body:
         """Ends the subscriptions."""
         for subscriber in self._subscribers:
             subscriber.unregister()
-        self._pin.unregister()
 
     # --- states --------------------------------------------------------------------------------------------------
     def latest(self):
@@ -115,16 +113,19 @@ class Body:
         self._call("surface/reset", Trigger)
 
     # --- pins ----------------------------------------------------------------------------------------------------
-    def pin(self, name, low, high, frame="", timeout_s=10.0):
-        """Holds the volume's vertices in a box of the rest frame, from now on.
+    def pin(self, name, low, high, frame=""):
+        """Holds the volume's vertices in a box of the rest frame, from the next step on.
 
         @param low, high: corners [m]. @param frame: they follow this frame of tf; empty: they stay where they are.
+        @return the number of vertices that are held.
         """
-        self._send_pin(PinRegion(name=name, min=Point32(*low), max=Point32(*high)), frame, timeout_s)
+        request = PinRequest(name=name, min=Point32(*low), max=Point32(*high))
+        request.header.frame_id = frame
+        return self._call("simulator/pin", Pin, request).vertices
 
-    def release(self, name, timeout_s=10.0):
-        """Lets go what `pin` holds under this name."""
-        self._send_pin(PinRegion(name=name, release=True), "", timeout_s)
+    def release(self, name):
+        """Lets a pin go, or removes an obstacle."""
+        self._call("simulator/release", Release, name)
 
     # --- inside --------------------------------------------------------------------------------------------------
     def _name(self, name):
@@ -164,15 +165,6 @@ class Body:
         if not answer.success:
             raise Refused(f"{name}: {answer.message}")
         return answer
-
-    def _send_pin(self, message, frame, timeout_s):
-        message.header.frame_id, message.header.stamp = frame, rospy.get_rostime()
-        end = time.monotonic() + timeout_s
-        while self._pin.get_num_connections() == 0:
-            if time.monotonic() >= end or rospy.is_shutdown():
-                raise rospy.ROSException(f"nobody listens to {self._name('pin')}; is the simulator running?")
-            time.sleep(0.02)
-        self._pin.publish(message)
 
 
 def _where(request, point, normal, polygon):
