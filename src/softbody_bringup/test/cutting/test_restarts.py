@@ -147,7 +147,7 @@ class Restarts(unittest.TestCase):
         self.expect_agreement(revision + 1, 3)
 
     def test_3_a_topology_of_another_body(self):
-        """The surface starts with it. The simulator answers with its own cuts."""
+        """The surface starts with it. It follows the simulator's cuts, which come again every second."""
         revision = self.start_with_two_pieces()
         forged = copy.deepcopy(self.recorder.messages[VOLUME][-1])
         for vertex in forged.rest_vertices:

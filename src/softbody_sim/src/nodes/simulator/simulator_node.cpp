@@ -164,6 +164,7 @@ void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& mess
   const EditHistory& own = simulator_.edits();
   const bool is_new = own.body == 0;
   if (is_new && message->body == 0) return;
+  // Own edits come again every second, but until then the surface would accept cuts that are never made.
   if (!is_new && message->body != own.body) return publishOwnEdits();
   if (!is_new && message->revision <= own.revision) return;
   try {
