@@ -6,7 +6,11 @@
 namespace softbody {
 ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactForces contact, const Options& options,
                                  StepSolver* solver)
-    : topology_(&topology), contact_(std::move(contact)), options_(options), solver_(solver) {}
+    : topology_(&topology),
+      contact_(std::move(contact)),
+      options_(options),
+      solver_(solver),
+      rigid_descent_(topology) {}
 
 /// The input of solve().
 struct ConstrainedStep::Problem {
@@ -79,6 +83,7 @@ void ConstrainedStep::iterate(const Problem& problem, Points* x) {
   findContacts(*x, problem, &contacts_);
   for (int round = 1;; ++round) {
     setSprings(problem.targets);
+    if (!problem.targets.empty()) rigid_descent_.descend(potential_, x);
     const int iterations = report.iterations;
     report = solver_->minimize(potential_, x);
     report.iterations += iterations;

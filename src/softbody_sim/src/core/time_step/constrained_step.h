@@ -4,6 +4,7 @@
 
 #include "constraints/contact_forces.h"
 #include "softbody_sim/constraints/surroundings.h"
+#include "time_step/rigid_descent.h"
 #include "time_step/step_solver.h"
 
 namespace softbody {
@@ -52,6 +53,7 @@ class ConstrainedStep {
   ContactForces contact_;
   Options options_;
   StepSolver* solver_;
+  RigidDescent rigid_descent_;
   IncrementalPotential potential_;  ///< with pins and the springs of contacts_
   const std::vector<Target> no_targets_;
   std::vector<Contact> contacts_;  ///< that the result was computed with

@@ -1,0 +1,89 @@
+#include "time_step/rigid_descent.h"
+
+#include <Eigen/Dense>
+
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+namespace {
+
+// Stiffness added to each motion, as a share of the stiffest: a motion that nothing measures stays small.
+constexpr double kRegularization = 1e-9;
+
+Eigen::Isometry3d motionAbout(const Eigen::Vector3d& center, const Eigen::Matrix<double, 6, 1>& motion) {
+  const Eigen::Vector3d turn = motion.head<3>();
+  const double angle = turn.norm();
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  if (angle > 0.0) result.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  result.translation() = center + motion.tail<3>() - result.linear() * center;
+  return result;
+}
+
+}  // namespace
+
+RigidDescent::RigidDescent(const TetTopology& topology)
+    : pieces_(verticesOfPieces(topology.tets, topology.rest_vertices.rows())),
+      piece_of_vertex_(static_cast<std::size_t>(topology.rest_vertices.rows())) {
+  for (std::size_t p = 0; p < pieces_.size(); ++p)
+    for (const int v : pieces_[p]) piece_of_vertex_[static_cast<std::size_t>(v)] = p;
+}
+
+void RigidDescent::Motion::addCurvature(const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
+                                        double stiffness) {
+  Vector6d row;
+  row << (point - center).cross(direction), direction;
+  curvature.selfadjointView<Eigen::Lower>().rankUpdate(row, stiffness);
+}
+
+void RigidDescent::addVertices(const IncrementalPotential& potential, const Points& x) {
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    Motion& motion = motions_[p];
+    motion.center.setZero();
+    for (const int v : pieces_[p]) motion.center += x.row(v).transpose();
+    motion.center /= static_cast<double>(pieces_[p].size());
+    motion.gradient.setZero();
+    motion.curvature.setZero();
+    for (const int v : pieces_[p]) {
+      const Eigen::Vector3d point = x.row(v), force = gradient_.row(v);
+      motion.gradient.head<3>() += (point - motion.center).cross(force);
+      motion.gradient.tail<3>() += force;
+      for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), potential.inertia[v]);
+    }
+  }
+}
+
+void RigidDescent::addSprings(const TargetEnergy& targets, const Points& x) {
+  for (const TargetEnergy::Spring& spring : targets.springs()) {
+    Motion& motion = motions_[piece_of_vertex_[static_cast<std::size_t>(spring.vertices[0])]];
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 4; ++k) point += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
+    if (spring.normal.isZero(0.0)) {
+      for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), spring.stiffness);
+    } else if (!spring.one_sided || spring.normal.dot(point - spring.position) < 0.0) {
+      motion.addCurvature(point, spring.normal, spring.stiffness);
+    }
+  }
+}
+
+void RigidDescent::descend(const IncrementalPotential& potential, Points* x) {
+  motions_.resize(pieces_.size());
+  gradient_.resize(x->rows(), 3);
+  moved_ = *x;
+  const double before = potential.evaluate(*x, &gradient_);
+  addVertices(potential, *x);
+  addSprings(potential.targets, *x);
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    Motion& motion = motions_[p];
+    // Turns and shifts have different units, so each is compared with its own kind.
+    for (int first : {0, 3}) {
+      auto diagonal = motion.curvature.diagonal().segment<3>(first);
+      diagonal.array() += kRegularization * diagonal.maxCoeff();
+    }
+    const Vector6d step = -motion.curvature.selfadjointView<Eigen::Lower>().ldlt().solve(motion.gradient);
+    const Eigen::Isometry3d T = motionAbout(motion.center, step);
+    for (const int v : pieces_[p]) moved_.row(v) = T * Eigen::Vector3d(x->row(v));
+  }
+  if (potential.evaluate(moved_, &gradient_) < before) x->swap(moved_);
+}
+
+}  // namespace softbody

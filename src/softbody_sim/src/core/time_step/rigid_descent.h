@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "softbody_common/types.h"
+#include "time_step/incremental_potential.h"
+
+namespace softbody {
+
+/// Moves each connected piece of the tets rigidly towards the minimum of a step. Elasticity does not resist
+/// such a motion. But in the metric of projective dynamics a target with a normal resists in all directions,
+/// so its iteration moves a body only slowly along its own surface.
+class RigidDescent {
+ public:
+  explicit RigidDescent(const TetTopology& topology);
+
+  /// One Gauss-Newton step of the six motions of each piece. Keeps x if the potential would not fall.
+  /// @param x #V by 3 [m].
+  void descend(const IncrementalPotential& potential, Points* x);
+
+ private:
+  using Matrix6d = Eigen::Matrix<double, 6, 6>;
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+  /// The potential's change by a small turn about the centre and a shift: gradient and curvature.
+  struct Motion {
+    Eigen::Vector3d center;
+    Vector6d gradient;
+    Matrix6d curvature;
+
+    void addCurvature(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double stiffness);
+  };
+
+  void addVertices(const IncrementalPotential& potential, const Points& x);
+  void addSprings(const TargetEnergy& targets, const Points& x);
+
+  std::vector<std::vector<int>> pieces_;
+  std::vector<std::size_t> piece_of_vertex_;
+  std::vector<Motion> motions_;
+  Points gradient_, moved_;
+};
+
+}  // namespace softbody
