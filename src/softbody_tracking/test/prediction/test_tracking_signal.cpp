@@ -45,12 +45,25 @@ TEST(TrackingSignal, PersistentCorrectionsAreMotion) {
     noisy.observe(noiseOf(1e-3, &random), kFrameInterval);
     still.observe(Points::Zero(kVertices, 3), kFrameInterval);
   }
-  still.observe(motion, kFrameInterval);
-  EXPECT_NEAR(meanGain(still), 1.0, 1e-9) << "without noise, motion is known at once";
+  for (int i = 0; i < 2; ++i) still.observe(motion, kFrameInterval);
+  EXPECT_GT(meanGain(still), 0.7) << "without noise, motion is known by two corrections";
   for (int i = 0; i < 15; ++i) noisy.observe(motion + noiseOf(2e-4, &random), kFrameInterval);
   EXPECT_GT(meanGain(noisy), 0.85);
   for (int i = 0; i < 60; ++i) noisy.observe(noiseOf(1e-3, &random), kFrameInterval);
   EXPECT_LT(meanGain(noisy), 0.2) << "it ends with the motion";
+}
+
+/// A body that swings is slowed down before it turns back: the corrections change their sign slowly.
+TEST(TrackingSignal, MotionThatTurnsBackIsFollowedThroughout) {
+  std::mt19937 random(6);
+  TrackingSignal signal;
+  double least = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const Points motion = Points::Constant(kVertices, 3, 1e-3 * std::cos(2.0 * M_PI * i / 15.0));
+    signal.observe(motion + noiseOf(2e-5, &random), kFrameInterval);
+    if (i > 5) least = std::min(least, meanGain(signal));
+  }
+  EXPECT_GT(least, 0.3);
 }
 
 TEST(TrackingSignal, VerticesHaveTheirOwn) {
@@ -61,7 +74,7 @@ TEST(TrackingSignal, VerticesHaveTheirOwn) {
     corrections.row(7) = Eigen::RowVector3d(0.0, 2e-3, 0.0);
     signal.observe(corrections, kFrameInterval);
   }
-  EXPECT_NEAR(signal.gain(7), 1.0, 1e-9);
+  EXPECT_NEAR(signal.gain(7), 1.0, 1e-5);
   EXPECT_LT(meanGain(signal), 0.2);
 }
 

@@ -1,5 +1,7 @@
 #include "alignment/rigid_alignment.h"
 
+#include <algorithm>
+
 #include "alignment/piece_observability.h"
 
 namespace softbody {
@@ -15,6 +17,11 @@ constexpr int kPixelStep = 2;
 constexpr double kConvergence = 3e-4;
 // Weight that holds a piece with partial observability back, as a share of the weight of its measurements.
 constexpr double kHeldShare = 0.15;
+// Smallest scale of the robust loss [m]: residuals below the depth noise are no outliers.
+constexpr double kSmallestScale = 0.003;
+// First scale of the robust loss, in usual errors of the prediction, and its factor from one iteration to the
+// next: a motion that was not predicted is no outlier (graduated non-convexity, Blake and Zisserman 1987).
+constexpr double kFirstScale = 2.0, kNarrowing = 0.5;
 // Largest motion of a vertex in one step [m]; more comes from wrong associations.
 constexpr double kLargestRigidStep = 0.1;
 
@@ -41,23 +48,24 @@ void addInliers(const std::vector<FeatureMatch>& matches, std::size_t step,
   }
 }
 
-/// @param moved the features, which get their predicted positions after the motions.
-AssociationsByPiece gather(const DepthAssociations& depth, const std::vector<Association>& features,
-                           const RigidMotions& motions, std::vector<Association>* moved) {
-  AssociationsByPiece result(motions.size());
-  for (const Association& association : depth.associations) result[association.piece].push_back(&association);
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    Association& feature = (*moved)[f];
-    feature.predicted = motions[feature.piece] * features[f].predicted;
-    result[feature.piece].push_back(&feature);
-  }
+/// With their predicted positions after the motions.
+std::vector<Association> moved(const RigidMotions& motions, std::vector<Association> associations) {
+  for (Association& a : associations) a.predicted = motions[a.piece] * a.predicted;
+  return associations;
+}
+
+AssociationsByPiece gather(const std::vector<Association>& depth, const std::vector<Association>& features,
+                           const std::vector<Association>& outline, std::size_t piece_count) {
+  AssociationsByPiece result(piece_count);
+  for (const std::vector<Association>* all : {&depth, &features, &outline})
+    for (const Association& association : *all) result[association.piece].push_back(&association);
   return result;
 }
 
 /// One ICP step of every piece that is observable.
 RigidMotions steppedMotions(const RigidMotions& motions, const std::vector<Points>& pieces,
                             const std::vector<Observability>& observability,
-                            const AssociationsByPiece& measured) {
+                            const AssociationsByPiece& measured, double least_scale_m) {
   RigidMotions result = motions;
   for (std::size_t piece = 0; piece < motions.size(); ++piece) {
     if (observability[piece] == Observability::kPoor) continue;
@@ -65,7 +73,8 @@ RigidMotions steppedMotions(const RigidMotions& motions, const std::vector<Point
     std::vector<Association> held;
     if (observability[piece] == Observability::kPartial)
       held = heldBack(pieces[piece], motions[piece], measured[piece]);
-    result[piece] = rigidStep(measured[piece], held) * motions[piece];
+    result[piece] =
+        rigidStep(measured[piece], held, std::max(kSmallestScale, least_scale_m)) * motions[piece];
   }
   return result;
 }
@@ -101,24 +110,27 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
 RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
                           const SurfaceSamples& samples, const ColorModel& colors,
                           const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
-                          DepthAssociator* depth) {
+                          double usual_error_m, DepthAssociator* depth) {
   RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
   std::vector<Association> features;
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features);
-  features.insert(features.end(), outline.begin(), outline.end());
-  std::vector<Association> moved_features = features;
-  for (int i = 0; i < kIterations; ++i) {
+  double scale_m = kFirstScale * usual_error_m;
+  for (int i = 0; i < kIterations; ++i, scale_m *= kNarrowing) {
     const DepthAssociations& seen =
         depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);
-    const AssociationsByPiece measured = gather(seen, features, motions, &moved_features);
+    const std::vector<Association> moved_features = moved(motions, features);
+    std::vector<Association> moved_outline = moved(motions, outline);
+    weighByResidual(kContourScale, &moved_outline, scale_m);
+    const AssociationsByPiece measured =
+        gather(seen.associations, moved_features, moved_outline, motions.size());
     const RigidMotions next = steppedMotions(
-        motions, pieces, pieceObservability(samples, seen.associations, matches, pieces), measured);
-    const double moved =
+        motions, pieces, pieceObservability(samples, seen.associations, matches, pieces), measured, scale_m);
+    const double step_m =
         (surface.movedVolume(next) - surface.movedVolume(motions)).rowwise().norm().maxCoeff();
-    if (moved > kLargestRigidStep) return motions;
+    if (step_m > kLargestRigidStep) return motions;
     motions = next;
-    if (moved < kConvergence) break;
+    if (step_m < kConvergence) break;
   }
   return motions;
 }

@@ -22,16 +22,20 @@ std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
 std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
                                   const AssociationRefs& measured);
 
+/// Scale of the outline's robust loss, in median residuals. A line may find another edge beside the contour.
+constexpr double kContourScale = 1.5;
+
 /// Largest distance that the motions move a vertex of the prediction [m].
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions);
 
 /// The rigid motion of each piece that aligns the prediction with depth and features (point-to-plane ICP).
 /// Pieces with poor observability do not move.
+/// @param usual_error_m how far predictions were off in the last frames: as far off is no outlier.
 /// @param outline as rendered. @param samples of the surface as rendered. @param depth associates with these
 /// samples.
 RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
                           const SurfaceSamples& samples, const ColorModel& colors,
                           const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
-                          DepthAssociator* depth);
+                          double usual_error_m, DepthAssociator* depth);
 
 }  // namespace softbody

@@ -106,9 +106,21 @@ bool continues(const Block* before, const Block& occluder, const Block& next) {
   return std::abs(step - last_step) < kOccluderContinuity;
 }
 
+/// Difference that most of the body shows [m]: how far the whole prediction is off. What the whole body does
+/// is no occluder's doing.
+double commonDifference(const std::vector<Block>& blocks) {
+  std::vector<double> differences;
+  for (const Block& block : blocks)
+    if (block.kind == BlockKind::kAgrees) differences.push_back(block.difference);
+  if (differences.empty()) return 0.0;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle;
+}
+
 /// Whether a block lies before the surface that another block of the same smooth surface shows.
-bool protrudesFrom(const Block& block, const Block& other) {
-  return other.kind == BlockKind::kAgrees && std::abs(other.difference) < kOccluderStep &&
+bool protrudesFrom(const Block& block, const Block& other, double common) {
+  return other.kind == BlockKind::kAgrees && std::abs(other.difference - common) < kOccluderStep &&
          block.difference <
              other.difference -
                  std::max(kProtrusion, kMaxSteepness * (block.position - other.position).norm()) &&
@@ -118,21 +130,21 @@ bool protrudesFrom(const Block& block, const Block& other) {
 /// Marks blocks that protrude from the surface by a step as occluded, whatever their colour: a tool's handle
 /// may be within the depth gate. Blocks at the border of an object show both, so the second neighbours count
 /// too.
-void markProtrusions(const SurfaceSamples& surface, std::vector<Block>* blocks) {
+void markProtrusions(const SurfaceSamples& surface, double common, std::vector<Block>* blocks) {
   const cv::Mat1i& grid = surface.grid;
   const cv::Rect inside(cv::Point(), grid.size());
   std::vector<int> protruding;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.cols; ++column) {
       const int b = grid(row, column);
-      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].difference > -kProtrusion)
+      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].difference > common - kProtrusion)
         continue;
       for (const cv::Point& way : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1),
                                    cv::Point(2, 0), cv::Point(-2, 0), cv::Point(0, 2), cv::Point(0, -2)}) {
         const cv::Point place = cv::Point(column, row) + way;
         const int other = inside.contains(place) ? grid(place) : -1;
         if (other < 0 || surface.samples[other].piece != surface.samples[b].piece) continue;
-        if (!protrudesFrom((*blocks)[b], (*blocks)[other])) continue;
+        if (!protrudesFrom((*blocks)[b], (*blocks)[other], common)) continue;
         protruding.push_back(b);
         break;
       }
@@ -142,7 +154,7 @@ void markProtrusions(const SurfaceSamples& surface, std::vector<Block>* blocks) 
 }
 
 /// Marks the rest of a hand, of which one end has been recognised as an occluder.
-void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
+void growOccluders(const cv::Mat1i& grid, double common, std::vector<Block>* blocks) {
   std::vector<cv::Point> open;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.cols; ++column) {
@@ -161,7 +173,8 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
       Block& block = (*blocks)[grid(next)];
       const cv::Point back = place - step;
       const Block* before = inside.contains(back) && grid(back) >= 0 ? &(*blocks)[grid(back)] : nullptr;
-      const bool same_occluder = block.kind == BlockKind::kAgrees && block.difference < -kOccluderStep &&
+      const bool same_occluder = block.kind == BlockKind::kAgrees &&
+                                 block.difference < common - kOccluderStep &&
                                  continues(before, occluder, block);
       if (!same_occluder) continue;
       block.kind = BlockKind::kOccluded;
@@ -188,8 +201,9 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.piece],
                               colors.region(), evidence_, config_.max_distance_m));
   }
-  markProtrusions(surface, &blocks_);
-  growOccluders(surface.grid, &blocks_);
+  const double common = commonDifference(blocks_);
+  markProtrusions(surface, common, &blocks_);
+  growOccluders(surface.grid, common, &blocks_);
   found_.noise = pixel_step == 1 ? sampleDepthNoise(surface, blocks_, frame.camera.fx, &second_differences_)
                                  : DepthNoiseSample();
 

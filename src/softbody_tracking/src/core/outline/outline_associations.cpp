@@ -114,7 +114,7 @@ const OutlineAssociations& OutlineAssociator::associate(const RgbdFrame& frame, 
     if (end.variance > kLargestDeviation * kLargestDeviation) continue;
     ++shown;
     apart_px += end.beyond ? OutlineLine::kReach : std::abs(end.mean);
-    if (end.beyond) continue;
+    if (end.beyond || line.endsOtherPart(end.mean)) continue;
     found_.associations.push_back(contourAssociation(frame.camera, sample, predicted, end, weight));
   }
   const double length_px = static_cast<double>(samples_.size()) * spacing_px_;

@@ -12,12 +12,17 @@ constexpr double kStep = 0.02;
 constexpr double kColorLimit = 3.0, kDepthLimit = 1.5;
 // Pixels beside the predicted outline that something nearer must not cover.
 constexpr double kUncovered = 3.0;
+// Farther than the surface at the outline by this [m] is another part of the body; above noise and slope.
+constexpr double kOtherPart = 0.01;
+// Where the depth of an end is read [px inside it]; nearer to it, depth mixes body and background.
+constexpr double kInside = 4.0, kRagged = 1.0;
 
 }  // namespace
 
 OutlineLine::OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors)
     : frame_(frame), rendered_(rendered), colors_(colors) {
   pixels_.reserve(2 * kReach + 1);
+  farther_by_.reserve(2 * kReach + 1);
 }
 
 double OutlineLine::depthLogOdds(double measured, double predicted, double behind) const {
@@ -26,8 +31,20 @@ double OutlineLine::depthLogOdds(double measured, double predicted, double behin
   return std::clamp(log_odds, -kDepthLimit, kDepthLimit);
 }
 
+bool OutlineLine::endsOtherPart(double end) const {
+  int measured = 0, farther = 0;
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    if (pixels_[i].distance < end - kInside || pixels_[i].distance > end - kRagged || farther_by_[i] == 0.0)
+      continue;
+    ++measured;
+    farther += farther_by_[i] > kOtherPart ? 1 : 0;
+  }
+  return 2 * farther > measured;
+}
+
 const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, const Eigen::Vector3d& moved) {
   pixels_.clear();
+  farther_by_.clear();
   const Eigen::Vector2d start = frame_.camera.project(moved), &outward = sample.outward;
   const Eigen::Vector2d rendered_start(sample.pixel.x, sample.pixel.y);
   const cv::Rect image(cv::Point(), frame_.depth.size());
@@ -42,7 +59,7 @@ const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, c
     const double predicted = rendered_(rendered_pixel) > 0.0f ? rendered_(rendered_pixel) + farther_by : 0.0;
     // On a limb narrower than the reach the line begins at its other side: behind that nothing of it shows.
     const bool begins = step <= 0 && (predicted <= 0.0 || body - predicted > kStep);
-    if (begins) pixels_.clear();
+    if (begins) pixels_.clear(), farther_by_.clear();
     body = step <= 0 ? predicted : moved.z();
     if (begins || (!pixels_.empty() && distance <= pixels_.back().distance)) continue;
     const double measured = frame_.depth(pixel);
@@ -55,6 +72,7 @@ const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, c
       if (measured > 0.0) result.log_odds += depthLogOdds(measured, body, step > 0 ? predicted : 0.0);
     }
     pixels_.push_back(result);
+    farther_by_.push_back(measured > 0.0 ? measured - body : 0.0);
   }
   return pixels_;
 }

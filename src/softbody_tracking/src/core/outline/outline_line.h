@@ -25,6 +25,11 @@ class OutlineLine {
   /// the body should end.
   const std::vector<LinePixel>& across(const ContourSample& sample, const Eigen::Vector3d& moved);
 
+  /// Whether the body just inside this end is farther than the surface at the predicted outline: the end of
+  /// another part, for example of a side that has come into view. Refers to the last line across().
+  /// @param end its distance from the predicted outline [px].
+  bool endsOtherPart(double end) const;
+
  private:
   /// Log odds by depth alone. @param predicted of the body there [m]. @param behind depth of another part of
   /// the body that is predicted there, or 0.
@@ -35,6 +40,7 @@ class OutlineLine {
   const RegionColors& colors_;
   DepthEvidence evidence_;
   std::vector<LinePixel> pixels_;
+  std::vector<double> farther_by_;  ///< of each pixel: measured minus predicted depth [m]; 0: not measured
 };
 
 }  // namespace softbody

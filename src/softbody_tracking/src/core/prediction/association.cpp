@@ -9,8 +9,6 @@ namespace {
 
 // Associations that a median needs; of more only a part is used, to save time.
 constexpr std::size_t kEnoughForMedian = 500;
-// Smallest scale of the Cauchy weights [m]: residuals below the depth noise are no outliers.
-constexpr double kSmallestScale = 0.003;
 // Smallest median residual [m]: measurements are not more precise than that.
 constexpr double kSmallestMedian = 0.001;
 // Stiffness added in every direction, as a share of the mean: a direction without data does not move.
@@ -53,13 +51,14 @@ AssociationRefs refsTo(const std::vector<Association>& associations) {
   return refs;
 }
 
-Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held) {
+Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held,
+                            double least_scale_m) {
   if (associations.empty()) return Eigen::Isometry3d::Identity();
   MotionEquations equations;
   for (const Association* a : associations) equations.center += a->predicted;
   equations.center /= static_cast<double>(associations.size());
 
-  const double scale = std::max(kSmallestScale, 2.0 * medianResidual(associations));
+  const double scale = std::max(least_scale_m, 2.0 * medianResidual(associations));
   for (const Association* a : associations) {
     const double ratio = a->residual() / scale;
     equations.add(*a, a->weight / (1.0 + ratio * ratio));
@@ -79,8 +78,9 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
   return T;
 }
 
-void weighByResidual(double scale, std::vector<Association>* associations) {
-  const double length = scale * std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
+void weighByResidual(double scale, std::vector<Association>* associations, double least_scale_m) {
+  const double median = std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
+  const double length = std::max(least_scale_m, scale * median);
   for (Association& association : *associations) {
     const double ratio = association.residual() / length;
     association.weight /= 1.0 + ratio * ratio;

@@ -17,10 +17,10 @@ Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
-Eigen::Matrix3d rotationBy(const Eigen::Vector3d& vector) {
+Eigen::Quaterniond rotationBy(const Eigen::Vector3d& vector) {
   const double angle = vector.norm();
-  return angle > 0.0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix()
-                     : Eigen::Matrix3d::Identity();
+  return angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle))
+                     : Eigen::Quaterniond::Identity();
 }
 
 }  // namespace
@@ -36,19 +36,31 @@ RigidPrediction::Placed RigidPrediction::placed(const Points& vertices, Nanoseco
   return result;
 }
 
+/// Those of the rigid motion only: deformation and its noise say nothing about the next motion.
+Points RigidPrediction::corrections(const std::vector<Eigen::Isometry3d>& predicted,
+                                    const Placed& now) const {
+  Points result(rest_.rows(), 3);
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    for (const int v : pieces_[p]) {
+      const Eigen::Vector3d rest = rest_.row(v);
+      result.row(v) = now.poses[p] * rest - predicted[p] * rest;
+    }
+  }
+  return result;
+}
+
 double RigidPrediction::gainOf(const std::vector<int>& piece) const {
   double sum = 0.0;
   for (const int v : piece) sum += signal_.gain(v);
   return sum / static_cast<double>(piece.size());
 }
 
-/// The gain of the velocity that suits the gain of the position (Benedict and Bordner 1962).
 void RigidPrediction::updateVelocities(const Placed& now) {
   velocities_.resize(pieces_.size());
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     const Eigen::Isometry3d &before = last_->poses[p], &after = now.poses[p];
     const Eigen::Vector3d center = restCenter(p);
-    const double gain = gainOf(pieces_[p]), share = gain * gain / (2.0 - gain);
+    const double share = gainOf(pieces_[p]);
     const Velocity measured{(after * center - before * center) / interval_s_,
                             rotationVector(after.linear() * before.linear().transpose()) / interval_s_};
     velocities_[p].linear += share * (measured.linear - velocities_[p].linear);
@@ -63,7 +75,7 @@ void RigidPrediction::observe(const Points& vertices, Nanoseconds stamp) {
   if (last_) {
     interval_s_ = seconds(stamp - last_->stamp);
     const auto predicted = predicted_.find(stamp);
-    if (predicted != predicted_.end()) signal_.observe(vertices - predicted->second, interval_s_);
+    if (predicted != predicted_.end()) signal_.observe(corrections(predicted->second, now), interval_s_);
     updateVelocities(now);
   }
   predicted_.erase(predicted_.begin(), predicted_.upper_bound(stamp));
@@ -72,19 +84,20 @@ void RigidPrediction::observe(const Points& vertices, Nanoseconds stamp) {
 
 Points RigidPrediction::at(Nanoseconds stamp, const std::vector<bool>& moving) {
   Points vertices = last_->vertices;
+  std::vector<Eigen::Isometry3d> poses = last_->poses;
   const double ahead_s = seconds(stamp - last_->stamp);
   if (ahead_s > 0.0 && ahead_s <= kLongestExtrapolation * interval_s_) {
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       if (p < moving.size() && !moving[p]) continue;
       const Eigen::Vector3d center = last_->poses[p] * restCenter(p);
-      const Eigen::Matrix3d turn = rotationBy(ahead_s * velocities_[p].angular);
-      for (const int v : pieces_[p]) {
-        const Eigen::Vector3d arm = last_->vertices.row(v).transpose() - center;
-        vertices.row(v) = center + ahead_s * velocities_[p].linear + turn * arm;
-      }
+      const Eigen::Isometry3d motion = Eigen::Translation3d(center + ahead_s * velocities_[p].linear) *
+                                       rotationBy(ahead_s * velocities_[p].angular) *
+                                       Eigen::Translation3d(-center);
+      poses[p] = motion * poses[p];
+      for (const int v : pieces_[p]) vertices.row(v) = motion * Eigen::Vector3d(last_->vertices.row(v));
     }
   }
-  predicted_[stamp] = vertices;
+  predicted_[stamp] = std::move(poses);
   if (predicted_.size() > kMostWaiting) predicted_.erase(predicted_.begin());
   return vertices;
 }

@@ -42,15 +42,16 @@ class RigidPrediction {
 
   Eigen::Vector3d restCenter(std::size_t piece) const;
   Placed placed(const Points& vertices, Nanoseconds stamp) const;
+  Points corrections(const std::vector<Eigen::Isometry3d>& predicted, const Placed& now) const;
   void updateVelocities(const Placed& now);
   double gainOf(const std::vector<int>& piece) const;
 
   Points rest_;
   std::vector<std::vector<int>> pieces_;  ///< vertices of each
   std::optional<Placed> last_;
-  double interval_s_ = 0.0;                  ///< between the last two states; 0: there is one state
-  std::vector<Velocity> velocities_;         ///< of each piece
-  std::map<Nanoseconds, Points> predicted_;  ///< not yet compared with a state
+  double interval_s_ = 0.0;           ///< between the last two states; 0: there is one state
+  std::vector<Velocity> velocities_;  ///< of each piece
+  std::map<Nanoseconds, std::vector<Eigen::Isometry3d>> predicted_;  ///< poses not yet compared with a state
   TrackingSignal signal_;
 };
 

@@ -16,17 +16,19 @@ constexpr double kSmallestGain = 0.02;
 void TrackingSignal::observe(const Points& corrections, double elapsed_s) {
   const bool first = gains_.empty();
   if (first) {
-    mean_ = corrections;
-    mean_length_ = corrections.rowwise().norm();
+    product_.setZero(corrections.rows());
+    square_ = corrections.rowwise().squaredNorm();
   } else {
     const double share = 1.0 - std::exp(-elapsed_s / kMemory);
-    mean_ += share * (corrections - mean_);
-    mean_length_ += share * (corrections.rowwise().norm() - mean_length_);
+    product_ += share * (corrections.cwiseProduct(last_).rowwise().sum() - product_);
+    square_ +=
+        share * (0.5 * (corrections.rowwise().squaredNorm() + last_.rowwise().squaredNorm()) - square_);
   }
+  last_ = corrections;
   gains_.resize(static_cast<std::size_t>(corrections.rows()));
   for (Eigen::Index v = 0; v < corrections.rows(); ++v) {
-    const double signal = mean_length_[v] > 0.0 ? mean_.row(v).norm() / mean_length_[v] : 0.0;
-    gains_[static_cast<std::size_t>(v)] = first ? 1.0 : std::clamp(signal * signal, kSmallestGain, 1.0);
+    const double correlation = square_[v] > 0.0 ? product_[v] / square_[v] : 0.0;
+    gains_[static_cast<std::size_t>(v)] = first ? 1.0 : std::clamp(correlation, kSmallestGain, 1.0);
   }
 }
 

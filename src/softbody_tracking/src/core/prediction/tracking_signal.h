@@ -7,10 +7,9 @@
 
 namespace softbody {
 
-/// Decides for each vertex how much of a new measurement is motion, and how much is noise: the tracking
-/// signal of Trigg and Leach 1967, for vectors. The corrections of a good prediction point in random
-/// directions, so their mean is far shorter than their mean length. If the body moves otherwise than
-/// predicted, the corrections point in one direction.
+/// Decides for each vertex how much of a new measurement is motion, and how much is noise: by the correlation
+/// of a correction with the one before (Mehra 1970). The corrections of a good prediction are white noise. If
+/// the body moves otherwise than predicted, neighbouring corrections are alike, also while it turns back.
 class TrackingSignal {
  public:
   /// @param corrections #V by 3, new minus predicted positions [m]. @param elapsed_s since the last ones.
@@ -25,9 +24,9 @@ class TrackingSignal {
   void reset() { gains_.clear(); }
 
  private:
-  Points mean_;                  ///< of the corrections
-  Eigen::VectorXd mean_length_;  ///< of the corrections
-  std::vector<double> gains_;    ///< empty before observe()
+  Points last_;                       ///< corrections
+  Eigen::VectorXd product_, square_;  ///< means of a correction times the one before, and times itself
+  std::vector<double> gains_;         ///< empty before observe()
 };
 
 }  // namespace softbody

@@ -7,7 +7,6 @@
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {
-
 FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& volume,
                              const MeshTopology& surface)
     : config_(config),
@@ -31,6 +30,7 @@ void FrameObserver::reset() {
   follower_.reset();
   admission_.reset();
   tracked_before_.clear();
+  prediction_.forgetError();
 }
 
 Observation FrameObserver::observe(const RgbdFrame& frame, const Points& predicted) {
@@ -43,15 +43,14 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& predict
                                   features.expected.unoccludedShare();
   weighByAgreement(&features.found.matches);
   weighByDensity(visible_vertices, &features.found.matches);
-  const RigidMotions still(prediction_.surface().pieceCount(), Eigen::Isometry3d::Identity());
-  const std::vector<Association> outline = prediction_.associateOutline(frame, still, colors_).associations;
-  const RigidMotions motions = prediction_.align(frame, colors_, features.found.matches, outline);
+  const RigidMotions motions = prediction_.align(frame, colors_, features.found.matches);
   Observation seen = measure(frame, motions, std::move(features));
   seen.visible_vertices = visible_vertices;
   tracked_before_ = seen.atLeast(Observability::kPartial);
   map_.score(seen.expected, seen.matches, tracked_before_);
   colors_.learnRegion(frame, prediction_.surface().image());
   prediction_.move(motions);
+  prediction_.learnError(predicted);
   for (FeatureMatch& match : seen.matches)
     match.association.predicted = motions[match.association.piece] * match.association.predicted;
   return seen;
@@ -69,6 +68,7 @@ Observation FrameObserver::measure(const RgbdFrame& frame, const RigidMotions& m
   const double edge_m = prediction_.volumeEdge();
   downweightByNoise(depth_noise_.patchStdDev(edge_m) / edge_m, &seen.depth);
   seen.outline = prediction_.associateOutline(frame, motions, colors_);
+  weighByResidual(kContourScale, &seen.outline.associations);
   return restrictedToObservable(std::move(seen), prediction_.samples(),
                                 prediction_.surface().pieceVertices());
 }

@@ -7,8 +7,8 @@
 namespace softbody {
 namespace {
 
-// Scale of the robust loss, in median residuals. A line may find another edge beside the contour.
-constexpr double kContourScale = 1.5;
+// Share of the last frame in the usual error of the prediction: motion changes within some frames.
+constexpr double kNewestShare = 0.5;
 
 /// Weight 0 if no target would use the outline: then it is not sampled.
 OutlineConfig usedOutline(const TrackerConfig& config) {
@@ -36,9 +36,15 @@ void RenderedPrediction::render(const Pinhole& camera, const Points& volume_vert
 }
 
 RigidMotions RenderedPrediction::align(const RgbdFrame& frame, const ColorModel& colors,
-                                       const std::vector<FeatureMatch>& matches,
-                                       const std::vector<Association>& outline) {
-  return alignRigidly(frame, surface_, samples_, colors, matches, outline, &depth_);
+                                       const std::vector<FeatureMatch>& matches) {
+  const RigidMotions still(surface_.pieceCount(), Eigen::Isometry3d::Identity());
+  const std::vector<Association>& outline = associateOutline(frame, still, colors).associations;
+  return alignRigidly(frame, surface_, samples_, colors, matches, outline, usual_error_m_, &depth_);
+}
+
+void RenderedPrediction::learnError(const Points& predicted) {
+  const double error_m = (surface_.volumeVertices() - predicted).rowwise().norm().maxCoeff();
+  usual_error_m_ += kNewestShare * (error_m - usual_error_m_);
 }
 
 const DepthAssociations& RenderedPrediction::associateDepth(const RgbdFrame& frame,
@@ -52,7 +58,6 @@ const OutlineAssociations& RenderedPrediction::associateOutline(const RgbdFrame&
                                                                 const ColorModel& colors) {
   contours_ = outline_.associate(frame, surface_.image(), motions, colors.region());
   creases_.associate(frame, surface_, motions, &contours_.associations);
-  weighByResidual(kContourScale, &contours_.associations);
   return contours_;
 }
 

@@ -26,9 +26,9 @@ class RenderedPrediction {
   const SurfaceSamples& samples() const { return samples_; }
   double volumeEdge() const { return volume_edge_m_; }  ///< mean length of the volume's edges [m]
 
-  /// See alignRigidly().
+  /// Aligns the rendered surface with depth, outline and these features, see alignRigidly().
   RigidMotions align(const RgbdFrame& frame, const ColorModel& colors,
-                     const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline = {});
+                     const std::vector<FeatureMatch>& matches);
   /// Depth of the frame on the surface, which is moved by the motions. Valid until the next call or align().
   const DepthAssociations& associateDepth(const RgbdFrame& frame, const RigidMotions& motions,
                                           const ColorModel& colors);
@@ -39,9 +39,15 @@ class RenderedPrediction {
   /// Moves the pieces without rendering again.
   void move(const RigidMotions& motions) { surface_.move(motions); }
 
+  /// Learns how far predictions are off: later alignments expect such motions.
+  /// @param predicted vertices of the volume, which then were aligned and moved.
+  void learnError(const Points& predicted);
+  void forgetError() { usual_error_m_ = 0.0; }
+
  private:
   int wanted_samples_;
   double volume_edge_m_;
+  double usual_error_m_ = 0.0;  ///< largest error of a predicted vertex, mean of the last frames
   PredictedSurface surface_;
   SurfaceSamples samples_;
   DepthAssociator depth_;
