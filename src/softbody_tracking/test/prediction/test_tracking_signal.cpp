@@ -63,7 +63,7 @@ TEST(TrackingSignal, MotionThatTurnsBackIsFollowedThroughout) {
     signal.observe(motion + noiseOf(2e-5, &random), kFrameInterval);
     if (i > 5) least = std::min(least, meanGain(signal));
   }
-  EXPECT_GT(least, 0.3);
+  EXPECT_GT(least, 0.9);
 }
 
 TEST(TrackingSignal, VerticesHaveTheirOwn) {

@@ -82,17 +82,23 @@ void RigidPrediction::observe(const Points& vertices, Nanoseconds stamp) {
   last_ = std::move(now);
 }
 
-Points RigidPrediction::at(Nanoseconds stamp, const std::vector<bool>& moving) {
+RigidPrediction::Velocity RigidPrediction::Velocity::knownPart(const MotionShare& share) const {
+  Eigen::Matrix<double, 6, 1> both;
+  both << angular, linear;
+  both = share * both;
+  return {both.tail<3>(), both.head<3>()};
+}
+
+Points RigidPrediction::at(Nanoseconds stamp, const std::vector<MotionShare>& known) {
   Points vertices = last_->vertices;
   std::vector<Eigen::Isometry3d> poses = last_->poses;
   const double ahead_s = seconds(stamp - last_->stamp);
   if (ahead_s > 0.0 && ahead_s <= kLongestExtrapolation * interval_s_) {
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      if (p < moving.size() && !moving[p]) continue;
+      const Velocity velocity = p < known.size() ? velocities_[p].knownPart(known[p]) : velocities_[p];
       const Eigen::Vector3d center = last_->poses[p] * restCenter(p);
-      const Eigen::Isometry3d motion = Eigen::Translation3d(center + ahead_s * velocities_[p].linear) *
-                                       rotationBy(ahead_s * velocities_[p].angular) *
-                                       Eigen::Translation3d(-center);
+      const Eigen::Isometry3d motion = Eigen::Translation3d(center + ahead_s * velocity.linear) *
+                                       rotationBy(ahead_s * velocity.angular) * Eigen::Translation3d(-center);
       poses[p] = motion * poses[p];
       for (const int v : pieces_[p]) vertices.row(v) = motion * Eigen::Vector3d(last_->vertices.row(v));
     }

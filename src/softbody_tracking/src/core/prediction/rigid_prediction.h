@@ -11,6 +11,9 @@
 
 namespace softbody {
 
+/// Which share of a rigid motion is known: maps (spin, velocity of the centre) to the known part of it.
+using MotionShare = Eigen::Matrix<double, 6, 6>;
+
 /// Predicts the volume's vertices: each piece continues with the velocity and spin of its rigid motion.
 /// Velocity and spin are averaged the more, the better the predictions are (see TrackingSignal).
 class RigidPrediction {
@@ -24,8 +27,8 @@ class RigidPrediction {
 
   /// The vertices at a later stamp. If there is only one state, or if the last state is too old, they stay as
   /// last observed. There must be at least one state.
-  /// @param moving for each piece; false: its velocity is unknown, so it stays. Empty: all move.
-  Points at(Nanoseconds stamp, const std::vector<bool>& moving = {});
+  /// @param known for each piece; a motion that is unknown is assumed to be none. Empty: all is known.
+  Points at(Nanoseconds stamp, const std::vector<MotionShare>& known = {});
 
   void reset();
 
@@ -38,6 +41,8 @@ class RigidPrediction {
   /// Velocity of a piece's centre [m/s], and its spin [rad/s].
   struct Velocity {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+
+    Velocity knownPart(const MotionShare& share) const;
   };
 
   Eigen::Vector3d restCenter(std::size_t piece) const;

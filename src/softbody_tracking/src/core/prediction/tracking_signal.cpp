@@ -8,27 +8,31 @@ namespace {
 
 // Time over which corrections are averaged [s]: some frames tell noise from motion.
 constexpr double kMemory = 0.15;
+// Square of white noise, as a share of the square of its second difference: 1 / (1 + 4 + 1).
+constexpr double kNoiseShare = 1.0 / 6.0;
 // Smallest share of a measurement that is followed, so that no error lasts.
 constexpr double kSmallestGain = 0.02;
 
 }  // namespace
 
 void TrackingSignal::observe(const Points& corrections, double elapsed_s) {
-  const bool first = gains_.empty();
-  if (first) {
-    product_.setZero(corrections.rows());
+  const Eigen::Index count = corrections.rows();
+  if (gains_.empty()) {
+    last_ = before_ = corrections;
     square_ = corrections.rowwise().squaredNorm();
+    noise_.setZero(count);
   } else {
     const double share = 1.0 - std::exp(-elapsed_s / kMemory);
-    product_ += share * (corrections.cwiseProduct(last_).rowwise().sum() - product_);
-    square_ +=
-        share * (0.5 * (corrections.rowwise().squaredNorm() + last_.rowwise().squaredNorm()) - square_);
+    const Points rough = corrections - 2.0 * last_ + before_;
+    noise_ += share * (kNoiseShare * rough.rowwise().squaredNorm() - noise_);
+    square_ += share * (corrections.rowwise().squaredNorm() - square_);
+    before_ = last_;
+    last_ = corrections;
   }
-  last_ = corrections;
-  gains_.resize(static_cast<std::size_t>(corrections.rows()));
-  for (Eigen::Index v = 0; v < corrections.rows(); ++v) {
-    const double correlation = square_[v] > 0.0 ? product_[v] / square_[v] : 0.0;
-    gains_[static_cast<std::size_t>(v)] = first ? 1.0 : std::clamp(correlation, kSmallestGain, 1.0);
+  gains_.resize(static_cast<std::size_t>(count));
+  for (Eigen::Index v = 0; v < count; ++v) {
+    const double noise = square_[v] > 0.0 ? noise_[v] / square_[v] : 0.0;
+    gains_[static_cast<std::size_t>(v)] = std::clamp(1.0 - noise, kSmallestGain, 1.0);
   }
 }
 

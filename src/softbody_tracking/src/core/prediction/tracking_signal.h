@@ -7,9 +7,9 @@
 
 namespace softbody {
 
-/// Decides for each vertex how much of a new measurement is motion, and how much is noise: by the correlation
-/// of a correction with the one before (Mehra 1970). The corrections of a good prediction are white noise. If
-/// the body moves otherwise than predicted, neighbouring corrections are alike, also while it turns back.
+/// Decides for each vertex how much of a new measurement is motion, and how much is noise. The corrections of
+/// a good prediction are white noise. If the body moves otherwise than predicted, successive corrections lie
+/// on a smooth curve, so their second differences are small (adaptive filtering by innovations: Mehra 1970).
 class TrackingSignal {
  public:
   /// @param corrections #V by 3, new minus predicted positions [m]. @param elapsed_s since the last ones.
@@ -24,9 +24,9 @@ class TrackingSignal {
   void reset() { gains_.clear(); }
 
  private:
-  Points last_;                       ///< corrections
-  Eigen::VectorXd product_, square_;  ///< means of a correction times the one before, and times itself
-  std::vector<double> gains_;         ///< empty before observe()
+  Points last_, before_;            ///< the last two corrections
+  Eigen::VectorXd square_, noise_;  ///< mean square of the corrections, and of their noise
+  std::vector<double> gains_;       ///< empty before observe()
 };
 
 }  // namespace softbody

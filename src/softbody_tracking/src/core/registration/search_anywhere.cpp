@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "registration/body_candidates.h"
+#include "registration/body_edges.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/search_starts.h"
 #include "softbody_common/rasterizer.h"
@@ -125,6 +126,8 @@ std::optional<FoundPose> searchAnywhere(const RgbdFrame& frame, const ColorModel
   std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config.distance_scale_m);
   const auto implausible = [&](const PoseHypothesis& pose) {
     return pose.cost > config.max_cost ||
+           shareWithoutEdge(frame, meshes.full, pose.pose, config.distance_scale_m) >
+               kLargestShareWithoutEdge ||
            foreignShare(frame, colors, meshes.full, pose.pose) > kLargestForeignShare;
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());

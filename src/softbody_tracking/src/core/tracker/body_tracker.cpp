@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "alignment/measured_share.h"
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
 #include "softbody_common/plausibility.h"
@@ -68,10 +69,10 @@ struct BodyTracker::Implementation {
   std::unique_ptr<RigidPrediction> prediction;
   std::unique_ptr<PositionPrior> hold;
   HeldPieces held;
-  std::vector<bool> moving;     ///< pieces whose velocity is known well enough to predict them; empty: all
-  Nanoseconds stamp = 0;        ///< of the present frame
-  Nanoseconds last_answer = 0;  ///< stamp of the last state that was an answer
-  int pass = 0;                 ///< of the last frame
+  std::vector<MotionShare> measured;  ///< share of each piece's motion in the last frame; empty: all
+  Nanoseconds stamp = 0;              ///< of the present frame
+  Nanoseconds last_answer = 0;        ///< stamp of the last state that was an answer
+  int pass = 0;                       ///< of the last frame
 };
 
 TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
@@ -130,7 +131,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   relocalizer.setPose(frame.T_fixed_camera *
                       fitRigid(model().rest_vertices, observer->surface().volumeVertices()));
   const std::vector<Association> associations = associationsOf(seen, T_camera_fixed.linear());
-  moving = seen.atLeast(Observability::kGood);
+  measured = measuredShares(associations, observer->surface().pieceVertices(), frame.T_fixed_camera.linear());
 
   TrackingResult result;
   result.has_targets = true;
@@ -159,7 +160,7 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->surface().pieces());
   relocalizer.forgetMeshes();
   hold = std::make_unique<PositionPrior>(volume);
-  moving.clear();
+  measured.clear();
   held.reset();
   if (!edited) reset();
 }
@@ -179,7 +180,7 @@ void BodyTracker::Implementation::reset() {
   if (observer != nullptr) observer->reset();
   if (prediction != nullptr) prediction->reset();
   last_answer = 0;
-  moving.clear();
+  measured.clear();
   held.reset();
   knn.reset();
 }
@@ -197,7 +198,7 @@ bool BodyTracker::Implementation::isAnswer(const MeshState* volume) const {
 Points BodyTracker::Implementation::predict(const RgbdFrame& frame, const MeshState* answer) {
   if (answer == nullptr) return transformed(model().rest_vertices, relocalizer.pose());
   prediction->observe(answer->vertices, answer->observed);
-  return prediction->at(frame.stamp, moving);
+  return prediction->at(frame.stamp, measured);
 }
 
 std::vector<Association> BodyTracker::Implementation::associationsOf(

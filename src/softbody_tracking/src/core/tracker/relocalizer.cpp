@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "registration/body_edges.h"
 #include "registration/search_anywhere.h"
 #include "registration/search_near_pose.h"
 
@@ -101,8 +102,10 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   const SearchMeshes& meshes = meshesOf(observer->surface().topology());
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   if (given_ && !recovering_) {
-    if (const auto found = acceptableNear(frame, meshes, T_camera_fixed * *given_, config_.max_cost))
-      return found;
+    const auto found = acceptableNear(frame, meshes, T_camera_fixed * *given_, config_.max_cost);
+    const bool bounded = found && shareWithoutEdge(frame, meshes.full, found->pose,
+                                                   config_.distance_scale_m) <= kLargestShareWithoutEdge;
+    if (bounded) return found;
   }
   std::vector<Eigen::Isometry3d> guesses;
   if (recovering_ || given_) guesses.push_back(T_camera_fixed * pose_);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "prediction/association.h"
+#include "prediction/rigid_prediction.h"
+
+namespace softbody {
+
+/// For each piece, the share of its rigid motion that a frame measures. A direction with information h has
+/// the share h / (h + 0.1 H), with the information H of the best direction: what is measured ten times
+/// worse than that may as well be an error of the shape.
+/// @param associations camera frame. @param pieces vertices of each piece, camera frame [m].
+/// @param R_fixed_camera turns the shares into the fixed frame.
+std::vector<MotionShare> measuredShares(const std::vector<Association>& associations,
+                                        const std::vector<Points>& pieces,
+                                        const Eigen::Matrix3d& R_fixed_camera);
+
+}  // namespace softbody

@@ -1,0 +1,65 @@
+#include "registration/body_edges.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "registration/pose_cost.h"
+#include "registration/subsampled_frame.h"
+#include "softbody_common/rasterizer.h"
+#include "softbody_common/rigid_fit.h"
+
+namespace softbody {
+namespace {
+
+// Columns of the image: pixels of some millimetres, wide enough for edges that depth shows rounded.
+constexpr int kColumns = 320;
+// Smallest step of depth that is an edge, in distance scales and in thicknesses of the body.
+constexpr double kLeastStep = 0.25;
+
+/// Smallest extent along a principal axis [m].
+double thicknessOf(const Points& vertices) {
+  const Eigen::RowVector3d center = vertices.colwise().mean();
+  const Points arms = vertices.rowwise() - center;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms.transpose() * arms);
+  const Points along = arms * axes.eigenvectors();
+  return (along.colwise().maxCoeff() - along.colwise().minCoeff()).minCoeff();
+}
+
+/// Whether depth runs straight on across an outline. On a plane the inverse depth is linear in the pixel.
+/// @param pixel the last one inside. @param step from inside to outside. @param least_step_m at 1 m.
+bool runsOn(const cv::Mat1f& depth, const cv::Point& pixel, const cv::Point& step, double least_step_m) {
+  const double inner = depth(pixel - 3 * step), edge = depth(pixel - step), beyond = depth(pixel + 2 * step);
+  if (inner <= 0.0 || edge <= 0.0) return false;
+  const double expected = 1.0 / (1.0 / edge + 1.5 * (1.0 / edge - 1.0 / inner));
+  return std::abs(beyond - expected) < distanceScaleAt(beyond, least_step_m);
+}
+
+}  // namespace
+
+double shareWithoutEdge(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
+                        double distance_scale_m) {
+  static const cv::Point kSteps[4] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  const RgbdFrame small = subsampled(frame, kColumns);
+  RasterImage image;
+  rasterize(small.camera, transformed(mesh.vertices, pose), mesh.triangles, &image);
+  const auto shows = [&](const cv::Point& pixel) { return image.triangle(pixel) >= 0; };
+  const double least_step_m = kLeastStep * std::min(distance_scale_m, thicknessOf(mesh.vertices));
+  const cv::Rect region = image.region & cv::Rect(3, 3, image.depth.cols - 6, image.depth.rows - 6);
+  int outline = 0, without = 0;
+  for (int v = region.y; v < region.br().y; ++v) {
+    for (int u = region.x; u < region.br().x; ++u) {
+      const cv::Point pixel(u, v);
+      for (const cv::Point& step : kSteps) {
+        const cv::Point beyond = pixel + 2 * step;
+        if (!shows(pixel) || !shows(pixel - 3 * step) || shows(pixel + step) || shows(beyond)) continue;
+        if (small.depth(beyond) <= 0.0f) continue;
+        ++outline;
+        without += runsOn(small.depth, pixel, step, least_step_m) ? 1 : 0;
+      }
+    }
+  }
+  return outline == 0 ? 0.0 : static_cast<double>(without) / outline;
+}
+
+}  // namespace softbody
