@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <random>
 
 #include "fixtures/synthetic_scene.h"
@@ -130,6 +131,29 @@ TEST_F(OutlineAssociationsTest, LeadBackToTheBody) {
     const Points offsets = predicted - truth;
     EXPECT_LT(offsets.leftCols<2>().rowwise().norm().mean(), 0.3 * kPixel);
   }
+}
+
+/// Beyond the predicted outline the body goes on, but far behind the edge: a side has come into view. Its far
+/// end is not the end of the edge.
+TEST_F(OutlineAssociationsTest, AnEdgeIsNotDrawnToTheEndOfAnotherPart) {
+  const auto pulled = [&](float farther_m) {
+    show(kFlat);
+    const cv::Mat1b body = frame_.depth < 1.0f;
+    cv::Mat1b grown;
+    cv::dilate(body, grown, cv::Mat(), cv::Point(-1, -1), 6);
+    const cv::Mat3b color = frame_.color.clone();
+    for (int v = 0; v < body.rows; ++v) {
+      for (int u = 0; u < body.cols; ++u) {
+        if (body(v, u) != 0 || grown(v, u) == 0) continue;
+        frame_.color(v, u) = color(240, 320);
+        frame_.depth(v, u) = frame_.depth(240, 320) + farther_m;
+      }
+    }
+    return associate(boxAt(kFlat)).associations.size();
+  };
+  const std::size_t same_surface = pulled(0.0f);
+  EXPECT_GT(same_surface, 100u) << "the body is larger than predicted";
+  EXPECT_LT(pulled(0.025f), same_surface / 10) << "a side, seen at an angle";
 }
 
 TEST_F(OutlineAssociationsTest, MoveWithTheirSamples) {
