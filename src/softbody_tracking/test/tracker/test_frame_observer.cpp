@@ -255,14 +255,15 @@ TEST_F(BoxOfFewFeatures, GetsFeaturesOfANewSideAtOnce) {
   EXPECT_GT(known(), before);
 }
 
-TEST_F(BoxOfFewFeatures, TrustsEachMore) {
+/// On a body of one colour the few features are often wrong.
+TEST_F(BoxOfFewFeatures, TrustsNoneMore) {
   show(front_);
   const std::vector<FeatureMatch> matches = show(front_).matches;
   ASSERT_GT(matches.size(), 20u);
   const auto heaviest = std::max_element(matches.begin(), matches.end(), [](const auto& a, const auto& b) {
     return a.association.weight < b.association.weight;
   });
-  EXPECT_GT(heaviest->association.weight, 2.0 * config_.features.weight);
+  EXPECT_LE(heaviest->association.weight, config_.features.weight);
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "softbody_common/target_limits.h"
-
 namespace softbody {
 namespace {
 
@@ -11,10 +9,8 @@ namespace {
 constexpr double kSmallestShare = 0.01;
 // At this many times the median unexplained share a match has half the weight.
 constexpr double kUnusual = 2.0;
-// Sum of the matches' weights for each visible vertex, in weights of one match; independent of their number.
+// Largest sum of the matches' weights for each visible vertex, in weights of one match.
 constexpr double kPerVertex = 2.5;
-// Largest factor on a match's own weight: a few features must not replace many.
-constexpr double kLargestFactor = 4.0;
 
 }  // namespace
 
@@ -35,9 +31,8 @@ void weighByDensity(double vertices, std::vector<FeatureMatch>* matches) {
   const auto inliers = static_cast<double>(std::count_if(
       matches->begin(), matches->end(), [](const FeatureMatch& match) { return match.inlier; }));
   if (inliers == 0.0 || vertices == 0.0) return;
-  const double scale = std::min(kPerVertex * vertices / inliers, kLargestFactor);
-  for (FeatureMatch& match : *matches)
-    match.association.weight = std::min(scale * match.association.weight, kLargestTargetWeight);
+  const double scale = std::min(kPerVertex * vertices / inliers, 1.0);
+  for (FeatureMatch& match : *matches) match.association.weight *= scale;
 }
 
 }  // namespace softbody

@@ -10,8 +10,8 @@ namespace softbody {
 /// and blur affect all patches alike. But a partly occluded patch is found beside its true place.
 void weighByAgreement(std::vector<FeatureMatch>* matches);
 
-/// Scales the weights so that their sum does not depend on the number of inliers. The sum is a fixed weight
-/// for each visible vertex. A match gets at most four times its weight, and at most kLargestTargetWeight.
+/// Reduces the weights of many inliers, so that their sum is at most a fixed weight for each visible vertex.
+/// Few inliers keep their weights: on a body of one colour they are often wrong.
 /// @param vertices of the volume that are visible and not occluded.
 void weighByDensity(double vertices, std::vector<FeatureMatch>* matches);
 
