@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "ros/encoded_image.h"
 
 namespace softbody {
 namespace {
@@ -24,22 +26,17 @@ static_assert(sizeof(DepthHeader) == 12, "as compressed_depth_image_transport wr
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
+/// What a sender calls a format may be as long as a message: its beginning says enough.
+std::string quoted(const std::string& format) { return "'" + format.substr(0, 60) + "'"; }
+
 cv::Mat decoded(const sensor_msgs::CompressedImage& image, std::size_t offset) {
-  cv::Mat pixels;
-  if (image.data.size() > offset) {
-    const cv::Mat bytes(1, static_cast<int>(image.data.size() - offset), CV_8UC1,
-                        const_cast<std::uint8_t*>(image.data.data()) + offset);
-    try {
-      pixels = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-    } catch (const cv::Exception&) {  // an image with too many pixels
-    }
+  const std::size_t size = image.data.size() - std::min(offset, image.data.size());
+  try {
+    return decodeImage(image.data.data() + image.data.size() - size, size);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("a compressed image of format {} cannot be decoded: {}",
+                                            quoted(image.format), error.what()));
   }
-  if (pixels.empty()) {
-    throw std::invalid_argument(
-        fmt::format("a compressed image of format '{}' with {} bytes cannot be decoded", image.format,
-                    image.data.size()));
-  }
-  return pixels;
 }
 
 /// Metres from 16 bits of inverse depth; 0 means not measured.
@@ -57,16 +54,16 @@ cv::Mat1f metres(const cv::Mat1w& inverse, const DepthHeader& header) {
 cv_bridge::CvImage depthImage(const sensor_msgs::CompressedImage& image) {
   if (contains(image.format, "rvl")) {
     throw std::invalid_argument(
-        fmt::format("the compressed depth has the format '{}'; set the publisher's parameter "
+        fmt::format("the compressed depth has the format {}; set the publisher's parameter "
                     "compressedDepth/format to png",
-                    image.format));
+                    quoted(image.format)));
   }
   const cv::Mat pixels = decoded(image, sizeof(DepthHeader));
   if (pixels.type() != CV_16UC1) {
     throw std::invalid_argument(
-        fmt::format("the compressed depth of format '{}' has pixels of type {}; expected "
+        fmt::format("the compressed depth of format {} has pixels of type {}; expected "
                     "a PNG of 16 bits",
-                    image.format, cv::typeToString(pixels.type())));
+                    quoted(image.format), cv::typeToString(pixels.type())));
   }
   if (image.format.rfind(enc::TYPE_32FC1, 0) != 0) return {image.header, enc::TYPE_16UC1, pixels};
   DepthHeader header{};
@@ -88,9 +85,9 @@ std::string encodingOf(const cv::Mat& pixels, const std::string& format) {
       return enc::TYPE_16UC1;
     default:
       throw std::invalid_argument(
-          fmt::format("a compressed image of format '{}' has pixels of type {}, which cannot "
-                      "be used",
-                      format, cv::typeToString(pixels.type())));
+          fmt::format("a compressed image of format {} has pixels of type {}; "
+                      "set the publisher's format to 8 bits a channel, or 16 bits grey",
+                      quoted(format), cv::typeToString(pixels.type())));
   }
 }
 

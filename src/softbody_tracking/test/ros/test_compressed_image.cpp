@@ -1,11 +1,16 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "softbody_tracking/ros/compressed_image.h"
 #include "softbody_tracking/ros/conversions.h"
@@ -110,6 +115,48 @@ TEST(CompressedImage, WhatCannotBeDecodedIsRefused) {
     } catch (const std::invalid_argument&) {
     }
   }
+}
+
+/// The sentence of a refusal; empty: the image is decoded.
+std::string refusal(const sensor_msgs::CompressedImage& image) {
+  try {
+    decompressed(image);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CompressedImage, AFewBytesThatStandForVeryManyPixelsAreRefused) {
+  const char* const png = "mono8; png compressed ";
+  EXPECT_EQ(refusal(compressedImage(cv::Mat1b::zeros(2, 1 << 14), png, ".png")), "");
+  const std::pair<cv::Mat, const char*> tooLarge[] = {{cv::Mat1b::zeros(4097, 8192), ".png"},
+                                                      {cv::Mat1b::zeros(2, 20'000), ".png"},
+                                                      {cv::Mat1b::zeros(20'000, 2), ".jpg"}};
+  for (const auto& [pixels, extension] : tooLarge) {
+    const std::string sentence = refusal(compressedImage(pixels, png, extension));
+    EXPECT_NE(sentence.find(fmt::format("{}x{} pixels; allowed: up to", pixels.cols, pixels.rows)),
+              std::string::npos)
+        << sentence;
+  }
+}
+
+TEST(CompressedImage, AJpegOfVeryManyScansIsRefused) {
+  sensor_msgs::CompressedImage image;
+  image.format = "bgr8; jpeg compressed bgr8";
+  cv::imencode(".jpg", colors(), image.data, {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
+  EXPECT_EQ(refusal(image), "");
+  const std::uint8_t start[] = {0xFF, 0xDA};
+  const auto last = std::find_end(image.data.begin(), image.data.end(), std::begin(start), std::end(start));
+  const std::vector<std::uint8_t> scan(last, image.data.end() - 2);
+  for (int k = 0; k < 100; ++k) image.data.insert(image.data.end() - 2, scan.begin(), scan.end());
+  EXPECT_NE(refusal(image).find("scans; allowed"), std::string::npos) << refusal(image);
+}
+
+TEST(CompressedImage, ALongFormatDoesNotFillTheLog) {
+  sensor_msgs::CompressedImage image;
+  image.format.assign(1'000'000, 'x');
+  EXPECT_LT(refusal(image).size(), 500u);
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "fuzz/messages/camera_frames.h"
 
+#include <cv_bridge/cv_bridge.h>
+
+#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "softbody_common/ros/camera_messages.h"
@@ -14,10 +17,28 @@ namespace {
 CameraFrame rectifiedFrame(const CameraFrame& raw) {
   CameraIngest ingest{CameraIngestConfig{}};
   const RgbdFrame frame = frameFromMessages(raw.color, &raw.depth, raw.info, &ingest);
-  CameraFrame result{*toMessage(frame.color, raw.color.header), *toMessage(frame.depth, raw.color.header),
-                     toMessage(frame.camera)};
+  CameraFrame result;
+  result.color = *toMessage(frame.color, raw.color.header);
+  result.depth = *toMessage(frame.depth, raw.color.header);
+  result.info = toMessage(frame.camera);
   result.info.header = raw.color.header;
   return result;
+}
+
+/// As image_transport's plugins send them. @param skipped bytes before the PNG of a depth.
+sensor_msgs::CompressedImage encoded(const sensor_msgs::Image& image, const char* extension,
+                                     const char* format, std::size_t skipped) {
+  sensor_msgs::CompressedImage result;
+  cv::imencode(extension, cv_bridge::toCvCopy(image)->image, result.data);
+  result.data.insert(result.data.begin(), skipped, 0);
+  result.header = image.header;
+  result.format = image.encoding + format;
+  return result;
+}
+
+template <typename Good>
+std::unique_ptr<Input> makeInput(DrivenNode* node, const std::string& topic, Good good) {
+  return std::make_unique<TopicInput<decltype(good())>>(node, topic, good);
 }
 
 }  // namespace
@@ -41,26 +62,38 @@ CameraFrames::CameraFrames(const std::string& scene, int width, int height, cons
       T_camera_tool_ = capture.T_camera_tool;
     }
     const auto messages = virtual_camera::toMessages(capture, camera.pinhole(), ros::Time(1.0), 0);
-    const CameraFrame raw{*messages.color, *messages.depth, *messages.info};
+    CameraFrame raw;
+    raw.color = *messages.color;
+    raw.depth = *messages.depth;
+    raw.info = *messages.info;
+    raw.jpeg_color = encoded(raw.color, ".jpg", "; jpeg compressed bgr8", 0);
+    raw.png_depth = encoded(raw.depth, ".png", "; compressedDepth png", 12);
     frames_.push_back(rectified ? rectifiedFrame(raw) : raw);
   }
 }
 
 CameraFrame CameraFrames::next() {
   CameraFrame frame = frames_[next_++ % frames_.size()];
-  frame.color.header.stamp = frame.depth.header.stamp = frame.info.header.stamp = LoneRos::instance().now();
+  for (std_msgs::Header* header : {&frame.color.header, &frame.depth.header, &frame.info.header,
+                                   &frame.jpeg_color.header, &frame.png_depth.header})
+    header->stamp = LoneRos::instance().now();
   return frame;
 }
 
-FrameInput::FrameInput(DrivenNode* node, const FrameTopics& topics, CameraFrames* frames)
-    : frames_(frames),
-      color_(node, topics.color, [this] { return frame_.color; }),
-      depth_(node, topics.depth, [this] { return frame_.depth; }),
-      info_(node, topics.info, [this] { return frame_.info; }) {}
+FrameInput::FrameInput(DrivenNode* node, const FrameTopics& topics, CameraFrames* frames, Transport transport)
+    : frames_(frames), info_(makeInput(node, topics.info, [this] { return frame_.info; })) {
+  if (transport == Transport::kCompressed) {
+    color_ = makeInput(node, topics.color + "/compressed", [this] { return frame_.jpeg_color; });
+    depth_ = makeInput(node, topics.depth + "/compressedDepth", [this] { return frame_.png_depth; });
+  } else {
+    color_ = makeInput(node, topics.color, [this] { return frame_.color; });
+    depth_ = makeInput(node, topics.depth, [this] { return frame_.depth; });
+  }
+}
 
 int FrameInput::give(bool bad, Choice* choice) {
   frame_ = frames_->next();
-  Input* inputs[] = {&color_, &depth_, &info_};
+  Input* inputs[] = {color_.get(), depth_.get(), info_.get()};
   for (std::size_t k = 2; k > 0; --k) std::swap(inputs[k], inputs[choice->below(k + 1)]);
   const std::size_t surely = choice->below(3);  // this one is mutated
   int mutated = 0;
@@ -75,9 +108,7 @@ ros::Time FrameInput::giveGood() {
   LoneRos::instance().advance(0.033);
   frame_ = frames_->next();
   Choice none(0);
-  for (Input* input :
-       {static_cast<Input*>(&info_), static_cast<Input*>(&color_), static_cast<Input*>(&depth_)})
-    input->give(false, &none);
+  for (Input* input : {info_.get(), color_.get(), depth_.get()}) input->give(false, &none);
   return frame_.color.header.stamp;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +18,7 @@ namespace softbody::fuzz {
 /// The messages of one frame.
 struct CameraFrame {
   sensor_msgs::Image color, depth;
+  sensor_msgs::CompressedImage jpeg_color, png_depth;
   sensor_msgs::CameraInfo info;
 };
 
@@ -46,11 +49,15 @@ struct FrameTopics {
 };
 extern const FrameTopics kRawTopics, kRectifiedTopics;
 
+/// Whether the images come as they are, or as JPEG and PNG on topics below theirs.
+enum class Transport { kRaw, kCompressed };
+
 /// The three topics of frames. Mostly all messages of a frame come, in any order, and some of them are
 /// mutated.
 class FrameInput : public Input {
  public:
-  FrameInput(DrivenNode* node, const FrameTopics& topics, CameraFrames* frames);
+  FrameInput(DrivenNode* node, const FrameTopics& topics, CameraFrames* frames,
+             Transport transport = Transport::kRaw);
 
   int give(bool bad, Choice* choice) override;
   /// A frame of a good camera. @return its stamp.
@@ -59,8 +66,7 @@ class FrameInput : public Input {
  private:
   CameraFrames* frames_;
   CameraFrame frame_;
-  TopicInput<sensor_msgs::Image> color_, depth_;
-  TopicInput<sensor_msgs::CameraInfo> info_;
+  std::unique_ptr<Input> color_, depth_, info_;
 };
 
 }  // namespace softbody::fuzz

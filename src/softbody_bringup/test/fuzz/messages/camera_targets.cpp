@@ -12,22 +12,33 @@ namespace {
 
 constexpr int kGoodFrames = 60;  // two seconds at 30 Hz: time that has leapt must be found again
 
+XmlRpc::XmlRpcValue cameraParameters(Transport transport) {
+  XmlRpc::XmlRpcValue parameters;
+  if (transport == Transport::kRaw) return parameters;
+  parameters["color_transport"] = std::string("compressed");
+  parameters["depth_transport"] = std::string("compressedDepth");
+  return parameters;
+}
+
 class CameraTarget : public Target {
  public:
-  CameraTarget()
+  explicit CameraTarget(Transport transport)
       : frames_("bend", 64, 48, {0.0, 1.0, 2.0}, false),
-        node_("camera_ingest", {},
+        node_("camera_ingest", cameraParameters(transport),
               [](const auto& handle, const auto& own) { return makeCameraIngest(handle, own); }),
         color_(&node_, topics::kRgbRect),
         depth_(&node_, topics::kDepthRect),
         info_(&node_, topics::kRgbInfo),
         points_(&node_, topics::kPoints) {
-    auto input = std::make_unique<FrameInput>(&node_, kRawTopics, &frames_);
+    auto input = std::make_unique<FrameInput>(&node_, kRawTopics, &frames_, transport);
     input_ = input.get();
-    inputs.push_back({std::move(input), 1});
+    inputs.push_back({std::move(input), 3});
+    depth_info_ = add<sensor_msgs::CameraInfo>(&node_, topics::kCameraDepthInfo, 1,
+                                               [this] { return frames_.next().info; });
   }
 
   std::string check() override {
+    depth_info_->send(boost::make_shared<sensor_msgs::CameraInfo>(frames_.next().info));
     int complete = 0;
     for (int i = 0; i < kGoodFrames; ++i) {
       const ros::Time stamp = input_->giveGood();
@@ -48,6 +59,7 @@ class CameraTarget : public Target {
   Newest<sensor_msgs::CameraInfo> info_;
   Newest<sensor_msgs::PointCloud2> points_;
   FrameInput* input_;
+  TopicInput<sensor_msgs::CameraInfo>* depth_info_;
 };
 
 XmlRpc::XmlRpcValue toolParameters() {
@@ -87,7 +99,10 @@ class ToolTarget : public Target {
 
 }  // namespace
 
-std::unique_ptr<Target> makeCameraTarget() { return std::make_unique<CameraTarget>(); }
+std::unique_ptr<Target> makeCameraTarget() { return std::make_unique<CameraTarget>(Transport::kRaw); }
+std::unique_ptr<Target> makeCompressedCameraTarget() {
+  return std::make_unique<CameraTarget>(Transport::kCompressed);
+}
 std::unique_ptr<Target> makeToolTarget() { return std::make_unique<ToolTarget>(); }
 
 }  // namespace softbody::fuzz

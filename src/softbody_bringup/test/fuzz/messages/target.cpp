@@ -6,6 +6,7 @@ const std::vector<TargetKind>& targetKinds() {
   constexpr std::size_t kLong = 50'000;
   static const std::vector<TargetKind> kinds{
       {"camera_ingest", makeCameraTarget, kLong},
+      {"camera_ingest_compressed", makeCompressedCameraTarget, kLong},
       {"feature_tracker", makeTrackerTarget, kLong},
       {"feature_tracker_placed", makePlacedTrackerTarget, kLong},
       {"tool_tracker", makeToolTarget, kLong},

@@ -48,6 +48,8 @@ struct TargetKind {
 const std::vector<TargetKind>& targetKinds();
 
 std::unique_ptr<Target> makeCameraTarget();
+/// Whose images come as JPEG and PNG.
+std::unique_ptr<Target> makeCompressedCameraTarget();
 std::unique_ptr<Target> makeTrackerTarget();
 /// With masks, and in another frame than the camera's.
 std::unique_ptr<Target> makePlacedTrackerTarget();
