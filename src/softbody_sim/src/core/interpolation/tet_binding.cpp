@@ -14,6 +14,19 @@ namespace softbody {
 TetBinding::TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places)
     : volume_(volume), places_(std::move(places)) {}
 
+namespace {
+
+/// In a tet that a cut has left almost flat, the rounding of coordinates is an enormous strain.
+constexpr double kLargestStrain = 10.0;  // |F^T F - I|; twice as long in all directions is 5.2
+
+double strainOf(const Eigen::Matrix3d& rest, const Eigen::Matrix3d& edges) {
+  const Eigen::Matrix3d F = edges * rest.inverse();
+  const double strain = (F.transpose() * F - Eigen::Matrix3d::Identity()).norm();
+  return strain < kLargestStrain ? strain : kLargestStrain;  // also where it is not a number
+}
+
+}  // namespace
+
 /// Per piece the integral of |F^T F - I|^2, up to a constant factor.
 std::vector<double> TetBinding::squaredStrains(const Points& vertices) const {
   std::vector<double> strains;
@@ -22,8 +35,8 @@ std::vector<double> TetBinding::squaredStrains(const Points& vertices) const {
     if (piece >= strains.size()) strains.resize(piece + 1, 0.0);
     const Eigen::RowVector4i tet = volume_.tets.row(t);
     const Eigen::Matrix3d rest = edgesOf(volume_.rest_vertices, tet);
-    const Eigen::Matrix3d F = edgesOf(vertices, tet) * rest.inverse();
-    strains[piece] += rest.determinant() * (F.transpose() * F - Eigen::Matrix3d::Identity()).squaredNorm();
+    const double strain = strainOf(rest, edgesOf(vertices, tet));
+    strains[piece] += std::abs(rest.determinant()) * strain * strain;
   }
   return strains;
 }
