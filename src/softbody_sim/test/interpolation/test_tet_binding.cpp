@@ -78,6 +78,14 @@ TEST(TetBinding, AFlatTetDoesNotMagnifyItsCorrection) {
   }
 }
 
+/// As after a cut while another part of the body, now another piece, was deformed.
+TEST(TetBinding, AnOffsetWithoutAStrainDoesNotStay) {
+  Points almost_rest = testing::sponge().rest_vertices;
+  almost_rest(5, 2) += 1e-8;
+  const Bound bound(almost_rest);
+  EXPECT_LT(bound.worstCorrection(almost_rest), 0.01 * kMissing);
+}
+
 /// The sponge, with one more tet of almost no height on a vertex of its own, as cuts leave them.
 TetTopology withSliver(double height) {
   TetTopology volume = testing::sponge();

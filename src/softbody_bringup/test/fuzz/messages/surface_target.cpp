@@ -42,19 +42,21 @@ class SurfaceTarget : public Target {
   }
 
   std::string check() override {
-    softbody_msgs::CutBody::Response response;
     std::string fault = frames();
+    if (!fault.empty()) return "before a cut: " + fault;
+    softbody_msgs::CutBody::Response response;
+    bool is_published = false;
     const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(kPatience_s);
-    while (fault.empty() && !response.success && ros::WallTime::now() < deadline) {
+    while (!is_published && ros::WallTime::now() < deadline) {
       call<std_srvs::Trigger>("reset", {});
       fault = frames();
-      if (fault.empty()) response = call<softbody_msgs::CutBody>("cut", middle<softbody_msgs::CutBody>());
+      if (!fault.empty()) return "before a cut: " + fault;
+      response = call<softbody_msgs::CutBody>("cut", middle<softbody_msgs::CutBody>());
+      fault = frames();
+      if (!fault.empty()) return "after a cut: " + fault;
+      is_published = response.success && topology_.get()->revision >= response.revision;
     }
-    if (!fault.empty()) return "before a cut: " + fault;
-    if (!response.success) return "no cut is possible: " + response.message;
-    fault = frames();
-    if (!fault.empty()) return "after a cut: " + fault;
-    if (topology_.get()->revision < response.revision) return "the cut is not published";
+    if (!is_published) return "no cut is possible, or none is published: " + response.message;
     call<std_srvs::Trigger>("reset", {});
     fault = frames();
     return fault.empty() ? "" : "after a reset: " + fault;
@@ -153,9 +155,11 @@ class SurfaceTarget : public Target {
       return fmt::format("the surface is at revision {}, the volume at {}", topology.revision,
                          volume_.get()->revision);
     for (std::size_t v = 0; v < state.vertices.size(); ++v) {
-      const auto expected = blockPose() * fromPoint32(topology.rest_vertices[v]);
-      if (!((fromPoint32(state.vertices[v]) - expected).norm() < 0.03))
-        return "the surface is not where the volume is";
+      const double distance =
+          (fromPoint32(state.vertices[v]) - blockPose() * fromPoint32(topology.rest_vertices[v])).norm();
+      if (!(distance < 0.03))
+        return fmt::format("vertex {} of {} of the surface is {} m from its place; revision {}", v,
+                           state.vertices.size(), distance, state.revision);
     }
     return whyOdd(*volume_state_.get(), *volume_.get());
   }

@@ -11,7 +11,7 @@ namespace softbody {
 /// to given positions in one deformed state. A correction is stored in the material frame of the point's tet,
 /// so that it turns and stretches with the tet. If that tet is too flat, the frame of a neighbour is used.
 /// The correction is scaled with the strain of the piece, relative to the strain in the state in which the
-/// correction was made: 0 at rest, at most 1.
+/// correction was made, or to a larger one that would explain its size: 0 at rest, at most 1.
 class TetBinding {
  public:
   TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places);
@@ -23,7 +23,8 @@ class TetBinding {
   /// Memory.
   std::size_t bytes() const;
 
-  /// Makes corrections: the points are at `positions` when the vertices of the volume are at `vertices`.
+  /// Makes corrections: the points are at `positions` when the vertices of the volume are at `vertices`. If the
+  /// strain there is too small to explain the corrections, they are smaller.
   void correctTo(const Points& vertices, const Points& positions);
 
   /// Writes positions and confidences of the points `which` into their rows of `state`.
@@ -38,12 +39,13 @@ class TetBinding {
   class Corrector;
 
   std::vector<double> squaredStrains(const Points& vertices) const;
+  std::vector<double> strainsOf(const Points& offsets) const;
   std::vector<double> correctionScales(const Points& vertices) const;
 
   TetTopology volume_;
   std::vector<MaterialPoint> places_;
   std::vector<Correction> corrections_;  ///< per point; empty: no corrections
-  std::vector<double> strains_;          ///< per piece, squared, in the state of the corrections
+  std::vector<double> strains_;          ///< per piece, squared, at which the scale is 1
 };
 
 }  // namespace softbody

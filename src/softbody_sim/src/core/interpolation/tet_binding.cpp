@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "softbody_common/tet_geometry.h"
+#include "softbody_common/tet_locator.h"
 #include "tets/tet_shape.h"
 
 namespace softbody {
@@ -134,14 +135,44 @@ std::size_t TetBinding::bytes() const {
          corrections_.size() * sizeof(Correction);
 }
 
+/// Squared strains, per piece, that explain offsets of its points. An offset without a strain is left from
+/// another state, in which other parts of the body were deformed: it would stay for ever.
+std::vector<double> TetBinding::strainsOf(const Points& offsets) const {
+  constexpr double kLargestOffset = 4.0;  // over the piece's size and its strain
+  struct Sum {
+    double volume = 0.0, squares = 0.0;
+    int points = 0;
+  };
+  std::vector<Sum> sums;
+  const auto of = [&sums](std::size_t piece) -> Sum& {
+    if (piece >= sums.size()) sums.resize(piece + 1);
+    return sums[piece];
+  };
+  for (Eigen::Index t = 0; t < volume_.tets.rows(); ++t)
+    of(volume_.tet_pieces[static_cast<std::size_t>(t)]).volume +=
+        std::abs(edgesOf(volume_.rest_vertices, volume_.tets.row(t)).determinant());
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    Sum& sum = of(volume_.tet_pieces[static_cast<std::size_t>(places_[p].tet)]);
+    sum.squares += offsets.row(static_cast<Eigen::Index>(p)).squaredNorm();
+    ++sum.points;
+  }
+  std::vector<double> strains;
+  for (const Sum& sum : sums)
+    strains.push_back(std::cbrt(sum.volume) * sum.squares /
+                      (kLargestOffset * kLargestOffset * std::max(sum.points, 1)));
+  return strains;
+}
+
 void TetBinding::correctTo(const Points& vertices, const Points& positions) {
+  const Points offsets = positions - applyBinding(places_, vertices, volume_.tets);
   strains_ = squaredStrains(vertices);
+  const std::vector<double> needed = strainsOf(offsets);
+  for (std::size_t b = 0; b < strains_.size(); ++b) strains_[b] = std::max(strains_[b], needed[b]);
   corrections_.resize(places_.size());
   Corrector corrector(volume_, vertices);
   for (std::size_t p = 0; p < places_.size(); ++p) {
-    const Eigen::Vector3d missing = positions.row(static_cast<Eigen::Index>(p)).transpose() -
-                                    positionOf(places_[p], vertices, volume_.tets);
-    corrections_[p] = corrector.correction(places_[p].tet, missing);
+    const Eigen::Vector3d offset = offsets.row(static_cast<Eigen::Index>(p));
+    corrections_[p] = corrector.correction(places_[p].tet, offset);
   }
 }
 
