@@ -64,6 +64,21 @@ int processOf(const std::string& node) {
   return client.execute("getPid", me, result) ? static_cast<int>(result[2]) : 0;
 }
 
+/// Publishers, subscribers and services of a node, as the master knows them.
+int registrationsOf(const std::string& node) {
+  XmlRpc::XmlRpcValue call, result, state;
+  call[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", call, result, state, false)) return -1;
+  int count = 0;
+  for (int kind = 0; kind < state.size(); ++kind) {
+    for (int name = 0; name < state[kind].size(); ++name) {
+      XmlRpc::XmlRpcValue& nodes = state[kind][name][1];
+      for (int k = 0; k < nodes.size(); ++k) count += static_cast<std::string>(nodes[k]) == node;
+    }
+  }
+  return count;
+}
+
 class LoadUnload : public testing::Test {
  protected:
   void SetUp() override {
@@ -151,6 +166,7 @@ TEST_F(LoadUnload, AManagerKeepsItsThreadsAndItsMemory) {
   expectTheGraphToWork();
   for (int i = 0; i < kWarmUp; ++i) round();
   const long threads = statusOf(process_, "Threads"), memory_kb = statusOf(process_, "VmRSS");
+  const int registrations = registrationsOf(kManager);
   for (int i = 0; i < rounds && !HasFailure(); ++i) round();
   expectTheGraphToWork();
   ros::WallDuration(0.5).sleep();
@@ -158,6 +174,8 @@ TEST_F(LoadUnload, AManagerKeepsItsThreadsAndItsMemory) {
   std::printf("%d rounds: threads %ld, then %ld; memory %ld MB, then %ld MB\n", rounds, threads,
               threads_after, memory_kb / 1000, memory_after_kb / 1000);
   EXPECT_EQ(processOf(kManager), process_) << "the manager has ended";
+  EXPECT_GT(registrations, 0);
+  EXPECT_EQ(registrationsOf(kManager), registrations);
   EXPECT_LE(threads_after, threads + kMostThreads);
   EXPECT_LE(memory_after_kb, memory_kb + kMostGrowth_kb);
 }
