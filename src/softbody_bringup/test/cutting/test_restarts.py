@@ -4,6 +4,7 @@ import copy
 import os
 import signal
 import sys
+import time
 import unittest
 from xmlrpc.client import ServerProxy
 
@@ -41,6 +42,7 @@ class Restarts(unittest.TestCase):
         cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.cuts = rospy.Publisher("/softbody/cut", Cut, queue_size=1)
         cls.topologies = rospy.Publisher("/" + VOLUME, TetTopology, queue_size=1)
+        cls.edits = rospy.Publisher("/softbody/volume/cuts", CutHistory, queue_size=1)
         cls.rest = np.array([[p.x, p.y, p.z] for p in cls.recorder.wait_for(SURFACE)[-1].rest_vertices])
         cls.listen()
         cls.stamp = rospy.Time(1000)
@@ -48,7 +50,7 @@ class Restarts(unittest.TestCase):
     @classmethod
     def listen(cls):
         cls.recorder.wait(lambda _: cls.targets.get_num_connections() > 0 and cls.cuts.get_num_connections() > 1
-                          and cls.topologies.get_num_connections() > 1, "nodes that listen")
+                          and cls.topologies.get_num_connections() > 1 and cls.edits.get_num_connections() > 1, "nodes that listen")
 
     @staticmethod
     def service(name, kind=Trigger):
@@ -159,6 +161,23 @@ class Restarts(unittest.TestCase):
         self.expect_agreement(revision, 2)
         self.assertTrue(self.service("undo")().success)
         self.expect_agreement(revision + 1, 1)
+
+    def test_3_edits_of_another_body(self):
+        """As if from the simulator. The surface takes them over, and the simulator refuses them at once."""
+        revision = self.start_with_two_pieces()
+        forged = copy.deepcopy(self.recorder.messages["softbody/volume/cuts"][-1])
+        forged.revision += 1
+        for vertex in forged.uncut.rest_vertices:
+            vertex.x *= 1.1
+        seen_before = len(self.recorder.messages["softbody/surface/cuts"])
+        self.edits.publish(forged)
+        taken = self.recorder.wait(lambda seen: seen["softbody/surface/cuts"][seen_before:], "the forged edits")
+        self.assertEqual(taken[0].revision, revision + 1)
+        began = time.monotonic()
+        self.recorder.wait(lambda seen: seen["softbody/surface/cuts"][-1].revision == revision, "the simulator's edits")
+        self.assertLess(time.monotonic() - began, 2.5)  # a cut that is not made is taken back after 3 s
+        self.cut(0.03)
+        self.expect_agreement(revision + 1, 3)
 
     def test_4_the_surface_is_killed(self):
         revision = self.start_with_two_pieces()

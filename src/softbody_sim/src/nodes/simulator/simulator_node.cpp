@@ -175,7 +175,9 @@ void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& mess
     ROS_WARN_STREAM("the cuts of the surface up to revision " << message->revision
                                                               << " are not made: " << error.what());
   }
-  if (is_new) keepOwnBody();
+  // With another number, the surface takes over this body at once, and does not wait for a cut that never
+  // comes.
+  keepOwnBody();
 }
 
 /// @return false if they are of another object. @throw std::invalid_argument if they cannot be made.
