@@ -94,7 +94,7 @@ sensor_msgs::CameraInfoConstPtr firstInfo(const rosbag::Bag& bag, const std::str
 }  // namespace
 
 void readRecording(const std::string& path, const CameraTopics& camera,
-                   const std::function<void(const RecordedFrame&)>& use) {
+                   const std::function<void(const RecordedFrame&)>& use) try {
   const rosbag::Bag bag = openBag(path);
   const CameraTopics topics = recordedTopics(bag, camera);
   for (const std::string& topic : {topics.color, topics.depth, topics.color_info}) requireTopic(bag, topic);
@@ -119,6 +119,8 @@ void readRecording(const std::string& path, const CameraTopics& camera,
     drain(false);
   }
   drain(true);
+} catch (const rosbag::BagException& error) {
+  throw damagedBag(path, error);
 }
 
 std::string recordingFrame(const std::string& path, const CameraTopics& camera) {

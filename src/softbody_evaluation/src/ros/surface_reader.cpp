@@ -55,7 +55,7 @@ MeshState usableState(const softbody_msgs::MeshState& message,
 }  // namespace
 
 SurfaceRecord readSurface(const std::string& path, const std::string& topology_topic,
-                          const std::string& state_topic) {
+                          const std::string& state_topic) try {
   const rosbag::Bag bag = openBag(path);
   requireTopic(bag, topology_topic);
   requireTopic(bag, state_topic);
@@ -85,6 +85,8 @@ SurfaceRecord readSurface(const std::string& path, const std::string& topology_t
   if (record.states.empty()) throw std::invalid_argument(note);
   if (left_out > 0) record.notes.push_back(note);
   return record;
+} catch (const rosbag::BagException& error) {
+  throw damagedBag(path, error);
 }
 
 }  // namespace softbody::evaluation

@@ -10,6 +10,7 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/bag_transforms.h"
+#include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/recorded_images.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/ros/conversions.h"
@@ -137,7 +138,7 @@ class Reader {
 
 BagFramesReport readBagFrames(
     const rosbag::Bag& bag, const BagFramesConfig& config, CameraIngest* ingest,
-    const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use) {
+    const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use) try {
   const CameraTopics topics = recordedTopics(bag, config.camera);
   requireTopics(bag, {topics.color, topics.color_info, topics.depth});
   if (rosbag::View(bag, rosbag::TopicQuery(topics.color_info)).size() == 0)
@@ -154,6 +155,8 @@ BagFramesReport readBagFrames(
   }
   reader.processCompleteFrames(true, 1.0);
   return reader.report();
+} catch (const rosbag::BagException& error) {
+  throw damagedBag(bag.getFileName(), error);
 }
 
 }  // namespace softbody

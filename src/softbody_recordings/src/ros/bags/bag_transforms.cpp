@@ -60,7 +60,7 @@ BagTransforms::BagTransforms(const std::vector<std::string>& paths) {
   }
 }
 
-void BagTransforms::addBag(const std::string& path) {
+void BagTransforms::addBag(const std::string& path) try {
   const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
   std::map<std::string, std::size_t> refused;
@@ -86,6 +86,8 @@ void BagTransforms::addBag(const std::string& path) {
         path, count == 1 ? "1 transform" : fmt::format("{} transforms", count), child);
     refusals_.push_back({child, sentence});
   }
+} catch (const rosbag::BagException& error) {
+  throw damagedBag(path, error);
 }
 
 void BagTransforms::add(const geometry_msgs::TransformStamped& transform) {

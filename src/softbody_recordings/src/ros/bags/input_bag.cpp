@@ -1,10 +1,8 @@
 #include "softbody_recordings/ros/input_bag.h"
 
 #include <fmt/format.h>
-#include <rosbag/exceptions.h>
 
 #include <filesystem>
-#include <stdexcept>
 
 namespace softbody {
 
@@ -18,6 +16,11 @@ rosbag::Bag openBag(const std::string& path) try {
 } catch (const rosbag::BagException& error) {
   throw std::invalid_argument(fmt::format(
       "{} is not a complete bag ({}); rosbag reindex recovers the readable part", path, error.what()));
+}
+
+std::runtime_error damagedBag(const std::string& path, const rosbag::BagException& error) {
+  return std::runtime_error(
+      fmt::format("{} is damaged ({}); rosbag reindex recovers the readable part", path, error.what()));
 }
 
 }  // namespace softbody

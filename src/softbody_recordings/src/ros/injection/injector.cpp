@@ -90,7 +90,7 @@ InjectionReport inject(const InjectorOptions& options, const std::function<void(
   report.depth_written = depth.written();
   return report;
 } catch (const rosbag::BagException& error) {
-  throw std::runtime_error(fmt::format("{}: {}", options.input, error.what()));
+  throw damagedBag(options.input, error);
 }
 
 }  // namespace softbody::injection

@@ -182,8 +182,7 @@ RecordingFacts readFacts(const std::string& path, const CameraTopics& camera,
   facts.shift = shift_sampler.shift();
   return facts;
 } catch (const rosbag::BagException& error) {
-  throw std::runtime_error(
-      fmt::format("{} is damaged ({}); rosbag reindex recovers the readable part", path, error.what()));
+  throw damagedBag(path, error);
 }
 
 }  // namespace softbody::validation
