@@ -1,8 +1,8 @@
 #include "nodes/compact_heap.h"
-#include "nodes/simulator/simulator_node.h"
 #include "softbody_common/ros/run_node.h"
+#include "softbody_sim/ros/nodes.h"
 
 int main(int argc, char** argv) {
   softbody::keepHeapCompact();
-  return softbody::runNode<softbody::SimulatorNode>(argc, argv, "simulator");
+  return softbody::runNode(argc, argv, "simulator", softbody::makeSimulatorNode);
 }

@@ -1,8 +1,8 @@
 #include "nodes/compact_heap.h"
-#include "nodes/surface/surface_node.h"
 #include "softbody_common/ros/run_node.h"
+#include "softbody_sim/ros/nodes.h"
 
 int main(int argc, char** argv) {
   softbody::keepHeapCompact();
-  return softbody::runNode<softbody::SurfaceNode>(argc, argv, "surface");
+  return softbody::runNode(argc, argv, "surface", softbody::makeSurfaceNode);
 }

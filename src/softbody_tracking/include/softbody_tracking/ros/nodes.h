@@ -1,8 +1,10 @@
 #pragma once
 
-#include <ros/node_handle.h>
-
 #include <memory>
+
+namespace ros {
+class NodeHandle;
+}
 
 /// The nodes of this package, for programs that drive them. Their callbacks come in the handles' queue.
 /// All throw std::invalid_argument for a bad parameter.

@@ -1,6 +1,6 @@
-#include "nodes/camera_ingest/camera_ingest_node.h"
 #include "softbody_common/ros/run_node.h"
+#include "softbody_tracking/ros/nodes.h"
 
 int main(int argc, char** argv) {
-  return softbody::runNode<softbody::CameraIngestNode>(argc, argv, "camera_ingest");
+  return softbody::runNode(argc, argv, "camera_ingest", softbody::makeCameraIngest);
 }

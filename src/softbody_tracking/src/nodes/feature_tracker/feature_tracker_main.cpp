@@ -1,6 +1,6 @@
-#include "nodes/feature_tracker/feature_tracker_node.h"
 #include "softbody_common/ros/run_node.h"
+#include "softbody_tracking/ros/nodes.h"
 
 int main(int argc, char** argv) {
-  return softbody::runNode<softbody::FeatureTrackerNode>(argc, argv, "feature_tracker");
+  return softbody::runNode(argc, argv, "feature_tracker", softbody::makeFeatureTracker);
 }

@@ -1,6 +1,6 @@
-#include "nodes/tool_tracker/tool_tracker_node.h"
 #include "softbody_common/ros/run_node.h"
+#include "softbody_tracking/ros/nodes.h"
 
 int main(int argc, char** argv) {
-  return softbody::runNode<softbody::ToolTrackerNode>(argc, argv, "tool_tracker");
+  return softbody::runNode(argc, argv, "tool_tracker", softbody::makeToolTracker);
 }
