@@ -60,7 +60,9 @@ TEST(RigidPrediction, PiecesGoTheirOwnWay) {
   prediction.observe(placed(0.1, 0.3), 1000);
   prediction.observe(placed(0.2, 0.1), 2000);
   EXPECT_LT((prediction.at(3000) - placed(0.3, -0.1)).norm(), 1e-9);
-  EXPECT_LT((prediction.at(3000, {MotionShare::Zero(), MotionShare::Identity()}) - placed(0.2, -0.1)).norm(), 1e-9) << "it must stay";
+  EXPECT_LT((prediction.at(3000, {MotionShare::Zero(), MotionShare::Identity()}) - placed(0.2, -0.1)).norm(),
+            1e-9)
+      << "it must stay";
 }
 
 constexpr Nanoseconds kInterval = 33333333;

@@ -23,8 +23,8 @@ class TetBinding {
   /// Memory.
   std::size_t bytes() const;
 
-  /// Makes corrections: the points are at `positions` when the vertices of the volume are at `vertices`. If the
-  /// strain there is too small to explain the corrections, they are smaller.
+  /// Makes corrections: the points are at `positions` when the vertices of the volume are at `vertices`. If
+  /// the strain there is too small to explain the corrections, they are smaller.
   void correctTo(const Points& vertices, const Points& positions);
 
   /// Writes positions and confidences of the points `which` into their rows of `state`.

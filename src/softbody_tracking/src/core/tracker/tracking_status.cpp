@@ -13,8 +13,8 @@ namespace {
 
 // Share of the visible surface that must agree in depth; with less, most of the body is not measured.
 constexpr double kDegradedShare = 0.3;
-// Largest area between predicted and measured outline, as a share of the body's. Right meshes stay below 0.14,
-// thin and fast ones too; wrong ones are above 0.27.
+// Largest area between predicted and measured outline, as a share of the body's. Right meshes stay below
+// 0.14, thin and fast ones too; wrong ones are above 0.27.
 constexpr double kLargestDisagreement = 0.18;
 // Share of the expected features that must be found; with fewer, something covers them or the light changed.
 constexpr double kFewestTracked = 0.05;
