@@ -62,8 +62,9 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
     if (!step(*message)) return diagnostics_.countRefusedMessage();
   } catch (const std::exception& error) {
     diagnostics_.countRefusedMessage();
-    ROS_WARN_STREAM_THROTTLE(1.0,
-                             "targets of " << message->header.stamp << " are not used: " << error.what());
+    ROS_WARN_STREAM_THROTTLE(1.0, "targets of " << message->header.stamp << " are not used: " << error.what()
+                                                << "; rostopic info " << targets_subscriber_.getTopic()
+                                                << " names the sender");
     return;
   }
   diagnostics_.setDropped(targets_.dropped());

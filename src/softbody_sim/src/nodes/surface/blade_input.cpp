@@ -49,7 +49,9 @@ void BladeInput::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
   try {
     add({message->header, fromMessage(message->polygon)});
   } catch (const std::invalid_argument& error) {
-    ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic() << " is not used: " << error.what());
+    ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic()
+                                      << " is not used: " << error.what() << "; rostopic info "
+                                      << subscriber_.getTopic() << " names the sender");
   }
 }
 

@@ -76,8 +76,10 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
     if (!same_body) startBody(*message);
     if (!same_body || !is_published) useTopology(message, waited && sameMesh(*waited, *message));
   } catch (const std::exception& error) {
-    ROS_ERROR_STREAM_THROTTLE(
-        1.0, "the volume's topology of revision " << message->revision << " is not used: " << error.what());
+    ROS_ERROR_STREAM_THROTTLE(1.0, "the volume's topology of revision "
+                                       << message->revision << " is not used: " << error.what()
+                                       << "; rostopic info " << topology_subscriber_.getTopic()
+                                       << " names the sender");
   }
 }
 
@@ -131,8 +133,9 @@ void SurfaceNode::onVolumeEdits(const softbody_msgs::CutHistoryConstPtr& message
     editor_.onVolumeEdits(fromMessage(*message));
     volume_edits_ = message;
   } catch (const std::exception& error) {
-    ROS_ERROR_STREAM("the simulator's cuts up to revision " << message->revision
-                                                            << " are not used: " << error.what());
+    ROS_ERROR_STREAM("the simulator's cuts up to revision "
+                     << message->revision << " are not used: " << error.what() << "; rostopic info "
+                     << edits_subscriber_.getTopic() << " names the sender");
     return;
   }
   useWaitingTopology();
@@ -178,8 +181,9 @@ void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) try {
   if (stamps_.judge(stampOfImage(*message)).acceptedOrSame()) useState(message);
 } catch (const std::exception& error) {
   diagnostics_.countRefused();
-  ROS_WARN_STREAM_THROTTLE(1.0,
-                           "volume state of " << message->header.stamp << " is not used: " << error.what());
+  ROS_WARN_STREAM_THROTTLE(1.0, "volume state of " << message->header.stamp
+                                                   << " is not used: " << error.what() << "; rostopic info "
+                                                   << state_subscriber_.getTopic() << " names the sender");
 }
 
 void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {
@@ -195,8 +199,9 @@ void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {
     publishState(*message);
   } catch (const std::exception& error) {
     diagnostics_.countRefused();
-    ROS_WARN_STREAM_THROTTLE(1.0,
-                             "volume state of " << message->header.stamp << " is not used: " << error.what());
+    ROS_WARN_STREAM_THROTTLE(1.0, "volume state of " << message->header.stamp
+                                                     << " is not used: " << error.what() << "; rostopic info "
+                                                     << state_subscriber_.getTopic() << " names the sender");
   }
 }
 

@@ -28,7 +28,9 @@ void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& mes
   if (!stamps_.judge(message->header.stamp).acceptedOrSame()) return;
   blades_.add({toNanoseconds(message->header.stamp), message->header.frame_id, std::move(corners)});
 } catch (const std::invalid_argument& error) {
-  ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic() << " is not used: " << error.what());
+  ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic()
+                                    << " is not used: " << error.what() << "; rostopic info "
+                                    << subscriber_.getTopic() << " names the sender");
 }
 
 RgbdFrame BladeSubscriber::withoutBlade(const RgbdFrame& frame) {

@@ -64,8 +64,10 @@ void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) 
     adoptTopologies();
   }
 } catch (const std::exception& error) {
-  ROS_ERROR_STREAM_THROTTLE(5.0, state_subscriber_.getTopic() << " of revision " << message->revision
-                                                              << " is not used: " << error.what());
+  ROS_ERROR_STREAM_THROTTLE(5.0, state_subscriber_.getTopic()
+                                     << " of revision " << message->revision
+                                     << " is not used: " << error.what() << "; rostopic info "
+                                     << state_subscriber_.getTopic() << " names the sender");
 }
 
 /// A topology that the tracker refuses is forgotten.

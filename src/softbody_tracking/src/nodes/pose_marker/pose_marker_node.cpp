@@ -57,7 +57,9 @@ void PoseMarkerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr
   if (isGiven(message->initial_pose)) marker_.setStartPose(toMessage(fromMessage(message->initial_pose)));
   volume_topology_subscriber_.shutdown();  // only its initial pose is used
 } catch (const std::invalid_argument& error) {
-  ROS_ERROR_STREAM_THROTTLE(5.0, volume_topology_subscriber_.getTopic() << " is not used: " << error.what());
+  ROS_ERROR_STREAM_THROTTLE(5.0, volume_topology_subscriber_.getTopic()
+                                     << " is not used: " << error.what() << "; rostopic info "
+                                     << volume_topology_subscriber_.getTopic() << " names the sender");
 }
 
 void PoseMarkerNode::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
