@@ -29,7 +29,7 @@ std::string valueOf(const std::string& text, const std::string& keyword) {
 fs::path namedFile(const fs::path& file, const char* keyword, const fs::path& folder, FileScope scope) {
   const std::string name = valueOf(readFile(file), keyword);
   if (name.empty()) return {};
-  const fs::path named = file.parent_path() / name;
+  fs::path named = file.parent_path() / name;
   if (scope == FileScope::kOwnFolder && !isInside(named, folder))
     throw std::invalid_argument(file.string() + ": " + outsideSentence(named, folder));
   return named;
