@@ -118,6 +118,21 @@ TEST(BagTransforms, AParentThatChangesIsThatOfTf2) {
   }
 }
 
+void expectAsTf2(const char* target, const char* source, const ros::Time& stamp,
+                 const BagTransforms& transforms, const tf2::BufferCore& buffer) {
+  const Eigen::Isometry3d expected = tf2::transformToEigen(buffer.lookupTransform(target, source, stamp));
+  EXPECT_TRUE(transforms.at(target, source, stamp).isApprox(expected, 1e-9)) << target << " " << stamp;
+}
+
+geometry_msgs::TransformStamped infinitelyFar(const std::string& child, const ros::Time& stamp) {
+  geometry_msgs::TransformStamped transform =
+      tf2::eigenToTransform(TransformBag::shifted(std::numeric_limits<double>::infinity()));
+  transform.header.stamp = stamp;
+  transform.header.frame_id = "world";
+  transform.child_frame_id = child;
+  return transform;
+}
+
 TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
   TransformBag bag("bag_transforms_refused");
   tf2::BufferCore buffer{ros::Duration(100.0)};
@@ -147,25 +162,15 @@ TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
     }
     EXPECT_FALSE(add(child, 0.1, zero, 0.3));
     EXPECT_FALSE(add(child, 0.15, unit, nan));
-    geometry_msgs::TransformStamped infinite =  // which tf2 takes
-        tf2::eigenToTransform(TransformBag::shifted(std::numeric_limits<double>::infinity()));
-    infinite.header.stamp = after(0.17);
-    infinite.header.frame_id = "world";
-    infinite.child_frame_id = child;
-    bag.add(infinite);
+    bag.add(infinitelyFar(child, after(0.17)));  // which tf2 takes
     EXPECT_FALSE(add(child, 0.2, hardly, 0.3));
     EXPECT_TRUE(add(child, 0.3, nearly, 0.3));
     EXPECT_TRUE(add(child, 0.4, unit, 0.4));
   }
   const BagTransforms transforms = bag.read();
   for (double t = 0.01; t < 0.4; t += 0.02) {
-    const Eigen::Isometry3d expected =
-        tf2::transformToEigen(buffer.lookupTransform("tool", "camera", after(t)));
-    EXPECT_TRUE(transforms.at("tool", "camera", after(t)).isApprox(expected, 1e-9)) << t;
-    EXPECT_TRUE(
-        transforms.at("world", "camera", after(t))
-            .isApprox(tf2::transformToEigen(buffer.lookupTransform("world", "camera", after(t))), 1e-9))
-        << t;
+    expectAsTf2("tool", "camera", after(t), transforms, buffer);
+    expectAsTf2("world", "camera", after(t), transforms, buffer);
   }
   ASSERT_EQ(transforms.warnings().size(), 3u);
   EXPECT_NE(transforms.warnings()[0].find("1 transform of frame ''"), std::string::npos)
