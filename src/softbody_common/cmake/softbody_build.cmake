@@ -29,8 +29,9 @@ endmacro()
 # width stands alone, without precompiled headers: those would bring back the options that it switches off.
 function(softbody_unite_folders target)
   get_target_property(sources ${target} SOURCES)
+  get_target_property(base ${target} SOURCE_DIR)
   foreach(source IN LISTS sources)
-    get_filename_component(source ${source} ABSOLUTE)
+    get_filename_component(source ${source} ABSOLUTE BASE_DIR ${base})
     get_filename_component(folder ${source} DIRECTORY)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
     string(MAKE_C_IDENTIFIER "${folder}" group)
@@ -44,40 +45,60 @@ function(softbody_unite_folders target)
   endif()
 endfunction()
 
-# softbody_quick_build(TARGET HEADER...): for a target that gets its sources later. The headers from outside that most
-# sources include are read once. Every source still includes what it uses: CMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds
-# without.
-function(softbody_quick_build target)
-  target_precompile_headers(${target} PRIVATE <Eigen/Dense> <algorithm> <fmt/format.h> <functional> <map> <memory>
-    <opencv2/core.hpp> <optional> <string> <unordered_map> <vector> ${ARGN})
+# softbody_unite_folders for a target that gets its sources later.
+function(softbody_unite_folders_later target)
   cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL softbody_unite_folders ${target})")
 endfunction()
 
-# softbody_core_library(TARGET NAME): a library without ROS, which other packages link as softbody::NAME.
-# Its folders add their sources with target_sources.
+# The headers from outside that most sources include are read once, for this target and for all that reuse them
+# (REUSE_FROM) with the same compile options. Every source still includes what it uses:
+# CMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
+function(softbody_precompile_headers target)
+  target_precompile_headers(${target} PRIVATE <Eigen/Dense> <algorithm> <fmt/format.h> <functional> <map> <memory>
+    <opencv2/core.hpp> <optional> <string> <unordered_map> <vector> ${ARGN})
+endfunction()
+
+# softbody_core_library(TARGET NAME [LIBRARY]): a library without ROS, which other packages link as softbody::NAME.
+# Its folders add their sources with target_sources. It reuses the precompiled headers of LIBRARY, which has the same
+# compile options and no other macros.
 function(softbody_core_library target name)
   add_library(${target})
   add_library(softbody::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  # Precompiled headers are reused only by targets with the same macros, so none for the target itself (DEFINE_SYMBOL).
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} DEFINE_SYMBOL "")
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
     PRIVATE ${PROJECT_SOURCE_DIR}/src/core)
-  softbody_quick_build(${target})
+  if(ARGC GREATER 2)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV2})
+  else()
+    softbody_precompile_headers(${target})
+  endif()
+  softbody_unite_folders_later(${target})
   install(TARGETS ${target} EXPORT ${PROJECT_NAME}-targets
     ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
-# softbody_ros_library(TARGET LIBRARY...): a library that may use ROS, with the core libraries it builds on.
+# softbody_ros_library(TARGET LIBRARY...): a library that may use ROS, with the libraries it builds on. If the first one is
+# such a library of the same package, its precompiled headers are reused.
 function(softbody_ros_library target)
   add_library(${target})
+  set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")
   add_dependencies(${target} ${catkin_EXPORTED_TARGETS})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src
     ${PROJECT_SOURCE_DIR}/src/core)
   target_include_directories(${target} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
-  target_link_libraries(${target} PUBLIC ${ARGN} ${catkin_LIBRARIES})
-  softbody_quick_build(${target} <ros/ros.h>)
+  target_link_libraries(${target} PUBLIC ${ARGN} ${catkin_LIBRARIES} PRIVATE fmt::fmt)
+  get_property(ros_libraries GLOBAL PROPERTY softbody_ros_libraries)
+  if(ARGV1 IN_LIST ros_libraries)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV1})
+  else()
+    softbody_precompile_headers(${target} <ros/ros.h>)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY softbody_ros_libraries ${target})
+  softbody_unite_folders_later(${target})
   install(TARGETS ${target}
     ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
@@ -107,6 +128,25 @@ macro(softbody_export_core_libraries)
     DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 endmacro()
 
+# softbody_test_headers(TARGET): what all tests of a package include is read once. Tests are compiled fast: what takes
+# time in them are the libraries that they test.
+function(softbody_test_headers target)
+  # The macro that catkin defines for every gtest.
+  set(options $<$<CONFIG:Release>:-O1> -DGTEST_HAS_PTHREAD=1)
+  set(headers ${PROJECT_NAME}_test_headers)
+  if(NOT TARGET ${headers})
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${headers}.cpp CONTENT "")
+    add_library(${headers} OBJECT ${PROJECT_BINARY_DIR}/${headers}.cpp)
+    set_target_properties(${headers} PROPERTIES EXCLUDE_FROM_ALL ON)
+    target_compile_options(${headers} PRIVATE ${options})
+    target_link_libraries(${headers} softbody::common fmt::fmt gtest)
+    softbody_precompile_headers(${headers} <gtest/gtest.h>)
+  endif()
+  target_compile_options(${target} PRIVATE ${options})
+  target_link_libraries(${target} fmt::fmt)
+  target_precompile_headers(${target} REUSE_FROM ${headers})
+endfunction()
+
 # softbody_gtest(NAME SOURCE...): one test program of a folder, linked to ${test_libraries}.
 function(softbody_gtest name)
   catkin_add_gtest(${name} ${ARGN})
@@ -114,5 +154,6 @@ function(softbody_gtest name)
     ${PROJECT_SOURCE_DIR}/src/core)
   target_compile_definitions(${name} PRIVATE ${test_definitions})
   target_link_libraries(${name} ${test_libraries} gtest_main)
+  softbody_test_headers(${name})
   softbody_unite_folders(${name})
 endfunction()

@@ -28,44 +28,45 @@ void changeFloat(Float* value, Choice* choice) {
   *value = odd[choice->below(std::size(odd))];
 }
 
+const char* const kTexts[] = {"",
+                              " ",
+                              "/",
+                              "world",
+                              "camera_color_optical_frame",
+                              "softbody",
+                              "tool",
+                              "a",
+                              "a/b",
+                              "\xff",
+                              "mono8",
+                              "rgb8",
+                              "bgr8",
+                              "rgba8",
+                              "mono16",
+                              "16UC1",
+                              "32FC1",
+                              "8UC3",
+                              "64FC4",
+                              "32SC1",
+                              "8UC",
+                              "99UC1",
+                              "16UC99",
+                              "bayer_rggb8",
+                              "yuv422",
+                              "plumb_bob",
+                              "equidistant",
+                              "rational_polynomial",
+                              "none",
+                              "body",
+                              "grip",
+                              "%s%n{}"};
+
 }  // namespace
 
 void change(float* value, Choice* choice) { changeFloat(value, choice); }
 void change(double* value, Choice* choice) { changeFloat(value, choice); }
 
 void change(std::string* value, Choice* choice) {
-  static const std::vector<std::string> kTexts{"",
-                                               " ",
-                                               "/",
-                                               "world",
-                                               "camera_color_optical_frame",
-                                               "softbody",
-                                               "tool",
-                                               "a",
-                                               "a/b",
-                                               "\xff",
-                                               "mono8",
-                                               "rgb8",
-                                               "bgr8",
-                                               "rgba8",
-                                               "mono16",
-                                               "16UC1",
-                                               "32FC1",
-                                               "8UC3",
-                                               "64FC4",
-                                               "32SC1",
-                                               "8UC",
-                                               "99UC1",
-                                               "16UC99",
-                                               "bayer_rggb8",
-                                               "yuv422",
-                                               "plumb_bob",
-                                               "equidistant",
-                                               "rational_polynomial",
-                                               "none",
-                                               "body",
-                                               "grip",
-                                               "%s%n{}"};
   switch (choice->below(5)) {
     case 0:
       *value = std::string(choice->below(2000), 'x');
@@ -77,7 +78,7 @@ void change(std::string* value, Choice* choice) {
       *value = "/" + *value;
       return;
     default:
-      *value = kTexts[choice->below(kTexts.size())];
+      *value = kTexts[choice->below(std::size(kTexts))];
   }
 }
 
