@@ -14,6 +14,7 @@ struct RegistrationConfig {
 
 /// ORB features bound to the body.
 struct FeatureConfig {
+  bool between_frames = false;        ///< feature_matching: frames instead of patches
   int max_features = 1000;            ///< N_p of Kang et al. 2022
   int search_radius_px = 20;          ///< around the predicted pixel
   int max_hamming_distance = 64;      ///< of 256 bits

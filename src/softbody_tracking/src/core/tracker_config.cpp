@@ -24,6 +24,8 @@ TrackerConfig readTrackerConfig(Parameters& parameters) {
   registration.max_cost = parameters.number("registration_max_cost", registration.max_cost, 0.01, 0.9);
 
   FeatureConfig& features = config.features;
+  features.between_frames =
+      parameters.choice("feature_matching", "patches", {"patches", "frames"}) == "frames";
   features.max_features = parameters.integer("max_features", features.max_features, 0, 20000);
   features.search_radius_px =
       parameters.integer("feature_search_radius_px", features.search_radius_px, 1, 200);

@@ -63,6 +63,19 @@ double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
   return count >= kFewestDepths ? middle + static_cast<double>(sum) / count : 0.0;
 }
 
+FeatureMatch matchAt(const MapFeature& feature, const ExpectedFeature& expected, const cv::Point2f& pixel,
+                     double depth, const Pinhole& camera) {
+  FeatureMatch match;
+  match.feature = expected.feature;
+  match.pixel = pixel;
+  match.association.kind = TargetKind::kFeature;
+  match.association.place = feature.place;
+  match.association.piece = expected.piece;
+  match.association.predicted = expected.position;
+  match.association.measured = camera.unproject(pixel.x, pixel.y, depth);
+  return match;
+}
+
 FeatureMatches FeatureMatcher::alignAll(const ExpectedFeatures& expected) const {
   return alignSome(expected, std::numeric_limits<int>::max());
 }
@@ -117,15 +130,8 @@ std::optional<FeatureMatch> FeatureMatcher::match(const ExpectedFeature& expecte
   const cv::Point2f& pixel = found->pixel;
   const double z = featureDepth(frame_.depth, pixel);
   if (z <= 0.0) return std::nullopt;
-  FeatureMatch match;
-  match.feature = expected.feature;
-  match.pixel = pixel;
+  FeatureMatch match = matchAt(features_[expected.feature], expected, pixel, z, frame_.camera);
   match.unexplained = 1.0 - found->correlation * found->correlation;
-  match.association.kind = TargetKind::kFeature;
-  match.association.place = features_[expected.feature].place;
-  match.association.piece = expected.piece;
-  match.association.predicted = expected.position;
-  match.association.measured = frame_.camera.unproject(pixel.x, pixel.y, z);
   match.association.weight = config_.weight;
   return match;
 }

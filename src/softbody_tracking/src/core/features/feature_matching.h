@@ -52,6 +52,10 @@ class FeatureMatcher {
   const GrayPyramid& image_;
 };
 
+/// A feature seen at a pixel at this depth [m]. @param expected the same feature in the prediction.
+FeatureMatch matchAt(const MapFeature& feature, const ExpectedFeature& expected, const cv::Point2f& pixel,
+                     double depth, const Pinhole& camera);
+
 /// Depth at a keypoint [m]: mean over the 5x5 pixels around it, without pixels that differ from the middle
 /// one by more than 2 %.
 /// @return 0 at a depth edge and where depth is missing.

@@ -28,8 +28,9 @@ constexpr int kEnoughToRecognize = 300;
 void FeatureAdmission::reset() { frames_to_next_tile_ = fruitless_tiles_ = tile_ = 0; }
 
 int FeatureAdmission::enoughFeatures(double visible_vertices) const {
+  if (config_.between_frames) return config_.max_features;
   const int of_volume = cvRound(kEnoughOfVertex * visible_vertices);
-  return std::min(max_features_, std::max(kEnoughToRecognize, of_volume));
+  return std::min(config_.max_features, std::max(kEnoughToRecognize, of_volume));
 }
 
 /// The next quarter of the rendered surface.
@@ -55,7 +56,7 @@ void FeatureAdmission::admitIn(const LearnedFrame& from, int room, FeatureMap* m
   const cv::Mat1b free = withoutKnownFeatures(colors.mask(frame.color, region), {seen.matches, seen.missed});
   const std::vector<cv::KeyPoint> corners =
       chooseCorners(frame, orb_.detect(frame.color, free, region), surface, seen.learnable, known, wanted,
-                    kGap * volume_edge_m);
+                    config_.between_frames ? 0.0 : kGap * volume_edge_m);
   map->add(bindKeypoints(frame, image, orb_.describe(frame.color, region, corners), surface, seen.learnable,
                          map->room(seen.expected.count())));
 }

@@ -23,7 +23,7 @@ struct LearnedFrame {
 /// later ones tile by tile, so that no frame takes much longer than others.
 class FeatureAdmission {
  public:
-  explicit FeatureAdmission(int max_features) : max_features_(max_features) {}
+  explicit FeatureAdmission(const FeatureConfig& config) : config_(config) {}
 
   /// Admits new features if this is due.
   void admit(const LearnedFrame& from, FeatureMap* map);
@@ -38,7 +38,7 @@ class FeatureAdmission {
   cv::Rect nextTile(const cv::Rect& covered);
   void admitIn(const LearnedFrame& from, int room, FeatureMap* map);
 
-  int max_features_;
+  FeatureConfig config_;
   OrbExtractor orb_;
   int frames_to_next_tile_ = 0;
   int fruitless_tiles_ = 0;  ///< consecutive tiles without a new feature

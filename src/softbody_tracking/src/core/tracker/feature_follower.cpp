@@ -68,9 +68,11 @@ std::vector<bool> confirmedMoves(const std::vector<bool>& moved, const std::vect
 void FeatureFollower::reset() {
   wide_search_.reset();
   piece_search_.reset();
+  frame_matcher_.reset();
 }
 
 FollowedFeatures FeatureFollower::follow(const FollowedBody& body, RenderedPrediction* prediction) {
+  if (features_.between_frames) return matchLastFrame(body, prediction->surface());
   FollowedFeatures features = matchAround(body, prediction);
   if (matchesOn(body.followed, features.found.matches) <
       kEnoughAligned * features.expected.countOn(body.followed))
@@ -93,11 +95,22 @@ FollowedFeatures FeatureFollower::alignAt(const Points& vertices, const Followed
 
 std::vector<PointPair> FeatureFollower::recognize(const FollowedBody& body, const PredictedSurface& surface,
                                                   const Points& vertices) {
+  return recognizedFeatures(body.frame, body.known, keypointsOfImage(body), surface, vertices,
+                            features_.max_hamming_distance);
+}
+
+std::vector<Keypoint> FeatureFollower::keypointsOfImage(const FollowedBody& body) {
   const cv::Mat3b& color = body.frame.color;
   const cv::Rect image(cv::Point(), color.size());
-  const std::vector<Keypoint> keypoints = orb_.extract(color, body.colors.mask(color, image), image);
-  return recognizedFeatures(body.frame, body.known, keypoints, surface, vertices,
-                            features_.max_hamming_distance);
+  return orb_.extract(color, body.colors.mask(color, image), image);
+}
+
+/// The prediction says only which features can be seen.
+FollowedFeatures FeatureFollower::matchLastFrame(const FollowedBody& body, const PredictedSurface& surface) {
+  FollowedFeatures features;
+  features.expected = expect(body, surface);
+  features.found = frame_matcher_.match(body.known, features.expected, keypointsOfImage(body), body.frame);
+  return features;
 }
 
 void FeatureFollower::buildImage(const RgbdFrame& frame, const PredictedSurface& surface, int reach_px) {

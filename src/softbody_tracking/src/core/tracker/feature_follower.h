@@ -7,6 +7,7 @@
 #include "features/orb_extractor.h"
 #include "patches/gray_pyramid.h"
 #include "prediction/color_model.h"
+#include "tracker/frame_matcher.h"
 #include "tracker/piece_search.h"
 #include "tracker/rendered_prediction.h"
 #include "tracker/search_backoff.h"
@@ -35,7 +36,7 @@ struct FollowedFeatures {
 class FeatureFollower {
  public:
   explicit FeatureFollower(const TrackerConfig& config)
-      : features_(config.features), reach_m_(config.depth.max_distance_m) {}
+      : features_(config.features), reach_m_(config.depth.max_distance_m), frame_matcher_(config.features) {}
 
   /// Matches with outliers marked. @param prediction as rendered; if it is moved, it is rendered again.
   FollowedFeatures follow(const FollowedBody& body, RenderedPrediction* prediction);
@@ -58,6 +59,8 @@ class FeatureFollower {
  private:
   void buildImage(const RgbdFrame& frame, const PredictedSurface& surface, int reach_px);
   ExpectedFeatures expect(const FollowedBody& body, const PredictedSurface& surface);
+  std::vector<Keypoint> keypointsOfImage(const FollowedBody& body);
+  FollowedFeatures matchLastFrame(const FollowedBody& body, const PredictedSurface& surface);
   FollowedFeatures matchAround(const FollowedBody& body, RenderedPrediction* prediction);
   FollowedFeatures searchWide(const FollowedBody& body, const PredictedSurface& surface,
                               FollowedFeatures features);
@@ -69,6 +72,7 @@ class FeatureFollower {
   FeatureConfig features_;
   double reach_m_;  ///< see expectFeatures()
   OrbExtractor orb_;
+  FrameMatcher frame_matcher_;
   GrayPyramid image_;
   SearchBackoff wide_search_;
   PieceSearch piece_search_;

@@ -13,7 +13,7 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
       prediction_(config, volume, surface),
       map_(config.features),
       follower_(config),
-      admission_(config.features.max_features) {}
+      admission_(config.features) {}
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   map_.rebind(prediction_.surface().volume(), volume);
