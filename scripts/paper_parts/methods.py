@@ -9,12 +9,16 @@ PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "load_fade_s": 0.0}
 LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0}
 SCENES = ("bend", "push", "doll_bend", "doll_push")
 FEATURES = (0, 10, 25, 50, 100, 300, 1000)
+FEWEST_OF_PAPER = 50  # the least that target_mode knn accepts
 FEATURES_ALONE = {"depth_targets": "false"}
 
+FRAMES = re.compile(r"feature_matching: frames.*")
+
 # Text of a parameter file by method.
-AS_WRITTEN = "as written: features, eq. 3-4, no simulation"
+AS_WRITTEN = "as written: ORB between frames, eq. 3-4, no simulation"
 WITH_PD = "the same, plain projective dynamics (eq. 10-11)"
-WITH_FEM = "the same, one linearised step of FEM (eq. 8-9)"
+WRITTEN_WITH_PD = "as written, plain projective dynamics"
+WITH_FEM = "the same, one Newton step of FEM (eq. 8-9)"
 
 
 def parameters(tracker=None, simulator=None):
@@ -30,16 +34,24 @@ def paper_tracker():
 
 def compared():
     """The methods of the table of accuracy."""
+    def by_patches(text):
+        return FRAMES.sub("feature_matching: patches", text)
+
     return {AS_WRITTEN: PAPER_FILE.read_text(),
             WITH_PD: paper_tracker() + parameters(simulator=PLAIN),
             WITH_FEM: paper_tracker() + parameters(simulator=LINEAR_FEM),
+            "our features, eq. 3-4, no simulation": by_patches(PAPER_FILE.read_text()),
+            "our features, eq. 3-4, plain projective dynamics":
+            by_patches(paper_tracker()) + parameters(simulator=PLAIN),
             OURS: ""}
 
 
 def parts():
     """The parts of our method, one added after the other; the last row is ours."""
     no_loads = {"load_fade_s": 0.0}
-    return {"features as material points, plain projective dynamics": parameters(FEATURES_ALONE, PLAIN),
+    return {"ORB between frames as material points, plain projective dynamics":
+            parameters({**FEATURES_ALONE, "feature_matching": "frames"}, PLAIN),
+            "+ patches and the prediction instead of ORB": parameters(FEATURES_ALONE, PLAIN),
             "+ L-BFGS": parameters(FEATURES_ALONE, {**no_loads, "strain_smoothing": 0.0}),
             "+ smoothed strains": parameters(FEATURES_ALONE, no_loads),
             "+ loads": parameters(FEATURES_ALONE),
@@ -49,5 +61,12 @@ def parts():
 
 
 def counts():
-    """Limits of the number of features."""
-    return {f"at most {limit}": parameters({"max_features": limit}) for limit in FEATURES}
+    """Limits of the number of features, for our tracker and for the paper's."""
+    ours = {f"ours, at most {limit}": parameters({"max_features": limit}) for limit in FEATURES}
+    papers = {f"{WRITTEN_WITH_PD}, at most {limit}": limited(limit) for limit in FEATURES if limit >= FEWEST_OF_PAPER}
+    return {**ours, **papers}
+
+
+def limited(limit):
+    """The paper's method with plain projective dynamics and this many features."""
+    return re.sub(r"max_features: \d+", f"max_features: {limit}", paper_tracker()) + parameters(simulator=PLAIN)

@@ -24,7 +24,9 @@ def run(scene, recording, number, text):
     config, allowed = config_of(scene, name)
     more = ("--parameters", file) if text else ()
     report = measure(name, recording, config, "--truth", recording, more=(*allowed, *more))
-    (OUTPUT / f"{name}_result.bag").unlink()
+    result = OUTPUT / f"{name}_result.bag"
+    report["features"] = read_by("feature_counts.py", result)
+    result.unlink()
     return report
 
 
@@ -63,15 +65,16 @@ def model_sizes():
         recording, result = OUTPUT / f"paper_{body}_model.bag", OUTPUT / f"paper_{body}_model_result.bag"
         tool("virtual_camera", "--scene", scene, "--duration", "0.2", "--output", recording)
         tool("replay", recording, "--object", ROOT / f"config/{body}.yaml", "--output", result)
-        sizes[body] = topology_sizes(result)
+        sizes[body] = read_by("sizes.py", result)
         recording.unlink()
         result.unlink()
     return sizes
 
 
-def topology_sizes(result):
-    command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/paper_parts/sizes.py", result]
+def read_by(script, result):
+    """What a script of this folder prints about a bag of `replay`."""
+    command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/paper_parts" / script, result]
     answer = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     if answer.returncode != 0:
-        raise ToolFailed(f"sizes.py {result}\n{answer.stderr}")
+        raise ToolFailed(f"{script} {result}\n{answer.stderr}")
     return json.loads(answer.stdout)
