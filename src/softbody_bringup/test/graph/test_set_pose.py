@@ -10,6 +10,7 @@ import rostest
 import tf2_ros
 from softbody_msgs.msg import Targets, TrackingStatus
 from softbody_msgs.srv import SetPose
+from std_srvs.srv import Trigger
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from poses import ALIKE, CORNERS_M, placed, pose_in, rotation  # pylint: disable=wrong-import-position
@@ -50,6 +51,14 @@ class SetPoseByHand(unittest.TestCase):
             found = placed(first.body_pose.position, first.body_pose.orientation, CORNERS_M)
             self.assertLess(np.linalg.norm(found - expected, axis=1).max(), MAX_ERROR_M, turn)
             self.wait_for_tracking(self.recorder.messages["softbody/targets"].index(first))
+
+    def test_find_again_starts_without_a_pose(self):
+        before = len(self.recorder.messages["softbody/targets"])
+        response = rospy.ServiceProxy("/softbody/feature_tracker/find_again", Trigger)()
+        self.assertTrue(response.success, response.message)
+        first = self.recorder.wait(
+            lambda seen: next((t for t in seen["softbody/targets"][before:] if t.reset), None), "a start")
+        self.wait_for_tracking(self.recorder.messages["softbody/targets"].index(first))
 
     def test_what_cannot_be_a_pose_is_refused_with_its_reason(self):
         before = len(self.recorder.messages["softbody/targets"])

@@ -33,6 +33,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       body_(handle, &tracker_),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
       set_pose_(private_handle.advertiseService("set_pose", &FeatureTrackerNode::onSetPose, this)),
+      find_again_(private_handle.advertiseService("find_again", &FeatureTrackerNode::onFindAgain, this)),
       mask_synchronizer_(makeMaskSynchronizer(
           handle, parameters, [this](const auto& frame, const auto& mask) { track(frame, mask); })),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
@@ -53,6 +54,20 @@ bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
   response.success = 0;
   response.message = std::string("the pose is not accepted: ") + error.what();
   ROS_WARN_STREAM(response.message);
+  return true;
+}
+
+/// Only the pose is searched anew: the topologies, and so the cuts, stay.
+bool FeatureTrackerNode::onFindAgain(std_srvs::Trigger::Request& /*request*/,
+                                     std_srvs::Trigger::Response& response) {
+  response.success = tracker_.ready() ? 1 : 0;
+  if (!tracker_.ready()) {
+    response.message = "the search cannot start: the topologies of simulator and surface have not come yet";
+    ROS_WARN_STREAM(response.message);
+    return true;
+  }
+  tracker_.reset();
+  ROS_INFO("the body is searched anew, as at the start");
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <softbody_msgs/SetPose.h>
+#include <std_srvs/Trigger.h>
 
 #include <memory>
 #include <optional>
@@ -33,6 +34,7 @@ class FeatureTrackerNode {
 
   void onFrame(const RectifiedImages& images);
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
+  bool onFindAgain(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void track(const ReceivedFrame& received, const cv::Mat1b& mask);
   void forgetPass();
@@ -52,6 +54,7 @@ class FeatureTrackerNode {
   BodySubscriber body_;
   BladeSubscriber blade_;
   ros::ServiceServer set_pose_;
+  ros::ServiceServer find_again_;
   std::unique_ptr<MaskSynchronizer> mask_synchronizer_;  ///< nullptr: no masks are used
   RectifiedImageSubscriber images_;
   NodeDiagnostics diagnostics_;
