@@ -93,8 +93,9 @@ TriangleMesh flatSheet(int cells, double size) {
 }
 
 TEST_F(ObjectModelTest, AMeshWithoutVolumeIsRefusedOrGetsTheStatedThickness) {
-  const TriangleMesh triangle{(Points(3, 3) << 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0).finished(),
-                              (Triangles(1, 3) << 0, 1, 2).finished()};
+  TriangleMesh triangle{Points(3, 3), Triangles(1, 3)};
+  triangle.vertices << 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0;
+  triangle.triangles << 0, 1, 2;
   TriangleMesh two_sided = flatSheet(8, 0.2);
   two_sided.triangles.conservativeResize(256, 3);
   two_sided.triangles.bottomRows(128) = two_sided.triangles.topRows(128).rowwise().reverse();
