@@ -68,7 +68,7 @@ class VectorKernels : public ::testing::Test {
       EXPECT_LT((toPoints(gradient) - expected).cwiseAbs().maxCoeff(), kRounding * scale)
           << what << ", smoothing " << smoothing << ", " << nameOf(simd);
       EXPECT_EQ(gradient.col(3).cwiseAbs().maxCoeff(), T{0});
-      EXPECT_EQ(gradient.bottomRows(gradient.rows() - count_).cwiseAbs().maxCoeff(), T{0});
+      EXPECT_EQ(gradient.bottomRows(gradient.rows() - count_).cwiseAbs().sum(), T{0}) << "may be no rows";
     }
   }
 };
