@@ -51,6 +51,10 @@ TEST(MeasuredShare, KeepsWhatIsMeasuredInAllDirections) {
   EXPECT_GT((share * shift(kX)).norm(), 0.85);
 }
 
+TEST(MeasuredShare, AnAssociationWithoutNormalMeasuresAllDirections) {
+  EXPECT_TRUE(shareOf(measured({Eigen::Vector3d::Zero()})).isApprox(shareOf(measured({kX, kY, kZ})), 1e-9));
+}
+
 TEST(MeasuredShare, DropsAShiftThatNothingMeasures) {
   const MotionShare share = shareOf(measured({kY, kZ}));
   EXPECT_LT((share * shift(kX)).norm(), 1e-9);

@@ -20,8 +20,13 @@ struct PieceInformation {
         radius(std::sqrt((vertices.rowwise() - center.transpose()).rowwise().squaredNorm().mean())) {}
 
   void add(const Association& a) {
+    if (!a.normal.isZero(0.0)) return addDistance(a, a.normal);
+    for (int k = 0; k < 3; ++k) addDistance(a, Eigen::Vector3d::Unit(k));
+  }
+
+  void addDistance(const Association& a, const Eigen::Vector3d& direction) {
     Eigen::Matrix<double, 6, 1> row;
-    row << (a.predicted - center).cross(a.normal) / radius, a.normal;
+    row << (a.predicted - center).cross(direction) / radius, direction;
     sum.selfadjointView<Eigen::Lower>().rankUpdate(row, a.weight);
   }
 
