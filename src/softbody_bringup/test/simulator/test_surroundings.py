@@ -305,7 +305,7 @@ class Surroundings(unittest.TestCase):
             self.assertLess(away.max(), 0.006)
         self.assertGreater(away[held].min(), 0.0002)  # between the camera and the pin
         self.assertLess(away[held].max(), 0.0048)
-        self.recorder.wait_for_status("simulation", DiagnosticStatus.WARN, "pin 'gripper' and the camera disagree by 4")
+        self.recorder.wait_for_status("simulation", DiagnosticStatus.WARN, "pin 'hold' and the camera disagree by 4")
         self.assertEqual(self.said("and the camera disagree by"), 1)
 
     def test_finger_dents_the_body_and_feels_it(self):
