@@ -91,6 +91,25 @@ TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
   EXPECT_EQ(rmsResidual(again.associations), rmsResidual(fresh.associations));
 }
 
+/// A block at the edge of another side shows a ramp; its mean says little about the predicted side.
+TEST_F(DepthAssociationsTest, WeighABlockByTheInverseVarianceOfItsDepth) {
+  addNoise(0.001);
+  const cv::Rect region = surface_.image().region;
+  const int right = region.x + 3 * region.width / 4;
+  const auto weightRight = [&](const DepthAssociations& found) {
+    double weight = 0.0;
+    for (const Association& a : found.associations)
+      weight += frame_.camera.project(a.predicted).x() > right ? a.weight : 0.0;
+    return weight;
+  };
+  const double even = weightRight(associate());
+  std::mt19937 random(3);
+  std::normal_distribution<float> gauss(0.0f, 0.004f);
+  for (int v = region.y; v < region.br().y; ++v)
+    for (int u = right; u < region.br().x; ++u) frame_.depth(v, u) += gauss(random);
+  EXPECT_LT(weightRight(associate()), 0.3 * even);
+}
+
 TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
   for (const double angle : {0.0, 0.6, 1.1}) {
     const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());

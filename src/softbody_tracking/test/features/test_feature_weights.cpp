@@ -64,5 +64,33 @@ TEST(FeatureWeights, AreWholeWherePatchesFitExactly) {
   EXPECT_EQ(weightsOf({0.0, 0.0, 0.0}), std::vector<double>(3, 1.0));
 }
 
+MapFeature featureWith(double place_deviation_m, int predicted, int matched) {
+  MapFeature feature;
+  feature.place_variance = place_deviation_m * place_deviation_m;
+  feature.predicted = predicted;
+  feature.matched = matched;
+  return feature;
+}
+
+TEST(FeatureTrust, IsFullForANewFeatureOnAKnownSurface) {
+  EXPECT_DOUBLE_EQ(trustIn(featureWith(0.0, 0, 0)), 1.0);
+  EXPECT_DOUBLE_EQ(trustIn(featureWith(0.0, 50, 50)), 1.0);
+}
+
+/// Independent errors add up: with 1 mm of its own and 3 mm of its place, a match has a tenth of the weight.
+TEST(FeatureTrust, FallsWithTheVarianceOfItsPlace) {
+  EXPECT_NEAR(trustIn(featureWith(0.003, 0, 0)), 0.1, 1e-12);
+  for (const double deviation : {0.0, 0.0005, 0.002, 0.01})
+    EXPECT_GT(trustIn(featureWith(deviation, 9, 5)), trustIn(featureWith(2.0 * deviation + 1e-4, 9, 5)));
+}
+
+TEST(FeatureTrust, TendsToTheShareOfFramesThatShowedIt) {
+  EXPECT_NEAR(trustIn(featureWith(0.0, 100000, 20000)), 0.2, 1e-4);
+  for (int predicted = 1; predicted < 40; ++predicted)
+    for (int matched = 0; matched < predicted; ++matched)
+      EXPECT_LT(trustIn(featureWith(0.0, predicted, matched)),
+                trustIn(featureWith(0.0, predicted, matched + 1)));
+}
+
 }  // namespace
 }  // namespace softbody

@@ -61,6 +61,20 @@ class TurnedBox : public ::testing::Test {
   std::unique_ptr<FrameObserver> observer_;
 };
 
+/// The deviation grows linearly along x at rest.
+TEST_F(TurnedBox, FeaturesKnowHowUncertainTheirPlacesAre) {
+  const auto deviationAt = [](const Eigen::Vector3d& rest) { return 0.01 + 0.02 * rest.x(); };
+  const RgbdFrame frame = renderFrame(box_, transformed(box_.volume.rest_vertices, front_), 1);
+  const Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, front_));
+  std::vector<float> deviations;
+  for (const auto& vertex : box_.volume.rest_vertices.rowwise())
+    deviations.push_back(static_cast<float>(deviationAt(vertex.transpose())));
+  observer_->learnFeatures(frame, seen, deviations);
+  ASSERT_GT(known(), 100);
+  for (const MapFeature& feature : observer_->features())
+    EXPECT_NEAR(std::sqrt(feature.place_variance), deviationAt(restPosition(feature)), 1e-6);
+}
+
 TEST_F(TurnedBox, GetsFeaturesInAllQuartersOfANewSide) {
   for (int i = 0; i < 40; ++i) show(front_);
   const int before = known();

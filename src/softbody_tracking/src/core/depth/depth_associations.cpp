@@ -8,10 +8,10 @@
 namespace softbody {
 namespace {
 
-constexpr double kMinCosine = 0.1;  // between normal and ray; at more grazing angles depth is unreliable
 constexpr double kMinSlope =
     0.05;  // normal times ray at z = 1; below it the plane's depth is ill-conditioned
-constexpr double kDepthScale = 4.0;      // of the robust loss, in median residuals
+constexpr double kSmallestVariance = 1e-6 / 12.0;  // [m^2] of depth in a block: cameras round to 1 mm
+constexpr double kDepthScale = 4.0;                // of the robust loss, in median residuals
 constexpr float kBehind = 0.01f;         // [m] what is not the body and farther than this is behind it
 constexpr double kOccluderStep = 0.003;  // [m] an occluder's end is at least this far before the prediction
 constexpr double kOccluderContinuity =
@@ -44,7 +44,7 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
   const auto nearer_by = static_cast<float>(block->predicted) - image.depth(rendered_center);
   const auto gate = static_cast<float>(max_distance);
   int measured = 0, agreeing = 0, nearer = 0, farther = 0;
-  float sum = 0.0f;
+  float sum = 0.0f, squares = 0.0f;
   for (int j = rows.first; j < rows.end; j += step) {
     const float* rendered = image.depth[rendered_center.y + j] + rendered_center.x;
     const float* depth = frame.depth[center.y + j] + center.x;
@@ -60,11 +60,17 @@ void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& 
       } else {
         ++agreeing;
         sum += difference;
+        squares += difference * difference;
       }
     }
   }
   if (measured == 0) return;
-  if (agreeing > 0) block->difference = sum / static_cast<float>(agreeing);
+  if (agreeing > 0) {
+    const float mean = sum / static_cast<float>(agreeing);
+    block->difference = mean;
+    block->variance =
+        std::max<double>(kSmallestVariance, squares / static_cast<float>(agreeing) - mean * mean);
+  }
   block->kind = BlockKind::kUnmeasured;
   if (2 * nearer > measured) {
     block->kind = BlockKind::kOccluded;
@@ -115,6 +121,17 @@ double commonDifference(const std::vector<Block>& blocks) {
   if (differences.empty()) return 0.0;
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
+  return *middle;
+}
+
+/// Variance that depth differences usually have within a block [m^2]: the median.
+double usualVariance(const std::vector<Block>& blocks) {
+  std::vector<double> variances;
+  for (const Block& block : blocks)
+    if (block.kind == BlockKind::kAgrees) variances.push_back(block.variance);
+  if (variances.empty()) return kSmallestVariance;
+  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+  std::nth_element(variances.begin(), middle, variances.end());
   return *middle;
 }
 
@@ -207,6 +224,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
   found_.noise = pixel_step == 1 ? sampleDepthNoise(surface, blocks_, frame.camera.fx, &second_differences_)
                                  : DepthNoiseSample();
 
+  const double usual_variance = usualVariance(blocks_);
   found_.associations.clear();
   found_.visible_blocks = found_.occluded_blocks = found_.absent_blocks = 0;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -217,7 +235,7 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     found_.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
     if (block.kind != BlockKind::kAgrees) continue;
     const double cosine = -block.normal.dot(block.position.normalized());
-    if (cosine < kMinCosine) continue;
+    if (cosine <= 0.0) continue;
     Association association;
     association.kind = TargetKind::kDepth;
     association.place = surface.samples[i].place;
@@ -229,7 +247,9 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     const double width = surface.block_px * block.position.z() / (frame.camera.fx * volume_edge_m_);
     const double weight =
         config_.weight * width * width / cosine;  // per area of the surface, not of the image
-    association.weight = std::min(weight, kLargestTargetWeight);
+    // A block has few pixels: its variance is estimated halfway between its own and the usual one.
+    const double precision = 2.0 * usual_variance / (usual_variance + block.variance);
+    association.weight = std::min(weight * precision, kLargestTargetWeight);
     found_.associations.push_back(association);
   }
   weighByResidual(kDepthScale, &found_.associations);

@@ -28,13 +28,16 @@ struct DepthBlock {
   cv::Point center;          ///< projection of the moved sample [px]
   double predicted = 0.0;    ///< depth of the moved sample's plane at the center [m]
   double difference = 0.0;   ///< mean of measured minus predicted depth over the agreeing pixels [m]
+  double variance = 0.0;     ///< of these differences [m^2]
   Eigen::Vector3d position;  ///< of the moved sample, camera frame [m]
   Eigen::Vector3d normal;
 };
 
 /// Associates visible surface with depth along the same rays (projective data association, point to plane).
-/// Each block of pixels gives one association, with the mean of its depth differences. A block that is nearer
-/// than the prediction and continues an occluder without a step in depth belongs to the occluder.
+/// Each block of pixels gives one association, with the mean of its depth differences, weighed by the inverse
+/// of their variance: at an edge, or where another side of the body is seen than predicted, the differences
+/// of one block vary. A block that is nearer than the prediction and continues an occluder without a step in
+/// depth belongs to the occluder.
 class DepthAssociator {
  public:
   /// @param volume_edge_m mean edge of the tets; config.weight is the weight per square of it.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "features/descriptor_match.h"
+#include "features/feature_weights.h"
 #include "features/pixel_grid.h"
 
 namespace softbody {
@@ -132,7 +133,7 @@ std::optional<FeatureMatch> FeatureMatcher::match(const ExpectedFeature& expecte
   if (z <= 0.0) return std::nullopt;
   FeatureMatch match = matchAt(features_[expected.feature], expected, pixel, z, frame_.camera);
   match.unexplained = 1.0 - found->correlation * found->correlation;
-  match.association.weight = config_.weight;
+  match.association.weight = config_.weight * trustIn(features_[expected.feature]);
   return match;
 }
 

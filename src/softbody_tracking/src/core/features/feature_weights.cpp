@@ -14,6 +14,11 @@ constexpr double kPerVertex = 2.5;
 
 }  // namespace
 
+double trustIn(const MapFeature& feature) {
+  const double hits = (feature.matched + 1.0) / (feature.predicted + 1.0);
+  return hits / (1.0 + feature.place_variance / (kUnitDeviation * kUnitDeviation));
+}
+
 void weighByAgreement(std::vector<FeatureMatch>* matches) {
   if (matches->empty()) return;
   std::vector<double> shares;

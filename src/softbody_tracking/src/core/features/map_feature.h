@@ -23,6 +23,7 @@ struct MapFeature : FeaturePlace {
   Eigen::Matrix4d first_tet = Eigen::Matrix4d::Zero();  ///< corners of its tet then, see homogeneousCorners()
   Eigen::Index first_vertices = 0;                      ///< number of the body's vertices then
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< measured position at admission, fixed frame [m]
+  double place_variance = 0.0;                          ///< of its place, as known at admission [m^2]
   int predicted = 0;                                    ///< frames in which it was expected
   int matched = 0;                                      ///< frames in which it was found
 };

@@ -10,7 +10,6 @@ namespace softbody {
 Association contourAssociation(const Pinhole& camera, const ContourSample& sample,
                                const Eigen::Vector3d& predicted, const ContourPosterior& end,
                                const ContourWeight& weight) {
-  constexpr double kUsualDeviation = 0.001;  // [m] of a target of weight 1
   Association association;
   association.place = sample.place;
   association.piece = sample.piece;
@@ -21,7 +20,7 @@ Association contourAssociation(const Pinhole& camera, const ContourSample& sampl
   const Eigen::Vector3d along(-sample.outward.y() / camera.fx, sample.outward.x() / camera.fy, 0.0);
   association.normal = association.measured.cross(along).normalized();
   const double pixel_m = predicted.z() / camera.fx;
-  const double precision = kUsualDeviation * kUsualDeviation / (end.variance * pixel_m * pixel_m);
+  const double precision = kUnitDeviation * kUnitDeviation / (end.variance * pixel_m * pixel_m);
   association.weight = std::min(weight.per_edge * precision * weight.spacing_px * pixel_m / weight.edge_m,
                                 kLargestTargetWeight);
   return association;

@@ -7,6 +7,9 @@
 
 namespace softbody {
 
+/// Standard deviation of a measurement of weight 1 [m].
+constexpr double kUnitDeviation = 0.001;
+
 /// A material point, its predicted and its measured position; camera frame [m].
 struct Association {
   TargetKind kind = TargetKind::kDepth;

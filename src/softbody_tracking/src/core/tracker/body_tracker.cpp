@@ -59,7 +59,7 @@ struct BodyTracker::Implementation {
   TrackingStatus withSilence(TrackingStatus status) const;
   TargetSet targetSetOf(const RgbdFrame& frame, const Observation& seen,
                         const std::vector<Association>& associations, const MeshState* answer) const;
-  void learnFeatures(const RgbdFrame& frame, const Observation& seen);
+  void learnFeatures(const RgbdFrame& frame, const Observation& seen, const MeshState* answer);
   TrackingResult waiting(const std::string& reason) const;
 
   TrackerConfig config;
@@ -143,7 +143,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   result.targets = targetSetOf(frame, seen, associations, state == TrackingState::kLost ? nullptr : answer);
   result.targets.reset = answer == nullptr;
   result.status = held.report(seen, observer->surface().piecesOfSurface(), std::move(result.status));
-  if (state == TrackingState::kTracking) learnFeatures(frame, seen);
+  if (state == TrackingState::kTracking) learnFeatures(frame, seen, answer);
   result.status.features_total = knownFeatures();
   return result;
 }
@@ -266,10 +266,13 @@ TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const
   return set;
 }
 
-/// The KNN weights are bound once, in the frame with the first features.
-void BodyTracker::Implementation::learnFeatures(const RgbdFrame& frame, const Observation& seen) {
+/// @param answer state of the volume before the frame, or nullptr. The KNN weights are bound once, in the
+/// frame with the first features.
+void BodyTracker::Implementation::learnFeatures(const RgbdFrame& frame, const Observation& seen,
+                                                const MeshState* answer) {
   const bool first = observer->features().empty();
-  observer->learnFeatures(frame, seen);
+  const std::vector<float> unknown;
+  observer->learnFeatures(frame, seen, answer != nullptr ? answer->standard_deviation : unknown);
   if (!first) return;
   knn.bind(observer->features(), model(),
            transformed(observer->surface().volumeVertices(), frame.T_fixed_camera));

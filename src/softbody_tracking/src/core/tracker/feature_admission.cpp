@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "features/feature_selection.h"
 
@@ -22,6 +23,15 @@ constexpr double kGap = 0.35;
 constexpr int kEnoughOfVertex = 4;
 // ... but recognition needs at least these, however coarse the volume is.
 constexpr int kEnoughToRecognize = 300;
+
+/// Interpolated from the corners of a place's tet. @param deviations of the volume's vertices [m].
+double deviationAt(const MaterialPoint& place, const TetTopology& volume,
+                   const std::vector<float>& deviations) {
+  double deviation = 0.0;
+  for (int k = 0; k < 4; ++k)
+    deviation += place.barycentric[k] * deviations[static_cast<std::size_t>(volume.tets(place.tet, k))];
+  return deviation;
+}
 
 }  // namespace
 
@@ -44,7 +54,7 @@ cv::Rect FeatureAdmission::nextTile(const cv::Rect& covered) {
 
 /// Admits features in the first view, or else in the next tile.
 void FeatureAdmission::admitIn(const LearnedFrame& from, int room, FeatureMap* map) {
-  const auto& [frame, seen, surface, colors, image, volume_edge_m] = from;
+  const auto& [frame, seen, surface, colors, image, deviations, volume_edge_m] = from;
   KnownPlaces known;
   known.first_view = map->features().empty();
   for (const ExpectedFeature& expected : seen.expected.visible)
@@ -57,8 +67,12 @@ void FeatureAdmission::admitIn(const LearnedFrame& from, int room, FeatureMap* m
   const std::vector<cv::KeyPoint> corners =
       chooseCorners(frame, orb_.detect(frame.color, free, region), surface, seen.learnable, known, wanted,
                     config_.between_frames ? 0.0 : kGap * volume_edge_m);
-  map->add(bindKeypoints(frame, image, orb_.describe(frame.color, region, corners), surface, seen.learnable,
-                         map->room(seen.expected.count())));
+  std::vector<MapFeature> bound = bindKeypoints(frame, image, orb_.describe(frame.color, region, corners),
+                                                surface, seen.learnable, map->room(seen.expected.count()));
+  if (!deviations.empty())
+    for (MapFeature& feature : bound)
+      feature.place_variance = std::pow(deviationAt(feature.place, surface.volume(), deviations), 2);
+  map->add(bound);
 }
 
 void FeatureAdmission::admit(const LearnedFrame& from, FeatureMap* map) {

@@ -16,7 +16,8 @@ struct LearnedFrame {
   const PredictedSurface& surface;  ///< aligned with the frame
   const ColorModel& colors;
   const GrayPyramid& image;
-  double volume_edge_m;  ///< mean length of the volume's edges
+  const std::vector<float>& deviations;  ///< of the volume's vertices [m]; empty: not estimated
+  double volume_edge_m;                  ///< mean length of the volume's edges
 };
 
 /// Admits new features to the map where the visible surface has few. The first ones are admitted at once;

@@ -80,9 +80,11 @@ FollowedBody FrameObserver::followedBody(const RgbdFrame& frame) const {
           any ? tracked_before_ : std::vector<bool>(prediction_.surface().pieceCount(), true)};
 }
 
-void FrameObserver::learnFeatures(const RgbdFrame& frame, const Observation& seen) {
-  admission_.admit({frame, seen, prediction_.surface(), colors_, follower_.image(), prediction_.volumeEdge()},
-                   &map_);
+void FrameObserver::learnFeatures(const RgbdFrame& frame, const Observation& seen,
+                                  const std::vector<float>& deviations) {
+  admission_.admit(
+      {frame, seen, prediction_.surface(), colors_, follower_.image(), deviations, prediction_.volumeEdge()},
+      &map_);
   map_.retire();
 }
 

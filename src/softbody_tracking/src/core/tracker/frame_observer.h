@@ -26,7 +26,9 @@ class FrameObserver {
   Observation observe(const RgbdFrame& frame, const Points& predicted);
 
   /// Learns new features from the frame last observed, and drops unreliable ones.
-  void learnFeatures(const RgbdFrame& frame, const Observation& seen);
+  /// @param deviations of the volume's vertices [m]; empty: not estimated.
+  void learnFeatures(const RgbdFrame& frame, const Observation& seen,
+                     const std::vector<float>& deviations = {});
 
   /// Pose of the undeformed body at which its features are recognised in the whole frame.
   std::optional<Eigen::Isometry3d> recognizePose(const RgbdFrame& frame);
