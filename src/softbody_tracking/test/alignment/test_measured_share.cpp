@@ -62,9 +62,13 @@ TEST(MeasuredShare, DropsAShiftThatNothingMeasures) {
   EXPECT_TRUE(shareOf({}).isZero(0.0));
 }
 
-TEST(MeasuredShare, DoesNotDependOnTheUnitOfTheWeights) {
-  const MotionShare one = shareOf(measured({kY, kZ})), more = shareOf(measured({kY, kZ}, 50.0));
-  EXPECT_TRUE(one.isApprox(more, 1e-9));
+/// Eight corners of weight w measure a shift to the standard deviation 1 mm / sqrt(8 w).
+TEST(MeasuredShare, GrowsWithThePrecisionOfTheMeasurement) {
+  for (const double weight : {0.001, 0.125, 1.0, 50.0}) {
+    const double variance = 1.0 / (8.0 * weight);  // [mm^2]
+    const MotionShare share = shareOf(measured({kX, kY, kZ}, weight));
+    EXPECT_LT((share * shift(kX) - shift(kX) / (1.0 + variance)).norm(), 1e-9) << weight;
+  }
 }
 
 TEST(MeasuredShare, TurnsIntoTheFixedFrame) {

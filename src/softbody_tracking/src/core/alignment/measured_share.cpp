@@ -6,9 +6,6 @@
 namespace softbody {
 namespace {
 
-// Information that a direction needs, as a share of that of the best measured direction.
-constexpr double kNeeded = 0.1;
-
 /// Turn and shift have the same unit: the turn is multiplied by the piece's radius [m].
 struct PieceInformation {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -33,8 +30,7 @@ struct PieceInformation {
   MotionShare share() const {
     const Eigen::SelfAdjointEigenSolver<MotionShare> eigen(sum);
     const Eigen::Array<double, 6, 1> information = eigen.eigenvalues().array().max(0.0);
-    if (!(information[5] > 0.0)) return MotionShare::Zero();
-    const Eigen::Matrix<double, 6, 1> shares = information / (information + kNeeded * information[5]);
+    const Eigen::Matrix<double, 6, 1> shares = information / (information + 1.0);
     MotionShare result = eigen.eigenvectors() * shares.asDiagonal() * eigen.eigenvectors().transpose();
     result.topRightCorner<3, 3>() /= radius;
     result.bottomLeftCorner<3, 3>() *= radius;
