@@ -5,7 +5,7 @@ from evaluation.runs import ROOT
 
 OURS = "ours"
 PAPER_FILE = ROOT / "config/paper.yaml"
-PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "load_fade_s": 0.0}
+PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "volume_smoothing": 0.0, "load_fade_s": 0.0}
 LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0}
 SCENES = ("bend", "push", "doll_bend", "doll_push")
 FEATURES = (0, 10, 25, 50, 100, 300, 1000)
@@ -52,7 +52,7 @@ def parts():
     return {"ORB between frames as material points, plain projective dynamics":
             parameters({**FEATURES_ALONE, "feature_matching": "frames"}, PLAIN),
             "+ patches and the prediction instead of ORB": parameters(FEATURES_ALONE, PLAIN),
-            "+ L-BFGS": parameters(FEATURES_ALONE, {**no_loads, "strain_smoothing": 0.0}),
+            "+ L-BFGS": parameters(FEATURES_ALONE, {**no_loads, "strain_smoothing": 0.0, "volume_smoothing": 0.0}),
             "+ smoothed strains": parameters(FEATURES_ALONE, no_loads),
             "+ loads": parameters(FEATURES_ALONE),
             "+ depth": parameters({"outline_weight": 0.0}),

@@ -60,7 +60,7 @@ def prism_rows():
         axis, end = "xyz"[along], high[along] - 1e-6 * length
         row = simulate(path, "--static", "--young", young, "--poisson", 0, "--density", density, "--gravity",
                        *(-gravity * np.eye(3)[down]), "--pin", f"{axis}<{float(low[along] + 1e-6 * length)!r}", "--probe",
-                       f"{axis}>{float(end)!r}", "--tolerance", 1e-9)[-1]
+                       f"{axis}>{float(end)!r}", "--tolerance", 1e-9, *SOLVERS["FEM corotated"])[-1]
         rows.append((name, len(tets), f"{length * math.sqrt(area / inertia):.1f}",
                      f"{-row['probe_' + 'xyz'[down] + '_m'] / (1e-3 * length):.4f}"))
     return rows

@@ -79,7 +79,7 @@ def study_rows(name, function, sizes):
     rows, previous = [], None
     for n in sizes:
         print(f"== {name} {n}", file=sys.stderr)
-        tets, ratio = function(n)
+        tets, ratio = function(n, *SOLVERS["FEM corotated"])
         error = abs(ratio - 1.0)
         order = math.log(previous[1] / error) / math.log(n / previous[0]) if previous and error > 1e-5 else None
         rows.append((name, n, tets, ratio, order))
@@ -92,6 +92,6 @@ def smoothing_rows():
     rows = []
     for share in (0, 0.5, 0.6, 0.7, 0.8, 0.9):
         print(f"== smoothing {share}", file=sys.stderr)
-        solver = (*SOLVERS["PD"], "--strain-smoothing", share)
+        solver = ("--solver", "pd", "--strain-smoothing", share, "--volume-smoothing", share)
         rows.append((share, *(f"{STUDIES[name][0](n, *solver)[1]:.3f}" for name, n in SMOOTHED)))
     return rows

@@ -11,8 +11,9 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 WORKSPACE = ROOT / "catkin_ws/devel"
 OUTPUT = ROOT / "validation"
-SOLVERS = {"PD": ["--solver", "pd", "--iterations", "20000"], "FEM corotated": ["--solver", "fem"],
-           "FEM neo-Hookean": ["--solver", "fem", "--elasticity", "neo_hookean"]}
+PLAIN = ["--strain-smoothing", "0", "--volume-smoothing", "0"]
+SOLVERS = {"PD": ["--solver", "pd", *PLAIN], "FEM corotated": ["--solver", "fem", *PLAIN],
+           "FEM neo-Hookean": ["--solver", "fem", "--elasticity", "neo_hookean", *PLAIN]}
 
 
 def run_tool(mesh, *arguments):

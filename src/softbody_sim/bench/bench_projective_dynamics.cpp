@@ -55,7 +55,7 @@ ProjectiveDynamicsOptions options(Strains strains, bool single, Simd simd, int i
   chosen.minimizer = {iterations, 0.0, history};
   chosen.single_precision = single;
   chosen.simd = simd;
-  chosen.strain_smoothing = smoothingOf(strains);
+  chosen.smoothing = smoothingOf(strains);
   return chosen;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <random>
 
 #include "softbody_common/files/staged_output.h"
@@ -27,8 +28,10 @@ struct Options {
   std::vector<std::vector<std::string>> region_loads;
   double ground = std::numeric_limits<double>::quiet_NaN();
   bool until_rest = false;
-  int steps = 100, iterations = 200;
-  double time_step_s = 1.0 / 30.0, tolerance = 1e-6, strain_smoothing = 0.0;
+  int steps = 100;
+  std::optional<int> iterations;
+  double time_step_s = 1.0 / 30.0, tolerance = 1e-6, strain_smoothing = SimulatorConfig().strain_smoothing,
+         volume_smoothing = 1.0;
 };
 
 void addMaterialOptions(CLI::App& app, Options& o) {
@@ -48,9 +51,12 @@ void addMaterialOptions(CLI::App& app, Options& o) {
       ->check(CLI::IsMember({"corotated", "neo_hookean"}))
       ->capture_default_str();
   app.add_option("--strain-smoothing", o.strain_smoothing,
-                 "fraction of the energy with strains smoothed around the vertices; needs the solver pd; the "
-                 "ROS node uses 0.7")
+                 "fraction of the shear energy with strains smoothed around the vertices")
       ->check(CLI::Range(0.0, 0.95))
+      ->capture_default_str();
+  app.add_option("--volume-smoothing", o.volume_smoothing,
+                 "the same of the volume energy; 1 prevents locking at Poisson's ratios above 0.4")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
 }
 
@@ -84,9 +90,9 @@ void addSolverOptions(CLI::App& app, Options& o) {
   app.add_option("--time-step", o.time_step_s, "time step [s]")
       ->check(CLI::Range(1e-6, 10.0))
       ->capture_default_str();
-  app.add_option("--iterations", o.iterations, "maximum number of iterations per step")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  app.add_option("--iterations", o.iterations,
+                 "maximum number of iterations per step; default: 200 of fem, 20000 of pd")
+      ->check(CLI::Range(1, 100000));
   app.add_option("--tolerance", o.tolerance,
                  "a step has converged when no vertex moves further [mean edge lengths]")
       ->check(CLI::Range(0.0, 1.0))
@@ -98,7 +104,9 @@ SimulatorConfig configOf(const Options& o) {
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;
   config.elasticity = o.elasticity == "corotated" ? Elasticity::kCorotated : Elasticity::kNeoHookean;
   config.strain_smoothing = o.strain_smoothing;
-  config.iterations = o.iterations;
+  config.volume_smoothing = o.volume_smoothing;
+  // Projective dynamics needs more iterations, the more incompressible the material is; each is cheap.
+  config.iterations = o.iterations.value_or(o.solver == "fem" ? 200 : 20000);
   config.tolerance = o.tolerance;
   config.max_time_step_s = o.time_step_s;
   config.gravity = Eigen::Vector3d(o.gravity.data());
@@ -116,8 +124,6 @@ double toNumber(const std::string& text) {
 void requireUsable(const Options& o) {
   try {
     requireConsistent(configOf(o));
-    if (o.solver == "fem" && o.strain_smoothing > 0.0)
-      throw std::invalid_argument("--strain-smoothing needs --solver pd");
     for (const std::string& region : o.pins) requireRegion(region);
     if (!o.probe.empty()) requireRegion(o.probe);
     for (const std::vector<std::string>& load : o.region_loads) {

@@ -49,7 +49,7 @@ TEST(Allocations, AFrameAfterTheFirstMakesNone) {
       ProjectiveDynamicsOptions options;
       options.minimizer = {20, 0.0, history};
       options.single_precision = single;
-      options.strain_smoothing = SimulatorConfig().strain_smoothing;
+      options.smoothing = SimulatorConfig().strain_smoothing;
       ProjectiveDynamics solver(topology, lameParameters(2.0e4, 0.3), options);
       Points x = topology.rest_vertices;
       for (int frame = 0; frame < 12; ++frame) {

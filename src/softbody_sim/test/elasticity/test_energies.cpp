@@ -85,8 +85,7 @@ TEST(LameParameters, RefuseAnImpossibleMaterial) {
   EXPECT_DOUBLE_EQ(lame.lambda, 8000.0);
 }
 
-/// @param fraction of the energy with smoothed strains.
-class Energies : public ::testing::TestWithParam<double> {
+class Energies : public ::testing::TestWithParam<Smoothing> {
  protected:
   TetTopology topology_ = boxTopology({3, 2, 2}, {0.06, 0.04, 0.05});
   CorotatedElasticity elasticity_{topology_.rest_vertices, topology_.tets, kLame, GetParam()};
@@ -220,7 +219,9 @@ TEST_P(Energies, PiecesTurnFreelyAgainstEachOther) {
   EXPECT_NEAR(both.addTo(x, &gradient), one, 1e-12 * one);
 }
 
-INSTANTIATE_TEST_SUITE_P(Smoothing, Energies, ::testing::Values(0.0, 0.7));
+INSTANTIATE_TEST_SUITE_P(Smoothing, Energies,
+                         ::testing::Values(Smoothing(0.0), Smoothing(0.7), Smoothing(0.7, 1.0),
+                                           Smoothing(0.0, 1.0)));
 
 }  // namespace
 }  // namespace softbody

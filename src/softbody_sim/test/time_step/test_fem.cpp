@@ -17,8 +17,14 @@ using testing::randomPoints;
 
 const Lame kLame{8000.0, 5000.0};
 
-/// Properties of every elastic energy, tested for both.
-class FemEnergies : public ::testing::TestWithParam<Elasticity> {
+struct Case {
+  std::string name;
+  Elasticity elasticity;
+  Smoothing smoothing;
+};
+
+/// Properties of every elastic energy.
+class FemEnergies : public ::testing::TestWithParam<Case> {
  protected:
   double valueOf(const Points& x) const {
     Points unused = Points::Zero(x.rows(), 3);
@@ -30,13 +36,13 @@ class FemEnergies : public ::testing::TestWithParam<Elasticity> {
     return gradient;
   }
   Eigen::MatrixXd hessianAt(const Points& x, bool project) const {
-    BlockTetMatrix matrix(topology_.tets, x.rows());
+    BlockTetMatrix matrix(elasticity_.groups(), x.rows());
     elasticity_.addHessian(x, &matrix, project);
     return Eigen::MatrixXd(matrix.lower()).selfadjointView<Eigen::Lower>();
   }
 
   TetTopology topology_ = boxTopology({3, 2, 2}, {0.06, 0.04, 0.05});
-  FemElasticity elasticity_{topology_, GetParam(), kLame};
+  FemElasticity elasticity_{topology_, GetParam().elasticity, kLame, GetParam().smoothing};
   std::mt19937 random_{7};
   Points deformed_ = topology_.rest_vertices + randomPoints(topology_.rest_vertices.rows(), 0.006, &random_);
 };
@@ -98,30 +104,36 @@ TEST_P(FemEnergies, ForcesHaveNoResultantAndNoMoment) {
 TEST_P(FemEnergies, AreLinearElasticityForSmallStrains) {
   // Uniaxial strain: the modulus is lambda + 2 mu along the strain, lambda across.
   constexpr double kStrain = 1e-6;
-  const IsotropicEnergy density = isotropicEnergy(GetParam(), {1.0 + kStrain, 1.0, 1.0}, kLame);
+  const IsotropicEnergy density = isotropicEnergy(GetParam().elasticity, {1.0 + kStrain, 1.0, 1.0}, kLame);
   EXPECT_NEAR(density.gradient[0] / kStrain, kLame.lambda + 2.0 * kLame.mu, 1e-4 * kLame.mu);
   EXPECT_NEAR(density.gradient[1] / kStrain, kLame.lambda, 1e-4 * kLame.mu);
-  EXPECT_NEAR(isotropicEnergy(GetParam(), {1.0, 1.0, 1.0}, kLame).flip[0], 2.0 * kLame.mu, 1e-9 * kLame.mu);
-  EXPECT_NEAR(isotropicEnergy(GetParam(), {1.0, 1.0, 1.0}, kLame).twist[0], 0.0, 1e-9 * kLame.mu);
+  EXPECT_NEAR(isotropicEnergy(GetParam().elasticity, {1.0, 1.0, 1.0}, kLame).flip[0], 2.0 * kLame.mu,
+              1e-9 * kLame.mu);
+  EXPECT_NEAR(isotropicEnergy(GetParam().elasticity, {1.0, 1.0, 1.0}, kLame).twist[0], 0.0, 1e-9 * kLame.mu);
 }
 
 INSTANTIATE_TEST_SUITE_P(Elasticity, FemEnergies,
-                         ::testing::Values(Elasticity::kCorotated, Elasticity::kNeoHookean),
-                         [](const auto& info) {
-                           return info.param == Elasticity::kCorotated ? "Corotated" : "NeoHookean";
-                         });
+                         ::testing::Values(Case{"Corotated", Elasticity::kCorotated, {}},
+                                           Case{"NeoHookean", Elasticity::kNeoHookean, {}},
+                                           Case{"CorotatedSmoothed", Elasticity::kCorotated, {0.7, 1.0}},
+                                           Case{"NeoHookeanSmoothed", Elasticity::kNeoHookean, {0.7, 1.0}}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(FemElasticity, IsTheEnergyOfProjectiveDynamics) {
   std::mt19937 random(3);
   const TetTopology topology = testing::sponge();
-  const FemElasticity fem(topology, Elasticity::kCorotated, kLame);
-  const CorotatedElasticity pd(topology.rest_vertices, topology.tets, kLame);
-  for (double disorder : {0.001, 0.01, 0.05}) {
-    const Points x = topology.rest_vertices + randomPoints(topology.rest_vertices.rows(), disorder, &random);
-    Points fem_gradient = Points::Zero(x.rows(), 3), pd_gradient = fem_gradient;
-    const double energy = pd.addTo(x, &pd_gradient);
-    EXPECT_NEAR(fem.addTo(x, &fem_gradient), energy, 1e-9 * energy);
-    EXPECT_LT((fem_gradient - pd_gradient).norm(), 1e-7 * pd_gradient.norm());
+  for (const Smoothing& smoothing :
+       {Smoothing(0.0), Smoothing(0.7), Smoothing(0.7, 1.0), Smoothing(0.0, 1.0)}) {
+    const FemElasticity fem(topology, Elasticity::kCorotated, kLame, smoothing);
+    const CorotatedElasticity pd(topology.rest_vertices, topology.tets, kLame, smoothing);
+    for (double disorder : {0.001, 0.01, 0.05}) {
+      const Points x =
+          topology.rest_vertices + randomPoints(topology.rest_vertices.rows(), disorder, &random);
+      Points fem_gradient = Points::Zero(x.rows(), 3), pd_gradient = fem_gradient;
+      const double energy = pd.addTo(x, &pd_gradient);
+      EXPECT_NEAR(fem.addTo(x, &fem_gradient), energy, 1e-9 * energy);
+      EXPECT_LT((fem_gradient - pd_gradient).norm(), 1e-7 * pd_gradient.norm());
+    }
   }
 }
 
@@ -134,7 +146,8 @@ TEST(FemSolver, NewtonConvergesQuadratically) {
   goal.col(2) += 3.0 * goal.col(0).cwiseAbs2();  // a bend
   potential.targets.set(testing::vertexTargets(topology, goal), topology.tets, 30.0);
   const auto gradientAfter = [&](int iterations) {
-    FemSolver solver(topology, Elasticity::kNeoHookean, lameParameters(2e4, 0.3), {iterations, 0.0});
+    FemSolver solver(topology, Elasticity::kNeoHookean, lameParameters(2e4, 0.3), {0.7, 1.0},
+                     {iterations, 0.0});
     Points x = topology.rest_vertices, gradient(count, 3);
     solver.minimize(potential, &x);
     potential.evaluate(x, &gradient);

@@ -70,14 +70,14 @@ void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
     const Eigen::Matrix3d curvature = spring.normal.isZero(0.0)
                                           ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
                                           : Eigen::Matrix3d(spring.normal * spring.normal.transpose());
-    BlockTetMatrix::TetBlock block;
+    Eigen::MatrixXd block(12, 12);
     for (Eigen::Index a = 0; a < 4; ++a) {
       for (Eigen::Index b = 0; b < 4; ++b) {
         block.block<3, 3>(3 * a, 3 * b) =
             spring.stiffness * spring.barycentric[a] * spring.barycentric[b] * curvature;
       }
     }
-    matrix->addToTet(spring.tet, block);
+    matrix->addToGroup(static_cast<std::size_t>(spring.tet), block);
   }
 }
 

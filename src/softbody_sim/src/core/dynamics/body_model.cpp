@@ -37,9 +37,10 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
                                        const SimulatorConfig& config, double edge_length) {
   requireConsistent(config);
   const Lame lame = lameParameters(material.youngs_modulus_pa, material.poisson_ratio);
+  const Smoothing smoothing(config.strain_smoothing, config.volume_smoothing);
   const double tolerance_m = config.tolerance * edge_length;
   if (config.solver == SolverKind::kFem) {
-    return std::make_unique<FemSolver>(topology, config.elasticity, lame,
+    return std::make_unique<FemSolver>(topology, config.elasticity, lame, smoothing,
                                        FemSolver::Options{config.iterations, tolerance_m});
   }
   ProjectiveDynamicsOptions options;
@@ -48,7 +49,7 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
   options.minimizer.history = config.lbfgs_history;
   options.single_precision = config.single_precision;
   options.simd = simdFromName(config.simd);
-  options.strain_smoothing = config.strain_smoothing;
+  options.smoothing = smoothing;
   return std::make_unique<ProjectiveDynamics>(topology, lame, options);
 }
 

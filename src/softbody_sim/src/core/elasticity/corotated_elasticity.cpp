@@ -16,17 +16,18 @@ double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix
 }
 
 CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
-                                         double smoothing)
+                                         const Smoothing& smoothing)
     : tets_(tets),
       inverse_edges_(tets.rows(), 9),
       volumes_(positiveVolumes(rest_vertices, tets)),
       lame_(lame),
-      smoothing_(smoothing) {
+      tet_share_(softbody::tetShare(lame, smoothing)),
+      patch_share_(softbody::patchShare(lame, smoothing)) {
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     const Eigen::Matrix3d inverse = edgesOf(rest_vertices, tets.row(t)).inverse();
     inverse_edges_.row(t) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(inverse.data());
   }
-  if (smoothing_ > 0.0) smoothed_ = smoothedGradients(rest_vertices, tets);
+  if (patch_share_.volume > 0.0) smoothed_ = smoothedGradients(rest_vertices, tets);
 }
 
 Eigen::Matrix3d CorotatedElasticity::inverseEdges(Eigen::Index t) const {
@@ -43,8 +44,8 @@ double CorotatedElasticity::addTets(const Points& x, Points* gradient) const {
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
     const Eigen::Matrix3d inverse = inverseEdges(t);
     Eigen::Matrix3d stress;
-    const double volume = (1.0 - smoothing_) * volumes_[t];
-    energy += volume * corotatedEnergy(edgesOf(x, tets_.row(t)) * inverse, lame_, &stress);
+    const double volume = tet_share_.volume * volumes_[t];
+    energy += volume * corotatedEnergy(edgesOf(x, tets_.row(t)) * inverse, tet_share_.lame, &stress);
     const Eigen::Matrix3d forces = volume * stress * inverse.transpose();
     for (int k = 0; k < 3; ++k) gradient->row(tets_(t, k + 1)) += forces.col(k).transpose();
     gradient->row(tets_(t, 0)) -= (forces.col(0) + forces.col(1) + forces.col(2)).transpose();
@@ -58,8 +59,8 @@ double CorotatedElasticity::addSmoothed(const Points& x, Points* gradient) const
     Eigen::Matrix3d F = Eigen::Matrix3d::Zero(), stress;
     for (int e = smoothed_.first[v]; e < smoothed_.first[v + 1]; ++e)
       F += x.row(smoothed_.vertices[e]).transpose() * smoothed_.gradients.row(e);
-    const double volume = smoothing_ * smoothed_.volumes[v];
-    energy += volume * corotatedEnergy(F, lame_, &stress);
+    const double volume = patch_share_.volume * smoothed_.volumes[v];
+    energy += volume * corotatedEnergy(F, patch_share_.lame, &stress);
     for (int e = smoothed_.first[v]; e < smoothed_.first[v + 1]; ++e)
       gradient->row(smoothed_.vertices[e]) += volume * smoothed_.gradients.row(e) * stress.transpose();
   }

@@ -15,13 +15,12 @@ namespace softbody {
 double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix3d* stress);
 
 /// Elastic energy of linear tets. A fraction of it uses strains smoothed around the vertices, which reduces
-/// locking (the alpha finite element method of Liu, Nguyen-Thoi, Lam 2008).
+/// locking.
 class CorotatedElasticity {
  public:
-  /// @param smoothing fraction of the energy with smoothed strains, in [0, 1).
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
   CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
-                      double smoothing = 0.0);
+                      const Smoothing& smoothing = {});
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
@@ -32,8 +31,8 @@ class CorotatedElasticity {
 
   const Eigen::Matrix<int, Eigen::Dynamic, 4>& tets() const { return tets_; }
   const Eigen::VectorXd& volumes() const { return volumes_; }  ///< [m^3]
-  const Lame& lame() const { return lame_; }
-  double smoothing() const { return smoothing_; }
+  const EnergyShare& tetShare() const { return tet_share_; }
+  const EnergyShare& patchShare() const { return patch_share_; }
   const SmoothedGradients& smoothed() const { return smoothed_; }  ///< empty without smoothing
 
  private:
@@ -46,7 +45,7 @@ class CorotatedElasticity {
       inverse_edges_;  ///< of the rest edge matrices, column by column [1/m]
   Eigen::VectorXd volumes_;
   Lame lame_;
-  double smoothing_;
+  EnergyShare tet_share_, patch_share_;
   SmoothedGradients smoothed_;
 };
 

@@ -28,10 +28,10 @@ std::size_t blockCount(Eigen::Index tet_count) {
 template <typename T>
 ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const CorotatedElasticity& elasticity, Simd simd)
     : blocks_(blockCount(elasticity.tets().rows())),
-      mu_(static_cast<T>(elasticity.lame().mu)),
-      lambda_(static_cast<T>(elasticity.lame().lambda)),
+      mu_(static_cast<T>(elasticity.tetShare().lame.mu)),
+      lambda_(static_cast<T>(elasticity.tetShare().lame.lambda)),
       kernel_(elasticityKernel<T>(simd)) {
-  const double smoothing = elasticity.smoothing();
+  const double share = elasticity.tetShare().volume;
   const auto count = static_cast<Eigen::Index>(blocks_.size());
   for (Eigen::Index i = 0; i < count * TetBlock<T>::kLanes; ++i) {
     // Neighbouring tets go into different blocks: sums into the same vertex would wait for each other. Unused
@@ -46,9 +46,10 @@ ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const CorotatedElas
         block.inverse_edges[k][lane] = static_cast<T>(inverse(row, column));
     }
     for (int k = 0; k < 4; ++k) block.corners[k][lane] = 4 * tet[k];
-    block.volume[lane] = i == t ? static_cast<T>((1.0 - smoothing) * elasticity.volumes()[t]) : T{0};
+    block.volume[lane] = i == t ? static_cast<T>(share * elasticity.volumes()[t]) : T{0};
   }
-  if (smoothing > 0.0) patches_.emplace(elasticity.smoothed(), smoothing, elasticity.lame(), simd);
+  if (elasticity.patchShare().volume > 0.0)
+    patches_.emplace(elasticity.smoothed(), elasticity.patchShare(), simd);
 }
 
 template class ElasticBlocks<float>;

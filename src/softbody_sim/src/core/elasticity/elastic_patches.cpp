@@ -15,11 +15,10 @@ std::ptrdiff_t entryOf(const SmoothedGradients& smoothed, int vertex, int neighb
 }  // namespace
 
 template <typename T>
-ElasticPatches<T>::ElasticPatches(const SmoothedGradients& smoothed, double share, const Lame& lame,
-                                  Simd simd)
+ElasticPatches<T>::ElasticPatches(const SmoothedGradients& smoothed, const EnergyShare& share, Simd simd)
     : first_(smoothed.first),
-      mu_(static_cast<T>(lame.mu)),
-      lambda_(static_cast<T>(lame.lambda)),
+      mu_(static_cast<T>(share.lame.mu)),
+      lambda_(static_cast<T>(share.lame.lambda)),
       kernel_(smoothingKernel<T>(simd)) {
   const auto count = static_cast<int>(smoothed.volumes.size());
   for (int v = 0; v < count; ++v) {
@@ -32,7 +31,7 @@ ElasticPatches<T>::ElasticPatches(const SmoothedGradients& smoothed, double shar
         gradients_there_.push_back(static_cast<T>(smoothed.gradients(there, k)));
       }
     }
-    volumes_.push_back(static_cast<T>(share * smoothed.volumes[v]));
+    volumes_.push_back(static_cast<T>(share.volume * smoothed.volumes[v]));
   }
   volumes_.resize(static_cast<std::size_t>(paddedRows(count)), T{0});
   for (std::size_t v = 0; v < volumes_.size(); ++v) columns_.push_back(12 * static_cast<int>(v));

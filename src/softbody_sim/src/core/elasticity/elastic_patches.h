@@ -13,8 +13,7 @@ namespace softbody {
 template <typename T>
 class ElasticPatches {
  public:
-  /// @param share fraction of the volume, above 0.
-  ElasticPatches(const SmoothedGradients& smoothed, double share, const Lame& lame, Simd simd);
+  ElasticPatches(const SmoothedGradients& smoothed, const EnergyShare& share, Simd simd);
 
   /// Energy [J]; adds its gradient [N].
   double addTo(const Rows<T>& x, Rows<T>* gradient);

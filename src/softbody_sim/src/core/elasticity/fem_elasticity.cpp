@@ -57,47 +57,70 @@ Matrix9 densityHessian(const IsotropicEnergy& density, const PrincipalAxes& axes
 
 }  // namespace
 
-FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame)
-    : elasticity_(elasticity), lame_(lame) {
+FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
+                             const Smoothing& smoothing)
+    : elasticity_(elasticity) {
+  const EnergyShare share = tetShare(lame, smoothing);
   const Eigen::VectorXd volumes = positiveVolumes(topology.rest_vertices, topology.tets);
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
     const Eigen::RowVector4i tet = topology.tets.row(t);
-    elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()), volumes[t]});
+    elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()),
+                         share.volume * volumes[t], share.lame});
+  }
+  if (smoothing.strain > 0.0 || smoothing.volume > 0.0) addPatches(topology, patchShare(lame, smoothing));
+}
+
+void FemElasticity::addPatches(const TetTopology& topology, const EnergyShare& share) {
+  const SmoothedGradients smoothed = smoothedGradients(topology.rest_vertices, topology.tets);
+  for (Eigen::Index v = 0; v < smoothed.volumes.size(); ++v) {
+    const int first = smoothed.first[v], count = smoothed.first[v + 1] - first;
+    elements_.push_back({Eigen::Map<const Eigen::VectorXi>(smoothed.vertices.data() + first, count),
+                         smoothed.gradients.middleRows(first, count), share.volume * smoothed.volumes[v],
+                         share.lame});
   }
 }
 
+std::vector<Eigen::VectorXi> FemElasticity::groups() const {
+  std::vector<Eigen::VectorXi> groups;
+  for (const Element& element : elements_) groups.push_back(element.vertices);
+  return groups;
+}
+
 Eigen::Matrix3d FemElasticity::deformationGradient(const Element& element, const Points& x) const {
-  Eigen::Matrix<double, 3, 4> corners;
-  for (int k = 0; k < 4; ++k) corners.col(k) = x.row(element.vertices[k]).transpose();
-  return corners * element.shape_gradients;
+  Eigen::Matrix3d F = Eigen::Matrix3d::Zero();
+  for (Eigen::Index k = 0; k < element.vertices.size(); ++k)
+    F += x.row(element.vertices[k]).transpose() * element.shape_gradients.row(k);
+  return F;
 }
 
 double FemElasticity::addTo(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (const Element& element : elements_) {
     const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
-    const IsotropicEnergy density = isotropicEnergy(elasticity_, axes.stretches, lame_);
+    const IsotropicEnergy density = isotropicEnergy(elasticity_, axes.stretches, element.lame);
     energy += element.volume * density.energy;
     const Eigen::Matrix3d stress = axes.U * density.gradient.asDiagonal() * axes.V.transpose();
-    const Eigen::Matrix<double, 4, 3> forces = element.volume * element.shape_gradients * stress.transpose();
-    for (int k = 0; k < 4; ++k) gradient->row(element.vertices[k]) += forces.row(k);
+    for (Eigen::Index k = 0; k < element.vertices.size(); ++k)
+      gradient->row(element.vertices[k]) +=
+          element.volume * element.shape_gradients.row(k) * stress.transpose();
   }
   return energy;
 }
 
 void FemElasticity::addHessian(const Points& x, BlockTetMatrix* matrix, bool project) const {
-  for (std::size_t t = 0; t < elements_.size(); ++t) {
-    const Element& element = elements_[t];
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Element& element = elements_[e];
     const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
-    const Matrix9 H = densityHessian(isotropicEnergy(elasticity_, axes.stretches, lame_), axes, project);
-    // d vec(F) / d corners: column 3 a + c moves component c of corner a.
-    Eigen::Matrix<double, 9, 12> B = Eigen::Matrix<double, 9, 12>::Zero();
-    for (int a = 0; a < 4; ++a) {
+    const Matrix9 H =
+        densityHessian(isotropicEnergy(elasticity_, axes.stretches, element.lame), axes, project);
+    // d vec(F) / d vertices: column 3 a + c moves component c of vertex a.
+    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(9, 3 * element.vertices.size());
+    for (Eigen::Index a = 0; a < element.vertices.size(); ++a) {
       for (int j = 0; j < 3; ++j) {
         for (int c = 0; c < 3; ++c) B(3 * j + c, 3 * a + c) = element.shape_gradients(a, j);
       }
     }
-    matrix->addToTet(static_cast<int>(t), element.volume * B.transpose() * H * B);
+    matrix->addToGroup(e, element.volume * B.transpose() * H * B);
   }
 }
 

@@ -4,33 +4,42 @@
 #include <vector>
 
 #include "elasticity/isotropic_energy.h"
+#include "elasticity/strain_smoothing.h"
 #include "softbody_common/types.h"
 #include "tets/block_tet_matrix.h"
 
 namespace softbody {
 
-/// Elastic energy of linear tets with its gradient and Hessian (Kang et al. 2022, section 5.1).
+/// Elastic energy of linear tets with its gradient and Hessian (Kang et al. 2022, section 5.1). A fraction of
+/// it uses strains smoothed around the vertices, which reduces locking.
 class FemElasticity {
  public:
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
-  FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame);
+  FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
+                const Smoothing& smoothing = {});
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
 
-  /// Adds the Hessian. @param project projects each tet's Hessian onto the positive semidefinite matrices.
+  /// The vertices that the Hessian couples: of each tet, then of each patch of smoothed strains.
+  std::vector<Eigen::VectorXi> groups() const;
+
+  /// Adds the Hessian. @param matrix couples groups(); @param project projects the Hessian of each tet and
+  /// patch onto the positive semidefinite matrices.
   void addHessian(const Points& x, BlockTetMatrix* matrix, bool project = true) const;
 
  private:
+  /// A tet, or the tets around a vertex.
   struct Element {
-    Eigen::Vector4i vertices;
-    Eigen::Matrix<double, 4, 3> shape_gradients;  ///< of the four shape functions [1/m]
-    double volume;                                ///< [m^3]
+    Eigen::VectorXi vertices;
+    Eigen::MatrixX3d shape_gradients;  ///< of the vertices' shape functions, averaged over the volume [1/m]
+    double volume;                     ///< [m^3]
+    Lame lame;
   };
+  void addPatches(const TetTopology& topology, const EnergyShare& share);
   Eigen::Matrix3d deformationGradient(const Element& element, const Points& x) const;
 
   Elasticity elasticity_;
-  Lame lame_;
   std::vector<Element> elements_;
 };
 

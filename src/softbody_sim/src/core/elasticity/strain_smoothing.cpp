@@ -9,6 +9,17 @@
 
 namespace softbody {
 
+EnergyShare tetShare(const Lame& lame, const Smoothing& smoothing) {
+  const double share = 1.0 - smoothing.strain;
+  return {share, {lame.mu, lame.lambda * ((1.0 - smoothing.volume) / share)}};
+}
+
+EnergyShare patchShare(const Lame& lame, const Smoothing& smoothing) {
+  const double share = smoothing.strain > 0.0 ? smoothing.strain : smoothing.volume;
+  if (share == 0.0) return {0.0, lame};
+  return {share, {lame.mu * (smoothing.strain / share), lame.lambda * (smoothing.volume / share)}};
+}
+
 SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tets) {
   const Eigen::Index count = rest_vertices.rows();
   const Eigen::VectorXd tet_volumes = tetVolumes(rest_vertices, tets);

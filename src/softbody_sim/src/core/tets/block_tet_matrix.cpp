@@ -14,27 +14,27 @@ void addBlock(int row_vertex, int column_vertex, std::vector<Eigen::Triplet<doub
 
 }  // namespace
 
-BlockTetMatrix::BlockTetMatrix(const Tets& tets, Eigen::Index vertex_count)
+BlockTetMatrix::BlockTetMatrix(const std::vector<Eigen::VectorXi>& groups, Eigen::Index vertex_count)
     : lower_(3 * vertex_count, 3 * vertex_count) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int v = 0; v < vertex_count; ++v) addBlock(v, v, &entries);
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b < a; ++b)
-        addBlock(std::max(tets(t, a), tets(t, b)), std::min(tets(t, a), tets(t, b)), &entries);
+  for (const Eigen::VectorXi& group : groups) {
+    for (Eigen::Index a = 0; a < group.size(); ++a) {
+      for (Eigen::Index b = 0; b < a; ++b)
+        addBlock(std::max(group[a], group[b]), std::min(group[a], group[b]), &entries);
     }
   }
   lower_.setFromTriplets(entries.begin(), entries.end());
   lower_.makeCompressed();
 
-  slots_.resize(static_cast<std::size_t>(tets.rows()));
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    int k = 0;
-    for (int a = 0; a < 4; ++a) {
+  slots_.reserve(groups.size());
+  for (const Eigen::VectorXi& group : groups) {
+    std::vector<Slot>& slots = slots_.emplace_back();
+    for (int a = 0; a < group.size(); ++a) {
       for (int b = 0; b <= a; ++b) {
-        const bool in_order = tets(t, a) >= tets(t, b);
+        const bool in_order = group[a] >= group[b];
         const int row = in_order ? a : b, column = in_order ? b : a;
-        slots_[t][k++] = slotOf(tets(t, row), tets(t, column), row, column);
+        slots.push_back(slotOf(group[row], group[column], row, column));
       }
     }
   }
@@ -59,8 +59,8 @@ void BlockTetMatrix::addToDiagonal(const Eigen::VectorXd& diagonal) {
     lower_.valuePtr()[lower_.outerIndexPtr()[i]] += diagonal[i / 3];  // a column starts with its diagonal
 }
 
-void BlockTetMatrix::addToTet(int tet, const TetBlock& block) {
-  for (const Slot& slot : slots_[static_cast<std::size_t>(tet)]) {
+void BlockTetMatrix::addToGroup(std::size_t group, const Eigen::MatrixXd& block) {
+  for (const Slot& slot : slots_[group]) {
     for (int c = 0; c < 3; ++c) {
       const int first = slot.a == slot.b ? c : 0;
       double* values = lower_.valuePtr() + slot.columns[c];

@@ -9,10 +9,10 @@ namespace softbody {
 struct FemSolver::Factor : Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> {};
 
 FemSolver::FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
-                     const Options& options)
-    : elasticity_(topology, elasticity, lame),
+                     const Smoothing& smoothing, const Options& options)
+    : elasticity_(topology, elasticity, lame, smoothing),
       options_(options),
-      hessian_(topology.tets, topology.rest_vertices.rows()),
+      hessian_(elasticity_.groups(), topology.rest_vertices.rows()),
       factor_(std::make_unique<Factor>()),
       gradient_(topology.rest_vertices.rows(), 3),
       direction_(gradient_),

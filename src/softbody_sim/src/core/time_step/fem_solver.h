@@ -19,7 +19,8 @@ class FemSolver : public StepSolver {
   };
 
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
-  FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame, const Options& options);
+  FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame, const Smoothing& smoothing,
+            const Options& options);
   ~FemSolver() override;
 
   StepReport minimize(const IncrementalPotential& potential, Points* x) override;

@@ -111,7 +111,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
 
 ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const Lame& lame,
                                        const ProjectiveDynamicsOptions& options)
-    : elasticity_(topology.rest_vertices, topology.tets, lame, options.strain_smoothing) {
+    : elasticity_(topology.rest_vertices, topology.tets, lame, options.smoothing) {
   if (options.single_precision)
     implementation_ = std::make_unique<InPrecision<float>>(topology, elasticity_, options);
   else

@@ -13,7 +13,7 @@ struct ProjectiveDynamicsOptions {
   MinimizerOptions minimizer;
   bool single_precision = false;  ///< twice as fast, positions accurate to about 0.1 um
   Simd simd = Simd::kAuto;
-  double strain_smoothing = 0.0;  ///< as in CorotatedElasticity
+  Smoothing smoothing;
 };
 
 /// Projective dynamics (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz,

@@ -166,7 +166,7 @@ TEST_F(CutElasticity, PiecesInFlightGoWhereTheirInertiaTakesThem) {
   ProjectiveDynamicsOptions options;
   options.minimizer.max_iterations = 500;
   options.minimizer.tolerance_m = 1e-9;
-  options.strain_smoothing = kSmoothing;
+  options.smoothing = kSmoothing;
   Points x = potential.prediction + randomPoints(count_, 2e-3, &random_);
   ProjectiveDynamics(body_, kLame, options).minimize(potential, &x);
   EXPECT_LT((x - potential.prediction).cwiseAbs().maxCoeff(), 1e-7);
