@@ -2,6 +2,7 @@
 from markdown_lines import paragraph, table
 
 from validation.comparisons import agreement_rows, bending_rows, formulation_rows, prism_rows, recovery_rows
+from validation.friction import friction_rows
 from validation.incompressible import RATIOS, incompressible_rows
 from validation.refinement import SMOOTHED, STUDIES, smoothing_rows
 
@@ -64,6 +65,12 @@ def energy_sections():
                        "are not smoothed. Corotated elasticity preserves volume only to first order."), "",
             *table(["solver", "deflection [mm]", "volume change [%]"],
                    [(name, f"{deflection:.1f}", f"{change:+.2f}") for name, deflection, change in bending_rows()]),
+            "## Friction", "",
+            *paragraph("A block of 80 x 80 x 40 mm lies on an incline. It slides if it moves by more than 1 mm in one "
+                       "second. Bisection finds the angle at which it starts. The reference is the arc tangent of the "
+                       "coefficient of friction. The last column is the largest move in a second at 98 % of the "
+                       "reference's slope, where the block should stick."), "",
+            *table(["solver", "coefficient", "angle [degrees]", "angle / reference", "creep [mm]"], friction_rows()),
             "## Recovery", "",
             *paragraph("A free sponge (300 tets) starts flat, mirrored through a point, or with random vertices. It "
                        "is simulated for 150 steps of 1/30 s. The columns \"first\" and \"last\" give the elastic "

@@ -51,6 +51,7 @@ ObstacleDescription fromMessage(const softbody_msgs::SetObstacleRequest& request
   map["pose"] = std::vector<double>{p.x, p.y, p.z, q.x, q.y, q.z, q.w};
   map[request.shape == "box" ? "rounding_m" : "radius_m"] = request.radius;
   map["length_m"] = request.length;
+  map["friction"] = request.friction;
   map["size_m"] = std::vector<double>{request.size.x, request.size.y, request.size.z};
   Parameters parameters(map, "obstacle '" + request.name + "': ");
   return readObstacle(parameters);

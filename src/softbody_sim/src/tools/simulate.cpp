@@ -26,7 +26,7 @@ struct Options {
   std::vector<double> gravity{0.0, 0.0, 0.0};
   std::vector<std::string> pins;
   std::vector<std::vector<std::string>> region_loads;
-  double ground = std::numeric_limits<double>::quiet_NaN();
+  double ground = std::numeric_limits<double>::quiet_NaN(), friction = 0.0;
   bool until_rest = false;
   int steps = 100;
   std::optional<int> iterations;
@@ -71,6 +71,10 @@ void addProblemOptions(CLI::App& app, Options& o) {
   app.add_option("--loads", o.loads, "CSV file with rows vertex,fx,fy,fz [N]; the first vertex is 0")
       ->check(CLI::ExistingFile);
   app.add_option("--ground", o.ground, "height z [m] of a ground plane");
+  app.add_option("--friction", o.friction, "coefficient of Coulomb friction of the ground plane")
+      ->check(CLI::Range(0.0, 10.0))
+      ->needs("--ground")
+      ->capture_default_str();
   app.add_option("--start", o.start, "initial shape")
       ->check(CLI::IsMember({"rest", "flat", "inside_out", "random"}))
       ->capture_default_str();
@@ -177,6 +181,7 @@ Surroundings surroundingsOf(const Options& o, const Points& rest) {
   if (!std::isnan(o.ground)) {
     surroundings.obstacles = {Obstacle::plane()};
     surroundings.obstacles[0].pose.translation().z() = o.ground;
+    surroundings.obstacles[0].friction = o.friction;
   }
   return surroundings;
 }

@@ -84,13 +84,16 @@ TEST(AddEarlierContacts, AddsContactsThatWereNotFoundAgainInOrder) {
   }
 }
 
-TEST(OneSidedSprings, GradientAndHessianMatchDifferences) {
+/// Of contacts and their friction.
+TEST(ContactSprings, GradientAndHessianMatchDifferences) {
   const TetTopology topology = testing::boxTopology({2, 2, 1}, {0.04, 0.04, 0.02});
   std::mt19937 random(5);
   TargetEnergy springs;
   for (const ContactPoint& point : sampleContactPoints(topology, 0.015)) {
     springs.addOneSided(point.place, topology.tets, randomPoints(1, 0.03, &random).transpose(),
                         randomPoints(1, 1.0, &random).transpose(), 300.0);
+    springs.addFriction(point.place, topology.tets, randomPoints(1, 0.03, &random).transpose(),
+                        randomPoints(1, 1.0, &random).transpose(), 300.0, 300.0 * 0.03);  // some slide
   }
   const Points& x = topology.rest_vertices;
   const auto gradientAt = [&](const Points& at) {

@@ -143,6 +143,37 @@ TEST_P(UnderBothSolvers, AToolAtOneMetrePerSecondDoesNotPassThrough) {
   }
 }
 
+/// On an incline just flatter and just steeper than the angle of friction. The plane stays level, gravity
+/// turns.
+TEST_P(UnderBothSolvers, ABlockSlidesAtTheAngleOfFriction) {
+  constexpr double kFriction = 0.5;
+  constexpr int kFrames = 30;
+  if (GetParam() == SolverKind::kFem) config_.iterations = 50;
+  topology_ = testing::boxTopology({3, 3, 2}, {0.06, 0.06, 0.04});
+  material_ = {1e6, 0.3, 1000.0, 0.0};
+  for (const double slope : {0.98 * kFriction, 1.02 * kFriction}) {
+    const double angle = std::atan(slope), along = kGravity * std::sin(angle),
+                 across = kGravity * std::cos(angle);
+    config_.gravity = {along, 0.0, -across};
+    Simulator simulator(topology_, material_, config_);
+    place(&simulator);
+    Surroundings surroundings;
+    surroundings.obstacles = {Obstacle::plane()};
+    surroundings.obstacles[0].friction = kFriction;
+    for (int frame = 1; frame <= kFrames; ++frame) simulator.step({}, frame * kFrame, surroundings);
+    const double moved = (simulator.state().vertices - topology_.rest_vertices).col(0).mean();
+    const double time_s = 1e-9 * kFrames * kFrame,
+                 slides = 0.5 * (along - kFriction * across) * time_s * time_s;
+    if (slope < kFriction)
+      EXPECT_LT(moved, 1e-4);
+    else
+      EXPECT_NEAR(moved, slides, 0.2 * slides);
+    const double friction = std::min(along / across, kFriction);
+    const Eigen::Vector3d force = simulator.reactions().obstacles[0].force;
+    EXPECT_NEAR(force.x(), -friction * force.z(), 0.01 * -force.z());
+  }
+}
+
 TEST_P(UnderBothSolvers, ATableThatJumpsMovesTheBody) {
   config_.gravity.setZero();
   Simulator simulator(topology_, material_, config_);

@@ -10,6 +10,7 @@ struct Obstacle {
   bool half_space = false;                                 ///< everything below the xy plane of its frame
   Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();  ///< of the box, along its frame's axes [m]
   double radius = 0.0;                                     ///< [m]
+  double friction = 0.0;                                   ///< coefficient of Coulomb friction
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< its frame in the targets' frame
 
   static Obstacle plane();

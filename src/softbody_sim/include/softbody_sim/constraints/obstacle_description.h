@@ -15,8 +15,8 @@ struct ObstacleDescription {
   Obstacle shape;     ///< its pose is in that frame
 };
 
-/// One obstacle: a map with name, frame, shape (plane, sphere, capsule or box), pose, and the sizes of its
-/// shape (radius_m, length_m, size_m, rounding_m).
+/// One obstacle: a map with name, frame, shape (plane, sphere, capsule or box), pose, friction, and the
+/// sizes of its shape (radius_m, length_m, size_m, rounding_m).
 /// @throw std::invalid_argument with key, value and allowed values.
 ObstacleDescription readObstacle(Parameters& map);
 

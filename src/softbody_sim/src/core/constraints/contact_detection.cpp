@@ -140,7 +140,8 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
       if (surface.distance > reach_m) continue;
       contacts->push_back({static_cast<int>(p), static_cast<int>(o),
                            obstacle.pose * (meeting - surface.distance * surface.normal),
-                           obstacle.pose.linear() * surface.normal});
+                           obstacle.pose.linear() * surface.normal, obstacle.pose * start,
+                           std::max(0.0, -distanceTo(obstacle, start).distance), obstacle.friction});
     }
   }
 }

@@ -23,6 +23,10 @@ struct Contact {
   int obstacle = -1;                                   ///< index into the obstacles
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the obstacle's surface [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< outward
+  Eigen::Vector3d anchor =
+      Eigen::Vector3d::Zero();  ///< where the obstacle carries the point if it sticks [m]
+  double depth = 0.0;     ///< that gives the largest force of friction; found at the start of the step [m]
+  double friction = 0.0;  ///< coefficient
 };
 
 /// One contact for each pair of point and obstacle closer than `reach_m`, sorted by obstacle, then by point.

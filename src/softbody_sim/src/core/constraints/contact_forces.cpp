@@ -23,9 +23,38 @@ void ContactForces::find(const Points& before, const Points& now, const std::vec
 void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const {
   for (const Contact& contact : contacts) {
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
-    springs->addOneSided(point.place, topology_->tets, contact.position, contact.normal,
-                         pressure_stiffness_ * point.area);
+    const double stiffness = stiffnessOf(contact);
+    springs->addOneSided(point.place, topology_->tets, contact.position, contact.normal, stiffness);
+    if (contact.friction > 0.0)
+      springs->addFriction(point.place, topology_->tets, contact.anchor, contact.normal, stiffness,
+                           contact.friction * stiffness * contact.depth);
   }
+}
+
+bool ContactForces::updateFriction(const Points& x, std::vector<Contact>* contacts) const {
+  constexpr double kNoticeable = 0.01;
+  double total = 0.0, change = 0.0;
+  for (Contact& contact : *contacts) {
+    if (contact.friction == 0.0) continue;
+    const double depth = depthOf(contact, x);
+    total += stiffnessOf(contact) * depth;
+    change += stiffnessOf(contact) * std::abs(depth - contact.depth);
+    contact.depth = depth;
+  }
+  return change > kNoticeable * total;
+}
+
+double ContactForces::stiffnessOf(const Contact& contact) const {
+  return pressure_stiffness_ * points_[static_cast<std::size_t>(contact.point)].area;
+}
+
+/// The force on the body.
+Eigen::Vector3d ContactForces::frictionOf(const Contact& contact, const Points& x) const {
+  const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
+  Eigen::Vector3d offset = positionOf(point.place, x, topology_->tets) - contact.anchor;
+  offset -= contact.normal.dot(offset) * contact.normal;
+  const double slide = contact.friction * contact.depth, length = offset.norm();
+  return -stiffnessOf(contact) * (length > slide ? slide / length : 1.0) * offset;
 }
 
 double ContactForces::depthOf(const Contact& contact, const Points& x) const {
@@ -54,7 +83,8 @@ void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points&
   for (const Contact& contact : contacts) {
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    const Eigen::Vector3d force = -pressure_stiffness_ * point.area * depthOf(contact, x) * contact.normal;
+    Eigen::Vector3d force = -pressure_stiffness_ * point.area * depthOf(contact, x) * contact.normal;
+    if (contact.friction > 0.0) force -= frictionOf(contact, x);
     const Eigen::Vector3d arm =
         positionOf(point.place, x, topology_->tets) - obstacles[obstacle].pose.translation();
     (*wrenches)[obstacle].force += force;

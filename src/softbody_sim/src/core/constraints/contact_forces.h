@@ -8,7 +8,9 @@
 
 namespace softbody {
 
-/// Frictionless contact by one-sided springs: a penetration depth d gives the pressure k d.
+/// Contact by one-sided springs: a penetration depth d gives the pressure k d. Friction obeys Coulomb's law:
+/// a point sticks to the obstacle up to the coefficient times the force of its contact, then it slides.
+/// Sticking is a spring too, to the point's place at the start of the step.
 class ContactForces {
  public:
   /// @param topology outlives this; @param pressure_stiffness k [Pa/m]; @param reach_m larger distances are
@@ -22,6 +24,9 @@ class ContactForces {
 
   void addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const;
 
+  /// Friction from the depths at x from now on. @return whether the forces of friction change noticeably.
+  bool updateFriction(const Points& x, std::vector<Contact>* contacts) const;
+
   /// Largest difference between two lists in a point's penetration depth [m]. Both are ordered as by
   /// findContacts.
   double largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
@@ -33,6 +38,8 @@ class ContactForces {
 
  private:
   double depthOf(const Contact& contact, const Points& x) const;
+  double stiffnessOf(const Contact& contact) const;
+  Eigen::Vector3d frictionOf(const Contact& contact, const Points& x) const;
 
   const TetTopology* topology_;
   std::vector<ContactPoint> points_;

@@ -65,6 +65,7 @@ ObstacleDescription readObstacle(Parameters& map) {
   requireTopicName(obstacle.name);
   obstacle.frame = map.text("frame", "");
   obstacle.shape = readShape(map, obstacle.name);
+  obstacle.shape.friction = map.number("friction", 0.0, 0.0, 10.0);
   obstacle.shape.pose = readPose(map, obstacle.name);
   return obstacle;
 }

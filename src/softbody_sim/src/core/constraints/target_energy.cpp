@@ -15,6 +15,24 @@ TetVector metricVector(const Spring& spring, double stiffness) {
   return {spring.vertices, std::sqrt(stiffness) * spring.barycentric};
 }
 
+/// Force relative to that of a spring that never slides. @param offset as it costs energy [m].
+double holdOf(const Spring& spring, const Eigen::Vector3d& offset) {
+  const double length = offset.norm();
+  return spring.isFriction() && length > spring.slide_m ? spring.slide_m / length : 1.0;
+}
+
+/// Stiffness matrix, relative to the stiffness. @param offset as it costs energy [m].
+Eigen::Matrix3d curvatureOf(const Spring& spring, const Eigen::Vector3d& offset) {
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  if (spring.normal.isZero(0.0)) return identity;
+  const Eigen::Matrix3d along = spring.normal * spring.normal.transpose();
+  if (!spring.isFriction()) return along;
+  const double hold = holdOf(spring, offset);
+  if (hold == 1.0) return identity - along;
+  const Eigen::Vector3d direction = offset.normalized();
+  return hold * (identity - along - direction * direction.transpose());
+}
+
 /// Whether one of the next `max_count` springs has the same place.
 bool soonFollows(SpringIterator first, SpringIterator end, const Spring& spring, std::size_t max_count) {
   const auto last = first + std::min<std::ptrdiff_t>(end - first, static_cast<std::ptrdiff_t>(max_count) + 1);
@@ -37,12 +55,20 @@ void TargetEnergy::addOneSided(const MaterialPoint& place, const Tets& tets, con
       {place.tet, tets.row(place.tet), place.barycentric, position, normal.normalized(), stiffness, true});
 }
 
+void TargetEnergy::addFriction(const MaterialPoint& place, const Tets& tets, const Eigen::Vector3d& anchor,
+                               const Eigen::Vector3d& normal, double stiffness, double largest_force) {
+  addOneSided(place, tets, anchor, normal, stiffness);
+  springs_.back().one_sided = false;
+  springs_.back().slide_m = largest_force / stiffness;
+}
+
 /// Offset of the point from the spring's position, as far as it costs energy [m].
 Eigen::Vector3d TargetEnergy::offsetOf(const Spring& spring, const Points& x) {
   Eigen::Vector3d offset = -spring.position;
   for (int k = 0; k < 4; ++k) offset += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
   if (spring.normal.isZero(0.0)) return offset;
   const double distance = spring.normal.dot(offset);
+  if (spring.isFriction()) return offset - distance * spring.normal;
   return (spring.one_sided ? std::min(distance, 0.0) : distance) * spring.normal;
 }
 
@@ -50,9 +76,11 @@ double TargetEnergy::addTo(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (const Spring& spring : springs_) {
     const Eigen::Vector3d offset = offsetOf(spring, x);
-    energy += 0.5 * spring.stiffness * offset.squaredNorm();
+    const double hold = holdOf(spring, offset);
+    energy += 0.5 * spring.stiffness * hold * (2.0 - hold) * offset.squaredNorm();
     for (int k = 0; k < 4; ++k) {
-      gradient->row(spring.vertices[k]) += spring.stiffness * spring.barycentric[k] * offset.transpose();
+      gradient->row(spring.vertices[k]) +=
+          spring.stiffness * hold * spring.barycentric[k] * offset.transpose();
     }
   }
   return energy;
@@ -66,10 +94,9 @@ void TargetEnergy::addMetric(TetMatrix* matrix) const {
 
 void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
   for (const Spring& spring : springs_) {
-    if (spring.one_sided && offsetOf(spring, x).isZero(0.0)) continue;
-    const Eigen::Matrix3d curvature = spring.normal.isZero(0.0)
-                                          ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                                          : Eigen::Matrix3d(spring.normal * spring.normal.transpose());
+    const Eigen::Vector3d offset = offsetOf(spring, x);
+    if (spring.one_sided && offset.isZero(0.0)) continue;
+    const Eigen::Matrix3d curvature = curvatureOf(spring, offset);
     Eigen::MatrixXd block(12, 12);
     for (Eigen::Index a = 0; a < 4; ++a) {
       for (Eigen::Index b = 0; b < 4; ++b) {

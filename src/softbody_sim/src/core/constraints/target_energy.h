@@ -11,7 +11,7 @@ namespace softbody {
 
 /// Springs between material points and their measured positions: k/2 |S x - p|^2, or k/2 (n . (S x - p))^2
 /// with a normal n. S interpolates barycentrically. Contacts are one-sided springs: they push along the
-/// normal and never pull.
+/// normal and never pull. The springs of friction act across their normal, and slide at a largest force.
 class TargetEnergy {
  public:
   struct Spring {
@@ -22,6 +22,10 @@ class TargetEnergy {
     Eigen::Vector3d normal;  ///< unit, or zero
     double stiffness;        ///< [N/m]
     bool one_sided = false;
+    double slide_m =
+        -1.0;  ///< of friction: offset at which the force no longer grows [m]; below 0: no friction
+
+    bool isFriction() const { return slide_m >= 0.0; }
   };
 
   /// Replaces all springs. Does not check the targets. @param unit_stiffness of a target of weight 1 [N/m].
@@ -30,6 +34,11 @@ class TargetEnergy {
   /// Adds a one-sided spring. It acts when its point is behind the plane through `position` with the normal.
   void addOneSided(const MaterialPoint& place, const Tets& tets, const Eigen::Vector3d& position,
                    const Eigen::Vector3d& normal, double stiffness);
+
+  /// Adds a spring of friction: it pulls the point back to `anchor`, in the plane with the normal, and with
+  /// `largest_force` [N] at most.
+  void addFriction(const MaterialPoint& place, const Tets& tets, const Eigen::Vector3d& anchor,
+                   const Eigen::Vector3d& normal, double stiffness, double largest_force);
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;

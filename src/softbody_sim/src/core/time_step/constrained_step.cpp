@@ -90,7 +90,10 @@ void ConstrainedStep::iterate(const Problem& problem, Points* x) {
     if (problem.surroundings.obstacles.empty()) return;
     findContacts(*x, problem, &found_);
     addEarlierContacts(contacts_, &found_);
-    if (contact_.largestDepthChange(contacts_, found_, *x) < options_.contact_tolerance_m) return;
+    const bool friction_changes = contact_.updateFriction(*x, &found_);
+    if (!friction_changes &&
+        contact_.largestDepthChange(contacts_, found_, *x) < options_.contact_tolerance_m)
+      return;
     if (round == kMaxRounds) {
       report.converged = false;
       return;

@@ -19,6 +19,8 @@ TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d&
   row.stiffness = static_cast<T>(spring.stiffness);
   row.has_normal = !spring.normal.isZero(0.0);
   row.one_sided = spring.one_sided;
+  row.slide = static_cast<T>(spring.slide_m);
+  row.is_friction = spring.isFriction();
   return row;
 }
 

@@ -1,6 +1,7 @@
 #include "time_step/potential_kernel.h"
 
 #include <algorithm>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "time_step/potential_kernel.cpp"
@@ -46,14 +47,20 @@ HWY_INLINE void addTarget(const TargetRow<T>& target, const T* x, T* gradient, R
   if (target.has_normal) {
     const Row<T> normal = Row<T>::load(target.normal);
     const T distance = offset.dot(normal);
-    offset = normal.times(target.one_sided ? std::min(distance, T{0}) : distance);
+    const Row<T> along = normal.times(target.one_sided ? std::min(distance, T{0}) : distance);
+    offset = target.is_friction ? offset.minus(along) : along;
   }
-  const Row<T> force = offset.times(target.stiffness);
+  T hold{1};  // force relative to that of a spring that never slides
+  if (target.is_friction) {
+    const T length = std::sqrt(offset.dot(offset));
+    if (length > target.slide) hold = target.slide / length;
+  }
+  const Row<T> force = offset.times(hold * target.stiffness);
   for (int k = 0; k < 4; ++k) {
     T* row = gradient + target.corners[k];
     Row<T>::load(row).plusProduct(target.barycentric[k], force).store(row);
   }
-  *energy = energy->plusProduct(force, offset);
+  *energy = energy->plusProduct(force.times(T{2} - hold), offset);
 }
 
 template <typename T>

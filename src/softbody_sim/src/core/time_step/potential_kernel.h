@@ -15,7 +15,9 @@ struct TargetRow {
   T normal[4];  ///< unit, or zero
   T stiffness;
   bool has_normal;
+  T slide;         ///< of friction: as TargetEnergy::Spring::slide_m
   bool one_sided;  ///< only pushes along the normal
+  bool is_friction;
 };
 
 /// View of an IncrementalPotential in rows (x, y, z, 0).

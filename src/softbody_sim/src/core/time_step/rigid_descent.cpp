@@ -54,6 +54,7 @@ void RigidDescent::addVertices(const IncrementalPotential& potential, const Poin
 
 void RigidDescent::addSprings(const TargetEnergy& targets, const Points& x) {
   for (const TargetEnergy::Spring& spring : targets.springs()) {
+    if (spring.isFriction()) continue;  // it gives way
     Motion& motion = motions_[piece_of_vertex_[static_cast<std::size_t>(spring.vertices[0])]];
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (int k = 0; k < 4; ++k) point += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
