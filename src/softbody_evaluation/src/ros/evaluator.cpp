@@ -28,6 +28,7 @@ constexpr char kToolPose[] = "/tool/pose", kTrueToolPose[] = "/ground_truth/tool
 struct Measured {
   Report report;
   Pictures pictures;
+  Film film;
 };
 
 std::string recordingOf(const EvaluatorOptions& options) {
@@ -78,6 +79,7 @@ void compareInCamera(const EvaluatorOptions& options, const std::string& recordi
   RecordingComparison comparison(options, *result_in_camera, truth_in_camera);
   readRecording(recording, options.camera, [&](const RecordedFrame& frame) { comparison.add(frame); });
   comparison.finish(&measured->report, &measured->pictures);
+  measured->film = comparison.film();
 }
 
 VolumeReport volumeOf(const SurfaceRecord& surface) {
@@ -143,12 +145,22 @@ void addOther(const Measured& other, Pictures* pictures) {
   for (const auto& [name, picture] : other.pictures) (*pictures)["other_" + name] = picture;
 }
 
+/// What the page says of a result. The captions of its film tell the tracker's state.
+JudgedResult judged(const std::string& name, const Measured& measured) {
+  JudgedResult result{name, judge(measured.report), measured.film};
+  for (FilmFrame& frame : result.film) {
+    const auto state = measured.report.state_of.find(frame.stamp);
+    if (state != measured.report.state_of.end()) frame.caption += ", " + state->second;
+  }
+  return result;
+}
+
 }  // namespace
 
 Report evaluate(const EvaluatorOptions& options) {
   const Measured measured = measure(options);
   if (!options.report_folder.empty()) {
-    const std::string page = htmlPage("Evaluation of " + options.result, tableRows(measured.report),
+    const std::string page = htmlPage({judged(options.result, measured)}, tableRows(measured.report),
                                       toText(measured.report), measured.pictures);
     writeReportFolder(options.report_folder, toJson(measured.report), page, measured.pictures);
   }
@@ -166,9 +178,9 @@ Comparison evaluateBoth(const EvaluatorOptions& options, const std::string& othe
     const std::vector<ComparedFigure> rows = compare(first.report, other.report);
     const std::string text =
         options.result + "\n" + toText(first.report) + "\n" + other_result + "\n" + toText(other.report);
-    writeReportFolder(options.report_folder, toJson(comparison),
-                      htmlPage(options.result + " beside " + other_result, rows, text, first.pictures),
-                      first.pictures);
+    const std::string page =
+        htmlPage({judged(options.result, first), judged(other_result, other)}, rows, text, first.pictures);
+    writeReportFolder(options.report_folder, toJson(comparison), page, first.pictures);
   }
   return comparison;
 }

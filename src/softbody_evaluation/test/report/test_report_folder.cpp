@@ -17,7 +17,7 @@ TEST(ReportFolder, ThePageHoldsItsPicturesAndReplacesAnEarlierReportAsAWhole) {
   const std::string folder = testing::TempDir() + "report_folder_test";
   fs::remove_all(folder);
   const Pictures pictures{{"a.png", cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3))}};
-  const std::string page = htmlPage("a <b>", {{"error", "mm", 1.5, {}}}, "x < y & z", pictures);
+  const std::string page = htmlPage({{"a <b>", {}, {}}}, {{"error", "mm", 1.5, {}}}, "x < y & z", pictures);
   EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORw0KGgo"), std::string::npos);
   EXPECT_NE(page.find("a &lt;b&gt;"), std::string::npos);
   EXPECT_NE(page.find("x &lt; y &amp; z"), std::string::npos);
@@ -55,7 +55,7 @@ TEST(ReportFolder, WhatTheUserPutBesideOrIntoAReportStays) {
 TEST(ReportFolder, TheOtherResultsPictureStandsBesideItsOwn) {
   const cv::Mat3b picture(4, 4, cv::Vec3b(1, 2, 3));
   const std::string page =
-      htmlPage("t", {}, "",
+      htmlPage({}, {}, "",
                {{"a.png", picture}, {"b.png", picture}, {"other_a.png", picture}, {"other_c.png", picture}});
   std::vector<std::string> order;
   const std::string mark = "<figcaption>";
@@ -64,6 +64,24 @@ TEST(ReportFolder, TheOtherResultsPictureStandsBesideItsOwn) {
     order.push_back(page.substr(begin, page.find('<', begin) - begin));
   }
   EXPECT_EQ(order, (std::vector<std::string>{"a.png", "other_a.png", "b.png", "other_c.png"}));
+}
+
+TEST(ReportPage, NeedsNoOtherFileAndNoNetwork) {
+  const cv::Mat3b picture(40, 40, cv::Vec3b(1, 2, 3));
+  const Film film{{1, "frame 0", picture, picture}, {2, "frame 1", picture, picture}};
+  const Verdict verdict{Level::kWrong, {{Level::kWrong, "far < away"}}, {}};
+  const std::string page = htmlPage({{"result", verdict, film}}, {{"depth residual, p95", "mm", 99.0, {}}},
+                                    "", {{"a.png", picture}});
+  // Everything that a browser would load is in the page, and the page forbids the rest.
+  for (const char* attribute : {"src=\"", "href=\"", "url("}) {
+    for (std::size_t at = page.find(attribute); at != std::string::npos; at = page.find(attribute, at + 1))
+      EXPECT_EQ(page.compare(at + std::string(attribute).size(), 11, "data:image/"), 0)
+          << page.substr(at, 60);
+  }
+  EXPECT_EQ(page.find("://"), std::string::npos);
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  EXPECT_LT(page.find("far &lt; away"), page.find("type=range min=0 max=1"));
+  EXPECT_NE(page.find("<td class=wrong>99</td>"), std::string::npos);
 }
 
 TEST(ReportFolder, AFolderOfTheUsersIsNotReplaced) {

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +49,28 @@ TEST(Evaluator, AKnownDisplacementIsTheErrorAndTheFolderHoldsTheReport) {
   for (const char* file :
        {"report.json", "vertex_error.png", "depth_residual_histogram.png", "overlay.png"}) {
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(options.report_folder) / file)) << file;
+  }
+}
+
+std::string pageOf(const EvaluatorOptions& options) {
+  std::ifstream file(options.report_folder + "/report.html");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Evaluator, TheVerdictOfAResultBesideTheBodyIsWrongWithAndWithoutTruth) {
+  for (const bool with_truth : {true, false}) {
+    EvaluatorOptions options;
+    (with_truth ? options.truth : options.recording) = recording();
+    options.report_folder = testing::TempDir() + "evaluator_verdict";
+    options.result = resultFromTruth("right.bag", asItIs);
+    EXPECT_EQ(toJson(evaluate(options))["verdict"]["level"], "good") << with_truth;
+    EXPECT_NE(pageOf(options).find("<section class=good>"), std::string::npos) << with_truth;
+    options.result =
+        resultFromTruth("beside.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.15f); });
+    EXPECT_EQ(toJson(evaluate(options))["verdict"]["level"], "wrong") << with_truth;
+    const std::string page = pageOf(options);
+    EXPECT_NE(page.find("<section class=wrong>"), std::string::npos) << with_truth;
+    EXPECT_NE(page.find("alt=\"error from four sides\" src=\"data:image/jpeg"), std::string::npos);
   }
 }
 

@@ -4,12 +4,22 @@
 #include <vector>
 
 #include "softbody_evaluation/report/figures.h"
+#include "softbody_evaluation/report/film.h"
 #include "softbody_evaluation/report/pictures.h"
+#include "softbody_evaluation/report/verdict.h"
 
 namespace softbody::evaluation {
 
-/// A self-contained HTML page with a table, a text and the pictures.
-std::string htmlPage(const std::string& title, const std::vector<ComparedFigure>& rows,
+/// What the page says of one result.
+struct JudgedResult {
+  std::string name;
+  Verdict verdict;
+  Film film;  ///< empty without a recording
+};
+
+/// A page of HTML that needs no other file and no network: for each result a verdict and a film, then a
+/// table of the figures with their meaning, the pictures and the text.
+std::string htmlPage(const std::vector<JudgedResult>& results, const std::vector<ComparedFigure>& rows,
                      const std::string& text, const Pictures& pictures);
 
 }  // namespace softbody::evaluation

@@ -10,8 +10,6 @@
 namespace softbody::evaluation {
 namespace {
 
-constexpr int kOverlays = 12;
-
 void plotResiduals(const std::vector<FrameResidual>& frames, Pictures* pictures) {
   std::vector<double> times, medians;
   std::vector<float> all;
@@ -38,10 +36,7 @@ void addResiduals(const EvaluatorOptions& options, const std::vector<FrameResidu
 
 RecordingComparison::RecordingComparison(const EvaluatorOptions& options, const SurfaceRecord& result,
                                          const SurfaceRecord* truth)
-    : options_(options),
-      result_(result),
-      truth_(truth),
-      overlays_(result, options.report_folder.empty() ? 0 : kOverlays) {}
+    : options_(options), result_(result), truth_(truth), film_(options, result, truth) {}
 
 void RecordingComparison::add(const RecordedFrame& frame) {
   const int number = static_cast<int>(residuals_.size());
@@ -59,7 +54,7 @@ void RecordingComparison::add(const RecordedFrame& frame) {
     residuals_.back().stamp = frame.stamp;
   }
   addSilhouette(frame);
-  overlays_.add(frame, number);
+  film_.add(frame, number, raster_.depth);
 }
 
 void RecordingComparison::finish(Report* report, Pictures* pictures) const {
@@ -70,7 +65,7 @@ void RecordingComparison::finish(Report* report, Pictures* pictures) const {
     (*pictures)["silhouette.png"] = linePlot("silhouette IoU", "time [s]", silhouette_times_, silhouettes_);
   }
   plotResiduals(residuals_, pictures);
-  (*pictures)["overlay.png"] = overlays_.sheet();
+  (*pictures)["overlay.png"] = film_.sheet();
 }
 
 void RecordingComparison::requireFrame(const RecordedFrame& frame) const {

@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "comparison/overlays.h"
+#include "comparison/film_maker.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_evaluation/comparison/evaluator_options.h"
 #include "softbody_evaluation/measures/depth_residual.h"
@@ -14,7 +14,7 @@
 
 namespace softbody::evaluation {
 
-/// Compares a result with its recording, frame by frame: depth residuals, silhouettes, overlays.
+/// Compares a result with its recording, frame by frame: depth residuals, silhouettes, a film.
 class RecordingComparison {
  public:
   /// @param result, truth in the camera's frame; both must outlive the comparison. The truth may be null:
@@ -28,6 +28,7 @@ class RecordingComparison {
 
   /// Adds the measures and the pictures.
   void finish(Report* report, Pictures* pictures) const;
+  const Film& film() const { return film_.film(); }
 
  private:
   void requireFrame(const RecordedFrame& frame) const;
@@ -42,7 +43,7 @@ class RecordingComparison {
   std::size_t answered_ = 0;
   std::vector<FrameResidual> residuals_;  ///< per frame; empty without an answer or without depth
   std::vector<double> silhouettes_, silhouette_times_;
-  Overlays overlays_;
+  FilmMaker film_;
 };
 
 }  // namespace softbody::evaluation

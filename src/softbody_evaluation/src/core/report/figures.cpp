@@ -19,7 +19,8 @@ void addLengths(const std::string& name, const Summary& s, std::vector<Figure>* 
   figures->push_back({name + ", max", "mm", 1e3 * s.max});
 }
 
-void addStates(const std::map<std::string, std::size_t>& states, std::vector<Figure>* figures) {
+void addStates(std::map<std::string, std::size_t> states, std::vector<Figure>* figures) {
+  states.try_emplace("tracking", 0);  // no such frame is a figure too
   double all = 0.0;
   for (const auto& [state, frames] : states) all += static_cast<double>(frames);
   for (const auto& [state, frames] : states)
@@ -110,6 +111,8 @@ std::vector<Figure> figures(const Report& report) {
   if (report.residual) {
     all.push_back({"depth residual, median", "mm", 1e3 * report.residual->residual.median});
     all.push_back({"depth residual, p95", "mm", 1e3 * report.residual->residual.p95});
+    all.push_back({"depth within 15 mm, covered pixels are misses", "%",
+                   100.0 * report.residual->within_15mm_of_measured});
   }
   if (report.volume.closed) addVolume(report.volume, &all);
   for (const auto& [name, s] : report.stages) {

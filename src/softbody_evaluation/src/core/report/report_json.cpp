@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/units.h"
+#include "softbody_evaluation/report/verdict.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -156,6 +157,7 @@ json toJson(const std::map<StageName, Summary>& stages) {
 
 json toJson(const Report& report) {
   json document = {{"frames", {{"expected", report.frames.expected}, {"answered", report.frames.answered}}},
+                   {"verdict", toJson(judge(report))},
                    {"volume", toJson(report.volume)}};
   if (report.vertex_error) document["vertex_error"] = toJson(*report.vertex_error);
   if (report.calibration) document["calibration"] = toJson(*report.calibration);

@@ -1,0 +1,60 @@
+#include "softbody_evaluation/report/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "report/figure_meaning.h"
+
+namespace softbody::evaluation {
+namespace {
+
+/// A report without truth, as of a real recording.
+Report reportWith(double p95_m, double volume_change) {
+  Report report;
+  report.frames = {100, 100, {}};
+  report.states["tracking"] = 100;
+  report.residual = ResidualReport();
+  report.residual->residual = summarize(std::vector<float>(10, 0.001f));
+  report.residual->residual.p95 = p95_m;
+  report.residual->within_15mm_of_measured = 0.9;
+  report.volume.closed = true;
+  report.volume.change = {volume_change, volume_change};
+  return report;
+}
+
+TEST(Verdict, IsTheWorstFindingAndSaysTheWorstFirst) {
+  EXPECT_EQ(judge(reportWith(0.002, 0.0)).level, Level::kGood);
+  EXPECT_TRUE(judge(reportWith(0.002, 0.0)).findings.empty());
+  EXPECT_EQ(judge(reportWith(0.021, 0.0)).level, Level::kSuspect);
+  const Verdict wrong = judge(reportWith(0.089, -0.05));
+  EXPECT_EQ(wrong.level, Level::kWrong);
+  ASSERT_EQ(wrong.findings.size(), 2u);
+  EXPECT_NE(wrong.findings[0].sentence.find("depth residual, p95 is 89 mm"), std::string::npos);
+  EXPECT_NE(wrong.findings[1].sentence.find("volume change, mean is -5 %"), std::string::npos);
+}
+
+TEST(Verdict, AResultThatIsNeverTrackedIsWrong) {
+  Report report = reportWith(0.002, 0.0);
+  report.states = {{"lost", 100}};
+  EXPECT_EQ(judge(report).level, Level::kWrong);
+}
+
+TEST(Verdict, WithoutTruthItSaysWhatItCannotKnow) {
+  Report report = reportWith(0.002, 0.0);
+  EXPECT_EQ(judge(report).limits.size(), 1u);
+  report.residual.reset();
+  EXPECT_EQ(judge(report).level, Level::kSuspect);  // compared with nothing
+  report.vertex_error = VertexErrorReport();
+  EXPECT_EQ(judge(report).level, Level::kGood);
+  EXPECT_TRUE(judge(report).limits.empty());
+}
+
+TEST(Verdict, EveryFigureWithLimitsExistsAndHasAMeaningOfItsOwn) {
+  const std::string of_stages = meaningOf("replay: registration, mean");
+  for (const Figure& figure : figures(reportWith(0.002, 0.0)))
+    EXPECT_NE(meaningOf(figure.name), of_stages) << figure.name;
+  EXPECT_EQ(limitsOf("depth residual, p95"), "suspect above 20, wrong above 50");
+  EXPECT_EQ(limitsOf("jitter while still, RMS"), "");
+}
+
+}  // namespace
+}  // namespace softbody::evaluation
