@@ -10,7 +10,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table tidy format
+.PHONY: build test shared-data cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -62,6 +62,10 @@ soak: build  ## run two live graphs for SOAK_MINUTES=60 with faults, cuts and ki
 error-table:  ## write the table of all messages in docs/troubleshooting.md from the sources
 	scripts/error_table
 
+api:  ## write pages of all public headers to api/html with doxygen; fails if it warns
+	scripts/install_dependencies scripts/apt-packages-api.txt
+	scripts/api
+
 tidy: build  ## run clang-tidy on all sources except tests (slow)
 	scripts/install_dependencies scripts/apt-packages-tidy.txt
 	scripts/tidy
@@ -71,7 +75,7 @@ format: dependencies  ## format all sources in place with clang-format
 
 clean:  ## remove everything that was built or written
 	rm -rf catkin_ws/build* catkin_ws/devel* catkin_ws/install* catkin_ws/logs* catkin_ws/.catkin_tools
-	rm -rf bench demo_output evaluation soak validation
+	rm -rf api bench demo_output evaluation soak validation
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*##  *\(.*\)/\1\t\2/p' Makefile | expand -t 14

@@ -4,8 +4,8 @@
 
 namespace softbody {
 
-/// A 64-bit hash (Steele, Lea, Flood 2014, SplitMix64). Unlike <random>, it gives the same value on every
-/// machine.
+/// A 64-bit hash (Steele, Lea, Flood 2014, SplitMix64). Unlike the standard library, it gives the same value
+/// on every machine.
 inline std::uint64_t hash(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

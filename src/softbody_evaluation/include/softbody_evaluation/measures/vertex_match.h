@@ -8,7 +8,7 @@
 namespace softbody::evaluation {
 
 /// The true vertex of each vertex of the result: the one with the same index in the input file. -1: none,
-/// e.g. for vertices made by a cut. @param parents MeshTopology::vertex_parents of both.
+/// e.g. for vertices made by a cut. @param result_parents, truth_parents MeshTopology::vertex_parents.
 std::vector<int> matchVertices(const std::vector<int>& result_parents, const std::vector<int>& truth_parents);
 
 /// Whether both are made from the same file: vertices of the same index in the file have the same position at
