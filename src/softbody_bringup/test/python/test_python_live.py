@@ -15,6 +15,7 @@ import rostest
 from geometry_msgs.msg import Pose, Quaternion
 from softbody_msgs.msg import MeshState, Targets
 from softbody_msgs.srv import SetPose, SetPoseResponse
+from std_srvs.srv import Trigger, TriggerResponse
 
 import softbody
 
@@ -125,6 +126,48 @@ class PythonLive(unittest.TestCase):
         with self.assertRaisesRegex(softbody.Refused, "/softbody/simulator/pin: "):
             self.body.pin("grip", [5, 5, 5], [6, 6, 6])
 
+    def test_closest_point(self):
+        state = self.body.wait(timeout_s=60)
+        top = state.vertices[state.vertices[:, 2].argmax()].astype(float)
+        answer = self.body.closest_point(top + [0, 0, 0.1])
+        place = answer.surface_point.point
+        self.assertAlmostEqual(answer.distance, 0.1, delta=0.002)
+        np.testing.assert_allclose([place.x, place.y, place.z], top, atol=0.02)
+        with self.assertRaisesRegex(softbody.Refused, "/softbody/surface/closest_point: .*nowhere"):
+            self.body.closest_point(top, frame="nowhere")
+
+    def test_save_mesh(self):
+        name = f"python_live_{os.getpid()}.obj"
+        path = self.body.save_mesh(name)
+        self.addCleanup(os.remove, path)
+        with open(path, encoding="ascii") as file:
+            lines = file.read().splitlines()
+        state = self.body.latest()
+        self.assertEqual([sum(line.startswith(key) for line in lines) for key in ("v ", "f ")],
+                         [len(state.vertices), len(state.triangles)])
+        with self.assertRaisesRegex(softbody.Refused, "/softbody/surface/save_mesh: "):
+            self.body.save_mesh(name)
+
+    def test_set_material(self):
+        """Each number reaches its own field: the reason names the one that is wrong."""
+        right = {"youngs_modulus_pa": 8000.0, "poisson_ratio": 0.3, "density_kg_m3": 30.0, "damping": 0.1}
+        self.body.set_material(**right)
+        for name, wrong in (("youngs_modulus_pa", -1), ("poisson_ratio", 0.6), ("density_kg_m3", -1), ("damping", 2)):
+            with self.assertRaisesRegex(softbody.Refused, name):
+                self.body.set_material(**{**right, name: wrong})
+
+    def test_set_obstacle(self):
+        """The example presses a ball into the body: it never is inside the ball by more than 2 mm."""
+        lines = self.example("press_with_ball.py", 0.03, 0.02, 1).splitlines()
+        self.assertEqual(len(lines), 30)
+        self.assertTrue(lines[-1].startswith("20.0 mm deep"), lines[-1])
+        for line in lines:
+            self.assertGreater(float(line.split(", ")[1].split(" ")[0]), 28, line)
+        with self.assertRaisesRegex(softbody.Refused, "'ball'"):
+            self.body.release("ball")
+        with self.assertRaisesRegex(softbody.Refused, "cone"):
+            self.body.set_obstacle("ball", "cone", radius=0.1)
+
     def wait(self, condition):
         end = time.monotonic() + 60
         while not condition():
@@ -145,6 +188,10 @@ class PythonLive(unittest.TestCase):
         self.assertEqual((requests[0].header.frame_id, pose.position.y, pose.orientation.w), ("world", 2, 0.8))
         with self.assertRaisesRegex(softbody.Refused, "no such frame"):
             self.body.find_again([1, 2, 3], [0, 0, 0.6, 0.8])
+        rospy.Service("/softbody/feature_tracker/find_again", Trigger,
+                      lambda _: TriggerResponse(message="no image yet"))
+        with self.assertRaisesRegex(softbody.Refused, "no image yet"):
+            self.body.find_again()
 
     def test_what_does_not_come(self):
         nobody = softbody.Body("/nobody", service_timeout_s=0.3)

@@ -4,9 +4,11 @@ import threading
 import time
 
 import rospy
-from geometry_msgs.msg import Point, Point32, PoseStamped, Vector3
+from geometry_msgs.msg import Point, Point32, Pose, PoseStamped, Quaternion, Vector3
 from softbody_msgs.msg import MeshState, MeshTopology, TetTopology
-from softbody_msgs.srv import CutBody, CutBodyRequest, Pin, PinRequest, PreviewCut, PreviewCutRequest, Release, SetPose
+from softbody_msgs.srv import (ClosestPoint, ClosestPointRequest, CutBody, CutBodyRequest, Pin, PinRequest, PreviewCut,
+                               PreviewCutRequest, Release, SaveMesh, SetMaterial, SetObstacle, SetObstacleRequest,
+                               SetPose)
 from std_srvs.srv import Trigger
 
 from softbody.join import Joiner
@@ -76,16 +78,17 @@ class Body:
         self._callbacks.append(callback)
 
     # --- services ------------------------------------------------------------------------------------------------
-    def find_again(self, position, orientation, frame=""):
-        """Restarts tracking near a pose of the rest frame. It may be wrong by a few cm and about 15 degrees.
+    def find_again(self, position=None, orientation=(0, 0, 0, 1), frame=""):
+        """Restarts tracking: near a pose of the rest frame, or without one by a search, as at the start. Cuts stay.
 
-        @param position: x, y, z [m]. @param orientation: quaternion x, y, z, w. @param frame: any frame of tf; empty:
-        the colour optical frame.
+        @param position: x, y, z [m]. The pose may be wrong by a few cm and about 15 degrees.
+        @param orientation: quaternion x, y, z, w. @param frame: any frame of tf; empty: the colour optical frame.
         """
-        pose = PoseStamped()
-        pose.header.frame_id, pose.pose.position = frame, Point(*position)
-        for name, value in zip("xyzw", orientation):
-            setattr(pose.pose.orientation, name, value)
+        if position is None:
+            self._call("feature_tracker/find_again", Trigger)
+            return
+        pose = PoseStamped(pose=_pose(position, orientation))
+        pose.header.frame_id = frame
         self._call("feature_tracker/set_pose", SetPose, pose)
 
     def cut(self, point=None, normal=None, polygon=None):
@@ -112,7 +115,42 @@ class Body:
         """Undoes all strokes. The revision grows by 1."""
         self._call("surface/reset", Trigger)
 
-    # --- pins ----------------------------------------------------------------------------------------------------
+    def closest_point(self, point, frame=""):
+        """The point of the surface, in the last state, that is closest to a point [m].
+
+        @param frame: of the point, any frame of tf; empty: the frame of the states.
+        @return the service's answer: surface_point, normal, distance, revision, piece, triangle, ...
+        """
+        request = ClosestPointRequest()
+        request.point.header.frame_id, request.point.point = frame, Point(*point)
+        return self._call("surface/closest_point", ClosestPoint, request)
+
+    def save_mesh(self, name):
+        """Writes the surface as it is, on the machine of the node `surface`.
+
+        @param name: of the file, ends in .obj. @return its path. A file that exists stays.
+        """
+        return self._call("surface/save_mesh", SaveMesh, name).path
+
+    # --- surroundings --------------------------------------------------------------------------------------------
+    def set_material(self, youngs_modulus_pa, poisson_ratio, density_kg_m3, damping):
+        """Changes the material from the next step on. @param damping: share of the velocity lost per 1/30 s, 0 to 1."""
+        self._call("simulator/set_material", SetMaterial, youngs_modulus_pa, poisson_ratio, density_kg_m3, damping)
+
+    def set_obstacle(self, name, shape="", position=(0, 0, 0), orientation=(0, 0, 0, 1), frame="", radius=0.0,
+                     length=0.0, size=(0, 0, 0)):
+        """Adds an obstacle that the body cannot enter, or replaces the one of the same name.
+
+        @param shape: plane, sphere, capsule or box; empty: only moves the obstacle. @param position: x, y, z [m].
+        @param orientation: quaternion x, y, z, w. @param frame: it follows this frame of tf; empty: that of the states.
+        @param radius: [m] of a sphere or capsule, or of a box's edges. @param length: [m] of a capsule along z.
+        @param size: [m] of a box.
+        """
+        request = SetObstacleRequest(name=name, shape=shape, radius=radius, length=length, size=Vector3(*size),
+                                     pose=_pose(position, orientation))
+        request.header.frame_id = frame
+        self._call("simulator/set_obstacle", SetObstacle, request)
+
     def pin(self, name, low, high, frame=""):
         """Holds the volume's vertices in a box of the rest frame, from the next step on.
 
@@ -165,6 +203,10 @@ class Body:
         if not answer.success:
             raise Refused(f"{name}: {answer.message}")
         return answer
+
+
+def _pose(position, orientation):
+    return Pose(Point(*position), Quaternion(*orientation))
 
 
 def _where(request, point, normal, polygon):
