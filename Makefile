@@ -44,8 +44,8 @@ fuzz: build  ## give mutated files to every reader and mutated messages to every
 evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="bend cut": only these scenes, writes nothing
 	scripts/evaluate $(SCENES)
 
-figures: build  ## draw the paper's Figures 10 and 11 with our models, in docs/images
-	scripts/figures
+figures: build  ## draw the paper's Figures 1 to 11 with our models, in docs/images
+	scripts/paper figures
 
 paper: build  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": only that part
 	scripts/paper $(PARTS)

@@ -1,0 +1,73 @@
+#!/usr/bin/python3
+"""Draws the figures of Kang et al. 2022 with our bodies, and a sheet with all of them. Runs in the environment of the
+workspace, by `scripts/paper figures`.
+
+Usage: draw.py FOLDER OUTPUT
+FOLDER has recordings (NAME.bag), results (NAME_result.bag), and figure_10.png, figure_11.png of `draw_cut`. OUTPUT gets
+figure_1.webp to figure_11.webp, and figures.webp.
+"""
+import pathlib
+import sys
+
+from matplotlib import pyplot
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from paper_figures.drawing import DPI, save  # noqa: E402
+from paper_figures.figures import DRAWN  # noqa: E402
+from paper_figures.moments import around_cut, moments  # noqa: E402
+
+MOVED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
+AS_WRITTEN = ("bend", "push", "doll_push")
+OF_DRAW_CUT = (10, 11)
+COLUMNS, COLUMN_INCHES, TITLE = 3, 4, 0.09  # of the sheet; the height of a title in widths of a column
+
+
+def read_scenes(folder):
+    """The moments of each scene by its name."""
+    scenes = {name: moments(folder / f"{name}.bag", folder / f"{name}_result.bag") for name in MOVED}
+    for name in AS_WRITTEN:
+        scenes[f"{name} as written"] = moments(folder / f"{name}.bag", folder / f"{name}_as_written_result.bag")
+    scenes["cut"] = moments(folder / "cut.bag", folder / "cut_result.bag", around_cut)
+    return scenes
+
+
+def full(picture):
+    """A figure that a picture fills."""
+    rows, columns = picture.shape[:2]
+    figure = pyplot.figure(figsize=(columns / DPI, rows / DPI), dpi=DPI)
+    figure.add_axes([0, 0, 1, 1]).imshow(picture)
+    figure.axes[0].set_axis_off()
+    return figure
+
+
+def sheet(pictures):
+    """All figures at a glance, each below the shortest column."""
+    places, ends = {}, [0.0] * COLUMNS  # in widths of a column
+    for number, path in sorted(pictures.items()):
+        picture, column = pyplot.imread(path), ends.index(min(ends))
+        places[number] = picture, column, ends[column] + TITLE
+        ends[column] += TITLE + picture.shape[0] / picture.shape[1]
+    height = max(ends)
+    figure = pyplot.figure(figsize=(COLUMN_INCHES * COLUMNS, COLUMN_INCHES * height), dpi=DPI)
+    for number, (picture, column, top) in places.items():
+        share = picture.shape[0] / picture.shape[1] / height
+        axis = figure.add_axes([column / COLUMNS, 1 - top / height - share, 0.98 / COLUMNS, share])
+        axis.imshow(picture)
+        axis.set_axis_off()
+        axis.set_title(f"Figure {number}", fontsize=9, loc="left")
+    return figure
+
+
+def main():
+    folder, output = map(pathlib.Path, sys.argv[1:])
+    pictures = {number: output / f"figure_{number}.webp" for number in (*DRAWN, *OF_DRAW_CUT)}
+    scenes = read_scenes(folder)
+    for number, draw in DRAWN.items():
+        save(draw(scenes), pictures[number])
+    for number in OF_DRAW_CUT:
+        save(full(pyplot.imread(folder / f"figure_{number}.png")), pictures[number])
+    save(sheet(pictures), output / "figures.webp")
+
+
+if __name__ == "__main__":
+    main()

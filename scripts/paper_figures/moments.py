@@ -1,0 +1,77 @@
+"""Frames of a recording with what was tracked in them."""
+import dataclasses
+
+import numpy as np
+import rosbag
+import softbody
+
+COLOR, CAMERA = "/camera/color/image_raw", "/camera/color/camera_info"
+FEATURES = "/softbody/features"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Moment:
+    """One frame of a recording with its result. Positions are in the camera's frame [m]."""
+
+    image: np.ndarray     # rows x columns x 3, RGB
+    camera: np.ndarray    # 3 x 3 intrinsic matrix
+    state: softbody.State
+    origins: np.ndarray   # K x 3: where each feature was first seen
+    features: np.ndarray  # K x 3: where it is now
+
+    @property
+    def cage(self):
+        """Vertices and triangles of the low-resolution model."""
+        return self.state.volume.vertices, self.state.volume.topology.surface_triangles
+
+    @property
+    def surface(self):
+        """Vertices and triangles of the high-resolution model."""
+        return self.state.vertices, self.state.topology.triangles
+
+
+def read_features(result):
+    """{stamp: {id: position}}"""
+    found = {}
+    with rosbag.Bag(str(result)) as bag:
+        for _, cloud, _ in bag.read_messages(topics=FEATURES):
+            kind = np.dtype([("place", "<f4", 3), ("id", "<i4"), ("pixel", "<f4", 2), ("confidence", "<f4")])
+            rows = np.frombuffer(cloud.data, kind, cloud.width * cloud.height)
+            found[cloud.header.stamp] = dict(zip(rows["id"].tolist(), rows["place"]))
+    return found
+
+
+def read_images(recording, stamps):
+    """Colour images by stamp, and the intrinsic matrix."""
+    with rosbag.Bag(str(recording)) as bag:
+        camera = np.array(next(bag.read_messages(topics=CAMERA))[1].K).reshape(3, 3)
+        images = {message.header.stamp: np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
+                  for _, message, _ in bag.read_messages(topics=COLOR) if message.header.stamp in stamps}
+    return images, camera
+
+
+def most_deformed(states):
+    """The first state, and the one that differs most from it."""
+    return states[0], max(states, key=lambda state: np.square(state.vertices - states[0].vertices).sum())
+
+
+def around_cut(states):
+    """The first state after the first cut, and the last state."""
+    return next(state for state in states if state.revision > 0), states[-1]
+
+
+def moments(recording, result, choose=most_deformed):
+    """The moments at the states that are chosen from all states with features."""
+    features = read_features(result)
+    states = choose([state for state in softbody.read(result) if features.get(state.stamp)])
+    images, camera = read_images(recording, {state.stamp for state in states})
+    return [moment(state, images[state.stamp], camera, features) for state in states]
+
+
+def moment(state, image, camera, features):
+    origins = {}
+    for stamp in sorted(features):
+        if stamp <= state.stamp:
+            origins = {**features[stamp], **origins}
+    now = features[state.stamp]
+    return Moment(image, camera, state, np.array([origins[number] for number in now]), np.array(list(now.values())))
