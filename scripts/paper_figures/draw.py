@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Draws the figures of Kang et al. 2022 with our bodies, and a sheet with all of them. Runs in the environment of the
+"""Draws the figures of Kang et al. 2022 with our bodies, a sheet with all of them, and a film. Runs in the environment of the
 workspace, by `scripts/paper figures`.
 
 Usage: draw.py FOLDER OUTPUT
 FOLDER has recordings (NAME.bag), results (NAME_result.bag), and figure_10.png, figure_11.png of `draw_cut`. OUTPUT gets
-figure_1.webp to figure_11.webp, and figures.webp.
+figure_1.webp to figure_11.webp, the sheet figures.webp, and film.webp.
 """
 import pathlib
 import sys
@@ -14,6 +14,7 @@ from matplotlib import pyplot
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from paper_figures.drawing import DPI, save  # noqa: E402
 from paper_figures.figures import DRAWN  # noqa: E402
+from paper_figures.film import make_film  # noqa: E402
 from paper_figures.moments import around_cut, moments  # noqa: E402
 
 MOVED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
@@ -67,6 +68,7 @@ def main():
     for number in OF_DRAW_CUT:
         save(full(pyplot.imread(folder / f"figure_{number}.png")), pictures[number])
     save(sheet(pictures), output / "figures.webp")
+    make_film(folder, output / "film.webp")
 
 
 if __name__ == "__main__":

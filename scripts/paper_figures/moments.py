@@ -6,7 +6,7 @@ import rosbag
 import softbody
 
 COLOR, CAMERA = "/camera/color/image_raw", "/camera/color/camera_info"
-FEATURES = "/softbody/features"
+FEATURES, BLADE = "/softbody/features", "/softbody/tool/blade"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -39,6 +39,13 @@ def read_features(result):
             rows = np.frombuffer(cloud.data, kind, cloud.width * cloud.height)
             found[cloud.header.stamp] = dict(zip(rows["id"].tolist(), rows["place"]))
     return found
+
+
+def read_blades(result):
+    """{stamp: corners of the blade}"""
+    with rosbag.Bag(str(result)) as bag:
+        return {message.header.stamp: np.array([[point.x, point.y, point.z] for point in message.polygon.points])
+                for _, message, _ in bag.read_messages(topics=BLADE)}
 
 
 def read_images(recording, stamps):

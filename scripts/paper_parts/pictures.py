@@ -9,9 +9,10 @@ from paper_parts.methods import PAPER_FILE
 
 IMAGES = ROOT / "docs/images"
 FOLDER = OUTPUT / "paper_figures"
-SECONDS = {"bend": "2", "push": "2", "pull": "2", "doll_bend": "2", "doll_push": "2", "doll_pull": "2"}
+MOTIONS = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
 AS_WRITTEN = ("bend", "push", "doll_push")
 CUTS = ("doll_cut-partial", "cut-partial", "cut")
+SHOWN_IMAGES = (*MOTIONS, "cut")
 SHOWN = {1: "the bodies before the camera; below, what was tracked, with the low-resolution model",
          2: "overview: the nodes of the graph, and what flows between them",
          3: "the models of sponge and doll at three resolutions",
@@ -28,19 +29,20 @@ SHOWN = {1: "the bodies before the camera; below, what was tracked, with the low
 def track(scene):
     """Records one scene and tracks it."""
     recording, config = FOLDER / f"{scene}.bag", object_of(scene)
-    length = ("--duration", SECONDS[scene]) if scene in SECONDS else ()
-    tool("virtual_camera", "--scene", scene, *length, "--output", recording)
+    tool("virtual_camera", "--scene", scene, "--output", recording)
     tool("replay", recording, "--object", config, *tool_of(scene), "--output", FOLDER / f"{scene}_result.bag")
     if scene in AS_WRITTEN:
         tool("replay", recording, "--object", config, "--parameters", PAPER_FILE, "--output",
              FOLDER / f"{scene}_as_written_result.bag")
+    if scene not in SHOWN_IMAGES:
+        recording.unlink()
 
 
 def draw_figures(jobs):
-    """Writes figure_1.webp to figure_11.webp and the sheet figures.webp; the lines of their section."""
+    """Writes figure_1.webp to figure_11.webp, the sheet figures.webp and film.webp; the lines of their section."""
     FOLDER.mkdir(exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(track, (*CUTS, *SECONDS)))
+        list(pool.map(track, (*CUTS, *MOTIONS)))
     tool("draw_cut", FOLDER / "cut-partial_result.bag", FOLDER / "doll_cut-partial_result.bag",
          "--output", FOLDER / "figure_10.png")
     tool("draw_cut", FOLDER / "cut_result.bag", "--recording", FOLDER / "cut.bag", "--output", FOLDER / "figure_11.png")
@@ -49,9 +51,9 @@ def draw_figures(jobs):
     if answer.returncode != 0:
         raise ToolFailed(f"draw.py\n{answer.stderr}")
     shutil.rmtree(FOLDER)
-    words = paragraph("The paper's figures with our bodies. The virtual camera records scenes with noise, and `replay` tracks "
-                      "them. Figures 10 and 11 are drawn by `draw_cut`. The slits of Figure 10 are open because they are "
-                      "open in the camera images. No display is needed.")
+    words = paragraph("The paper's figures with our bodies. The virtual camera records scenes with noise, and `replay` "
+                      "tracks them. Figures 10 and 11 are drawn by `draw_cut`. The slits of Figure 10 are open because "
+                      "they are open in the camera images. No display is needed.")
     rows = [[f"[Figure {number}](images/figure_{number}.webp)", what] for number, what in SHOWN.items()]
     return ["### Figures", "", *words, "", "![Figures 1 to 11 of the paper, with our bodies](images/figures.webp)", "",
             *table(["figure", "what it shows"], rows)]
