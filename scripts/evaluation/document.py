@@ -1,4 +1,4 @@
-"""docs/evaluation.md, and the table of ten figures in README.md, from the reports of `evaluate`."""
+"""docs/evaluation.md, and the table in README.md, from the reports of `evaluate`."""
 import datetime
 import subprocess
 
@@ -41,7 +41,7 @@ def document(root, reports):
 
 
 def write(root, text, reports):
-    """docs/evaluation.md, and the ten figures between the marks in README.md."""
+    """docs/evaluation.md, and the figures between the marks in README.md."""
     readme = root / "README.md"
     before, rest = readme.read_text().split(BEGIN)
     after = rest.split(END)[1]

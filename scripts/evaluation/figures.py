@@ -13,17 +13,16 @@ MOVING = ("still", "bend", "push", "twist")
 WRONG_MATCH_SEEDS = {"bend": (1, 2, 3, 4), "push": (1, 2), "twist": (1, 2)}
 DEPTH_HOLES, FEW_FEATURES = "30 % depth holes", "at most 50 features instead of 1000"
 
-# Kang et al. 2022: section 6 (the mean error), Table 2 (times; "Init." is the first frame).
+# Kang et al. 2022: section 6 (the mean error), Table 2 (times; "Init." is the initialization).
 PAPER_MEAN_ERROR_MM = 2.56
 PAPER_TIMES_MS = {
     "Feature-Point Tracking": {"sponge": 0.56, "doll": 0.67},
     "Soft-body Simulation": {"sponge": 10.62, "doll": 29.02},
     "Resolution Enhancement": {"sponge": 0.38, "doll": 2.81},
-    "Feature-Point Tracking (first frame)": {"sponge": 15.51, "doll": 22.53},
-    "Soft-body Simulation (first frame)": {"sponge": 21.22, "doll": 23.61},
-    "Resolution Enhancement (first frame)": {"sponge": 18.41, "doll": 542.31},
+    "Feature-Point Tracking (initialization)": {"sponge": 15.51, "doll": 22.53},
+    "Soft-body Simulation (initialization)": {"sponge": 21.22, "doll": 23.61},
+    "Resolution Enhancement (initialization)": {"sponge": 18.41, "doll": 542.31},
 }
-PAPER_FRAME_MS = {"sponge": 11.56, "doll": 32.50}  # its "Total"
 
 
 def wrong_matches(seed):

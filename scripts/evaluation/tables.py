@@ -149,7 +149,7 @@ def median_times(reports):
     times = {}
     for name, report in of_kind(reports, "scene").items():
         for stage in report.get("stages", []):
-            words = stage["stage"] + (" (first frame)" if stage["initialization"] else "")
+            words = stage["stage"] + (" (initialization)" if stage["initialization"] else "")
             times.setdefault(words, {}).setdefault(body_of(name), []).append(stage["median_ms"])
     return {words: {body: round(statistics.median(values), 2) for body, values in of_body.items()}
             for words, of_body in times.items()}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Draws the figures of Kang et al. 2022 with our bodies, a sheet with all of them, and a film. Runs in the environment of the
-workspace, by `scripts/paper figures`.
+"""Draws the figures of Kang et al. 2022 with our bodies, a sheet with all of them, and a film. Runs in the environment
+of the workspace, by `scripts/paper figures`.
 
 Usage: draw.py FOLDER OUTPUT
 FOLDER has recordings (NAME.bag), results (NAME_result.bag), and figure_10.png, figure_11.png of `draw_cut`. OUTPUT gets
@@ -15,7 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from paper_figures.drawing import DPI, save  # noqa: E402
 from paper_figures.figures import DRAWN  # noqa: E402
 from paper_figures.film import make_film  # noqa: E402
-from paper_figures.moments import around_cut, moments  # noqa: E402
+from paper_figures.moments import around_cut, at, moments  # noqa: E402
 
 MOVED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
 AS_WRITTEN = ("bend", "push", "doll_push")
@@ -27,7 +27,8 @@ def read_scenes(folder):
     """The moments of each scene by its name."""
     scenes = {name: moments(folder / f"{name}.bag", folder / f"{name}_result.bag") for name in MOVED}
     for name in AS_WRITTEN:
-        scenes[f"{name} as written"] = moments(folder / f"{name}.bag", folder / f"{name}_as_written_result.bag")
+        stamps = {moment.state.stamp for moment in scenes[name]}
+        scenes[f"{name} as written"] = moments(folder / f"{name}.bag", folder / f"{name}_as_written_result.bag", at(stamps))
     scenes["cut"] = moments(folder / "cut.bag", folder / "cut_result.bag", around_cut)
     return scenes
 

@@ -74,7 +74,7 @@ def figure_5(scenes):
 def figure_6(scenes):
     """The low-resolution model that follows its features alone. A circle marks where it is worst."""
     figure, axes = panels(1, 3, 3.6)
-    rough, smooth = scenes["bend as written"][1], scenes["bend"][1]
+    rough, smooth = scenes["bend as written"][-1], scenes["bend"][1]
     for axis, words in zip(axes[0], ("(a) features", "(b) surface from features alone", "(c) with the volume")):
         frame(axis, rough.camera, [rough.cage[0], smooth.cage[0]], words)
     show_pale_image(axes[0][0], rough.image)
@@ -91,7 +91,7 @@ def figure_7(scenes):
     """Initial shape, shape from feature vectors, shape from the simulation."""
     figure, axes = panels(2, 3)
     for row, name in zip(axes, ("push", "doll_push")):
-        shapes = [scenes[name][0], scenes[f"{name} as written"][1], scenes[name][1]]
+        shapes = [scenes[name][0], scenes[f"{name} as written"][-1], scenes[name][1]]
         for axis, moment, words in zip(row, shapes, ("(a) initial", "(b) from feature vectors", "(c) simulated")):
             frame(axis, moment.camera, [shape.surface[0] for shape in shapes], f"{words}, {name}")
             show_body(axis, moment.camera, *moment.surface)

@@ -55,5 +55,6 @@ def make_film(folder, path):
                 files.append(f"{pictures}/{len(files):04}.png")
                 figure.savefig(files[-1])
                 pyplot.close(figure)
-        subprocess.run(["img2webp", "-loop", "0", "-d", str(1000 * EVERY // RATE_HZ), "-lossy", "-q", str(QUALITY), "-m",
-                        "4", *files, "-o", path], check=True, stderr=subprocess.DEVNULL)
+        delay = str(1000 * EVERY // RATE_HZ)
+        subprocess.run(["img2webp", "-loop", "0", "-d", delay, "-lossy", "-q", str(QUALITY), "-m", "4", *files, "-o", path],
+                       check=True)

@@ -62,6 +62,11 @@ def most_deformed(states):
     return states[0], max(states, key=lambda state: np.square(state.vertices - states[0].vertices).sum())
 
 
+def at(stamps):
+    """The states at these stamps."""
+    return lambda states: [state for state in states if state.stamp in stamps]
+
+
 def around_cut(states):
     """The first state after the first cut, and the last state."""
     return next(state for state in states if state.revision > 0), states[-1]

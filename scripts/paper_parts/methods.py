@@ -7,6 +7,7 @@ OURS = "ours"
 PAPER_FILE = ROOT / "config/paper.yaml"
 PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "volume_smoothing": 0.0, "load_fade_s": 0.0}
 LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0}
+TIMED = {"sponge": "bend", "doll": "doll_bend"}
 SCENES = ("bend", "push", "doll_bend", "doll_push")
 FEATURES = (0, 10, 25, 50, 100, 300, 1000)
 FEWEST_OF_PAPER = 50  # the least that target_mode knn accepts
@@ -44,6 +45,11 @@ def compared():
             "our features, eq. 3-4, plain projective dynamics":
             by_patches(paper_tracker()) + parameters(simulator=PLAIN),
             OURS: ""}
+
+
+def timed_kinds():
+    """The methods of Table 2."""
+    return {"its method here": compared()[WITH_PD], "ours, features alone": parameters(FEATURES_ALONE), OURS: ""}
 
 
 def parts():

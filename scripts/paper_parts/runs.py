@@ -5,9 +5,7 @@ import subprocess
 import sys
 
 from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, tool
-from paper_parts.methods import FEATURES_ALONE, OURS, SCENES, parameters
-
-TIMED = {"sponge": "bend", "doll": "doll_bend"}
+from paper_parts.methods import SCENES, TIMED, timed_kinds
 
 
 def recording_of(scene):
@@ -47,12 +45,11 @@ def accuracy_runs(texts, jobs):
 
 
 def timed_runs():
-    """Reports by (body, kind), one run at a time: ours, and features alone, which is what the paper times."""
-    kinds = {OURS: "", "features alone": parameters(FEATURES_ALONE)}
+    """Reports by (body, kind), one run at a time."""
     reports = {}
     for body, scene in TIMED.items():
         recording = recording_of(scene)
-        for kind, text in kinds.items():
+        for kind, text in timed_kinds().items():
             reports[(body, kind)] = run(scene, recording, "time", text)
         recording.unlink()
     return reports

@@ -75,6 +75,21 @@ TEST_F(ReplayTest, AnswersEveryFrameAndGivesTheSameBytesTwice) {
   expectNothingIncomplete();
 }
 
+/// Building the simulator counts as its initialization, as in the live graph. Its first step does not.
+TEST_F(ReplayTest, EveryStageIsInitializedOnce) {
+  std::map<std::string, int> initialized, steps;
+  const std::vector<FrameOutput> frames = replay(folder_ / "result.bag");
+  for (const FrameOutput& frame : frames) {
+    for (const StageTime& time : frame.times) ++(time.initialization ? initialized : steps)[time.stage];
+  }
+  EXPECT_EQ(initialized, (std::map<std::string, int>{{"Feature-Point Tracking", 1},
+                                                     {"Model Registration", 1},
+                                                     {"Resolution Enhancement", 1},
+                                                     {"Soft-body Simulation", 1},
+                                                     {"Tracker Preparation", 1}}));
+  EXPECT_EQ(steps["Soft-body Simulation"], static_cast<int>(frames.size()));
+}
+
 TEST_F(ReplayTest, LeavesAnEarlierResultAloneWhenItDoesNotFinish) {
   const fs::path output = folder_ / "result.bag";
   std::ofstream(output) << "an earlier result";

@@ -8,6 +8,14 @@
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {
+namespace {
+
+Simulator makeSimulator(const ObjectModel& model, const SimulatorConfig& config, StageTimer* timer) {
+  const auto scope = timer->stage("Soft-body Simulation", true);
+  return {model.volume, model.material, config};
+}
+
+}  // namespace
 
 Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
                    const std::optional<ToolDescription>& tool)
@@ -15,10 +23,11 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
       uncut_surface_(model.visual),
       cutting_(config.cutting),
       tracker_(config.tracker),
-      simulator_(model.volume, model.material, config.simulator),
+      simulator_(makeSimulator(model, config.simulator, &timer_)),
       surface_(makeSurface()) {
-  tracker_.setTopologies(volumeTopology(), surfaceTopology());
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
+  const auto scope = timer_.stage("Tracker Preparation", true);
+  tracker_.setTopologies(volumeTopology(), surfaceTopology());
 }
 
 CuttableSurface Pipeline::makeSurface() {
@@ -63,7 +72,7 @@ std::optional<ToolObservation> Pipeline::processUnplaced(RgbdFrame frame) {
 }
 
 void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp) {
-  const auto scope = timer_.stage("Soft-body Simulation", targets.reset);
+  const auto scope = timer_.stage("Soft-body Simulation");
   simulator_.step(targets, stamp);
 }
 
