@@ -8,6 +8,7 @@ PAPER_FILE = ROOT / "config/paper.yaml"
 PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "volume_smoothing": 0.0, "load_fade_s": 0.0}
 LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0}
 TIMED = {"sponge": "bend", "doll": "doll_bend"}
+CUT_THROUGH = ("cut", "doll_cut")
 SCENES = ("bend", "push", "doll_bend", "doll_push")
 FEATURES = (0, 10, 25, 50, 100, 300, 1000)
 FEWEST_OF_PAPER = 50  # the least that target_mode knn accepts

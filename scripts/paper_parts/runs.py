@@ -4,8 +4,8 @@ import json
 import subprocess
 import sys
 
-from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, tool
-from paper_parts.methods import SCENES, TIMED, timed_kinds
+from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, tool, tool_of
+from paper_parts.methods import CUT_THROUGH, SCENES, TIMED, timed_kinds
 
 
 def recording_of(scene):
@@ -52,6 +52,19 @@ def timed_runs():
         for kind, text in timed_kinds().items():
             reports[(body, kind)] = run(scene, recording, "time", text)
         recording.unlink()
+    return reports
+
+
+def cut_runs():
+    """Reports of the scenes with a cut through a body, with the shape of the triangles at the cut."""
+    reports = {}
+    for scene in CUT_THROUGH:
+        recording, name = recording_of(scene), f"paper_{scene}"
+        config, _ = config_of(scene, name)
+        reports[scene] = measure(name, recording, config, "--truth", recording, more=tool_of(scene))
+        reports[scene]["quality"] = read_by("cut_quality.py", OUTPUT / f"{name}_result.bag")
+        recording.unlink()
+        (OUTPUT / f"{name}_result.bag").unlink()
     return reports
 
 

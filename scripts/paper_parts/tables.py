@@ -2,7 +2,7 @@
 import os
 import re
 
-from evaluation.figures import PAPER_MEAN_ERROR_MM, PAPER_TIMES_MS, get, number
+from evaluation.figures import PAPER_MEAN_ERROR_MM, PAPER_TIMES_MS, get, number, percent
 from markdown_lines import paragraph, table
 from paper_parts.methods import SCENES, TIMED, compared, counts, parts, timed_kinds
 
@@ -59,6 +59,27 @@ def sizes(models):
                       for body in ("sponge", "doll") for item in (0, 1))] for model, of_paper in PAPER_SIZES.items()]
     return section("Table 1: models", "Each cell: paper / ours. For the volume, polygons are tets.",
                    ["model", "sponge, vertices", "sponge, polygons", "doll, vertices", "doll, polygons"], rows)
+
+
+def cutting(reports):
+    """One row for each scene."""
+    rows = []
+    for scene, report in reports.items():
+        quality, surface = report["quality"], report["cut_surface"]
+        sides = quality["before"], quality["after"]
+        rows.append([scene, " / ".join(str(side["triangles"]) for side in sides),
+                     " / ".join(number(side["least_deg"]) for side in sides),
+                     " / ".join(percent(side["sharp_share"]) for side in sides), quality["holes"], quality["cuts"],
+                     f"{number(quality['median_ms'])} / {number(quality['worst_ms'])}",
+                     f"{number(get(surface, 'distance', 'mean_mm'))} / {number(get(surface, 'distance', 'max_mm'))}"])
+    return section("Cutting", "Before: triangles of the uncut surface, split by one plane through the cut. After: "
+                              "triangles of the skin that touch the tracked cut. This cut consists of several patches, "
+                              "so its line has bends and more triangles. Holes: edges that do not have exactly two "
+                              "triangles. Time: of the frames in which the knife cut. Error: distance of the cut "
+                              "surface from the true one.",
+                   ["scene", "triangles, before / after", "least angle, before / after [degrees]",
+                    "below 10 degrees, before / after [%]", "holes", "cuts", "time, median / worst [ms]",
+                    "error, mean / max [mm]"], rows)
 
 
 def stage_time(report, stage, initialization):

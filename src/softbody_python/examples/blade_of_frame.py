@@ -3,12 +3,16 @@
 
 Usage: blade_of_frame.py TOOL.yaml FRAME
 """
+import sys
+
 import rospy
 import yaml
 from geometry_msgs.msg import Point32, PolygonStamped
 from sensor_msgs.msg import CameraInfo
 
-_, path, frame = rospy.myargv()
+if len(rospy.myargv()) != 3:
+    sys.exit(__doc__)
+path, frame = rospy.myargv()[1:]
 with open(path, encoding="utf-8") as file:
     corners = yaml.safe_load(file)["tool"]["blade"]
 rospy.init_node("blade_of_frame")

@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+"""Shape of the triangles at the cut, holes, and times of the cuts in a bag of `replay --timing`, as JSON. Runs in the
+environment of the workspace.
+
+Usage: cut_quality.py RESULT.bag
+"Before" are the triangles of the uncut surface that a plane through the cut splits. "After" are the triangles of the
+skin that touch the cut.
+"""
+import json
+import sys
+
+import numpy as np
+import rosbag
+import softbody
+
+SHARP_DEG = 10.0
+
+
+def least_angles(corners):
+    """The least angle of each triangle [degrees]. @param corners: F x 3 x 3."""
+    edges = np.roll(corners, -1, axis=1) - corners
+    units = edges / np.maximum(np.linalg.norm(edges, axis=2, keepdims=True), 1e-12)
+    cosines = -np.einsum("fij,fij->fi", units, np.roll(units, 1, axis=1))
+    return np.degrees(np.arccos(np.clip(cosines, -1, 1))).min(axis=1)
+
+
+def split(corners, heights):
+    """The triangles into which the plane of height 0 splits a triangle: one on one side, two on the other."""
+    alone = np.flatnonzero(np.sign(heights) == -np.sign(np.sign(heights).sum()))[0]
+    order = [alone, (alone + 1) % 3, (alone + 2) % 3]
+    (a, b, c), (ha, hb, hc) = corners[order], heights[order]
+    ab, ac = a + (b - a) * ha / (ha - hb), a + (c - a) * ha / (ha - hc)
+    return [[a, ab, ac], [ab, b, c], [ab, c, ac]]
+
+
+def before(uncut, cut):
+    """Triangles that the plane through the faces of the cut makes from the uncut surface."""
+    places = cut.rest_vertices[np.unique(cut.triangles[cut.cut_triangles])].astype(float)
+    middle = places.mean(axis=0)
+    normal = np.linalg.svd(places - middle)[2][2]
+    corners = uncut.rest_vertices[uncut.triangles].astype(float)
+    heights = (corners - middle) @ normal
+    crossed = (heights.min(axis=1) < 0) & (heights.max(axis=1) > 0)
+    return np.array([piece for triangle, height in zip(corners[crossed], heights[crossed])
+                     for piece in split(triangle, height)])
+
+
+def after(cut):
+    """Triangles of the skin that touch the cut."""
+    of_cut = np.unique(cut.triangles[cut.cut_triangles])
+    touches = np.isin(cut.triangles, of_cut).any(axis=1) & ~cut.cut_triangles
+    return cut.rest_vertices[cut.triangles[touches]].astype(float)
+
+
+def holes(cut):
+    """Edges that do not belong to exactly two triangles."""
+    edges = np.sort(np.concatenate([cut.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
+    return int((np.unique(edges, axis=0, return_counts=True)[1] != 2).sum())
+
+
+def cut_times(result):
+    """Times of the frames in which a cut was made [ms]."""
+    with rosbag.Bag(result) as bag:
+        stamps = {message.header.stamp for _, message, _ in bag.read_messages(topics="/softbody/cut")}
+        return [row.milliseconds for _, message, _ in bag.read_messages(topics="/softbody/timing")
+                for row in message.stages if message.header.stamp in stamps and row.stage == "Cutting"]
+
+
+def of_triangles(corners):
+    angles = least_angles(corners)
+    return {"triangles": len(angles), "least_deg": angles.min(), "sharp_share": float((angles < SHARP_DEG).mean())}
+
+
+def main():
+    topologies = [state.topology for state in softbody.read(sys.argv[1])]
+    uncut, cut = topologies[0], topologies[-1]
+    times = cut_times(sys.argv[1])
+    print(json.dumps({"before": of_triangles(before(uncut, cut)), "after": of_triangles(after(cut)),
+                      "holes": holes(cut), "cuts": len(times), "median_ms": float(np.median(times)), "worst_ms": max(times)}))
+
+
+if __name__ == "__main__":
+    main()
