@@ -38,7 +38,7 @@ bench: build  ## run the benchmarks; writes bench/summary.json
 	scripts/bench
 
 fuzz: build  ## give mutated files to every reader and mutated messages to every node, FUZZ_SECONDS=60 each
-	scripts/install_dependencies scripts/apt-packages-fuzz.txt
+	scripts/install_dependencies scripts/optional_packages/fuzz.txt
 	scripts/fuzz
 
 evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="bend cut": only these scenes, writes nothing
@@ -63,11 +63,11 @@ error-table:  ## write the table of all messages in docs/troubleshooting.md from
 	scripts/error_table
 
 api:  ## write pages of all public headers to api/html with doxygen; fails if it warns
-	scripts/install_dependencies scripts/apt-packages-api.txt
+	scripts/install_dependencies scripts/optional_packages/api.txt
 	scripts/api
 
 tidy: build  ## run clang-tidy on all sources except tests (slow)
-	scripts/install_dependencies scripts/apt-packages-tidy.txt
+	scripts/install_dependencies scripts/optional_packages/tidy.txt
 	scripts/tidy
 
 format: dependencies  ## format all sources in place with clang-format
