@@ -90,7 +90,12 @@ class Simulator {
   /// Returns to the uncut body of the first revision, not placed. The material stays.
   void reset();
 
+  /// A simulator of the present body, without its edits. It goes on from here on its own.
+  std::unique_ptr<Simulator> copyOfPresent() const;
+
   const MeshState& state() const;
+  /// Of the last step.
+  Nanoseconds stamp() const;
   const StepReport& report() const;
   const Reactions& reactions() const;
 

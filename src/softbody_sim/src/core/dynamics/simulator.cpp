@@ -237,6 +237,14 @@ void Simulator::setMaterial(const Material& material) {
   if (s.body.placed) s.model->load_estimator.balance(s.body.mesh.vertices, &s.body.loads);
 }
 
+std::unique_ptr<Simulator> Simulator::copyOfPresent() const {
+  const Implementation& s = *implementation_;
+  auto copy = std::make_unique<Simulator>(s.uncut, s.material, s.config);
+  copy->implementation_->setTopology(s.model->topology);
+  copy->implementation_->body = s.body;
+  return copy;
+}
+
 void Simulator::reset() {
   Implementation& s = *implementation_;
   s.body = {};
@@ -272,6 +280,8 @@ bool Simulator::crosses(const Cut& cut, std::string* reason) const {
 }
 
 const EditHistory& Simulator::edits() const { return implementation_->volume.history().edits(); }
+
+Nanoseconds Simulator::stamp() const { return implementation_->body.stamp; }
 
 const TetTopology& Simulator::uncut() const { return implementation_->uncut; }
 

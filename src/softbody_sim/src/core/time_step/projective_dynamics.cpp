@@ -11,6 +11,8 @@ class ProjectiveDynamics::Precision {
  public:
   virtual ~Precision() = default;
   virtual StepReport minimize(const IncrementalPotential& potential, Points* x) = 0;
+  /// Elastic energy [J]; adds its gradient [N]. In double precision.
+  virtual double addElasticity(const Points& x, Points* gradient) = 0;
 };
 
 namespace {
@@ -81,7 +83,10 @@ class InPrecision : public ProjectiveDynamics::Precision {
         metric_(topology, elasticity),
         solver_(metric_.lower(), options.simd),
         minimizer_(paddedRows(topology.rest_vertices.rows())),
-        x_(Rows<T>::Zero(paddedRows(topology.rest_vertices.rows()), 4)) {}
+        x_(Rows<T>::Zero(paddedRows(topology.rest_vertices.rows()), 4)),
+        double_elasticity_(topology.rest_vertices, elasticity, options.simd),
+        double_x_(Rows<double>::Zero(x_.rows(), 4)),
+        double_gradient_(double_x_) {}
 
   StepReport minimize(const IncrementalPotential& potential, Points* x) override {
     metric_.updateFactor(potential, &solver_);
@@ -97,6 +102,14 @@ class InPrecision : public ProjectiveDynamics::Precision {
     return report;
   }
 
+  double addElasticity(const Points& x, Points* gradient) override {
+    double_x_.topLeftCorner(x.rows(), 3) = x;
+    double_gradient_.setZero();
+    const double energy = double_elasticity_.addTo(double_x_, &double_gradient_);
+    *gradient += double_gradient_.topLeftCorner(x.rows(), 3);
+    return energy;
+  }
+
  private:
   const MinimizerOptions options_;
   ElasticBlocks<T> elasticity_;
@@ -105,6 +118,8 @@ class InPrecision : public ProjectiveDynamics::Precision {
   GlobalStepSolver<T> solver_;
   QuasiNewton<Rows<T>> minimizer_;
   Rows<T> x_;
+  ElasticBlocks<double> double_elasticity_;
+  Rows<double> double_x_, double_gradient_;
 };
 
 }  // namespace
@@ -125,7 +140,7 @@ StepReport ProjectiveDynamics::minimize(const IncrementalPotential& potential, P
 }
 
 double ProjectiveDynamics::addElasticity(const Points& x, Points* gradient) const {
-  return elasticity_.addTo(x, gradient);
+  return implementation_->addElasticity(x, gradient);
 }
 
 }  // namespace softbody

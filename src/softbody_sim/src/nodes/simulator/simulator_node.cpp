@@ -41,7 +41,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       publisher_(node, options.body_frame),
       diagnostics_(node, private_node, &simulator_, &surroundings_),
       surroundings_input_(node, private_node, &simulator_, &surroundings_),
-      targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }) {
+      targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }),
+      predictions_(node, private_node, [this] { return present(); }) {
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
   publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
@@ -69,6 +70,13 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
   }
   diagnostics_.setDropped(targets_.dropped());
   publishState(message->header);
+}
+
+Present SimulatorNode::present() const {
+  if (!simulator_.placed()) throw std::invalid_argument("nothing to predict: the body is not placed yet");
+  std_msgs::Header header = last_.header;
+  header.stamp = toTime(simulator_.stamp());
+  return {simulator_.copyOfPresent(), surroundings_.lastSurroundings(), header};
 }
 
 /// @return whether the stamp is accepted; if not, nothing changes. @throw std::invalid_argument likewise.

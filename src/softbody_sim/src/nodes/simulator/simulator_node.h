@@ -4,6 +4,7 @@
 #include <softbody_msgs/SetMaterial.h>
 #include <softbody_msgs/Targets.h>
 
+#include "nodes/prediction/prediction_service.h"
 #include "nodes/simulator/simulator_diagnostics.h"
 #include "nodes/simulator/simulator_options.h"
 #include "nodes/simulator/surroundings_input.h"
@@ -17,10 +18,10 @@
 
 namespace softbody {
 
-/// Subscribes to targets, cuts and pins; takes pins and obstacles by service; publishes states of the
-/// volumetric model. If the targets stop, for example because the camera stalls, it continues at its own
-/// rate. Parameters: ~object, ~body_frame, ~obstacles, ~free_run_rate_hz, ~stall_timeout_s and those of
-/// SimulatorConfig.
+/// Subscribes to targets, cuts and pins; takes pins and obstacles by service; predicts; publishes
+/// states of the volumetric model. If the targets stop, for example because the camera stalls, it continues
+/// at its own rate. Parameters: ~object, ~body_frame, ~obstacles, ~free_run_rate_hz, ~stall_timeout_s and
+/// those of SimulatorConfig.
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -39,6 +40,7 @@ class SimulatorNode {
   bool onSetMaterial(softbody_msgs::SetMaterial::Request& request,
                      softbody_msgs::SetMaterial::Response& response);
 
+  Present present() const;
   bool step(const softbody_msgs::Targets& message);
   void requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const;
   bool admits(const ros::Time& stamp);
@@ -72,6 +74,7 @@ class SimulatorNode {
   ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_;
   ros::ServiceServer set_material_;
   ros::Timer free_run_timer_;
+  PredictionService predictions_;
 };
 
 }  // namespace softbody

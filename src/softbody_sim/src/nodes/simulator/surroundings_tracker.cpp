@@ -103,10 +103,10 @@ const Surroundings& SurroundingsTracker::surroundingsAt(const std::string& frame
                                                         const Points& vertices) {
   frame_ = frame;
   surroundings_ = {};
-  surroundings_.obstacles_changed = std::exchange(obstacles_changed_, false);
+  surroundings_.all.obstacles_changed = std::exchange(obstacles_changed_, false);
   placeObstacles(stamp);
   placePins(stamp, vertices);
-  return surroundings_;
+  return surroundings_.all;
 }
 
 void SurroundingsTracker::placeObstacles(const ros::Time& stamp) {
@@ -114,8 +114,9 @@ void SurroundingsTracker::placeObstacles(const ros::Time& stamp) {
     obstacle.frame.update(poses_, frame_, stamp);
     if (!obstacle.frame.pose()) continue;
     const Obstacle& shape = obstacle.description.shape;
-    surroundings_.obstacles.push_back(shape);
-    surroundings_.obstacles.back().pose = *obstacle.frame.pose() * shape.pose;
+    surroundings_.all.obstacles.push_back(shape);
+    surroundings_.all.obstacles.back().pose = *obstacle.frame.pose() * shape.pose;
+    surroundings_.obstacles.push_back(obstacle.description.name);
   }
 }
 
@@ -130,13 +131,14 @@ void SurroundingsTracker::placePins(const ros::Time& stamp, const Points& vertic
     }
     frame.update(poses_, frame_, stamp);
     held.setFramePose(frame.pose());
-    if (held.acts()) held.appendPins(options_.accuracy_m, &surroundings_.pins);
+    if (held.acts()) held.appendPins(options_.accuracy_m, &surroundings_.all.pins);
+    surroundings_.pins.resize(surroundings_.all.pins.size(), entry.first);
   }
 }
 
 void SurroundingsTracker::findConflicts(const std::vector<Target>& targets, const Tets& tets,
                                         const Points& vertices) {
-  auto next = surroundings_.pins.cbegin();
+  auto next = surroundings_.all.pins.cbegin();
   for (auto& entry : pins_) {
     HeldPin& pin = entry.second;
     if (!pin.held.acts()) continue;
@@ -160,8 +162,8 @@ void SurroundingsTracker::judge(double conflict_m, HeldPin* pin) const {
 
 void SurroundingsTracker::publishReactions(const Reactions& reactions, const ros::Time& stamp) {
   step_stamp_ = stamp;
-  if (reactions.obstacles.size() != surroundings_.obstacles.size() ||
-      reactions.pins.size() != surroundings_.pins.size())
+  if (reactions.obstacles.size() != surroundings_.all.obstacles.size() ||
+      reactions.pins.size() != surroundings_.all.pins.size())
     return;
   publishObstacles(reactions, stamp);
   publishPins(reactions, stamp);
@@ -174,7 +176,7 @@ void SurroundingsTracker::publishObstacles(const Reactions& reactions, const ros
     const std::size_t k = next++;
     obstacle.reaction.publish(
         orTargetFrame(obstacle.description.frame), *obstacle.frame.pose(),
-        aboutOrigin(reactions.obstacles[k], surroundings_.obstacles[k].pose.translation()), stamp);
+        aboutOrigin(reactions.obstacles[k], surroundings_.all.obstacles[k].pose.translation()), stamp);
   }
 }
 
@@ -185,7 +187,7 @@ void SurroundingsTracker::publishPins(const Reactions& reactions, const ros::Tim
     if (!held.acts()) continue;
     Wrench sum;
     for (std::size_t k = 0; k < held.vertexCount(); ++k, ++next) {
-      const Wrench wrench = aboutOrigin(reactions.pins[next], surroundings_.pins[next].position);
+      const Wrench wrench = aboutOrigin(reactions.pins[next], surroundings_.all.pins[next].position);
       sum.force += wrench.force;
       sum.torque += wrench.torque;
     }

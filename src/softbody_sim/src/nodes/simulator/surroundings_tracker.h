@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nodes/frame_poses.h"
+#include "nodes/prediction/named_surroundings.h"
 #include "nodes/simulator/followed_frame.h"
 #include "nodes/simulator/held_region.h"
 #include "nodes/simulator/lasting_fault.h"
@@ -65,6 +66,10 @@ class SurroundingsTracker {
   const Surroundings& surroundingsAt(const std::string& frame, const ros::Time& stamp,
                                      const Points& vertices);
 
+  /// What acted on the body at the last surroundingsAt(). Obstacles and pins that were set since do not act
+  /// yet.
+  const NamedSurroundings& lastSurroundings() const { return surroundings_; }
+
   /// Finds pins that the targets of the last surroundingsAt() contradict. @param vertices after the step [m].
   void findConflicts(const std::vector<Target>& targets, const Tets& tets, const Points& vertices);
 
@@ -102,9 +107,9 @@ class SurroundingsTracker {
   std::vector<PlacedObstacle> obstacles_;
   bool obstacles_changed_ = false;  ///< since the last surroundingsAt()
   std::map<std::string, HeldPin> pins_;
-  Surroundings surroundings_;  ///< of the last surroundingsAt()
-  std::string frame_;          ///< of the targets
-  ros::Time step_stamp_;       ///< of the last step
+  NamedSurroundings surroundings_;  ///< of the last surroundingsAt()
+  std::string frame_;               ///< of the targets
+  ros::Time step_stamp_;            ///< of the last step
 };
 
 }  // namespace softbody
