@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 import rospy
 import rostest
+import softbody
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion
 from softbody_msgs.msg import MeshState, MotionPlan, PlannedMotion, Targets, TetTopology
 from softbody_msgs.srv import Pin, Predict
@@ -63,6 +64,20 @@ class Prediction(unittest.TestCase):
         self.assertGreater(pull[2], 10.0 * pull[3])
         self.assertEqual(result.states, self.predict(times=[0.5, 2.0], plans=plans).states)
         self.assertEqual(self.recorder.wait_for("softbody/volume/state")[-1].vertices, self.state.vertices)
+
+    def test_python_gets_the_same_numbers(self):
+        lifted, turned = np.eye(4), np.eye(4)
+        lifted[:3, 3] = [0.0, 0.0, 0.04]
+        turned[:3, :3] = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+        quarter = PlannedMotion(name="hand", times=[0.5], poses=[Pose(orientation=Quaternion(z=0.5**0.5, w=0.5**0.5))])
+        body = softbody.Body()
+        for motion, message in (([0.0, 0.0, 0.04], raised("hand", 0.04)), (lifted, raised("hand", 0.04)),
+                                (turned, MotionPlan(motions=[quarter]))):
+            raw = self.predict(times=[0.5, 2.0], plans=[message]).states
+            [plan] = body.predict([{"hand": [(0.5, motion)]}], [0.5, 2.0])
+            for prediction, state in zip(plan, raw):
+                np.testing.assert_allclose(prediction.vertices, array(state.vertices), atol=1e-6)
+                self.assertAlmostEqual(prediction.reactions["hand"][0][2], state.reactions[0].force.z, places=4)
 
     def test_bad_requests_are_refused_with_a_sentence(self):
         self.assertFalse(self.unplaced.success)

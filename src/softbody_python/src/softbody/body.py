@@ -6,13 +6,14 @@ import time
 import rospy
 from geometry_msgs.msg import Point, Point32, Pose, PoseStamped, Quaternion, Vector3
 from softbody_msgs.msg import MeshState, MeshTopology, TetTopology
-from softbody_msgs.srv import (ClosestPoint, ClosestPointRequest, CutBody, CutBodyRequest, Pin, PinRequest, PreviewCut,
-                               PreviewCutRequest, Release, SaveMesh, SetMaterial, SetObstacle, SetObstacleRequest,
-                               SetPose)
+from softbody_msgs.srv import (ClosestPoint, ClosestPointRequest, CutBody, CutBodyRequest, Pin, PinRequest, Predict,
+                               PreviewCut, PreviewCutRequest, Release, SaveMesh, SetMaterial, SetObstacle,
+                               SetObstacleRequest, SetPose)
 from std_srvs.srv import Trigger
 
 from softbody.join import Joiner
 from softbody.lazy import bytes_of, lazy
+from softbody.prediction import plan_message, prediction_of
 from softbody.wire import WrongMessage, decode
 
 QUEUE_SIZE, BUFFER_SIZE = 30, 1 << 24  # messages; bytes, which hold the largest message
@@ -164,6 +165,17 @@ class Body:
     def release(self, name):
         """Lets a pin go, or removes an obstacle."""
         self._call("simulator/release", Release, name)
+
+    def predict(self, plans, times, time_step_s=0.0):
+        """Simulates plans from the present state. The tracked body does not change.
+
+        @param plans: each a map: name of a pin or obstacle -> list of (time [s], motion), the motion a shift [m] or a
+        4 x 4 matrix in the frame of the states. @param times: when the body is wanted [s], ascending.
+        @return per plan a list with a Prediction per time.
+        """
+        states = self._call("simulator/predict", Predict, time_step_s, times, [plan_message(plan) for plan in plans]).states
+        predictions = [prediction_of(state) for state in states]
+        return [predictions[k:k + len(times)] for k in range(0, len(predictions), len(times))]
 
     # --- inside --------------------------------------------------------------------------------------------------
     def _name(self, name):
