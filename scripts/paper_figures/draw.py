@@ -28,7 +28,8 @@ def read_scenes(folder):
     scenes = {name: moments(folder / f"{name}.bag", folder / f"{name}_result.bag") for name in MOVED}
     for name in AS_WRITTEN:
         stamps = {moment.state.stamp for moment in scenes[name]}
-        scenes[f"{name} as written"] = moments(folder / f"{name}.bag", folder / f"{name}_as_written_result.bag", at(stamps))
+        result = folder / f"{name}_as_written_result.bag"
+        scenes[f"{name} as written"] = moments(folder / f"{name}.bag", result, at(stamps))
     scenes["cut"] = moments(folder / "cut.bag", folder / "cut_result.bag", around_cut)
     return scenes
 

@@ -56,5 +56,5 @@ def make_film(folder, path):
                 figure.savefig(files[-1])
                 pyplot.close(figure)
         delay = str(1000 * EVERY // RATE_HZ)
-        subprocess.run(["img2webp", "-loop", "0", "-d", delay, "-lossy", "-q", str(QUALITY), "-m", "4", *files, "-o", path],
-                       check=True)
+        options = ["-loop", "0", "-d", delay, "-lossy", "-q", str(QUALITY), "-m", "4"]
+        subprocess.run(["img2webp", *options, *files, "-o", path], check=True)

@@ -76,7 +76,8 @@ def main():
     uncut, cut = topologies[0], topologies[-1]
     times = cut_times(sys.argv[1])
     print(json.dumps({"before": of_triangles(before(uncut, cut)), "after": of_triangles(after(cut)),
-                      "holes": holes(cut), "cuts": len(times), "median_ms": float(np.median(times)), "worst_ms": max(times)}))
+                      "holes": holes(cut), "cuts": len(times), "median_ms": float(np.median(times)),
+                      "worst_ms": max(times)}))
 
 
 if __name__ == "__main__":

@@ -55,6 +55,11 @@ def timed_runs():
     return reports
 
 
+def peer_runs():
+    """{body: {simulator: error and time}}"""
+    return json.loads(tool("compare_peers", package="softbody_sim"))
+
+
 def cut_runs():
     """Reports of the scenes with a cut through a body, with the shape of the triangles at the cut."""
     reports = {}
