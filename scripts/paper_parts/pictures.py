@@ -11,8 +11,9 @@ IMAGES = ROOT / "docs/images"
 FOLDER = OUTPUT / "paper_figures"
 MOTIONS = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
 AS_WRITTEN = ("bend", "push", "doll_push")
-CUTS = ("doll_cut-partial", "cut-partial", "cut")
-SHOWN_IMAGES = (*MOTIONS, "cut")
+BOARD, BOARD_TOOL = "cut_board", ("--tool", ROOT / "config/board.yaml")  # scene cut; the board itself is the blade
+CUTS = ("doll_cut-partial", "cut-partial", "cut", BOARD)
+SHOWN_IMAGES = (*MOTIONS, "cut", BOARD)
 SHOWN = {1: "the bodies before the camera; below, what was tracked, with the low-resolution model",
          2: "overview: the nodes of the graph, and what flows between them",
          3: "the models of sponge and doll at three resolutions",
@@ -23,14 +24,16 @@ SHOWN = {1: "the bodies before the camera; below, what was tracked, with the low
          8: "mean value coordinates: the high-resolution model (red) in the low-resolution model (gray)",
          9: "bent and pushed bodies over the camera's image: features, vectors, both models",
          10: "(a) before a cut, (b) line of the cut, (c) without and (d) with the faces that fill it",
-         11: "a tracked knife cuts the sponge: images with mesh and blade, and the mesh alone"}
+         11: "a marked board (config/board.yaml) cuts the sponge: images with mesh and blade, and the mesh alone"}
 
 
 def track(scene):
     """Records one scene and tracks it."""
     recording, config = FOLDER / f"{scene}.bag", object_of(scene)
-    tool("virtual_camera", "--scene", scene, "--output", recording)
-    tool("replay", recording, "--object", config, *tool_of(scene), "--output", FOLDER / f"{scene}_result.bag")
+    played = ("cut", *BOARD_TOOL) if scene == BOARD else (scene,)
+    knife = BOARD_TOOL if scene == BOARD else tool_of(scene)
+    tool("virtual_camera", "--scene", *played, "--output", recording)
+    tool("replay", recording, "--object", config, *knife, "--output", FOLDER / f"{scene}_result.bag")
     if scene in AS_WRITTEN:
         tool("replay", recording, "--object", config, "--parameters", PAPER_FILE, "--output",
              FOLDER / f"{scene}_as_written_result.bag")
@@ -45,12 +48,18 @@ def draw_figures(jobs):
         list(pool.map(track, (*CUTS, *MOTIONS)))
     tool("draw_cut", FOLDER / "cut-partial_result.bag", FOLDER / "doll_cut-partial_result.bag",
          "--output", FOLDER / "figure_10.png")
-    tool("draw_cut", FOLDER / "cut_result.bag", "--recording", FOLDER / "cut.bag", "--output", FOLDER / "figure_11.png")
+    tool("draw_cut", FOLDER / f"{BOARD}_result.bag", "--recording", FOLDER / f"{BOARD}.bag",
+         "--output", FOLDER / "figure_11.png")
     command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/paper_figures/draw.py", FOLDER, IMAGES]
     answer = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
     if answer.returncode != 0:
         raise ToolFailed(f"draw.py\n{answer.stderr}")
     shutil.rmtree(FOLDER)
+    return section()
+
+
+def section():
+    """The lines of the section in docs/paper.md."""
     words = paragraph("The paper's figures with our bodies. The virtual camera records scenes with noise, and `replay` "
                       "tracks them. Figures 10 and 11 are drawn by `draw_cut`. The slits of Figure 10 are open because "
                       "they are open in the camera images. No display is needed.")

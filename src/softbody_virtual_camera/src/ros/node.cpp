@@ -22,6 +22,7 @@ CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
   setup.camera_motion = parameters->choice("camera_motion", setup.camera_motion, cameraMotionNames());
   setup.texture = parameters->choice("texture", setup.texture, textureNames());
   setup.body = parameters->text("body", setup.body);
+  setup.tool = parameters->text("tool", setup.tool);
   setup.unit = parameters->choice("unit", setup.unit, {"m", "cm", "mm", "inch"});
   setup.seed =
       static_cast<std::uint64_t>(parameters->integer("seed", static_cast<int>(setup.seed), 0, 1 << 30));

@@ -14,6 +14,7 @@ struct CameraSetup {
   std::string texture = "rich";             ///< of the body: rich, weak or plain
   std::string body;                         ///< OBJ, PLY, STL or OFF; empty: the scene's body
   std::string unit = "m";                   ///< unit of the body's file: m, cm, mm or inch
+  std::string tool;                         ///< tool YAML; empty: knife.yaml
   FileScope scope = FileScope::kOwnFolder;  ///< of the files that the body's OBJ names
   std::string config_folder;                ///< folder of the shipped objects and of knife.yaml
   std::uint64_t seed = 1;

@@ -30,8 +30,8 @@ VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* war
   Warnings ignored;
   const Body body = readBody(file, setup.body.empty() ? 1.0 : metresPer(setup.unit),
                              warnings ? warnings : &ignored, setup.scope);
-  const Scene scene =
-      makeScene(setup.scene, body, setup.seed, setup.config_folder + "/knife.yaml", setup.texture);
+  const std::string tool = setup.tool.empty() ? setup.config_folder + "/knife.yaml" : setup.tool;
+  const Scene scene = makeScene(setup.scene, body, setup.seed, tool, setup.texture);
   const Scene shown = setup.hands ? scene : withoutHands(scene);
   return VirtualCamera(withCameraMotion(setup.camera_motion, shown), d435(setup.width, setup.height),
                        setup.noise, setup.seed);

@@ -1,6 +1,7 @@
 #include "scenes/cut_scenes.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -22,6 +23,16 @@ using Aftermath = std::function<Points(double share)>;
 /// A vertical cut through the body, rotated about the vertical.
 PlaneCut verticalCut(double place, double angle_rad) {
   return {Eigen::Translation3d(place, 0.0, 0.0) * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ())};
+}
+
+/// Direction of the cuts. The markers of a board lie in the plane of its blade. A board is turned, so that
+/// the camera sees them.
+double angleOf(const Tool& tool) {
+  constexpr double kBoardAngle = 0.9, kInPlane = 0.9;  // [rad], cosine
+  const auto in_plane = [](const ToolMarker& marker) {
+    return std::abs(marker.T_tool_marker.linear()(0, 2)) > kInPlane;
+  };
+  return std::any_of(tool.markers.begin(), tool.markers.end(), in_plane) ? kBoardAngle : 0.0;
 }
 
 /// A cut from the top through 60 % of the body's height there.
@@ -146,7 +157,7 @@ MeshTopology wholeBody(const Stage& stage) {
 }  // namespace
 
 Scene cutScene(const Stage& stage, const Tool& tool) {
-  const Cuts cuts = makeCuts(wholeBody(stage), {verticalCut(kPlace, 0.0)}, tool);
+  const Cuts cuts = makeCuts(wholeBody(stage), {verticalCut(kPlace, angleOf(tool))}, tool);
   return performCuts(stage, tool, cuts, partPieces(cuts.last.topology, kPlace));
 }
 

@@ -48,6 +48,9 @@ void declare(CLI::App* app, Arguments* arguments) {
   app->add_option("--unit", setup.unit, "unit of the body's file")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
       ->capture_default_str();
+  app->add_option("--tool", setup.tool,
+                  "tool YAML for the scenes with a cut; default: the shipped knife.yaml")
+      ->check(CLI::ExistingFile);
   addAllowOutside(app, &setup.scope);
   app->add_option("--seed", setup.seed, "seed of textures and noise")->capture_default_str();
   app->add_option("--noise", arguments->noise, "sensor noise: on or off")
