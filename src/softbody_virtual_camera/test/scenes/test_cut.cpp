@@ -323,17 +323,6 @@ TEST(CutScenes, BladeIsOverTheBodyThenInThePatchAllAcrossTheSection) {
   }
 }
 
-TEST(CutScenes, ABoardThatIsTheBladeShowsItsMarkerWhileItCuts) {
-  const std::string file = kConfig + "/board.yaml";
-  const Scene scene = makeScene("cut", shippedBody("sponge"), 1, file);
-  const ToolMarker marker = readTool(file).markers.at(0);
-  for (double t = 0.5; t < 3.5; t += 0.5) {
-    const Eigen::Isometry3d T_camera_marker = *scene.state(t).T_camera_tool * marker.T_tool_marker;
-    EXPECT_LT(T_camera_marker.linear().col(2).dot(T_camera_marker.translation().normalized()), -0.5) << t;
-  }
-  EXPECT_EQ(pieces(scene.edits.at(0).topology), 2u);
-}
-
 TEST(CutScenes, RefuseABodyThatTheBladeIsTooShortFor) {
   Body large = shippedBody("sponge");
   large.rest.vertices *= 1.2;

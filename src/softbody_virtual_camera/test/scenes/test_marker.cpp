@@ -142,5 +142,15 @@ INSTANTIATE_TEST_SUITE_P(, MarkerInCutScene,
                          testing::Values("cut", "cut-partial", "cut-cross", "doll_cut", "doll_cut-partial",
                                          "doll_cut-cross"));
 
+TEST(Board, ThatIsTheBladeShowsItsMarkerWhileItCuts) {
+  const std::string file = std::string(CONFIG_DIR) + "/board.yaml";
+  const Scene scene = makeScene("cut", shippedBody("sponge"), 1, file);
+  const ToolMarker marker = readTool(file).markers.at(0);
+  for (double t = 0.5; t < 3.5; t += 0.5) {
+    const Eigen::Isometry3d T_camera_marker = *scene.state(t).T_camera_tool * marker.T_tool_marker;
+    EXPECT_LT(T_camera_marker.linear().col(2).dot(T_camera_marker.translation().normalized()), -0.5) << t;
+  }
+}
+
 }  // namespace
 }  // namespace softbody::virtual_camera
