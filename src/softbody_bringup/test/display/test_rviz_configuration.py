@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""The displays of the volume in track.rviz: each shows something if it is switched on, and nothing otherwise."""
+import sys
+import unittest
+
+import rospkg
+import rospy
+import rostest
+import yaml
+from geometry_msgs.msg import Point32, Pose, Quaternion
+from shape_msgs.msg import MeshTriangle
+from softbody_msgs.msg import MeshState, Target, Targets, Tetrahedron, TetTopology
+
+PACKAGES = rospkg.RosPack()
+sys.path.append(PACKAGES.get_path("softbody_rviz_plugins") + "/test/ros")
+from hand_made_body import FRAME, SIDE  # pylint: disable=wrong-import-position
+from rviz_screen import Rviz, pixels_of  # pylint: disable=wrong-import-position
+
+CONFIGURATION = PACKAGES.get_path("softbody_bringup") + "/rviz/track.rviz"
+EDGES, ARROW = (230, 230, 230), (80, 220, 100)  # default colours of the low-resolution mesh and of a feature's target
+PIXELS_PER_M = 1000.0
+PULL = 0.02  # distance of the target from the body [m]
+VIEW = {"Class": "rviz/TopDownOrtho", "Name": "View", "Angle": 0.0, "Scale": PIXELS_PER_M, "X": 0.0, "Y": 0.0,
+        "Target Frame": FRAME}
+
+
+def publish():
+    """A single tet, whose largest face is seen from +z, and a feature that pulls it to the left."""
+    corners = [Point32(0, 0, 0), Point32(SIDE, 0, 0), Point32(0, SIDE, 0), Point32(0, 0, -SIDE)]
+    topology, state, targets = TetTopology(), MeshState(), Targets()
+    for message in (topology, state, targets):
+        message.header.frame_id, message.header.stamp = FRAME, rospy.Time.now()
+    topology.rest_vertices, topology.tets = corners, [Tetrahedron([0, 2, 1, 3])]
+    topology.surface_triangles = [MeshTriangle(list(face)) for face in ((0, 1, 2), (0, 3, 1), (1, 3, 2), (0, 2, 3))]
+    topology.vertex_parents, topology.tet_bodies = [0, 1, 2, 3], [0]
+    state.vertices, state.confidence, state.observed = corners, [1.0] * 4, state.header.stamp
+    targets.body_pose = Pose(orientation=Quaternion(w=1.0))
+    targets.targets = [Target(kind=Target.FEATURE, tet=0, barycentric=[1, 0, 0, 0], weight=1.0,
+                              position=Point32(-PULL, 0, 0))]
+    publishers = []
+    for name, message in (("volume/topology", topology), ("volume/state", state), ("targets", targets)):
+        publishers.append(rospy.Publisher("/softbody/" + name, type(message), queue_size=1, latch=True))
+        publishers[-1].publish(message)
+    return publishers
+
+
+class TestConfiguration(unittest.TestCase):
+    def displays(self, *names):
+        """The configuration's displays of the volume; those of these names are switched on."""
+        with open(CONFIGURATION, encoding="utf-8") as file:
+            displays = yaml.safe_load(file)["Visualization Manager"]["Displays"]
+        volume = [display for display in displays if display["Class"] == "softbody_rviz_plugins/Tets"]
+        self.assertEqual({display["Name"] for display in volume}, {"Tets", "Low-resolution mesh", "Targets"})
+        return [{**display, "Enabled": display["Name"] in names} for display in volume]
+
+    def expect(self, names, edges, arrow, face):
+        """Edges, arrow and coloured face come onto the screen, or stay away."""
+        rviz = Rviz(self.displays(*names), VIEW)
+
+        def fits(picture):
+            picture = picture[100:340, 290:620]  # around the body, without the window and the colour bar
+            seen = [len(pixels_of(picture, color)[0]) for color in (EDGES, ARROW)]
+            area = (picture.max(axis=2) > 20).sum() / PIXELS_PER_M**2 / (SIDE**2 / 2)  # 1: the whole triangle
+            return (seen[0] > 200) == edges and (seen[1] > 20) == arrow and (area > 0.9) == face
+
+        try:
+            self.assertTrue(rviz.wait_for(fits), f"{names} show something else")
+        finally:
+            rviz.end()
+
+    def test_each_display_shows_its_own(self):
+        self.expect(["Low-resolution mesh", "Targets"], edges=True, arrow=True, face=False)
+        self.expect(["Tets"], edges=False, arrow=False, face=True)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_rviz_configuration")
+    PUBLISHERS = publish()
+    rostest.rosrun("softbody_bringup", "rviz_configuration", TestConfiguration)
