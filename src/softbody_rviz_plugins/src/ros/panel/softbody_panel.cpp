@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <ros/service.h>
-#include <softbody_msgs/SetPose.h>
+#include <std_srvs/Trigger.h>
 
 #include <QGroupBox>
 #include <QTimer>
@@ -10,6 +10,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
+#include "ros/panel/record_button.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
 #include "timing/status_words.h"
@@ -56,6 +57,7 @@ SoftbodyPanel::SoftbodyPanel(QWidget* parent) : Panel(parent) {
   cut_ = new CutControls(node_, &caller_, this);
   rows->addWidget(cut_);
   answer_ = addLabel(rows);
+  rows->insertWidget(rows->indexOf(cut_), new RecordButton(node_, answer_));
   rows->addStretch();
 }
 
@@ -65,9 +67,8 @@ void SoftbodyPanel::addState() {
   state_ = addLabel(rows);
   reason_ = addLabel(rows);
   numbers_ = addLabel(rows);
-  find_ = new QPushButton("Find again at the initial pose");
-  find_->setEnabled(false);
-  find_->setToolTip("Restarts tracking at the initial pose of the object YAML");
+  find_ = new QPushButton("Find again");
+  find_->setToolTip("Searches the body anew, as at the start. Cuts stay");
   rows->addWidget(find_);
   connect(find_, &QPushButton::clicked, [this] { findAgain(); });
   setBanner(state_, "No status yet", "#666666");
@@ -118,22 +119,19 @@ void SoftbodyPanel::onTiming(const softbody_msgs::StageTiming& message) {
 
 void SoftbodyPanel::onTopology(const softbody_msgs::TetTopology& message) {
   try {
-    const TetTopology topology = fromMessage(message);
-    cut_->setBody(topology.rest_vertices);
-    if (topology.has_initial_pose) initial_pose_ = message.initial_pose;
+    cut_->setBody(fromMessage(message).rest_vertices);
   } catch (const std::invalid_argument& error) {
     answer_->setText(QString("The topology was refused: ") + error.what());
   }
 }
 
 void SoftbodyPanel::findAgain() {
-  softbody_msgs::SetPose service;
-  service.request.pose.pose = *initial_pose_;  // without a frame: the colour optical frame
-  caller_.start([name = node_.resolveName("feature_tracker/set_pose"), service]() mutable {
+  caller_.start([name = node_.resolveName("feature_tracker/find_again")] {
+    std_srvs::Trigger service;
     if (!ros::service::call(name, service))
       return "The service " + name + " does not answer. Is the graph running?";
-    return service.response.success ? "Tracking starts again at the initial pose."
-                                    : "Not started again: " + service.response.message;
+    return service.response.success ? "The body is searched anew."
+                                    : "Not searched: " + service.response.message;
   });
 }
 
@@ -148,7 +146,7 @@ void SoftbodyPanel::refresh() {
     setBanner(state_, "Silent: no status for some seconds", "#666666");
   if (const auto answer = caller_.take()) answer_->setText(QString::fromStdString(*answer));
   cut_->setBusy(caller_.isBusy());
-  find_->setEnabled(initial_pose_.has_value() && !caller_.isBusy());
+  find_->setEnabled(!caller_.isBusy());
 }
 
 }  // namespace softbody

@@ -9,7 +9,6 @@
 
 #include <QLabel>
 #include <QPushButton>
-#include <optional>
 #include <vector>
 
 #include "ros/panel/cut_controls.h"
@@ -45,7 +44,6 @@ class SoftbodyPanel : public rviz::Panel {
   TimeBars* bars_;
   CutControls* cut_;
   FrameTimes times_;
-  std::optional<geometry_msgs::Pose> initial_pose_;
   ros::SteadyTime last_status_;
   std::vector<ros::Subscriber> subscribers_;
 };

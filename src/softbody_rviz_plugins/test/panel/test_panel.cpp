@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <softbody_msgs/CutBody.h>
+#include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/PreviewCut.h>
+#include <softbody_msgs/TetTopology.h>
+#include <std_srvs/Trigger.h>
+
+#include <QApplication>
+#include <QComboBox>
+#include <QDir>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+#include <QTemporaryDir>
+#include <boost/function.hpp>
+#include <functional>
+
+#include "ros/panel/softbody_panel.h"
+
+/// Every button of the panel, clicked, with stand-ins for the services of the graph.
+namespace softbody {
+namespace {
+
+constexpr double kPatience_s = 15.0;
+
+geometry_msgs::Point32 point(float x, float y, float z) {
+  geometry_msgs::Point32 result;
+  result.x = x, result.y = y, result.z = z;
+  return result;
+}
+
+/// A tet from (0, 0, 0) to 0.1, 0.2 and 0.4 m on the axes.
+softbody_msgs::TetTopology body() {
+  softbody_msgs::TetTopology topology;
+  topology.rest_vertices = {point(0, 0, 0), point(0.1f, 0, 0), point(0, 0.2f, 0), point(0, 0, 0.4f)};
+  topology.tets.resize(1);
+  for (unsigned k = 0; k < 4; ++k) topology.tets[0].vertex_indices[k] = k;
+  for (const std::array<unsigned, 3>& face :
+       std::vector<std::array<unsigned, 3>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+    shape_msgs::MeshTriangle triangle;
+    std::copy(face.begin(), face.end(), triangle.vertex_indices.begin());
+    topology.surface_triangles.push_back(triangle);
+  }
+  topology.vertex_parents = {0, 1, 2, 3};
+  topology.tet_bodies = {0};
+  return topology;
+}
+
+class Panel : public testing::Test {
+ protected:
+  Panel() {
+    for (const char* name : {"feature_tracker/find_again", "surface/undo", "surface/redo", "surface/reset"})
+      addTrigger(name);
+    using Cut = softbody_msgs::CutBody;
+    servers_.push_back(node_.advertiseService<Cut::Request, Cut::Response>(
+        "surface/cut", boost::function<bool(Cut::Request&, Cut::Response&)>([this](auto& in, auto& out) {
+          called_.push_back("surface/cut");
+          place_ = in.point.y, direction_ = in.normal.y;
+          out.success = true;
+          out.revision = 7;
+          return true;
+        })));
+    using Preview = softbody_msgs::PreviewCut;
+    servers_.push_back(node_.advertiseService<Preview::Request, Preview::Response>(
+        "surface/preview",
+        boost::function<bool(Preview::Request&, Preview::Response&)>([this](auto&, auto& out) {
+          called_.push_back("surface/preview");
+          out.success = true;
+          out.volumes = {2e-6, 1e-6};
+          return true;
+        })));
+    topology_ = node_.advertise<softbody_msgs::TetTopology>("volume/topology", 1, true);
+    state_ = node_.advertise<softbody_msgs::MeshState>("surface/state", 1, true);
+    panel_.onInitialize();
+  }
+
+  void addTrigger(const std::string& name) {
+    using Trigger = std_srvs::Trigger;
+    servers_.push_back(node_.advertiseService<Trigger::Request, Trigger::Response>(
+        name, boost::function<bool(Trigger::Request&, Trigger::Response&)>([this, name](auto&, auto& out) {
+          called_.push_back(name);
+          out.success = accept_;
+          out.message = "there is no reason";
+          return true;
+        })));
+  }
+
+  /// Topics, services and Qt's events are handled here, as in rviz.
+  bool waitFor(const std::function<bool()>& condition) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience_s);
+    while (!condition() && ros::WallTime::now() < end) {
+      ros::spinOnce();
+      QApplication::processEvents(QEventLoop::AllEvents, 20);
+      ros::WallDuration(0.005).sleep();
+    }
+    return condition();
+  }
+
+  QPushButton* button(const QString& text) {
+    for (QPushButton* found : panel_.findChildren<QPushButton*>()) {
+      if (found->text() == text) return found;
+    }
+    return nullptr;
+  }
+
+  bool says(const QString& words) {
+    for (const QLabel* label : panel_.findChildren<QLabel*>()) {
+      if (label->text().contains(words)) return true;
+    }
+    return false;
+  }
+
+  /// Clicks a button as soon as it can be clicked, and waits for the panel's words.
+  void expectAnswer(const QString& text, const QString& words) {
+    ASSERT_TRUE(waitFor([&] { return button(text) != nullptr && button(text)->isEnabled(); }))
+        << text.toStdString();
+    button(text)->click();
+    EXPECT_TRUE(waitFor([&] { return says(words); })) << text.toStdString();
+  }
+
+  ros::NodeHandle node_{"/softbody"};
+  std::vector<std::string> called_;  // services
+  double place_ = 0.0, direction_ = 0.0;
+  bool accept_ = true;
+  std::vector<ros::ServiceServer> servers_;
+  ros::Publisher topology_, state_;
+  SoftbodyPanel panel_;
+};
+
+TEST_F(Panel, EveryButtonCallsItsServiceAndShowsTheAnswer) {
+  EXPECT_FALSE(button("Cut")->isEnabled());  // there is no body yet
+  topology_.publish(body());
+  expectAnswer("Preview", "Preview: 2 pieces of 2.0, 1.0 cm3");
+  panel_.findChild<QComboBox*>()->setCurrentIndex(1);
+  panel_.findChild<QSlider*>()->setValue(panel_.findChild<QSlider*>()->maximum() / 4);
+  expectAnswer("Cut", "Cut; revision 7");
+  EXPECT_NEAR(place_, 0.05, 1e-6);  // a quarter of 0.2 m along y
+  EXPECT_EQ(direction_, 1.0);
+  expectAnswer("Undo", "Done: undo");
+  expectAnswer("Redo", "Done: redo");
+  expectAnswer("Reset", "Done: reset");
+  expectAnswer("Find again", "The body is searched anew.");
+  accept_ = false;
+  expectAnswer("Find again", "Not searched: there is no reason");
+  expectAnswer("Undo", "Not done: there is no reason");
+  const std::vector<std::string> expected{"surface/preview",
+                                          "surface/cut",
+                                          "surface/undo",
+                                          "surface/redo",
+                                          "surface/reset",
+                                          "feature_tracker/find_again",
+                                          "feature_tracker/find_again",
+                                          "surface/undo"};
+  EXPECT_EQ(called_, expected);
+}
+
+TEST_F(Panel, TheRecordButtonWritesABagThatIsWhole) {
+  const QTemporaryDir folder;
+  QDir::setCurrent(folder.path());
+  expectAnswer("Record", "Recording to " + folder.path());
+  ASSERT_TRUE(waitFor([&] { return state_.getNumSubscribers() > 0; }));
+  state_.publish(softbody_msgs::MeshState());
+  waitFor([&] { return !QDir(folder.path()).entryList({"*.active"}).isEmpty(); });
+  expectAnswer("Stop recording", "Recorded: " + folder.path());
+  EXPECT_EQ(QDir(folder.path()).entryList({"*"}, QDir::Files).filter(".bag").size(), 1);
+  EXPECT_TRUE(QDir(folder.path()).entryList({"*.active"}).isEmpty());
+  EXPECT_NE(button("Record"), nullptr);
+  QDir::setCurrent("/");
+}
+
+}  // namespace
+}  // namespace softbody
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_panel");
+  QApplication application(argc, argv);
+  const ros::NodeHandle node;  // keeps ROS alive between the tests
+  return RUN_ALL_TESTS();
+}
