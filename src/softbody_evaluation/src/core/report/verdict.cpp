@@ -25,7 +25,7 @@ constexpr Limit kLimits[] = {
     {"visible vertices, mean", false, 2.5, 10.0, "The visible side does not follow the body."},
     {"hidden vertices, mean", false, 5.0, 20.0,
      "The hidden side is wrong: check the material, and what holds the body."},
-    {"visible vertices within their 90 % bound", true, 70.0, kNothing,
+    {"visible vertices within their 90 % bound", true, 60.0, kNothing,
      "The predicted errors are too small: do not trust the standard deviations."},
     {"frames with the true number of pieces", true, 90.0, 50.0, "A cut is missing, or was made too late."},
     {"cut surface from the true one, mean", false, 3.0, 10.0, "The cut is in the wrong place."},
