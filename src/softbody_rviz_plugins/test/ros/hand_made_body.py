@@ -46,4 +46,5 @@ class Body:
         message.observed = message.header.stamp
         message.vertices = [Point32(x + offset[0], y + offset[1], offset[2]) for part in self.corners(cut) for x, y in part]
         message.confidence = [1.0] * len(message.vertices)
+        message.standard_deviation = [0.001 * k for k in range(len(message.vertices))]  # each vertex has its own
         self.state.publish(message)
