@@ -85,7 +85,8 @@ class Prediction(unittest.TestCase):
         for request, words in ((dict(times=[1.0], plans=[raised("foot", 0.1)]), "'foot'"),
                                (dict(times=[1.0, 0.5], plans=[MotionPlan()]), "ascending"),
                                (dict(times=[], plans=[MotionPlan()]), "nothing to predict"),
-                               (dict(times=[1.0], plans=[MotionPlan()], time_step=-1.0), "time_step")):
+                               (dict(times=[1.0], plans=[MotionPlan()], time_step=-1.0), "time_step"),
+                               (dict(times=[60.0], plans=2 * [MotionPlan()], time_step=0.001), "fewer plans")):
             answer = self.predict(**request)
             self.assertFalse(answer.success)
             self.assertIn(words, answer.message)

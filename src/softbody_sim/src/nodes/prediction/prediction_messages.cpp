@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -13,7 +14,8 @@ namespace softbody {
 namespace {
 
 constexpr double kShortestStep = 1e-3, kLongestStep = 1.0, kLongestTime = 60.0;  // [s]
-constexpr std::size_t kMostStates = 100000;
+constexpr std::size_t kMostStates = 100000;                                      // of one answer
+constexpr double kMostSteps = 100000;  // of all plans: some minutes of computing
 
 void requireAscending(const std::vector<double>& times, const std::string& what) {
   double before = 0.0;
@@ -86,6 +88,13 @@ void requireUsable(const softbody_msgs::PredictRequest& request) {
   if (request.times.size() * request.plans.size() > kMostStates) {
     throw std::invalid_argument(fmt::format("{} plans at {} times; allowed: up to {} states",
                                             request.plans.size(), request.times.size(), kMostStates));
+  }
+  const double step = timeStepOf(request), steps = std::ceil(request.times.back() / step);
+  if (static_cast<double>(request.plans.size()) * steps > kMostSteps) {
+    throw std::invalid_argument(fmt::format(
+        "{} plans of {} s in steps of {} s are more than {} steps: ask for fewer plans, a shorter "
+        "time or longer steps",
+        request.plans.size(), request.times.back(), step, kMostSteps));
   }
 }
 
