@@ -15,9 +15,12 @@ BEGIN, END = "<!-- evaluation begin: written by make evaluate -->", "<!-- evalua
 
 
 def commit(root):
-    run = subprocess.run(["git", "-C", root, "describe", "--always", "--dirty"], stdout=subprocess.PIPE, text=True,
-                         check=False)
-    return run.stdout.strip() or "unknown"
+    """The commit, with "-dirty" if other files than documents were changed since."""
+    def git(*arguments):
+        return subprocess.run(["git", "-C", root, *arguments], stdout=subprocess.PIPE, text=True, check=False).stdout
+
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs", ":!README.md")
+    return (git("describe", "--always").strip() or "unknown") + ("-dirty" if changed else "")
 
 
 def origin(root):
