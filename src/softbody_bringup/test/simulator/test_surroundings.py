@@ -45,7 +45,7 @@ class Surroundings(unittest.TestCase):
                                 rosout=Log, diagnostics=DiagnosticArray)
         cls.broadcaster = tf2_ros.TransformBroadcaster()
         cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
-        cls.pins = rospy.Publisher("/softbody/pin", PinRegion, queue_size=1)
+        cls.pins = rospy.Publisher("/softbody/pin", PinRegion, queue_size=10)
         topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
         cls.rest = array(topology.rest_vertices)
         cls.tets = np.array([tet.vertex_indices for tet in topology.tets])
