@@ -78,16 +78,21 @@ bool FemSolver::solveShifted(double shift) {
   return direction_.allFinite();
 }
 
-/// Halves the step until the energy falls enough (Armijo). If it never does, returns false and leaves x.
+/// Halves the step until the energy falls enough (Armijo). Where the fall is below the rounding of the
+/// energy, the slope tells instead (approximate Wolfe condition, Hager and Zhang 2005, eq. 4.1). If neither
+/// holds for any step, returns false and leaves x.
 bool FemSolver::searchLine(const IncrementalPotential& potential, Points* x, double* step) {
   constexpr double kArmijo = 1e-4;
   constexpr int kMaxHalvings = 20;
   const double slope = gradient_.cwiseProduct(direction_).sum();
+  const double rounding = 1e-12 * std::abs(energy_);
   for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
     trial_ = *x + *step * direction_;
-    const double trial_energy = evaluate(potential, trial_, &trial_gradient_);
-    if (!(trial_energy <= energy_ + kArmijo * *step * slope)) continue;
-    energy_ = trial_energy;
+    const double rise = evaluate(potential, trial_, &trial_gradient_) - energy_;
+    const double trial_slope = trial_gradient_.cwiseProduct(direction_).sum();
+    const bool slope_vanishes = rise <= rounding && std::abs(trial_slope) <= (1.0 - 2.0 * kArmijo) * -slope;
+    if (!(rise <= kArmijo * *step * slope) && !slope_vanishes) continue;
+    energy_ += rise;
     x->swap(trial_);
     gradient_.swap(trial_gradient_);
     return true;
