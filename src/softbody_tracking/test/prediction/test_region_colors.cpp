@@ -81,6 +81,19 @@ TEST_F(RegionColorsTest, WhatCoversTheBodyIsNotLearned) {
   EXPECT_GT(colors_.logOdds(kSkin), 2.0);
 }
 
+/// Depth alone would take a hand that touches the body, where the prediction lags behind, for the body.
+TEST_F(RegionColorsTest, AHandAtTheDepthOfTheBodyIsNotLearned) {
+  const cv::Rect beside(405, 180, 15, 60), over(340, 180, 60, 60);
+  frame_.color(beside) = kGlove;
+  colors_.learn(frame_, rendered_);
+  ASSERT_LT(colors_.logOdds(kGlove), 0.0);
+  show(rendered_.region);
+  frame_.color(over) = kGlove;
+  for (int i = 0; i < 60; ++i) colors_.learn(frame_, rendered_);
+  EXPECT_LT(colors_.logOdds(kGlove), -1.0);
+  EXPECT_GT(colors_.logOdds(kSkin), 2.0);
+}
+
 /// A prediction that is wrong by some pixels still learns the right colours: depth tells the sides apart.
 TEST_F(RegionColorsTest, LearnBesideAnInexactPrediction) {
   const cv::Rect predicted = rendered_.region + cv::Point(8, 0);

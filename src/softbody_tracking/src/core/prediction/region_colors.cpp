@@ -1,6 +1,5 @@
 #include "prediction/region_colors.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -11,9 +10,6 @@ namespace {
 constexpr int kAround = 24;
 // Distance [px] from the outline at which a pixel shows the body alone.
 constexpr int kInside = 3;
-// Largest difference of depth where the body is seen [m], at up to 1 m; a little above noise and
-// registration.
-constexpr float kAgrees = 0.01f;
 // Every second pixel of every second row is enough for a histogram.
 constexpr int kStep = 2;
 // Pixels on each side, below which nothing is learned: a few pixels may show anything.
@@ -23,11 +19,9 @@ constexpr float kRate = 0.2f;
 // Density of a colour that was never seen: it speaks for neither side.
 constexpr float kUnseen = 1e-3f;
 
-/// Whether depth and prediction agree at a pixel that is not at the outline.
-bool isSurelyBody(const cv::Mat1f& rendered, const cv::Mat1f& measured, int u, int v) {
-  const float z = rendered(v, u);
-  return z > 0.0f && std::abs(z - measured(v, u)) < kAgrees * std::max(1.0f, z) &&
-         rendered(v, u - kInside) > 0.0f && rendered(v, u + kInside) > 0.0f &&
+/// Whether the body is rendered at a pixel and around it.
+bool isInside(const cv::Mat1f& rendered, int u, int v) {
+  return rendered(v, u) > 0.0f && rendered(v, u - kInside) > 0.0f && rendered(v, u + kInside) > 0.0f &&
          rendered(v - kInside, u) > 0.0f && rendered(v + kInside, u) > 0.0f;
 }
 
@@ -61,10 +55,14 @@ void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered) {
   for (int v = region.y; v < region.br().y; v += kStep) {
     for (int u = region.x; u < region.br().x; u += kStep) {
       const std::size_t color = bin(frame.color(v, u));
-      if (isSurelyBody(rendered.depth, frame.depth, u, v)) {
+      const float predicted = rendered.depth(v, u), measured = frame.depth(v, u);
+      const double odds = predicted > 0.0f && measured > 0.0f
+                              ? log_odds_[color] + evidence_.logOdds(measured - predicted, predicted)
+                              : 0.0;
+      if (odds > 0.0 && isInside(rendered.depth, u, v)) {
         counts_of_body_[color] += 1.0f;
         on_body += 1.0f;
-      } else if (rendered.triangle(v, u) < 0) {
+      } else if (odds < 0.0 || rendered.triangle(v, u) < 0) {
         counts_around_[color] += 1.0f;
         around += 1.0f;
       }

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "prediction/depth_evidence.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_tracking/rgbd_frame.h"
 
@@ -15,8 +16,8 @@ class RegionColors {
  public:
   RegionColors();
 
-  /// Learns from a frame. The body is where the depth agrees with the rendered body. What is beside the
-  /// rendered body are its surroundings.
+  /// Learns from a frame. The body is where it is rendered and where depth and earlier colours speak for it:
+  /// a hand where the body is predicted stays part of the surroundings, like what is beside the body.
   void learn(const RgbdFrame& frame, const RasterImage& rendered);
 
   bool learned() const { return !body_.empty(); }
@@ -33,6 +34,7 @@ class RegionColors {
   }
   void blend(const std::vector<float>& counts, std::vector<float>* densities);
 
+  DepthEvidence evidence_;
   std::vector<float> body_, surroundings_;  ///< share of the pixels in each bin; empty before learn()
   std::vector<float> log_odds_, counts_of_body_, counts_around_;
 };
