@@ -94,7 +94,9 @@ def config_of(scene, name):
 
 
 def tool_of(scene):
-    """Arguments of `replay` for a scene with a knife."""
+    """Arguments of `replay` for a scene in which the body is cut or tears."""
+    if re.search(r"(^|_)tear", scene):
+        return ("--parameters", ROOT / "config/tear.yaml")
     return ("--tool", ROOT / "config/knife.yaml") if re.search(r"(^|_)cut", scene) else ()
 
 

@@ -183,7 +183,8 @@ def toys(reports):
                      percent(get(window, "within_10mm")), percent(get(window, "within_15mm_of_measured"))])
     found = get(reports.get(("no pose", "toys")), "depth_residual", "all")
     text = ("A recording from a real camera has no truth. So the tracked surface is compared with the measured "
-            "depth. \"Strict\" counts occluded pixels as misses. Without a rough pose: "
+            "depth. The recording is from A. Petit's RGBDTracking (Petit, Lippiello and Siciliano 2015, Real-time "
+            "tracking of 3D elastic objects with an RGB-D sensor, IROS). \"Strict\" counts occluded pixels as misses. Without a rough pose: "
             f"median {number(get(found, 'residual', 'median_mm'))} mm, "
             f"{percent(get(found, 'within_10mm'))} % within 10 mm, "
             f"{percent(get(found, 'within_15mm_of_measured'))} % within 15 mm (strict).")

@@ -1,6 +1,7 @@
 """Records and tracks the scenes of `make paper`."""
 import concurrent.futures
 import json
+import shutil
 import subprocess
 import sys
 
@@ -73,6 +74,34 @@ def cut_runs():
     return reports
 
 
+def tear_run():
+    """The report of scene `tear`, with the times of the tears."""
+    recording = recording_of("tear")
+    report = measure("paper_tear", recording, ROOT / "config/sponge.yaml", "--truth", recording,
+                     more=("--parameters", ROOT / "config/tear.yaml"))
+    report["times"] = read_by("tear_times.py", OUTPUT / "paper_tear_result.bag", recording)
+    recording.unlink()
+    (OUTPUT / "paper_tear_result.bag").unlink()
+    return report
+
+
+def coarse_doll_runs():
+    """{scene: report} of the doll with as many cage vertices as the paper's."""
+    model, reports = OUTPUT / "paper_coarse_doll", {}
+    shutil.rmtree(model, ignore_errors=True)
+    tool("prepare_model", ROOT / "config/doll.obj", "--cage-vertices", "128", "--output", model, package="softbody_sim")
+    for scene in SCENES:
+        if not scene.startswith("doll_"):
+            continue
+        name, recording = f"paper_coarse_{scene}", recording_of(scene)
+        reports[scene] = measure(name, recording, model / "object.yaml", "--truth", recording)
+        result = OUTPUT / f"{name}_result.bag"
+        reports[scene]["sizes"] = read_by("sizes.py", result)
+        recording.unlink()
+        result.unlink()
+    return reports
+
+
 def model_sizes():
     """{body: {model: [vertices, polygons]}} from the topologies that the graph publishes."""
     sizes = {}
@@ -86,9 +115,9 @@ def model_sizes():
     return sizes
 
 
-def read_by(script, result):
+def read_by(script, result, *more):
     """What a script of this folder prints about a bag of `replay`."""
-    command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/paper_parts" / script, result]
+    command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/paper_parts" / script, result, *more]
     answer = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     if answer.returncode != 0:
         raise ToolFailed(f"{script} {result}\n{answer.stderr}")

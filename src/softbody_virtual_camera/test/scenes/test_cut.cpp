@@ -270,6 +270,37 @@ TEST(CutScenes, PiecesMoveApartRigidlyAndDoNotMeet) {
   }
 }
 
+TEST(TearScene, TearsAtHalfAsLongAgainAndTheEndsStay) {
+  constexpr double kTear = 2.5, kAround = 4e-3;  // [s], [m]
+  const Scene scene = virtual_camera::scene("tear");
+  ASSERT_EQ(scene.edits.size(), 1u);
+  const MeshTopology& torn = scene.edits[0].topology;
+  EXPECT_EQ(pieces(torn), 2u);
+  EXPECT_EQ(scene.state(kTear - 1e-6).revision, 0u);
+  const SceneState tears = scene.state(kTear), relaxed = scene.state(scene.duration_s);
+  EXPECT_EQ(tears.revision, 1u);
+  const auto length = [&](const SceneState& state, Eigen::Index a, Eigen::Index b) {
+    return (state.vertices[0].row(a) - state.vertices[0].row(b)).norm();
+  };
+  Eigen::Index left, right;
+  torn.rest_vertices.col(0).minCoeff(&left);
+  torn.rest_vertices.col(0).maxCoeff(&right);
+  EXPECT_NEAR(length(relaxed, left, right), length(tears, left, right), 1e-3);
+  for (std::uint32_t piece = 0; piece < 2; ++piece)
+    EXPECT_NEAR(enclosedVolume(relaxed.vertices[0], pieceOf(torn, piece)) / volumeOf(torn, piece), 1.0, 1e-9);
+  // Two points on both sides of the section, closer than the stretch changes.
+  const double section = torn.rest_vertices(torn.rest_vertices.rows() - 1, 0);
+  double stretch = 0.0;
+  for (Eigen::Index i = 0; i < torn.rest_vertices.rows(); ++i) {
+    const double beyond = torn.rest_vertices(i, 0) - section;
+    if (beyond < 1e-6 || beyond > kAround) continue;
+    stretch = std::max(
+        stretch,
+        ((tears.T_camera_body.inverse() * Eigen::Vector3d(tears.vertices[0].row(i))).x() - section) / beyond);
+  }
+  EXPECT_NEAR(stretch, 1.5, 0.02);
+}
+
 TEST(CutScenes, SlitOpensAtItsTopAndStaysJoinedAtItsFront) {
   for (const std::string name : {"cut-partial", "doll_cut-partial"}) {
     const Scene scene = virtual_camera::scene(name);

@@ -128,6 +128,18 @@ TEST(Tearing, ATearEndsWhereTheStretchDoes) {
   scene.expectSound();
 }
 
+/// A crack runs through material that would not have torn by itself.
+TEST(Tearing, ATearRunsThroughLessStretchedMaterial) {
+  const Deformation uneven = [](const Eigen::RowVector3d& rest) -> Eigen::RowVector3d {
+    const double strain = 0.5 - 1.5 * rest.y();  // 0.5 to 0.35
+    return rest + Eigen::RowVector3d(strain * std::clamp(rest.x() - 0.05, 0.0, 0.1), 0.0, 0.0);
+  };
+  Scene scene(0.4);
+  EXPECT_EQ(scene.statesUntilTear(uneven), 5);
+  EXPECT_EQ(scene.pieces(), 2u);
+  scene.expectSound();
+}
+
 TEST(Tearing, ATearCrossesASlit) {
   Scene scene(0.4);
   CutPatch slit{Points(4, 3), Triangles(2, 3)};

@@ -10,6 +10,7 @@
 #include "scenes/cut_scenes.h"
 #include "scenes/plays.h"
 #include "scenes/plays_with_hands.h"
+#include "scenes/tear_scene.h"
 #include "softbody_virtual_camera/textures/contrast.h"
 
 namespace softbody::virtual_camera {
@@ -39,7 +40,10 @@ const std::map<std::string, Setting>& plays() {
 
 const std::map<std::string, CutMaker>& cuts() {
   static const std::map<std::string, CutMaker> makers = {
-      {"cut", cutScene}, {"cut-cross", cutCrossScene}, {"cut-partial", cutPartialScene}};
+      {"cut", cutScene},
+      {"cut-cross", cutCrossScene},
+      {"cut-partial", cutPartialScene},
+      {"tear", [](const Stage& stage, const Tool&) { return tearScene(stage); }}};
   return makers;
 }
 

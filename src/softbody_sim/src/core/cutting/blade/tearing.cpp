@@ -13,6 +13,9 @@ namespace {
 
 /// Consecutive states beyond the limit: one wrong measurement or the vibration after a cut does not tear.
 constexpr int kStates = 5;
+// A tear that has begun runs on where the strain is above this share of the limit: at its tip the stress is
+// larger.
+constexpr double kRuns = 0.5;
 constexpr double kFurther = 1.1;   // factor over the stretch of a patch that was not cut
 constexpr double kOverhang = 0.1;  // over the mean edge length
 
@@ -40,12 +43,13 @@ std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Point
   revision_ = volume.revision;
   int first = -1;
   PrincipalStretch most;
-  std::vector<bool> beyond(count, false);
+  std::vector<bool> torn(count, false);
   for (std::size_t t = 0; t < count; ++t) {
     const PrincipalStretch now = principalStretch(volume, vertices, static_cast<int>(t));
-    beyond[t] = now.stretch > 1.0 + strain_;
-    states_beyond_[t] = beyond[t] ? states_beyond_[t] + 1 : 0;
-    if (!beyond[t]) asked_at_[t] = 0.0;
+    const bool beyond = now.stretch > 1.0 + strain_;
+    torn[t] = now.stretch > 1.0 + kRuns * strain_;
+    states_beyond_[t] = beyond ? states_beyond_[t] + 1 : 0;
+    if (!beyond) asked_at_[t] = 0.0;
     const bool asks = states_beyond_[t] >= kStates && now.stretch > kFurther * asked_at_[t];
     if (!asks || (first >= 0 && now.stretch <= most.stretch)) continue;
     first = static_cast<int>(t);
@@ -56,7 +60,7 @@ std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Point
   asked_at_[static_cast<std::size_t>(first)] = most.stretch;
   const MaterialPoint middle{first, Eigen::Vector4d::Constant(0.25)};
   return planeSection(volume, positionOf(middle, volume.rest_vertices, volume.tets), most.direction, first,
-                      beyond, kOverhang * meanEdgeLength(volume.rest_vertices, volume.tets));
+                      torn, kOverhang * meanEdgeLength(volume.rest_vertices, volume.tets));
 }
 
 }  // namespace softbody
