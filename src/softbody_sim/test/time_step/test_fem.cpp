@@ -119,6 +119,20 @@ INSTANTIATE_TEST_SUITE_P(Elasticity, FemEnergies,
                                            Case{"NeoHookeanSmoothed", Elasticity::kNeoHookean, {0.7, 1.0}}),
                          [](const auto& info) { return info.param.name; });
 
+TEST(FemElasticity, WithoutABulkTermNothingIsSmoothed) {
+  const TetTopology topology = testing::sponge();
+  std::mt19937 random(5);
+  const Points x = topology.rest_vertices + randomPoints(topology.rest_vertices.rows(), 0.002, &random);
+  const Lame no_bulk = lameParameters(2e4, 0.0);
+  for (const Elasticity elasticity : {Elasticity::kCorotated, Elasticity::kNeoHookean}) {
+    Points smoothed = Points::Zero(x.rows(), 3), plain = smoothed;
+    const double energy = FemElasticity(topology, elasticity, no_bulk, {0.0, 0.7}).addTo(x, &smoothed);
+    EXPECT_EQ(energy, FemElasticity(topology, elasticity, no_bulk, {0.0, 0.0}).addTo(x, &plain));
+    EXPECT_GT(energy, 0.0);
+    EXPECT_EQ(smoothed, plain);
+  }
+}
+
 TEST(FemElasticity, IsTheEnergyOfProjectiveDynamics) {
   std::mt19937 random(3);
   const TetTopology topology = testing::sponge();

@@ -67,7 +67,8 @@ FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity,
     elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()),
                          share.volume * volumes[t], share.lame});
   }
-  if (smoothing.strain > 0.0 || smoothing.volume > 0.0) addPatches(topology, patchShare(lame, smoothing));
+  const EnergyShare patches = patchShare(lame, smoothing);
+  if (patches.volume > 0.0) addPatches(topology, patches);
 }
 
 void FemElasticity::addPatches(const TetTopology& topology, const EnergyShare& share) {

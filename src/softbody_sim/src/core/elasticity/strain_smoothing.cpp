@@ -16,7 +16,7 @@ EnergyShare tetShare(const Lame& lame, const Smoothing& smoothing) {
 
 EnergyShare patchShare(const Lame& lame, const Smoothing& smoothing) {
   const double share = smoothing.strain > 0.0 ? smoothing.strain : smoothing.volume;
-  if (share == 0.0) return {0.0, lame};
+  if (lame.mu * smoothing.strain + lame.lambda * smoothing.volume == 0.0) return {0.0, lame};
   return {share, {lame.mu * (smoothing.strain / share), lame.lambda * (smoothing.volume / share)}};
 }
 

@@ -26,7 +26,8 @@ struct EnergyShare {
   Lame lame;
 };
 
-/// The parts of the tets and of the patches around the vertices. Together they are the material.
+/// The parts of the tets and of the patches around the vertices. Together they are the material. Without
+/// energy in the patches their volume is 0.
 EnergyShare tetShare(const Lame& lame, const Smoothing& smoothing);
 EnergyShare patchShare(const Lame& lame, const Smoothing& smoothing);
 
