@@ -239,6 +239,29 @@ TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
   EXPECT_NEAR(found.noise.density, noise, 0.2 * noise);
 }
 
+/// A finger touches one piece, while the larger piece lies farther than predicted.
+TEST_F(DepthAssociationsTest, TheMotionOfOnePieceDoesNotOccludeAnother) {
+  addNoise(0.001);
+  const cv::Rect region = surface_.image().region;
+  const cv::Point tip(region.x + 30, region.y + region.height / 2);
+  for (int v = -25; v <= 25; ++v)  // a finger that touches: its depth has no step
+    for (int u = -25; u <= 25; ++u)
+      frame_.depth(tip.y + v, tip.x + u) -=
+          static_cast<float>(0.03 * std::max(0.0, 1.0 - std::hypot(u, v) / 25.0));
+  SurfaceSamples samples = sampleSurface(surface_, 1500);
+  for (SurfaceSample& sample : samples.samples)
+    sample.piece = sample.center.x < region.x + region.width / 3 ? 0 : 1;
+  const auto occluded = [&](double farther_m) {
+    const RigidMotions motions = {Eigen::Isometry3d::Identity(),
+                                  Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -farther_m))};
+    DepthAssociator depth(DepthConfig(), edge_);
+    return depth.associate(frame_, surface_.image(), samples, motions, colors_).occluded_blocks;
+  };
+  const int finger = occluded(0.0);
+  EXPECT_GT(finger, 5);
+  EXPECT_LE(occluded(0.006), finger + 3);
+}
+
 TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
   frame_.depth(cv::Rect(0, 0, 320, 480)) -= 0.1f;
   DepthAssociations found = associate();

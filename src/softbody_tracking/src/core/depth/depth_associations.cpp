@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "softbody_common/target_limits.h"
 
@@ -112,16 +113,23 @@ bool continues(const Block* before, const Block& occluder, const Block& next) {
   return std::abs(step - last_step) < kOccluderContinuity;
 }
 
-/// Difference that most of the body shows [m]: how far the whole prediction is off. What the whole body does
-/// is no occluder's doing.
-double commonDifference(const std::vector<Block>& blocks) {
-  std::vector<double> differences;
-  for (const Block& block : blocks)
-    if (block.kind == BlockKind::kAgrees) differences.push_back(block.difference);
-  if (differences.empty()) return 0.0;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
+double median(std::vector<double>* values) {
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
   return *middle;
+}
+
+/// Compares each block with its piece. What a whole piece does is no occluder's doing.
+void subtractMotionOfPieces(const SurfaceSamples& surface, std::vector<Block>* blocks) {
+  std::map<std::uint32_t, std::vector<double>> differences;
+  for (std::size_t b = 0; b < blocks->size(); ++b) {
+    if ((*blocks)[b].kind == BlockKind::kAgrees)
+      differences[surface.samples[b].piece].push_back((*blocks)[b].difference);
+  }
+  std::map<std::uint32_t, double> of_piece;
+  for (auto& [piece, values] : differences) of_piece[piece] = median(&values);
+  for (std::size_t b = 0; b < blocks->size(); ++b)
+    (*blocks)[b].excess = (*blocks)[b].difference - of_piece[surface.samples[b].piece];
 }
 
 /// Variance that depth differences usually have within a block [m^2]: the median.
@@ -130,14 +138,12 @@ double usualVariance(const std::vector<Block>& blocks) {
   for (const Block& block : blocks)
     if (block.kind == BlockKind::kAgrees) variances.push_back(block.variance);
   if (variances.empty()) return kSmallestVariance;
-  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
-  std::nth_element(variances.begin(), middle, variances.end());
-  return *middle;
+  return median(&variances);
 }
 
 /// Whether a block lies before the surface that another block of the same smooth surface shows.
-bool protrudesFrom(const Block& block, const Block& other, double common) {
-  return other.kind == BlockKind::kAgrees && std::abs(other.difference - common) < kOccluderStep &&
+bool protrudesFrom(const Block& block, const Block& other) {
+  return other.kind == BlockKind::kAgrees && std::abs(other.excess) < kOccluderStep &&
          block.difference <
              other.difference -
                  std::max(kProtrusion, kMaxSteepness * (block.position - other.position).norm()) &&
@@ -147,21 +153,20 @@ bool protrudesFrom(const Block& block, const Block& other, double common) {
 /// Marks blocks that protrude from the surface by a step as occluded, whatever their colour: a tool's handle
 /// may be within the depth gate. Blocks at the border of an object show both, so the second neighbours count
 /// too.
-void markProtrusions(const SurfaceSamples& surface, double common, std::vector<Block>* blocks) {
+void markProtrusions(const SurfaceSamples& surface, std::vector<Block>* blocks) {
   const cv::Mat1i& grid = surface.grid;
   const cv::Rect inside(cv::Point(), grid.size());
   std::vector<int> protruding;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.cols; ++column) {
       const int b = grid(row, column);
-      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].difference > common - kProtrusion)
-        continue;
+      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].excess > -kProtrusion) continue;
       for (const cv::Point& way : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1),
                                    cv::Point(2, 0), cv::Point(-2, 0), cv::Point(0, 2), cv::Point(0, -2)}) {
         const cv::Point place = cv::Point(column, row) + way;
         const int other = inside.contains(place) ? grid(place) : -1;
         if (other < 0 || surface.samples[other].piece != surface.samples[b].piece) continue;
-        if (!protrudesFrom((*blocks)[b], (*blocks)[other], common)) continue;
+        if (!protrudesFrom((*blocks)[b], (*blocks)[other])) continue;
         protruding.push_back(b);
         break;
       }
@@ -171,7 +176,7 @@ void markProtrusions(const SurfaceSamples& surface, double common, std::vector<B
 }
 
 /// Marks the rest of a hand, of which one end has been recognised as an occluder.
-void growOccluders(const cv::Mat1i& grid, double common, std::vector<Block>* blocks) {
+void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   std::vector<cv::Point> open;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.cols; ++column) {
@@ -190,8 +195,7 @@ void growOccluders(const cv::Mat1i& grid, double common, std::vector<Block>* blo
       Block& block = (*blocks)[grid(next)];
       const cv::Point back = place - step;
       const Block* before = inside.contains(back) && grid(back) >= 0 ? &(*blocks)[grid(back)] : nullptr;
-      const bool same_occluder = block.kind == BlockKind::kAgrees &&
-                                 block.difference < common - kOccluderStep &&
+      const bool same_occluder = block.kind == BlockKind::kAgrees && block.excess < -kOccluderStep &&
                                  continues(before, occluder, block);
       if (!same_occluder) continue;
       block.kind = BlockKind::kOccluded;
@@ -218,9 +222,9 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.piece],
                               colors.region(), evidence_, config_.max_distance_m));
   }
-  const double common = commonDifference(blocks_);
-  markProtrusions(surface, common, &blocks_);
-  growOccluders(surface.grid, common, &blocks_);
+  subtractMotionOfPieces(surface, &blocks_);
+  markProtrusions(surface, &blocks_);
+  growOccluders(surface.grid, &blocks_);
   found_.noise = pixel_step == 1 ? sampleDepthNoise(surface, blocks_, frame.camera.fx, &second_differences_)
                                  : DepthNoiseSample();
 

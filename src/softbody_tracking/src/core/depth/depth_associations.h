@@ -29,6 +29,7 @@ struct DepthBlock {
   double predicted = 0.0;    ///< depth of the moved sample's plane at the center [m]
   double difference = 0.0;   ///< mean of measured minus predicted depth over the agreeing pixels [m]
   double variance = 0.0;     ///< of these differences [m^2]
+  double excess = 0.0;       ///< difference minus the median of the piece's agreeing blocks [m]
   Eigen::Vector3d position;  ///< of the moved sample, camera frame [m]
   Eigen::Vector3d normal;
 };
