@@ -19,7 +19,7 @@ struct FeatureConfig {
   int search_radius_px = 20;          ///< around the predicted pixel
   int max_hamming_distance = 64;      ///< of 256 bits
   double max_disagreement_m = 0.006;  ///< from the motion of the neighbours; more is an outlier
-  double weight = 0.5;  ///< of a feature target whose patch fits; up to four times that if features are few
+  double weight = 0.5;                ///< of a feature target whose patch fits
 };
 
 /// Depth pixels as targets on the visible surface.

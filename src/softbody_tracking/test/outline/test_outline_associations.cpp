@@ -37,6 +37,20 @@ class OutlineAssociationsTest : public ::testing::Test {
   Points shiftedBox(double pixels) const { return boxAt(kFlat + Eigen::Vector3d(pixels * kPixel, 0.0, 0.0)); }
   void show(const Eigen::Vector3d& position) { frame_ = renderFrame(box_, boxAt(position), 1); }
 
+  /// The frame of a camera with the same view and more or fewer pixels.
+  void resizeFrame(const RgbdFrame& frame, double factor) {
+    frame_ = frame;
+    cv::resize(frame.color, frame_.color, cv::Size(), factor, factor, cv::INTER_NEAREST);
+    cv::resize(frame.depth, frame_.depth, cv::Size(), factor, factor, cv::INTER_NEAREST);
+    const Pinhole& camera = frame.camera;
+    frame_.camera = {frame_.depth.cols,
+                     frame_.depth.rows,
+                     factor * camera.fx,
+                     factor * camera.fy,
+                     factor * (camera.cx + 0.5) - 0.5,
+                     factor * (camera.cy + 0.5) - 0.5};
+  }
+
   /// From the frame as it is, with the prediction at its true position.
   void learnColors() {
     surface_.render(frame_.camera, boxAt(kFlat));
@@ -319,10 +333,19 @@ TEST_F(OutlineAssociationsTest, DisagreementIsTheAreaBetweenTheOutlines) {
   }
 }
 
+/// By as much in a large image as in a small one.
 TEST_F(OutlineAssociationsTest, AMeshOfTheWrongSizeDisagrees) {
-  for (const double scale : {1.3, 1.0 / 1.3}) {
+  const RgbdFrame usual = frame_;
+  for (const double scale : {1.3, 1.15, 1.0 / 1.3}) {
     const Points predicted = transformed(scale * box_.volume.rest_vertices, poseAt(kFlat));
-    EXPECT_GT(associate(predicted).disagreement, 0.12) << scale;
+    resizeFrame(usual, 1.0);
+    const double disagreement = associate(predicted).disagreement;
+    EXPECT_GT(disagreement, 0.12) << scale;
+    for (const double size : {0.75, 2.0, 3.0}) {
+      resizeFrame(usual, size);
+      learnColors();
+      EXPECT_NEAR(associate(predicted).disagreement / disagreement, 1.0, 0.12) << scale << ", image " << size;
+    }
   }
 }
 

@@ -113,7 +113,7 @@ const OutlineAssociations& OutlineAssociator::associate(const RgbdFrame& frame, 
     const ContourPosterior end = contourPosterior(pixels);
     if (end.variance > kLargestDeviation * kLargestDeviation) continue;
     ++shown;
-    apart_px += end.beyond ? OutlineLine::kReach : std::abs(end.mean);
+    apart_px += end.beyond ? line.reach() : std::abs(end.mean);
     if (end.beyond || line.endsOtherPart(end.mean)) continue;
     found_.associations.push_back(contourAssociation(frame.camera, sample, predicted, end, weight));
   }

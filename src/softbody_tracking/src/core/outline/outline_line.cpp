@@ -6,6 +6,8 @@
 namespace softbody {
 namespace {
 
+// How far the end of the body is searched, each way [rad]: 16 px of an image with 640 x 480 pixels.
+constexpr double kReach = 0.026;
 // Step of the predicted depth [m] between neighbouring pixels at which a part of the body ends.
 constexpr double kStep = 0.02;
 // Largest log odds of one pixel, by colour and by depth: any pixel may be wrong. Depth is ragged at edges.
@@ -20,9 +22,9 @@ constexpr double kInside = 4.0, kRagged = 1.0;
 }  // namespace
 
 OutlineLine::OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors)
-    : frame_(frame), rendered_(rendered), colors_(colors) {
-  pixels_.reserve(2 * kReach + 1);
-  farther_by_.reserve(2 * kReach + 1);
+    : frame_(frame), reach_(cvRound(kReach * frame.camera.fx)), rendered_(rendered), colors_(colors) {
+  pixels_.reserve(static_cast<std::size_t>(2 * reach_ + 1));
+  farther_by_.reserve(pixels_.capacity());
 }
 
 double OutlineLine::depthLogOdds(double measured, double predicted, double behind) const {
@@ -50,7 +52,7 @@ const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, c
   const cv::Rect image(cv::Point(), frame_.depth.size());
   const double farther_by = moved.z() - sample.position.z();
   double body = 0.0;  // predicted depth of the body at the pixel
-  for (int step = -kReach; step <= kReach; ++step) {
+  for (int step = -reach_; step <= reach_; ++step) {
     const cv::Point pixel(cvRound(start.x() + step * outward.x()), cvRound(start.y() + step * outward.y()));
     const cv::Point rendered_pixel(cvRound(rendered_start.x() + step * outward.x()),
                                    cvRound(rendered_start.y() + step * outward.y()));

@@ -15,8 +15,6 @@ namespace softbody {
 /// The body's evidence along a line across its predicted outline, from colour and depth of each pixel.
 class OutlineLine {
  public:
-  static constexpr int kReach = 16;  ///< [px] each way; how far the end of the body is searched
-
   /// @param rendered depth of the prediction, from which the sample was taken.
   OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors);
 
@@ -24,6 +22,10 @@ class OutlineLine {
   /// outline beside the moved sample. Empty if the line leaves the image, or if something nearer hides where
   /// the body should end.
   const std::vector<LinePixel>& across(const ContourSample& sample, const Eigen::Vector3d& moved);
+
+  /// How far the end of the body is searched, each way [px]: an angle, so that it is the same for every image
+  /// size.
+  int reach() const { return reach_; }
 
   /// Whether the body just inside this end is farther than the surface at the predicted outline: the end of
   /// another part, for example of a side that has come into view. Refers to the last line across().
@@ -36,6 +38,7 @@ class OutlineLine {
   double depthLogOdds(double measured, double predicted, double behind) const;
 
   const RgbdFrame& frame_;
+  int reach_;
   const cv::Mat1f& rendered_;
   const RegionColors& colors_;
   DepthEvidence evidence_;

@@ -39,7 +39,7 @@ RigidPrediction::Placed RigidPrediction::placed(const Points& vertices, Nanoseco
 /// Those of the rigid motion only: deformation and its noise say nothing about the next motion.
 Points RigidPrediction::corrections(const std::vector<Eigen::Isometry3d>& predicted,
                                     const Placed& now) const {
-  Points result(rest_.rows(), 3);
+  Points result = Points::Zero(rest_.rows(), 3);
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     for (const int v : pieces_[p]) {
       const Eigen::Vector3d rest = rest_.row(v);

@@ -1,6 +1,8 @@
 #include "tracker/frame_matcher.h"
 
 #include <cstring>
+#include <iterator>
+#include <set>
 
 #include "features/feature_outliers.h"
 
@@ -52,7 +54,15 @@ FeatureMatches FrameMatcher::match(const std::vector<MapFeature>& known, const E
     if (found.matches[m].inlier) latest_[known[found.matches[m].feature].id] = keypoints[taken[m]].descriptor;
   for (std::size_t i = 0; i < is_found.size(); ++i)
     if (!is_found[i]) found.missed.push_back(expected.visible[i]);
+  forgetRetired(known);
   return found;
+}
+
+void FrameMatcher::forgetRetired(const std::vector<MapFeature>& known) {
+  std::set<int> ids;
+  for (const MapFeature& feature : known) ids.insert(feature.id);
+  for (auto entry = latest_.begin(); entry != latest_.end();)
+    entry = ids.count(entry->first) > 0 ? std::next(entry) : latest_.erase(entry);
 }
 
 }  // namespace softbody

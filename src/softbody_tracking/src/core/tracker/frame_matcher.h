@@ -22,6 +22,8 @@ class FrameMatcher {
   void reset() { latest_.clear(); }
 
  private:
+  void forgetRetired(const std::vector<MapFeature>& known);
+
   FeatureConfig config_;
   std::map<int, Descriptor> latest_;  ///< by the feature's id
 };
