@@ -2,6 +2,7 @@
 
 #include "fixtures/tracked_box.h"
 #include "tracker/frame_observer.h"
+#include "tracker/search_backoff.h"
 
 namespace softbody {
 namespace {
@@ -237,7 +238,9 @@ TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
     return frames;
   };
   EXPECT_EQ(framesToFind(0, right, 0.08), 1);
-  EXPECT_EQ(framesToFind(15, right, 0.08), 10);
+  const int after_long = framesToFind(15, right, 0.08);
+  EXPECT_GT(after_long, 1);
+  EXPECT_LE(after_long, SearchBackoff::kLongestWait + 1);
   EXPECT_EQ(framesToFind(0, all, 0.035), 1);
   EXPECT_EQ(framesToFind(15, all, 0.035), 2) << "once the left piece is found where it was";
 }
