@@ -128,7 +128,7 @@ softbody_msgs::CutHistory toMessage(const EditHistory& edits, const TetTopology&
 
 softbody_msgs::CutHistoryPtr historyMessage(const EditHistory& edits, const TetTopology& uncut,
                                             const std::string& body_frame, const ros::Time& stamp) {
-  const auto message = boost::make_shared<softbody_msgs::CutHistory>(toMessage(edits, uncut));
+  auto message = boost::make_shared<softbody_msgs::CutHistory>(toMessage(edits, uncut));
   message->header.frame_id = body_frame;
   message->header.stamp = stamp;
   return message;

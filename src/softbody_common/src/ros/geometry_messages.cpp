@@ -94,7 +94,7 @@ Eigen::Isometry3d fromMessage(const geometry_msgs::Transform& transform) {
 Points fromMessage(const geometry_msgs::Polygon& blade) {
   // Before the conversion: its cost grows with the corners.
   requireBladeCorners(blade.points.size());
-  const Points corners = fromPoint32s(blade.points, "polygon.points");
+  Points corners = fromPoint32s(blade.points, "polygon.points");
   const std::string fault = bladeFault(corners);
   if (!fault.empty()) throw std::invalid_argument("the blade " + fault);
   return corners;
