@@ -55,7 +55,7 @@ def goals(reports):
          recovery("occlude")),
         ("leave: time until the error is at most 1.2 times that before", "<= 1.0", "s", recovery("leave")),
         ("shake: frames with a mean error of at most 10 mm", ">= 100", "%", followed(reports.get(("scene", "shake")))),
-        (f"{DEPTH_HOLES}: error over that without, worst of {faulty}", "<= 1.2", "times", fault(DEPTH_HOLES)),
+        (f"{DEPTH_HOLES}: error divided by that without, worst of {faulty}", "<= 1.2", "times", fault(DEPTH_HOLES)),
         (f"20 % wrong matches: the same, worst of {seeds}", "<= 1.2", "times",
          worst(fault_times(reports, name, wrong_matches(seed))
                for name, drawn in WRONG_MATCH_SEEDS.items() for seed in drawn)),

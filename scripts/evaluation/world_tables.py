@@ -18,9 +18,9 @@ def plain_bodies(reports):
                      number(get(starts, "mean_mm")), number(get(starts, "max_mm"))])
     return section("Bodies of one colour",
                    f"The sponge with `--texture plain` (`still` for 10 s). Each scene is also tracked from {STARTS} "
-                   "rough poses within 2 mm and 1 degree of each other. The last two columns are the mean distance of "
-                   "the vertices between the two results that are farthest apart: over the frames, and in the worst "
-                   "frame, from 0.5 s on. All errors are in mm.",
+                   "rough poses within 2 mm and 1 degree of each other. In each frame after 0.5 s, the mean distance of "
+                   "the vertices is computed between the two results that are farthest apart. The last two columns "
+                   "give its mean over the frames, and its value in the worst frame. All errors are in mm.",
                    ["scene", "frames answered", "tracking [%]", "mean", "mean visible", "mean hidden", "worst frame",
                     "jitter while still", f"between {STARTS} starts, mean", "worst frame"], rows)
 
@@ -49,8 +49,8 @@ def wrong_objects(reports):
         late = [state for time, state in report["states_by_time"] if time >= FALSE_AFTER_S]
         rows.append([what, late[0] if late else "-", f"{false_tracking(report)} of {len(late)}"])
     return section("Wrong objects",
-                   "The scene `bend` with an object that is not there, at the rough pose of the true one. The tracker "
-                   "should not call this TRACKING.",
+                   "The scene `bend`, tracked with the model of another object, which is not in the images. It gets the "
+                   "rough pose of the true object. The tracker should not call this TRACKING.",
                    ["object", "state after 1 s", "frames called TRACKING after 1 s"], rows)
 
 

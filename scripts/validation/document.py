@@ -23,7 +23,7 @@ def document(studies):
     rows = [(name, n, tets, f"{ratio:.4f}", "" if order is None else f"{order:.2f}")
             for study in studies.values() for name, n, tets, ratio, order in study]
     lines += ["", *table(["problem", "cells across", "tets", "ratio", "order"], rows)]
-    lines += ["The cantilever converges to Timoshenko's solution, which includes shear. At this slenderness shear adds 0.6 %.",
+    lines += ["The cantilever converges to Timoshenko's solution, which includes shear. For a beam of these proportions, shear adds 0.6 %.",
               ""]
     lines += ["## Smoothed strains", "",
               *paragraph("The same problems and ratios, with few cells across and with the solver PD (projective "
@@ -89,5 +89,5 @@ def agreement_section():
             *paragraph("PD and FEM compute the static equilibrium with the same corotated energy. The lowest quarter "
                        "of each mesh is held. Gravity is 0.005 E / (rho H), where H is the height of the mesh. "
                        "Distances are in units of the diagonal of the mesh."), "",
-            *table(["mesh", "vertices", "largest move", "PD from FEM"],
+            *table(["mesh", "vertices", "largest move", "distance of PD from FEM"],
                    [(name, count, f"{moved:.4f}", f"{apart:.1e}") for name, count, moved, apart in rows])]
