@@ -23,8 +23,7 @@ def document(studies):
     rows = [(name, n, tets, f"{ratio:.4f}", "" if order is None else f"{order:.2f}")
             for study in studies.values() for name, n, tets, ratio, order in study]
     lines += ["", *table(["problem", "cells across", "tets", "ratio", "order"], rows)]
-    lines += ["The cantilever converges to Timoshenko's solution, which includes shear. For a beam of these "
-              "proportions, shear adds 0.6 %.",
+    lines += ["The cantilever converges to Timoshenko's solution, which includes shear. For this beam, shear adds 0.6 %.",
               ""]
     lines += ["## Smoothed strains", "",
               *paragraph("The same problems and ratios, with few cells across and with the solver PD (projective "
