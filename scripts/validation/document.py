@@ -23,22 +23,26 @@ def document(studies):
     rows = [(name, n, tets, f"{ratio:.4f}", "" if order is None else f"{order:.2f}")
             for study in studies.values() for name, n, tets, ratio, order in study]
     lines += ["", *table(["problem", "cells across", "tets", "ratio", "order"], rows)]
-    lines += ["The cantilever converges to Timoshenko's solution, which includes shear. For this beam, shear adds 0.6 %.",
-              ""]
-    lines += ["## Smoothed strains", "",
-              *paragraph("The same problems and ratios, with few cells across and with the solver PD (projective "
-                         "dynamics). The number in a column head is the number of cells. The share is the part of "
-                         "the elastic energy whose strains are averaged around the vertices (`--strain-smoothing` "
-                         "and `--volume-smoothing`; the default of the node `simulator` is 0.7). A ratio above 1 means that the result is too "
-                         "soft."), "",
-              *table(["share", *(f"{name} {n}" for name, n in SMOOTHED)], smoothing_rows())]
+    lines += ["The cantilever converges to Timoshenko's solution, which includes shear. For this beam, shear adds 0.6 %.", ""]
+    return "\n".join([*lines, *smoothing_sections(), *energy_sections(), *agreement_section()])
+
+
+def smoothing_sections():
+    """What averaging strains around the vertices changes."""
+    lines = ["## Smoothed strains", "",
+             *paragraph("The same problems and ratios, with few cells across and with the solver PD (projective "
+                        "dynamics). The number in a column head is the number of cells. The share is the part of "
+                        "the elastic energy whose strains are averaged around the vertices (`--strain-smoothing` "
+                        "and `--volume-smoothing`; the default of the node `simulator` is 0.7). A ratio above 1 means "
+                        "that the result is too soft."), "",
+             *table(["share", *(f"{name} {n}" for name, n in SMOOTHED)], smoothing_rows())]
     lines += ["## Nearly incompressible material", "",
               *paragraph("The beam has 100 x 30 x 30 mm and bends under a small weight. Cook's membrane is 10 thick. The "
-                         "values are deflections of the free end, divided by the reference "
-                         "`scripts/validation/mixed_reference.py`. This is another program, with hexahedra that have a "
-                         "pressure of their own. \"Smoothing\" gives the two shares, of strain and of volume. The "
-                         "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock."), "",
-              *table(["problem", "cells across", "solver", "smoothing", *map(str, RATIOS)], incompressible_rows())]
+                        "values are deflections of the free end, divided by the reference "
+                        "`scripts/validation/mixed_reference.py`. This is another program, with hexahedra that have a "
+                        "pressure of their own. \"Smoothing\" gives the two shares, of strain and of volume. The "
+                        "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock."), "",
+             *table(["problem", "cells across", "solver", "smoothing", *map(str, RATIOS)], incompressible_rows())]
     prisms = prism_rows()
     if prisms:
         lines += ["## Published beam meshes", "",
@@ -47,7 +51,7 @@ def document(studies):
                              "of area of the mesh itself. The first beam has one cell through its thickness and "
                              "three across its width. The last beam is short."), "",
                   *table(["mesh", "tets", "length / radius of gyration", "ratio"], prisms)]
-    return "\n".join([*lines, *energy_sections(), *agreement_section()])
+    return lines
 
 
 def energy_sections():
