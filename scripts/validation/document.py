@@ -38,11 +38,11 @@ def smoothing_sections():
              *table(["share", *(f"{name} {n}" for name, n in SMOOTHED)], smoothing_rows())]
     lines += ["## Nearly incompressible material", "",
               *paragraph("The beam has 100 x 30 x 30 mm and bends under a small weight. Cook's membrane is 10 thick. The "
-                        "values are deflections of the free end, divided by the reference "
-                        "`scripts/validation/mixed_reference.py`. This is another program, with hexahedra that have a "
-                        "pressure of their own. \"Smoothing\" gives the two shares, of strain and of volume. The "
-                        "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock."), "",
-             *table(["problem", "cells across", "solver", "smoothing", *map(str, RATIOS)], incompressible_rows())]
+                         "values are deflections of the free end, divided by the reference "
+                         "`scripts/validation/mixed_reference.py`. This is another program, with hexahedra that have a "
+                         "pressure of their own. \"Smoothing\" gives the two shares, of strain and of volume. The "
+                         "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock."), "",
+              *table(["problem", "cells across", "solver", "smoothing", *map(str, RATIOS)], incompressible_rows())]
     prisms = prism_rows()
     if prisms:
         lines += ["## Published beam meshes", "",
