@@ -17,8 +17,6 @@ constexpr double kEnough = 0.25;
 constexpr double kSmallest = 1.5e-4;
 // Standard deviation of a measured vertex, in root mean squares of the targets' residuals.
 constexpr double kNoise = 1.45;
-// Error of a vertex for each metre by which the targets around it are missed on average.
-constexpr double kMisfit = 10.0;
 // Strain of a body that looks undeformed.
 constexpr double kRestStrain = 0.0005;
 // Error for each metre over which the simulation carries a position, for a strain of 1: to vertices that are

@@ -11,7 +11,7 @@ namespace softbody {
 /// Standard deviation of each vertex's distance from its true position [m], from what the targets measure and
 /// from how far the simulation has to carry it:
 ///
-///   variance = smallest^2 + (k_r residual of all targets)^2 + (k_m misfit of the targets around)^2
+///   variance = smallest^2 + (k_r residual of all targets)^2 + (misfit of the targets around)^2
 ///              + (strain (k_n d_n + k_t d_t))^2
 ///
 /// d_n is the distance to the nearest vertex that is measured in some direction, d_t to the nearest one that
