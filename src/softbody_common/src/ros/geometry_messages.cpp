@@ -36,6 +36,14 @@ geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
   return message;
 }
 
+geometry_msgs::Vector3 vectorMessage(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
 geometry_msgs::Point32 toPoint32(const Eigen::Vector3d& p) {
   geometry_msgs::Point32 message;
   message.x = static_cast<float>(p.x());

@@ -9,6 +9,13 @@
 namespace softbody {
 namespace {
 
+WeightRows meanValueCoordinates(const Points& points, const Points& cage_vertices,
+                                const Triangles& cage_triangles) {
+  WeightRows weights;
+  MeanValueCage(cage_vertices, cage_triangles).coordinates(points, &weights);
+  return weights;
+}
+
 class MeanValueCoordinates : public ::testing::Test {
  protected:
   MeanValueCoordinates() {

@@ -5,6 +5,7 @@
 #include <geometry_msgs/Polygon.h>
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Vector3.h>
 
 #include <vector>
 
@@ -15,6 +16,7 @@
 namespace softbody {
 
 geometry_msgs::Point pointMessage(const Eigen::Vector3d& point);
+geometry_msgs::Vector3 vectorMessage(const Eigen::Vector3d& vector);
 
 geometry_msgs::Point32 toPoint32(const Eigen::Vector3d& point);
 /// Any numbers.

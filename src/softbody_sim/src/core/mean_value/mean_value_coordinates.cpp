@@ -103,11 +103,4 @@ std::vector<int> MeanValueCage::coordinates(const Points& points, WeightRows* we
   return turns;
 }
 
-WeightRows meanValueCoordinates(const Points& points, const Points& cage_vertices,
-                                const Triangles& cage_triangles) {
-  WeightRows weights;
-  MeanValueCage(cage_vertices, cage_triangles).coordinates(points, &weights);
-  return weights;
-}
-
 }  // namespace softbody

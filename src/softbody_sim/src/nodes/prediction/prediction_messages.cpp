@@ -66,14 +66,6 @@ void addWrenches(const std::vector<std::string>& names, const std::vector<Wrench
   }
 }
 
-geometry_msgs::Vector3 vectorMessage(const Eigen::Vector3d& vector) {
-  geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
-
 }  // namespace
 
 void requireUsable(const softbody_msgs::PredictRequest& request) {

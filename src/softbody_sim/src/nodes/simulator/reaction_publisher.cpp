@@ -2,20 +2,10 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 
+#include "softbody_common/ros/geometry_messages.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
-namespace {
-
-geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& vector) {
-  geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
-
-}  // namespace
 
 Wrench aboutOrigin(const Wrench& wrench, const Eigen::Vector3d& place) {
   return {wrench.force, wrench.torque + place.cross(wrench.force)};
@@ -30,9 +20,9 @@ void ReactionPublisher::publish(const std::string& frame, const Eigen::Isometry3
   geometry_msgs::WrenchStamped message;
   message.header.stamp = stamp;
   message.header.frame_id = frame;
-  message.wrench.force = toMessage(to_frame * about_origin.force);
+  message.wrench.force = vectorMessage(to_frame * about_origin.force);
   message.wrench.torque =
-      toMessage(to_frame * (about_origin.torque - frame_pose.translation().cross(about_origin.force)));
+      vectorMessage(to_frame * (about_origin.torque - frame_pose.translation().cross(about_origin.force)));
   publisher_.publish(message);
 }
 

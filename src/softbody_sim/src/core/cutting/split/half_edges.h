@@ -17,10 +17,6 @@ inline int endOf(const TriangleList& triangles, int h) { return startOf(triangle
 
 TriangleList listOf(const Triangles& triangles);
 
-/// Per half-edge, the opposite one of the same edge. @throw std::invalid_argument if the triangles are not a
-/// closed, oriented manifold.
-std::vector<int> halfEdgeMates(const TriangleList& triangles, int vertex_count);
-
 /// Pairs half-edges between the same vertices. Each edge occurs exactly twice.
 void pairHalfEdges(const TriangleList& triangles, const std::vector<int>& half_edges,
                    std::vector<int>* mates);
