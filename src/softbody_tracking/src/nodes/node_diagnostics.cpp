@@ -7,7 +7,7 @@ constexpr double kPeriod_s = 1.0;  // [s] the usual rate of /diagnostics, 1 Hz
 
 }  // namespace
 
-NodeDiagnostics::NodeDiagnostics(ros::NodeHandle handle, const ros::NodeHandle& private_handle,
+NodeDiagnostics::NodeDiagnostics(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                                  const std::string& task, const Report& report)
     : updater_(handle, private_handle, private_handle.getNamespace()) {
   updater_.setHardwareID("none");

@@ -14,8 +14,8 @@ class NodeDiagnostics {
   using Report = std::function<void(diagnostic_updater::DiagnosticStatusWrapper& status)>;
 
   /// The status is named "<node>: <task>", with the node's own name even in a nodelet manager.
-  NodeDiagnostics(ros::NodeHandle handle, const ros::NodeHandle& private_handle, const std::string& task,
-                  const Report& report);
+  NodeDiagnostics(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                  const std::string& task, const Report& report);
 
  private:
   diagnostic_updater::Updater updater_;

@@ -54,7 +54,7 @@ cv_bridge::CvImageConstPtr share(const sensor_msgs::Image& image, const std::str
 /// The depth of an image that has been checked. cv_bridge 1.16 swaps the bytes of a big-endian image, but
 /// returns them as bytes.
 cv::Mat sharedDepth(const sensor_msgs::Image& message) {
-  const cv::Mat image = share(message, "", "depth")->image;
+  cv::Mat image = share(message, "", "depth")->image;
   const int type = message.encoding == enc::TYPE_32FC1 ? CV_32FC1 : CV_16UC1;
   if (image.type() == type) return image;
   return cv::Mat(image.rows, image.cols, type, image.data, image.step).clone();

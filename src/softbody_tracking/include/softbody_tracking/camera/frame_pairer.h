@@ -142,6 +142,7 @@ class FramePairer {
         if (verdict.in_a_row == 1) odd.clear();
         odd.emplace_back(stamp, std::move(image));
         ++outliers;
+        return verdict;
       }
       if (!verdict.accepted()) return verdict;
       if (verdict.kind == StampVerdict::kInOrder) odd.clear();

@@ -82,6 +82,7 @@ std::vector<cv::KeyPoint> chooseCorners(const RgbdFrame& frame, const std::vecto
       known.first_view ? spreadStrong(candidates, wanted, gap_m)
                        : spreadOut(candidates, restPositions(known.places, volume), wanted, gap_m);
   std::vector<cv::KeyPoint> result;
+  result.reserve(chosen.size());
   for (const int i : chosen) result.push_back(corners[i]);
   return result;
 }

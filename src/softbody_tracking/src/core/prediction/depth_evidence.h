@@ -15,7 +15,7 @@ class DepthEvidence {
   /// @param predicted depth of the body [m]; beyond 1 m the deviation grows with the distance.
   double logOdds(double difference, double predicted) const {
     const double scaled = predicted > 1.0 ? difference / predicted : difference;
-    const auto cell = static_cast<int>(scaled / kCell + kHalf + 0.5);
+    const auto cell = static_cast<int>(scaled / kCell + kZero);
     return cell < 0 ? table_.front() : table_[static_cast<std::size_t>(cell < 2 * kHalf ? cell : 2 * kHalf)];
   }
 
@@ -26,8 +26,9 @@ class DepthEvidence {
   static bool isNearer(double difference, double predicted);
 
  private:
-  static constexpr int kHalf = 128;        // cells on each side
-  static constexpr double kCell = 0.0005;  // [m]
+  static constexpr int kHalf = 128;             // cells on each side
+  static constexpr double kZero = kHalf + 0.5;  // the difference 0 is in the middle of cell kHalf
+  static constexpr double kCell = 0.0005;       // [m]
   std::array<double, 2 * kHalf + 1> table_;
 };
 

@@ -25,6 +25,7 @@ std::vector<PoseHypothesis> searched(PoseRefinement* refinement, const PoseRefin
 
 std::vector<PoseHypothesis> ranked(PoseCost* cost, std::vector<PoseHypothesis> poses) {
   std::vector<std::pair<double, PoseHypothesis>> rated;
+  rated.reserve(poses.size());
   for (const PoseHypothesis& pose : poses) rated.emplace_back(-cost->support(pose.pose), pose);
   std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) {
     return std::tie(a.first, a.second.cost) < std::tie(b.first, b.second.cost);

@@ -173,6 +173,7 @@ FollowedFeatures FeatureFollower::searchPieces(const FollowedBody& body, const s
   const std::vector<Points> recognized =
       recognizedPieces(recognize(body, surface, before), surface, due, kRenderAgain);
   std::vector<bool> moved;
+  moved.reserve(recognized.size());
   for (const Points& piece : recognized) moved.push_back(piece.rows() > 0);
   if (!any(moved)) return features;
   const std::vector<FeatureCount> counts_before =

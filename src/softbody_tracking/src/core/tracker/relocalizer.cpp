@@ -88,7 +88,7 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   frames_to_feature_search_ = rough ? kFramesBetweenSearches : 0;
   if (!rough) return std::nullopt;
   const auto scope = timer->stage("Model Registration", true);
-  const auto found = acceptableNear(frame, meshesOf(observer->surface().topology()), *rough, kDeformedCost);
+  auto found = acceptableNear(frame, meshesOf(observer->surface().topology()), *rough, kDeformedCost);
   // Features distinguish poses that are alike in depth.
   if (!found || !confirms(observer->featureShare(frame, found->pose))) return std::nullopt;
   return found;
@@ -102,7 +102,7 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   const SearchMeshes& meshes = meshesOf(observer->surface().topology());
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   if (given_ && !recovering_) {
-    const auto found = acceptableNear(frame, meshes, T_camera_fixed * *given_, config_.max_cost);
+    auto found = acceptableNear(frame, meshes, T_camera_fixed * *given_, config_.max_cost);
     const bool bounded = found && shareWithoutEdge(frame, meshes.full, found->pose,
                                                    config_.distance_scale_m) <= kLargestShareWithoutEdge;
     if (bounded) return found;

@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-CameraIngestNode::CameraIngestNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle) {
+CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
   Parameters parameters = readParameters(private_handle);
   const PairingConfig pairing = readPairingConfig(parameters);
   const double voxel_size_m = parameters.number("voxel_size_m", 0.0, 0.0, 1.0);

@@ -21,7 +21,7 @@ namespace softbody {
 class CameraIngestNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
-  CameraIngestNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle);
+  CameraIngestNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
   ~CameraIngestNode();
 
  private:

@@ -23,7 +23,7 @@ constexpr double kStartTimeouts = 5.0;      // a camera may take this many silen
 
 }  // namespace
 
-CameraIngestWatch::CameraIngestWatch(ros::NodeHandle handle, const ros::NodeHandle& private_handle,
+CameraIngestWatch::CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                                      const PairingConfig& pairing, double silence_timeout_s,
                                      std::function<StreamTopics()> topics)
     : silence_timeout_s_(silence_timeout_s),

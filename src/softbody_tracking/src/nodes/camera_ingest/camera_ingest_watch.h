@@ -21,7 +21,7 @@ class CameraIngestWatch {
  public:
   /// @param silence_timeout_s without a frame, after which the reason is logged.
   /// @param topics of the streams at the moment.
-  CameraIngestWatch(ros::NodeHandle handle, const ros::NodeHandle& private_handle,
+  CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                     const PairingConfig& pairing, double silence_timeout_s,
                     std::function<StreamTopics()> topics);
 
