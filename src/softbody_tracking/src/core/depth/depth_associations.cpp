@@ -34,51 +34,60 @@ Offsets offsetsInside(int a, int b, int size, int length) {
   return {std::max({-(size / 2), -a, -b}), std::min({size - size / 2, length - a, length - b})};
 }
 
-/// Classifies a block by the majority of its pixels. Around the sample, the predicted shape is the rendered
-/// one.
-void measure(const RgbdFrame& frame, const RasterImage& image, const cv::Point& rendered_center, int size,
-             int step, const RegionColors& colors, const DepthEvidence& evidence, double max_distance,
-             Block* block) {
-  const cv::Point& center = block->center;
+/// Pixels of a block with measured depth, and the sums over those that show the body.
+struct BlockPixels {
+  int measured = 0, agreeing = 0, nearer = 0, farther = 0;
+  float sum = 0.0f, squares = 0.0f;  ///< of measured minus predicted depth
+};
+
+/// Around the sample, the predicted shape is the rendered one.
+BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterImage& image,
+                     const cv::Point& rendered_center, int size, int step, const RegionColors& colors,
+                     const DepthEvidence& evidence, double max_distance) {
+  const cv::Point& center = block.center;
   const Offsets columns = offsetsInside(rendered_center.x, center.x, size, frame.depth.cols);
   const Offsets rows = offsetsInside(rendered_center.y, center.y, size, frame.depth.rows);
-  const auto nearer_by = static_cast<float>(block->predicted) - image.depth(rendered_center);
+  const auto nearer_by = static_cast<float>(block.predicted) - image.depth(rendered_center);
   const auto gate = static_cast<float>(max_distance);
-  int measured = 0, agreeing = 0, nearer = 0, farther = 0;
-  float sum = 0.0f, squares = 0.0f;
+  BlockPixels pixels;
   for (int j = rows.first; j < rows.end; j += step) {
     const float* rendered = image.depth[rendered_center.y + j] + rendered_center.x;
     const float* depth = frame.depth[center.y + j] + center.x;
     const cv::Vec3b* color = frame.color[center.y + j] + center.x;
     for (int i = columns.first; i < columns.end; i += step) {
       if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
-      ++measured;
+      ++pixels.measured;
       const float difference = depth[i] - rendered[i] - nearer_by;
       const bool body = std::abs(difference) <= gate &&
-                        colors.logOdds(color[i]) + evidence.logOdds(difference, block->predicted) > 0.0;
+                        colors.logOdds(color[i]) + evidence.logOdds(difference, block.predicted) > 0.0;
       if (!body) {
-        ++(difference > kBehind ? farther : nearer);
+        ++(difference > kBehind ? pixels.farther : pixels.nearer);
       } else {
-        ++agreeing;
-        sum += difference;
-        squares += difference * difference;
+        ++pixels.agreeing;
+        pixels.sum += difference;
+        pixels.squares += difference * difference;
       }
     }
   }
-  if (measured == 0) return;
-  if (agreeing > 0) {
-    const float mean = sum / static_cast<float>(agreeing);
+  return pixels;
+}
+
+/// Classifies a block by the majority of its pixels.
+void classify(const BlockPixels& pixels, const RgbdFrame& frame, Block* block) {
+  if (pixels.measured == 0) return;
+  if (pixels.agreeing > 0) {
+    const float mean = pixels.sum / static_cast<float>(pixels.agreeing);
     block->difference = mean;
-    block->variance =
-        std::max<double>(kSmallestVariance, squares / static_cast<float>(agreeing) - mean * mean);
+    block->variance = std::max<double>(kSmallestVariance,
+                                       pixels.squares / static_cast<float>(pixels.agreeing) - mean * mean);
   }
   block->kind = BlockKind::kUnmeasured;
-  if (2 * nearer > measured) {
+  if (2 * pixels.nearer > pixels.measured) {
     block->kind = BlockKind::kOccluded;
     block->difference = frame.depth(block->center) - block->predicted;
-  } else if (2 * farther > measured) {
+  } else if (2 * pixels.farther > pixels.measured) {
     block->kind = BlockKind::kAbsent;
-  } else if (2 * agreeing > measured) {
+  } else if (2 * pixels.agreeing > pixels.measured) {
     block->kind = BlockKind::kAgrees;
   }
 }
@@ -97,7 +106,8 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
   if (-slope < kMinSlope) return block;
   block.predicted = block.normal.dot(block.position) / slope;
-  measure(frame, image, sample.center, size, step, colors, evidence, max_distance, &block);
+  classify(pixelsOf(block, frame, image, sample.center, size, step, colors, evidence, max_distance), frame,
+           &block);
   return block;
 }
 
@@ -204,6 +214,19 @@ void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
   }
 }
 
+Association associationOf(const Block& block, const SurfaceSample& sample, const Pinhole& camera,
+                          double weight) {
+  Association association;
+  association.kind = TargetKind::kDepth;
+  association.place = sample.place;
+  association.piece = sample.piece;
+  association.predicted = block.position;
+  association.measured = camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);
+  association.normal = block.normal;
+  association.weight = std::min(weight, kLargestTargetWeight);
+  return association;
+}
+
 }  // namespace
 
 void downweightByNoise(double relative_noise, DepthAssociations* depth) {
@@ -240,21 +263,12 @@ const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, cons
     if (block.kind != BlockKind::kAgrees) continue;
     const double cosine = -block.normal.dot(block.position.normalized());
     if (cosine <= 0.0) continue;
-    Association association;
-    association.kind = TargetKind::kDepth;
-    association.place = surface.samples[i].place;
-    association.piece = surface.samples[i].piece;
-    association.predicted = block.position;
-    association.measured =
-        frame.camera.unproject(block.center.x, block.center.y, block.predicted + block.difference);
-    association.normal = block.normal;
     const double width = surface.block_px * block.position.z() / (frame.camera.fx * volume_edge_m_);
     const double weight =
         config_.weight * width * width / cosine;  // per area of the surface, not of the image
     // A block has few pixels: its variance is estimated halfway between its own and the usual one.
     const double precision = 2.0 * usual_variance / (usual_variance + block.variance);
-    association.weight = std::min(weight * precision, kLargestTargetWeight);
-    found_.associations.push_back(association);
+    found_.associations.push_back(associationOf(block, surface.samples[i], frame.camera, weight * precision));
   }
   weighByResidual(kDepthScale, &found_.associations);
   return found_;
