@@ -9,7 +9,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kNearest_m = 1e-3;
+constexpr double kNearest_m = 1e-3;  // nearer than any camera measures; keeps the division by depth finite
 // Squares of a slanted surface are farther apart than those of a surface that faces the camera.
 constexpr double kOverlap = 1.2;
 

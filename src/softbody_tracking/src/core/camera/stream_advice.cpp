@@ -12,7 +12,7 @@ using Types = std::map<std::string, std::string>;
 
 constexpr char kImage[] = "sensor_msgs/Image", kCompressed[] = "sensor_msgs/CompressedImage",
                kInfo[] = "sensor_msgs/CameraInfo";
-constexpr std::size_t kMostNamed = 6;
+constexpr std::size_t kMostNamed = 6;  // topics; a longer list does not help the reader of the message
 
 struct StreamWords {
   const char *argument, *transport, *type, *without;

@@ -12,7 +12,7 @@ namespace {
 constexpr int kOrbPatchSize = 31;
 // Pyramid levels and the scale between them: a body comes closer or goes away by a factor of 1.7 at most.
 constexpr int kLevels = 4;
-constexpr float kScale = 1.2f;
+constexpr float kScale = 1.2f;  // 1.2^3 = 1.7
 // Size of the patch at the coarsest level [px]; nothing is found closer to a border.
 constexpr int kBorder = 54;
 // Keypoints in a region; weak ones too, because strong ones may leave large gaps.

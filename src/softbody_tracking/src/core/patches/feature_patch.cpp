@@ -13,7 +13,7 @@ constexpr std::size_t kCacheLine = 64;
 constexpr int kIterations = 8;
 // After this many iterations the correlation must reach kHopeless, or the patch is not there.
 constexpr int kHopelessAfter = 3;
-constexpr float kHopeless = 0.4f;
+constexpr float kHopeless = 0.4f;  // correlation of patch and image; 1: equal
 // Last step [px of the level]; the remaining error is smaller than the step.
 constexpr float kConverged = 0.1f;
 // Standard deviation of the grey values below which a patch shows only noise.

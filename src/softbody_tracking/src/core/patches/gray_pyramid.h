@@ -11,7 +11,7 @@ namespace softbody {
 /// ((u, v) - origin) / 2^level.
 class GrayPyramid {
  public:
-  static constexpr int kLevels = 3;
+  static constexpr int kLevels = 3;  ///< full, half and quarter
 
   /// Sets the frame. @param region is widened a little so that it halves evenly.
   void build(const cv::Mat3b& color, const cv::Rect& region);

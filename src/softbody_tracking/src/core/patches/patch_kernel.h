@@ -11,7 +11,7 @@ constexpr int kPatchSize = kPatchSide * kPatchSide;
 
 /// A value for every pixel of a patch, row by row, padded with zeros to whole vectors.
 struct alignas(64) PatchSamples {
-  static constexpr int kPadded = 128;
+  static constexpr int kPadded = 128;  ///< 11 * 11 pixels, and a multiple of 16 floats
   std::array<float, kPadded> values;
 };
 

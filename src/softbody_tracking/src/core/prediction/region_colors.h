@@ -28,7 +28,7 @@ class RegionColors {
   void reset();
 
  private:
-  static constexpr int kBins = 16 * 16 * 16;
+  static constexpr int kBins = 16 * 16 * 16;  ///< bin() keeps the upper 4 bits of each channel
   static std::size_t bin(const cv::Vec3b& color) {
     return static_cast<std::size_t>((color[0] >> 4) << 8 | (color[1] >> 4) << 4 | color[2] >> 4);
   }
