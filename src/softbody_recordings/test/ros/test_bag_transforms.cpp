@@ -133,11 +133,14 @@ geometry_msgs::TransformStamped infinitelyFar(const std::string& child, const ro
   return transform;
 }
 
-TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
-  TransformBag bag("bag_transforms_refused");
+/// A bag and tf2 with the same transforms.
+struct BagAndTf2 {
+  TransformBag bag{"bag_transforms_refused"};
   tf2::BufferCore buffer{ros::Duration(100.0)};
-  const auto addNamed = [&](const std::string& parent, const std::string& child, double t,
-                            const geometry_msgs::Quaternion& rotation, double x_m, bool is_static = false) {
+
+  /// Returns whether tf2 takes the transform.
+  bool add(const std::string& parent, const std::string& child, double t,
+           const geometry_msgs::Quaternion& rotation, double x_m, bool is_static = false) {
     geometry_msgs::TransformStamped transform = tf2::eigenToTransform(TransformBag::shifted(x_m));
     transform.transform.rotation = rotation;
     transform.header.stamp = after(t);
@@ -145,32 +148,34 @@ TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
     transform.child_frame_id = child;
     bag.add(transform, is_static ? "/tf_static" : "/tf");
     return buffer.setTransform(transform, "test", is_static);
-  };
-  const auto add = [&](const std::string& child, double t, const geometry_msgs::Quaternion& rotation,
-                       double x_m) { return addNamed("world", child, t, rotation, x_m); };
+  }
+};
+
+TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
+  BagAndTf2 both;
   geometry_msgs::Quaternion unit, zero, hardly, nearly;
   unit.w = 1.0;
   hardly.w = std::sqrt(1.011);
   nearly.w = std::sqrt(1.009);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(addNamed("world", "", 0.1, unit, 0.3));
+  EXPECT_FALSE(both.add("world", "", 0.1, unit, 0.3));
   for (const std::string child : {"camera", "tool"}) {
-    EXPECT_TRUE(add(child, 0.0, unit, 0.0));
+    EXPECT_TRUE(both.add("world", child, 0.0, unit, 0.0));
     for (const bool is_static : {false, true}) {
       for (const std::string& parent : {child, "/" + child, std::string()})
-        EXPECT_FALSE(addNamed(parent, child, 0.05, unit, 0.3, is_static)) << parent;
+        EXPECT_FALSE(both.add(parent, child, 0.05, unit, 0.3, is_static)) << parent;
     }
-    EXPECT_FALSE(add(child, 0.1, zero, 0.3));
-    EXPECT_FALSE(add(child, 0.15, unit, nan));
-    bag.add(infinitelyFar(child, after(0.17)));  // which tf2 takes
-    EXPECT_FALSE(add(child, 0.2, hardly, 0.3));
-    EXPECT_TRUE(add(child, 0.3, nearly, 0.3));
-    EXPECT_TRUE(add(child, 0.4, unit, 0.4));
+    EXPECT_FALSE(both.add("world", child, 0.1, zero, 0.3));
+    EXPECT_FALSE(both.add("world", child, 0.15, unit, nan));
+    both.bag.add(infinitelyFar(child, after(0.17)));  // which tf2 takes
+    EXPECT_FALSE(both.add("world", child, 0.2, hardly, 0.3));
+    EXPECT_TRUE(both.add("world", child, 0.3, nearly, 0.3));
+    EXPECT_TRUE(both.add("world", child, 0.4, unit, 0.4));
   }
-  const BagTransforms transforms = bag.read();
+  const BagTransforms transforms = both.bag.read();
   for (double t = 0.01; t < 0.4; t += 0.02) {
-    expectAsTf2("tool", "camera", after(t), transforms, buffer);
-    expectAsTf2("world", "camera", after(t), transforms, buffer);
+    expectAsTf2("tool", "camera", after(t), transforms, both.buffer);
+    expectAsTf2("world", "camera", after(t), transforms, both.buffer);
   }
   ASSERT_EQ(transforms.warnings().size(), 3u);
   EXPECT_NE(transforms.warnings()[0].find("1 transform of frame ''"), std::string::npos)

@@ -26,9 +26,8 @@ struct Arguments {
   std::vector<std::string> without;
 };
 
-void declare(CLI::App* app, Arguments* arguments) {
+void declareScene(CLI::App* app, Arguments* arguments) {
   CameraSetup& setup = arguments->setup;
-  const std::map<std::string, bool> on_off = {{"on", true}, {"off", false}};
   app->add_option("--output", arguments->output, "bag to write; default: none, a live node publishes");
   app->add_option("--scene", setup.scene, "motion of the body")
       ->check(CLI::IsMember(sceneNames()))
@@ -52,6 +51,11 @@ void declare(CLI::App* app, Arguments* arguments) {
                   "tool YAML for the scenes with a cut; default: the shipped knife.yaml")
       ->check(CLI::ExistingFile);
   addAllowOutside(app, &setup.scope);
+}
+
+void declareImages(CLI::App* app, Arguments* arguments) {
+  CameraSetup& setup = arguments->setup;
+  const std::map<std::string, bool> on_off = {{"on", true}, {"off", false}};
   app->add_option("--seed", setup.seed, "seed of textures and noise")->capture_default_str();
   app->add_option("--noise", arguments->noise, "sensor noise: on or off")
       ->transform(CLI::CheckedTransformer(on_off));
@@ -96,7 +100,8 @@ int runVirtualCamera(int argc, char** argv) {
   arguments.setup.config_folder = ros::package::getPath("softbody_bringup") + "/config";
   CLI::App app("A virtual RGB-D camera in front of a deforming body, with exact ground truth",
                "virtual_camera");
-  declare(&app, &arguments);
+  declareScene(&app, &arguments);
+  declareImages(&app, &arguments);
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
