@@ -1,0 +1,108 @@
+#!/usr/bin/python3
+"""Checks that functions are short, and that the tracker's named constants give a reason.
+
+Usage: functions.py [ROOT]
+Prints one line per fault; exit code 1 if there is any. A function is at most MOST_LINES long, from its name to its last
+line. A named constant of softbody_tracking's core has a comment that says why it has this value: on its lines or above.
+"""
+import ast
+import pathlib
+import re
+import sys
+
+MOST_LINES = 40
+NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*',
+                      re.DOTALL | re.MULTILINE)
+SCOPE = re.compile(r"\b(?:namespace|extern)\b|^\s*(?:template\s*<.*>\s*)?(?:class|struct|union|enum)\b[^()]*$", re.DOTALL)
+CONSTANT = re.compile(r"^ *(?:inline |static )*constexpr [\w:<>, ]*\bk[A-Z]\w*(?:\[\w*\])?\s*(?:=|\{)", re.MULTILINE)
+
+# A value with a number, and not computed from another constant.
+IS_CHOSEN = re.compile(r"^(?!.*\bk[A-Z]).*\b\d", re.DOTALL)
+
+
+def blanked(text):
+    """The text with comments, literals and preprocessor lines as blanks; every line stays where it is."""
+    def blanks(match):
+        return re.sub(r"[^\n]", " ", match.group())
+    return re.sub(NOT_CODE, blanks, text)
+
+
+def cpp_functions(text):
+    """(head, first line, last line) of each function that is defined outside of another one."""
+    code, scopes, head, parentheses = blanked(text), [], 0, 0
+    for at, character in enumerate(code):
+        if character in "()":
+            parentheses += 1 if character == "(" else -1
+        elif character == "{":
+            before = code[head:at]
+            if SCOPE.search(before):
+                scopes.append(("scope", head))
+            elif "(" in before and all(kind == "scope" for kind, _ in scopes) and not re.search(r"=\s*$|[,:]\s*\w+\s*$", before):
+                scopes.append(("function", head))
+            else:
+                scopes.append(("braces", head))
+                continue
+            head = at + 1
+        elif character == "}" and scopes:
+            kind, begin = scopes.pop()
+            if kind == "function":
+                begin += len(code[begin:at]) - len(code[begin:at].lstrip())
+                yield (" ".join(code[begin:].split("{")[0].split()), code.count("\n", 0, begin) + 1, code.count("\n", 0, at) + 1)
+            if kind != "braces":
+                head = at + 1
+        elif character == ";" and not parentheses and all(kind != "braces" for kind, _ in scopes):
+            head = at + 1
+
+
+def python_functions(text):
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            yield node.name, node.lineno, node.end_lineno
+
+
+def sources(root):
+    for folder in ("src", "scripts"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in (".h", ".cpp"):
+                yield path, cpp_functions
+            elif path.suffix == ".py" or (path.suffix == "" and path.is_file() and path.read_bytes()[:80].split(b"\n")[0].endswith(
+                    (b"/python3", b" python3"))):
+                yield path, python_functions
+
+
+def length_faults(root):
+    found = 0
+    for path, functions in sources(root):
+        for name, first, last in functions(path.read_text()):
+            found += functions is cpp_functions
+            if last - first + 1 > MOST_LINES:
+                yield f"{path.relative_to(root)}:{first}: {last - first + 1} lines, more than {MOST_LINES}: {name[:60]}"
+    if not found:
+        yield f"{root}/src: no C++ function found"
+
+
+def constant_faults(root):
+    package = root / "src/softbody_tracking"
+    for path in sorted(path for folder in ("src/core", "include") for path in (package / folder).rglob("*")
+                       if path.suffix in (".h", ".cpp")):
+        text = path.read_text()
+        for match in CONSTANT.finditer(text):
+            end = text.index(";", match.end())
+            if not IS_CHOSEN.search(text[match.end():end]):
+                continue
+            line_end = text.index("\n", end)
+            above = text[:match.start()].rstrip("\n").rsplit("\n", 1)[-1]
+            if "//" not in text[match.start():line_end] and not above.lstrip().startswith("//"):
+                line = text.count("\n", 0, match.start()) + 1
+                yield f"{path.relative_to(root)}:{line}: a constant without a reason: {match.group().strip(' ={')}"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
+    faults = [*length_faults(root), *constant_faults(root)]
+    print("\n".join(faults))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
