@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A bag that starts again: time jumps back, and the graph starts anew without help."""
+"""A bag that starts again: time jumps back, and the graph starts again without help."""
 import os
 import sys
 import unittest

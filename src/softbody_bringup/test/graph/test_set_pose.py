@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tracking starts anew near a pose that the service feature_tracker/set_pose is given, in any frame of tf."""
+"""Tracking starts again near a pose that the service feature_tracker/set_pose is given, in any frame of tf."""
 import os
 import sys
 import unittest

@@ -140,7 +140,7 @@ TEST_F(Panel, EveryButtonCallsItsServiceAndShowsTheAnswer) {
   expectAnswer("Undo", "Done: undo");
   expectAnswer("Redo", "Done: redo");
   expectAnswer("Reset", "Done: reset");
-  expectAnswer("Find again", "The body is searched anew.");
+  expectAnswer("Find again", "The body is searched for again.");
   accept_ = false;
   expectAnswer("Find again", "Not searched: there is no reason");
   expectAnswer("Undo", "Not done: there is no reason");

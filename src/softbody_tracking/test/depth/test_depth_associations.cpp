@@ -283,7 +283,7 @@ TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
   EXPECT_TRUE(found.associations.empty());
 }
 
-/// A rigid motion of the samples and rendering the moved surface anew say the same.
+/// A rigid motion of the samples and a new rendering of the moved surface say the same.
 TEST_F(DepthAssociationsTest, MoveWithTheirSamples) {
   const Eigen::Isometry3d error =
       Eigen::Translation3d(0.003, -0.002, 0.004) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());

@@ -17,7 +17,7 @@ namespace {
 
 using Feedback = visualization_msgs::InteractiveMarkerFeedback;
 
-/// The marker learns its frame and its first pose once, so that the node has to be made anew often.
+/// The marker learns its frame and its first pose once, so that the node has to be made again often.
 class MarkerTarget : public Target {
  public:
   MarkerTarget()

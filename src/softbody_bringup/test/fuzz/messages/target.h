@@ -41,7 +41,7 @@ class Target {
 struct TargetKind {
   std::string name;
   std::function<std::unique_ptr<Target>()> make;
-  std::size_t lifetime;  ///< mutated messages until the node is made anew
+  std::size_t lifetime;  ///< mutated messages until the node is made again
 };
 
 /// All nodes of the graph.

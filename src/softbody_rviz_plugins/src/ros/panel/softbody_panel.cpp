@@ -68,7 +68,7 @@ void SoftbodyPanel::addState() {
   reason_ = addLabel(rows);
   numbers_ = addLabel(rows);
   find_ = new QPushButton("Find again");
-  find_->setToolTip("Searches the body anew, as at the start. Cuts stay");
+  find_->setToolTip("Searches for the body again, as at the start. Cuts stay");
   rows->addWidget(find_);
   connect(find_, &QPushButton::clicked, [this] { findAgain(); });
   setBanner(state_, "No status yet", "#666666");
@@ -130,7 +130,7 @@ void SoftbodyPanel::findAgain() {
     std_srvs::Trigger service;
     if (!ros::service::call(name, service))
       return "The service " + name + " does not answer. Is the graph running?";
-    return service.response.success ? "The body is searched anew."
+    return service.response.success ? "The body is searched for again."
                                     : "Not searched: " + service.response.message;
   });
 }

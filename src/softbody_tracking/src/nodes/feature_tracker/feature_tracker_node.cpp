@@ -57,7 +57,7 @@ bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
   return true;
 }
 
-/// Only the pose is searched anew: the topologies, and so the cuts, stay.
+/// Only the pose is searched for again: the topologies, and so the cuts, stay.
 bool FeatureTrackerNode::onFindAgain(std_srvs::Trigger::Request& /*request*/,
                                      std_srvs::Trigger::Response& response) {
   response.success = tracker_.ready() ? 1 : 0;
@@ -67,7 +67,7 @@ bool FeatureTrackerNode::onFindAgain(std_srvs::Trigger::Request& /*request*/,
     return true;
   }
   tracker_.reset();
-  ROS_INFO("the body is searched anew, as at the start");
+  ROS_INFO("the body is searched for again, as at the start");
   return true;
 }
 
