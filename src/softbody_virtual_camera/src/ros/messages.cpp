@@ -68,6 +68,18 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
   return messages;
 }
 
+void setStamp(const ros::Time& stamp, CaptureMessages* messages) {
+  for (std_msgs::Header* header : {&messages->color->header, &messages->depth->header,
+                                   &messages->info->header, &messages->truth->header}) {
+    header->stamp = stamp;
+  }
+  messages->truth->observed = stamp;
+  for (geometry_msgs::TransformStamped& transform : messages->transforms.transforms) {
+    transform.header.stamp = stamp;
+  }
+  if (messages->tool) messages->tool->header.stamp = stamp;
+}
+
 softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp) {
   softbody_msgs::MeshTopology message = toMessage(topology);
   message.header.stamp = stamp;

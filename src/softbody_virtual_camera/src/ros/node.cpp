@@ -1,6 +1,8 @@
 #include "softbody_virtual_camera/ros/node.h"
 
 #include <ros/init.h>
+#include <ros/names.h>
+#include <ros/package.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
@@ -47,20 +49,28 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle
   camera_.emplace(makeCamera(setup_, &warnings));
   for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
 
-  color_ = node.advertise<sensor_msgs::Image>(topics::kCameraColor, kQueue);
-  color_info_ = node.advertise<sensor_msgs::CameraInfo>(topics::kCameraColorInfo, kQueue);
-  depth_ = node.advertise<sensor_msgs::Image>(topics::kCameraDepth, kQueue);
-  depth_info_ = node.advertise<sensor_msgs::CameraInfo>(topics::kCameraDepthInfo, kQueue);
-  truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(kTruthTopologyTopic, 1, true);
-  truth_state_ = node.advertise<softbody_msgs::MeshState>(kTruthStateTopic, kQueue);
+  // In a manager with a namespace, roscpp does not resolve names of the root namespace.
+  advertise(node, ros::names::parentNamespace(private_node.getNamespace()));
+  publishLatched(0, ros::Time::now());
+  ahead_.emplace([this](int frame) { return render(frame); });
+  ahead_->start(frame_);
+  timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), [this](const auto&) { onTimer(); });
+}
+
+void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_space) {
+  const auto name = [&](const char* topic) { return ros::names::append(name_space, topic); };
+  color_ = node.advertise<sensor_msgs::Image>(name(topics::kCameraColor), kQueue);
+  color_info_ = node.advertise<sensor_msgs::CameraInfo>(name(topics::kCameraColorInfo), kQueue);
+  depth_ = node.advertise<sensor_msgs::Image>(name(topics::kCameraDepth), kQueue);
+  depth_info_ = node.advertise<sensor_msgs::CameraInfo>(name(topics::kCameraDepthInfo), kQueue);
+  truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(name(kTruthTopologyTopic), 1, true);
+  truth_state_ = node.advertise<softbody_msgs::MeshState>(name(kTruthStateTopic), kQueue);
   if (camera_->scene().state(0.0).T_camera_tool) {
-    truth_tool_ = node.advertise<geometry_msgs::PoseStamped>(kTruthToolPoseTopic, kQueue);
-    truth_cut_ = node.advertise<softbody_msgs::Cut>(kTruthCutTopic, kQueue);
+    truth_tool_ = node.advertise<geometry_msgs::PoseStamped>(name(kTruthToolPoseTopic), kQueue);
+    truth_cut_ = node.advertise<softbody_msgs::Cut>(name(kTruthCutTopic), kQueue);
   }
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
   if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
-  publishLatched(0, ros::Time::now());
-  timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), &VirtualCameraNode::publishFrame, this);
 }
 
 void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& stamp) {
@@ -72,17 +82,30 @@ bool VirtualCameraNode::hasSubscribers() const {
   return color_.getNumSubscribers() + depth_.getNumSubscribers() + truth_state_.getNumSubscribers() > 0;
 }
 
-void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
+double VirtualCameraNode::sceneTime(int frame) const {
+  return std::max(0.0, frame / setup_.rate_hz - hold_s_);
+}
+
+CaptureMessages VirtualCameraNode::render(int frame) {
+  return toMessages(camera_->capture(frame, sceneTime(frame)), camera_->pinhole(), ros::Time(),
+                    static_cast<std::uint32_t>(frame));
+}
+
+void VirtualCameraNode::onTimer() {
   if (!hasSubscribers()) return;
-  const ros::Time stamp = ros::Time::now();
-  const double t = std::max(0.0, frame_ / setup_.rate_hz - hold_s_);
-  if (!loop_ && t >= camera_->scene().duration_s) {
+  if (!loop_ && sceneTime(frame_) >= camera_->scene().duration_s) {
     ROS_INFO("scene %s is over", setup_.scene.c_str());
     timer_.stop();
     return;
   }
-  const CaptureMessages messages =
-      toMessages(camera_->capture(frame_, t), camera_->pinhole(), stamp, static_cast<std::uint32_t>(frame_));
+  CaptureMessages messages = ahead_->take();
+  const ros::Time stamp = ros::Time::now();
+  setStamp(stamp, &messages);
+  publish(messages, stamp);
+  ahead_->start(++frame_);
+}
+
+void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time& stamp) {
   const bool edited = messages.truth->revision != revision_;
   for (; revision_ < messages.truth->revision; ++revision_) {
     truth_cut_.publish(cutMessage(camera_->scene().edits.at(revision_), stamp));
@@ -97,7 +120,12 @@ void VirtualCameraNode::publishFrame(const ros::TimerEvent&) {
   color_.publish(messages.color);
   depth_.publish(messages.depth);
   truth_state_.publish(messages.truth);
-  ++frame_;
+}
+
+CameraSetup shippedSetup() {
+  CameraSetup setup;
+  setup.config_folder = ros::package::getPath("softbody_bringup") + "/config";
+  return setup;
 }
 
 int runNode(int argc, char** argv, const CameraSetup& setup) {

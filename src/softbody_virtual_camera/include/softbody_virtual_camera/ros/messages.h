@@ -35,6 +35,9 @@ struct CaptureMessages {
 CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,
                            std::uint32_t sequence);
 
+/// Sets the stamp of all messages of a frame.
+void setStamp(const ros::Time& stamp, CaptureMessages* messages);
+
 /// The truth's topology in the body's frame.
 softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp);
 

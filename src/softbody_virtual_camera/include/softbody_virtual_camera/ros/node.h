@@ -7,21 +7,27 @@
 #include <optional>
 
 #include "softbody_virtual_camera/camera/camera_setup.h"
+#include "softbody_virtual_camera/ros/render_ahead.h"
 
 namespace softbody::virtual_camera {
 
 /// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, seed, noise, width,
 /// height, rate [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth
-/// (ground_truth/...) and optical frame -> ground_truth_softbody.
+/// (ground_truth/...) and optical frame -> ground_truth_softbody. Each frame is rendered before its time
+/// comes, and gets its stamp when it is sent, as from a real camera.
 class VirtualCameraNode {
  public:
   /// @param setup defaults of the parameters.
   VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const CameraSetup& setup);
 
  private:
+  double sceneTime(int frame) const;
+  CaptureMessages render(int frame);
+  void advertise(ros::NodeHandle node, const std::string& name_space);
   bool hasSubscribers() const;
   void publishLatched(std::uint32_t revision, const ros::Time& stamp);
-  void publishFrame(const ros::TimerEvent& event);
+  void onTimer();
+  void publish(const CaptureMessages& messages, const ros::Time& stamp);
 
   CameraSetup setup_;
   bool loop_ = true, publish_camera_tf_ = true;
@@ -32,7 +38,11 @@ class VirtualCameraNode {
   ros::Timer timer_;
   int frame_ = 0;
   std::uint32_t revision_ = 0;
+  std::optional<RenderAhead> ahead_;  ///< last, because its thread uses the members above
 };
+
+/// The camera's setup with the files that softbody_bringup ships.
+CameraSetup shippedSetup();
 
 /// Runs a VirtualCameraNode until shutdown. @return the exit code.
 int runNode(int argc, char** argv, const CameraSetup& setup);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <ros/init.h>
-#include <ros/package.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -97,7 +96,7 @@ int runVirtualCamera(int argc, char** argv) {
   std::reverse(words.begin(), words.end());
 
   Arguments arguments;
-  arguments.setup.config_folder = ros::package::getPath("softbody_bringup") + "/config";
+  arguments.setup = shippedSetup();
   CLI::App app("A virtual RGB-D camera in front of a deforming body, with exact ground truth",
                "virtual_camera");
   declareScene(&app, &arguments);
