@@ -28,6 +28,17 @@ TEST(StatusOf, OutlinesThatDifferDegradeIt) {
   EXPECT_EQ(statusOf(displaced, {}).reason, "");
 }
 
+/// Lines across the outline end before a body that has slid along itself by a quarter of its length.
+TEST(StatusOf, WhereSomethingFartherIsSeenDegradesIt) {
+  Observation slid = wellSeen();
+  slid.outline.disagreement = 0.1;
+  slid.depth.absent_blocks = 30;
+  EXPECT_EQ(statusOf(slid, {}).state, TrackingState::kTracking) << "as at the edges of a moving body";
+  slid.depth.absent_blocks = 150;
+  EXPECT_EQ(statusOf(slid, {}).state, TrackingState::kDegraded);
+  EXPECT_NE(statusOf(slid, {}).reason.find("25 % of the body"), std::string::npos);
+}
+
 TEST(StatusOf, GivesTheReasonForDegradedTracking) {
   EXPECT_EQ(statusOf(wellSeen(), {}).state, TrackingState::kTracking);
   EXPECT_NEAR(statusOf(wellSeen(), {}).inlier_ratio, 0.95, 1e-9);

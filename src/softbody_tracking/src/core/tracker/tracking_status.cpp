@@ -13,8 +13,8 @@ namespace {
 
 // Share of the visible surface that must agree in depth; with less, most of the body is not measured.
 constexpr double kDegradedShare = 0.3;
-// Largest area between predicted and measured outline, as a share of the body's. Right meshes stay below
-// 0.14, thin and fast ones too; wrong ones are above 0.27.
+// Largest area that the image contradicts, as a share of the body's. Right meshes stay below 0.15, thin and
+// fast ones too; wrong ones are above 0.27.
 constexpr double kLargestDisagreement = 0.18;
 // Share of the expected features that must be found; with fewer, something covers them or the light changed.
 constexpr double kFewestTracked = 0.05;
@@ -23,6 +23,15 @@ constexpr double kWorstInlierRatio = 0.2;
 // Frames for which a piece of a cut body must be held before the status reports it; shorter gaps are normal.
 constexpr int kHeldFrames = 5;
 
+/// Share of the body's area that the image contradicts: between the outlines near the prediction, and where
+/// something farther is seen than the body. Lines across the outline end before a body that is far from its
+/// prediction.
+double disagreement(const Observation& seen) {
+  const int visible = seen.depth.visible_blocks;
+  const double absent = visible > 0 ? static_cast<double>(seen.depth.absent_blocks) / visible : 0.0;
+  return seen.outline.disagreement + absent;
+}
+
 /// Reason for a degraded state; empty if the frame shows the body well.
 std::string whyDegraded(const Observation& seen, int kept) {
   const auto explained = static_cast<double>(seen.agreeing_blocks);
@@ -30,10 +39,11 @@ std::string whyDegraded(const Observation& seen, int kept) {
     return seen.depth.occluded_blocks > seen.depth.absent_blocks ? "most of the body is occluded"
                                                                  : "most of the body is not where predicted";
   }
-  if (seen.outline.disagreement > kLargestDisagreement) {
+  const double differs = disagreement(seen);
+  if (differs > kLargestDisagreement) {
     return fmt::format(
         "the outlines of image and mesh differ by {:.0f} % of the body's area: check mesh, scale and pose",
-        100.0 * seen.outline.disagreement);
+        100.0 * differs);
   }
   if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestTracked * seen.expected_features)
     return "hardly any of the expected features are found";
