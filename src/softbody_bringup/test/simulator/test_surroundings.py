@@ -15,7 +15,8 @@ from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, PinRegion, Target, Targets, TetTopology
 from softbody_msgs.srv import Pin, Release, SetMaterial, SetObstacle
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+sys.path += [os.path.join(os.path.dirname(os.path.abspath(__file__)), folder) for folder in ("", "../shared")]
+from gripper_cases import GripperCases  # pylint: disable=wrong-import-position
 from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
 
 FRAME = "world"
@@ -32,7 +33,7 @@ def vector(v):
     return np.array([v.x, v.y, v.z])
 
 
-class Surroundings(unittest.TestCase):
+class Surroundings(GripperCases, unittest.TestCase):
     stamp = None  # of the last frame; steps are faster than time, and the next test goes on from there
 
     @classmethod
@@ -58,7 +59,7 @@ class Surroundings(unittest.TestCase):
             cls.recorder.wait(lambda _: publisher.get_num_connections() > 0, "a simulator that listens")
 
     def setUp(self):
-        self.places = {"finger": FAR, "gripper": FAR, "camera": [0.0, 0.0, 0.0]}
+        self.places = {"finger": FAR, "gripper": FAR, "hand": FAR, "camera": [0.0, 0.0, 0.0]}
         self.camera_yaw = 0.0
         self.step(reset=True)
 

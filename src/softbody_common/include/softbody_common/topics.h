@@ -31,6 +31,7 @@ constexpr char kSurfaceMarker[] = "surface/marker";
 constexpr char kSurfaceMesh[] = "surface/mesh";
 constexpr char kSurfacePoints[] = "surface/points";
 constexpr char kPin[] = "pin";
+constexpr char kGripperClosed[] = "gripper/closed";
 constexpr char kReaction[] = "reaction/";  // followed by a name
 constexpr char kToolPose[] = "tool/pose";
 constexpr char kToolBlade[] = "tool/blade";

@@ -30,6 +30,15 @@ Eigen::Isometry3d opticalFrame() {
   return T;
 }
 
+void addGripper(const GripperState& gripper, const std_msgs::Header& header, CaptureMessages* messages) {
+  auto& transforms = messages->transforms.transforms;
+  transforms.push_back(transformMessage(header, kGripperFrame, gripper.T_camera_gripper));
+  for (std::size_t i = 0; i < 2; ++i)
+    transforms.push_back(transformMessage(header, kFingerFrames[i], gripper.T_camera_fingers[i]));
+  messages->gripper_closed = boost::make_shared<std_msgs::Bool>();
+  messages->gripper_closed->data = static_cast<unsigned char>(gripper.closed);
+}
+
 std_msgs::Header headerOf(const ros::Time& stamp, const char* frame_id) {
   std_msgs::Header header;
   header.stamp = stamp;
@@ -60,6 +69,7 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
     messages.transforms.transforms.push_back(transformMessage(
         headerOf(stamp, kWorldFrame), kCameraFrame, *capture.T_world_camera * opticalFrame().inverse()));
   }
+  if (capture.gripper) addGripper(*capture.gripper, header, &messages);
   if (capture.T_camera_tool) {
     messages.tool = boost::make_shared<geometry_msgs::PoseStamped>();
     messages.tool->header = header;

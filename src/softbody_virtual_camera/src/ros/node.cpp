@@ -69,6 +69,7 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
     truth_tool_ = node.advertise<geometry_msgs::PoseStamped>(name(kTruthToolPoseTopic), kQueue);
     truth_cut_ = node.advertise<softbody_msgs::Cut>(name(kTruthCutTopic), kQueue);
   }
+  if (camera_->scene().state(0.0).gripper) gripper_ = node.advertise<std_msgs::Bool>(kGripperTopic, kQueue);
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
   if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
 }
@@ -114,6 +115,7 @@ void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time
     publishLatched(revision_, stamp);
   }
   tf_.publish(messages.transforms);
+  if (messages.gripper_closed) gripper_.publish(messages.gripper_closed);
   if (messages.tool) truth_tool_.publish(messages.tool);
   color_info_.publish(messages.info);
   depth_info_.publish(messages.info);

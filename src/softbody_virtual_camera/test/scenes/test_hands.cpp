@@ -76,6 +76,33 @@ TEST(Hands, TouchTheSpongeWhileTheyHoldItAndOnlyThen) {
   }
 }
 
+TEST(Gripper, HoldsTheEndWhileItIsClosedAndOnlyThen) {
+  const Scene scene = handScene("grasp");
+  const Points& rest = scene.actors[0].rest.vertices;
+  ASSERT_EQ(scene.hands, 3u);
+  for (const double t : {0.5, 1.0, 1.2, 1.5, 2.0, 2.5, 3.5, 3.9, 4.9}) {
+    const SceneState state = scene.state(t);
+    ASSERT_TRUE(state.gripper);
+    EXPECT_EQ(state.gripper->closed, t > 1.4 && t < 3.7) << t;
+    // Top and bottom of the end, in the gripper's frame: y points from one finger to the other.
+    const Points end = transformed(state.gripper->T_camera_gripper.inverse(), state.vertices[0]);
+    for (std::size_t finger : {0u, 1u}) {
+      const Points pad = transformed(state.gripper->T_camera_gripper.inverse(), state.vertices[4 + finger]);
+      const double inner = pad.col(1).cwiseAbs().minCoeff();
+      EXPECT_EQ(pad.col(1).mean() > 0.0, finger == 1u);
+      if (state.gripper->closed)
+        EXPECT_NEAR(inner, 0.02, 1e-9) << t;
+      else
+        EXPECT_GT(inner, 0.021) << t;
+    }
+    for (Eigen::Index i = 0; state.gripper->closed && i < rest.rows(); ++i) {
+      if (rest(i, 0) < 0.05) continue;  // the fingers reach from x = 0.05 to 0.11
+      EXPECT_NEAR(end(i, 2), 0.08 - rest(i, 0), 1e-9) << t;
+      EXPECT_NEAR(end(i, 1), rest(i, 2), 1e-9) << t;
+    }
+  }
+}
+
 TEST(Hands, ThumbAndFingersTouchOppositeSides) {
   const Scene scene = handScene("touch");
   const SceneState state = scene.state(1.5);

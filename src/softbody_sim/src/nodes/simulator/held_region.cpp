@@ -3,32 +3,45 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 namespace softbody {
 namespace {
 
-/// Ascending.
-std::vector<int> verticesIn(const PinRegion& region, const Points& rest_vertices) {
+/// Ascending. @param T_box_points from the frame of the points to that of the box.
+std::vector<int> verticesIn(const PinRegion& region, const Eigen::Isometry3d& T_box_points,
+                            const Points& points) {
   std::vector<int> vertices;
-  for (int v = 0; v < rest_vertices.rows(); ++v) {
-    const Eigen::Array3d p = rest_vertices.row(v).transpose().array();
+  for (int v = 0; v < points.rows(); ++v) {
+    const Eigen::Array3d p = T_box_points * Eigen::Vector3d(points.row(v));
     if ((p >= region.min.array()).all() && (p <= region.max.array()).all()) vertices.push_back(v);
   }
   return vertices;
 }
 
+/// Those of before that still exist, and those that lie in the box now. Ascending.
+std::vector<int> stillHeld(const std::vector<int>& before, const std::vector<int>& inside,
+                           Eigen::Index count) {
+  std::vector<int> held;
+  std::set_union(before.begin(), std::lower_bound(before.begin(), before.end(), static_cast<int>(count)),
+                 inside.begin(), inside.end(), std::back_inserter(held));
+  return held;
+}
+
 }  // namespace
 
-HeldRegion::HeldRegion(PinRegion region, const Points& rest_vertices)
-    : region_(std::move(region)), vertices_(verticesIn(region_, rest_vertices)) {
+HeldRegion::HeldRegion(PinRegion region, const Points& rest_vertices) : region_(std::move(region)) {
+  if (region_.in_frame) return;
+  vertices_ = verticesIn(region_, Eigen::Isometry3d::Identity(), rest_vertices);
   if (vertices_.empty())
     throw std::invalid_argument(
         fmt::format("the box of pin '{}' contains no vertex of the volume", region_.name));
 }
 
 void HeldRegion::hold(const Eigen::Isometry3d& frame_pose, const Points& vertices) {
+  if (region_.in_frame) vertices_ = verticesIn(region_, frame_pose.inverse(), vertices);
   positions_.emplace(static_cast<Eigen::Index>(vertices_.size()), 3);
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
     positions_->row(static_cast<Eigen::Index>(k)) =
@@ -37,7 +50,11 @@ void HeldRegion::hold(const Eigen::Isometry3d& frame_pose, const Points& vertice
 }
 
 void HeldRegion::updateVertices(const Points& rest_vertices, const Points& vertices) {
-  const std::vector<int> before = std::exchange(vertices_, verticesIn(region_, rest_vertices));
+  const std::vector<int> before = vertices_;
+  if (region_.in_frame)
+    vertices_ = stillHeld(before, verticesIn(region_, frame_pose_.inverse(), vertices), rest_vertices.rows());
+  else
+    vertices_ = verticesIn(region_, Eigen::Isometry3d::Identity(), rest_vertices);
   if (vertices.rows() == 0) positions_.reset();
   if (!positions_) return;
   Points positions(static_cast<Eigen::Index>(vertices_.size()), 3);

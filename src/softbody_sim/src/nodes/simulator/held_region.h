@@ -10,10 +10,11 @@
 
 namespace softbody {
 
-/// The vertices of a pin region, held at fixed positions in the region's frame.
+/// The vertices of a pin region, held at fixed positions in the region's frame. A box in a frame chooses its
+/// vertices when it takes hold.
 class HeldRegion {
  public:
-  /// @throw std::invalid_argument if no vertex lies in the region.
+  /// @throw std::invalid_argument if no vertex lies in a box in rest space.
   HeldRegion(PinRegion region, const Points& rest_vertices);
 
   const PinRegion& region() const { return region_; }
@@ -21,7 +22,8 @@ class HeldRegion {
   /// Whether the held positions are known.
   bool hasPositions() const { return positions_.has_value(); }
 
-  /// Holds the vertices where they are now. @param vertices #V by 3, in the targets' frame [m].
+  /// Holds the vertices where they are now; a box in a frame, those that lie in it now. @param vertices #V by
+  /// 3, in the targets' frame [m].
   void hold(const Eigen::Isometry3d& frame_pose, const Points& vertices);
   void forgetPositions() { positions_.reset(); }
 

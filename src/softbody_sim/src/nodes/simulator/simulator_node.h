@@ -4,7 +4,10 @@
 #include <softbody_msgs/SetMaterial.h>
 #include <softbody_msgs/Targets.h>
 
+#include <optional>
+
 #include "nodes/prediction/prediction_service.h"
+#include "nodes/simulator/gripper_input.h"
 #include "nodes/simulator/simulator_diagnostics.h"
 #include "nodes/simulator/simulator_options.h"
 #include "nodes/simulator/surroundings_input.h"
@@ -18,10 +21,10 @@
 
 namespace softbody {
 
-/// Subscribes to targets, cuts and pins; takes pins and obstacles by service; predicts; publishes
-/// states of the volumetric model. If the targets stop, for example because the camera stalls, it continues
-/// at its own rate. Parameters: ~object, ~body_frame, ~obstacles, ~free_run_rate_hz, ~stall_timeout_s and
-/// those of SimulatorConfig.
+/// Subscribes to targets, cuts and pins; takes pins and obstacles by service; follows a gripper; predicts;
+/// publishes states of the volumetric model. If the targets stop, for example because the camera stalls, it
+/// continues at its own rate. Parameters: ~object, ~body_frame, ~obstacles, ~gripper_..., ~free_run_rate_hz,
+/// ~stall_timeout_s and those of SimulatorConfig.
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -70,6 +73,7 @@ class SimulatorNode {
   SimulatorDiagnostics diagnostics_;
   // Last, so that callbacks end before the members that they use.
   SurroundingsInput surroundings_input_;
+  std::optional<GripperInput> gripper_;
   NewestOnly<softbody_msgs::TargetsConstPtr> targets_;
   ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_;
   ros::ServiceServer set_material_;

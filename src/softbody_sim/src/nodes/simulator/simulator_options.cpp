@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "softbody_common/ros/ros_parameters.h"
+#include "softbody_sim/constraints/gripper_description.h"
 
 namespace softbody {
 namespace {
@@ -28,6 +29,7 @@ SimulatorOptions readSimulatorOptions(const ros::NodeHandle& private_node) {
   options.pins.frame_timeout_s = parameters.number("frame_timeout_s", options.pins.frame_timeout_s, 0.0, 1e3);
   std::vector<std::string> unknown;
   options.obstacles = readObstacles(parameters, &unknown);
+  options.gripper = readGripper(parameters, &options.obstacles);
   for (const std::string& key : unknown) ROS_WARN_STREAM("unknown parameter " << key << " is ignored");
   warnUnknown(parameters);
   return options;

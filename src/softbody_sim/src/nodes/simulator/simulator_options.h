@@ -2,6 +2,7 @@
 
 #include <ros/ros.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SimulatorOptions {
   double stall_timeout_s = 1.0;    ///< time without targets after which the simulation goes on by itself
   std::vector<ObstacleDescription> obstacles;
   PinOptions pins;
+  std::optional<PinRegion> gripper;  ///< the space between the fingers; the fingers are obstacles
 };
 
 /// Warns of unknown keys. @throw std::invalid_argument as Parameters does.

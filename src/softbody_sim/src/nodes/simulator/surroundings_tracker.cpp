@@ -15,6 +15,15 @@ namespace {
 constexpr std::size_t kMostPins = 1000;
 constexpr std::size_t kMostObstacles = 1000;
 
+std::string gripsNothing(const PinRegion& region) {
+  return fmt::format(
+      "pin '{}' holds nothing: no vertex of the body is in its box in frame '{}' ([{:.3g}, {:.3g}, {:.3g}] "
+      "to "
+      "[{:.3g}, {:.3g}, {:.3g}] m); check that the body is tracked, and the box in rviz",
+      region.name, region.frame, region.min.x(), region.min.y(), region.min.z(), region.max.x(),
+      region.max.y(), region.max.z());
+}
+
 }  // namespace
 
 SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node,
@@ -76,12 +85,30 @@ std::vector<std::string> SurroundingsTracker::names() const {
 }
 
 std::size_t SurroundingsTracker::addPin(const PinRegion& region, const Points& rest_vertices) {
-  requireTopicName(region.name);
-  if (find(region.name))
-    throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", region.name));
-  if (pins_.size() >= kMostPins && pins_.count(region.name) == 0)
+  requireFree(region.name);
+  return insert({region, rest_vertices});
+}
+
+std::size_t SurroundingsTracker::grip(const PinRegion& region, const Points& vertices) {
+  requireFree(region.name);
+  HeldRegion held(region, {});
+  const auto pose = poses_.find(region.frame, frame_, step_stamp_);
+  if (pose && vertices.rows() > 0) {
+    held.hold(pose->pose, vertices);
+    if (held.vertexCount() == 0) throw std::invalid_argument(gripsNothing(region));
+  }
+  return insert(std::move(held));
+}
+
+void SurroundingsTracker::requireFree(const std::string& pin) {
+  requireTopicName(pin);
+  if (find(pin)) throw std::invalid_argument(fmt::format("pin '{}' has the name of an obstacle", pin));
+  if (pins_.size() >= kMostPins && pins_.count(pin) == 0)
     throw std::invalid_argument(fmt::format("{} pins are held already: release one first", pins_.size()));
-  HeldRegion held(region, rest_vertices);
+}
+
+std::size_t SurroundingsTracker::insert(HeldRegion held) {
+  const PinRegion region = held.region();
   const std::size_t count = held.vertexCount();
   FollowedFrame frame(fmt::format("pin '{}'", region.name), region.frame, options_.frame_timeout_s);
   pins_.insert_or_assign(
@@ -202,6 +229,8 @@ SurroundingsTracker::Faults SurroundingsTracker::faults() const {
   for (const auto& [name, pin] : pins_) {
     faults.emplace_back(name, pin.frame.fault());
     faults.emplace_back(name, pin.conflict.sentence());
+    if (pin.held.hasPositions() && pin.held.vertexCount() == 0)
+      faults.emplace_back(name, gripsNothing(pin.held.region()));
   }
   faults.erase(std::remove_if(faults.begin(), faults.end(), [](const auto& f) { return f.second.empty(); }),
                faults.end());

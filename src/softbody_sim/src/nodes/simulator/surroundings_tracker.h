@@ -39,6 +39,11 @@ class SurroundingsTracker {
   /// @return number of vertices that are held.
   /// @throw std::invalid_argument if the region has no vertex, its name is not usable, or too many are held.
   std::size_t addPin(const PinRegion& region, const Points& rest_vertices);
+  /// Closes a gripper: holds what lies in a box in a frame, in place of a pin of the same name. If the body
+  /// is not placed, or tf does not know the frame, it takes hold when both are known.
+  /// @param vertices as in surroundingsAt(). @return number of vertices that are held at once.
+  /// @throw std::invalid_argument as addPin().
+  std::size_t grip(const PinRegion& region, const Points& vertices);
   /// @return false if no pin has the name.
   bool removePin(const std::string& name);
 
@@ -92,6 +97,8 @@ class SurroundingsTracker {
     LastingFault conflict;
   };
 
+  void requireFree(const std::string& pin);
+  std::size_t insert(HeldRegion held);
   FollowedFrame frameOf(const ObstacleDescription& description) const;
   PlacedObstacle* find(const std::string& obstacle);
   void placeObstacles(const ros::Time& stamp);

@@ -16,6 +16,9 @@ TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a_m,
                      double radius_b_m);
 
+/// A closed box around the origin, with the edge lengths `size` [m].
+TriangleMesh box(const Eigen::Vector3d& size);
+
 /// All meshes in one, with vertices and triangles in their order.
 TriangleMesh merge(const std::vector<TriangleMesh>& meshes);
 

@@ -28,6 +28,7 @@ struct Capture {
       truth;  ///< in the optical frame, or in the world if the camera moves; confidence 1: visible, 0: hidden
   Eigen::Isometry3d T_camera_body;
   std::optional<Eigen::Isometry3d> T_camera_tool;
+  std::optional<GripperState> gripper;
   std::optional<Eigen::Isometry3d> T_world_camera;  ///< only with a moving camera
 };
 

@@ -6,6 +6,7 @@
 #include <softbody_msgs/Cut.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
+#include <std_msgs/Bool.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "softbody_virtual_camera/camera/virtual_camera.h"
@@ -17,6 +18,11 @@ constexpr char kOpticalFrame[] = "camera_color_optical_frame";
 constexpr char kBodyFrame[] = "ground_truth_softbody";
 constexpr char kWorldFrame[] = "world";  ///< only with a moving camera
 
+/// As a robot would publish them.
+constexpr char kGripperFrame[] = "gripper";
+constexpr const char* kFingerFrames[] = {"left_finger", "right_finger"};
+constexpr char kGripperTopic[] = "gripper/closed";
+
 constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
@@ -27,9 +33,11 @@ struct CaptureMessages {
   sensor_msgs::ImagePtr color, depth;  ///< rgb8; 16UC1 [mm], registered to colour
   sensor_msgs::CameraInfoPtr info;     ///< of both images
   softbody_msgs::MeshStatePtr truth;   ///< in the optical frame, or in the world if the camera moves
-  /// optical frame -> ground_truth_softbody; with a moving camera also world -> camera_link
+  /// optical frame -> ground_truth_softbody, gripper and its fingers; with a moving camera also
+  /// world -> camera_link
   tf2_msgs::TFMessage transforms;
   geometry_msgs::PoseStampedPtr tool;  ///< of the tool in the optical frame; null without a tool
+  std_msgs::BoolPtr gripper_closed;    ///< null without a gripper
 };
 
 CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -28,12 +29,25 @@ struct Lights {
   float ambient = 0.40f, fill = 0.0f;
 };
 
+/// A gripper with two fingers. Its frame lies between them: z points at the body, y to the second finger. A
+/// finger's frame is its centre.
+struct GripperState {
+  Eigen::Isometry3d T_camera_gripper = Eigen::Isometry3d::Identity();  ///< in the optical frame
+  std::array<Eigen::Isometry3d, 2> T_camera_fingers;                   ///< likewise
+  bool closed = false;                                                 ///< it holds the body
+};
+
+/// The gripper after a change of the camera's frame or of the scale.
+GripperState transformed(const Eigen::Isometry3d& T, GripperState gripper);
+GripperState scaled(GripperState gripper, double factor);
+
 /// The poses of all things at one time.
 struct SceneState {
   Eigen::Isometry3d T_camera_body = Eigen::Isometry3d::Identity();  ///< the body's frame in the optical frame
   std::vector<Points> vertices;  ///< per actor, in the colour optical frame [m]
   std::uint32_t revision = 0;    ///< of the body's topology
   std::optional<Eigen::Isometry3d> T_camera_tool = std::nullopt;
+  std::optional<GripperState> gripper = std::nullopt;
   Lights lights = {};
   double brightness = 1.0;  ///< factor of the colour image: the lamp's power
   std::optional<Eigen::Isometry3d> T_world_camera = std::nullopt;  ///< only with a moving camera
@@ -53,8 +67,9 @@ struct Scene {
   double duration_s = 0.0;  ///< of one run; the motion continues after it
   std::vector<Actor> actors;
   double color_noise = 1.0;  ///< factor of the colour camera's noise: its gain in low light
-  std::size_t hands = 0;     ///< number of hands and fingers, the last actors; a tool is not one of them
-  std::vector<Edit> edits;   ///< from revision 1 on; each is one stroke of the blade
+  std::size_t hands =
+      0;  ///< number of hands, fingers and grippers, the last actors; a tool is not one of them
+  std::vector<Edit> edits;  ///< from revision 1 on; each is one stroke of the blade
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< at the start; z is up
   std::function<SceneState(double t)> state;                         ///< t in seconds from the start
 };

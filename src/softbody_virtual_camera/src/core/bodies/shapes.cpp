@@ -38,6 +38,14 @@ TriangleMesh rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& edg
   return mesh;
 }
 
+TriangleMesh box(const Eigen::Vector3d& size) {
+  const Eigen::Vector3d low = -0.5 * size, high = 0.5 * size;
+  const Eigen::Vector3d x = size.x() * Eigen::Vector3d::UnitX(), y = size.y() * Eigen::Vector3d::UnitY(),
+                        z = size.z() * Eigen::Vector3d::UnitZ();
+  return merge({rectangle(low, y, x), rectangle(low, z, y), rectangle(low, x, z), rectangle(high, -x, -y),
+                rectangle(high, -y, -z), rectangle(high, -z, -x)});
+}
+
 TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_m) {
   return capsule(a, b, radius_m, radius_m);
 }

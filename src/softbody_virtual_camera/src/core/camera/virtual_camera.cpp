@@ -103,6 +103,7 @@ Capture VirtualCamera::capture(int frame, double t) {
   capture.truth.confidence = image_.visibility;
   capture.T_camera_body = state.T_camera_body;
   capture.T_camera_tool = state.T_camera_tool;
+  capture.gripper = state.gripper;
   capture.T_world_camera = state.T_world_camera;
   return capture;
 }

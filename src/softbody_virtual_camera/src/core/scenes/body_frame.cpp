@@ -66,6 +66,7 @@ Scene toBodyFrame(const BodyFrame& frame, const Scene& played, const TriangleMes
     now.T_camera_body = ownPose(frame, now.T_camera_body);
     for (Points& vertices : now.vertices) vertices *= frame.scale;
     if (now.T_camera_tool) now.T_camera_tool->translation() *= frame.scale;
+    if (now.gripper) now.gripper = scaled(*now.gripper, frame.scale);
     return now;
   };
   return scene;

@@ -8,6 +8,7 @@
 
 #include "scenes/body_frame.h"
 #include "scenes/cut_scenes.h"
+#include "scenes/grasp.h"
 #include "scenes/plays.h"
 #include "scenes/plays_with_hands.h"
 #include "scenes/tear_scene.h"
@@ -29,12 +30,11 @@ using CutMaker = Scene (*)(const Stage& stage, const Tool& tool);
 
 const std::map<std::string, Setting>& plays() {
   static const std::map<std::string, Setting> settings = {
-      {"still", {stillPlay}},    {"bend", {bendPlay}},       {"twist", {twistPlay}},
-      {"push", {pushPlay}},      {"pull", {pullPlay}},       {"shake", {shakePlay}},
-      {"rigid", {rigidPlay}},    {"fast", {fastPlay}},       {"roll", {rollPlay}},
-      {"dim", {dimPlay}},        {"far", {farPlay, 0.9}},    {"leave", {leavePlay}},
-      {"press", {pressPlay}},    {"occlude", {occludePlay}}, {"touch", {touchPlay}},
-      {"squeeze", {squeezePlay}}};
+      {"still", {stillPlay}}, {"bend", {bendPlay}},       {"twist", {twistPlay}},  {"push", {pushPlay}},
+      {"pull", {pullPlay}},   {"shake", {shakePlay}},     {"rigid", {rigidPlay}},  {"fast", {fastPlay}},
+      {"roll", {rollPlay}},   {"dim", {dimPlay}},         {"far", {farPlay, 0.9}}, {"leave", {leavePlay}},
+      {"press", {pressPlay}}, {"occlude", {occludePlay}}, {"touch", {touchPlay}},  {"squeeze", {squeezePlay}},
+      {"grasp", {graspPlay}}};
   return settings;
 }
 
@@ -50,6 +50,18 @@ const std::map<std::string, CutMaker>& cuts() {
 bool isDoll(const std::string& scene) { return scene.compare(0, kDoll.size(), kDoll) == 0; }
 
 }  // namespace
+
+GripperState transformed(const Eigen::Isometry3d& T, GripperState gripper) {
+  gripper.T_camera_gripper = T * gripper.T_camera_gripper;
+  for (Eigen::Isometry3d& finger : gripper.T_camera_fingers) finger = T * finger;
+  return gripper;
+}
+
+GripperState scaled(GripperState gripper, double factor) {
+  gripper.T_camera_gripper.translation() *= factor;
+  for (Eigen::Isometry3d& finger : gripper.T_camera_fingers) finger.translation() *= factor;
+  return gripper;
+}
 
 Scene withoutHands(Scene scene) {
   const std::size_t kept = scene.actors.size() - std::exchange(scene.hands, 0);

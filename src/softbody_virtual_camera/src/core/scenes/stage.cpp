@@ -79,6 +79,7 @@ Scene perform(const Stage& stage, const Play& play) {
     }
     SceneState state;
     state.lights = stage.lights;
+    if (play.gripper) state.gripper = play.gripper(t);
     if (play.brightness) state.brightness = play.brightness(t);
     state.T_camera_body = play.T_camera_body ? play.T_camera_body(t) : stage.T_camera_body;
     state.vertices = {transformed(state.T_camera_body, body), table, wall};

@@ -35,8 +35,9 @@ struct Play {
   std::function<Eigen::Vector3d(const Eigen::Vector3d& rest, double t)> deformation;  ///< empty: rigid
   std::function<Eigen::Isometry3d(double t)> T_camera_body;  ///< empty: the body does not move
   std::vector<Prop> props;
-  std::function<double(double t)> brightness;  ///< of the colour image; empty: 1
-  double color_noise = 1.0;                    ///< factor of the noise of colour
+  std::function<GripperState(double t)> gripper;  ///< empty: none
+  std::function<double(double t)> brightness;     ///< of the colour image; empty: 1
+  double color_noise = 1.0;                       ///< factor of the noise of colour
 };
 Scene perform(const Stage& stage, const Play& play);
 

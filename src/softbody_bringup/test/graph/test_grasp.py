@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""A virtual gripper takes the sponge at one end, lifts it, sets it down and lets go. The graph holds what the gripper holds,
+and only then; the end between the fingers stays where it is in the truth."""
+import sys
+import os
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import WrenchStamped
+from softbody_msgs.msg import MeshState, MeshTopology, TrackingStatus
+from std_msgs.msg import Bool
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+HELD_X_M = 0.05  # rest vertices beyond it are near the fingers
+MAX_MEAN_M, MAX_HELD_M = 0.002, 0.004
+DELAY = rospy.Duration(1.0)  # of the answer to the gripper on a loaded machine; it is closed for 2.3 s
+
+
+def array(points):
+    return np.array([[p.x, p.y, p.z] for p in points])
+
+
+class Grasp(unittest.TestCase):
+    def test_what_is_gripped_is_held_until_it_is_let_go(self):
+        recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
+                            ground_truth__surface__state=MeshState, softbody__status=TrackingStatus,
+                            softbody__reaction__gripper=WrenchStamped, gripper__closed=Bool)
+        recorder.wait(lambda seen: [m for m in seen["gripper/closed"] if m.data], "a gripper that closes")
+        closed = rospy.Time.now()
+        recorder.wait(lambda seen: not seen["gripper/closed"][-1].data, "a gripper that opens")
+        opened = rospy.Time.now()
+        last = recorder.wait(lambda seen: next((s for s in seen["softbody/surface/state"]
+                                                if s.header.stamp > opened + DELAY), None), "a state after it")
+        with recorder.changed:
+            seen = {name: list(messages) for name, messages in recorder.messages.items()}
+
+        held = [w.header.stamp for w in seen["softbody/reaction/gripper"]]
+        self.assertTrue(held, "nothing was held")
+        self.assertLess(held[0], closed + DELAY)
+        self.assertGreater(held[0], closed - DELAY)
+        self.assertLess(held[-1], opened + DELAY)
+        self.assertGreater(held[-1], opened - DELAY)
+
+        end = array(seen["softbody/surface/topology"][0].rest_vertices)[:, 0] > HELD_X_M
+        truths = {t.header.stamp: array(t.vertices) for t in seen["ground_truth/surface/state"]}
+        errors = {s.header.stamp: np.linalg.norm(array(s.vertices) - truths[s.header.stamp], axis=1)
+                  for s in seen["softbody/surface/state"] if s.header.stamp in truths}
+        lifted = [error for stamp, error in errors.items() if closed < stamp < opened]
+        mean, at_end = np.mean(lifted), np.mean([error[end].mean() for error in lifted])
+        lost = sum(s.state == TrackingStatus.LOST for s in seen["softbody/status"])
+        print(f"\ngrasp: mean {1e3 * mean:.2f} mm, held end {1e3 * at_end:.2f} mm, "
+              f"afterwards {1e3 * errors[last.header.stamp].mean():.2f} mm, {lost} frames LOST, {len(lifted)} states")
+        self.assertGreater(len(lifted), 5)
+        self.assertEqual(lost, 0)
+        self.assertLess(mean, MAX_MEAN_M)
+        self.assertLess(at_end, MAX_HELD_M)
+        self.assertLess(errors[last.header.stamp].mean(), MAX_MEAN_M)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_grasp")
+    rostest.rosrun("softbody_bringup", "test_grasp", Grasp, sys.argv)
