@@ -8,6 +8,7 @@ import rosnode
 import rospy
 import rostest
 import tf2_ros
+from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 from softbody_msgs.msg import MeshState, MeshTopology, StageTiming, Targets, TetTopology, TrackingStatus
 from visualization_msgs.msg import Marker
@@ -82,6 +83,16 @@ class Graph(unittest.TestCase):
             self.recorder.wait(
                 lambda seen: any(timing.node == name for timing in seen["softbody/timing"]),
                 f"stage times of {name}")
+
+    def test_the_aggregator_has_a_group_for_each_node_and_leaves_nothing_over(self):
+        groups = {"Camera": "camera_ingest", "Tracking": "feature_tracker", "Simulation": "simulator", "Surface": "surface"}
+        array = Recorder(diagnostics_agg=DiagnosticArray).wait(
+            lambda seen: next((m for m in seen["diagnostics_agg"] if sum(s.name.count("/") == 3 for s in m.status) >= 4),
+                              None), "a status of each node in its group")
+        names = {status.name for status in array.status}
+        self.assertEqual({name for name in names if name.count("/") < 3}, {"/softbody"} | {f"/softbody/{g}" for g in groups})
+        for group, node in groups.items():
+            self.assertTrue([n for n in names if n.startswith(f"/softbody/{group}/softbody {node}: ")], (group, names))
 
     def test_tf_leads_from_the_camera_to_the_body(self):
         buffer = tf2_ros.Buffer()
