@@ -22,7 +22,7 @@ from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-positi
 FRAME = "world"
 DENSITY_KG_M3, GRAVITY_M_S2 = 30.0, 9.81
 FAR = [0.0, 0.0, 5.0]
-PINS = ("hold", "gripper", "arm")
+PINS = ("hold", "claw", "arm")
 
 
 def array(points):
@@ -42,7 +42,7 @@ class Surroundings(GripperCases, unittest.TestCase):
                                 softbody__reaction__ground=WrenchStamped, softbody__reaction__finger=WrenchStamped,
                                 # Each pinned in one test only: rospy may not come back to a topic that ended
                                 # while it connected.
-                                softbody__reaction__gripper=WrenchStamped, softbody__reaction__arm=WrenchStamped,
+                                softbody__reaction__claw=WrenchStamped, softbody__reaction__arm=WrenchStamped,
                                 rosout=Log, diagnostics=DiagnosticArray)
         cls.broadcaster = tf2_ros.TransformBroadcaster()
         cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
@@ -145,7 +145,7 @@ class Surroundings(GripperCases, unittest.TestCase):
         np.testing.assert_allclose(vector(wrench.wrench.force), [0.0, 0.0, -self.weight], atol=0.02 * self.weight)
 
     def test_gripper_takes_the_body_along_and_carries_it(self):
-        held = self.grip("gripper", "gripper")
+        held = self.grip("gripper", "claw")
         before = array(self.step().vertices)
         for height in np.linspace(0.0, 0.5, 21)[1:]:
             self.places["gripper"] = np.add(FAR, [0.0, 0.0, height])
@@ -154,7 +154,7 @@ class Surroundings(GripperCases, unittest.TestCase):
             state = self.step()
         vertices = array(state.vertices)
         np.testing.assert_allclose(vertices[held], before[held] + [0.0, 0.0, 0.5], atol=1e-4)
-        wrench = self.reaction("gripper")
+        wrench = self.reaction("claw")
         self.assertEqual(wrench.header.frame_id, "gripper")
         np.testing.assert_allclose(vector(wrench.wrench.force), [0.0, 0.0, -self.weight], atol=0.02 * self.weight)
         # About the gripper's origin: the moment of the weight at the centre of mass, near enough the mean.
