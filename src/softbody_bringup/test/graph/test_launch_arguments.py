@@ -51,6 +51,13 @@ class LaunchArguments(unittest.TestCase):
         return yaml.safe_load(roslaunch(self.directory.name, "--dump-params", "softbody_bringup", launch, *GRAPHS[launch],
                                         "tool:=/t.yaml", *arguments))
 
+    def test_gripper(self):
+        for launch in GRAPHS:
+            parameters = self.parameters(launch, "gripper_frame:=tool0", "gripper_box:=[-1, -2, -3, 1, 2, 3]")
+            self.assertEqual(parameters.get("/softbody/simulator/gripper_frame"), "tool0", launch)
+            self.assertEqual(parameters.get("/softbody/simulator/gripper_box"), [-1, -2, -3, 1, 2, 3], launch)
+        self.assertFalse([key for key in self.parameters("track.launch") if "gripper" in key])
+
     def test_output_frame(self):
         for launch in GRAPHS:
             parameters = self.parameters(launch, "output_frame:=base_link")
