@@ -16,7 +16,7 @@ namespace softbody {
 class CameraBag {
  public:
   /// @param info without header. @throw std::runtime_error if the file cannot be written.
-  CameraBag(std::filesystem::path output, sensor_msgs::CameraInfo info);
+  CameraBag(const std::filesystem::path& output, sensor_msgs::CameraInfo info);
 
   /// Latched /tf_static camera_link -> camera_color_optical_frame (REP-103).
   void writeOpticalFrame(Nanoseconds stamp);

@@ -18,7 +18,7 @@ class ResultBag {
   /// @param topic_namespace of the output topics, e.g. "/softbody". @param with_timing also write stage
   /// times.
   /// @throw std::runtime_error if the file cannot be written.
-  ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
+  ResultBag(const std::filesystem::path& output, std::string topic_namespace, std::string body_frame,
             bool with_timing);
 
   /// Writes both topologies, latched. Call it before the first state of a revision, and again every second.

@@ -13,8 +13,8 @@ constexpr char kFrame[] = "camera_color_optical_frame";
 
 }  // namespace
 
-CameraBag::CameraBag(std::filesystem::path output, sensor_msgs::CameraInfo info)
-    : info_(std::move(info)), bag_(std::move(output)) {}
+CameraBag::CameraBag(const std::filesystem::path& output, sensor_msgs::CameraInfo info)
+    : info_(std::move(info)), bag_(output) {}
 
 void CameraBag::writeOpticalFrame(Nanoseconds stamp) {
   geometry_msgs::TransformStamped transform;

@@ -14,12 +14,12 @@
 
 namespace softbody {
 
-ResultBag::ResultBag(std::filesystem::path output, std::string topic_namespace, std::string body_frame,
+ResultBag::ResultBag(const std::filesystem::path& output, std::string topic_namespace, std::string body_frame,
                      bool with_timing)
     : namespace_(std::move(topic_namespace)),
       body_frame_(std::move(body_frame)),
       with_timing_(with_timing),
-      bag_(std::move(output)) {}
+      bag_(output) {}
 
 template <typename Message>
 void ResultBag::write(const std::string& topic, Message message, const std_msgs::Header& header) {
