@@ -177,15 +177,6 @@ TEST_F(DepthAssociationsTest, WeighLessWhereDepthIsNoisierThanUsual) {
   EXPECT_NEAR(noisier / noisy, 0.64, 0.06) << "by the square";
 }
 
-TEST(WeighByNoise, NeverLeavesAFastBodyWithoutDepth) {
-  for (const double relative_noise : {0.05, 0.5, 5.0}) {
-    DepthAssociations depth;
-    depth.associations.resize(1);
-    downweightByNoise(relative_noise, &depth);
-    EXPECT_DOUBLE_EQ(depth.associations[0].weight, 1.0 / 6.0);
-  }
-}
-
 /// The rigid step leaves out pixels, and does not ask.
 TEST_F(DepthAssociationsTest, TellTheNoiseOfWholeBlocksAlone) {
   for (const int targets : {1500, 100000}) {
@@ -244,16 +235,14 @@ TEST_F(DepthAssociationsTest, TheMotionOfOnePieceDoesNotOccludeAnother) {
   addNoise(0.001);
   const cv::Rect region = surface_.image().region;
   const cv::Point tip(region.x + 30, region.y + region.height / 2);
-  for (int v = -25; v <= 25; ++v)  // a finger that touches: its depth has no step
+  for (int v = -25; v <= 25; ++v)  // its depth has no step
     for (int u = -25; u <= 25; ++u)
-      frame_.depth(tip.y + v, tip.x + u) -=
-          static_cast<float>(0.03 * std::max(0.0, 1.0 - std::hypot(u, v) / 25.0));
+      frame_.depth(tip + cv::Point(u, v)) -= 0.0012f * std::max(0.0f, 25.0f - std::hypot(1.0f * u, 1.0f * v));
   SurfaceSamples samples = sampleSurface(surface_, 1500);
-  for (SurfaceSample& sample : samples.samples)
-    sample.piece = sample.center.x < region.x + region.width / 3 ? 0 : 1;
+  for (auto& sample : samples.samples) sample.piece = sample.center.x < tip.x + region.width / 4 ? 0 : 1;
   const auto occluded = [&](double farther_m) {
-    const RigidMotions motions = {Eigen::Isometry3d::Identity(),
-                                  Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -farther_m))};
+    const Eigen::Isometry3d moved(Eigen::Translation3d(0.0, 0.0, -farther_m));
+    const RigidMotions motions = {Eigen::Isometry3d::Identity(), moved};
     DepthAssociator depth(DepthConfig(), edge_);
     return depth.associate(frame_, surface_.image(), samples, motions, colors_).occluded_blocks;
   };

@@ -122,5 +122,14 @@ TEST(DepthNoiseEstimator, ManyFramesThatShowLittleAreEnough) {
   EXPECT_NEAR(noise.patchStdDev(1.0), 6e-6, 0.1e-6);
 }
 
+TEST(WeighByNoise, NeverLeavesAFastBodyWithoutDepth) {
+  for (const double relative_noise : {0.05, 0.5, 5.0}) {
+    DepthAssociations depth;
+    depth.associations.resize(1);
+    downweightByNoise(relative_noise, &depth);
+    EXPECT_DOUBLE_EQ(depth.associations[0].weight, 1.0 / 6.0);
+  }
+}
+
 }  // namespace
 }  // namespace softbody

@@ -42,13 +42,10 @@ class OutlineAssociationsTest : public ::testing::Test {
     frame_ = frame;
     cv::resize(frame.color, frame_.color, cv::Size(), factor, factor, cv::INTER_NEAREST);
     cv::resize(frame.depth, frame_.depth, cv::Size(), factor, factor, cv::INTER_NEAREST);
-    const Pinhole& camera = frame.camera;
-    frame_.camera = {frame_.depth.cols,
-                     frame_.depth.rows,
-                     factor * camera.fx,
-                     factor * camera.fy,
-                     factor * (camera.cx + 0.5) - 0.5,
-                     factor * (camera.cy + 0.5) - 0.5};
+    Pinhole& camera = frame_.camera;
+    camera.width = frame_.depth.cols, camera.height = frame_.depth.rows;
+    camera.fx *= factor, camera.fy *= factor;
+    camera.cx = factor * (camera.cx + 0.5) - 0.5, camera.cy = factor * (camera.cy + 0.5) - 0.5;
   }
 
   /// From the frame as it is, with the prediction at its true position.
