@@ -86,8 +86,8 @@ class PythonLive(unittest.TestCase):
         self.assertEqual(revision, first.revision + 1)
         self.assertEqual(self.body.wait(timeout_s=60, revision=revision).triangle_pieces.max(), 1)
         for edit, pieces in ((self.body.undo, 1), (self.body.redo, 2), (self.body.reset_cuts, 1)):
-            edit()
             revision += 1
+            self.assertEqual(edit(), revision)
             state = self.body.wait(timeout_s=60, revision=revision)
             self.assertEqual((state.revision, 1 + state.triangle_pieces.max()), (revision, pieces))
         with self.assertRaisesRegex(softbody.Refused, "/softbody/surface/undo: there is no cut to undo"):

@@ -105,16 +105,16 @@ class Body:
         return list(self._call("surface/preview", PreviewCut, request).volumes)
 
     def undo(self):
-        """Undoes the last stroke. The revision grows by 1."""
-        self._call("surface/undo", Trigger)
+        """Undoes the last stroke. @return the revision of the states after it."""
+        return self._edit("surface/undo")
 
     def redo(self):
-        """Makes the last undone stroke again. The revision grows by 1."""
-        self._call("surface/redo", Trigger)
+        """Makes the last undone stroke again. @return the revision of the states after it."""
+        return self._edit("surface/redo")
 
     def reset_cuts(self):
-        """Undoes all strokes. The revision grows by 1."""
-        self._call("surface/reset", Trigger)
+        """Undoes all strokes. @return the revision of the states after it."""
+        return self._edit("surface/reset")
 
     def closest_point(self, point, frame=""):
         """The point of the surface, in the last state, that is closest to a point [m].
@@ -207,6 +207,10 @@ class Body:
             return f"no state on {self._name('surface/state')} within {timeout_s} s; is the body found?"
         return f"no state of revision {revision} or later within {timeout_s} s, or no new one; the last has " \
                f"revision {state.revision} and stamp {state.time:.3f}"
+
+    def _edit(self, name):
+        """The surface answers an edit with "revision N"."""
+        return int(self._call(name, Trigger).message.split()[-1])
 
     def _call(self, name, kind, *arguments):
         name = self._name(name)

@@ -26,6 +26,7 @@ ros::ServiceServer CutServices::advertiseEdit(ros::NodeHandle* node, const char*
         const bool done = editor_->isReady(&response.message) &&
                           editor_->apply(editor_->body().edit(kind), &response.message);
         response.success = static_cast<unsigned char>(done);
+        if (done) response.message = fmt::format("revision {}", editor_->body().volume().revision);
         return true;
       });
 }
