@@ -58,7 +58,7 @@ def timed_runs():
 
 def peer_runs():
     """{body: {simulator: error and time}}"""
-    return json.loads(tool("compare_peers", package="softbody_sim"))
+    return json.loads(tool("compare_peers", package="development/softbody_sim"))
 
 
 def cut_runs():

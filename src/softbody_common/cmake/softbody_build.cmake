@@ -105,17 +105,32 @@ function(softbody_ros_library target)
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
-# softbody_program(NAME SOURCE LIBRARY...): an installed executable.
+# softbody_program(NAME SOURCE LIBRARY...): an installed executable. It knows its package and version.
 function(softbody_program name source)
   add_executable(${name} ${source})
+  softbody_tell_version(${name})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/core)
   target_link_libraries(${name} ${ARGN})
   install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 
-# softbody_development_program(NAME SOURCE...): an executable for make targets, not installed. The caller links it.
+# Tells a program, which links softbody::common, the name and version in its package.xml.
+function(softbody_tell_version program)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/package_version.cpp)
+  set(version ${${PROJECT_NAME}_VERSION})
+  file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
+#include "softbody_common/package_version.h"
+static const bool told = softbody::setPackageVersion("@PROJECT_NAME@ @version@");
+]])
+  target_sources(${program} PRIVATE ${source})
+endfunction()
+
+# softbody_development_program(NAME SOURCE...): an executable for make targets, not installed. The caller links it. It is
+# where rosrun, which completes the names of programs, does not look.
 function(softbody_development_program name)
   add_executable(${name} ${ARGN})
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/development/${PROJECT_NAME})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test
     ${PROJECT_SOURCE_DIR}/src/core)
 endfunction()

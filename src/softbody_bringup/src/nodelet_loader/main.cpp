@@ -5,10 +5,15 @@
 #include <vector>
 
 #include "nodelet_loader/nodelet_loader.h"
+#include "softbody_common/package_version.h"
 
 int main(int argc, char** argv) {
   std::vector<std::string> arguments;
   ros::removeROSArgs(argc, argv, arguments);
+  if (arguments.size() == 2 && arguments[1] == "--version") {
+    std::printf("%s\n", softbody::packageVersion().c_str());
+    return 0;
+  }
   if (arguments.size() != 3) {
     std::fputs("usage: nodelet_loader PACKAGE/TYPE MANAGER\n", stderr);
     return 2;

@@ -12,14 +12,21 @@
 
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/files/staged_output.h"
+#include "softbody_common/package_version.h"
 
 namespace softbody {
+
+/// --version, of every tool.
+inline void addVersion(CLI::App* app) {
+  app->set_version_flag("--version", packageVersion(), "Print package and version and exit");
+}
 
 /// Runs a tool: reads the command line and calls `work`, which returns the exit code. Prints exceptions of
 /// the work on stderr. An interrupted tool leaves no incomplete file.
 /// @return 0: done; 1: the data could not be processed; 2: wrong usage.
 template <typename Work>
 int runTool(CLI::App* app, int argc, char** argv, const Work& work) {
+  addVersion(app);
   try {
     app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A click on a vertex in rviz shows its number, its place and its standard deviation."""
+import os
 import subprocess
 import unittest
 
@@ -10,14 +11,15 @@ from hand_made_body import SIDE, Body
 from virtual_screen import VirtualScreen
 
 PATIENCE_S = 40
+PICK_VERTEX = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/development/softbody_rviz_plugins/pick_vertex"
 
 
 class TestPicking(unittest.TestCase):
     def picked(self, x, y):
         """What the panel Selection shows after a click near a place [m]."""
         with VirtualScreen(900, 700) as screen:
-            return subprocess.run(["rosrun", "softbody_rviz_plugins", "pick_vertex", str(x), str(y)], env=screen.environment,
-                                  stdout=subprocess.PIPE, text=True, timeout=PATIENCE_S, check=True).stdout
+            return subprocess.run([PICK_VERTEX, str(x), str(y)], env=screen.environment, stdout=subprocess.PIPE, text=True,
+                                  timeout=PATIENCE_S, check=True).stdout
 
     def test_a_click_shows_the_vertex(self):
         rospy.init_node("test_picking")

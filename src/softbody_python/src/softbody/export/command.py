@@ -5,6 +5,7 @@ import math
 import pathlib
 import sys
 
+import rospkg
 from softbody.bag import BagError, ResultBag
 from softbody.export.errors import ExportError
 from softbody.export.gltf_file import Scene
@@ -39,9 +40,18 @@ def _step(text):
     return value
 
 
+class Version(argparse.Action):
+    """Prints package and version from package.xml, as the other tools do."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        package = "softbody_python"
+        parser.exit(message=f"{package} {rospkg.RosPack().get_manifest(package).version}\n")
+
+
 def _arguments(words):
     parser = argparse.ArgumentParser("export", formatter_class=Help, description="Writes the states of a result to files of "
                                      "other programs: meshes of each frame, a series for ParaView, or an animation")
+    parser.add_argument("--version", action=Version, nargs=0, help="print package and version and exit")
     parser.add_argument("bag", metavar="RESULT.bag", help="bag of replay, or one recorded live")
     parser.add_argument("--output", required=True, metavar="DIR", help="folder to write, or FILE.glb for gltf")
     parser.add_argument("--format", choices=FORMATS, help="ply, obj: surface of each frame; vtk: surface and tets of each "

@@ -101,6 +101,7 @@ int runVirtualCamera(int argc, char** argv) {
                "virtual_camera");
   declareScene(&app, &arguments);
   declareImages(&app, &arguments);
+  addVersion(&app);
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
