@@ -59,7 +59,7 @@ def track(name, recording, config, *more):
 def measure(name, recording, config, *against, more=()):
     """Tracks a recording, with more arguments for `replay`; the report of `evaluate`."""
     result = track(name, recording, config, *more)
-    text = tool("evaluate", result, *against, "--report", OUTPUT / name)
+    text = tool("evaluate", result, *against, "--json", "--report", OUTPUT / name)
     (OUTPUT / f"{name}.json").write_text(text)
     return json.loads(text)
 
@@ -110,7 +110,7 @@ def scene_run(kind, scene, *camera_arguments, replay_arguments=()):
     if kind == "scene" and scene in HIDDEN:
         other = unhidden_result(scene, config)
         unhidden = ("--unhidden", other)
-        reports[("unhidden", scene)] = json.loads(tool("evaluate", other, "--truth", recording))
+        reports[("unhidden", scene)] = json.loads(tool("evaluate", other, "--truth", recording, "--json"))
     reports[(kind, scene)] = measure(name, recording, config, "--truth", recording, *unhidden,
                                      more=(*tool_of(scene), *allowed, *replay_arguments))
     if kind == "scene" and scene in WRONG_MATCH_SEEDS:
@@ -143,7 +143,7 @@ def simulate(name, truth, config):
     """The report of `evaluate` on `simulate_truth`."""
     result = OUTPUT / f"{name}.bag"
     tool("simulate_truth", truth, "--object", config, "--output", result)
-    report = json.loads(tool("evaluate", result, "--truth", truth))
+    report = json.loads(tool("evaluate", result, "--truth", truth, "--json"))
     result.unlink()
     return report
 

@@ -8,6 +8,8 @@
 #include "comparison/recording_comparison.h"
 #include "comparison/truth_comparison.h"
 #include "softbody_common/topics.h"
+#include "softbody_common/tracking_state.h"
+#include "softbody_evaluation/comparison/material_maps.h"
 #include "softbody_evaluation/report/figures.h"
 #include "softbody_evaluation/report/html_page.h"
 #include "softbody_evaluation/report/report_folder.h"
@@ -40,6 +42,10 @@ std::string recordingOf(const EvaluatorOptions& options) {
 SurfaceRecord readResult(const EvaluatorOptions& options, const std::string& bag) {
   return readSurface(bag, options.result_namespace + "/" + topics::kSurfaceTopology,
                      options.result_namespace + "/" + topics::kSurfaceState);
+}
+
+std::vector<StatusRecord> readStatusesOf(const EvaluatorOptions& options, const std::string& bag) {
+  return readStatuses(bag, options.result_namespace + "/" + topics::kStatus);
 }
 
 SurfaceRecord readTruth(const EvaluatorOptions& options) {
@@ -96,6 +102,7 @@ std::optional<SurfaceRecord> readUnhidden(const EvaluatorOptions& options, const
   unhidden.result = options.unhidden;
   SurfaceRecord result = readResult(unhidden, unhidden.result);
   expressIn(truth.frame_id, transformBags(unhidden, recording), &result, "states of the unhidden body");
+  mapMaterial(readStatusesOf(unhidden, unhidden.result), &truth, &result);
   return result;
 }
 
@@ -116,14 +123,15 @@ Measured measure(const EvaluatorOptions& options) {
   std::optional<SurfaceRecord> truth;
   if (!options.truth.empty()) truth = readTruth(options);
   if (truth) expressIn(truth->frame_id, transformBags(options, recording), &result);
+  const std::vector<StatusRecord> statuses = readStatusesOf(options, options.result);
+  report.alike = mapMaterial(statuses, truth ? &*truth : nullptr, &result);
   report.notes = result.notes;
 
   report.frames = {result.states.size(), result.states.size(), {}};
   report.volume = volumeOf(result);
-  for (const auto& [stamp, state] :
-       readTrackingStates(options.result, options.result_namespace + "/" + topics::kStatus)) {
-    ++report.states[state];
-    report.state_of[stamp] = state;
+  for (const StatusRecord& status : statuses) {
+    ++report.states[nameOf(status.state)];
+    report.state_of[status.stamp] = nameOf(status.state);
   }
   report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
   if (!recording.empty()) compareInCamera(options, recording, result, truth ? &*truth : nullptr, &measured);

@@ -62,20 +62,19 @@ StageTimes readStageTimes(const std::string& path, const std::string& topic) {
   return times;
 }
 
-std::vector<std::pair<Nanoseconds, std::string>> readTrackingStates(const std::string& path,
-                                                                    const std::string& topic) {
+std::vector<StatusRecord> readStatuses(const std::string& path, const std::string& topic) {
   const rosbag::Bag bag = openBag(path);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
-  std::vector<std::pair<Nanoseconds, std::string>> states;
+  std::vector<StatusRecord> statuses;
   for (const rosbag::MessageInstance& instance : view) {
     const auto status = instance.instantiate<softbody_msgs::TrackingStatus>();
     if (!status || status->state > softbody_msgs::TrackingStatus::RECOVERING)
       throw std::invalid_argument(fmt::format(
           "{}: {} is not of type softbody_msgs/TrackingStatus, or has an unknown state", path, topic));
-    states.emplace_back(toNanoseconds(status->header.stamp),
-                        nameOf(static_cast<TrackingState>(status->state)));
+    statuses.push_back({toNanoseconds(status->header.stamp), static_cast<TrackingState>(status->state),
+                        posesAlike(status->reason)});
   }
-  return states;
+  return statuses;
 }
 
 }  // namespace softbody::evaluation

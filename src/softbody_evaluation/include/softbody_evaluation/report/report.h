@@ -15,6 +15,7 @@
 #include "softbody_evaluation/measures/steadiness.h"
 #include "softbody_evaluation/measures/vertex_error.h"
 #include "softbody_evaluation/measures/volume.h"
+#include "softbody_evaluation/report/alike_poses.h"
 
 namespace softbody::evaluation {
 
@@ -40,6 +41,7 @@ struct Report {
   std::map<Nanoseconds, std::string> state_of;  ///< the last state of each stamp
   std::vector<std::string> frame_states;        ///< of the frames of vertex_error; empty text: unknown
   std::vector<std::string> notes;               ///< what was left out, in sentences
+  std::optional<AlikePoses> alike;              ///< if the tracker said that poses look alike
   std::optional<VertexErrorReport> vertex_error;
   std::optional<CalibrationReport> calibration;  ///< if the result has standard deviations
   std::optional<PiecesReport> pieces;

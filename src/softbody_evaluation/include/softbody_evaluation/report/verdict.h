@@ -24,6 +24,7 @@ struct Verdict {
   Level level = Level::kGood;
   std::vector<Finding> findings;    ///< the worst first; empty for a good result
   std::vector<std::string> limits;  ///< what the figures cannot show, in sentences
+  std::string premise = {};         ///< what to know before the figures, in sentences; empty: nothing
 };
 
 /// Judges a result by the limits of its figures. A result that was compared with nothing is suspect.

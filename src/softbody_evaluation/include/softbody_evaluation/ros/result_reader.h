@@ -2,12 +2,12 @@
 
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "softbody_common/types.h"
 #include "softbody_evaluation/measures/pose_error.h"
 #include "softbody_evaluation/measures/stage_times.h"
+#include "softbody_evaluation/records/status_record.h"
 
 namespace softbody::evaluation {
 
@@ -21,9 +21,8 @@ std::map<Nanoseconds, Points> readBlades(const std::string& path, const std::str
 /// Reads times of type StageTiming. Empty if the topic is missing.
 StageTimes readStageTimes(const std::string& path, const std::string& topic);
 
-/// Stamps and names of the TrackingStatus messages, in the order of the bag. Empty if the topic is missing.
+/// The TrackingStatus messages, in the order of the bag. Empty if the topic is missing.
 /// @throw std::invalid_argument if the topic has another type or an unknown state.
-std::vector<std::pair<Nanoseconds, std::string>> readTrackingStates(const std::string& path,
-                                                                    const std::string& topic);
+std::vector<StatusRecord> readStatuses(const std::string& path, const std::string& topic);
 
 }  // namespace softbody::evaluation

@@ -9,7 +9,6 @@
 #include "comparison/overlay_drawing.h"
 #include "comparison/side_views.h"
 #include "softbody_common/time.h"
-#include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_evaluation/report/plots.h"
 
 namespace softbody::evaluation {
@@ -108,12 +107,14 @@ std::vector<float> FilmMaker::errorsOf(const MeshState& state, const RecordedFra
   if (truth == truth_->states.end())
     return trueErrors(state, state,
                       std::vector<int>(static_cast<std::size_t>(state.vertices.rows()), kNoMatch));
-  const auto [matches, fresh] = matches_.try_emplace({state.revision, truth->second.revision});
+  const MaterialMap& material = materialAt(result_, frame.stamp);
+  const auto [matches, fresh] = matches_.try_emplace({&material, state.revision, truth->second.revision});
   if (fresh) {
-    matches->second =
-        matchVertices(topologyOf(result_, state), topologyOf(*truth_, truth->second), options_.cut_vertex_m);
+    matches->second = matchMaterial(material, topologyOf(result_, state), topologyOf(*truth_, truth->second),
+                                    options_.cut_vertex_m);
   }
-  return trueErrors(state, truth->second, matches->second);
+  return trueErrors(ontoVertices(state, truth->second, matches->second), truth->second,
+                    matches->second.vertices);
 }
 
 void FilmMaker::add(const RecordedFrame& frame, int number, const cv::Mat1f& rendered) {

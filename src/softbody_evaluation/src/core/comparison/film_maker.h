@@ -3,10 +3,11 @@
 #include <map>
 #include <opencv2/core.hpp>
 #include <set>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "softbody_evaluation/comparison/evaluator_options.h"
+#include "softbody_evaluation/measures/material_match.h"
 #include "softbody_evaluation/records/recorded_frame.h"
 #include "softbody_evaluation/records/surface_record.h"
 #include "softbody_evaluation/report/film.h"
@@ -37,7 +38,8 @@ class FilmMaker {
   std::set<Nanoseconds> chosen_;
   cv::Rect view_;          ///< part of the image that is shown
   double radius_m_ = 0.0;  ///< of the body in the first chosen frame
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<int>> matches_;  ///< by both revisions
+  /// By material and both revisions.
+  std::map<std::tuple<const MaterialMap*, std::uint32_t, std::uint32_t>, VertexMatches> matches_;
   Film film_;
 };
 

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
-#include <utility>
+#include <tuple>
 
 #include "softbody_common/time.h"
+#include "softbody_evaluation/measures/material_match.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_evaluation/report/plots.h"
 
@@ -19,7 +20,7 @@ constexpr std::size_t kLeastStillFrames = 10;
 
 /// Matches of a pair of topologies.
 struct TopologyPair {
-  std::vector<int> matches;
+  VertexMatches matches;
   VertexGroups groups;
   PieceMatch pieces;
 };
@@ -39,26 +40,36 @@ class TopologyPairs {
   TopologyPairs(const EvaluatorOptions& options, const SurfaceRecord& result, const SurfaceRecord& truth)
       : options_(options), result_(result), truth_(truth) {}
 
-  const TopologyPair& of(std::uint32_t result_revision, std::uint32_t truth_revision) {
-    const auto [pair, fresh] = pairs_.try_emplace({result_revision, truth_revision});
-    if (fresh)
-      pair->second = make(result_.topologies.at(result_revision), truth_.topologies.at(truth_revision));
+  /// The pair of the states of a stamp.
+  const TopologyPair& of(Nanoseconds stamp, const MeshState& answer, const MeshState& expected) {
+    const MaterialMap& material = materialAt(result_, stamp);
+    const auto [pair, fresh] = pairs_.try_emplace({&material, answer.revision, expected.revision});
+    if (fresh) pair->second = make(material, topologyOf(result_, answer), topologyOf(truth_, expected));
     return pair->second;
   }
 
+  FrameVertexError errorOf(Nanoseconds stamp, const MeshState& answer, const MeshState& expected) {
+    const TopologyPair& pair = of(stamp, answer, expected);
+    FrameVertexError error = vertexError(ontoVertices(answer, expected, pair.matches), expected,
+                                         pair.matches.vertices, pair.groups);
+    error.stamp = stamp;
+    return error;
+  }
+
  private:
-  TopologyPair make(const MeshTopology& result, const MeshTopology& truth) const {
+  TopologyPair make(const MaterialMap& material, const MeshTopology& result,
+                    const MeshTopology& truth) const {
     TopologyPair pair;
-    pair.matches = matchVertices(result, truth, options_.cut_vertex_m);
+    pair.matches = matchMaterial(material, result, truth, options_.cut_vertex_m);
     pair.groups = {nearCut(truth, options_.near_cut_m), seenAtFirst(truth_, truth.revision),
                    vertexPieces(truth)};
-    pair.pieces = matchPieces(result, truth, pair.matches);
+    pair.pieces = matchPieces(result, truth, pair.matches.vertices);
     return pair;
   }
 
   const EvaluatorOptions& options_;
   const SurfaceRecord &result_, &truth_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, TopologyPair> pairs_;
+  std::map<std::tuple<const MaterialMap*, std::uint32_t, std::uint32_t>, TopologyPair> pairs_;
 };
 
 std::optional<JitterReport> jitterWhereStill(const SurfaceRecord& result, const SurfaceRecord& truth) {
@@ -139,8 +150,7 @@ void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden,
       ++missing;
       continue;
     }
-    const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
-    shown.unhidden_error = vertexError(answer->second, expected, pair.matches, pair.groups).mean();
+    shown.unhidden_error = pairs.errorOf(stamp, answer->second, expected).mean();
   }
   if (missing == truth.states.size()) {
     throw std::invalid_argument(
@@ -173,9 +183,10 @@ std::optional<Change> volumeError(const SurfaceRecord& result, const SurfaceReco
 
 /// Errors of the cut surface at the end, if the truth is cut.
 std::optional<CutSurfaceReport> cutSurface(const SurfaceRecord& result, const SurfaceRecord& truth) {
-  const MeshTopology& expected = truth.topologies.at(truth.states.rbegin()->second.revision);
+  const MeshTopology& expected = topologyOf(truth, truth.states.rbegin()->second);
   if (std::find(expected.cut.begin(), expected.cut.end(), true) == expected.cut.end()) return std::nullopt;
-  return compareCutSurfaces(result.topologies.at(result.states.rbegin()->second.revision), expected);
+  const auto& [stamp, last] = *result.states.rbegin();
+  return compareCutSurfaces(inTruthMaterial(materialAt(result, stamp), topologyOf(result, last)), expected);
 }
 
 void plotVertexErrors(const VertexErrorReport& report, const std::vector<FrameVertexError>& frames,
@@ -216,12 +227,11 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
     FrameOcclusion& shown = *occlusion++;
     const auto answer = result.states.find(stamp);
     if (answer == result.states.end()) continue;
-    const TopologyPair& pair = pairs.of(answer->second.revision, expected.revision);
-    errors.push_back(vertexError(answer->second, expected, pair.matches, pair.groups));
-    errors.back().stamp = stamp;
+    errors.push_back(pairs.errorOf(stamp, answer->second, expected));
     shown.mean_error = errors.back().mean();
     shown.covered_errors = errors.back().covered;
-    if (answer->second.revision > 0 || expected.revision > 0) pieces.add(pair.pieces);
+    if (answer->second.revision > 0 || expected.revision > 0)
+      pieces.add(pairs.of(stamp, answer->second, expected).pieces);
   }
   report->frames.expected = truth.states.size();
   report->frames.answered = errors.size();

@@ -66,6 +66,7 @@ std::string table(const std::vector<ComparedFigure>& rows) {
 std::string verdictBox(const JudgedResult& result) {
   std::string html = fmt::format("<section class={0}><h2>{1}: {0}</h2>\n", toText(result.verdict.level),
                                  escaped(result.name));
+  if (!result.verdict.premise.empty()) html += "<p>" + escaped(result.verdict.premise) + "</p>\n";
   if (result.verdict.findings.empty()) html += "<p>No figure is beyond its limits.</p>\n";
   html += "<ul>";
   for (const Finding& finding : result.verdict.findings)

@@ -138,6 +138,15 @@ json toJson(const SilhouetteReport& report) {
           {"worst_iou", report.worst}};
 }
 
+json toJson(const AlikePoses& alike) {
+  json document = {{"poses", alike.poses}, {"same_shape", nullptr}, {"turn_deg", nullptr}};
+  if (alike.compared) {
+    document["same_shape"] = alike.same_shape;
+    document["turn_deg"] = kDegrees * alike.turn_rad;
+  }
+  return document;
+}
+
 json toJson(const std::map<StageName, Summary>& stages) {
   json rows = json::array();
   for (const auto& [name, s] : stages) {
@@ -164,6 +173,7 @@ json toJson(const Report& report) {
   if (!report.frame_states.empty()) document["frame_states"] = report.frame_states;
   if (!report.notes.empty()) document["notes"] = report.notes;
   if (!report.states.empty()) document["states"] = report.states;
+  if (report.alike) document["alike"] = toJson(*report.alike);
   if (report.frames.recorded) document["frames"]["recorded"] = *report.frames.recorded;
   if (report.pieces) document["pieces"] = toJson(*report.pieces);
   if (report.cut_surface) document["cut_surface"] = toJson(*report.cut_surface);

@@ -35,15 +35,6 @@ std::string vertexErrorTable(const VertexErrorReport& report) {
                      mm(report.drift_m), report.drift_window_s, report.drift_ratio, mm(report.drift_m_per_s));
 }
 
-std::string residualTable(const Report& report) {
-  std::string text =
-      fmt::format("depth residual\n  {:<11} {:>8} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-                  "frames", "answered", "pixels", "median mm", "p95 mm", "<=10mm %", "<=15mm %", "strict %",
-                  "occluded%", "no depth%");
-  for (const ResidualReport& window : report.residual_windows) text += row(window);
-  return text + row(*report.residual);
-}
-
 std::string stageTable(const std::map<StageName, Summary>& stages) {
   std::string text =
       fmt::format("stage times [ms] {:>36} {:>9} {:>9} {:>9}\n", "count", "mean", "p95", "max");
@@ -134,13 +125,22 @@ std::string volumeLine(const VolumeReport& volume) {
 
 }  // namespace
 
+std::string residualTable(const Report& report) {
+  if (!report.residual) return {};
+  std::string text =
+      fmt::format("depth residual\n  {:<11} {:>8} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                  "frames", "answered", "pixels", "median mm", "p95 mm", "<=10mm %", "<=15mm %", "strict %",
+                  "occluded%", "no depth%");
+  for (const ResidualReport& window : report.residual_windows) text += row(window);
+  return text + row(*report.residual);
+}
+
 std::string toText(const Report& report) {
   std::string text = fmt::format("frames answered: {} of {}", report.frames.answered, report.frames.expected);
   for (const auto& [state, frames] : report.states) text += fmt::format(", {} {}", state, frames);
   text += "\n";
   if (report.vertex_error) text += vertexErrorTable(*report.vertex_error);
-  if (report.residual) text += residualTable(report);
-  text += optionalLines(report);
+  text += residualTable(report) + optionalLines(report);
   for (const std::string& note : report.notes) text += "note: " + note + "\n";
   return text + volumeLine(report.volume);
 }

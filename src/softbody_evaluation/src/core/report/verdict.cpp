@@ -6,8 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/units.h"
+
 namespace softbody::evaluation {
 namespace {
+
+// The tracker counts two poses as different if they are turned by more.
+constexpr double kSameTurn_deg = 20.0;
 
 /// The limits of a figure's absolute value, and what it means to exceed them.
 struct Limit {
@@ -61,6 +66,26 @@ std::string sentenceOf(const Figure& figure, const Limit& limit, Level level) {
                      toText(level), limit.advice);
 }
 
+/// What a pose that looks like others means for the figures.
+std::string premiseOf(const AlikePoses& alike) {
+  const std::string taken = fmt::format("The tracker took one of {} poses that look alike", alike.poses);
+  if (!alike.compared)
+    return taken + ". Whether it is the true pose is not known: the depth is the same in all of them.";
+  const double turn = kDegrees * alike.turn_rad;
+  if (!alike.same_shape) {
+    return taken + fmt::format(
+                       ", but the mesh does not look the same in it: it is turned by {:.0f} degrees from the "
+                       "true pose, and the errors of the vertices come from that. Give a rough initial_pose.",
+                       turn);
+  }
+  if (turn < kSameTurn_deg) return taken + ": the true one.";
+  return taken +
+         fmt::format(
+             ". It is turned by {:.0f} degrees from the true pose, and the mesh looks the same in both. "
+             "So each vertex is compared with the place in the truth that looks the same.",
+             turn);
+}
+
 }  // namespace
 
 std::string toText(Level level) {
@@ -84,6 +109,7 @@ std::string limitsOf(const std::string& figure) {
 
 Verdict judge(const Report& report) {
   Verdict verdict;
+  if (report.alike) verdict.premise = premiseOf(*report.alike);
   for (const Figure& figure : figures(report)) {
     const Level level = levelOf(figure.name, figure.value);
     if (level != Level::kGood)
@@ -108,7 +134,10 @@ Verdict judge(const Report& report) {
 nlohmann::json toJson(const Verdict& verdict) {
   nlohmann::json reasons = nlohmann::json::array();
   for (const Finding& finding : verdict.findings) reasons.push_back(finding.sentence);
-  return {{"level", toText(verdict.level)}, {"reasons", reasons}, {"limits", verdict.limits}};
+  nlohmann::json document = {
+      {"level", toText(verdict.level)}, {"reasons", reasons}, {"limits", verdict.limits}};
+  if (!verdict.premise.empty()) document["premise"] = verdict.premise;
+  return document;
 }
 
 }  // namespace softbody::evaluation

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "softbody_common/camera_options.h"
@@ -11,12 +12,20 @@
 #include "softbody_evaluation/report/figures.h"
 #include "softbody_evaluation/report/report_json.h"
 #include "softbody_evaluation/report/report_text.h"
+#include "softbody_evaluation/report/summary_text.h"
 #include "softbody_evaluation/ros/evaluator.h"
 
 namespace softbody::evaluation {
 namespace {
 
-void declare(CLI::App* app, EvaluatorOptions* options, std::string* other_result) {
+/// What is printed, and of which results.
+struct Output {
+  std::string other_result;  ///< empty: only one result
+  bool json = false;
+  bool windows = false;
+};
+
+void declareInput(CLI::App* app, EvaluatorOptions* options, Output* output) {
   app->add_option("result", options->result, "bag with the tracker's output")
       ->required()
       ->check(CLI::ExistingFile);
@@ -28,12 +37,14 @@ void declare(CLI::App* app, EvaluatorOptions* options, std::string* other_result
                   "bag with the result for the same motion without occluders; its error is the normal error "
                   "after an occlusion")
       ->check(CLI::ExistingFile);
-  app->add_option("--compare", *other_result, "bag with another result, shown beside the first")
+  app->add_option("--compare", output->other_result, "bag with another result, shown beside the first")
       ->check(CLI::ExistingFile);
-  app->add_option("--report", options->report_folder, "folder for report.json, report.html and pictures");
   app->add_option("--namespace", options->result_namespace, "namespace of the result's topics")
       ->capture_default_str();
   addCameraOptions(app, &options->camera);
+}
+
+void declareMeasures(CLI::App* app, EvaluatorOptions* options, Output* output) {
   app->add_option("--occluder", options->occluder_m,
                   "depth that is nearer than the surface by more than this is an occluder [m]")
       ->check(CLI::Range(0.001, 10.0))
@@ -42,35 +53,61 @@ void declare(CLI::App* app, EvaluatorOptions* options, std::string* other_result
                   "largest distance of the vertices in the row 'near a cut' [m]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app->add_option("--window", options->window, "frames of a row in the depth residual's table")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  app->add_option_function<int>(
+         "--window",
+         [options, output](int frames) {
+           options->window = frames;
+           output->windows = true;
+         },
+         "prints the depth residual too, a row for each such number of frames")
+      ->check(CLI::Range(1, 1000000));
+  app->add_option("--report", options->report_folder,
+                  "folder for report.html, a page with all figures and pictures, and report.json");
+  app->add_flag("--json", output->json, "prints all figures as JSON, and nothing else");
 }
 
-void printReport(const EvaluatorOptions& options) {
+/// Where the page is, or how to get it.
+std::string pageLine(const EvaluatorOptions& options) {
+  if (options.report_folder.empty()) return "page with all figures and pictures: add --report FOLDER\n";
+  const std::filesystem::path folder = std::filesystem::absolute(options.report_folder);
+  return fmt::format("report: {}\n", (folder / "report.html").lexically_normal().string());
+}
+
+void printReport(const EvaluatorOptions& options, const Output& output) {
   const Report report = evaluate(options);
-  fmt::print(stderr, "{}", toText(report));
-  fmt::print("{}\n", toJson(report).dump(2));
+  if (output.json) {
+    fmt::print("{}\n", toJson(report).dump(2));
+    return;
+  }
+  fmt::print("{}\n{}", verdictText(report), summaryTable(report));
+  if (output.windows) fmt::print("\n{}", residualTable(report));
+  fmt::print("\n{}", pageLine(options));
 }
 
-void printComparison(const EvaluatorOptions& options, const std::string& other_result) {
-  const Comparison comparison = evaluateBoth(options, other_result);
-  fmt::print(stderr, "{}", toText(compare(comparison.first, comparison.second)));
-  fmt::print("{}\n", toJson(comparison).dump(2));
+void printComparison(const EvaluatorOptions& options, const Output& output) {
+  const Comparison comparison = evaluateBoth(options, output.other_result);
+  if (output.json) {
+    fmt::print("{}\n", toJson(comparison).dump(2));
+    return;
+  }
+  fmt::print("result: {}\n{}\nother: {}\n{}\n", options.result, verdictText(comparison.first),
+             output.other_result, verdictText(comparison.second));
+  fmt::print("{}\n{}", toText(compare(comparison.first, comparison.second)), pageLine(options));
 }
 
 }  // namespace
 
 int runEvaluate(int argc, char** argv) {
   EvaluatorOptions options;
-  std::string other_result;
+  Output output;
   CLI::App app("Measures a tracking result against the truth, or against the depth of its recording");
-  declare(&app, &options, &other_result);
+  declareInput(&app, &options, &output);
+  declareMeasures(&app, &options, &output);
   return runTool(&app, argc, argv, [&] {
-    if (other_result.empty()) {
-      printReport(options);
+    if (output.other_result.empty()) {
+      printReport(options, output);
     } else {
-      printComparison(options, other_result);
+      printComparison(options, output);
     }
     return 0;
   });

@@ -4,7 +4,7 @@
 
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
-#include "surface_mesh/closest_point.h"
+#include "softbody_sim/surface_mesh/closest_point.h"
 #include "surface_mesh/surface_repair.h"
 
 namespace softbody {

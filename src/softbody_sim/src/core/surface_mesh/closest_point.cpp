@@ -1,4 +1,4 @@
-#include "surface_mesh/closest_point.h"
+#include "softbody_sim/surface_mesh/closest_point.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

@@ -14,6 +14,7 @@
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/same_matrix.h"
 #include "softbody_common/time.h"
+#include "softbody_common/tracking_state.h"
 #include "targets/knn_targets.h"
 #include "targets/position_prior.h"
 #include "tracker/frame_observer.h"
@@ -233,7 +234,7 @@ TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
   TrackingStatus status = statusOf(seen, associations);
   if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
     const std::string other = status.reason;
-    status.reason = "tracked in one of " + std::to_string(relocalizer.alike()) + " poses that look alike";
+    status.reason = alikeReason(relocalizer.alike());
     if (!other.empty()) status.reason += "; " + other;
   }
   return withSilence(std::move(status));

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "softbody_evaluation/report/report.h"
+
+namespace softbody::evaluation {
+
+/// The verdict with its reasons, line by line.
+std::string verdictText(const Report& report);
+
+/// A table of the figures that decide the verdict, with their limits.
+std::string summaryTable(const Report& report);
+
+}  // namespace softbody::evaluation

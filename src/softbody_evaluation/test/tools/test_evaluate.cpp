@@ -1,0 +1,76 @@
+#include "softbody_evaluation/tools/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fixtures/evaluator_bags.h"
+
+namespace softbody::evaluation {
+namespace {
+
+/// What the tool prints on stdout.
+std::string printed(std::vector<std::string> words) {
+  words.insert(words.begin(), "evaluate");
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  testing::internal::CaptureStdout();
+  const int code = runEvaluate(static_cast<int>(arguments.size()), arguments.data());
+  std::string text = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(code, 0) << text;
+  return text;
+}
+
+std::string goodResult() { return resultFromTruth("printed.bag", asItIs); }
+
+TEST(Evaluate, PrintsTheVerdictFirstThenAShortTableThenThePage) {
+  const std::string folder = testing::TempDir() + "printed_report";
+  const std::string text = printed({goodResult(), "--truth", recording(), "--report", folder});
+  EXPECT_EQ(text.find("verdict: good\n"), 0u) << text;
+  EXPECT_NE(text.find("visible vertices, mean"), std::string::npos) << text;
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 30) << text;
+  const std::size_t page = text.rfind("report: ");
+  ASSERT_NE(page, std::string::npos) << text;
+  const std::string path = text.substr(page + 8, text.size() - page - 9);
+  EXPECT_TRUE(std::filesystem::path(path).is_absolute()) << path;
+  EXPECT_TRUE(std::filesystem::exists(path)) << path;
+}
+
+TEST(Evaluate, ABadFigureIsMarkedAndExplained) {
+  const std::string result =
+      resultFromTruth("printed_beside.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.15f); });
+  const std::string text = printed({result, "--truth", recording()});
+  EXPECT_EQ(text.find("verdict: wrong\n"), 0u) << text;
+  EXPECT_NE(text.find("<- wrong"), std::string::npos) << text;
+  EXPECT_NE(text.find("--report"), std::string::npos) << text;
+}
+
+TEST(Evaluate, JsonIsAloneOnStdout) {
+  const nlohmann::json one = nlohmann::json::parse(printed({goodResult(), "--truth", recording(), "--json"}));
+  EXPECT_EQ(one["verdict"]["level"], "good");
+  const nlohmann::json two = nlohmann::json::parse(
+      printed({goodResult(), "--truth", recording(), "--compare", goodResult(), "--json"}));
+  EXPECT_EQ(two["other"]["frames"]["answered"], kFrames);
+}
+
+TEST(Evaluate, BothVerdictsStandBesideTheComparison) {
+  const std::string other =
+      resultFromTruth("printed_other.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.15f); });
+  const std::string text = printed({goodResult(), "--truth", recording(), "--compare", other});
+  EXPECT_NE(text.find("verdict: good"), std::string::npos) << text;
+  EXPECT_NE(text.find("verdict: wrong"), std::string::npos) << text;
+  EXPECT_NE(text.find("difference"), std::string::npos) << text;
+}
+
+TEST(Evaluate, WindowsOfTheDepthResidualAreARowEach) {
+  const std::string text = printed({goodResult(), "--truth", recording(), "--window", "5"});
+  for (const char* row : {"0-4", "5-9", "10-14", "15-19"})
+    EXPECT_NE(text.find(row), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace softbody::evaluation
