@@ -2,7 +2,7 @@
 import dataclasses
 import re
 
-MARKERS = ("run", "live", "background", "fails")
+MARKERS = ("run", "live", "background", "fails", "bad")
 _FENCE = re.compile(r"^```(\w*)\s*$")
 _MARKER = re.compile(r"^<!-- example: ([a-z]+) -->$")
 

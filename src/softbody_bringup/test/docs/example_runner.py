@@ -1,5 +1,6 @@
 """Runs the examples of one page, in order, in a scratch folder that looks like the repository."""
 import os
+import re
 import shutil
 import signal
 import socket
@@ -55,7 +56,7 @@ class PageRunner:
         for name in ("config", "launch", "rosbags", "docs", "src", "tests", "Makefile", "README.md"):
             os.symlink(f"{root}/{name}", f"{self.folder}/{name}")
         self.stubs(f"{self.folder}/scripts", [name for name in os.listdir(f"{root}/scripts") if "." not in name])
-        self.programs = {"run": f"{scratch}/run", "live": f"{scratch}/live", "background": "", "fails": f"{scratch}/run"}
+        self.programs = {**dict.fromkeys(("run", "fails", "bad"), f"{scratch}/run"), "live": f"{scratch}/live", "background": ""}
         self.stubs(self.programs["run"], ALWAYS_CHECKED)
         self.stubs(self.programs["live"], CHECKED_LIVE)
         self.port = free_port()
@@ -93,6 +94,10 @@ class PageRunner:
         refused = "success: False" in result.stdout  # what rosservice prints of a service that does not do it
         if (result.returncode != 0 or refused) != (example.marker == "fails"):
             raise ExampleFailed(f"exit code {result.returncode}:\n{result.stdout[-3000:]}")
+        # What evaluate says of the example's result; `bad` marks one that shows a bad result.
+        verdicts = re.findall(r"^verdict: (\w+)$", result.stdout, re.MULTILINE)
+        if (set(verdicts) - {"good"} != set()) != (example.marker == "bad"):
+            raise ExampleFailed(f"the verdict is {', '.join(verdicts) or 'missing'}:\n{result.stdout[-3000:]}")
 
     def start(self, command):
         log = open(f"{self.folder}/background.log", "a", encoding="utf-8")

@@ -53,6 +53,8 @@ class DocExamples(unittest.TestCase):
                 ("```bash\nroslaunch softbody_bringup track.launch object:=no_such_file.yaml\n```\n", "there is no such file"),
                 ("```bash\nmake no_such_target\n```\n", "no_such_target"),
                 ("<!-- example: live -->\n```bash\nrosrun softbody_bringup replay --no-such-option\n```\n", "names no option"),
+                ("```bash\necho 'verdict: wrong'\n```\n", "the verdict is wrong"),
+                ("<!-- example: bad -->\n```bash\necho 'verdict: good'\n```\n", "the verdict is good"),
                 ("<!-- example: fails -->\n```bash\nrosrun softbody_bringup validate_bag my.bag\n```\n", "exit code 0"),
                 ("```yaml\nobject:\n  visual_mesh: sponge.obj\n  pins: [{name: grip, min: [5, 5, 5], max: [6, 6, 6]}]\n```\n",
                  "no vertex of the volume"),
