@@ -6,6 +6,7 @@
 
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_evaluation/measures/corner_weights.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
@@ -17,16 +18,6 @@ constexpr double kSamePlace = 1e-6;
 
 double samePlaceOf(const Points& vertices) {
   return kSamePlace * (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
-}
-
-/// Barycentric coordinates of a point of the triangle: areas opposite to the corners.
-Eigen::Vector3d cornerWeights(const Points& vertices, const std::array<int, 3>& corners,
-                              const Eigen::Vector3d& p) {
-  const Eigen::Vector3d a = vertices.row(corners[0]), b = vertices.row(corners[1]),
-                        c = vertices.row(corners[2]);
-  const Eigen::Vector3d areas((b - p).cross(c - p).norm(), (c - p).cross(a - p).norm(),
-                              (a - p).cross(b - p).norm());
-  return areas.sum() > 0.0 ? Eigen::Vector3d(areas / areas.sum()) : Eigen::Vector3d::UnitX();
 }
 
 std::array<int, 3> cornersOf(const Triangles& triangles, Eigen::Index f) {

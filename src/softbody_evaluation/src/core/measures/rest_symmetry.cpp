@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_evaluation/measures/corner_weights.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
 namespace softbody::evaluation {
@@ -16,7 +18,12 @@ constexpr double kLargestMisfit = 0.01;
 constexpr double kOtherTurn = 0.35, kOtherPlace = 0.2;
 // Triangles that are compared: enough for every part of a body, few enough for a fraction of a second.
 constexpr Eigen::Index kMostTriangles = 500;
+// A motion is free, as the turn of a ball, if the surface moves along its normals by less than this share.
+constexpr double kFreeMotion = 0.03;
 constexpr int kSteps = 50;  // the fit ends earlier where it stands still; 10 are usual
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 double diagonalOf(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
@@ -35,11 +42,13 @@ Points pointsOf(const TriangleMesh& mesh) {
   return points;
 }
 
-Eigen::Vector3d normalOf(const TriangleMesh& mesh, int triangle) {
-  const auto corners = mesh.triangles.row(triangle);
-  const Eigen::Vector3d a = mesh.vertices.row(corners[0]), b = mesh.vertices.row(corners[1]),
-                        c = mesh.vertices.row(corners[2]);
-  return (b - a).cross(c - a).normalized();
+/// Solves the normal equations, and leaves the free directions as they are.
+Vector6 solvedWhereFixed(const Matrix6& normal_matrix, const Vector6& right_side) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> directions(normal_matrix);
+  Vector6 inverse = directions.eigenvalues();
+  const double least = kFreeMotion * kFreeMotion * inverse.maxCoeff();
+  for (double& value : inverse) value = value > least ? 1.0 / value : 0.0;
+  return directions.eigenvectors() * inverse.cwiseProduct(directions.eigenvectors().transpose() * right_side);
 }
 
 /// Fits points of a mesh to the mesh.
@@ -48,29 +57,25 @@ class SelfFit {
   explicit SelfFit(const TriangleMesh& mesh)
       : mesh_(mesh),
         query_(mesh.vertices, mesh.triangles),
+        normals_(vertexNormals(mesh.vertices, mesh.triangles)),
         points_(pointsOf(mesh)),
         size_m_(diagonalOf(points_)) {}
 
   /// One Gauss-Newton step. @return how far it moves a point of the mesh, at most about [m].
   double improve(Eigen::Isometry3d* motion) const {
     const Eigen::Vector3d centre = *motion * Eigen::Vector3d(points_.colwise().mean().transpose());
-    Eigen::Matrix<double, 6, 6> normal_matrix = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Matrix<double, 6, 1> right_side = Eigen::Matrix<double, 6, 1>::Zero();
+    Matrix6 normal_matrix = Matrix6::Zero();
+    Vector6 right_side = Vector6::Zero();
     for (Eigen::Index i = 0; i < points_.rows(); ++i) {
       const Eigen::Vector3d moved = *motion * Eigen::Vector3d(points_.row(i).transpose());
       const SurfacePoint nearest = query_.closest(moved);
-      const Eigen::Vector3d offset = moved - nearest.position;
-      // Beside an edge the nearest point is not along the normal of a triangle.
-      const bool on_surface = offset.norm() < 1e-9 * size_m_;
-      const Eigen::Vector3d direction = on_surface ? normalOf(mesh_, nearest.triangle) : offset.normalized();
-      Eigen::Matrix<double, 6, 1> row;
-      row << (moved - centre).cross(direction) / size_m_, direction;  // all entries have one size
+      const Eigen::Vector3d normal = normalAt(nearest);
+      Vector6 row;
+      row << (moved - centre).cross(normal) / size_m_, normal;  // all entries have one size
       normal_matrix += row * row.transpose();
-      right_side -= direction.dot(offset) * row;
+      right_side -= normal.dot(moved - nearest.position) * row;
     }
-    // Keeps the directions in which nothing changes where they are.
-    normal_matrix.diagonal().array() += 1e-6 * static_cast<double>(points_.rows());
-    const Eigen::Matrix<double, 6, 1> step = normal_matrix.ldlt().solve(right_side);
+    const Vector6 step = solvedWhereFixed(normal_matrix, right_side);
     const Eigen::Vector3d turn = step.head<3>() / size_m_, shift = step.tail<3>();
     Eigen::Isometry3d update = Eigen::Isometry3d::Identity();
     if (turn.norm() > 0.0) update.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
@@ -91,8 +96,19 @@ class SelfFit {
   double size() const { return size_m_; }
 
  private:
+  /// Interpolated between the corners: the facets of a ball must not hold its turn.
+  Eigen::Vector3d normalAt(const SurfacePoint& place) const {
+    const auto corners = mesh_.triangles.row(place.triangle);
+    const Eigen::Vector3d weights =
+        cornerWeights(mesh_.vertices, {corners[0], corners[1], corners[2]}, place.position);
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) normal += weights[k] * normals_.row(corners[k]).transpose();
+    return normal.normalized();
+  }
+
   const TriangleMesh& mesh_;
   ClosestPointQuery query_;
+  Points normals_;
   Points points_;
   double size_m_;
 };

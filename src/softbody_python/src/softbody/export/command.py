@@ -45,7 +45,8 @@ class Version(argparse.Action):
 
     def __call__(self, parser, namespace, values, option_string=None):
         package = "softbody_python"
-        parser.exit(message=f"{package} {rospkg.RosPack().get_manifest(package).version}\n")
+        print(package, rospkg.RosPack().get_manifest(package).version)
+        parser.exit()
 
 
 def _arguments(words):
