@@ -20,7 +20,7 @@ const SearchMeshes& boxMeshes() {
 std::optional<FoundPose> search(const RgbdFrame& frame, const FeatureShare& feature_share,
                                 const std::vector<Eigen::Isometry3d>& guesses = {},
                                 const SearchMeshes& meshes = boxMeshes()) {
-  return searchAnywhere(frame, ColorModel(), meshes, guesses, feature_share, RegistrationConfig());
+  return searchAnywhere(frame, ColorModel(), meshes, guesses, feature_share, RegistrationConfig()).found;
 }
 
 std::vector<PoseHypothesis> boxPoses(const RgbdFrame& frame) {

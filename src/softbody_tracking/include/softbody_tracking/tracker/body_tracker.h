@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ struct TrackingResult {
 /// body stays in its place.
 TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
                             const std::string& output_frame, const std::string& why);
+
+/// Status while no image comes. A body that was found is lost. @param silence_s since the last image; empty:
+/// none has come.
+TrackingStatus withoutImages(const TrackingStatus& last, const std::optional<double>& silence_s);
 
 /// Makes targets for the simulation from RGB-D frames and the last simulated state. It finds the body,
 /// predicts it, follows its features and its depth, and rejects outliers and occluders. Measurements are

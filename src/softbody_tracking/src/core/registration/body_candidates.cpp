@@ -36,8 +36,6 @@ constexpr double kNextStep = 1.01;
 constexpr double kSamePlace = 0.1;
 // Part of the diameter that one view of a body usually shows.
 constexpr double kLikelyShare = 0.8;
-// Pixels of the medium image; a smaller candidate has no shape.
-constexpr int kFewestPixels = 25;
 // Size of a candidate in body diameters; the rest of the body may be hidden, or another object may touch it.
 constexpr double kSmallestShare = 0.3, kLargestShare = 1.6;
 // The thickness of planes does not fall below this factor at close range.
@@ -86,17 +84,6 @@ std::optional<Plane> planeThrough(const Eigen::Vector3d& a, const Eigen::Vector3
   const Eigen::Vector3d n = (b - a).cross(c - a);
   if (n.norm() < 1e-6) return std::nullopt;
   return Plane{n.normalized(), n.normalized().dot(a)};
-}
-
-/// Size of a set of points [m]: root mean square distance from the centre, scaled to the side of a uniform
-/// square.
-double spread(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) mean += p;
-  mean /= static_cast<double>(points.size());
-  double sum = 0.0;
-  for (const Eigen::Vector3d& p : points) sum += (p - mean).squaredNorm();
-  return std::sqrt(6.0 * sum / static_cast<double>(points.size()));
 }
 
 /// The plane with most of the given points (RANSAC, Fischler and Bolles 1981); empty if it holds too few.
@@ -152,18 +139,11 @@ void removePlanes(double diameter_m, Cloud* cloud) {
     const auto rest = std::stable_partition(open.begin(), open.end(),
                                             [&](int i) { return plane->holds(cloud->points[i]); });
     const std::vector<int> on_it(open.begin(), rest);
-    const bool background = spread(largestPart(*cloud, *plane, on_it)) >= kPlaneBeyondBody * diameter_m;
+    const bool background = spreadOf(largestPart(*cloud, *plane, on_it)) >= kPlaneBeyondBody * diameter_m;
     for (int i : on_it) cloud->free[i] = !background;
     open.erase(open.begin(), rest);
   }
 }
-
-/// A connected part with about the body's size.
-struct Part {
-  BodyCandidate candidate;
-  double rating = 0.0;      ///< lower is likelier
-  std::vector<int> points;  ///< indices into the cloud
-};
 
 /// The free points connected with a seed; they are marked as no longer free.
 std::vector<int> takePart(const Cloud& cloud, int seed, double step_m, std::vector<bool>* free) {
@@ -187,28 +167,50 @@ std::vector<int> takePart(const Cloud& cloud, int seed, double step_m, std::vect
   return part;
 }
 
-/// Adds the connected parts with about the body's size.
-void addParts(const Cloud& cloud, double step_m, double diameter_m, std::vector<Part>* parts) {
+/// Extents along the principal axes, the largest first [m].
+Eigen::Vector3d principalSize(const std::vector<Eigen::Vector3d>& points) {
+  Points rows(static_cast<Eigen::Index>(points.size()), 3);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = points[static_cast<std::size_t>(i)];
+  const Points arms = rows.rowwise() - rows.colwise().mean().eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms.transpose() * arms);
+  const Points along = arms * axes.eigenvectors();
+  return (along.colwise().maxCoeff() - along.colwise().minCoeff()).reverse().transpose();
+}
+
+DepthPart measuredPart(const Cloud& cloud, std::vector<int> points, double diameter_m) {
+  DepthPart part;
+  std::vector<Eigen::Vector3d> places;
+  const cv::Rect inner(1, 1, cloud.index.cols - 2, cloud.index.rows - 2);
+  for (int k : points) {
+    places.push_back(cloud.points[k]);
+    part.at_border = part.at_border || !inner.contains(cloud.pixels[k]);
+  }
+  const int pixels = static_cast<int>(places.size());
+  part.candidate = {Eigen::Vector3d::Zero(), pixels};
+  for (const Eigen::Vector3d& p : places) part.candidate.center += p / pixels;
+  part.size_m = principalSize(places);
+  part.spread_m = spreadOf(places);
+  const double share = part.spread_m / diameter_m;
+  part.fits = share >= kSmallestShare && share <= kLargestShare;
+  // The body that a user wants to track is usually close: many pixels are better.
+  part.rating = 2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(pixels);
+  part.points = std::move(points);
+  return part;
+}
+
+/// Adds the connected parts.
+void addParts(const Cloud& cloud, double step_m, double diameter_m, std::vector<DepthPart>* parts) {
   std::vector<bool> free = cloud.free;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (!free[i]) continue;
-    Part part;
-    part.points = takePart(cloud, static_cast<int>(i), step_m, &free);
-    std::vector<Eigen::Vector3d> places;
-    for (int k : part.points) places.push_back(cloud.points[k]);
-    const double share = spread(places) / diameter_m;
-    const int pixels = static_cast<int>(places.size());
-    if (pixels < kFewestPixels || share < kSmallestShare || share > kLargestShare) continue;
-    part.candidate = {Eigen::Vector3d::Zero(), pixels};
-    for (const Eigen::Vector3d& p : places) part.candidate.center += p / pixels;
-    // The body that a user wants to track is usually close: many pixels are better.
-    part.rating = 2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(pixels);
-    parts->push_back(std::move(part));
+    std::vector<int> points = takePart(cloud, static_cast<int>(i), step_m, &free);
+    if (static_cast<int>(points.size()) >= kFewestPixels)
+      parts->push_back(measuredPart(cloud, std::move(points), diameter_m));
   }
 }
 
 /// Whether one part contains the other. Parts found with different depth steps are nested or disjoint.
-bool nested(const Part& a, const Part& b) {
+bool nested(const DepthPart& a, const DepthPart& b) {
   const bool a_is_smaller = a.points.size() < b.points.size();
   const std::vector<int>& smaller = (a_is_smaller ? a : b).points;
   const std::vector<int>& larger = (a_is_smaller ? b : a).points;
@@ -216,13 +218,13 @@ bool nested(const Part& a, const Part& b) {
 }
 
 /// One part of each separate object first, then the other parts; both sorted by rating.
-std::vector<Part> onePerObjectFirst(std::vector<Part> parts) {
+std::vector<DepthPart> onePerObjectFirst(std::vector<DepthPart> parts) {
   std::stable_sort(parts.begin(), parts.end(),
-                   [](const Part& a, const Part& b) { return a.rating < b.rating; });
-  std::vector<Part> firsts, others;
-  for (Part& part : parts) {
-    const bool is_first =
-        std::none_of(firsts.begin(), firsts.end(), [&](const Part& other) { return nested(part, other); });
+                   [](const DepthPart& a, const DepthPart& b) { return a.rating < b.rating; });
+  std::vector<DepthPart> firsts, others;
+  for (DepthPart& part : parts) {
+    const bool is_first = std::none_of(firsts.begin(), firsts.end(),
+                                       [&](const DepthPart& other) { return nested(part, other); });
     (is_first ? firsts : others).push_back(std::move(part));
   }
   std::move(others.begin(), others.end(), std::back_inserter(firsts));
@@ -231,19 +233,35 @@ std::vector<Part> onePerObjectFirst(std::vector<Part> parts) {
 
 }  // namespace
 
-std::vector<BodyCandidate> findBodyCandidates(const RgbdFrame& frame, const ColorModel& colors,
-                                              double diameter_m) {
+double spreadOf(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) mean += p;
+  mean /= static_cast<double>(points.size());
+  double sum = 0.0;
+  for (const Eigen::Vector3d& p : points) sum += (p - mean).squaredNorm();
+  return std::sqrt(6.0 * sum / static_cast<double>(points.size()));
+}
+
+std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const ColorModel& colors, double diameter_m) {
   Cloud cloud = makeCloud(frame, colors);
   removePlanes(diameter_m, &cloud);
-  std::vector<Part> parts;
+  std::vector<DepthPart> parts;
   double last_step_m = 0.0;
   for (const double step : kSteps) {
     const double step_m = std::max(kSmallestStep, step * diameter_m);
     if (step_m > kNextStep * last_step_m) addParts(cloud, step_m, diameter_m, &parts);
     last_step_m = step_m;
   }
+  return parts;
+}
+
+std::vector<BodyCandidate> findBodyCandidates(const RgbdFrame& frame, const ColorModel& colors,
+                                              double diameter_m) {
+  std::vector<DepthPart> parts = findDepthParts(frame, colors, diameter_m);
+  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const DepthPart& part) { return !part.fits; }),
+              parts.end());
   std::vector<BodyCandidate> candidates;
-  for (const Part& part : onePerObjectFirst(std::move(parts))) {
+  for (const DepthPart& part : onePerObjectFirst(std::move(parts))) {
     const bool is_new = std::none_of(candidates.begin(), candidates.end(), [&](const BodyCandidate& other) {
       return (other.center - part.candidate.center).norm() < kSamePlace * diameter_m;
     });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 
 namespace softbody {
 
@@ -14,6 +15,12 @@ struct PoseHypothesis {
 struct FoundPose {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< rest frame in the camera frame
   int alike = 1;  ///< poses in the same place that explain the frame equally well, including this one
+};
+
+/// What a search found, and the best pose that it tried.
+struct SearchOutcome {
+  std::optional<FoundPose> found;      ///< empty: no pose is acceptable
+  std::optional<PoseHypothesis> best;  ///< with its PoseCost; empty: there was nothing to try
 };
 
 }  // namespace softbody

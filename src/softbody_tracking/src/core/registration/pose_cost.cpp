@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "softbody_common/rigid_fit.h"
 
@@ -27,12 +28,16 @@ double pixelCost(double measured, double predicted, double scale) {
   return std::min(1.0, ratio * ratio);
 }
 
-/// Number of pixels just outside the rendered outline whose depth continues the surface.
-int continuingOutlinePixels(const RgbdFrame& frame, const RasterImage& image, double scale) {
+/// Pixels just outside the rendered outline.
+struct Outline {
+  int measured = 0, continuing = 0;  ///< with depth; and with depth that continues the surface
+};
+
+Outline outlineOf(const RgbdFrame& frame, const RasterImage& image, double scale) {
   static constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const cv::Rect inner(2, 2, image.depth.cols - 4, image.depth.rows - 4);
   const cv::Rect region = image.region & inner;
-  int count = 0;
+  Outline outline;
   for (int v = region.y; v < region.br().y; ++v) {
     for (int u = region.x; u < region.br().x; ++u) {
       if (image.triangle(v, u) < 0) continue;
@@ -41,11 +46,13 @@ int continuingOutlinePixels(const RgbdFrame& frame, const RasterImage& image, do
                   beyond_v = v + 2 * step[1];
         if (image.triangle(next_v, next_u) >= 0 || image.triangle(beyond_v, beyond_u) >= 0) continue;
         const float z = frame.depth(beyond_v, beyond_u);
-        if (z > 0.0f && std::abs(z - image.depth(v, u)) < kContinues * distanceScaleAt(z, scale)) ++count;
+        if (z <= 0.0f) continue;
+        ++outline.measured;
+        if (std::abs(z - image.depth(v, u)) < kContinues * distanceScaleAt(z, scale)) ++outline.continuing;
       }
     }
   }
-  return count;
+  return outline;
 }
 
 double renderedCost(const RgbdFrame& frame, const RasterImage& image, double scale) {
@@ -60,7 +67,7 @@ double renderedCost(const RgbdFrame& frame, const RasterImage& image, double sca
     }
   }
   if (measured <= kFewestMeasured * covered) return 1.0;
-  return (sum + kOutlineWeight * continuingOutlinePixels(frame, image, scale)) / covered;
+  return (sum + kOutlineWeight * outlineOf(frame, image, scale).continuing) / covered;
 }
 
 }  // namespace
@@ -74,6 +81,34 @@ const RasterImage& PoseCost::render(const Points& vertices) {
 
 double PoseCost::operator()(const Eigen::Isometry3d& pose) {
   return renderedCost(frame_, render(transformed(mesh_.vertices, pose)), scale_);
+}
+
+PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {
+  const RasterImage& image = render(transformed(mesh_.vertices, pose));
+  PoseAgreement counts;
+  std::vector<double> differences;
+  for (int v = image.region.y; v < image.region.br().y; ++v) {
+    for (int u = image.region.x; u < image.region.br().x; ++u) {
+      if (image.triangle(v, u) < 0) continue;
+      ++counts.covered;
+      const double measured = frame_.depth(v, u), difference = measured - image.depth(v, u);
+      if (measured <= 0.0) continue;
+      differences.push_back(std::abs(difference));
+      if (differences.back() < kContinues * distanceScaleAt(image.depth(v, u), scale_))
+        ++counts.agreeing;
+      else
+        ++(difference > 0.0 ? counts.farther : counts.nearer);
+    }
+  }
+  if (!differences.empty()) {
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::nth_element(differences.begin(), middle, differences.end());
+    counts.difference_m = *middle;
+  }
+  const Outline outline = outlineOf(frame_, image, scale_);
+  counts.outline = outline.measured;
+  counts.continuing = outline.continuing;
+  return counts;
 }
 
 double PoseCost::support(const Eigen::Isometry3d& pose) {

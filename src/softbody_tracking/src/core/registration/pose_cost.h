@@ -15,6 +15,17 @@ constexpr double kWorstPlausibleCost = 0.22;
 /// @param scale at up to 1 m [m].
 double distanceScaleAt(double z, double scale);
 
+/// Pixels that a posed mesh covers, counted by what the depth image says there.
+struct PoseAgreement {
+  int covered = 0;
+  int agreeing = 0;           ///< depth differs by less than half a distance scale
+  int nearer = 0;             ///< something before the mesh
+  int farther = 0;            ///< the camera sees through the mesh
+  double difference_m = 0.0;  ///< median of the depth's difference, without sign
+  int outline = 0;            ///< pixels just outside that have depth
+  int continuing = 0;         ///< of these: depth continues the surface
+};
+
 /// How badly a posed mesh explains a depth image. Frame and mesh must outlive it.
 class PoseCost {
  public:
@@ -26,6 +37,8 @@ class PoseCost {
   /// than 1. Each pixel just outside the outline whose depth continues the surface adds 0.5 to the sum over
   /// the covered pixels.
   double operator()(const Eigen::Isometry3d& pose);
+
+  PoseAgreement agreement(const Eigen::Isometry3d& pose);
 
   /// How much of the depth supports a pose: (kWorstPlausibleCost - cost) times the number of covered pixels;
   /// 0 if the cost is higher. It prefers a large match to a few distant pixels, which could be any body.

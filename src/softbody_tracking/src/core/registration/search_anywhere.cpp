@@ -119,11 +119,12 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorMod
   return distinct(meshes, found, found.size());
 }
 
-std::optional<FoundPose> searchAnywhere(const RgbdFrame& frame, const ColorModel& colors,
-                                        const SearchMeshes& meshes,
-                                        const std::vector<Eigen::Isometry3d>& guesses,
-                                        const FeatureShare& feature_share, const RegistrationConfig& config) {
+SearchOutcome searchAnywhere(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+                             const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
+                             const RegistrationConfig& config) {
   std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config.distance_scale_m);
+  SearchOutcome outcome;
+  if (!found.empty()) outcome.best = found.front();
   const auto implausible = [&](const PoseHypothesis& pose) {
     return pose.cost > config.max_cost ||
            shareWithoutEdge(frame, meshes.full, pose.pose, config.distance_scale_m) >
@@ -131,7 +132,6 @@ std::optional<FoundPose> searchAnywhere(const RgbdFrame& frame, const ColorModel
            foreignShare(frame, colors, meshes.full, pose.pose) > kLargestForeignShare;
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
-  std::optional<FoundPose> likeliest;
   for (bool first = true; !found.empty(); first = false) {
     const auto others = groupAlike(frame.camera, meshes.medium, &found);
     AlikePoses alike;
@@ -139,11 +139,11 @@ std::optional<FoundPose> searchAnywhere(const RgbdFrame& frame, const ColorModel
       alike.poses.push_back(pose->pose);
       alike.shares.push_back(feature_share(pose->pose));
     }
-    if (std::optional<FoundPose> body = confirmedPose(alike)) return body;
-    if (first) likeliest = undecidedPose(alike);
+    if (const std::optional<FoundPose> body = confirmedPose(alike)) return {body, outcome.best};
+    if (first) outcome.found = undecidedPose(alike);
     found.erase(found.begin(), others);
   }
-  return likeliest;
+  return outcome;
 }
 
 }  // namespace softbody

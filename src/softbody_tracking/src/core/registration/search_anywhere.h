@@ -26,9 +26,8 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorMod
 /// If features contradict a place, or cannot decide, the next place is tried; there the features must confirm
 /// the pose.
 /// @param guesses poses to try as well.
-std::optional<FoundPose> searchAnywhere(const RgbdFrame& frame, const ColorModel& colors,
-                                        const SearchMeshes& meshes,
-                                        const std::vector<Eigen::Isometry3d>& guesses,
-                                        const FeatureShare& feature_share, const RegistrationConfig& config);
+SearchOutcome searchAnywhere(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+                             const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
+                             const RegistrationConfig& config);
 
 }  // namespace softbody

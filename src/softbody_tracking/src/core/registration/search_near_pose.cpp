@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "registration/body_edges.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/search_starts.h"
 
@@ -27,6 +28,15 @@ PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes
   sortByCost(&poses);
   const Eigen::Isometry3d pose = search.polish({poses.front()}).front().pose;
   return {pose, search.polishedCost(pose)};
+}
+
+SearchOutcome searchNearAccepted(const RgbdFrame& frame, const SearchMeshes& meshes,
+                                 const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config) {
+  const PoseHypothesis best = searchNearPose(frame, meshes, rough_pose, config.distance_scale_m);
+  const bool accepted =
+      best.cost <= config.max_cost &&
+      shareWithoutEdge(frame, meshes.full, best.pose, config.distance_scale_m) <= kLargestShareWithoutEdge;
+  return {accepted ? std::optional(FoundPose{best.pose, 1}) : std::nullopt, best};
 }
 
 }  // namespace softbody

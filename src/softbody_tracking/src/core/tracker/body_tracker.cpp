@@ -15,6 +15,7 @@
 #include "softbody_common/same_matrix.h"
 #include "softbody_common/time.h"
 #include "softbody_common/tracking_state.h"
+#include "softbody_tracking/search_report/search_sentence.h"
 #include "targets/knn_targets.h"
 #include "targets/position_prior.h"
 #include "tracker/frame_observer.h"
@@ -86,6 +87,15 @@ TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camer
   return status;
 }
 
+TrackingStatus withoutImages(const TrackingStatus& last, const std::optional<double>& silence_s) {
+  TrackingStatus status;
+  status.state = last.state == TrackingState::kInitializing ? last.state : TrackingState::kLost;
+  status.features_total = last.features_total;
+  status.reason =
+      silence_s ? fmt::format("no image for {:.0f} s", *silence_s) : "waiting for the first image";
+  return status;
+}
+
 BodyTracker::BodyTracker(const TrackerConfig& config)
     : implementation_(std::make_unique<Implementation>(config)) {}
 BodyTracker::~BodyTracker() = default;
@@ -118,8 +128,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   pass = frame.pass;
   stamp = frame.stamp;
   const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
-  if (outcome == Relocalizer::Outcome::kNotFound)
-    return waiting("the body was not found: nothing of its size and shape stands free in the depth image");
+  if (outcome == Relocalizer::Outcome::kNotFound) return waiting(whyNotFound(relocalizer.report()));
   const bool just_found = outcome == Relocalizer::Outcome::kFound;
   if (just_found) prediction->reset();
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "registration/body_edges.h"
 #include "registration/search_anywhere.h"
 #include "registration/search_near_pose.h"
+#include "search_report/search_measurement.h"
 
 namespace softbody {
 namespace {
@@ -23,6 +23,9 @@ void Relocalizer::reset() {
   tracked_ = recovering_ = false;
   given_.reset();
   lost_frames_ = frames_to_depth_search_ = frames_to_feature_search_ = 0;
+  failed_searches_ = 0;
+  fitting_unit_.reset();
+  report_ = {};
 }
 
 void Relocalizer::startNear(const Eigen::Isometry3d& rough_pose) {
@@ -72,14 +75,6 @@ void Relocalizer::startTracking(const RgbdFrame& frame, const FoundPose& found) 
   found_at_ = frame.stamp;
 }
 
-std::optional<FoundPose> Relocalizer::acceptableNear(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                                     const Eigen::Isometry3d& rough_pose,
-                                                     double max_cost) const {
-  const PoseHypothesis found = searchNearPose(frame, meshes, rough_pose, config_.distance_scale_m);
-  if (found.cost > max_cost) return std::nullopt;
-  return FoundPose{found.pose, 1};
-}
-
 /// A lost body is found in the first frame that shows enough of its features.
 std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, FrameObserver* observer,
                                                        StageTimer* timer) {
@@ -88,10 +83,11 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   frames_to_feature_search_ = rough ? kFramesBetweenSearches : 0;
   if (!rough) return std::nullopt;
   const auto scope = timer->stage("Model Registration", true);
-  auto found = acceptableNear(frame, meshesOf(observer->surface().topology()), *rough, kDeformedCost);
+  const PoseHypothesis found =
+      searchNearPose(frame, meshesOf(observer->surface().topology()), *rough, config_.distance_scale_m);
   // Features distinguish poses that are alike in depth.
-  if (!found || !confirms(observer->featureShare(frame, found->pose))) return std::nullopt;
-  return found;
+  if (found.cost > kDeformedCost || !confirms(observer->featureShare(frame, found.pose))) return std::nullopt;
+  return FoundPose{found.pose, 1};
 }
 
 std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, FrameObserver* observer,
@@ -100,12 +96,17 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   frames_to_depth_search_ = kFramesBetweenSearches;
   const auto scope = timer->stage("Model Registration", true);
   const SearchMeshes& meshes = meshesOf(observer->surface().topology());
+  const SearchOutcome outcome = searchByDepthNow(frame, meshes, observer);
+  if (!outcome.found) report_ = explained(frame, meshes, *observer, outcome.best);
+  return outcome.found;
+}
+
+SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const SearchMeshes& meshes,
+                                            FrameObserver* observer) const {
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   if (given_ && !recovering_) {
-    auto found = acceptableNear(frame, meshes, T_camera_fixed * *given_, config_.max_cost);
-    const bool bounded = found && shareWithoutEdge(frame, meshes.full, found->pose,
-                                                   config_.distance_scale_m) <= kLargestShareWithoutEdge;
-    if (bounded) return found;
+    const SearchOutcome near = searchNearAccepted(frame, meshes, T_camera_fixed * *given_, config_);
+    if (near.found) return near;
   }
   std::vector<Eigen::Isometry3d> guesses;
   if (recovering_ || given_) guesses.push_back(T_camera_fixed * pose_);
@@ -113,6 +114,22 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
     return observer->featureShare(frame, pose);
   };
   return searchAnywhere(frame, observer->colors(), meshes, guesses, feature_share, config_);
+}
+
+/// Another scale of the mesh is tried only at the start, because it does not change later; and less and less
+/// often, because it takes as long as two searches.
+SearchReport Relocalizer::explained(const RgbdFrame& frame, const SearchMeshes& meshes,
+                                    const FrameObserver& observer,
+                                    const std::optional<PoseHypothesis>& best) {
+  SearchReport report = measureSearch(frame, observer.colors(), meshes, best, config_);
+  if (recovering_) return report;
+  if (best) report.fitting_scale = fittingScaleNear(frame, observer.colors(), meshes, *best, config_);
+  ++failed_searches_;
+  const bool is_power_of_two = (failed_searches_ & (failed_searches_ - 1)) == 0;
+  if (is_power_of_two && !report.fitting_scale)
+    fitting_unit_ = fittingUnit(frame, observer.colors(), meshes, config_);
+  if (!report.fitting_scale) report.fitting_scale = fitting_unit_;
+  return report;
 }
 
 }  // namespace softbody

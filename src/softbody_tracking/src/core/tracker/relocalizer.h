@@ -7,6 +7,7 @@
 #include "registration/coarse_mesh.h"
 #include "registration/found_pose.h"
 #include "softbody_common/stage_timer.h"
+#include "softbody_tracking/search_report/search_report.h"
 #include "softbody_tracking/tracker_config.h"
 #include "tracker/frame_observer.h"
 
@@ -46,6 +47,8 @@ class Relocalizer {
   const Eigen::Isometry3d& pose() const { return pose_; }
   /// Whether the body was lost and has not been tracked since.
   bool recovering() const { return recovering_; }
+  /// The last search that failed; a default one: none has.
+  const SearchReport& report() const { return report_; }
   int alike() const { return alike_; }               ///< see FoundPose, of the last search
   Nanoseconds foundAt() const { return found_at_; }  ///< stamp of the frame of that search
 
@@ -54,8 +57,10 @@ class Relocalizer {
   std::optional<FoundPose> searchByFeatures(const RgbdFrame& frame, FrameObserver* observer,
                                             StageTimer* timer);
   std::optional<FoundPose> searchByDepth(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer);
-  std::optional<FoundPose> acceptableNear(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                          const Eigen::Isometry3d& rough_pose, double max_cost) const;
+  SearchOutcome searchByDepthNow(const RgbdFrame& frame, const SearchMeshes& meshes,
+                                 FrameObserver* observer) const;
+  SearchReport explained(const RgbdFrame& frame, const SearchMeshes& meshes, const FrameObserver& observer,
+                         const std::optional<PoseHypothesis>& best);
   const SearchMeshes& meshesOf(const MeshTopology& surface);
   void startTracking(const RgbdFrame& frame, const FoundPose& found);
 
@@ -72,6 +77,9 @@ class Relocalizer {
   int lost_frames_ = 0;
   int frames_to_depth_search_ = 0;
   int frames_to_feature_search_ = 0;
+  int failed_searches_ = 0;             ///< by depth, at the start
+  std::optional<double> fitting_unit_;  ///< see fittingUnit()
+  SearchReport report_;
 };
 
 }  // namespace softbody

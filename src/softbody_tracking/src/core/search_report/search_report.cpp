@@ -1,0 +1,35 @@
+#include "softbody_tracking/search_report/search_report.h"
+
+#include "registration/body_edges.h"
+#include "registration/search_anywhere.h"
+#include "registration/search_near_pose.h"
+#include "search_report/search_measurement.h"
+
+namespace softbody {
+
+SearchReport searchForBody(const RgbdFrame& frame, const TriangleMesh& rest_surface,
+                           const std::optional<Eigen::Isometry3d>& initial_pose,
+                           const RegistrationConfig& config) {
+  const SearchMeshes meshes = makeSearchMeshes(rest_surface);
+  const ColorModel colors;
+  std::vector<Eigen::Isometry3d> guesses;
+  SearchOutcome outcome;
+  if (initial_pose) {
+    outcome = searchNearAccepted(frame, meshes, *initial_pose, config);
+    guesses.push_back(*initial_pose);
+  }
+  const auto unknown = [](const Eigen::Isometry3d&) { return -1.0; };  // no features are known
+  if (!outcome.found) outcome = searchAnywhere(frame, colors, meshes, guesses, unknown, config);
+  SearchReport report = measureSearch(frame, colors, meshes, outcome.best, config);
+  report.found = outcome.found.has_value();
+  if (outcome.found) {
+    report.pose = outcome.found->pose;
+    report.alike = outcome.found->alike;
+    return report;
+  }
+  if (outcome.best) report.fitting_scale = fittingScaleNear(frame, colors, meshes, *outcome.best, config);
+  if (!report.fitting_scale) report.fitting_scale = fittingUnit(frame, colors, meshes, config);
+  return report;
+}
+
+}  // namespace softbody

@@ -1,0 +1,118 @@
+#include "softbody_tracking/search_report/search_sentence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace softbody {
+namespace {
+
+// A share of the pixels below this is noise, no cause.
+constexpr double kNoise = 0.01;
+// Share of the outline at which the surface continues, above which something touches the body. Bodies that
+// stand free are below half of it.
+constexpr double kTouches = 0.2;
+
+constexpr char kPoseAdvice[] =
+    "or give a rough pose: initial_pose in the object YAML, or pose_marker:=true in rviz";
+
+/// "200 x 100 x 40 mm", or in metres if the largest has ten of them.
+std::string sizeText(const Eigen::Vector3d& size_m) {
+  const bool large = size_m.maxCoeff() >= 10.0;
+  const Eigen::Vector3d size = size_m * (large ? 1.0 : 1e3);
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} {}", size.x(), size.y(), size.z(), large ? "m" : "mm");
+}
+
+int percent(double share) { return static_cast<int>(std::lround(100.0 * share)); }
+
+/// "10 % larger", "4 times smaller".
+std::string scaleText(double factor) {
+  const bool larger = factor > 1.0;
+  const double times = larger ? factor : 1.0 / factor;
+  if (times < 2.0)
+    return fmt::format("{} % {}", percent(std::abs(factor - 1.0)), larger ? "larger" : "smaller");
+  return fmt::format("{:.4g} times {}", times, larger ? "larger" : "smaller");
+}
+
+std::string candidateText(const SearchReport& report) {
+  if (report.part_m.maxCoeff() <= 0.0) return fmt::format("the mesh has {}", sizeText(report.body_m));
+  return fmt::format("the best candidate has {} at {:.2f} m, the mesh {}", sizeText(report.part_m),
+                     report.part_distance_m, sizeText(report.body_m));
+}
+
+std::string noDepth(const SearchReport& report) {
+  return fmt::format(
+      "{:.1f} % of the pixels have a depth in the range from min_depth_m to max_depth_m; check the distance, "
+      "the depth image, and its unit (depth_scale)",
+      100.0 * report.depth_share);
+}
+
+std::string otherScale(const SearchReport& report) {
+  return fmt::format(
+      "{}; a mesh {} would fit. Check the mesh's unit and size with a ruler (prepare_model --unit, "
+      "--length), "
+      "and the unit of the depth image (depth_scale)",
+      candidateText(report), scaleText(*report.fitting_scale));
+}
+
+std::string noCandidate(const SearchReport& report) {
+  if (report.part_m.maxCoeff() <= 0.0)
+    return fmt::format(
+        "nothing stands free before a table or wall (the mesh has {}; depth from {:.2f} to {:.2f} m). Move "
+        "the body into the view, check the mesh's unit (prepare_model --unit), {}",
+        sizeText(report.body_m), report.nearest_m, report.farthest_m, kPoseAdvice);
+  return fmt::format(
+      "nothing of its size stands free: {}. Move the body away from what it touches, check the mesh's unit "
+      "(prepare_model --unit) and the depth's (depth_scale), {}",
+      candidateText(report), kPoseAdvice);
+}
+
+/// What the image shows instead of the body, and what to do.
+std::string disagreement(const SearchReport& report) {
+  if (report.part_at_border) return "It reaches the border of the image: move it into the view";
+  if (report.nearer > std::max(report.farther, kTouches))
+    return fmt::format("Something is before {} % of it: take it away", percent(report.nearer));
+  if (report.continuing > kTouches)
+    return fmt::format(
+        "The surface goes on beyond {} % of the outline: it touches something, or the mesh is too small. "
+        "Move it away",
+        percent(report.continuing));
+  return "It is bent, or another object: tracking starts when it is near the rest shape of the mesh";
+}
+
+std::string highCost(const SearchReport& report) {
+  return fmt::format(
+      "{}; its disagreement is {} %, allowed: {} %. {} % of the mesh's pixels agree, at {} % the camera sees "
+      "through it, at {} % something is nearer; the median difference is {:.1f} mm. {}, {}",
+      candidateText(report), percent(report.cost), percent(report.largest_cost), percent(report.agreeing),
+      percent(report.farther), percent(report.nearer), 1e3 * report.difference_m, disagreement(report),
+      kPoseAdvice);
+}
+
+std::string noEdge(const SearchReport& report) {
+  return fmt::format(
+      "{}; {} % of its pixels agree, but at {} % of the outline (allowed: {} %) depth runs straight on: it "
+      "lies in a larger surface. Move the body away from it, {}",
+      candidateText(report), percent(report.agreeing), percent(report.without_edge),
+      percent(report.largest_without_edge), kPoseAdvice);
+}
+
+}  // namespace
+
+std::string whyNotFound(const SearchReport& report) {
+  if (report.found) return {};
+  const auto why = [&] {
+    if (report.depth_share < kNoise) return noDepth(report);
+    if (report.fitting_scale) return otherScale(report);
+    if (report.cost >= 1.0 || (!report.part_fits && report.cost > report.largest_cost))
+      return noCandidate(report);
+    if (report.cost > report.largest_cost) return highCost(report);
+    if (report.without_edge > report.largest_without_edge) return noEdge(report);
+    return fmt::format("{}; {} % of its pixels agree, but its colours or features are not those of the body",
+                       candidateText(report), percent(report.agreeing));
+  };
+  return "the body was not found: " + why();
+}
+
+}  // namespace softbody

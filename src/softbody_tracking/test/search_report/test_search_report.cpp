@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include "fixtures/synthetic_scene.h"
+#include "registration/box_mesh.h"
+#include "softbody_common/rigid_fit.h"
+#include "softbody_tracking/search_report/search_sentence.h"
+
+namespace softbody {
+namespace {
+
+TriangleMesh scaledBox(double factor) { return {factor * kMesh.vertices, kMesh.triangles}; }
+
+RgbdFrame boxFrame() { return renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1); }
+
+SearchReport searchIn(const RgbdFrame& frame, const TriangleMesh& mesh = kMesh) {
+  return searchForBody(frame, mesh, std::nullopt, RegistrationConfig());
+}
+
+void expectWords(const SearchReport& report, const std::vector<std::string>& words) {
+  ASSERT_FALSE(report.found);
+  const std::string sentence = whyNotFound(report);
+  EXPECT_EQ(sentence.rfind("the body was not found: ", 0), 0U) << sentence;
+  for (const std::string& word : words)
+    EXPECT_NE(sentence.find(word), std::string::npos) << word << " in: " << sentence;
+}
+
+/// The box and another one that touches it, at the same distance.
+RgbdFrame touched(const Eigen::Vector3d& beside) {
+  RgbdFrame frame = boxFrame();
+  const RgbdFrame other =
+      renderFrame(kBox, transformed(kMesh.vertices, boxPose() * Eigen::Translation3d(beside)), 1);
+  frame.depth = cv::min(frame.depth, other.depth);
+  return frame;
+}
+
+RgbdFrame bent(double curvature) {
+  Points vertices = kMesh.vertices;
+  vertices.col(2) += curvature * vertices.col(0).cwiseAbs2();
+  return renderFrame(kBox, transformed(vertices, boxPose()), 1);
+}
+
+TEST(SearchReport, ABodyThatIsFoundNeedsNoExplanation) {
+  const SearchReport report = searchIn(boxFrame());
+  EXPECT_TRUE(report.found);
+  EXPECT_EQ(whyNotFound(report), "");
+  EXPECT_GT(report.agreeing, 0.9);
+  EXPECT_NEAR(report.body_m.x(), 0.2, 1e-9);
+  EXPECT_NEAR(report.body_m.z(), 0.04, 1e-9);
+  EXPECT_NEAR(report.part_distance_m, 0.5, 0.05);
+}
+
+TEST(SearchReport, AMeshInAnotherUnitIsRecognised) {
+  for (const double factor : {1000.0, 100.0, 1.0 / 0.0254, 0.001}) {
+    const SearchReport report = searchIn(boxFrame(), scaledBox(factor));
+    ASSERT_TRUE(report.fitting_scale) << factor << ": " << whyNotFound(report);
+    EXPECT_NEAR(*report.fitting_scale * factor, 1.0, 1e-9);
+    expectWords(report, {factor > 1.0 ? "times smaller would fit" : "times larger would fit", "--unit"});
+  }
+}
+
+TEST(SearchReport, DepthInAnotherUnitIsRecognised) {
+  RgbdFrame frame = boxFrame();
+  frame.depth *= 4.0f;
+  const SearchReport report = searchIn(frame);
+  ASSERT_TRUE(report.fitting_scale) << whyNotFound(report);
+  EXPECT_NEAR(*report.fitting_scale, 4.0, 1e-9);
+  expectWords(report, {"4 times larger would fit", "depth_scale"});
+}
+
+TEST(SearchReport, AMeshOfAnotherSizeIsMeasured) {
+  for (const double factor : {0.7, 1.4}) {
+    const SearchReport report = searchIn(boxFrame(), scaledBox(factor));
+    ASSERT_FALSE(report.found) << factor;
+    ASSERT_TRUE(report.fitting_scale) << factor << ": " << whyNotFound(report);
+    EXPECT_NEAR(*report.fitting_scale * factor, 1.0, 0.06) << factor;
+  }
+}
+
+TEST(SearchReport, NamesEachCauseWithNumbers) {
+  RgbdFrame dark = boxFrame();
+  dark.depth = 0.0f;
+  expectWords(searchIn(dark), {"0.0 %", "min_depth_m", "depth_scale"});
+  RgbdFrame wall = boxFrame();
+  wall.depth = 1.2f;
+  expectWords(searchIn(wall), {"nothing stands free", "200 x 100 x 40 mm", "initial_pose"});
+  expectWords(searchIn(bent(12.0)),
+              {"200 x 100 x 40 mm", "disagreement", "allowed: 22 %", "mm. ", "bent", "initial_pose"});
+  expectWords(searchIn(touched({0.195, 0.0, 0.0})), {"200 x 100 x 40 mm", "initial_pose"});
+}
+
+TEST(SearchReport, ARoughPoseIsTriedFirst) {
+  const RgbdFrame frame = touched({0.195, 0.0, 0.0});
+  const SearchReport report = searchForBody(frame, kMesh, boxPose(), RegistrationConfig());
+  EXPECT_TRUE(report.found || report.cost <= report.largest_cost) << whyNotFound(report);
+}
+
+}  // namespace
+}  // namespace softbody
