@@ -196,6 +196,7 @@ class Command(unittest.TestCase):
             self.assertEqual(self.export(*words, kind).returncode, 0)
             self.assertEqual((self.folder / "out/texture.png").read_bytes(), b"\x89PNG\r\n\x1a\n...")
             self.assertIn(b"texture.png", (self.folder / "out" / mesh).read_bytes())
+        self.assertEqual(self.export("--object", "object", "--format", "ply").returncode, 0)
         self.write_object(image="../image.png")
         self.expect_refused(self.export(*words, "gltf"), "allow it with --allow-outside", self.files())
         self.assertEqual(self.export("--allow-outside", *words, "gltf").returncode, 0)

@@ -33,7 +33,9 @@ YAML::Node parseYamlFile(const std::string& path) {
 
 YamlMapReader::YamlMapReader(const YAML::Node& map, std::string path, std::string prefix)
     : map_(map), path_(std::move(path)), prefix_(std::move(prefix)) {
-  if (!map_.IsMap()) fail(map_, fmt::format("'{}' must be a map of keys and values", prefix_));
+  if (map_.IsMap()) return;
+  if (!prefix_.empty()) fail(map_, fmt::format("'{}' must be a map of keys and values", prefix_));
+  fail(map_, "the file must have lines with KEY: VALUE; is it another kind of file?");
 }
 
 bool YamlMapReader::has(const std::string& key) { return get(key).IsDefined(); }
@@ -121,7 +123,12 @@ std::string YamlMapReader::file(const std::string& key, FileScope scope) {
 }
 
 YamlMapReader YamlMapReader::map(const std::string& key) {
-  if (!has(key)) fail(get(key), fmt::format("the key '{}{}' is missing", prefix_, key));
+  if (!has(key)) {
+    std::string keys;
+    for (const auto& entry : map_) keys += (keys.empty() ? "" : ", ") + shown(entry.first);
+    fail(get(key), fmt::format("the key '{}{}' is missing; the keys here are: {}", prefix_, key,
+                               keys.empty() ? "none" : keys));
+  }
   return {get(key), path_, prefix_ + key + "/"};
 }
 

@@ -15,7 +15,9 @@ int runSimulateTruth(int argc, char** argv) {
   app.add_option("truth", options.truth, "bag with /ground_truth/surface/...")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--object", options.object, "object YAML")->required()->check(CLI::ExistingFile);
+  app.add_option("--object", options.object, "object YAML, or its folder")
+      ->required()
+      ->check(CLI::ExistingPath);
   app.add_option("--output", options.output, "bag to write")->required();
   addAllowOutside(&app, &options.scope);
   app.callback([&options] { requireOtherFile(options.truth, options.output); });

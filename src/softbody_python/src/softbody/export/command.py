@@ -57,7 +57,7 @@ def _arguments(words):
     parser.add_argument("--output", required=True, metavar="DIR", help="folder to write, or FILE.glb for gltf")
     parser.add_argument("--format", choices=FORMATS, help="ply, obj: surface of each frame; vtk: surface and tets of each "
                         "frame for ParaView; gltf: one animation. Default: gltf if --output ends with .glb")
-    parser.add_argument("--object", metavar="FILE", type=pathlib.Path, help="object YAML, for the image of its mesh")
+    parser.add_argument("--object", metavar="FILE", type=pathlib.Path, help="object YAML, or its folder, for the image of its mesh")
     parser.add_argument("--allow-outside", action="store_true", help="the YAML and the mesh may name files in other folders")
     parser.add_argument("--namespace", default="/softbody", metavar="NAME", help="of the topics; default: /softbody")
     parser.add_argument("--from", dest="begin", default=0.0, type=_seconds, metavar="S", help="begin [s] after the first state")

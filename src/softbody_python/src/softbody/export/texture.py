@@ -27,9 +27,13 @@ class Texture:
 def texture_of(object_yaml, allow_outside=False):
     """The texture that the OBJ of an object YAML names: the first map_Kd of its material file. None if it names none.
 
+    A folder stands for its object.yaml.
+
     @throw ExportError if a file is wrong, or outside of the YAML's folder without `allow_outside`. @throw OSError.
     """
     object_yaml = pathlib.Path(object_yaml)
+    if object_yaml.is_dir():
+        object_yaml = object_yaml / "object.yaml"
     folder = object_yaml.resolve().parent
     mesh = _inside(_visual_mesh(object_yaml), object_yaml, folder, allow_outside)
     if mesh.suffix.lower() != ".obj":

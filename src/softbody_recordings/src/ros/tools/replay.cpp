@@ -19,7 +19,9 @@ void declare(CLI::App* app, ReplayOptions* options) {
   app->add_option("input", options->input, "bag with the camera topics")
       ->required()
       ->check(CLI::ExistingFile);
-  app->add_option("--object", options->object, "object YAML")->required()->check(CLI::ExistingFile);
+  app->add_option("--object", options->object, "object YAML, or its folder")
+      ->required()
+      ->check(CLI::ExistingPath);
   app->add_option("--output", options->output, "bag to write")->required();
   app->add_option("--parameters", options->parameters, "YAML with a section of parameters for each node")
       ->check(CLI::ExistingFile);

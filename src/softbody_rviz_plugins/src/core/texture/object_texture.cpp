@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "softbody_common/files/object_path.h"
 #include "softbody_common/files/yaml_map_reader.h"
 
 namespace softbody {
@@ -37,7 +38,8 @@ fs::path namedFile(const fs::path& file, const char* keyword, const fs::path& fo
 
 }  // namespace
 
-fs::path textureImageOf(const fs::path& yaml, FileScope scope) {
+fs::path textureImageOf(const fs::path& given, FileScope scope) {
+  const fs::path yaml = objectYamlAt(given.string());
   const YAML::Node root = parseYamlFile(yaml.string());
   YamlMapReader object(root["object"], yaml.string(), "object/");
   const fs::path mesh = object.file("visual_mesh", scope), folder = fs::absolute(yaml).parent_path();

@@ -29,9 +29,9 @@ struct ObjectDescription {
 /// Metres per m, cm, mm or inch. @throw std::invalid_argument for any other unit.
 double metresPer(const std::string& unit);
 
-/// Reads and checks an object YAML. @param scope where the meshes may be.
+/// Reads and checks an object YAML. @param given the file, or the folder of its object.yaml. @param scope
+/// where the meshes may be.
 /// @throw std::invalid_argument with file, key, value and allowed values.
-ObjectDescription loadObjectDescription(const std::string& yaml_path,
-                                        FileScope scope = FileScope::kOwnFolder);
+ObjectDescription loadObjectDescription(const std::string& given, FileScope scope = FileScope::kOwnFolder);
 
 }  // namespace softbody

@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "softbody_common/files/object_path.h"
 #include "softbody_common/files/yaml_map_reader.h"
 
 namespace softbody {
@@ -76,7 +77,8 @@ double metresPer(const std::string& unit) {
   return found->second;
 }
 
-ObjectDescription loadObjectDescription(const std::string& yaml_path, FileScope scope) {
+ObjectDescription loadObjectDescription(const std::string& given, FileScope scope) {
+  const std::string yaml_path = objectYamlAt(given);
   YamlMapReader file(parseYamlFile(yaml_path), yaml_path, "");
   YamlMapReader object = file.map("object");
   ObjectDescription description;
