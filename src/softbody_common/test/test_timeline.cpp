@@ -176,5 +176,47 @@ TEST(Timeline, AnyStampsAtAnyTimeGiveAVerdictAndAnEndToIt) {
   }
 }
 
+TEST(Timeline, AShortRecordingThatStartsAgainIsNotLate) {
+  for (const double jump : {0.2, 0.6, 0.97, 5.0}) {
+    Timeline timeline;
+    const auto judge = [&](double stamp, double now) {
+      return timeline.judge(kStart + nanoseconds(stamp), kStart + nanoseconds(now)).kind;
+    };
+    for (int i = 0; i < 300; ++i) EXPECT_EQ(judge(i / 30.0, i / 30.0 + 0.05), Kind::kInOrder);
+    const double last = 299 / 30.0, begin = last - jump;
+    EXPECT_EQ(judge(begin, begin + 0.1), Kind::kJumpedBack) << jump;
+    EXPECT_EQ(judge(begin + 0.03, begin + 0.13), Kind::kInOrder) << jump;
+  }
+}
+
+TEST(Timeline, AClockThatIsCorrectedStartsNothingAnew) {
+  Timeline timeline;
+  for (int i = 0; i < 90; ++i) timeline.judge(kStart + i * kFrame, kStart + i * kFrame);
+  EXPECT_EQ(timeline.judge(kStart + 80 * kFrame, kStart + 89 * kFrame - 5'000'000).kind, Kind::kLate);
+}
+
+/// The stamps to warn of when these come on a clock that is always 0, in seconds.
+std::vector<double> warnings(const std::vector<double>& stamps) {
+  Timeline timeline;
+  RefusedStamps refused;
+  std::vector<double> said;
+  for (const double stamp : stamps) {
+    const auto warning = refused.note(nanoseconds(stamp), timeline.judge(nanoseconds(stamp)));
+    if (warning) said.push_back(seconds(warning->stamp));
+  }
+  return said;
+}
+
+TEST(RefusedStamps, ALoneOddStampIsWarnedOfWhenTheStreamGoesOn) {
+  EXPECT_EQ(warnings({100.0, 100.1, 500.0}), std::vector<double>{});
+  EXPECT_EQ(warnings({100.0, 100.1, 500.0, 100.2, 100.3}), std::vector<double>{500.0});
+  EXPECT_EQ(warnings({100.0, 100.1, 100.1, 0.0}), (std::vector<double>{100.1, 0.0}));
+}
+
+TEST(RefusedStamps, ARecordingThatStartsAgainIsNoMistake) {
+  EXPECT_EQ(warnings({100.0, 101.0, 102.0, 100.0, 100.1, 100.2, 100.3}), std::vector<double>{});
+  EXPECT_EQ(warnings({100.0, 100.1, 900.0, 900.1, 900.2, 900.3}), std::vector<double>{});
+}
+
 }  // namespace
 }  // namespace softbody

@@ -6,6 +6,7 @@ import unittest
 
 import rospy
 import rostest
+from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, TrackingStatus
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
@@ -23,7 +24,7 @@ def since_last_jump(messages):
 
 class Loop(unittest.TestCase):
     def test_states_and_tracking_come_back(self):
-        recorder = Recorder(softbody__surface__state=MeshState, softbody__status=TrackingStatus)
+        recorder = Recorder(softbody__surface__state=MeshState, softbody__status=TrackingStatus, rosout=Log)
         # Few: a slow machine leaves out most frames of the short bag.
         states = recorder.wait(
             lambda seen: len(since_last_jump(seen["softbody/surface/state"])) >= 3
@@ -33,6 +34,19 @@ class Loop(unittest.TestCase):
         recorder.wait(
             lambda seen: any(status.state == TrackingStatus.TRACKING
                              for status in since_last_jump(seen["softbody/status"])), "TRACKING after a jump back")
+        self.expect_one_line_a_loop(recorder)
+
+    def expect_one_line_a_loop(self, recorder):
+        """The nodes say once that the bag starts again, and call nothing of it a mistake."""
+        jumps = "time jumped back"
+        def said(seen):
+            logs = [log for log in seen["rosout"] if log.name.startswith("/softbody/")]
+            ends = [i for i, log in enumerate(logs) if jumps in log.msg]
+            return len(ends) >= 3 and logs[ends[0]:ends[2]]
+        logs = recorder.wait(said, "two whole loops")
+        self.assertEqual([log.name for log in logs if jumps in log.msg], 2 * ["/softbody/camera_ingest"])
+        refused = ("is not used", "is dropped", "is unusable")
+        self.assertEqual([log.msg for log in logs if any(words in log.msg for words in refused)], [])
 
 
 if __name__ == "__main__":

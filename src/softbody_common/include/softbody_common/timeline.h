@@ -32,6 +32,23 @@ struct StampVerdict {
 /// Why a stamp is refused, as in "its stamp is 2.000 s after the last one and alone there".
 std::string whyRefused(const StampVerdict& verdict);
 
+/// A stamp that was refused.
+struct RefusedStamp {
+  Nanoseconds stamp = 0;
+  StampVerdict verdict;
+};
+
+/// Decides which refused stamps of one stream deserve a warning. An odd stamp deserves it when the stream
+/// goes on without it. The first stamps of a recording that starts again do not: they come before the clock.
+class RefusedStamps {
+ public:
+  /// Call it for every message. @return the stamp to warn of, this one or the one before.
+  std::optional<RefusedStamp> note(Nanoseconds stamp, const StampVerdict& verdict);
+
+ private:
+  std::optional<RefusedStamp> odd_;
+};
+
 /// Judges the stamps of one stream. A single stamp far ahead or far back is an outlier and changes nothing.
 /// Only time that stays elsewhere has moved: after kStays consecutive stamps that follow each other there, or
 /// at once where the receiver's clock has made the same move.

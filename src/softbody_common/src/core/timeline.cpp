@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace softbody {
 
@@ -24,6 +25,17 @@ std::string whyRefused(const StampVerdict& verdict) {
   }
 }
 
+std::optional<RefusedStamp> RefusedStamps::note(Nanoseconds stamp, const StampVerdict& verdict) {
+  if (verdict.kind == StampVerdict::kOutlier) {
+    odd_ = RefusedStamp{stamp, verdict};
+    return std::nullopt;
+  }
+  if (verdict.kind == StampVerdict::kRepeated && odd_ && odd_->stamp == stamp) return std::nullopt;
+  if (!verdict.accepted()) return RefusedStamp{stamp, verdict};
+  const std::optional<RefusedStamp> odd = std::exchange(odd_, std::nullopt);
+  return verdict.kind == StampVerdict::kInOrder ? odd : std::nullopt;
+}
+
 StampVerdict Timeline::judge(Nanoseconds stamp, std::optional<Nanoseconds> now) {
   if (stamp <= 0) return {StampVerdict::kUnstamped};
   if (now && *now <= 0) now.reset();
@@ -33,10 +45,11 @@ StampVerdict Timeline::judge(Nanoseconds stamp, std::optional<Nanoseconds> now) 
   const bool on_time = now && accepted_at_ && stamp - *now <= lead_ + kLeap;
   if (gap > 0 && (gap <= std::max(kLeap, 2 * pace_) || on_time))
     return accept(StampVerdict::kInOrder, stamp, now);
-  if (gap < 0 && gap > -kLeap) return {StampVerdict::kLate, gap};
-  extendRun(stamp);
   const Nanoseconds clock = now && accepted_at_ ? *now - *accepted_at_ : 0;
-  const bool with_clock = gap < 0 && clock <= -kLeap && std::abs(gap - clock) <= kLeap;
+  // Half of the way, because messages come later than the clock. A clock that is corrected moves much less.
+  const bool with_clock = gap < 0 && clock <= gap / 2 && std::abs(gap - clock) <= kLeap;
+  if (gap < 0 && gap > -kLeap && !with_clock) return {StampVerdict::kLate, gap};
+  extendRun(stamp);
   if (run_.count < kStays && !with_clock) return {StampVerdict::kOutlier, gap, run_.count};
   const bool returns = !with_clock && before_leap_ < stamp && stamp <= after_leap_ - kLeap;
   return accept(gap > 0 || returns ? StampVerdict::kMoved : StampVerdict::kJumpedBack, stamp, now);

@@ -14,11 +14,13 @@ constexpr double kWarningPeriod_s = 5.0;
 
 StampVerdict StampGate::judge(const ros::Time& stamp) {
   const StampVerdict verdict = timeline_.judge(toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
-  if (!verdict.accepted() && mayWarn())
+  const std::optional<RefusedStamp> refused = refused_.note(toNanoseconds(stamp), verdict);
+  if (refused && !admits(refused->verdict) && mayWarn())
     ROS_WARN_STREAM(fmt::format("{}: the message with the stamp {:.3f} s is not used: {}", topic_,
-                                stamp.toSec(), whyRefused(verdict)));
+                                seconds(refused->stamp), whyRefused(refused->verdict)));
+  // Only camera_ingest tells the user that a recording starts again.
   if (verdict.kind == StampVerdict::kJumpedBack)
-    ROS_INFO_STREAM(
+    ROS_DEBUG_STREAM(
         fmt::format("{}: time jumped back by {:.3f} s: a new pass starts", topic_, -seconds(verdict.gap)));
   return verdict;
 }
