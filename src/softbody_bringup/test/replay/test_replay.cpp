@@ -35,7 +35,7 @@ class ReplayTest : public ::testing::Test {
     Pipeline pipeline(model, PipelineConfig());
     CameraIngest ingest{CameraIngestConfig()};
     const rosbag::Bag input(kBag, rosbag::bagmode::Read);
-    ResultBag result(output, "/softbody", "softbody", false);
+    ResultBag result(output, "/softbody", false);
     std::vector<FrameOutput> frames;
     const auto use = [&](const RgbdFrame& frame, const std_msgs::Header& header, double) {
       if (frames.empty()) result.writeTopologies(pipeline, header.stamp);
@@ -93,7 +93,7 @@ TEST_F(ReplayTest, EveryStageIsInitializedOnce) {
 TEST_F(ReplayTest, LeavesAnEarlierResultAloneWhenItDoesNotFinish) {
   const fs::path output = folder_ / "result.bag";
   std::ofstream(output) << "an earlier result";
-  { const ResultBag unfinished(output, "/softbody", "softbody", false); }
+  { const ResultBag unfinished(output, "/softbody", false); }
   EXPECT_EQ(bytes(output), "an earlier result");
   expectNothingIncomplete();
 }

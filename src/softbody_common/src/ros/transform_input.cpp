@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "softbody_common/frame_name.h"
 #include "softbody_common/ros/time.h"
 
 namespace softbody {
@@ -18,13 +19,35 @@ constexpr char kAuthority[] = "tf";
 TransformInput::TransformInput() : spinner_(1, &queue_) {
   buffer_.setUsingDedicatedThread(true);
   node_.setCallbackQueue(&queue_);
-  moving_ = node_.subscribe<tf2_msgs::TFMessage>("/tf", kQueue, [this](const auto& message) {
-    for (const auto& transform : message->transforms) add(transform, false);
-  });
+  moving_ = node_.subscribe("/tf", kQueue, &TransformInput::onMoving, this);
   fixed_ = node_.subscribe<tf2_msgs::TFMessage>("/tf_static", kQueue, [this](const auto& message) {
     for (const auto& transform : message->transforms) add(transform, true);
   });
   spinner_.start();
+}
+
+void TransformInput::claim(const std::string& frame) {
+  const std::lock_guard lock(claim_mutex_);
+  claimed_ = frame;
+}
+
+void TransformInput::onMoving(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) {
+  std::string own;
+  {
+    const std::lock_guard lock(claim_mutex_);
+    own = claimed_;
+  }
+  const std::string& sender = event.getPublisherName();
+  for (const auto& transform : event.getMessage()->transforms) {
+    if (!own.empty() && sender != ros::this_node::getName() && withoutSlash(transform.child_frame_id) == own)
+      ROS_WARN_STREAM_THROTTLE(
+          60.0,
+          fmt::format("the frame '{}' on /tf is sent by this node and by {}: whoever reads it sees both. "
+                      "Stop one of them, or give it another frame (namespace:= of the launch file, or "
+                      "the parameter body_frame or tool_frame)",
+                      own, sender));
+    add(transform, false);
+  }
 }
 
 void TransformInput::add(const geometry_msgs::TransformStamped& transform, bool is_fixed) try {
@@ -32,8 +55,12 @@ void TransformInput::add(const geometry_msgs::TransformStamped& transform, bool 
   admit(transform.child_frame_id);
   if (is_fixed || isNew(transform)) buffer_.setTransform(transform, kAuthority, is_fixed);
 } catch (const std::exception& error) {
-  ROS_WARN_STREAM_THROTTLE(5.0, "the transform of '" << transform.child_frame_id.substr(0, kLongestName)
-                                                     << "' is not used: " << error.what());
+  warnOfRefused(transform.child_frame_id, error.what());
+}
+
+void TransformInput::warnOfRefused(const std::string& frame, const std::string& why) {
+  ROS_WARN_STREAM_THROTTLE(5.0,
+                           "the transform of '" << frame.substr(0, kLongestName) << "' is not used: " << why);
 }
 
 /// Frames are bounded, because any sender can name new ones. @throw std::length_error
@@ -50,13 +77,18 @@ void TransformInput::admit(const std::string& frame) {
 }
 
 /// A bag that loops, or a publisher that is faster than its sensor, repeats transforms: no warning for that.
-/// tf2 itself says what is late. @throw std::exception if the stamp is refused.
+/// tf2 itself says what is late.
 bool TransformInput::isNew(const geometry_msgs::TransformStamped& transform) {
   Child& child = children_[transform.child_frame_id];
   const StampVerdict verdict =
       child.timeline.judge(toNanoseconds(transform.header.stamp), toNanoseconds(ros::Time::now()));
-  if (verdict.kind == StampVerdict::kUnstamped || verdict.kind == StampVerdict::kOutlier)
-    throw std::invalid_argument(whyRefused(verdict));
+  const auto refused = child.refused.note(toNanoseconds(transform.header.stamp), verdict);
+  const auto isWrong = [](StampVerdict::Kind kind) {
+    return kind == StampVerdict::kUnstamped || kind == StampVerdict::kOutlier;
+  };
+  if (refused && isWrong(refused->verdict.kind))
+    warnOfRefused(transform.child_frame_id, whyRefused(refused->verdict));
+  if (isWrong(verdict.kind)) return false;
   // tf2 refuses everything before the newest transform of a child that it has. When a bag starts again, the
   // first child that goes back clears the buffer for all.
   if (verdict.wentBack() && child.clears == clears_) {

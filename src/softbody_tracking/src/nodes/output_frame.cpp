@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/geometry_messages.h"
 
 namespace softbody {
@@ -14,7 +15,7 @@ constexpr double kPoll_s = 0.002;  // [s] between two looks at the tf buffer; sh
 }  // namespace
 
 OutputFrame::OutputFrame(Parameters& parameters)
-    : name_(parameters.text("output_frame", "")),
+    : name_(frameName(parameters.text("output_frame", ""), "parameter output_frame")),
       timeout_s_(parameters.number("tf_timeout_s", 0.05, 0.0, 5.0)) {}
 
 std_msgs::Header OutputFrame::fixedHeader(const std_msgs::Header& camera_header) const {
@@ -31,7 +32,7 @@ Eigen::Isometry3d OutputFrame::poseOf(const std_msgs::Header& header, const std:
                                       double timeout_s) const {
   const std::string& fixed = name_.empty() ? camera_frame : name_;
   std_msgs::Header source = header;
-  if (source.frame_id.empty()) source.frame_id = camera_frame;
+  source.frame_id = source.frame_id.empty() ? camera_frame : frameName(source.frame_id, "a pose or blade");
   if (source.frame_id == fixed) return Eigen::Isometry3d::Identity();
   return lookUp(fixed, source, timeout_s);
 }

@@ -21,6 +21,13 @@ class OutputFrame {
   /// The parameter; empty: the camera's own frame.
   const std::string& name() const { return name_; }
 
+  /// Warns when another node sends the transform of this node's frame. Call it once.
+  /// @return the frame.
+  const std::string& claim(const std::string& frame) {
+    transforms_.claim(frame);
+    return frame;
+  }
+
   /// The camera's header with the fixed frame as its frame_id.
   std_msgs::Header fixedHeader(const std_msgs::Header& camera_header) const;
 

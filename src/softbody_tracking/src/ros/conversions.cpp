@@ -153,10 +153,6 @@ cv::Mat1b maskFromMessage(const sensor_msgs::Image& image) {
   return mask.data == image.data.data() ? cv::Mat1b(mask.clone()) : mask;
 }
 
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
-
 sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const std_msgs::Header& header) {
   return cv_bridge::CvImage(header, image.type() == CV_32FC1 ? enc::TYPE_32FC1 : enc::BGR8, image)
       .toImageMsg();

@@ -6,6 +6,7 @@
 #include <tf2_ros/buffer.h>
 
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 
@@ -24,19 +25,27 @@ class TransformInput {
 
   const tf2_ros::Buffer& buffer() const { return buffer_; }
 
+  /// Warns when another node sends the transform of a frame that this node sends. Call it once.
+  void claim(const std::string& frame);
+
  private:
   struct Child {
     Timeline timeline;
+    RefusedStamps refused;
     int clears = -1;  ///< clears_ when its last transform was accepted
   };
+  void onMoving(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
   void add(const geometry_msgs::TransformStamped& transform, bool is_fixed);
   void admit(const std::string& frame);
+  static void warnOfRefused(const std::string& frame, const std::string& why);
   bool isNew(const geometry_msgs::TransformStamped& transform);
 
   tf2_ros::Buffer buffer_;
   std::set<std::string> frames_;           ///< parents and children that tf2 knows
   std::map<std::string, Child> children_;  ///< of moving transforms
   int clears_ = 0;                         ///< of the buffer
+  std::mutex claim_mutex_;
+  std::string claimed_;  ///< frame that this node sends; empty: none
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   // Last, so that callbacks end before the members that they use.

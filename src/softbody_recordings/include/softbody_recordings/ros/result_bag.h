@@ -15,11 +15,10 @@ namespace softbody {
 /// unchanged.
 class ResultBag {
  public:
-  /// @param topic_namespace of the output topics, e.g. "/softbody". @param with_timing also write stage
-  /// times.
+  /// @param topic_namespace of the output topics, e.g. "/softbody"; the frames follow it.
+  /// @param with_timing also write stage times.
   /// @throw std::runtime_error if the file cannot be written.
-  ResultBag(const std::filesystem::path& output, std::string topic_namespace, std::string body_frame,
-            bool with_timing);
+  ResultBag(const std::filesystem::path& output, std::string topic_namespace, bool with_timing);
 
   /// Writes both topologies, latched. Call it before the first state of a revision, and again every second.
   /// Their stamp stays that of the revision's first frame.

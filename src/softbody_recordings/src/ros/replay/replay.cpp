@@ -7,6 +7,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "softbody_common/frame_name.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/bag_transforms.h"
@@ -19,7 +20,6 @@
 namespace softbody {
 namespace {
 
-constexpr char kBodyFrame[] = "softbody";
 constexpr double kTopologyPeriod_s = 1.0;  // as the nodes
 
 using Warn = std::function<void(const std::string&)>;
@@ -54,7 +54,8 @@ CutJournal loadJournal(const ReplayOptions& options) {
 class CameraPoses {
  public:
   /// @param output_frame if empty, the camera's frame.
-  CameraPoses(const std::string& bag, std::string output_frame) : output_frame_(std::move(output_frame)) {
+  CameraPoses(const std::string& bag, const std::string& output_frame)
+      : output_frame_(withoutSlash(output_frame)) {
     if (!output_frame_.empty()) transforms_.emplace(std::vector<std::string>{bag});
   }
 
@@ -84,7 +85,7 @@ class Replay {
                       options.output_frame.empty() ? config.output_frame : options.output_frame),
         pipeline_(model, config.pipeline, tool),
         journal_(loadJournal(options)),
-        output_(options.output, options.topic_namespace, kBodyFrame, options.timing) {
+        output_(options.output, options.topic_namespace, options.timing) {
     for (const std::string& warning : camera_poses_.warnings()) warn_(warning);
     output_.setOutputFrame(camera_poses_.outputFrame());
     if (tool) output_.setBlade(tool->blade);

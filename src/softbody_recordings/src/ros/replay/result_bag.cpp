@@ -6,6 +6,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "softbody_common/frame_name.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/topics.h"
@@ -14,10 +15,9 @@
 
 namespace softbody {
 
-ResultBag::ResultBag(const std::filesystem::path& output, std::string topic_namespace, std::string body_frame,
-                     bool with_timing)
+ResultBag::ResultBag(const std::filesystem::path& output, std::string topic_namespace, bool with_timing)
     : namespace_(std::move(topic_namespace)),
-      body_frame_(std::move(body_frame)),
+      body_frame_(frameInNamespace(namespace_, "softbody")),
       with_timing_(with_timing),
       bag_(output) {}
 
@@ -61,7 +61,7 @@ void ResultBag::writeTool(const ToolObservation& tool, const std_msgs::Header& h
     blade.polygon = bladePolygon(blade_, tool.T_camera_tool);
     write(topic(topics::kToolBlade), blade, header);
   }
-  writeTransform(tool.T_camera_tool, "tool", header);
+  writeTransform(tool.T_camera_tool, frameInNamespace(namespace_, "tool"), header);
 }
 
 void ResultBag::writeStatus(const TrackingStatus& status, const std_msgs::Header& header) {

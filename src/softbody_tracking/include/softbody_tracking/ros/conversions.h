@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "softbody_common/frame_name.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/point_cloud.h"
 
@@ -37,9 +38,6 @@ RgbdFrame frameFromRectified(const sensor_msgs::Image& color, const sensor_msgs:
 
 /// The mask in its own memory: grey, 0 where nothing counts.
 cv::Mat1b maskFromMessage(const sensor_msgs::Image& image);
-
-/// A frame_id for tf2, which refuses the leading slash of old drivers and bags.
-std::string withoutSlash(const std::string& frame);
 
 /// CV_8UC3 becomes bgr8, CV_32FC1 becomes 32FC1.
 sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const std_msgs::Header& header);

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/geometry_messages.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
@@ -25,7 +26,7 @@ PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& pr
     : set_pose_(handle.serviceClient<softbody_msgs::SetPose>(kService)),
       marker_(handle, [this](const auto& feedback) { restartTracking(feedback); }) {
   Parameters parameters = readParameters(private_handle);
-  frame_ = parameters.text("frame", "");
+  frame_ = frameName(parameters.text("frame", ""), "parameter frame");
   warnUnknown(parameters);
   volume_topology_subscriber_ =
       handle.subscribe(topics::kVolumeTopology, 1, &PoseMarkerNode::onVolumeTopology, this);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 
@@ -26,7 +27,8 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
                                  Parameters parameters)
     : output_frame_(parameters),
       tracker_(loadTool(parameters), readToolTrackerConfig(parameters)),
-      publisher_(handle, tracker_.tool().blade, parameters.text("tool_frame", "tool")),
+      publisher_(handle, tracker_.tool().blade,
+                 output_frame_.claim(ownFrame(parameters, "tool_frame", private_handle, "tool"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
       diagnostics_(handle, private_handle, "tool", [this](auto& status) { diagnose(status); }) {
@@ -37,7 +39,7 @@ void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
   watchdog_.frameArrived();
   const std_msgs::Header& header = images.color->header;
   RgbdFrame frame = frameFromImages(images);
-  if (!stamps_.judge(header.stamp).accepted()) return;
+  if (!stamps_.admits(header.stamp)) return;
   frame.pass = stamps_.pass();
   placeCamera(header, &frame);
   StageTimer timer;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "softbody_common/frame_name.h"
+#include "softbody_common/parameters.h"
+
+namespace softbody {
+
+/// A frame's name from a message or a parameter, without a leading slash, which tf2 refuses. The first time
+/// that a name has one, a warning says so.
+/// @param owner where the name comes from, for the warning, e.g. "parameter output_frame".
+std::string frameName(const std::string& frame, const std::string& owner);
+
+/// The frame of this graph's body or tool: the parameter, or by default the name in the node's namespace. So
+/// two graphs have two frames. @throw std::invalid_argument as Parameters does.
+std::string ownFrame(Parameters& parameters, const char* key, const ros::NodeHandle& private_handle,
+                     const std::string& name);
+
+}  // namespace softbody
