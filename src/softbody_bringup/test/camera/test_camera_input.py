@@ -34,6 +34,8 @@ CAMERAS = {
     "flat": (color("flat"), None),
     "unregistered": (color("unregistered"), depth("unregistered", size=(80, 60), info=False)),
     "elsewhere": (color("elsewhere"), depth("elsewhere", name="depth")),
+    "moved": (Stream("/d435/color/image_raw", "rgb8", COLOR, SIZE, 150),
+              Stream("/d435/aligned_depth_to_color/image_raw", "16UC1", COLOR, SIZE, 150)),
 }
 
 
@@ -80,6 +82,9 @@ class CameraInput(unittest.TestCase):
 
     def test_depth_under_another_name_is_found(self):
         self.expect_advice("elsewhere", "depth:=", "(sensor_msgs/Image)")
+
+    def test_a_camera_in_another_namespace_is_found(self):
+        self.assertNotIn("color:=", self.expect_advice("moved", "a camera with the same names", "/d435", "set camera:="))
 
     def test_depth_of_another_size_needs_its_camera_info(self):
         self.expect_advice("unregistered", "not registered", "80x60 and 160x120", "depth_info:=")

@@ -9,6 +9,7 @@ import unittest
 import rospy
 import rostest
 from rosgraph_msgs.msg import Clock, Log
+from sensor_msgs.msg import CameraInfo
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from hand_made_camera import TOPICS, Camera  # pylint: disable=wrong-import-position
@@ -18,9 +19,8 @@ from recorder import Recorder  # pylint: disable=wrong-import-position
 class HeldCamera(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        threading.Thread(target=cls.hold, daemon=True).start()
         cls.camera = Camera()
-        cls.recorder = Recorder(rosout=Log)
+        cls.recorder = Recorder(rosout=Log, softbody__rgb__camera_info=CameraInfo)
 
     @classmethod
     def hold(cls):
@@ -29,7 +29,14 @@ class HeldCamera(unittest.TestCase):
             clock.publish(Clock(rospy.Time(1)))
             time.sleep(0.02)
 
-    def test_what_is_wrong_is_told(self):
+    def test_1_a_live_camera_with_a_clock_that_never_starts(self):
+        said = self.recorder.wait_for_log("/softbody/camera_ingest", "/clock is silent")
+        self.assertIn("rosparam set use_sim_time false", said.msg)
+        self.recorder.wait_for("softbody/rgb/camera_info", 30)  # three seconds, longer than silence_timeout_s
+        self.assertFalse([log.msg for log in self.recorder.messages["rosout"] if "no frame for" in log.msg])
+
+    def test_2_what_is_wrong_is_told(self):
+        threading.Thread(target=self.hold, daemon=True).start()
         for words, fault in (("camera_depth_optical_frame", {"frames": {"depth": "camera_depth_optical_frame"}}),
                              ("no frame_id", {"frames": {"color": "", "depth": ""}}),
                              (TOPICS["color"] + ": a second image", {"copies": {"color": 2}}),

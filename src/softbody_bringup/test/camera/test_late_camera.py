@@ -29,6 +29,10 @@ class LateCamera(unittest.TestCase):
         camera.be(copies={name: 0 for name in TOPICS})
         recorder.wait_for_log(NODE, SILENT)
         recorder.wait_for_status("camera_ingest: frames", DiagnosticStatus.ERROR, SILENT)
+        camera.be(unstamped=("color", "depth"))
+        said = recorder.wait_for_log(NODE, f"{TOPICS['color']} (the stamp of its images is 0)")
+        self.assertIn(f"the sender of {TOPICS['color']} must set header.stamp", said.msg)
+        self.assertNotIn("ROS_IP", said.msg)
         camera.stop()
 
 

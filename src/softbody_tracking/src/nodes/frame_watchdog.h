@@ -1,9 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <ros/time.h>
 
-#include <cmath>
-#include <sstream>
+#include <optional>
 #include <string>
 
 #include "softbody_common/ros/time.h"
@@ -11,26 +11,38 @@
 namespace softbody {
 
 /// Notices that camera_ingest sends no frames. It uses the arrival times in ROS time, not the stamps: a
-/// paused bag is not a fault, and the camera's clock may differ from ours.
+/// paused bag is not a fault, and the camera's clock may differ from ours. Only while /clock is silent, it
+/// uses the machine's clock.
 class FrameWatchdog {
  public:
-  void frameArrived() { last_arrival_ = ros::Time::now(); }
-
-  /// True before the first frame, after a gap of more than kTimeout_s, and after a bag has started again.
-  bool isExpired() const {
-    return last_arrival_.isZero() || std::abs(secondsBetween(last_arrival_, ros::Time::now())) > kTimeout_s;
+  /// Call it when a frame arrives, and again when it has been processed.
+  void frameArrived() {
+    last_ = ros::Time::now();
+    last_on_machine_ = ros::SteadyTime::now();
   }
 
+  /// Time without a frame [s]; empty before the first one.
+  std::optional<double> silence() const {
+    if (last_on_machine_.isZero()) return std::nullopt;
+    const ros::Time now = ros::Time::now();
+    if (now.isZero()) return (ros::SteadyTime::now() - last_on_machine_).toSec();
+    // The clock starts, or a recording starts again: the silence begins there.
+    if (last_.isZero() || now < last_) last_ = now;
+    return secondsBetween(last_, now);
+  }
+
+  /// True before the first frame, and after a silence of more than kTimeout_s.
+  bool isExpired() const { return silence().value_or(kTimeout_s + 1.0) > kTimeout_s; }
+
   static std::string message() {
-    std::ostringstream message;
-    message << "no frame from camera_ingest for over " << kTimeout_s << " s";
-    return message.str();
+    return fmt::format("no frame from camera_ingest for over {} s", kTimeout_s);
   }
 
  private:
   static constexpr double kTimeout_s = 2.0;  // [s] far longer than any camera's frame period
 
-  ros::Time last_arrival_;
+  mutable ros::Time last_;
+  ros::SteadyTime last_on_machine_;
 };
 
 }  // namespace softbody

@@ -34,7 +34,7 @@ TEST(StreamMonitor, TellsAbsentPublishersFromSilentOnes) {
 TEST(StreamMonitor, TellsImagesWithoutAStampFromNone) {
   StreamMonitor monitor(kPairTolerance, kSilence);
   monitor.noteUnstamped(Stream::kColor);
-  EXPECT_TRUE(says(monitor, "/cam/color (its images have no stamp)"));
+  EXPECT_TRUE(says(monitor, "/cam/color (the stamp of its images is 0)"));
   EXPECT_TRUE(says(monitor, "/cam/info (publishers: 1, but silent)"));
   monitor.noteFrame();
   EXPECT_TRUE(says(monitor, "/cam/color (publishers: 1, but silent)"));

@@ -37,8 +37,12 @@ class StreamMonitor {
 
   /// Whether the stream has ever had a message, with a stamp or without.
   bool hasArrived(Stream stream) const { return ever_arrived_[static_cast<std::size_t>(stream)]; }
-  /// The streams without a usable message in the timeout.
-  std::vector<Stream> silentStreams(Nanoseconds now) const;
+  /// A stream without a usable message in the timeout.
+  struct Silent {
+    Stream stream;
+    bool unstamped;  ///< messages came, but without a stamp
+  };
+  std::vector<Silent> silentStreams(Nanoseconds now) const;
   /// One sentence that explains why no frame came since the last one.
   std::string diagnosis(const StreamTopics& topics, Nanoseconds now) const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace softbody {
@@ -55,7 +56,59 @@ std::vector<std::string> candidates(Stream stream, const char* type, const Types
   return found;
 }
 
+/// Whether the images of a topic are published, in any transport.
+bool isPublished(const std::string& topic, const Types& published) {
+  return published.count(topic) + published.count(topic + "/compressed") +
+             published.count(topic + "/compressedDepth") >
+         0;
+}
+
+/// The length of the namespace that colour and depth share; 0: none.
+std::size_t cameraLength(const std::string& color, const std::string& depth) {
+  const auto end = std::mismatch(color.begin(), color.end(), depth.begin(), depth.end()).first;
+  const std::size_t slash = color.rfind('/', static_cast<std::size_t>(end - color.begin()));
+  return slash == std::string::npos ? 0 : slash;
+}
+
+/// Namespaces in which a camera has colour and depth under the same names as `topics`.
+std::vector<std::string> otherCameras(const StreamTopics& topics, const Types& published) {
+  const std::string &color = topics[static_cast<std::size_t>(Stream::kColor)].base,
+                    &depth = topics[static_cast<std::size_t>(Stream::kDepth)].base;
+  const std::size_t length = cameraLength(color, depth);
+  if (length == 0) return {};
+  const std::string color_name = color.substr(length), depth_name = depth.substr(length);
+  std::vector<std::string> cameras;
+  for (const auto& entry : published) {
+    const std::size_t end = entry.first.rfind(color_name);
+    if (end == std::string::npos || end == 0) continue;
+    const std::string camera = entry.first.substr(0, end);
+    const bool is_new = cameras.empty() || cameras.back() != camera;
+    const bool fits =
+        isPublished(camera + color_name, published) && isPublished(camera + depth_name, published);
+    if (fits && is_new && cameras.size() < kMostNamed) cameras.push_back(camera);
+  }
+  return cameras;
+}
+
 }  // namespace
+
+std::string adviceOn(const std::vector<StreamMonitor::Silent>& silent, const StreamTopics& topics,
+                     const Types& published) {
+  if (topics[static_cast<std::size_t>(Stream::kColor)].publishers == 0) {
+    const std::vector<std::string> cameras = otherCameras(topics, published);
+    if (!cameras.empty())
+      return fmt::format("a camera with the same names is in {}: set camera:={}", fmt::join(cameras, ", "),
+                         cameras.size() == 1 ? cameras.front() : " to one of these");
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [stream, unstamped] : silent) {
+    const std::string& topic = topics[static_cast<std::size_t>(stream)].base;
+    sentences.push_back(
+        unstamped ? fmt::format("the sender of {} must set header.stamp to the time of the image", topic)
+                  : streamAdvice(stream, topic, published));
+  }
+  return fmt::format("{}", fmt::join(sentences, "; "));
+}
 
 std::string streamAdvice(Stream stream, const std::string& topic, const Types& published) {
   const StreamWords words = wordsOf(stream);

@@ -21,7 +21,7 @@ Nanoseconds smallestDifference(const std::vector<Nanoseconds>& a, const std::vec
 }
 
 std::string describeSilence(const StreamTopic& topic, bool unstamped) {
-  if (unstamped) return fmt::format("{} (its images have no stamp)", topic.name);
+  if (unstamped) return fmt::format("{} (the stamp of its images is 0)", topic.name);
   return topic.publishers == 0 ? fmt::format("{} (nobody publishes it)", topic.name)
                                : fmt::format("{} (publishers: {}, but silent)", topic.name, topic.publishers);
 }
@@ -58,19 +58,17 @@ bool StreamMonitor::isSilent(Stream stream, Nanoseconds now) const {
   return stream == Stream::kColorInfo ? !hasArrived(stream) : recentStamps(stream, now).empty();
 }
 
-std::vector<Stream> StreamMonitor::silentStreams(Nanoseconds now) const {
-  std::vector<Stream> silent;
+std::vector<StreamMonitor::Silent> StreamMonitor::silentStreams(Nanoseconds now) const {
+  std::vector<Silent> silent;
   for (const Stream stream : {Stream::kColor, Stream::kColorInfo, Stream::kDepth})
-    if (isSilent(stream, now)) silent.push_back(stream);
+    if (isSilent(stream, now)) silent.push_back({stream, unstamped_[static_cast<std::size_t>(stream)]});
   return silent;
 }
 
 std::string StreamMonitor::diagnosis(const StreamTopics& topics, Nanoseconds now) const {
   std::vector<std::string> silent;
-  for (const Stream stream : silentStreams(now)) {
-    const auto s = static_cast<std::size_t>(stream);
-    silent.push_back(describeSilence(topics[s], unstamped_[s]));
-  }
+  for (const auto& [stream, unstamped] : silentStreams(now))
+    silent.push_back(describeSilence(topics[static_cast<std::size_t>(stream)], unstamped));
   if (!silent.empty()) return fmt::format("no usable message on {}", fmt::join(silent, ", "));
   if (!refusal_.empty()) return refusal_;
   const Nanoseconds difference =

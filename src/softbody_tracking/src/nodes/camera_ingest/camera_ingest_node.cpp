@@ -1,6 +1,7 @@
 #include "nodes/camera_ingest/camera_ingest_node.h"
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_tracking/ros/conversions.h"
@@ -106,7 +107,7 @@ void CameraIngestNode::process(const Pairer::Frame& images) {
                                 depth_camera ? &*depth_camera : nullptr);
     }
     std_msgs::Header header = images.color->header;
-    header.frame_id = withoutSlash(header.frame_id);
+    header.frame_id = frameName(header.frame_id, color_->topic());
     outputs_->publish(frame, header, &timer_);
     note();
   } catch (const std::exception& error) {

@@ -19,7 +19,27 @@ constexpr double kDiagnosisPeriod_s = 1.0;  // as diagnostic_updater's own
 constexpr double kRemarkPeriod_s = 60.0;    // a remark holds for a whole run: not in every screen of the log
 constexpr double kLongestLatency_s = 2.0;   // more is not a slow machine: the clocks differ
 constexpr double kLongestLead_s = 0.1;      // a stamp ahead of the clock by more: the clocks differ
-constexpr double kStartTimeouts = 5.0;      // a camera may take this many silence timeouts to start
+constexpr char kSilentClock[] =
+    "use_sim_time is set, but /clock is silent, so the nodes' timers stand still. For a live camera run "
+    "rosparam "
+    "set use_sim_time false, and start the nodes again; a bag needs rosbag play --clock";
+constexpr double kStartTimeouts = 5.0;  // a camera may take this many silence timeouts to start
+
+/// The image, as in "a late image".
+std::string wordsFor(const RefusedStamp& refused) {
+  switch (refused.verdict.kind) {
+    case StampVerdict::kUnstamped:
+      return "an image without a stamp";
+    case StampVerdict::kLate:
+      return "a late image";
+    case StampVerdict::kRepeated:
+      return fmt::format("a second image with the stamp {:.6f}", seconds(refused.stamp));
+    default:
+      return fmt::format("an image with the odd stamp {:.6f}", seconds(refused.stamp));
+  }
+}
+
+bool clockIsSilent() { return ros::Time::isSimTime() && ros::Time::now().isZero(); }
 
 }  // namespace
 
@@ -40,31 +60,24 @@ CameraIngestWatch::CameraIngestWatch(const ros::NodeHandle& handle, const ros::N
 }
 
 void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const StampVerdict& verdict) {
-  switch (verdict.kind) {
-    case StampVerdict::kUnstamped:
-      monitor_.noteUnstamped(stream);
-      return logDropped(stream, "an image without a stamp", verdict);
-    case StampVerdict::kLate:
-      return logDropped(stream, "a late image", verdict);
-    case StampVerdict::kRepeated:
-      return logDropped(stream, fmt::format("a second image with the stamp {:.6f}", stamp.toSec()), verdict);
-    case StampVerdict::kOutlier:
-      return logDropped(stream, fmt::format("an image with the odd stamp {:.6f}", stamp.toSec()), verdict);
-    case StampVerdict::kJumpedBack:
-      if (stream == Stream::kColor)
-        ROS_INFO_STREAM("time jumped back by " << -seconds(verdict.gap) << " s: a new pass starts");
-      monitor_.noteFrame();
-      break;
-    default:
-      break;
+  const Nanoseconds time = toNanoseconds(stamp);
+  if (const auto refused = refused_stamps_[static_cast<std::size_t>(stream)].note(time, verdict))
+    logDropped(stream, *refused);
+  if (verdict.kind == StampVerdict::kUnstamped) monitor_.noteUnstamped(stream);
+  if (!verdict.accepted()) return;
+  if (verdict.kind == StampVerdict::kJumpedBack) {
+    if (stream == Stream::kColor)
+      ROS_INFO_STREAM("time jumped back by " << -seconds(verdict.gap) << " s: a new pass starts");
+    monitor_.noteFrame();
   }
-  monitor_.noteArrival(stream, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
+  monitor_.noteArrival(stream, time, toNanoseconds(ros::Time::now()));
 }
 
-void CameraIngestWatch::logDropped(Stream stream, const std::string& what, const StampVerdict& verdict) {
+void CameraIngestWatch::logDropped(Stream stream, const RefusedStamp& refused) {
+  const StampVerdict& verdict = refused.verdict;
   const std::string topic = topics_()[static_cast<std::size_t>(stream)].name;
   throttle_.warn(fmt::format("{} {}", topic, static_cast<int>(verdict.kind)),
-                 fmt::format("{}: {} is dropped: {}", topic, what, whyRefused(verdict)));
+                 fmt::format("{}: {} is dropped: {}", topic, wordsFor(refused), whyRefused(verdict)));
 }
 
 void CameraIngestWatch::noteInfo(const ros::Time& stamp) {
@@ -73,8 +86,8 @@ void CameraIngestWatch::noteInfo(const ros::Time& stamp) {
 
 void CameraIngestWatch::noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth) {
   ++frames_;
-  last_frame_ = ros::Time::now();
-  latency_s_ = secondsBetween(color.stamp, last_frame_);
+  watchdog_.frameArrived();
+  latency_s_ = secondsBetween(color.stamp, ros::Time::now());
   color_frame_ = withoutSlash(color.frame_id);
   if (depth != nullptr) depth_frame_ = withoutSlash(depth->frame_id);
   monitor_.noteFrame();
@@ -88,12 +101,11 @@ void CameraIngestWatch::noteRefusal(const std::string& why) {
 
 double CameraIngestWatch::secondsWithoutFrame() const {
   // Before the first frame /clock itself may be missing. Later a paused bag is not silent.
-  if (last_frame_.isZero()) return (ros::WallTime::now() - start_).toSec();
-  return secondsBetween(last_frame_, ros::Time::now());
+  return watchdog_.silence().value_or((ros::WallTime::now() - start_).toSec());
 }
 
 bool CameraIngestWatch::isStarting() const {
-  if (!last_frame_.isZero()) return false;
+  if (hasFrames()) return false;
   // Images that arrive but make no frame are a fault.
   if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < silence_timeout_s_;
   return secondsWithoutFrame() < kStartTimeouts * silence_timeout_s_;
@@ -105,18 +117,14 @@ std::string CameraIngestWatch::silence() const {
 }
 
 std::string CameraIngestWatch::complaint() const {
-  if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
-    return "use_sim_time is set, but /clock is silent (rosbag play --clock?)";
-  }
+  if (clockIsSilent()) return kSilentClock;
   const Nanoseconds now = toNanoseconds(ros::Time::now());
   const StreamTopics topics = topics_();
   std::string sentence = monitor_.diagnosis(topics, now);
-  const std::vector<Stream> silent = monitor_.silentStreams(now);
+  const std::vector<StreamMonitor::Silent> silent = monitor_.silentStreams(now);
   if (silent.empty()) return sentence;
   const std::map<std::string, std::string> published = publishedTopics();
-  for (const Stream stream : silent)
-    sentence += "; " + streamAdvice(stream, topics[static_cast<std::size_t>(stream)].base, published);
-  return sentence;
+  return sentence + "; " + adviceOn(silent, topics, published);
 }
 
 /// Types by topic, without the graph's own topics.
@@ -134,6 +142,7 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
   const std::string& color = topics[static_cast<std::size_t>(Stream::kColor)].name;
   const std::string& depth = topics[static_cast<std::size_t>(Stream::kDepth)].name;
   std::vector<Remark> remarks;
+  if (clockIsSilent()) remarks.push_back({"silent clock", kSilentClock});
   if (color_frame_.empty())
     remarks.push_back(
         {"no frame", fmt::format("{} has no frame_id, so no result has one: set the frame_id of "
@@ -155,8 +164,6 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
 }
 
 void CameraIngestWatch::check() {
-  // A bag that starts again: silence is counted from there.
-  if (ros::Time::now() < last_frame_) last_frame_ = ros::Time::now();
   if (both_came_.isZero() && monitor_.hasArrived(Stream::kColor) && monitor_.hasArrived(Stream::kDepth))
     both_came_ = ros::WallTime::now();
   if (secondsWithoutFrame() > silence_timeout_s_) {

@@ -4,12 +4,14 @@
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "nodes/camera_ingest/throttled_log.h"
+#include "nodes/frame_watchdog.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/camera/stream_monitor.h"
 
@@ -40,7 +42,8 @@ class CameraIngestWatch {
 
   void check();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void logDropped(Stream stream, const std::string& what, const StampVerdict& verdict);
+  void logDropped(Stream stream, const RefusedStamp& refused);
+  bool hasFrames() const { return watchdog_.silence().has_value(); }
   double secondsWithoutFrame() const;
   bool isStarting() const;
   std::string silence() const;
@@ -52,8 +55,9 @@ class CameraIngestWatch {
   std::function<StreamTopics()> topics_;
   std::string own_namespace_;
   StreamMonitor monitor_;
+  std::array<RefusedStamps, 3> refused_stamps_;  ///< in the order of Stream
   ThrottledLog throttle_;
-  ros::Time last_frame_;             ///< when it was completed
+  FrameWatchdog watchdog_;
   ros::WallTime start_, both_came_;  ///< the latter: when colour and depth had come, usable or not
   int frames_ = 0, refused_ = 0;     ///< since the last diagnosis
   double latency_s_ = 0.0;  ///< from the last frame's stamp to its completion; below 0: clocks differ
