@@ -71,8 +71,10 @@ std::vector<StatusRecord> readStatuses(const std::string& path, const std::strin
     if (!status || status->state > softbody_msgs::TrackingStatus::RECOVERING)
       throw std::invalid_argument(fmt::format(
           "{}: {} is not of type softbody_msgs/TrackingStatus, or has an unknown state", path, topic));
-    statuses.push_back({toNanoseconds(status->header.stamp), static_cast<TrackingState>(status->state),
-                        posesAlike(status->reason)});
+    // The status comes again while no image comes: only the first one of a stamp is that of the frame.
+    const Nanoseconds stamp = toNanoseconds(status->header.stamp);
+    if (stamp == 0 || (!statuses.empty() && statuses.back().stamp == stamp)) continue;
+    statuses.push_back({stamp, static_cast<TrackingState>(status->state), posesAlike(status->reason)});
   }
   return statuses;
 }

@@ -19,13 +19,14 @@ constexpr int kBladeQueue = 100;  // blades that may arrive while one frame is t
 }  // namespace
 
 BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up)
-    : look_up_(std::move(look_up)), stamps_(handle.resolveName(topics::kToolBlade)) {
+    : look_up_(std::move(look_up)),
+      stamps_(handle.resolveName(topics::kToolBlade), StampGate::Repeats::kAccepted) {
   subscriber_ = handle.subscribe(topics::kToolBlade, kBladeQueue, &BladeSubscriber::onBlade, this);
 }
 
 void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {
   Points corners = fromMessage(message->polygon);
-  if (!stamps_.judge(message->header.stamp).acceptedOrSame()) return;
+  if (!stamps_.admits(message->header.stamp)) return;
   blades_.add({toNanoseconds(message->header.stamp), message->header.frame_id, std::move(corners)});
 } catch (const std::invalid_argument& error) {
   ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic()

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "softbody_common/frame_name.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/same_matrix.h"
 #include "softbody_common/topics.h"
@@ -20,7 +21,7 @@ void requireVertexCount(const MeshState& state, const TetTopology& topology) {
 }  // namespace
 
 BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker)
-    : stamps_(handle.resolveName(topics::kVolumeState)), tracker_(tracker) {
+    : stamps_(handle.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted), tracker_(tracker) {
   volume_subscriber_ = handle.subscribe(topics::kVolumeTopology, 1, &BodySubscriber::onVolumeTopology, this);
   surface_subscriber_ =
       handle.subscribe(topics::kSurfaceTopology, 1, &BodySubscriber::onSurfaceTopology, this);
@@ -54,9 +55,10 @@ void BodySubscriber::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstP
 }
 
 void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) try {
-  PlacedState state{message->header.frame_id, fromMessage(*message)};
+  PlacedState state{withoutSlash(message->header.frame_id), fromMessage(*message)};
   if (volume_) requireVertexCount(state.mesh, *volume_);
-  if (!stamps_.judge(stampOfImage(*message)).acceptedOrSame()) return;
+  // Without an image the simulator goes on: its states then belong to the image of the last one.
+  if (!stamps_.admits(stampOfImage(*message))) return;
   newest_state_ = std::move(state);
   if (message->revision == adopted_revision_) {
     adopted_state_ = newest_state_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_common/tracking_state.h"
@@ -11,6 +12,8 @@
 namespace softbody {
 namespace {
 
+// [s] between two statuses while no image comes: often enough for a person and for a robot's monitor.
+constexpr double kStatusPeriod_s = 1.0;
 constexpr double kSetPoseTimeout_s = 0.5;  // [s] to wait for tf; a person waits for the answer
 
 diagnostic_msgs::DiagnosticStatus::_level_type diagnosticLevel(TrackingState state) {
@@ -28,7 +31,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
                                        Parameters parameters)
     : output_frame_(parameters),
       tracker_(readTrackerConfig(parameters)),
-      publisher_(handle, parameters.text("body_frame", "softbody")),
+      publisher_(handle, output_frame_.claim(ownFrame(parameters, "body_frame", private_handle, "softbody"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
       body_(handle, &tracker_),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
@@ -39,6 +42,10 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
       diagnostics_(handle, private_handle, "tracking", [this](auto& status) { diagnose(status); }) {
   warnUnknown(parameters);
+  reportSilence();
+  // Wall time: without /clock a simulated timer never fires.
+  silence_timer_ = ros::NodeHandle(handle).createWallTimer(
+      ros::WallDuration(kStatusPeriod_s), [this](const ros::WallTimerEvent&) { reportSilence(); });
 }
 
 bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,
@@ -99,6 +106,7 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
   const MeshState* state = body_.state(output_frame_.fixedHeader(header).frame_id);
   StageTimer timer;
   const TrackingResult result = tracker_.track(frame, state, &timer);
+  watchdog_.frameArrived();  // a search may take seconds
   publish(header, frame, result);
   publisher_.publishTiming(header, timer.take());
 } catch (const std::exception& error) {
@@ -117,16 +125,31 @@ void FeatureTrackerNode::forgetPass() {
 std::optional<Eigen::Isometry3d> FeatureTrackerNode::cameraPose(const std_msgs::Header& header) try {
   return output_frame_.cameraPose(header);
 } catch (const tf2::TransformException& error) {
-  last_status_ = skippedFrame(last_status_, header.frame_id, output_frame_.name(), error.what());
+  report(header, skippedFrame(last_status_, header.frame_id, output_frame_.name(), error.what()));
   ROS_WARN_STREAM_THROTTLE(5.0, last_status_.reason);
-  publisher_.publishStatus(header, last_status_);
   return std::nullopt;
+}
+
+/// Publishes a status, and logs what the state has become.
+void FeatureTrackerNode::report(const std_msgs::Header& header, const TrackingStatus& status) {
+  last_header_ = header;
+  last_status_ = status;
+  publisher_.publishStatus(header, status);
+  const auto line = announcer_.announce(status, ros::SteadyTime::now().toSec());
+  if (line && line->warning)
+    ROS_WARN_STREAM(line->sentence);
+  else if (line)
+    ROS_INFO_STREAM(line->sentence);
+}
+
+/// Without images nothing else says that the last state has become invalid.
+void FeatureTrackerNode::reportSilence() {
+  if (watchdog_.isExpired()) report(last_header_, withoutImages(last_status_, watchdog_.silence()));
 }
 
 void FeatureTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& frame,
                                  const TrackingResult& result) {
-  last_status_ = result.status;
-  publisher_.publishStatus(header, result.status);
+  report(header, result.status);
   if (!result.has_targets) {
     ROS_WARN_STREAM_THROTTLE(5.0, "not tracking: " << result.status.reason);
     return;

@@ -20,6 +20,7 @@
 #include "softbody_common/parameters.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tracker/body_tracker.h"
+#include "status/state_announcer.h"
 
 namespace softbody {
 
@@ -40,6 +41,8 @@ class FeatureTrackerNode {
   void forgetPass();
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame, const TrackingResult& result);
+  void report(const std_msgs::Header& header, const TrackingStatus& status);
+  void reportSilence();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   // Subscribers, services and timers come last, so that they are the first to be destroyed.
@@ -47,6 +50,8 @@ class FeatureTrackerNode {
   BodyTracker tracker_;
   TrackingPublisher publisher_;
   TrackingStatus last_status_;
+  std_msgs::Header last_header_;  ///< of the last frame with a status; empty before the first
+  StateAnnouncer announcer_;
   std::string camera_frame_;  ///< of the last frame; empty before the first
   StampGate stamps_;          ///< of the frames
   FrameWatchdog watchdog_;
@@ -57,6 +62,7 @@ class FeatureTrackerNode {
   ros::ServiceServer find_again_;
   std::unique_ptr<MaskSynchronizer> mask_synchronizer_;  ///< nullptr: no masks are used
   RectifiedImageSubscriber images_;
+  ros::WallTimer silence_timer_;
   NodeDiagnostics diagnostics_;
 };
 

@@ -19,7 +19,7 @@ TrackingPublisher::TrackingPublisher(ros::NodeHandle handle, std::string body_fr
   features_ = handle.advertise<sensor_msgs::PointCloud2>(topics::kFeatures, 1);
   features_marker_ = handle.advertise<visualization_msgs::Marker>(topics::kFeaturesMarker, 1);
   targets_ = handle.advertise<softbody_msgs::Targets>(topics::kTargets, 1);
-  status_ = handle.advertise<softbody_msgs::TrackingStatus>(topics::kStatus, 1);
+  status_ = handle.advertise<softbody_msgs::TrackingStatus>(topics::kStatus, 1, true);
   timing_ = handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
 }
 
