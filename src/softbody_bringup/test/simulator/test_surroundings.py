@@ -269,7 +269,7 @@ class Surroundings(GripperCases, unittest.TestCase):
         self.assertNotIn("/softbody/reaction/ball", self.reactions())
 
     def test_a_pin_waits_for_a_frame_that_tf_does_not_know(self):
-        unknown, known = "tf does not know frame 'arm'", "the pose of frame 'arm' again"
+        unknown, known = "waiting for frame 'arm'", "the pose of frame 'arm' again"
         self.grip("arm", "arm")
         self.step_until(lambda _: self.said(unknown), "a warning of a frame that tf does not know")
         self.recorder.wait_for_status("simulation", DiagnosticStatus.WARN, unknown)

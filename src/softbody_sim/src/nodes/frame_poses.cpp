@@ -23,4 +23,10 @@ std::optional<FramePoses::StampedPose> FramePoses::find(const std::string& frame
   return {};
 }
 
+bool FramePoses::knows(const std::string& frame, const std::string& target_frame) const {
+  if (frame.empty()) return true;
+  if (target_frame.empty()) return transforms_.buffer()._frameExists(frame);
+  return find(frame, target_frame, ros::Time()).has_value();
+}
+
 }  // namespace softbody

@@ -23,6 +23,10 @@ class FramePoses {
   std::optional<StampedPose> find(const std::string& frame, const std::string& target_frame,
                                   const ros::Time& stamp) const;
 
+  /// Whether tf has a pose of a frame. An empty name is the target frame.
+  /// @param target_frame empty: not known yet; then any pose of the frame counts.
+  bool knows(const std::string& frame, const std::string& target_frame) const;
+
  private:
   TransformInput transforms_;
 };

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <string>
 
 #include "fixtures/test_meshes.h"
@@ -219,6 +221,13 @@ TEST_P(UnderBothSolvers, UnobservedStepsKeepTheTargetsAndLoseConfidence) {
   EXPECT_LT((simulator.state().vertices - seen.vertices).rowwise().norm().maxCoeff(), 1e-4);
   for (std::size_t v = 0; v < seen.confidence.size(); ++v)
     EXPECT_NEAR(simulator.state().confidence[v], 0.5f * seen.confidence[v], 1e-3f);
+  ASSERT_EQ(simulator.state().standard_deviation.size(), seen.standard_deviation.size());
+  for (std::size_t v = 0; v < seen.standard_deviation.size(); ++v)
+    EXPECT_GT(simulator.state().standard_deviation[v], seen.standard_deviation[v]);
+  for (int frame = 76; frame <= 76 + 300; ++frame) simulator.stepUnobserved(targets, frame * kFrame);
+  EXPECT_LT(*std::max_element(simulator.state().confidence.begin(), simulator.state().confidence.end()),
+            1e-3f);
+  for (const float deviation : simulator.state().standard_deviation) EXPECT_NEAR(deviation, 0.1f, 1e-4f);
 }
 
 TEST_P(UnderBothSolvers, DefaultParametersSupportHangingAndLyingBodies) {

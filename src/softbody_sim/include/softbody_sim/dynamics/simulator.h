@@ -44,7 +44,8 @@ class Simulator {
   bool hasLeft(const TargetSet& targets) const;
 
   /// Like step, but without a new observation. Earlier targets still act, without their `reset`. `observed`
-  /// stays, and the confidence halves every 0.5 s.
+  /// stays, and the confidence halves every 0.5 s. The
+  /// standard deviation grows towards 0.1 m.
   void stepUnobserved(const TargetSet& earlier, Nanoseconds stamp, const Surroundings& surroundings = {});
 
   /// Static equilibrium under targets, gravity and surroundings. These must hold the body. The stamp stays,

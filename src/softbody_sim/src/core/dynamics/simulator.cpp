@@ -201,6 +201,10 @@ void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const 
   const double elapsed_s = seconds(s.next.stamp - s.body.stamp);
   const auto fade = static_cast<float>(std::pow(0.5, elapsed_s / kHalfLife));
   for (float& confidence : s.next.mesh.confidence) confidence *= fade;
+  // The variance goes to that of a vertex of which nothing is known.
+  constexpr float kUnknown = VertexDeviation::kUnknown_m * VertexDeviation::kUnknown_m;
+  for (float& deviation : s.next.mesh.standard_deviation)
+    deviation = std::sqrt(fade * deviation * deviation + (1.0f - fade) * kUnknown);
   std::swap(s.body, s.next);
 }
 

@@ -24,8 +24,6 @@ constexpr double kRestStrain = 0.0005;
 constexpr double kAcross = 0.25, kAlong = 0.26;
 // Largest distance along the surface [m]; a piece may be measured in one direction only.
 constexpr double kFarthest = 0.3;
-// Standard deviation of a vertex of a piece without any measurement [m]: it may be anywhere near.
-constexpr double kUnknown = 0.1;
 
 }  // namespace
 
@@ -102,7 +100,7 @@ void VertexDeviation::compute(const std::vector<Target>& targets, const Points& 
     const double extrapolated = carried * (kAcross * to_measured_[v] + kAlong * along);
     const double result = std::sqrt(kSmallest * kSmallest + kNoise * kNoise * noise_ * noise_ +
                                     misfit * misfit + extrapolated * extrapolated);
-    (*deviation)[v] = static_cast<float>(std::min(result, kUnknown));
+    (*deviation)[v] = static_cast<float>(std::min(result, kUnknown_m));
   }
 }
 

@@ -19,6 +19,9 @@ namespace softbody {
 /// its error grows with the strain, and with the distance over which it is relied on.
 class VertexDeviation {
  public:
+  /// Standard deviation of a vertex of a piece without any measurement [m]: it may be anywhere near.
+  static constexpr double kUnknown_m = 0.1;
+
   explicit VertexDeviation(const TetTopology& topology);
 
   /// Allocates nothing once the result has its size. @param vertices after the step, #V by 3 [m].

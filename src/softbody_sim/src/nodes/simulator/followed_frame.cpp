@@ -21,10 +21,14 @@ void FollowedFrame::report(double silence_s) {
     fault_.begin(fmt::format("tf has no new pose of frame '{}' for {:.1f} s: {} stays at its last pose",
                              frame_, silence_s, owner_));
   else if (silence_s > timeout_s_)
-    fault_.begin(
-        fmt::format("tf does not know frame '{}': {} waits for it and does not act; check the name, "
-                    "and that a node publishes the frame",
-                    frame_, owner_));
+    reportUnknown();
+}
+
+void FollowedFrame::reportUnknown() {
+  fault_.begin(fmt::format(
+      "waiting for frame '{}': tf does not know it, and {} does not act; check the name, and that "
+      "a node publishes the frame",
+      frame_, owner_));
 }
 
 }  // namespace softbody

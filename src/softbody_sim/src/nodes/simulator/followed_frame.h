@@ -23,6 +23,9 @@ class FollowedFrame {
   /// Looks the pose up at a stamp, in the target frame.
   void update(const FramePoses& poses, const std::string& target_frame, const ros::Time& stamp);
 
+  /// tf does not know the frame when somebody names it: says so at once.
+  void reportUnknown();
+
   /// The last one known; empty: there was none yet.
   const std::optional<Eigen::Isometry3d>& pose() const { return pose_; }
   /// In a sentence; empty: none.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/tet_topology_check.h"
 #include "softbody_common/topics.h"
 #include "softbody_sim/ros/conversions.h"
@@ -37,7 +38,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
     : stall_timeout_s_(options.stall_timeout_s),
       simulator_(makeSimulator(object.model, options.simulator, &timer_)),
       surroundings_(node, options.obstacles, options.pins),
-      stamps_(node.resolveName(topics::kTargets)),
+      stamps_(node.resolveName(topics::kTargets), StampGate::Repeats::kAccepted),
       publisher_(node, options.body_frame),
       diagnostics_(node, private_node, &simulator_, &surroundings_),
       surroundings_input_(node, private_node, &simulator_, &surroundings_),
@@ -60,8 +61,10 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
+  std_msgs::Header header = message->header;
+  header.frame_id = frameName(header.frame_id, targets_subscriber_.getTopic());
   try {
-    if (!step(*message)) return diagnostics_.countRefusedMessage();
+    if (!step(*message, header)) return diagnostics_.countRefusedMessage();
   } catch (const std::exception& error) {
     diagnostics_.countRefusedMessage();
     ROS_WARN_STREAM_THROTTLE(1.0, "targets of " << message->header.stamp << " are not used: " << error.what()
@@ -70,7 +73,7 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
     return;
   }
   diagnostics_.setDropped(targets_.dropped());
-  publishState(message->header);
+  publishState(header);
 }
 
 Present SimulatorNode::present() const {
@@ -81,11 +84,11 @@ Present SimulatorNode::present() const {
 }
 
 /// @return whether the stamp is accepted; if not, nothing changes. @throw std::invalid_argument likewise.
-bool SimulatorNode::step(const softbody_msgs::Targets& message) {
+bool SimulatorNode::step(const softbody_msgs::Targets& message, const std_msgs::Header& header) {
   TargetSet targets = fromMessage(message);
-  requireBodyFrame(targets, message.header.frame_id);
+  requireBodyFrame(targets, header.frame_id);
   simulator_.requireUsable(targets);
-  if (!admits(message.header.stamp)) return false;
+  if (!admits(header.stamp)) return false;
   if (!targets.reset && simulator_.hasLeft(targets)) {
     ROS_WARN("the body is far from all targets: it is placed again at body_pose");
     targets.reset = true;
@@ -94,10 +97,10 @@ bool SimulatorNode::step(const softbody_msgs::Targets& message) {
   if (targets.reset) surroundings_.forgetPinPositions();
   // When the body is placed, its pins take their positions after this step.
   const Points& vertices = targets.reset ? Points() : simulator_.state().vertices;
-  simulator_.step(targets, toNanoseconds(message.header.stamp),
-                  surroundings_.surroundingsAt(message.header.frame_id, message.header.stamp, vertices));
-  if (!publisher_.topologyHasStamp()) publisher_.publishTopology(simulator_.topology(), message.header.stamp);
-  last_ = {simulator_.toCurrentRevision(std::move(targets)), message.header, ros::Time::now()};
+  simulator_.step(targets, toNanoseconds(header.stamp),
+                  surroundings_.surroundingsAt(header.frame_id, header.stamp, vertices));
+  if (!publisher_.topologyHasStamp()) publisher_.publishTopology(simulator_.topology(), header.stamp);
+  last_ = {simulator_.toCurrentRevision(std::move(targets)), header, ros::Time::now()};
   surroundings_.findConflicts(last_.set.targets, simulator_.topology().tets, simulator_.state().vertices);
   diagnostics_.countStep();
   return true;
@@ -115,11 +118,12 @@ void SimulatorNode::requireBodyFrame(const TargetSet& targets, const std::string
 bool SimulatorNode::admits(const ros::Time& stamp) {
   const StampVerdict verdict = stamps_.judge(stamp);
   if (verdict.kind == StampVerdict::kJumpedBack) restart();
-  return verdict.acceptedOrSame();
+  return stamps_.admits(verdict);
 }
 
 void SimulatorNode::restart() {
-  ROS_INFO("time jumped back: the simulation starts again with the uncut body");
+  if (simulator_.topology().revision > 0)
+    ROS_INFO("time jumped back: the simulation starts again with the uncut body");
   simulator_.reset();
   surroundings_.updatePins(simulator_.topology().rest_vertices, {});
   last_ = {};

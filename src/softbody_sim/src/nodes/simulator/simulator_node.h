@@ -44,7 +44,7 @@ class SimulatorNode {
                      softbody_msgs::SetMaterial::Response& response);
 
   Present present() const;
-  bool step(const softbody_msgs::Targets& message);
+  bool step(const softbody_msgs::Targets& message, const std_msgs::Header& header);
   void requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const;
   bool admits(const ros::Time& stamp);
   void restart();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_sim/constraints/gripper_description.h"
 
@@ -20,7 +21,7 @@ SimulatorOptions readSimulatorOptions(const ros::NodeHandle& private_node) {
   SimulatorOptions options;
   options.object = parameters.requiredText("object");
   options.scope = parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
-  options.body_frame = parameters.text("body_frame", "softbody");
+  options.body_frame = ownFrame(parameters, "body_frame", private_node, "softbody");
   options.simulator = readSimulatorConfig(parameters);
   options.free_run_rate_hz = parameters.number("free_run_rate_hz", options.free_run_rate_hz, 0.0, 1000.0);
   options.stall_timeout_s = parameters.number("stall_timeout_s", options.stall_timeout_s, 0.0, 60.0);

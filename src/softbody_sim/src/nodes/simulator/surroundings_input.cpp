@@ -37,6 +37,7 @@ void SurroundingsInput::onPinMessage(const softbody_msgs::PinRegionConstPtr& mes
   }
   try {
     surroundings_->addPin(fromMessage(*message), simulator_->topology().rest_vertices);
+    surroundings_->waitingForFrame(message->name);
   } catch (const std::exception& error) {
     ROS_WARN_STREAM("the pin is not added: " << error.what());
   }
@@ -46,6 +47,7 @@ bool SurroundingsInput::onPin(softbody_msgs::Pin::Request& request,
                               softbody_msgs::Pin::Response& response) try {
   const std::size_t count = surroundings_->addPin(fromMessage(request), simulator_->topology().rest_vertices);
   response.vertices = static_cast<std::uint32_t>(count);
+  response.message = surroundings_->waitingForFrame(request.name);
   response.success = 1;
   return true;
 } catch (const std::invalid_argument& error) {
@@ -60,6 +62,7 @@ bool SurroundingsInput::onSetObstacle(softbody_msgs::SetObstacle::Request& reque
   else if (!surroundings_->moveObstacle(request.name, request.header.frame_id, fromMessage(request.pose)))
     throw std::invalid_argument(nobodyHasTheName(request.name, *surroundings_) +
                                 "; a new obstacle needs a shape: plane, sphere, capsule or box");
+  response.message = surroundings_->waitingForFrame(request.name);
   response.success = 1;
   return true;
 } catch (const std::invalid_argument& error) {

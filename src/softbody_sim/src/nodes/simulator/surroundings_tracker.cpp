@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_sim/constraints/pin_conflict.h"
 
 namespace softbody {
@@ -44,7 +45,8 @@ SurroundingsTracker::PlacedObstacle* SurroundingsTracker::find(const std::string
   return found == obstacles_.end() ? nullptr : &*found;
 }
 
-void SurroundingsTracker::setObstacle(const ObstacleDescription& description) {
+void SurroundingsTracker::setObstacle(ObstacleDescription description) {
+  description.frame = frameName(description.frame, fmt::format("obstacle '{}'", description.name));
   if (pins_.count(description.name) > 0)
     throw std::invalid_argument(fmt::format("obstacle '{}' has the name of a pin", description.name));
   PlacedObstacle* known = find(description.name);
@@ -59,8 +61,9 @@ void SurroundingsTracker::setObstacle(const ObstacleDescription& description) {
   obstacles_changed_ = true;
 }
 
-bool SurroundingsTracker::moveObstacle(const std::string& name, const std::string& frame,
+bool SurroundingsTracker::moveObstacle(const std::string& name, const std::string& given_frame,
                                        const Eigen::Isometry3d& pose) {
+  const std::string frame = frameName(given_frame, fmt::format("obstacle '{}'", name));
   PlacedObstacle* known = find(name);
   if (!known) return false;
   ObstacleDescription& description = known->description;
@@ -77,6 +80,17 @@ bool SurroundingsTracker::removeObstacle(const std::string& name) {
   return true;
 }
 
+std::string SurroundingsTracker::waitingForFrame(const std::string& name) {
+  const auto judge = [&](const std::string& frame_name, FollowedFrame* frame) -> std::string {
+    if (poses_.knows(frame_name, frame_)) return {};
+    frame->reportUnknown();
+    return frame->fault();
+  };
+  if (PlacedObstacle* obstacle = find(name)) return judge(obstacle->description.frame, &obstacle->frame);
+  const auto pin = pins_.find(name);
+  return pin == pins_.end() ? "" : judge(pin->second.held.region().frame, &pin->second.frame);
+}
+
 std::vector<std::string> SurroundingsTracker::names() const {
   std::vector<std::string> names;
   for (const auto& entry : pins_) names.push_back(entry.first);
@@ -84,13 +98,15 @@ std::vector<std::string> SurroundingsTracker::names() const {
   return names;
 }
 
-std::size_t SurroundingsTracker::addPin(const PinRegion& region, const Points& rest_vertices) {
+std::size_t SurroundingsTracker::addPin(PinRegion region, const Points& rest_vertices) {
   requireFree(region.name);
-  return insert({region, rest_vertices});
+  region.frame = frameName(region.frame, fmt::format("pin '{}'", region.name));
+  return insert({std::move(region), rest_vertices});
 }
 
-std::size_t SurroundingsTracker::grip(const PinRegion& region, const Points& vertices) {
+std::size_t SurroundingsTracker::grip(PinRegion region, const Points& vertices) {
   requireFree(region.name);
+  region.frame = frameName(region.frame, fmt::format("pin '{}'", region.name));
   HeldRegion held(region, {});
   const auto pose = poses_.find(region.frame, frame_, step_stamp_);
   if (pose && vertices.rows() > 0) {

@@ -38,24 +38,27 @@ class SurroundingsTracker {
   /// Holds the vertices of a region from the next surroundingsAt() on, in place of a region of the same name.
   /// @return number of vertices that are held.
   /// @throw std::invalid_argument if the region has no vertex, its name is not usable, or too many are held.
-  std::size_t addPin(const PinRegion& region, const Points& rest_vertices);
+  std::size_t addPin(PinRegion region, const Points& rest_vertices);
   /// Closes a gripper: holds what lies in a box in a frame, in place of a pin of the same name. If the body
   /// is not placed, or tf does not know the frame, it takes hold when both are known.
   /// @param vertices as in surroundingsAt(). @return number of vertices that are held at once.
   /// @throw std::invalid_argument as addPin().
-  std::size_t grip(const PinRegion& region, const Points& vertices);
+  std::size_t grip(PinRegion region, const Points& vertices);
   /// @return false if no pin has the name.
   bool removePin(const std::string& name);
 
   /// Adds an obstacle, or replaces the one of the same name, from the next surroundingsAt() on.
   /// @throw std::invalid_argument if a pin has the name, or there are too many obstacles.
-  void setObstacle(const ObstacleDescription& description);
+  void setObstacle(ObstacleDescription description);
   /// Moves an obstacle. It pushes what lies in its way.
   /// @param frame that it follows from now on. @param pose in that frame.
   /// @return false if no obstacle has the name.
   bool moveObstacle(const std::string& name, const std::string& frame, const Eigen::Isometry3d& pose);
   /// @return false if no obstacle has the name.
   bool removeObstacle(const std::string& name);
+
+  /// Says whether a pin or obstacle that was just set has to wait for its frame. @return empty: it has not.
+  std::string waitingForFrame(const std::string& name);
 
   /// Names of all pins and obstacles.
   std::vector<std::string> names() const;

@@ -8,6 +8,7 @@
 
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
@@ -25,7 +26,8 @@ constexpr int kMostSkipped = 5;
 }  // namespace
 
 BladeInput::BladeInput(ros::NodeHandle node, Callback on_blade)
-    : on_blade_(std::move(on_blade)), stamps_(node.resolveName(topics::kToolBlade)) {
+    : on_blade_(std::move(on_blade)),
+      stamps_(node.resolveName(topics::kToolBlade), StampGate::Repeats::kAccepted) {
   subscriber_ = node.subscribe(topics::kToolBlade, kBladeQueue, &BladeInput::onBlade, this,
                                ros::TransportHints().tcpNoDelay());
 }
@@ -47,7 +49,9 @@ void BladeInput::onState(const std_msgs::Header& header) {
 
 void BladeInput::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
   try {
-    add({message->header, fromMessage(message->polygon)});
+    Blade blade{message->header, fromMessage(message->polygon)};
+    blade.header.frame_id = frameName(blade.header.frame_id, subscriber_.getTopic());
+    add(std::move(blade));
   } catch (const std::invalid_argument& error) {
     ROS_WARN_STREAM_THROTTLE(5.0, subscriber_.getTopic()
                                       << " is not used: " << error.what() << "; rostopic info "
@@ -58,7 +62,7 @@ void BladeInput::onBlade(const geometry_msgs::PolygonStampedConstPtr& message) {
 void BladeInput::add(Blade blade) {
   const ros::Time stamp = blade.header.stamp;
   const StampVerdict verdict = stamps_.judge(stamp);
-  if (!verdict.acceptedOrSame()) return;
+  if (!stamps_.admits(verdict)) return;
   if (verdict.wentBack()) waiting_.clear();
   if (state_ && stamp <= state_->stamp) return passOn(blade);
   waiting_.push_back(std::move(blade));

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/frame_name.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 
 namespace softbody {
@@ -62,7 +63,7 @@ bool CutServices::onPreview(softbody_msgs::PreviewCut::Request& request,
 /// The request's polygon, or its plane. @throw std::invalid_argument if the request is not in the rest frame.
 template <typename Request>
 TriangleMesh CutServices::patchOf(const Request& request) const {
-  if (!request.header.frame_id.empty() && request.header.frame_id != body_frame_) {
+  if (!request.header.frame_id.empty() && withoutSlash(request.header.frame_id) != body_frame_) {
     throw std::invalid_argument(fmt::format("frame_id is {}; allowed: empty, or the rest frame {}",
                                             request.header.frame_id, body_frame_));
   }

@@ -4,6 +4,7 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_sim/object/object_description.h"
@@ -34,7 +35,7 @@ SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_nod
   const FileScope scope =
       parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
   Options options;
-  options.body_frame = parameters.text("body_frame", "softbody");
+  options.body_frame = ownFrame(parameters, "body_frame", private_node, "softbody");
   options.save_folder = parameters.text("save_folder", ".");
   options.cutting = readCuttingConfig(parameters);
   options.limits = readSurfaceLimits(parameters);
@@ -48,7 +49,7 @@ SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_nod
 
 SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, Options options)
     : body_frame_(options.body_frame),
-      stamps_(node.resolveName(topics::kVolumeState)),
+      stamps_(node.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted),
       publisher_(node),
       cut_display_(node),
       editor_(node, body_frame_, std::move(options.visual), options.cutting,
@@ -178,7 +179,7 @@ void SurfaceNode::setBinding(BoundSurface binding) {
 /// A state may belong to the image of the last one: it is then newer.
 void SurfaceNode::onState(const softbody_msgs::MeshStateConstPtr& message) try {
   fromMessage(*message);  // throws if it is no state
-  if (stamps_.judge(stampOfImage(*message)).acceptedOrSame()) useState(message);
+  if (stamps_.admits(stampOfImage(*message))) useState(message);
 } catch (const std::exception& error) {
   diagnostics_.countRefused();
   ROS_WARN_STREAM_THROTTLE(1.0, "volume state of " << message->header.stamp

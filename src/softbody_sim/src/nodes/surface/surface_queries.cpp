@@ -10,6 +10,7 @@
 #include "softbody_common/files/staged_output.h"
 #include "softbody_common/plausibility.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/surface_mesh/closest_surface_point.h"
 
@@ -68,7 +69,7 @@ Eigen::Isometry3d SurfaceQueries::poseOf(const std::string& frame) const {
 bool SurfaceQueries::onClosestPoint(softbody_msgs::ClosestPoint::Request& request,
                                     softbody_msgs::ClosestPoint::Response& response) try {
   const Shown& last = shown();
-  const std::string& frame = request.point.header.frame_id;
+  const std::string frame = frameName(request.point.header.frame_id, "closest_point");
   const Eigen::Isometry3d pose = poseOf(frame);
   const Eigen::Vector3d point = plausiblePoint(request.point.point);
   const ClosestSurfacePoint closest = closestSurfacePoint(*last.topology, last.state, pose * point);

@@ -27,6 +27,11 @@ constexpr double kCoplanarDistance = 3.0 * kSnapDistance;
 constexpr double kOfLowTriangle = 0.01;
 constexpr int kAttempts = 6;
 
+/// "(-0.1, 0, 0.02)".
+std::string cornerText(const Eigen::RowVector3d& corner) {
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", corner.x(), corner.y(), corner.z());
+}
+
 double diagonalOf(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
@@ -123,7 +128,14 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
   splitLoneSegments(&surface);
   roundNewVertices(&surface);
   if (halfEdgesOfCurve(surface).empty()) {
-    return withoutCut(mesh_, CutOutcome::kMissed, "the patch does not pass through the surface");
+    return withoutCut(
+        mesh_, CutOutcome::kMissed,
+        fmt::format("the patch does not pass through the surface: the body extends from {} to {} "
+                    "m in the rest frame, the patch from {} to {} m",
+                    cornerText(mesh_.rest_vertices.colwise().minCoeff()),
+                    cornerText(mesh_.rest_vertices.colwise().maxCoeff()),
+                    cornerText(patch.vertices.colwise().minCoeff()),
+                    cornerText(patch.vertices.colwise().maxCoeff())));
   }
   CutFill fill = fillWalls(surface, curve, facets, snap_distance);
   raiseLowTriangles(0.5 * snap_distance, facets, &fill);
