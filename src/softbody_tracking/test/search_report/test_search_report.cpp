@@ -85,7 +85,12 @@ TEST(SearchReport, NamesEachCauseWithNumbers) {
   expectWords(searchIn(wall), {"nothing stands free", "200 x 100 x 40 mm", "initial_pose"});
   expectWords(searchIn(bent(12.0)),
               {"200 x 100 x 40 mm", "disagreement", "allowed: 22 %", "mm. ", "bent", "initial_pose"});
-  expectWords(searchIn(touched({0.195, 0.0, 0.0})), {"200 x 100 x 40 mm", "initial_pose"});
+  RgbdFrame hidden = boxFrame();
+  hidden.depth(cv::Rect(0, 0, 340, 480)) = 0.25f;
+  expectWords(searchIn(hidden), {"200 x 100 x 40 mm", "Something is before", "initial_pose"});
+  RgbdFrame merged = boxFrame();
+  merged.depth(cv::Rect(320, 180, 320, 120)) = 0.49f;
+  expectWords(searchIn(merged), {"200 x 100 x 40 mm", "initial_pose"});
 }
 
 TEST(SearchReport, ARoughPoseIsTriedFirst) {

@@ -28,7 +28,8 @@ struct SearchReport {
   /// Of the best pose; a cost of 1: no pose was tried.
   double cost = 1.0, largest_cost = 0.0;               ///< see docs/pipeline/registration.md
   double agreeing = 0.0, nearer = 0.0, farther = 0.0;  ///< pixels of the mesh; the others have no depth
-  double difference_m = 0.0;                           ///< median difference of depth
+  double hidden = 0.0;        ///< pixels of the mesh before which another part is nearer
+  double difference_m = 0.0;  ///< median difference of depth
   double continuing = 0.0;    ///< pixels just outside the outline whose depth continues the surface
   double without_edge = 0.0;  ///< outline at which depth runs straight on
   double largest_without_edge = 0.0;

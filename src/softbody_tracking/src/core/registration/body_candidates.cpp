@@ -177,7 +177,7 @@ Eigen::Vector3d principalSize(const std::vector<Eigen::Vector3d>& points) {
   return (along.colwise().maxCoeff() - along.colwise().minCoeff()).reverse().transpose();
 }
 
-DepthPart measuredPart(const Cloud& cloud, std::vector<int> points, double diameter_m) {
+DepthPart measuredPart(const Cloud& cloud, const std::vector<int>& points, double diameter_m) {
   DepthPart part;
   std::vector<Eigen::Vector3d> places;
   const cv::Rect inner(1, 1, cloud.index.cols - 2, cloud.index.rows - 2);
@@ -194,7 +194,7 @@ DepthPart measuredPart(const Cloud& cloud, std::vector<int> points, double diame
   part.fits = share >= kSmallestShare && share <= kLargestShare;
   // The body that a user wants to track is usually close: many pixels are better.
   part.rating = 2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(pixels);
-  part.points = std::move(points);
+  for (int k : points) part.pixels.push_back(cloud.pixels[k].y * cloud.index.cols + cloud.pixels[k].x);
   return part;
 }
 
@@ -203,17 +203,17 @@ void addParts(const Cloud& cloud, double step_m, double diameter_m, std::vector<
   std::vector<bool> free = cloud.free;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (!free[i]) continue;
-    std::vector<int> points = takePart(cloud, static_cast<int>(i), step_m, &free);
+    const std::vector<int> points = takePart(cloud, static_cast<int>(i), step_m, &free);
     if (static_cast<int>(points.size()) >= kFewestPixels)
-      parts->push_back(measuredPart(cloud, std::move(points), diameter_m));
+      parts->push_back(measuredPart(cloud, points, diameter_m));
   }
 }
 
 /// Whether one part contains the other. Parts found with different depth steps are nested or disjoint.
 bool nested(const DepthPart& a, const DepthPart& b) {
-  const bool a_is_smaller = a.points.size() < b.points.size();
-  const std::vector<int>& smaller = (a_is_smaller ? a : b).points;
-  const std::vector<int>& larger = (a_is_smaller ? b : a).points;
+  const bool a_is_smaller = a.pixels.size() < b.pixels.size();
+  const std::vector<int>& smaller = (a_is_smaller ? a : b).pixels;
+  const std::vector<int>& larger = (a_is_smaller ? b : a).pixels;
   return std::find(larger.begin(), larger.end(), smaller.front()) != larger.end();
 }
 

@@ -22,7 +22,7 @@ struct DepthPart {
   bool fits = false;       ///< it has about the body's size
   double rating = 0.0;     ///< lower is likelier to be the body: twice the logarithm of how its size differs,
                            ///< minus that of the pixels
-  std::vector<int> points;  ///< pixels of the image with depth, counted row by row; ascending is not kept
+  std::vector<int> pixels;  ///< row * columns + column
 };
 
 /// Pixels of the image that has the parts; a smaller part has no shape.

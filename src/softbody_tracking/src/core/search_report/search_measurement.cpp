@@ -49,32 +49,55 @@ void measureDepth(const RgbdFrame& frame, SearchReport* report) {
   report->depth_share = frame.depth.empty() ? 0.0 : measured / static_cast<double>(frame.depth.total());
 }
 
-/// What the camera sees of a posed mesh.
-std::vector<Eigen::Vector3d> visiblePoints(const RgbdFrame& frame, const TriangleMesh& mesh,
-                                           const Eigen::Isometry3d& pose) {
-  RasterImage image;
-  rasterize(frame.camera, transformed(mesh.vertices, pose), mesh.triangles, &image);
+/// A posed mesh in the image of the parts.
+RasterImage rendered(const RgbdFrame& image, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
+  RasterImage result;
+  rasterize(image.camera, transformed(mesh.vertices, pose), mesh.triangles, &result);
+  return result;
+}
+
+/// What the camera sees of it.
+std::vector<Eigen::Vector3d> visiblePoints(const RgbdFrame& image, const RasterImage& mesh) {
   std::vector<Eigen::Vector3d> points;
-  for (int v = image.region.y; v < image.region.br().y; ++v)
-    for (int u = image.region.x; u < image.region.br().x; ++u)
-      if (image.triangle(v, u) >= 0) points.push_back(frame.camera.unproject(u, v, image.depth(v, u)));
+  for (int v = mesh.region.y; v < mesh.region.br().y; ++v)
+    for (int u = mesh.region.x; u < mesh.region.br().x; ++u)
+      if (mesh.triangle(v, u) >= 0) points.push_back(image.camera.unproject(u, v, mesh.depth(v, u)));
   return points;
 }
 
-/// The part at a place; without a place, the likeliest one. nullptr: there is none.
-const DepthPart* partAt(const std::vector<DepthPart>& parts, const std::optional<Eigen::Vector3d>& place) {
-  const auto badness = [&](const DepthPart& part) {
-    return place ? (part.candidate.center - *place).norm() : part.rating;
-  };
+/// Pixels that a part shares with a mesh, as a share of those that either has.
+double overlap(const DepthPart& part, const RasterImage& mesh) {
+  const int columns = mesh.triangle.cols;
+  int shared = 0, covered = 0;
+  for (const int pixel : part.pixels) shared += mesh.triangle(pixel / columns, pixel % columns) >= 0 ? 1 : 0;
+  for (int v = mesh.region.y; v < mesh.region.br().y; ++v)
+    for (int u = mesh.region.x; u < mesh.region.br().x; ++u) covered += mesh.triangle(v, u) >= 0 ? 1 : 0;
+  return static_cast<double>(shared) / std::max<double>(1.0, covered + part.candidate.pixels - shared);
+}
+
+/// The part that a mesh covers best; without a mesh, the likeliest one. nullptr: there is none.
+const DepthPart* partAt(const std::vector<DepthPart>& parts, const std::optional<RasterImage>& mesh) {
+  const auto badness = [&](const DepthPart& part) { return mesh ? -overlap(part, *mesh) : part.rating; };
   const auto best = std::min_element(parts.begin(), parts.end(),
                                      [&](const auto& a, const auto& b) { return badness(a) < badness(b); });
   return best == parts.end() ? nullptr : &*best;
 }
 
-Eigen::Vector3d meanOf(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
-  return mean;
+/// Share of a mesh's pixels at which something is nearer that does not belong to the part.
+double hiddenShare(const RgbdFrame& image, const RasterImage& mesh, const DepthPart& part, double scale_m) {
+  cv::Mat1b own(mesh.triangle.size(), 0);
+  for (const int pixel : part.pixels) own(pixel / own.cols, pixel % own.cols) = 1;
+  int covered = 0, hidden = 0;
+  for (int v = mesh.region.y; v < mesh.region.br().y; ++v) {
+    for (int u = mesh.region.x; u < mesh.region.br().x; ++u) {
+      if (mesh.triangle(v, u) < 0) continue;
+      ++covered;
+      const double measured = image.depth(v, u), expected = mesh.depth(v, u);
+      if (measured > 0.0 && measured < expected - distanceScaleAt(expected, scale_m) && own(v, u) == 0)
+        ++hidden;
+    }
+  }
+  return static_cast<double>(hidden) / std::max(1, covered);
 }
 
 void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseHypothesis& best,
@@ -127,14 +150,16 @@ std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors
 /// mesh.
 bool isWhollyInView(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   const RgbdFrame image = subsampled(frame, kPartColumns);
-  RasterImage rendered;
-  rasterize(image.camera, transformed(mesh.vertices, pose), mesh.triangles, &rendered);
+  const cv::Rect region = rendered(image, mesh, pose).region;
   const cv::Rect inner(1, 1, image.depth.cols - 2, image.depth.rows - 2);
-  return (rendered.region & inner) == rendered.region && rendered.region.area() >= kFewestPixels;
+  return (region & inner) == region && region.area() >= kFewestPixels;
 }
 
-bool fitsMuchBetter(double cost, double best_cost, const RegistrationConfig& config) {
-  return cost <= config.max_cost && cost <= kMuchBetter * best_cost;
+/// Whether the image shows edges all around a posed mesh.
+bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
+               double distance_scale_m) {
+  return isWhollyInView(frame, mesh, pose) &&
+         shareWithoutEdge(frame, mesh, pose, distance_scale_m) <= kLargestShareWithoutEdge;
 }
 
 }  // namespace
@@ -147,18 +172,18 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
   report.largest_without_edge = kLargestShareWithoutEdge;
   const RgbdFrame image = subsampled(frame, kPartColumns);
   measureDepth(image, &report);
-  std::optional<Eigen::Vector3d> place;
+  std::optional<RasterImage> mesh;
   if (best) {
     measurePose(frame, meshes, *best, config.distance_scale_m, &report);
-    const std::vector<Eigen::Vector3d> visible = visiblePoints(image, meshes.full, best->pose);
-    if (!visible.empty()) place = meanOf(visible);
+    mesh = rendered(image, meshes.full, best->pose);
   }
   const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
-  if (const DepthPart* part = partAt(parts, place)) {
+  if (const DepthPart* part = partAt(parts, mesh)) {
     report.part_m = part->size_m;
     report.part_distance_m = part->candidate.center.norm();
     report.part_fits = part->fits;
     report.part_at_border = part->at_border;
+    if (mesh) report.hidden = hiddenShare(image, *mesh, *part, config.distance_scale_m);
   }
   return report;
 }
@@ -167,9 +192,10 @@ std::optional<double> fittingScaleNear(const RgbdFrame& frame, const ColorModel&
                                        const SearchMeshes& meshes, const PoseHypothesis& best,
                                        const RegistrationConfig& config) {
   const RgbdFrame image = subsampled(frame, kPartColumns);
-  const std::vector<Eigen::Vector3d> visible = visiblePoints(image, meshes.full, best.pose);
+  const RasterImage seen = rendered(image, meshes.full, best.pose);
+  const std::vector<Eigen::Vector3d> visible = visiblePoints(image, seen);
   const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
-  const DepthPart* part = visible.empty() ? nullptr : partAt(parts, meanOf(visible));
+  const DepthPart* part = visible.empty() ? nullptr : partAt(parts, seen);
   if (part == nullptr || part->at_border) return std::nullopt;
   const double factor = part->spread_m / spreadOf(visible);
   if (!(std::abs(std::log(factor)) > kSmallestChange)) return std::nullopt;
@@ -179,9 +205,10 @@ std::optional<double> fittingScaleNear(const RgbdFrame& frame, const ColorModel&
   Eigen::Isometry3d start = best.pose;  // with the body's centre where it was
   start.translation() +=
       (1.0 - factor) * (best.pose.linear() * meshes.full.vertices.colwise().mean().transpose());
-  const double cost = refinement.patternSearch(start, kScaledSteps).cost;
-  if (!fitsMuchBetter(cost, best.cost, config)) return std::nullopt;
-  return factor;
+  const PoseHypothesis found = refinement.patternSearch(start, kScaledSteps);
+  const bool fits = found.cost <= config.max_cost && found.cost <= kMuchBetter * best.cost &&
+                    isBounded(frame, mesh, found.pose, config.distance_scale_m);
+  return fits ? std::optional(factor) : std::nullopt;
 }
 
 std::optional<double> fittingUnit(const RgbdFrame& frame, const ColorModel& colors,
@@ -192,10 +219,7 @@ std::optional<double> fittingUnit(const RgbdFrame& frame, const ColorModel& colo
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
     const auto poses = posesAnywhere(frame, colors, other, {}, config.distance_scale_m);
     if (poses.empty() || poses.front().cost > lowest_cost) continue;
-    if (!isWhollyInView(frame, other.full, poses.front().pose)) continue;
-    if (shareWithoutEdge(frame, other.full, poses.front().pose, config.distance_scale_m) >
-        kLargestShareWithoutEdge)
-      continue;
+    if (!isBounded(frame, other.full, poses.front().pose, config.distance_scale_m)) continue;
     fitting = factor;
     lowest_cost = poses.front().cost;
   }

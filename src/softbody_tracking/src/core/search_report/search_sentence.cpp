@@ -71,8 +71,8 @@ std::string noCandidate(const SearchReport& report) {
 /// What the image shows instead of the body, and what to do.
 std::string disagreement(const SearchReport& report) {
   if (report.part_at_border) return "It reaches the border of the image: move it into the view";
-  if (report.nearer > std::max(report.farther, kTouches))
-    return fmt::format("Something is before {} % of it: take it away", percent(report.nearer));
+  if (report.hidden > kTouches)
+    return fmt::format("Something is before {} % of it: take it away", percent(report.hidden));
   if (report.continuing > kTouches)
     return fmt::format(
         "The surface goes on beyond {} % of the outline: it touches something, or the mesh is too small. "
