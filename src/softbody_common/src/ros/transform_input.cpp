@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "softbody_common/frame_name.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/time.h"
 
 namespace softbody {

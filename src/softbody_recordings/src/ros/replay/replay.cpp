@@ -7,8 +7,8 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "softbody_common/frame_name.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/bag_transforms.h"
 #include "softbody_recordings/ros/cut_journal.h"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody_common/frame_name.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 
 namespace softbody {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/frame_name.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/point_cloud.h"
 

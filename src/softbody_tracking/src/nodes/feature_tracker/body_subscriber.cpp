@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "softbody_common/frame_name.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/same_matrix.h"
 #include "softbody_common/topics.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "softbody_common/frame_name.h"
+#include "softbody_common/ros/frame_name.h"
 
 namespace softbody {
 namespace {
