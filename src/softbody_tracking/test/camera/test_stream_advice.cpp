@@ -49,7 +49,7 @@ TEST(StreamAdvice, SaysTheTypeThatItFound) {
   EXPECT_TRUE(names(streamAdvice(Stream::kColor, "/c", {{"/c", "sensor_msgs/Image"}}), "silent"));
 }
 
-const StreamTopics kTopics{
+const StreamTopics kCameraTopics{
     StreamTopic{"/camera/color/image_raw", 0, "/camera/color/image_raw"},
     StreamTopic{"/camera/color/camera_info", 0, "/camera/color/camera_info"},
     StreamTopic{"/camera/aligned_depth_to_color/image_raw", 0, "/camera/aligned_depth_to_color/image_raw"}};
@@ -61,18 +61,18 @@ TEST(StreamAdvice, ACameraInAnotherNamespaceIsNamedOnce) {
                     {"/d435/color/camera_info", "sensor_msgs/CameraInfo"},
                     {"/d435/aligned_depth_to_color/image_raw", "sensor_msgs/Image"},
                     {"/d435/infra1/image_raw", "sensor_msgs/Image"}};
-  const std::string advice = adviceOn(kAllSilent, kTopics, types);
+  const std::string advice = adviceOn(kAllSilent, kCameraTopics, types);
   EXPECT_TRUE(names(advice, "set camera:=/d435")) << advice;
   EXPECT_FALSE(names(advice, "color:=") || names(advice, "depth:=")) << advice;
   const Types compressed{
       {"/a/b/color/image_raw/compressed", "sensor_msgs/CompressedImage"},
       {"/a/b/aligned_depth_to_color/image_raw/compressedDepth", "sensor_msgs/CompressedImage"}};
-  EXPECT_TRUE(names(adviceOn(kAllSilent, kTopics, compressed), "set camera:=/a/b"));
+  EXPECT_TRUE(names(adviceOn(kAllSilent, kCameraTopics, compressed), "set camera:=/a/b"));
 }
 
 TEST(StreamAdvice, OtherNamesNeedTheirOwnArguments) {
   for (const Types& types : {kAzureKinect, Types{{"/d435/color/image_raw", "sensor_msgs/Image"}}}) {
-    const std::string advice = adviceOn(kAllSilent, kTopics, types);
+    const std::string advice = adviceOn(kAllSilent, kCameraTopics, types);
     EXPECT_FALSE(names(advice, "camera:=")) << advice;
     EXPECT_TRUE(names(advice, "color:=")) << advice;
   }
@@ -80,7 +80,7 @@ TEST(StreamAdvice, OtherNamesNeedTheirOwnArguments) {
 
 TEST(StreamAdvice, ImagesWithoutAStampAreNoMatterOfTheNetwork) {
   const Types types{{"/camera/color/image_raw", "sensor_msgs/Image"}};
-  const std::string advice = adviceOn({{Stream::kColor, true}}, kTopics, types);
+  const std::string advice = adviceOn({{Stream::kColor, true}}, kCameraTopics, types);
   EXPECT_TRUE(names(advice, "must set header.stamp")) << advice;
   EXPECT_FALSE(names(advice, "ROS_IP")) << advice;
 }
