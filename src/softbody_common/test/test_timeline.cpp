@@ -195,27 +195,27 @@ TEST(Timeline, AClockThatIsCorrectedStartsNothingAnew) {
   EXPECT_EQ(timeline.judge(kStart + 80 * kFrame, kStart + 89 * kFrame - 5'000'000).kind, Kind::kLate);
 }
 
-/// The stamps to warn of when these come on a clock that is always 0, in seconds.
-std::vector<double> warnings(const std::vector<double>& stamps) {
+/// The stamps to warn of when these come, in tenths of a second.
+std::vector<Nanoseconds> warnings(const std::vector<Nanoseconds>& stamps) {
   Timeline timeline;
   RefusedStamps refused;
-  std::vector<double> said;
-  for (const double stamp : stamps) {
-    const auto warning = refused.note(nanoseconds(stamp), timeline.judge(nanoseconds(stamp)));
-    if (warning) said.push_back(seconds(warning->stamp));
+  std::vector<Nanoseconds> said;
+  for (const Nanoseconds stamp : stamps) {
+    const auto warning = refused.note(stamp * kSecond / 10, timeline.judge(stamp * kSecond / 10));
+    if (warning) said.push_back(warning->stamp * 10 / kSecond);
   }
   return said;
 }
 
 TEST(RefusedStamps, ALoneOddStampIsWarnedOfWhenTheStreamGoesOn) {
-  EXPECT_EQ(warnings({100.0, 100.1, 500.0}), std::vector<double>{});
-  EXPECT_EQ(warnings({100.0, 100.1, 500.0, 100.2, 100.3}), std::vector<double>{500.0});
-  EXPECT_EQ(warnings({100.0, 100.1, 100.1, 0.0}), (std::vector<double>{100.1, 0.0}));
+  EXPECT_EQ(warnings({1000, 1001, 5000}), std::vector<Nanoseconds>{});
+  EXPECT_EQ(warnings({1000, 1001, 5000, 1002, 1003}), std::vector<Nanoseconds>{5000});
+  EXPECT_EQ(warnings({1000, 1001, 1001, 0}), (std::vector<Nanoseconds>{1001, 0}));
 }
 
 TEST(RefusedStamps, ARecordingThatStartsAgainIsNoMistake) {
-  EXPECT_EQ(warnings({100.0, 101.0, 102.0, 100.0, 100.1, 100.2, 100.3}), std::vector<double>{});
-  EXPECT_EQ(warnings({100.0, 100.1, 900.0, 900.1, 900.2, 900.3}), std::vector<double>{});
+  EXPECT_EQ(warnings({1000, 1010, 1020, 1000, 1001, 1002, 1003}), std::vector<Nanoseconds>{});
+  EXPECT_EQ(warnings({1000, 1001, 9000, 9001, 9002, 9003}), std::vector<Nanoseconds>{});
 }
 
 }  // namespace
