@@ -10,7 +10,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table api tidy format
+.PHONY: build test shared-data recordings cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -25,6 +25,11 @@ shared-data: dependencies  ## run the tests on meshes, photographs and a toy rec
 	scripts/build
 	scripts/build tests
 	scripts/checks/shared_data
+
+recordings: dependencies  ## change a recording in 200 ways: validate_bag must say usable exactly when replay and evaluate work
+	scripts/build
+	scripts/build tests
+	scripts/checks/recordings
 
 cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,000 times at random, and measure the memory of cut bodies (slow)
 	scripts/build

@@ -44,7 +44,7 @@ Recording record() {
     RawFrame raw{{}, capture.depth_mm.clone(), static_cast<Nanoseconds>(1e9 * (1.0 + i / kRate_hz))};
     cv::cvtColor(capture.color, raw.color, cv::COLOR_RGB2BGR);
     recording.frames.push_back(
-        ingest.process(raw.color, raw.depth_mm, Distortion{}, recording.camera, raw.stamp));
+        ingest.process({raw.color, raw.depth_mm, Distortion{}, recording.camera, raw.stamp}));
     recording.raw.push_back(raw);
   }
   return recording;
@@ -61,7 +61,7 @@ void ingestFrame(benchmark::State& state) {
   std::size_t i = 0;
   for (auto _ : state) {
     const RawFrame& raw = kept.raw[i++ % kFrames];
-    benchmark::DoNotOptimize(ingest.process(raw.color, raw.depth_mm, Distortion{}, kept.camera, raw.stamp));
+    benchmark::DoNotOptimize(ingest.process({raw.color, raw.depth_mm, Distortion{}, kept.camera, raw.stamp}));
   }
 }
 BENCHMARK(ingestFrame)->Unit(benchmark::kMillisecond);

@@ -58,8 +58,8 @@ Recording record(const std::string& scene, const std::string& object) {
     const virtual_camera::Capture capture = camera.capture(i, t);
     cv::Mat3b color;
     cv::cvtColor(capture.color, color, cv::COLOR_RGB2BGR);
-    recording.frames.push_back(ingest.process(color, capture.depth_mm, Distortion{}, camera.pinhole(),
-                                              static_cast<Nanoseconds>(1e9 * t)));
+    recording.frames.push_back(ingest.process(
+        {color, capture.depth_mm, Distortion{}, camera.pinhole(), static_cast<Nanoseconds>(1e9 * t)}));
     recording.before.push_back(volume);
     recording.regions.push_back(regionOf(capture.truth.vertices, camera.pinhole()));
     volume = pipeline.process(recording.frames.back()).volume;

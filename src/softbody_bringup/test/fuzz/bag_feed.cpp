@@ -90,7 +90,7 @@ void giveBag(std::string_view bytes) {
   ByteSource source(bytes);
   const std::string path = (scratch() / "recording.bag").string();
   writeMessages(&source, path);
-  const validation::RecordingFacts facts = validation::readFacts(path, "/camera", [](double) {});
+  const validation::RecordingFacts facts = validation::readFacts(path, BagFramesConfig(), [](double) {});
   validation::toText(facts, validation::check(facts));
   const rosbag::Bag bag = openBag(path);
   CameraIngest ingest{CameraIngestConfig()};

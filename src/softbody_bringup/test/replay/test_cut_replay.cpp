@@ -110,7 +110,8 @@ class CutPipeline : public ::testing::Test {
       cv::cvtColor(capture.color, color, cv::COLOR_RGB2BGR);
       depth_mm = capture.depth_mm;
     }
-    return pipeline_.process(ingest_.process(color, depth_mm, Distortion{}, camera_.pinhole(), stamp), cuts);
+    return pipeline_.process(ingest_.process({color, depth_mm, Distortion{}, camera_.pinhole(), stamp}),
+                             cuts);
   }
 
   static Cut middleCut(std::uint32_t revision) {

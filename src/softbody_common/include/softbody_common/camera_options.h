@@ -7,7 +7,8 @@
 
 namespace softbody {
 
-/// --camera, --color, --depth, --color-info and --depth-info, of every tool that reads a camera's topics.
+/// --camera, --color, --depth, --color-info, --depth-info and --depth-scale, of every tool that reads a
+/// camera's topics.
 inline void addCameraOptions(CLI::App* app, CameraTopics* topics) {
   const auto add = [app](const char* name, const char* meaning, const auto& use) {
     return app->add_option_function<std::string>(name, use, meaning);
@@ -27,6 +28,11 @@ inline void addCameraOptions(CLI::App* app, CameraTopics* topics) {
       [topics](const std::string& topic) { topics->color_info = topic; });
   add("--depth-info", "topic of depth's camera_info; default: camera_info beside the images",
       [topics](const std::string& topic) { topics->depth_info = topic; });
+  app->add_option_function<double>(
+         "--depth-scale", [topics](double scale) { topics->depth_scale = scale; },
+         "metres per unit of depth; 0: 0.001 for 16UC1, 1 for 32FC1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->default_str("0");
 }
 
 }  // namespace softbody

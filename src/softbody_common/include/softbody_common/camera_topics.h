@@ -9,7 +9,8 @@ inline std::string infoTopicOf(const std::string& image) {
   return image.substr(0, image.rfind('/') + 1) + "camera_info";
 }
 
-/// The topics of a camera. The default names are those of realsense2_camera in a namespace, e.g. "/camera".
+/// The topics of a camera, and the unit of its depth. The default names are those of realsense2_camera in a
+/// namespace, e.g. "/camera".
 struct CameraTopics {
   CameraTopics(const std::string& camera)
       : color(camera + "/color/image_raw"),
@@ -19,6 +20,7 @@ struct CameraTopics {
   CameraTopics(const char* camera) : CameraTopics(std::string(camera)) {}
 
   std::string color, color_info, depth, depth_info;
+  double depth_scale = 0.0;  ///< metres per unit of depth; 0: 0.001 for 16UC1, 1 for 32FC1
 };
 
 }  // namespace softbody

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "softbody_recordings/ros/typed_message.h"
+
 namespace softbody::evaluation {
 
 /// @throw std::invalid_argument if the bag has no message on the topic.
@@ -15,22 +17,6 @@ inline void requireTopic(const rosbag::Bag& bag, const std::string& topic) {
   if (view.size() != 0) return;
   throw std::invalid_argument(
       fmt::format("{}: there is no message on {}; rosbag info lists its topics", bag.getFileName(), topic));
-}
-
-/// The message of an instance. @throw std::invalid_argument if the instance has another type.
-template <typename Message>
-boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& instance,
-                                             const rosbag::Bag& bag) {
-  const auto message = instance.instantiate<Message>();
-  if (message) return message;
-  const std::string expected = ros::message_traits::datatype<Message>();
-  if (instance.getDataType() == expected) {
-    throw std::invalid_argument(
-        fmt::format("{}: {} has another version of {}; record or replay it again with this version",
-                    bag.getFileName(), instance.getTopic(), expected));
-  }
-  throw std::invalid_argument(fmt::format("{}: {} is of type {} instead of {}", bag.getFileName(),
-                                          instance.getTopic(), instance.getDataType(), expected));
 }
 
 }  // namespace softbody::evaluation

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <random>
@@ -53,7 +54,7 @@ void expectSentence(const std::string& path, const std::function<void()>& read) 
   } catch (const std::exception& error) {
     const std::string sentence = error.what();
     EXPECT_EQ(sentence.find(path), 0u) << sentence;
-    EXPECT_NE(sentence.find("rosbag reindex"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("rosbag reindex " + path), std::string::npos) << sentence;
   }
 }
 
@@ -65,6 +66,52 @@ TEST(DamagedBag, IsNamedWithARemedy) {
     CameraIngest ingest{CameraIngestConfig()};
     readBagFrames(bag, {}, &ingest, [](const auto&, const auto&, double) {});
   });
+}
+
+/// What openBag() says.
+std::string refusal(const std::string& path) {
+  try {
+    openBag(path);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).find(path), 0u) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+TEST(InputBag, WhatIsNoBagIsNamedForWhatItIs) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / ("kinds" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder / "ros2");
+  std::filesystem::create_directories(folder / "bags");
+  std::filesystem::create_directories(folder / "images/color");
+  const auto write = [&folder](const std::string& name, const std::string& bytes) {
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+  };
+  write("ros2/metadata.yaml", "rosbag2_bagfile_information:");
+  write("bags/a.bag", "");
+  write("empty.bag", "");
+  write("text.bag", "time,x,y");
+  write("ros2.db3", "SQLite format 3" + std::string(1, '\0') + "....");
+  write("ros2.mcap", "\x89MCAP0\r\n....");
+  write("old.bag", "#ROSBAG V1.2\n....");
+  write("begin.bag", "#ROSBAG V2.0\n");
+  const std::pair<const char*, const char*> sentences[] = {
+      {"empty.bag", "is empty"},
+      {"text.bag", "is not a bag"},
+      {"ros2.db3", "is a recording of ROS 2; convert it"},
+      {"ros2.mcap", "is a recording of ROS 2; convert it"},
+      {"ros2", "is a recording of ROS 2; convert it"},
+      {"old.bag", "is a bag of an old version (ROSBAG V1.2)"},
+      {"begin.bag", "rosbag reindex"},
+      {"bags", "a.bag"},
+      {"images", "import_images"},
+      {"missing.bag", "no such file"}};
+  for (const auto& [name, words] : sentences) {
+    const std::string sentence = refusal((folder / name).string());
+    EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -11,13 +11,14 @@
 #include <string>
 
 #include "ros/encoded_image.h"
+#include "ros/rvl.h"
 
 namespace softbody {
 namespace {
 
 namespace enc = sensor_msgs::image_encodings;
 
-/// Before the PNG of compressedDepth: an enumeration, and A and B of depth = A / (value - B).
+/// Before the PNG or RVL of compressedDepth: an enumeration, and A and B of depth = A / (value - B).
 struct DepthHeader {
   std::int32_t format;
   float a, b;
@@ -51,24 +52,34 @@ cv::Mat1f metres(const cv::Mat1w& inverse, const DepthHeader& header) {
   return depth;
 }
 
-cv_bridge::CvImage depthImage(const sensor_msgs::CompressedImage& image) {
-  if (contains(image.format, "rvl")) {
-    throw std::invalid_argument(
-        fmt::format("the compressed depth has the format {}; set the publisher's parameter "
-                    "compressedDepth/format to png",
-                    quoted(image.format)));
-  }
+/// 16 bits behind a DepthHeader.
+cv::Mat depthPixels(const sensor_msgs::CompressedImage& image) {
+  const std::uint8_t* const data = image.data.data() + sizeof(DepthHeader);
+  if (contains(image.format, "rvl") && image.data.size() > sizeof(DepthHeader))
+    return decodeRvl(data, image.data.size() - sizeof(DepthHeader));
   const cv::Mat pixels = decoded(image, sizeof(DepthHeader));
-  if (pixels.type() != CV_16UC1) {
-    throw std::invalid_argument(
-        fmt::format("the compressed depth of format {} has pixels of type {}; expected "
-                    "a PNG of 16 bits",
-                    quoted(image.format), cv::typeToString(pixels.type())));
-  }
+  if (pixels.type() == CV_16UC1) return pixels;
+  throw std::invalid_argument(fmt::format(
+      "the compressed depth of format {} has pixels of type {}; expected a PNG of 16 bits, or RVL",
+      quoted(image.format), cv::typeToString(pixels.type())));
+}
+
+cv_bridge::CvImage depthImage(const sensor_msgs::CompressedImage& image) {
+  const cv::Mat pixels = depthPixels(image);
   if (image.format.rfind(enc::TYPE_32FC1, 0) != 0) return {image.header, enc::TYPE_16UC1, pixels};
   DepthHeader header{};
   std::memcpy(&header, image.data.data(), sizeof(header));
   return {image.header, enc::TYPE_32FC1, metres(pixels, header)};
+}
+
+/// Whether a DepthHeader comes first. Some senders name another format, so the data decide.
+bool hasDepthHeader(const sensor_msgs::CompressedImage& image) {
+  const auto isFile = [&image](std::size_t offset) {
+    return image.data.size() > offset &&
+           readEncodedImageHeader(image.data.data() + offset, image.data.size() - offset).has_value();
+  };
+  if (isFile(0)) return false;
+  return contains(image.format, "compressedDepth") || isFile(sizeof(DepthHeader));
 }
 
 /// OpenCV gives colours as BGR. Older publishers compressed RGB without swapping the channels.
@@ -94,7 +105,7 @@ std::string encodingOf(const cv::Mat& pixels, const std::string& format) {
 }  // namespace
 
 sensor_msgs::ImagePtr decompressed(const sensor_msgs::CompressedImage& image) {
-  if (contains(image.format, "compressedDepth")) return depthImage(image).toImageMsg();
+  if (hasDepthHeader(image)) return depthImage(image).toImageMsg();
   const cv::Mat pixels = decoded(image, 0);
   return cv_bridge::CvImage(image.header, encodingOf(pixels, image.format), pixels).toImageMsg();
 }

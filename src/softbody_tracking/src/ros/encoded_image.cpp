@@ -15,7 +15,6 @@ namespace {
 constexpr std::uint8_t kPngStart[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n',
                                       0,    0,   0,   13,  'I',  'H',  'D',  'R'};
 constexpr std::uint8_t kMarker = 0xFF, kStartOfImage = 0xD8, kStartOfScan = 0xDA;
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 25;  // 8192 by 4096
 constexpr int kMostScans = 100;  // encoders write about ten; each takes as long as a whole image
 
 std::uint32_t bigEndian(const std::uint8_t* bytes, int count) {
@@ -70,10 +69,10 @@ cv::Mat decodeImage(const std::uint8_t* data, std::size_t size) {
         fmt::format("{} bytes are no whole PNG or JPEG; set the publisher's format to png or jpeg", size));
   }
   const auto pixels = static_cast<std::uint64_t>(header->width) * header->height;
-  if (pixels > kMostPixels || std::max(header->width, header->height) > kLargestImageSide) {
+  if (pixels > kMostEncodedPixels || std::max(header->width, header->height) > kLargestImageSide) {
     throw std::invalid_argument(fmt::format(
         "its {} bytes stand for {}x{} pixels; allowed: up to {} a side and {} in all; send smaller images",
-        size, header->width, header->height, kLargestImageSide, kMostPixels));
+        size, header->width, header->height, kLargestImageSide, kMostEncodedPixels));
   }
   if (header->scans > kMostScans) {
     throw std::invalid_argument(

@@ -7,6 +7,9 @@
 
 namespace softbody {
 
+/// A few bytes can stand for gigabytes of pixels: 8192 by 4096 are enough.
+constexpr std::uint64_t kMostEncodedPixels = std::uint64_t{1} << 25;
+
 /// What a PNG or JPEG file says about itself before its pixels.
 struct EncodedImageHeader {
   std::uint32_t width = 0, height = 0;

@@ -65,7 +65,7 @@ cv::Mat1f coordinateDepth() {
 TEST(CameraIngest, UndistortedImagesPassUnchanged) {
   CameraIngest ingest({});
   const cv::Mat3b color = coordinateImage();
-  const RgbdFrame frame = ingest.process(color, coordinateDepth(), distorted({0, 0, 0, 0, 0}), kCamera, 42);
+  const RgbdFrame frame = ingest.process({color, coordinateDepth(), distorted({0, 0, 0, 0, 0}), kCamera, 42});
   EXPECT_EQ(frame.stamp, 42);
   EXPECT_EQ(frame.camera, kCamera);
   EXPECT_EQ(cv::norm(frame.color, color, cv::NORM_INF), 0.0);
@@ -77,7 +77,7 @@ TEST(CameraIngest, MillimetresBecomeMetresWithinTheRange) {
   const auto value = [](int v) { return static_cast<std::uint16_t>(v < 40 ? 50 : v < 80 ? 750 : 6000); };
   millimetres.forEach([&](std::uint16_t& z, const int* at) { z = value(at[0]); });
   CameraIngest ingest({});
-  const RgbdFrame frame = ingest.process(coordinateImage(), millimetres, distorted({}), kCamera, 0);
+  const RgbdFrame frame = ingest.process({coordinateImage(), millimetres, distorted({}), kCamera, 0});
   for (int v = 0; v < kCamera.height; ++v) {
     EXPECT_FLOAT_EQ(frame.depth(v, 70), v >= 40 && v < 80 ? 0.75f : 0.0f) << v;
   }
@@ -89,10 +89,10 @@ TEST(CameraIngest, NoNumberThatIsNoneReachesTheFrame) {
   depth.row(20) = std::numeric_limits<float>::infinity();
   depth.row(30) = -1.0f;
   CameraIngest ingest({});
-  const RgbdFrame frame = ingest.process(coordinateImage(), depth, distorted({}), kCamera, 0);
+  const RgbdFrame frame = ingest.process({coordinateImage(), depth, distorted({}), kCamera, 0});
   for (int row : {10, 20, 30}) EXPECT_EQ(cv::countNonZero(frame.depth.row(row)), 0);
   EXPECT_TRUE(cv::checkRange(frame.depth, true, nullptr, 0.0, 0.9));
-  const RgbdFrame blind = ingest.process(coordinateImage(), cv::Mat(), distorted({}), kCamera, 0);
+  const RgbdFrame blind = ingest.process({coordinateImage(), cv::Mat(), distorted({}), kCamera, 0});
   EXPECT_EQ(blind.depth.size(), blind.color.size());
   EXPECT_EQ(cv::countNonZero(blind.depth), 0);
 }
@@ -102,7 +102,7 @@ class Rectification : public testing::TestWithParam<Distortion> {};
 TEST_P(Rectification, ColourIsBilinearAndDepthNearestAtTheProjectedPixel) {
   const Distortion& distortion = GetParam();
   CameraIngest ingest({});
-  const RgbdFrame frame = ingest.process(coordinateImage(), coordinateDepth(), distortion, kCamera, 0);
+  const RgbdFrame frame = ingest.process({coordinateImage(), coordinateDepth(), distortion, kCamera, 0});
   int compared = 0;
   for (int v = 0; v < kCamera.height; v += 3) {
     for (int u = 0; u < kCamera.width; u += 3) {
@@ -135,11 +135,11 @@ INSTANTIATE_TEST_SUITE_P(Models, Rectification,
 TEST(CameraIngest, ANewCameraReplacesTheMaps) {
   const Distortion a = distorted({-0.3, 0.1, 0.0, 0.0}), b = distorted({0.2, 0.0, 0.0, 0.0});
   CameraIngest fresh({}), used({});
-  used.process(coordinateImage(), coordinateDepth(), a, kCamera, 0);
-  EXPECT_THROW(used.process(coordinateImage(), coordinateDepth(), distorted({1, 2, 3}), kCamera, 0),
+  used.process({coordinateImage(), coordinateDepth(), a, kCamera, 0});
+  EXPECT_THROW(used.process({coordinateImage(), coordinateDepth(), distorted({1, 2, 3}), kCamera, 0}),
                std::invalid_argument);
-  const RgbdFrame expected = fresh.process(coordinateImage(), coordinateDepth(), b, kCamera, 0);
-  const RgbdFrame actual = used.process(coordinateImage(), coordinateDepth(), b, kCamera, 0);
+  const RgbdFrame expected = fresh.process({coordinateImage(), coordinateDepth(), b, kCamera, 0});
+  const RgbdFrame actual = used.process({coordinateImage(), coordinateDepth(), b, kCamera, 0});
   EXPECT_EQ(cv::norm(actual.color, expected.color, cv::NORM_INF), 0.0);
   EXPECT_EQ(cv::norm(actual.depth, expected.depth, cv::NORM_INF), 0.0);
 }
@@ -150,7 +150,7 @@ TEST(CameraIngest, SaysWhatDoesNotFit) {
   const auto sentence = [&](const cv::Mat3b& c, const cv::Mat& d,
                             const Distortion& distortion) -> std::string {
     try {
-      ingest.process(c, d, distortion, kCamera, 0);
+      ingest.process({c, d, distortion, kCamera, 0});
     } catch (const std::invalid_argument& error) {
       return error.what();
     }

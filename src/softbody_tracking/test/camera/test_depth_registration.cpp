@@ -84,11 +84,11 @@ TEST(DepthRegistration, TheIngestRegistersDepthOfAnotherCamera) {
   DepthCamera depth_camera{kDepthCamera, {}, Eigen::Isometry3d(Eigen::Translation3d(-0.03, 0.0, 0.0))};
   cv::Mat1w millimetres(kDepthCamera.height, kDepthCamera.width, std::uint16_t{800});
   const cv::Mat3b color(kColorCamera.height, kColorCamera.width, cv::Vec3b(1, 2, 3));
-  const RgbdFrame frame = CameraIngest({}).process(color, millimetres, {}, kColorCamera, 1, &depth_camera);
+  const RgbdFrame frame = CameraIngest({}).process({color, millimetres, {}, kColorCamera, 1, depth_camera});
   EXPECT_EQ(frame.depth.size(), color.size());
   EXPECT_FLOAT_EQ(frame.depth(88, 161), 0.8f);
   EXPECT_EQ(frame.depth(88, 0), 0.0f) << "outside of the depth camera's view";
-  EXPECT_THROW(CameraIngest({}).process(color, cv::Mat1w(3, 4), {}, kColorCamera, 1, &depth_camera),
+  EXPECT_THROW(CameraIngest({}).process({color, cv::Mat1w(3, 4), {}, kColorCamera, 1, depth_camera}),
                std::invalid_argument);
 }
 

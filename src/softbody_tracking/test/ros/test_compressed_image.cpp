@@ -93,6 +93,67 @@ TEST(CompressedImage, QuantisedMetresComeBackWithinTheirStep) {
   }
 }
 
+/// The encoder of the codec RVL, as in Wilson 2017.
+std::vector<std::uint8_t> rvlOf(const cv::Mat1w& depth) {
+  std::vector<std::uint8_t> bytes(20);  // DepthHeader, columns, rows
+  const std::int32_t sides[] = {depth.cols, depth.rows};
+  std::memcpy(&bytes[12], sides, sizeof(sides));
+  std::vector<std::uint32_t> groups;
+  const auto put = [&groups](std::uint32_t number) {
+    for (; number > 7; number >>= 3) groups.push_back((number & 7u) | 8u);
+    groups.push_back(number);
+  };
+  const auto runFrom = [&depth](std::size_t at, bool zeros) {
+    std::size_t end = at;
+    while (end < depth.total() && (depth.ptr<std::uint16_t>()[end] == 0) == zeros) ++end;
+    return end;
+  };
+  int previous = 0;
+  for (std::size_t at = 0; at < depth.total();) {
+    const std::size_t first = runFrom(at, true), end = runFrom(first, false);
+    put(static_cast<std::uint32_t>(first - at));
+    put(static_cast<std::uint32_t>(end - first));
+    for (at = first; at < end; ++at) {
+      const int value = depth.ptr<std::uint16_t>()[at], difference = value - std::exchange(previous, value);
+      put(static_cast<std::uint32_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
+    }
+  }
+  groups.resize((groups.size() + 7) / 8 * 8);
+  for (std::size_t word = 0; word < groups.size(); word += 8)
+    for (const std::size_t k : {6, 4, 2, 0})
+      bytes.push_back(static_cast<std::uint8_t>(groups[word + k] << 4 | groups[word + k + 1]));
+  return bytes;
+}
+
+TEST(CompressedImage, RvlComesBackWhateverThePixels) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    cv::Mat1w depth(1 + static_cast<int>(random() % 40), 1 + static_cast<int>(random() % 50));
+    for (std::uint16_t& z : depth) z = static_cast<std::uint16_t>(random() % 4 == 0 ? 0 : random());
+    sensor_msgs::CompressedImage image;
+    image.format = "16UC1; compressedDepth rvl";
+    image.data = rvlOf(depth);
+    EXPECT_EQ(cv::norm(depthFromMessage(*decompressed(image)), depth, cv::NORM_INF), 0.0) << trial;
+    image.data.resize(random() % image.data.size());
+    EXPECT_THROW(decompressed(image), std::invalid_argument) << "truncated";
+  }
+}
+
+/// Drivers in Python, and other packages, do not name the format as image_transport does.
+TEST(CompressedImage, TheDataDecideAboutTheFormat) {
+  cv::Mat1w depth(4, 6);
+  depth.forEach(
+      [](std::uint16_t& z, const int* at) { z = static_cast<std::uint16_t>(700 + 10 * at[0] + at[1]); });
+  for (const char* format : {"", "png", "jpeg", "16UC1; png compressed ", "16UC1; compressedDepth png"}) {
+    for (const auto& image :
+         {compressedDepth(depth, format, 0.0f, 0.0f), compressedImage(depth, format, ".png")})
+      EXPECT_EQ(cv::norm(depthFromMessage(*decompressed(image)), depth, cv::NORM_INF), 0.0) << format;
+  }
+  for (const char* format : {"", "jpeg", "bgr8; jpeg compressed bgr8"})
+    EXPECT_EQ(cv::norm(colorFromMessage(*decompressed(compressedImage(colors(), format, ".png"))), colors()),
+              0.0);
+}
+
 TEST(CompressedImage, WhatCannotBeDecodedIsRefused) {
   const auto refused = [](const sensor_msgs::CompressedImage& image) {
     EXPECT_THROW(decompressed(image), std::invalid_argument) << image.format;

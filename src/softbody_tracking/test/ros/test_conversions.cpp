@@ -6,8 +6,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "softbody_common/ros/camera_messages.h"
-#include "softbody_common/ros/conversions.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
@@ -24,10 +22,6 @@ sensor_msgs::Image imageOf(const std::string& encoding, int bytes_per_pixel, int
   std::mt19937 random(11);
   for (auto& byte : image.data) byte = static_cast<std::uint8_t>(random());
   return image;
-}
-
-sensor_msgs::CameraInfo infoOf(int width = 6, int height = 4) {
-  return toMessage(Pinhole{width, height, 5.0, 5.0, 3.0, 2.0});
 }
 
 TEST(TrackingConversions, ColourEncodingsAgreeOnThePixels) {
@@ -121,27 +115,6 @@ TEST(TrackingConversions, NoHeaderHoweverRandomCrashes) {
       }
     }
   }
-}
-
-TEST(TrackingConversions, DistortionModelsAreTold) {
-  sensor_msgs::CameraInfo info = infoOf();
-  info.distortion_model = "equidistant";
-  EXPECT_TRUE(distortionFromMessage(info).fisheye);
-  info.distortion_model = "magic";
-  EXPECT_THROW(distortionFromMessage(info), std::invalid_argument);
-  info = sensor_msgs::CameraInfo();
-  EXPECT_EQ(distortionFromMessage(info).R, cv::Matx33d::eye());
-}
-
-TEST(TrackingConversions, AFrameCarriesTheColoursStamp) {
-  sensor_msgs::Image color = imageOf("rgb8", 3), depth = imageOf("16UC1", 2);
-  color.header.stamp = ros::Time(12, 34);
-  depth.header.stamp = ros::Time(12, 99);
-  CameraIngest ingest({});
-  EXPECT_EQ(frameFromMessages(color, &depth, infoOf(), &ingest).stamp, 12'000'000'034LL);
-  EXPECT_EQ(cv::countNonZero(frameFromMessages(color, nullptr, infoOf(), &ingest).depth), 0);
-  EXPECT_THROW(frameFromMessages(color, &depth, infoOf(7, 4), &ingest), std::invalid_argument);
-  EXPECT_THROW(frameFromMessages(color, &depth, sensor_msgs::CameraInfo(), &ingest), std::invalid_argument);
 }
 
 TEST(TrackingConversions, CloudsAreLaidOutAsTheirFieldsSay) {

@@ -7,6 +7,8 @@
 
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/topics.h"
+#include "softbody_tracking/camera/camera_ingest.h"
+#include "softbody_tracking/ros/camera_reader.h"
 #include "softbody_tracking/ros/conversions.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 #include "softbody_virtual_camera/ros/messages.h"
@@ -16,7 +18,8 @@ namespace {
 
 CameraFrame rectifiedFrame(const CameraFrame& raw) {
   CameraIngest ingest{CameraIngestConfig{}};
-  const RgbdFrame frame = frameFromMessages(raw.color, &raw.depth, raw.info, &ingest);
+  CameraReader reader({topics::kCameraColor, topics::kCameraDepth}, nullptr, [](const std::string&) {});
+  const RgbdFrame frame = ingest.process(reader.read({raw.color, &raw.depth, raw.info, nullptr}));
   CameraFrame result;
   result.color = *toMessage(frame.color, raw.color.header);
   result.depth = *toMessage(frame.depth, raw.color.header);

@@ -12,6 +12,7 @@ namespace softbody {
 struct GraphConfig {
   PairingConfig pairing;
   CameraIngestConfig ingest;
+  double depth_scale = 0.0;  ///< see CameraTopics
   PipelineConfig pipeline;
   std::string output_frame;  ///< empty: the colour optical frame
 };

@@ -4,6 +4,8 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
 
+#include <string>
+
 #include "softbody_common/camera_topics.h"
 
 namespace softbody {
@@ -12,8 +14,12 @@ namespace softbody {
 /// "/compressedDepth" is added to the name.
 CameraTopics recordedTopics(const rosbag::Bag& bag, const CameraTopics& wanted);
 
-/// An image of either type, decompressed; null if the message has another type.
-/// @throw std::invalid_argument if a compressed image cannot be decoded.
-sensor_msgs::ImageConstPtr recordedImage(const rosbag::MessageInstance& instance);
+/// Why a bag's messages on a topic cannot be read as images, or as CameraInfo; empty: they can.
+std::string imageTypeFault(const rosbag::ConnectionInfo& connection);
+std::string infoTypeFault(const rosbag::ConnectionInfo& connection);
+
+/// An image of either type, decompressed.
+/// @throw std::invalid_argument if it has another type, or if a compressed image cannot be decoded.
+sensor_msgs::ImageConstPtr recordedImage(const rosbag::MessageInstance& instance, const rosbag::Bag& bag);
 
 }  // namespace softbody

@@ -17,7 +17,7 @@ enum class Severity {
 struct Finding {
   Severity severity = Severity::kError;
   std::string check;     ///< name of the check, e.g. "sync"
-  std::string topic;     ///< topic with the fault
+  std::string topic;     ///< topic with the fault; empty: the sentence names it
   std::string sentence;  ///< with the values and the remedy
 };
 

@@ -2,11 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "softbody_common/depth_units.h"
+
 namespace softbody::validation {
 namespace {
 
-bool anyDepth(const RecordingFacts& facts, const char* encoding) {
-  return facts.depth.encodings.count(encoding) != 0;
+// Fewer pixels than this show no body that could be found: 300 of 640x480.
+constexpr double kFewestUsable = 1e-3;
+
+/// A unit that brings the median to where bodies are tracked, the coarsest first; 0: none.
+double unitFor(double median) {
+  for (const double unit_m : kDepthUnits_m)
+    if (unit_m * median >= 0.2 && unit_m * median <= 2.0) return unit_m;
+  return 0.0;
 }
 
 }  // namespace
@@ -23,21 +31,22 @@ Findings checkDepth(const RecordingFacts& facts, const CheckLimits& limits) {
              depth.images)}};
   }
   Findings findings;
-  const bool millimetres = !anyDepth(facts, "32FC1");
-  const double metres = millimetres ? 1e-3 * depth.median : depth.median;
-  if (metres < limits.nearest_m || metres > limits.farthest_m) {
+  const double metres = depth.unit_m * depth.median;
+  if (depth.usable_share < kFewestUsable) {
+    const double unit_m = unitFor(depth.median);
     findings.push_back(
         {Severity::kError, "depth scale", facts.depth.topic,
-         fmt::format(
-             "has a median depth of {:.4g} as {}, that is {:.4g} m; {} must be in {}; scale the images",
-             depth.median, millimetres ? "16UC1" : "32FC1", metres, millimetres ? "16UC1" : "32FC1",
-             millimetres ? "millimetres" : "metres")});
+         fmt::format("has a median depth of {:.4g}, that is {:.4g} m, and almost none from {} to {} m; {}",
+                     depth.median, metres, limits.nearest_m, limits.farthest_m,
+                     unit_m > 0.0 ? fmt::format("if its unit is {} m, set depth_scale (--depth-scale {})",
+                                                unit_m, unit_m)
+                                  : "set depth_scale to the metres of one unit")});
   } else if (metres > limits.usual_farthest_m) {
     findings.push_back(
         {Severity::kWarning, "depth scale", facts.depth.topic,
-         fmt::format("has a median depth of {:.2f} m; if the scene is nearer, the unit is not the {} of "
-                     "the encoding",
-                     metres, millimetres ? "millimetre" : "metre")});
+         fmt::format("has a median depth of {:.2f} m; if the scene is nearer, set depth_scale to "
+                     "the metres of one unit",
+                     metres)});
   }
   if (depth.valid_share < limits.smallest_valid_share) {
     findings.push_back(

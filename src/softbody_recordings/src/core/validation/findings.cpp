@@ -31,8 +31,12 @@ bool usable(const Findings& findings) { return countOf(findings, Severity::kErro
 std::string toText(const RecordingFacts& facts, const Findings& findings) {
   std::string text;
   for (const Finding& finding : findings) {
-    text += fmt::format("{}: {} {}\n", name(finding.severity), finding.topic, finding.sentence);
+    text += fmt::format("{}: {}{}{}\n", name(finding.severity), finding.topic,
+                        finding.topic.empty() ? "" : " ", finding.sentence);
   }
+  if (!facts.trial)
+    text +=
+        "not checked without --object FILE: the unit of depth, and whether the first frame shows the body\n";
   return text + fmt::format("{}: {}, {} errors, {} warnings, {} colour and {} depth images\n", facts.path,
                             usable(findings) ? "usable" : "not usable", countOf(findings, Severity::kError),
                             countOf(findings, Severity::kWarning), facts.color.stamps.size(),

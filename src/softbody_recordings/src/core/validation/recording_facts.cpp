@@ -4,7 +4,7 @@ namespace softbody::validation {
 
 bool operator==(const CameraFacts& a, const CameraFacts& b) {
   return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
-         a.cy == b.cy && a.distortion_model == b.distortion_model && a.distortion == b.distortion;
+         a.cy == b.cy;
 }
 
 }  // namespace softbody::validation

@@ -57,23 +57,32 @@ Order orderOf(const std::vector<Nanoseconds>& stamps) {
   return order;
 }
 
-StreamFacts withoutOutliers(StreamFacts stream) {
-  const std::vector<Place> outliers = orderOf(stream.stamps).outliers;
-  for (auto outlier = outliers.rbegin(); outlier != outliers.rend(); ++outlier) {
-    const auto message = static_cast<std::ptrdiff_t>(outlier->message);
-    stream.stamps.erase(stream.stamps.begin() + message);
-    stream.received.erase(stream.received.begin() + message);
+/// The messages whose stamps are used.
+StreamFacts withUsedStamps(const StreamFacts& stream) {
+  std::set<std::size_t> unused;
+  for (const Place& outlier : orderOf(stream.stamps).outliers) unused.insert(outlier.message);
+  StreamFacts used = stream;
+  used.stamps.clear();
+  used.received.clear();
+  for (std::size_t i = 0; i < stream.stamps.size(); ++i) {
+    if (stream.stamps[i] == 0 || unused.count(i) != 0) continue;
+    used.stamps.push_back(stream.stamps[i]);
+    used.received.push_back(stream.received[i]);
   }
-  return stream;
+  return used;
 }
 
 void checkOrder(const StreamFacts& stream, Findings* findings) {
   const auto zeros = std::count(stream.stamps.begin(), stream.stamps.end(), 0);
   if (zeros > 0) {
+    const auto first = std::find(stream.stamps.begin(), stream.stamps.end(), 0) - stream.stamps.begin();
+    const bool all = static_cast<std::size_t>(zeros) == stream.stamps.size();
     findings->push_back(
-        {Severity::kError, "stamps", stream.topic,
-         fmt::format("has {} messages without a stamp; the driver must stamp every image", zeros)});
-    return;
+        {all ? Severity::kError : Severity::kWarning, "stamps", stream.topic,
+         fmt::format(
+             "has {} messages without a stamp, the first is message {}; these images are dropped; the "
+             "driver must stamp every image",
+             zeros, first)});
   }
   const Order order = orderOf(stream.stamps);
   if (!order.outliers.empty()) {
@@ -100,10 +109,8 @@ void checkOrder(const StreamFacts& stream, Findings* findings) {
 
 void checkClock(const StreamFacts& stream, Findings* findings) {
   std::vector<Nanoseconds> delays;
-  for (std::size_t i = 0; i < stream.stamps.size(); ++i) {
-    if (stream.stamps[i] != 0) delays.push_back(stream.received[i] - stream.stamps[i]);
-  }
-  if (delays.empty()) return;
+  for (std::size_t i = 0; i < stream.stamps.size(); ++i)
+    delays.push_back(stream.received[i] - stream.stamps[i]);
   const double delay = seconds(median(delays));
   if (std::abs(delay) <= kClockTolerance_s) return;
   findings->push_back(
@@ -124,7 +131,6 @@ std::vector<Nanoseconds> intervals(const std::set<Nanoseconds>& stamps) {
 
 void checkRate(const StreamFacts& stream, const CheckLimits& limits, Findings* findings) {
   std::set<Nanoseconds> stamps(stream.stamps.begin(), stream.stamps.end());
-  stamps.erase(0);
   const std::vector<Nanoseconds> steps = intervals(stamps);
   if (steps.empty()) return;
   const double interval = seconds(median(steps)), rate = 1.0 / interval;
@@ -164,7 +170,8 @@ Findings checkStamps(const RecordingFacts& facts, const CheckLimits& limits) {
   for (const StreamFacts* stream : {&facts.color, &facts.depth}) {
     if (stream->stamps.empty()) continue;
     checkOrder(*stream, &findings);
-    const StreamFacts good = withoutOutliers(*stream);
+    const StreamFacts good = withUsedStamps(*stream);
+    if (good.stamps.empty()) continue;
     checkClock(good, &findings);
     checkRate(good, limits, &findings);
     checkLength(good, limits, &findings);
@@ -173,11 +180,13 @@ Findings checkStamps(const RecordingFacts& facts, const CheckLimits& limits) {
 }
 
 Findings checkSync(const RecordingFacts& facts, const CheckLimits& limits) {
-  const std::set<Nanoseconds> depths(facts.depth.stamps.begin(), facts.depth.stamps.end());
-  if (depths.empty() || facts.color.stamps.empty()) return {};
+  const std::vector<Nanoseconds> colors = withUsedStamps(facts.color).stamps,
+                                 depth_stamps = withUsedStamps(facts.depth).stamps;
+  const std::set<Nanoseconds> depths(depth_stamps.begin(), depth_stamps.end());
+  if (depths.empty() || colors.empty()) return {};
   std::vector<Nanoseconds> offsets;
   std::size_t paired = 0;
-  for (const Nanoseconds stamp : facts.color.stamps) {
+  for (const Nanoseconds stamp : colors) {
     const auto after = depths.lower_bound(stamp);
     Nanoseconds offset = after == depths.end() ? *depths.rbegin() - stamp : *after - stamp;
     if (after != depths.begin() && std::llabs(*std::prev(after) - stamp) < std::llabs(offset))
@@ -187,7 +196,7 @@ Findings checkSync(const RecordingFacts& facts, const CheckLimits& limits) {
   }
   const double share = static_cast<double>(paired) / static_cast<double>(offsets.size());
   if (share >= 0.95) return {};
-  const Severity severity = share < 0.5 ? Severity::kError : Severity::kWarning;
+  const Severity severity = facts.frames.with_depth == 0 ? Severity::kError : Severity::kWarning;
   return {
       {severity, "sync", facts.depth.topic,
        fmt::format("has an image within {:.0f} ms of only {:.0f} % of the colour images (median {:+.1f} ms); "

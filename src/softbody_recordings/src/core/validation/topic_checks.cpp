@@ -16,11 +16,6 @@ std::vector<std::string> topicsOfType(const RecordingFacts& facts, const std::st
   return names;
 }
 
-/// Whether the topic is that of a transport that the tools decode.
-bool isCompressed(const StreamFacts& stream) {
-  return stream.type == kCompressed && stream.topic.find("/compressed") != std::string::npos;
-}
-
 /// What the user can do about a missing topic.
 std::string remedy(const RecordingFacts& facts, const std::string& type) {
   std::vector<std::string> candidates = topicsOfType(facts, type);
@@ -38,14 +33,14 @@ std::string remedy(const RecordingFacts& facts, const std::string& type) {
 }
 
 void checkTopic(const RecordingFacts& facts, const StreamFacts& stream, const std::string& type,
-                Severity severity, Findings* findings) {
+                Findings* findings) {
   if (!stream.present()) {
-    findings->push_back({severity, "topics", stream.topic,
+    findings->push_back({Severity::kError, "topics", stream.topic,
                          fmt::format("is not in the bag (expected {}); {}", type, remedy(facts, type))});
-  } else if (stream.type != type && !isCompressed(stream)) {
-    findings->push_back(
-        {severity, "types", stream.topic,
-         fmt::format("is of type {} instead of {}; {}", stream.type, type, remedy(facts, type))});
+  } else if (!stream.type_fault.empty()) {
+    const bool other = stream.type != type;
+    findings->push_back({Severity::kError, "types", stream.topic,
+                         stream.type_fault + (other ? "; " + remedy(facts, type) : "")});
   }
 }
 
@@ -53,11 +48,11 @@ void checkTopic(const RecordingFacts& facts, const StreamFacts& stream, const st
 
 Findings checkTopics(const RecordingFacts& facts) {
   Findings findings;
-  checkTopic(facts, facts.color, kImage, Severity::kError, &findings);
-  checkTopic(facts, facts.color_info, kInfo, Severity::kError, &findings);
-  checkTopic(facts, facts.depth, kImage, Severity::kError, &findings);
-  // The tracker uses the CameraInfo of colour. The check of registration needs that of depth.
-  checkTopic(facts, facts.depth_info, kInfo, Severity::kWarning, &findings);
+  checkTopic(facts, facts.color, kImage, &findings);
+  checkTopic(facts, facts.color_info, kInfo, &findings);
+  checkTopic(facts, facts.depth, kImage, &findings);
+  // Depth that is registered to colour needs no CameraInfo; without it other depth makes no frame.
+  if (facts.depth_info.present()) checkTopic(facts, facts.depth_info, kInfo, &findings);
   return findings;
 }
 

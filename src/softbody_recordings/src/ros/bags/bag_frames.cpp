@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 
 #include <optional>
 #include <set>
@@ -12,18 +11,25 @@
 #include "softbody_recordings/ros/bag_transforms.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/recorded_images.h"
-#include "softbody_tracking/camera/frame_pairer.h"
-#include "softbody_tracking/ros/conversions.h"
-#include "softbody_tracking/ros/unregistered_depth.h"
+#include "softbody_recordings/ros/typed_message.h"
+#include "softbody_tracking/ros/camera_reader.h"
 
 namespace softbody {
 namespace {
 
-void requireTopics(const rosbag::Bag& bag, const std::vector<std::string>& topics) {
+void requireTopics(const rosbag::Bag& bag, const CameraTopics& topics) {
   rosbag::View view(bag);
   std::set<std::string> present;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) present.insert(connection->topic);
-  for (const std::string& topic : topics) {
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    const std::string& topic = connection->topic;
+    present.insert(topic);
+    const bool is_image = topic == topics.color || topic == topics.depth;
+    if (!is_image && topic != topics.color_info && topic != topics.depth_info) continue;
+    const std::string fault = is_image ? imageTypeFault(*connection) : infoTypeFault(*connection);
+    if (!fault.empty())
+      throw std::invalid_argument(fmt::format("{}: {} {}", bag.getFileName(), topic, fault));
+  }
+  for (const std::string& topic : {topics.color, topics.color_info, topics.depth}) {
     if (present.count(topic) == 0) {
       throw std::invalid_argument(fmt::format(
           "{} has no topic {}; it has: {}; record it, or name one of these (--color, --depth, --color-info)",
@@ -32,33 +38,46 @@ void requireTopics(const rosbag::Bag& bag, const std::vector<std::string>& topic
   }
 }
 
-template <typename Message>
-boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& instance, const char* type) {
-  boost::shared_ptr<const Message> message = instance.instantiate<Message>();
-  if (!message) {
-    throw std::invalid_argument(
-        fmt::format("{} holds {}; it must be {}", instance.getTopic(), instance.getDataType(), type));
-  }
-  return message;
+/// Null: the bag has none.
+sensor_msgs::CameraInfoConstPtr firstInfo(const rosbag::Bag& bag, const std::string& topic) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  if (view.size() == 0) return nullptr;
+  return instantiate<sensor_msgs::CameraInfo>(*view.begin(), bag);
 }
 
 class Reader {
  public:
-  using Use = std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>;
-
-  Reader(const std::string& bag, const PairingConfig& pairing, CameraTopics topics, CameraIngest* ingest,
-         const Use& use)
-      : bag_(bag), topics_(std::move(topics)), ingest_(ingest), use_(use), pairer_(pairing) {}
+  Reader(const rosbag::Bag& bag, const PairingConfig& pairing, const CameraTopics& topics,
+         const BagFramesUse& use)
+      : bag_(bag),
+        topics_(topics),
+        use_(use),
+        depth_info_(firstInfo(bag, topics.depth_info)),
+        pairer_(pairing),
+        camera_(
+            {topics.color, topics.depth, topics.depth_scale},
+            [this](const auto& target, const auto& source, const auto& stamp) {
+              return transforms().at(target, source, stamp);
+            },
+            use.note) {
+    const sensor_msgs::CameraInfoConstPtr info = firstInfo(bag, topics.color_info);
+    if (!info)
+      throw std::invalid_argument(fmt::format("{}: {} has no message; record it together with the images",
+                                              bag.getFileName(), topics.color_info));
+    pairer_.setInfo(info);
+  }
 
   void add(const rosbag::MessageInstance& message) {
     const std::string& topic = message.getTopic();
+    sensor_msgs::ImageConstPtr image;
     if (topic == topics_.depth_info) {
-      depth_info_ = instantiate<sensor_msgs::CameraInfo>(message, "sensor_msgs/CameraInfo");
-      return;
+      depth_info_ = instantiate<sensor_msgs::CameraInfo>(message, bag_);
+    } else if (topic == topics_.color_info) {
+      pairer_.setInfo(instantiate<sensor_msgs::CameraInfo>(message, bag_));
+    } else {
+      image = imageOf(message);
     }
-    if (topic == topics_.color_info)
-      return pairer_.setInfo(instantiate<sensor_msgs::CameraInfo>(message, "sensor_msgs/CameraInfo"));
-    const sensor_msgs::ImageConstPtr image = imageOf(message);
+    use_.message(message, image.get());
     if (!image) return;
     const Nanoseconds stamp = toNanoseconds(image->header.stamp);
     if (topic == topics_.color)
@@ -81,82 +100,87 @@ class Reader {
   using Pairer =
       FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
-  /// Null if the image is damaged. @throw std::invalid_argument if the message has another type.
+  const BagTransforms& transforms() {
+    if (!transforms_) transforms_.emplace(std::vector<std::string>{bag_.getFileName()});
+    return *transforms_;
+  }
+
+  void count(const std::string& error, int number) {
+    validation::Unusable& unusable =
+        report_.reasons.try_emplace(error, validation::Unusable{0, number}).first->second;
+    ++unusable.count;
+    report_.last_error = error;
+  }
+
+  /// Null if the image is damaged.
   sensor_msgs::ImageConstPtr imageOf(const rosbag::MessageInstance& message) {
-    sensor_msgs::ImageConstPtr image;
+    const int number = images_[message.getTopic()]++;
     try {
-      image = recordedImage(message);
+      return recordedImage(message, bag_);
     } catch (const std::invalid_argument& error) {
       ++report_.undecoded;
-      report_.last_error = error.what();
+      count(error.what(), number);
       return nullptr;
     }
-    if (!image) {
-      throw std::invalid_argument(fmt::format("{} holds {}; it must be sensor_msgs/Image or CompressedImage",
-                                              message.getTopic(), message.getDataType()));
-    }
-    return image;
   }
 
-  std::optional<DepthCamera> depthCamera(const Pairer::Frame& images) {
-    const auto lookup = [this](const std::string& target, const std::string& source, const ros::Time& stamp) {
-      if (!transforms_) transforms_.emplace(std::vector<std::string>{bag_});
-      return transforms_->at(target, source, stamp);
-    };
-    return unregisteredDepthCamera(*images.color, *images.depth, *images.info, depth_info_.get(), lookup);
-  }
-
-  void process(const Pairer::Frame& images, double progress) {
-    ++report_.frames;
-    if (!images.depth) ++report_.without_depth;
-    RgbdFrame frame;
+  void process(const Pairer::Frame& frame, double progress) {
+    const int number = report_.frames++;
+    CameraImages images;
     try {
-      std::optional<DepthCamera> depth_camera;
-      if (images.depth) depth_camera = depthCamera(images);
-      frame = frameFromMessages(*images.color, images.depth.get(), *images.info, ingest_,
-                                depth_camera ? &*depth_camera : nullptr);
+      images = camera_.read({*frame.color, frame.depth.get(), *frame.info, depth_info_.get()});
     } catch (const std::exception& error) {
       ++report_.unusable;
-      report_.last_error = error.what();
-      return;
+      return count(error.what(), number);
     }
-    frame.pass = images.pass;
-    use_(frame, images.color->header, progress);
+    if (!frame.depth) ++report_.without_depth;
+    images.pass = frame.pass;
+    use_.frame(images, frame.color->header, progress);
   }
 
-  std::string bag_;
+  const rosbag::Bag& bag_;
   CameraTopics topics_;
+  const BagFramesUse& use_;
   sensor_msgs::CameraInfoConstPtr depth_info_;
-  std::optional<BagTransforms> transforms_;  ///< only if depth is not registered
-  CameraIngest* ingest_;
-  const Use& use_;
+  std::optional<BagTransforms> transforms_;  ///< only if depth has its own frame
   Pairer pairer_;
+  CameraReader camera_;
+  std::map<std::string, int> images_;  ///< read so far, by topic
   BagFramesReport report_;
 };
 
 }  // namespace
 
-BagFramesReport readBagFrames(
-    const rosbag::Bag& bag, const BagFramesConfig& config, CameraIngest* ingest,
-    const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use) try {
+BagFramesReport readBagImages(const rosbag::Bag& bag, const BagFramesConfig& config,
+                              const BagFramesUse& use) try {
   const CameraTopics topics = recordedTopics(bag, config.camera);
-  requireTopics(bag, {topics.color, topics.color_info, topics.depth});
-  if (rosbag::View(bag, rosbag::TopicQuery(topics.color_info)).size() == 0)
-    throw std::invalid_argument(fmt::format("{}: {} has no message; record it together with the images",
-                                            bag.getFileName(), topics.color_info));
+  requireTopics(bag, topics);
   rosbag::View view(bag,
                     rosbag::TopicQuery({topics.color, topics.color_info, topics.depth, topics.depth_info}));
-  Reader reader(bag.getFileName(), config.pairing, topics, ingest, use);
+  Reader reader(bag, config.pairing, topics, use);
   const double total = view.size();
   double count = 0.0;
   for (const rosbag::MessageInstance& message : view) {
     reader.add(message);
     reader.processCompleteFrames(false, ++count / total);
+    if (use.enough()) return reader.report();
   }
   reader.processCompleteFrames(true, 1.0);
   return reader.report();
 } catch (const rosbag::BagException& error) {
   throw damagedBag(bag.getFileName(), error);
+}
+
+BagFramesReport readBagFrames(
+    const rosbag::Bag& bag, const BagFramesConfig& config, CameraIngest* ingest,
+    const std::function<void(const RgbdFrame&, const std_msgs::Header&, double)>& use,
+    const std::function<void(const std::string&)>& note) {
+  BagFramesUse through_ingest;
+  through_ingest.note = note;
+  through_ingest.frame = [&](const CameraImages& images, const std_msgs::Header& header, double progress) {
+    use(ingest->process(images), header, progress);
+  };
+  return readBagImages(bag, config, through_ingest);
 }
 
 }  // namespace softbody

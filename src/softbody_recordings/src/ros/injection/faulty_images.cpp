@@ -1,5 +1,6 @@
 #include "ros/injection/faulty_images.h"
 
+#include <cv_bridge/cv_bridge.h>
 #include <fmt/format.h>
 #include <sensor_msgs/image_encodings.h>
 
@@ -7,26 +8,24 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/time.h"
+#include "softbody_tracking/ros/conversions.h"
 
 namespace softbody::injection {
 namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-/// The message's pixels without a copy. @throw std::invalid_argument if the number of bytes is wrong.
-cv::Mat pixels(const std::string& topic, int type, sensor_msgs::Image* image) {
-  const std::size_t row = static_cast<std::size_t>(image->width) * CV_ELEM_SIZE(type);
-  if (image->step < row || image->data.size() < static_cast<std::size_t>(image->step) * image->height)
-    throw std::invalid_argument(fmt::format(
-        "{}: an image has a wrong number of bytes for its size; validate_bag says more about the recording",
-        topic));
-  return cv::Mat(static_cast<int>(image->height), static_cast<int>(image->width), type, image->data.data(),
-                 image->step);
+/// A message whose pixels can be changed in place: the original where its pixels are as OpenCV holds them,
+/// otherwise a copy with these pixels.
+void changeInPlace(const cv::Mat& pixels, const std::string& encoding, sensor_msgs::Image* image) {
+  if (pixels.data == image->data.data()) return;
+  *image = *cv_bridge::CvImage(image->header, encoding, pixels).toImageMsg();
 }
 
-[[noreturn]] void refuse(const std::string& topic, const sensor_msgs::Image& image, const char* needed) {
-  throw std::invalid_argument(
-      fmt::format("{} has encoding {}; {} is needed to change it", topic, image.encoding, needed));
+/// The pixels of such a message.
+cv::Mat pixelsIn(int type, sensor_msgs::Image* image) {
+  return cv::Mat(static_cast<int>(image->height), static_cast<int>(image->width), type, image->data.data(),
+                 image->step);
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ cv::Mat pixels(const std::string& topic, int type, sensor_msgs::Image* image) {
 FaultyImages::FaultyImages(std::string topic, bool is_depth, const ImageFaults& faults)
     : topic_(std::move(topic)), is_depth_(is_depth), faults_(faults) {}
 
-sensor_msgs::Image FaultyImages::next(const sensor_msgs::Image& original) {
+sensor_msgs::Image FaultyImages::next(const sensor_msgs::Image& original) try {
   const Nanoseconds stamp = toNanoseconds(original.header.stamp);
   if (count_ == 0) first_ = stamp;
   const bool occluded = occluderPresent(seconds(stamp - first_), faults_);
@@ -43,20 +42,25 @@ sensor_msgs::Image FaultyImages::next(const sensor_msgs::Image& original) {
   if (is_depth_ && (occluded || faults_.hole_share > 0.0)) changeDepth(occluded, &image);
   ++count_;
   return image;
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(fmt::format("{}: image {}: {}; validate_bag says more about the recording",
+                                          topic_, count_, error.what()));
 }
 
 void FaultyImages::changeColor(bool occluded, sensor_msgs::Image* image) const {
+  const cv::Mat3b bgr = colorFromMessage(*image);
   const bool rgb = image->encoding == encodings::RGB8;
-  if (!rgb && image->encoding != encodings::BGR8) refuse(topic_, *image, "rgb8 or bgr8");
-  cv::Mat3b color = pixels(topic_, CV_8UC3, image);
+  if (!rgb && image->encoding != encodings::BGR8) changeInPlace(bgr, encodings::BGR8, image);
+  cv::Mat3b color = pixelsIn(CV_8UC3, image);
   if (faults_.misplaced_share > 0.0) misplaceBlocks(faults_, count_, &color);
   if (occluded) occludeColor(faults_, rgb, &color);
 }
 
 void FaultyImages::changeDepth(bool occluded, sensor_msgs::Image* image) const {
-  const bool millimetres = image->encoding == encodings::TYPE_16UC1 || image->encoding == encodings::MONO16;
-  if (!millimetres && image->encoding != encodings::TYPE_32FC1) refuse(topic_, *image, "16UC1 or 32FC1");
-  cv::Mat depth = pixels(topic_, millimetres ? CV_16UC1 : CV_32FC1, image);
+  const cv::Mat pixels = depthFromMessage(*image);
+  const int type = pixels.type();
+  changeInPlace(pixels, type == CV_16UC1 ? encodings::TYPE_16UC1 : encodings::TYPE_32FC1, image);
+  cv::Mat depth = pixelsIn(type, image);
   if (occluded) occludeDepth(faults_, &depth);
   punchHoles(faults_, count_, &depth);
 }

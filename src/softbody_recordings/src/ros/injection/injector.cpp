@@ -13,6 +13,7 @@
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/atomic_bag.h"
 #include "softbody_recordings/ros/input_bag.h"
+#include "softbody_recordings/ros/recorded_images.h"
 
 namespace softbody::injection {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 class ImageStream {
  public:
   ImageStream(const std::string& topic, bool is_depth, const rosbag::Bag& bag, const InjectorOptions& options)
-      : topic_(topic), images_(topic, is_depth, options.images) {
+      : bag_(bag), topic_(topic), images_(topic, is_depth, options.images) {
     rosbag::View view(bag, rosbag::TopicQuery(topic_));
     std::vector<Nanoseconds> received;
     for (const rosbag::MessageInstance& instance : view)
@@ -34,15 +35,16 @@ class ImageStream {
   }
 
   void write(const rosbag::MessageInstance& instance, AtomicBag* output) {
-    const auto original = instance.instantiate<sensor_msgs::Image>();
-    if (!original)
-      throw std::invalid_argument(
-          fmt::format("{} is of type {} instead of sensor_msgs/Image", topic_, instance.getDataType()));
+    const sensor_msgs::ImageConstPtr original = recordedImage(instance, bag_);
     const std::size_t number = images_.count();
     sensor_msgs::Image changed = images_.next(*original);
     for (; next_ < arrivals_.size() && arrivals_[next_].image == number; ++next_) {
       changed.header.stamp = toTime(toNanoseconds(original->header.stamp) + arrivals_[next_].stamp_shift);
-      output->write(topic_, toTime(arrivals_[next_].received), changed, instance.getConnectionHeader());
+      const ros::Time received = toTime(arrivals_[next_].received);
+      if (instance.getDataType() == ros::message_traits::datatype(changed))
+        output->write(topic_, received, changed, instance.getConnectionHeader());
+      else  // compressed images become raw ones
+        output->write(topic_.substr(0, topic_.rfind('/')), received, changed);
     }
   }
 
@@ -51,6 +53,7 @@ class ImageStream {
   std::size_t written() const { return arrivals_.size(); }
 
  private:
+  const rosbag::Bag& bag_;
   std::string topic_;
   FaultyImages images_;
   std::vector<Arrival> arrivals_;
@@ -64,7 +67,7 @@ InjectionReport inject(const InjectorOptions& options, const std::function<void(
   if (std::filesystem::equivalent(options.input, options.output, ignored))
     throw std::invalid_argument(fmt::format("{} is the input; choose another output", options.output));
   const rosbag::Bag input = openBag(options.input);
-  const CameraTopics topics(options.camera);
+  const CameraTopics topics = recordedTopics(input, options.camera);
   ImageStream color(topics.color, false, input, options);
   ImageStream depth(topics.depth, true, input, options);
   AtomicBag output(options.output);

@@ -10,6 +10,7 @@
 
 #include "softbody_common/files/yaml_map_reader.h"
 #include "softbody_common/parameters.h"
+#include "softbody_tracking/ros/camera_reader.h"
 
 namespace softbody {
 namespace {
@@ -58,12 +59,14 @@ auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly
 GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings) {
   const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
   GraphConfig config;
-  config.ingest =
-      readSection(file, "camera_ingest", {{"voxel_size_m", "silence_timeout_s", "image_transport"}, {}},
-                  warnings, [&config](Parameters& parameters) {
-                    config.pairing = readPairingConfig(parameters);
-                    return readCameraIngestConfig(parameters);
-                  });
+  config.ingest = readSection(
+      file, "camera_ingest",
+      {{"voxel_size_m", "silence_timeout_s", "image_transport", "color_transport", "depth_transport"}, {}},
+      warnings, [&config](Parameters& parameters) {
+        config.pairing = readPairingConfig(parameters);
+        config.depth_scale = readDepthScale(parameters);
+        return readCameraIngestConfig(parameters);
+      });
   config.pipeline.tracker =
       readSection(file, "feature_tracker", {{"body_frame", "mask_timeout_s", "tf_timeout_s"}, {"use_mask"}},
                   warnings, [&config](Parameters& parameters) {

@@ -16,6 +16,7 @@
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/result_bag.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
+#include "softbody_tracking/registration/depth_unit.h"
 
 namespace softbody {
 namespace {
@@ -123,6 +124,8 @@ class Replay {
   }
 
   const ReplaySummary& summary() const { return summary_; }
+  const TetTopology& volumeTopology() const { return pipeline_.volumeTopology(); }
+  const MeshTopology& surfaceTopology() const { return pipeline_.surfaceTopology(); }
 
  private:
   void write(const FrameOutput& result, const std_msgs::Header& header) {
@@ -200,19 +203,30 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
   const rosbag::Bag input = openBag(options.input);
   Replay run(options, model, config, loadTool(options.tool, options.scope, warn), warn);
   CameraIngest ingest(config.ingest);
-  const BagFramesReport read =
-      readBagFrames(input, {options.camera, config.pairing}, &ingest,
-                    [&](const RgbdFrame& frame, const std_msgs::Header& header, double share) {
-                      run.process(frame, header);
-                      progress(share);
-                    });
+  BagFramesConfig frames{options.camera, config.pairing};
+  if (frames.camera.depth_scale == 0.0) frames.camera.depth_scale = config.depth_scale;
+  CameraImages first;  // with depth
+  BagFramesUse use;
+  use.note = warn;
+  use.frame = [&](const CameraImages& images, const std_msgs::Header& header, double share) {
+    if (first.depth.empty()) first = images, first.depth = images.depth.clone();
+    run.process(ingest.process(images), header);
+    progress(share);
+  };
+  const BagFramesReport read = readBagImages(input, frames, use);
   if (run.summary().frames_by_state.empty()) {
     throw std::runtime_error(fmt::format("{} holds no usable frame{}{}", options.input,
                                          read.last_error.empty() ? "" : ": ", read.last_error));
   }
   if (run.summary().states == 0) {
-    throw std::runtime_error(fmt::format("no frame of {} gave a surface: {}", options.input,
-                                         run.summary().reasons.begin()->second));
+    const std::optional<double> unit_m = depthUnitThatFits(first, &ingest, config.pipeline.tracker,
+                                                           run.volumeTopology(), run.surfaceTopology());
+    throw std::runtime_error(fmt::format(
+        "no frame of {} gave a surface: {}{}", options.input, run.summary().reasons.begin()->second,
+        unit_m ? fmt::format("; depth shows the body in its size if its unit is {} m: set depth_scale to {} "
+                             "(--depth-scale {}, or the parameter of camera_ingest)",
+                             *unit_m, *unit_m, *unit_m)
+               : ""));
   }
   ReplaySummary summary = run.finish();
   summary.read = read;

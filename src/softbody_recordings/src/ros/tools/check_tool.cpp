@@ -20,7 +20,7 @@ int runCheckTool(int argc, char** argv) {
       "Checks whether a tool YAML fits a recording of the tool. Exit code 0: it fits; 1: it does not");
   app.add_option("input", input, "bag with the camera's topics, in which the tool is visible")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingFile | CLI::ExistingDirectory);
   app.add_option("--tool", tool, "tool YAML")->required()->check(CLI::ExistingFile);
   addCameraOptions(&app, &config.camera);
   addAllowOutside(&app, &scope);

@@ -32,7 +32,7 @@ int runInject(int argc, char** argv) {
   CLI::App app("Copies a bag and adds faults to the camera's images, to test how robust the tracker is");
   app.add_option("input", options.input, "bag with the camera's topics")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingFile | CLI::ExistingDirectory);
   app.add_option("--output", options.output, "bag to write")->required();
   app.add_option("--camera", options.camera, "namespace of the camera's topics")->capture_default_str();
   app.add_option("--seed", options.deliveries.seed, "seed of the choice of images and pixels")

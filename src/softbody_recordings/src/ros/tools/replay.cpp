@@ -18,7 +18,7 @@ namespace {
 void declare(CLI::App* app, ReplayOptions* options) {
   app->add_option("input", options->input, "bag with the camera topics")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingFile | CLI::ExistingDirectory);
   app->add_option("--object", options->object, "object YAML, or its folder")
       ->required()
       ->check(CLI::ExistingPath);

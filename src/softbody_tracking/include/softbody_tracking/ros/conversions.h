@@ -8,27 +8,20 @@
 #include <vector>
 
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/point_cloud.h"
+#include "softbody_tracking/rgbd_frame.h"
 
 /// Conversions between camera messages and the core. All throw std::invalid_argument for malformed messages,
 /// with a sentence that says what is wrong.
 namespace softbody {
 
-/// The image as BGR in its own memory, from any colour encoding that cv_bridge knows; grey is refused.
+/// The image as BGR in its own memory, from any colour encoding that cv_bridge knows; without names of the
+/// colours (8UC3, 8UC4) as BGR and BGRA; grey is refused.
 cv::Mat3b colorFromMessage(const sensor_msgs::Image& image);
 
 /// The image as CV_16UC1 [mm] or CV_32FC1 [m]. It may share the message's memory, so the message must outlive
 /// it.
 cv::Mat depthFromMessage(const sensor_msgs::Image& image);
-
-Distortion distortionFromMessage(const sensor_msgs::CameraInfo& info);
-
-/// A frame from colour, depth (nullptr: no depth) and the colour camera's info, with the colour's stamp.
-/// @param depth_camera null: depth is registered to colour.
-RgbdFrame frameFromMessages(const sensor_msgs::Image& color, const sensor_msgs::Image* depth,
-                            const sensor_msgs::CameraInfo& info, CameraIngest* ingest,
-                            const DepthCamera* depth_camera = nullptr);
 
 /// A frame of rectified images of one size (depth 32FC1 [m]), with an identity T_fixed_camera. Depth that is
 /// not finite, below 0 or beyond 100 m becomes 0. The frame may share the messages' memory, so they must

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "camera/depth_registration.h"
@@ -65,35 +66,40 @@ CameraIngestConfig readCameraIngestConfig(Parameters& parameters) {
 struct CameraIngest::Implementation {
   explicit Implementation(const CameraIngestConfig& c) : config(c), filter(c.edge_jump_ratio) {}
 
-  void cleanDepth(const cv::Mat& raw, cv::Mat1f* result) {
-    const auto min = static_cast<float>(config.min_depth_m), max = static_cast<float>(config.max_depth_m);
+  void cleanDepth(const CameraImages& images, cv::Mat1f* result) {
+    const cv::Mat& raw = images.depth;
+    const auto unit_m = static_cast<float>(unitOf(images));
+    const auto min = config.keep_all_depth ? 0.0f : static_cast<float>(config.min_depth_m);
+    const auto max =
+        config.keep_all_depth ? std::numeric_limits<float>::max() : static_cast<float>(config.max_depth_m);
+    cv::Mat1f* const in_range = config.keep_all_depth ? result : &metres;
     if (raw.type() == CV_16UC1) {
-      metresInRange<std::uint16_t>(raw, 0.001f, min, max, &metres);
+      metresInRange<std::uint16_t>(raw, unit_m, min, max, in_range);
     } else {
-      metresInRange<float>(raw, 1.0f, min, max, &metres);
+      metresInRange<float>(raw, unit_m, min, max, in_range);
     }
-    filter.apply(metres, result);
+    if (!config.keep_all_depth) filter.apply(metres, result);
   }
 
   /// The result has its own memory, because the caller keeps it. Intermediate images are reused.
-  cv::Mat1f rectifiedDepth(const cv::Mat& raw, const Rectifier& rectifier) {
+  cv::Mat1f rectifiedDepth(const CameraImages& images, const Rectifier* rectifier) {
     cv::Mat1f result;
-    if (rectifier.isIdentity()) {
-      cleanDepth(raw, &result);
+    if (rectifier == nullptr || rectifier->isIdentity()) {
+      cleanDepth(images, &result);
       return result;
     }
-    cleanDepth(raw, &clean);
-    return rectifier.depth(clean);
+    cleanDepth(images, &clean);
+    return rectifier->depth(clean);
   }
 
   /// Depth of its own camera, as the rectified colour camera sees it.
-  cv::Mat1f registeredTo(const Distortion& color, const Pinhole& rectified, const cv::Mat& raw,
-                         const DepthCamera& camera) {
+  cv::Mat1f registered(const CameraImages& images) {
+    const DepthCamera& camera = *images.depth_camera;
     depth_rectifier.setCamera(camera.distortion, camera.rectified);
-    const Eigen::Isometry3d T_rectified_color(rotation(color)),
+    const Eigen::Isometry3d T_rectified_color(rotation(images.distortion)),
         T_depth_rectified(rotation(camera.distortion).inverse());
-    return registeredDepth(rectifiedDepth(raw, depth_rectifier), camera.rectified,
-                           T_rectified_color * camera.T_color_depth * T_depth_rectified, rectified);
+    return registeredDepth(rectifiedDepth(images, &depth_rectifier), camera.rectified,
+                           T_rectified_color * camera.T_color_depth * T_depth_rectified, images.rectified);
   }
 
   CameraIngestConfig config;
@@ -106,23 +112,25 @@ CameraIngest::CameraIngest(const CameraIngestConfig& config)
     : implementation_(std::make_unique<Implementation>(config)) {}
 CameraIngest::~CameraIngest() = default;
 
-RgbdFrame CameraIngest::process(const cv::Mat3b& color, const cv::Mat& depth, const Distortion& distortion,
-                                const Pinhole& rectified, Nanoseconds stamp,
-                                const DepthCamera* depth_camera) {
-  checkColor(color, rectified);
-  if (!depth.empty()) checkDepth(depth, depth_camera != nullptr ? depth_camera->rectified : rectified);
+RgbdFrame CameraIngest::process(const CameraImages& images) {
+  const cv::Mat& depth = images.depth;
+  checkColor(images.color, images.rectified);
+  if (!depth.empty())
+    checkDepth(depth, images.depth_camera ? images.depth_camera->rectified : images.rectified);
   Rectifier& rectifier = implementation_->rectifier;
-  rectifier.setCamera(distortion, rectified);
+  rectifier.setCamera(images.distortion, images.rectified);
   RgbdFrame frame;
-  frame.stamp = stamp;
-  frame.camera = rectified;
-  frame.color = rectifier.color(color);
+  frame.stamp = images.stamp;
+  frame.pass = images.pass;
+  frame.camera = images.rectified;
+  frame.color = rectifier.color(images.color);
   if (depth.empty()) {
-    frame.depth = cv::Mat1f::zeros(color.size());
-  } else if (depth_camera == nullptr) {
-    frame.depth = implementation_->rectifiedDepth(depth, rectifier);
+    frame.depth = cv::Mat1f::zeros(images.color.size());
+  } else if (images.depth_camera) {
+    frame.depth = implementation_->registered(images);
   } else {
-    frame.depth = implementation_->registeredTo(distortion, rectified, depth, *depth_camera);
+    frame.depth =
+        implementation_->rectifiedDepth(images, images.registered_to_rectified ? nullptr : &rectifier);
   }
   return frame;
 }

@@ -20,15 +20,6 @@ cv::Matx33d cameraMatrix(const Pinhole& camera) {
   return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
 }
 
-/// Whether raw and rectified image are the same.
-bool isAlreadyRectified(const Distortion& distortion, const Pinhole& rectified) {
-  const bool undistorted = std::all_of(distortion.coefficients.begin(), distortion.coefficients.end(),
-                                       [](double c) { return c == 0.0; });
-  if (!undistorted || distortion.fisheye) return false;
-  const bool no_calibration = distortion.K(0, 0) == 0.0;
-  return no_calibration || (distortion.R == cv::Matx33d::eye() && distortion.K == cameraMatrix(rectified));
-}
-
 void checkRotation(const cv::Matx33d& R, const cv::Matx33d& K) {
   const double centre[] = {K(0, 2), K(1, 2)};
   const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]);
@@ -37,24 +28,6 @@ void checkRotation(const cv::Matx33d& R, const cv::Matx33d& K) {
   if (!finite || !(skew < 1e-2) || !(cv::determinant(R) > 0.0)) {
     throw std::invalid_argument("camera_info: the centre in K is not finite, or R is not a rotation");
   }
-}
-
-void check(const Distortion& distortion) {
-  const std::set<std::size_t> counts =
-      distortion.fisheye ? std::set<std::size_t>{4} : std::set<std::size_t>{0, 4, 5, 8, 12, 14};
-  if (counts.count(distortion.coefficients.size()) == 0) {
-    throw std::invalid_argument(
-        fmt::format("camera_info: {} distortion coefficients; expected {}", distortion.coefficients.size(),
-                    distortion.fisheye ? "4 (equidistant)" : "4 or 5 (plumb_bob) or 8"));
-  }
-  const bool finite = std::all_of(distortion.coefficients.begin(), distortion.coefficients.end(),
-                                  [](double c) { return std::isfinite(c); });
-  if (!finite) throw std::invalid_argument("camera_info: a distortion coefficient is not finite");
-  if (!(distortion.K(0, 0) > 0.0 && distortion.K(1, 1) > 0.0)) {
-    throw std::invalid_argument(fmt::format("camera_info: the focal lengths {} and {} in K must be above 0",
-                                            distortion.K(0, 0), distortion.K(1, 1)));
-  }
-  checkRotation(distortion.R, distortion.K);
 }
 
 /// z of a point in the rectified frame divided by its z in the raw frame, for each rectified pixel.
@@ -72,13 +45,39 @@ cv::Mat1f rotatedDepthScale(const cv::Matx33d& R, const Pinhole& camera) {
 
 }  // namespace
 
+bool isAlreadyRectified(const Distortion& distortion, const Pinhole& rectified) {
+  const bool undistorted = std::all_of(distortion.coefficients.begin(), distortion.coefficients.end(),
+                                       [](double c) { return c == 0.0; });
+  if (!undistorted || distortion.fisheye) return false;
+  const bool no_calibration = distortion.K(0, 0) == 0.0;
+  return no_calibration || (distortion.R == cv::Matx33d::eye() && distortion.K == cameraMatrix(rectified));
+}
+
+void checkDistortion(const Distortion& distortion, const Pinhole& rectified) {
+  if (isAlreadyRectified(distortion, rectified)) return;
+  const std::set<std::size_t> counts =
+      distortion.fisheye ? std::set<std::size_t>{4} : std::set<std::size_t>{0, 4, 5, 8, 12, 14};
+  if (counts.count(distortion.coefficients.size()) == 0) {
+    throw std::invalid_argument(
+        fmt::format("camera_info: {} distortion coefficients; expected {}", distortion.coefficients.size(),
+                    distortion.fisheye ? "4 (equidistant)" : "4 or 5 (plumb_bob) or 8"));
+  }
+  const bool finite = std::all_of(distortion.coefficients.begin(), distortion.coefficients.end(),
+                                  [](double c) { return std::isfinite(c); });
+  if (!finite) throw std::invalid_argument("camera_info: a distortion coefficient is not finite");
+  if (!(distortion.K(0, 0) > 0.0 && distortion.K(1, 1) > 0.0)) {
+    throw std::invalid_argument(fmt::format("camera_info: the focal lengths {} and {} in K must be above 0",
+                                            distortion.K(0, 0), distortion.K(1, 1)));
+  }
+  checkRotation(distortion.R, distortion.K);
+}
+
 void Rectifier::setCamera(const Distortion& distortion, const Pinhole& rectified) {
   if (distortion == distortion_ && rectified == rectified_) return;
-  const bool identity = isAlreadyRectified(distortion, rectified);
-  if (!identity) check(distortion);
+  checkDistortion(distortion, rectified);
   distortion_ = distortion;
   rectified_ = rectified;
-  identity_ = identity;
+  identity_ = isAlreadyRectified(distortion, rectified);
   if (!identity_) makeMaps();
 }
 

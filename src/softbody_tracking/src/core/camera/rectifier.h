@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "softbody_tracking/camera/camera_ingest.h"
+#include "softbody_tracking/camera/camera_images.h"
 
 namespace softbody {
 

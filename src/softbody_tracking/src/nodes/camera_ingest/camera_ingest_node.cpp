@@ -5,7 +5,6 @@
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_tracking/ros/conversions.h"
-#include "softbody_tracking/ros/unregistered_depth.h"
 
 namespace softbody {
 
@@ -15,6 +14,7 @@ CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::Nod
   const double voxel_size_m = parameters.number("voxel_size_m", 0.0, 0.0, 1.0);
   const double silence_timeout_s = parameters.number("silence_timeout_s", 2.0, 0.1, 3600.0);
   ingest_.emplace(readCameraIngestConfig(parameters));
+  const double depth_scale = readDepthScale(parameters);
   const std::string transport = parameters.text("image_transport", "raw");
   const Transports transports{parameters.text("color_transport", transport),
                               parameters.text("depth_transport", transport)};
@@ -22,6 +22,12 @@ CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::Nod
   pairer_.emplace(pairing);
   outputs_.emplace(handle, voxel_size_m, static_cast<std::uint32_t>(pairing.queue_size));
   watch_.emplace(handle, private_handle, pairing, silence_timeout_s, [this] { return streamTopics(); });
+  const auto lookup = [this](const auto& target, const auto& source, const auto&) {
+    return newestTransform(target, source);
+  };
+  reader_.emplace(CameraReader::Config{handle.resolveName(topics::kCameraColor),
+                                       handle.resolveName(topics::kCameraDepth), depth_scale},
+                  lookup, [](const std::string& sentence) { ROS_WARN_STREAM(sentence); });
   subscribe(handle, transports, static_cast<std::uint32_t>(pairing.queue_size));
 }
 
@@ -81,35 +87,25 @@ void CameraIngestNode::processCompleteFrames() {
   while (const std::optional<Pairer::Frame> frame = pairer_->next()) process(*frame);
 }
 
-std::optional<DepthCamera> CameraIngestNode::depthCamera(const sensor_msgs::Image& color,
-                                                         const sensor_msgs::Image& depth,
-                                                         const sensor_msgs::CameraInfo& color_info) {
-  // The newest transform: the two cameras are fixed to each other.
-  const auto lookup = [this](const std::string& target, const std::string& source, const ros::Time&) {
-    if (!transforms_) transforms_.emplace();
-    return fromMessage(transforms_->buffer().lookupTransform(target, source, ros::Time(0)).transform);
-  };
-  return unregisteredDepthCamera(color, depth, color_info, depth_info_.get(), lookup);
+/// The newest transform: the two cameras are fixed to each other.
+Eigen::Isometry3d CameraIngestNode::newestTransform(const std::string& target, const std::string& source) {
+  if (!transforms_) transforms_.emplace();
+  return fromMessage(transforms_->buffer().lookupTransform(target, source, ros::Time(0)).transform);
 }
 
 void CameraIngestNode::process(const Pairer::Frame& images) {
-  const auto note = [&] {
-    watch_->noteFrame(images.color->header, images.depth ? &images.depth->header : nullptr);
-  };
-  if (!outputs_->hasSubscriber()) return note();
+  if (!outputs_->hasSubscriber()) return watch_->noteFrame(images.color->header);
   try {
     RgbdFrame frame;
     {
       const auto stage = timer_.stage("camera ingest");
-      std::optional<DepthCamera> depth_camera;
-      if (images.depth) depth_camera = depthCamera(*images.color, *images.depth, *images.info);
-      frame = frameFromMessages(*images.color, images.depth.get(), *images.info, &*ingest_,
-                                depth_camera ? &*depth_camera : nullptr);
+      frame = ingest_->process(
+          reader_->read({*images.color, images.depth.get(), *images.info, depth_info_.get()}));
     }
     std_msgs::Header header = images.color->header;
     header.frame_id = frameName(header.frame_id, color_->topic());
     outputs_->publish(frame, header, &timer_);
-    note();
+    watch_->noteFrame(images.color->header);
   } catch (const std::exception& error) {
     timer_.take();
     watch_->noteRefusal(error.what());

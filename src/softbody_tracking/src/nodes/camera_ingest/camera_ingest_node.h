@@ -14,6 +14,7 @@
 #include "softbody_common/ros/transform_input.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/frame_pairer.h"
+#include "softbody_tracking/ros/camera_reader.h"
 
 namespace softbody {
 
@@ -40,15 +41,15 @@ class CameraIngestNode {
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void processCompleteFrames();
   void process(const Pairer::Frame& frame);
-  std::optional<DepthCamera> depthCamera(const sensor_msgs::Image& color, const sensor_msgs::Image& depth,
-                                         const sensor_msgs::CameraInfo& color_info);
+  Eigen::Isometry3d newestTransform(const std::string& target, const std::string& source);
 
+  std::optional<CameraReader> reader_;
   std::optional<CameraIngest> ingest_;
   std::optional<Pairer> pairer_;
   std::optional<CameraIngestOutputs> outputs_;
   std::optional<CameraIngestWatch> watch_;
   StageTimer timer_;
-  std::optional<TransformInput> transforms_;  ///< only if depth is not registered
+  std::optional<TransformInput> transforms_;  ///< only if depth has its own frame
   sensor_msgs::CameraInfoConstPtr depth_info_;
   std::optional<ImageInput> color_, depth_;
   ros::Subscriber color_info_, depth_info_subscriber_;

@@ -84,12 +84,11 @@ void CameraIngestWatch::noteInfo(const ros::Time& stamp) {
   monitor_.noteArrival(Stream::kColorInfo, toNanoseconds(stamp), toNanoseconds(ros::Time::now()));
 }
 
-void CameraIngestWatch::noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth) {
+void CameraIngestWatch::noteFrame(const std_msgs::Header& color) {
   ++frames_;
   watchdog_.frameArrived();
   latency_s_ = secondsBetween(color.stamp, ros::Time::now());
   color_frame_ = withoutSlash(color.frame_id);
-  if (depth != nullptr) depth_frame_ = withoutSlash(depth->frame_id);
   monitor_.noteFrame();
 }
 
@@ -140,7 +139,6 @@ std::map<std::string, std::string> CameraIngestWatch::publishedTopics() const {
 std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
   const StreamTopics topics = topics_();
   const std::string& color = topics[static_cast<std::size_t>(Stream::kColor)].name;
-  const std::string& depth = topics[static_cast<std::size_t>(Stream::kDepth)].name;
   std::vector<Remark> remarks;
   if (clockIsSilent()) remarks.push_back({"silent clock", kSilentClock});
   if (color_frame_.empty())
@@ -148,12 +146,6 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
         {"no frame", fmt::format("{} has no frame_id, so no result has one: set the frame_id of "
                                  "the driver's optical frame",
                                  color)});
-  if (depth_frame_ != color_frame_)
-    remarks.push_back(
-        {"two frames",
-         fmt::format("{} is in frame '{}', {} in '{}': if depth is registered to colour, both need "
-                     "the frame_id of colour",
-                     depth, depth_frame_, color, color_frame_)});
   // A simulated clock is made of the stamps, and lags behind them.
   if (!ros::Time::isSimTime() && (latency_s_ > kLongestLatency_s || latency_s_ < -kLongestLead_s))
     remarks.push_back(

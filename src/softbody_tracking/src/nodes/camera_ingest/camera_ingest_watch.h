@@ -30,8 +30,8 @@ class CameraIngestWatch {
   /// An image reached the pairer. Logs why it was dropped.
   void noteImage(Stream stream, const ros::Time& stamp, const StampVerdict& verdict);
   void noteInfo(const ros::Time& stamp);
-  /// @param depth null: the frame has no depth image.
-  void noteFrame(const std_msgs::Header& color, const std_msgs::Header* depth);
+  /// @param color of its colour image.
+  void noteFrame(const std_msgs::Header& color);
   /// A frame's messages cannot be used.
   void noteRefusal(const std::string& why);
 
@@ -60,8 +60,8 @@ class CameraIngestWatch {
   FrameWatchdog watchdog_;
   ros::WallTime start_, both_came_;  ///< the latter: when colour and depth had come, usable or not
   int frames_ = 0, refused_ = 0;     ///< since the last diagnosis
-  double latency_s_ = 0.0;  ///< from the last frame's stamp to its completion; below 0: clocks differ
-  std::string color_frame_, depth_frame_;  ///< frame_id in the last frame
+  double latency_s_ = 0.0;   ///< from the last frame's stamp to its completion; below 0: clocks differ
+  std::string color_frame_;  ///< frame_id in the last frame
   ros::WallTime last_diagnosis_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer timer_;

@@ -1,0 +1,41 @@
+#include "softbody_recordings/ros/object_trial.h"
+
+#include "softbody_common/time.h"
+#include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_recordings/ros/input_bag.h"
+#include "softbody_tracking/registration/depth_unit.h"
+
+namespace softbody {
+
+validation::TrialFacts tryObject(const std::string& path, const BagFramesConfig& config,
+                                 const std::string& object, FileScope scope,
+                                 const std::function<void(double)>& progress) {
+  const PipelineConfig defaults;
+  Pipeline pipeline(buildObjectModel(loadObjectDescription(object, scope)), defaults);
+  BodyTracker tracker(defaults.tracker);
+  tracker.setTopologies(pipeline.volumeTopology(), pipeline.surfaceTopology());
+  CameraIngest ingest{CameraIngestConfig()};
+  StageTimer timer;
+  validation::TrialFacts trial;
+  trial.object = object;
+  Nanoseconds start = 0;
+  BagFramesUse use;
+  use.frame = [&](const CameraImages& images, const std_msgs::Header&, double share) {
+    if (trial.found || trial.fitting_unit_m) return;
+    const TrackingResult result = tracker.track(ingest.process(images), nullptr, &timer);
+    if (trial.frames++ == 0) start = images.stamp;
+    trial.found = result.has_targets;
+    trial.found_after_s = seconds(images.stamp - start);
+    trial.unit_m = unitOf(images);
+    progress(share);
+    if (trial.found || trial.frames > 1) return;
+    trial.first_reason = result.status.reason;
+    trial.fitting_unit_m = depthUnitThatFits(images, &ingest, defaults.tracker, pipeline.volumeTopology(),
+                                             pipeline.surfaceTopology());
+  };
+  use.enough = [&trial] { return trial.found || trial.fitting_unit_m.has_value(); };
+  readBagImages(openBag(path), config, use);
+  return trial;
+}
+
+}  // namespace softbody
