@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -11,13 +12,13 @@ namespace softbody::recordings {
 namespace {
 
 /// Changes every image of a stream.
-std::function<void(Recording*, Random*)> onColor(const std::function<void(sensor_msgs::Image*)>& change) {
+Change onColor(const std::function<void(sensor_msgs::Image*)>& change) {
   return [change](Recording* recording, Random*) {
     for (Frame& frame : recording->frames) change(&*frame.color);
   };
 }
 
-std::function<void(Recording*, Random*)> onDepth(const std::function<void(sensor_msgs::Image*)>& change) {
+Change onDepth(const std::function<void(sensor_msgs::Image*)>& change) {
   return [change](Recording* recording, Random*) {
     for (Frame& frame : recording->frames) change(&*frame.depth);
   };
@@ -68,26 +69,32 @@ void toBayer(sensor_msgs::Image* color) {
   set(raw, "bayer_rggb8", color);
 }
 
-void compressColor(const char* extension, const char* format, Recording* recording) {
-  for (Frame& frame : recording->frames) {
-    sensor_msgs::CompressedImage image;
-    image.header = frame.color->header;
-    image.format = format;
-    cv::imencode(extension, cv_bridge::toCvCopy(*frame.color, "bgr8")->image, image.data,
-                 {cv::IMWRITE_JPEG_QUALITY, 95});
-    frame.compressed_color = image;
-  }
+Change compressColor(const char* extension, const char* format) {
+  return [=](Recording* recording, Random*) {
+    recording->compress_color = [=](const sensor_msgs::Image& color) {
+      sensor_msgs::CompressedImage image;
+      image.header = color.header;
+      image.format = format;
+      cv::imencode(extension, cv_bridge::toCvCopy(color, "bgr8")->image, image.data,
+                   {cv::IMWRITE_JPEG_QUALITY, 95});
+      return image;
+    };
+  };
 }
 
-void compressDepth(const char* format, std::size_t header, Recording* recording) {
-  for (Frame& frame : recording->frames) {
-    sensor_msgs::CompressedImage image;
-    image.header = frame.depth->header;
-    image.format = format;
-    cv::imencode(".png", pixels(*frame.depth), image.data);
-    image.data.insert(image.data.begin(), header, 0);
-    frame.compressed_depth = image;
-  }
+/// @param kept bytes of the data.
+Change compressDepth(const char* format, std::size_t kept = std::numeric_limits<std::size_t>::max()) {
+  return [=](Recording* recording, Random*) {
+    recording->compress_depth = [=](const sensor_msgs::Image& depth) {
+      sensor_msgs::CompressedImage image;
+      image.header = depth.header;
+      image.format = format;
+      cv::imencode(".png", pixels(depth), image.data);
+      image.data.insert(image.data.begin(), 12, 0);  // what compressed_depth_image_transport writes first
+      image.data.resize(std::min(kept, image.data.size()));
+      return image;
+    };
+  };
 }
 
 std::vector<Mutation> colorMutations() {
@@ -115,9 +122,8 @@ std::vector<Mutation> colorMutations() {
       {"short colour", false, color, onColor([](sensor_msgs::Image* image) { image->data.resize(1000); })},
       {"colour as big-endian", true, color,
        onColor([](sensor_msgs::Image* image) { image->is_bigendian = 1; })},
-      {"jpeg", true, color,
-       [](Recording* r, Random*) { compressColor(".jpg", "rgb8; jpeg compressed bgr8", r); }},
-      {"png as jpeg", true, color, [](Recording* r, Random*) { compressColor(".png", "jpeg", r); }},
+      {"jpeg", true, color, compressColor(".jpg", "rgb8; jpeg compressed bgr8")},
+      {"png as jpeg", true, color, compressColor(".png", "jpeg")},
       {"no pixels", false, color,
        onColor([](sensor_msgs::Image* image) { image->width = image->height = 0; })}};
 }
@@ -164,14 +170,9 @@ std::vector<Mutation> depthMutations() {
              pixels(*image).convertTo(small, CV_8U, 0.1);
              set(small, "mono8", image);
            })},
-          {"compressedDepth", true, depth,
-           [](Recording* r, Random*) { compressDepth("16UC1; compressedDepth png", 12, r); }},
-          {"compressedDepth by another name", true, depth,
-           [](Recording* r, Random*) { compressDepth("png", 12, r); }},
-          {"damaged compressedDepth", false, depth, [](Recording* r, Random*) {
-             compressDepth("16UC1; compressedDepth png", 12, r);
-             for (Frame& frame : r->frames) frame.compressed_depth->data.resize(40);
-           }}};
+          {"compressedDepth", true, depth, compressDepth("16UC1; compressedDepth png")},
+          {"compressedDepth by another name", true, depth, compressDepth("png")},
+          {"damaged compressedDepth", false, depth, compressDepth("16UC1; compressedDepth png", 40)}};
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 namespace softbody::recordings {
 namespace {
 
-using Change = std::function<void(Recording*, Random*)>;
-
 Change onFrames(const std::function<void(Frame*)>& change) {
   return [change](Recording* recording, Random*) {
     for (Frame& frame : recording->frames) change(&frame);
@@ -22,33 +20,33 @@ Change onSome(std::size_t every, const std::function<void(Frame*)>& change) {
 std::vector<Mutation> stampMutations() {
   const int stamps = Mutation::kStamps;
   const ros::Time wild(4294967295u, 0);
-  return {
-      {"wild stamps of colour", true, stamps, onSome(7, [=](Frame* f) { f->color->header.stamp = wild; })},
-      {"wild stamps of depth", true, stamps, onSome(7, [=](Frame* f) { f->depth->header.stamp = wild; })},
-      {"zero stamps of some images", true, stamps,
-       onSome(6, [](Frame* f) { f->color->header.stamp = ros::Time(); })},
-      {"zero stamps of colour", false, stamps,
-       onFrames([](Frame* f) { f->color->header.stamp = ros::Time(); })},
-      {"zero stamps of depth", false, stamps,
-       onFrames([](Frame* f) { f->depth->header.stamp = ros::Time(); })},
-      {"stamps before 1970", true, stamps,
-       onSome(6, [](Frame* f) { f->depth->header.stamp = ros::Time(1, 0); })},
-      {"repeated stamps", true, stamps,
-       onSome(6, [](Frame* f) { f->depth->header.stamp -= ros::Duration(1.0 / 30.0); })},
-      {"depth 8 ms later", true, stamps,
-       onFrames([](Frame* f) { f->depth->header.stamp += ros::Duration(0.008); })},
-      {"depth 0.1 s later", true, stamps,
-       onFrames([](Frame* f) { f->depth->header.stamp += ros::Duration(3.0 / 30.0); })},
-      {"depth half a frame later", false, stamps,
-       onFrames([](Frame* f) { f->depth->header.stamp += ros::Duration(0.0165); })},
-      {"depth an hour later", false, stamps,
-       onFrames([](Frame* f) { f->depth->header.stamp += ros::Duration(3600.0); })},
-      {"recorded by another clock", true, stamps,
-       onFrames([](Frame* f) { f->received += ros::Duration(5000.0); })}};
+  return {{"wild stamps of colour", true, stamps, onSome(7, [=](Frame* f) { f->color->header.stamp = wild; }),
+           true},
+          {"wild stamps of depth", true, stamps, onSome(7, [=](Frame* f) { f->depth->header.stamp = wild; }),
+           true},
+          {"zero stamps of some images", true, stamps,
+           onSome(6, [](Frame* f) { f->color->header.stamp = ros::Time(); }), true},
+          {"zero stamps of colour", false, stamps,
+           onFrames([](Frame* f) { f->color->header.stamp = ros::Time(); })},
+          {"zero stamps of depth", false, stamps,
+           onFrames([](Frame* f) { f->depth->header.stamp = ros::Time(); })},
+          {"stamps before 1970", true, stamps,
+           onSome(6, [](Frame* f) { f->depth->header.stamp = ros::Time(1, 0); }), true},
+          {"repeated stamps", true, stamps,
+           onSome(6, [](Frame* f) { f->depth->header.stamp -= ros::Duration(1.0 / 30.0); }), true},
+          {"depth 8 ms later", true, stamps,
+           onFrames([](Frame* f) { f->depth->header.stamp += ros::Duration(0.008); })},
+          {"depth half a frame later", false, stamps,
+           onFrames([](Frame* f) { f->depth->header.stamp += ros::Duration(0.0165); })},
+          {"depth an hour later", false, stamps,
+           onFrames([](Frame* f) { f->depth->header.stamp += ros::Duration(3600.0); })},
+          {"recorded by another clock", true, stamps,
+           onFrames([](Frame* f) { f->received += ros::Duration(5000.0); })}};
 }
 
 std::vector<Mutation> lossMutations() {
-  const int losses = Mutation::kStamps | Mutation::kColorPixels | Mutation::kDepthPixels | Mutation::kInfo;
+  const int losses = Mutation::kStamps | Mutation::kColorPixels | Mutation::kDepthPixels | Mutation::kInfo |
+                     Mutation::kFrames;
   const auto infoOnce = [](std::size_t number) {
     return [number](Recording* recording, Random*) {
       for (std::size_t k = 0; k < recording->frames.size(); ++k) {
@@ -57,18 +55,18 @@ std::vector<Mutation> lossMutations() {
       }
     };
   };
-  return {
-      {"lost colour", true, losses, onSome(5, [](Frame* f) { f->color.reset(); })},
-      {"lost depth", true, losses, onSome(4, [](Frame* f) { f->depth.reset(); })},
-      {"depth at half the rate", true, losses, onSome(2, [](Frame* f) { f->depth.reset(); })},
-      {"no colour", false, losses, onFrames([](Frame* f) { f->color.reset(); })},
-      {"no depth", false, losses, onFrames([](Frame* f) { f->depth.reset(); })},
-      {"no camera_info", false, losses, onFrames([](Frame* f) { f->color_info.reset(); })},
-      {"no camera_info of depth", true, losses, onFrames([](Frame* f) { f->depth_info.reset(); })},
-      {"camera_info once at the start", true, losses, infoOnce(0)},
-      {"camera_info once and late", true, losses, infoOnce(15)},
-      {"some damaged images", true, losses, onSome(6, [](Frame* f) { f->color->data.resize(99); })},
-      {"some unknown encodings", true, losses, onSome(6, [](Frame* f) { f->depth->encoding = "12UC1"; })}};
+  return {{"lost colour", true, losses, onSome(5, [](Frame* f) { f->color.reset(); }), true},
+          {"lost depth", true, losses, onSome(4, [](Frame* f) { f->depth.reset(); }), true},
+          {"depth at half the rate", true, losses, onSome(2, [](Frame* f) { f->depth.reset(); }), true},
+          {"no colour", false, losses, onFrames([](Frame* f) { f->color.reset(); })},
+          {"no depth", false, losses, onFrames([](Frame* f) { f->depth.reset(); })},
+          {"no camera_info", false, losses, onFrames([](Frame* f) { f->color_info.reset(); })},
+          {"no camera_info of depth", true, losses, onFrames([](Frame* f) { f->depth_info.reset(); })},
+          {"camera_info once at the start", true, losses, infoOnce(0)},
+          {"camera_info once and late", true, losses, infoOnce(15)},
+          {"some damaged images", true, losses, onSome(6, [](Frame* f) { f->color->data.resize(99); }), true},
+          {"some unknown encodings", true, losses, onSome(6, [](Frame* f) { f->depth->encoding = "12UC1"; }),
+           true}};
 }
 
 std::vector<Mutation> nameMutations() {
@@ -85,7 +83,11 @@ std::vector<Mutation> nameMutations() {
                     f->color->header.frame_id = f->depth->header.frame_id = "other_optical_frame";
                   })},
           {"other topics", true, topics,
-           [](Recording* r, Random*) { r->topics = r->options = CameraTopics("/kinect2/hd"); }},
+           [](Recording* r, Random*) {
+             const double depth_scale = r->options.depth_scale;
+             r->topics = r->options = CameraTopics("/kinect2/hd");
+             r->options.depth_scale = depth_scale;
+           }},
           {"other topics, not named", false, topics,
            [](Recording* r, Random*) { r->topics = CameraTopics("/kinect2/hd"); }},
           {"another definition", false, file,

@@ -12,7 +12,7 @@ namespace {
 
 using sensor_msgs::CameraInfo;
 
-std::function<void(Recording*, Random*)> onInfos(const std::function<void(CameraInfo*)>& change) {
+Change onInfos(const std::function<void(CameraInfo*)>& change) {
   return [change](Recording* recording, Random*) {
     for (Frame& frame : recording->frames) {
       change(&*frame.color_info);
@@ -21,7 +21,7 @@ std::function<void(Recording*, Random*)> onInfos(const std::function<void(Camera
   };
 }
 
-std::function<void(Recording*, Random*)> onColorInfo(const std::function<void(CameraInfo*)>& change) {
+Change onColorInfo(const std::function<void(CameraInfo*)>& change) {
   return [change](Recording* recording, Random*) {
     for (Frame& frame : recording->frames) change(&*frame.color_info);
   };
@@ -187,7 +187,7 @@ std::vector<Mutation> depthCameraMutations() {
           {"depth's frame without tf", false, frame,
            [](Recording* r, Random*) { nameDepthFrame("camera_depth_optical_frame", r); }},
           {"depth of its own camera", true, camera, [](Recording* r, Random*) { moveDepthCamera(0.015, r); }},
-          {"depth of half the size", true, camera, [](Recording* r, Random*) { halveDepth(true, r); }},
+          {"depth of half the size", true, camera, [](Recording* r, Random*) { halveDepth(true, r); }, true},
           {"depth of half the size, not calibrated", false, camera,
            [](Recording* r, Random*) { halveDepth(false, r); }},
           {"depth beside colour", false, camera, [](Recording* r, Random*) {

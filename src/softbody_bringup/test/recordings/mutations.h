@@ -10,6 +10,7 @@
 namespace softbody::recordings {
 
 using Random = std::mt19937;
+using Change = std::function<void(Recording*, Random*)>;
 
 /// A change of a recording, as other cameras, drivers and tools write them.
 struct Mutation {
@@ -25,7 +26,8 @@ struct Mutation {
   std::string name;
   bool works = true;  ///< whether the recording can still be tracked
   int parts = 0;      ///< what it changes: one recording gets at most one mutation of a part
-  std::function<void(Recording*, Random*)> apply;
+  Change apply;
+  bool lossy = false;  ///< it takes depth away, so that a recording that works is tracked less exactly
 };
 
 /// Pixels, encodings and transports.

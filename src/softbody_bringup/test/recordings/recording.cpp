@@ -64,13 +64,13 @@ void writeRecording(const Recording& recording, const std::string& path) {
   for (const Frame& frame : recording.frames) {
     const ros::Time& time = frame.received;
     if (frame.color_info) bag.write(topics.color_info, time, *frame.color_info);
-    if (frame.compressed_color)
-      bag.write(topics.color + "/compressed", time, *frame.compressed_color);
+    if (frame.color && recording.compress_color)
+      bag.write(topics.color + "/compressed", time, recording.compress_color(*frame.color));
     else if (frame.color)
       bag.write(topics.color, time, *frame.color);
     if (frame.depth_info) bag.write(topics.depth_info, time, *frame.depth_info);
-    if (frame.compressed_depth)
-      bag.write(topics.depth + "/compressedDepth", time, *frame.compressed_depth);
+    if (frame.depth && recording.compress_depth)
+      bag.write(topics.depth + "/compressedDepth", time, recording.compress_depth(*frame.depth));
     else if (frame.depth)
       bag.write(topics.depth, time, *frame.depth, depth_connection);
     bag.write(kTruthState, time, frame.truth);

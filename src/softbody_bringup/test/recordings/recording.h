@@ -7,6 +7,7 @@
 #include <softbody_msgs/MeshTopology.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,6 @@ namespace softbody::recordings {
 struct Frame {
   std::optional<sensor_msgs::Image> color, depth;
   std::optional<sensor_msgs::CameraInfo> color_info, depth_info;
-  std::optional<sensor_msgs::CompressedImage> compressed_color, compressed_depth;  ///< instead of the images
   softbody_msgs::MeshState truth;
   ros::Time received;
 };
@@ -31,8 +31,9 @@ struct Recording {
   tf2_msgs::TFMessage tf_static;
   CameraTopics topics = "/camera";   ///< under which it is recorded
   CameraTopics options = "/camera";  ///< which the tools get
-  std::string md5sum;                ///< of the depth images' definition; empty: the right one
-  std::size_t cut_bytes = 0;         ///< of the file's end
+  std::function<sensor_msgs::CompressedImage(const sensor_msgs::Image&)> compress_color, compress_depth;
+  std::string md5sum;         ///< of the depth images' definition; empty: the right one
+  std::size_t cut_bytes = 0;  ///< of the file's end
 };
 
 /// The first frames of a bag of the virtual camera.
