@@ -2,12 +2,14 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <random>
 #include <set>
@@ -284,6 +286,38 @@ TEST(ImageFaults, MisplacedBlocksShowWhatIsBesideThem) {
     EXPECT_NEAR(misplaced, 50, 8) << "at the border a block may stay where it is";
   }
   EXPECT_GT(cv::norm(images[0], images[1], cv::NORM_INF), 0.0) << "others in every image";
+}
+
+/// As other drivers write the same images.
+std::string otherInput() {
+  const std::string file = testing::TempDir() + "inject_other.bag";
+  rosbag::Bag bag(file, rosbag::bagmode::Write);
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    sensor_msgs::CompressedImage color;
+    color.header = image(k, "", 0).header;
+    cv::imencode(".png", cv::Mat3b(kHeight, kWidth, cv::Vec3b(2, 2, 2)), color.data);
+    bag.write(kColor + "/compressed", stampOf(k), color);
+    sensor_msgs::Image depth = image(k, "16UC1", 2);
+    depth.is_bigendian = 1;  // 514 mm has the same bytes
+    bag.write(kDepth, stampOf(k), depth);
+  }
+  return file;
+}
+
+TEST(Inject, OtherEncodingsAndTransportsGetTheSameFaults) {
+  InjectorOptions options = optionsFor("inject_usual_out.bag"), other = optionsFor("inject_other_out.bag");
+  other.input = otherInput();
+  for (InjectorOptions* each : {&options, &other}) {
+    each->images.occluder_share = 0.2;
+    each->images.hole_share = 0.3;
+    run(*each);
+  }
+  const std::vector<BagImage> usual = arrivals(options.output, kDepth),
+                              depths = arrivals(other.output, kDepth);
+  for (std::size_t k = 0; k < kFrames; ++k) EXPECT_EQ(depths.at(k).image.data, usual.at(k).image.data);
+  const std::vector<BagImage> colors = arrivals(other.output, kColor);
+  ASSERT_EQ(colors.size(), kFrames) << "raw, because they are changed";
+  EXPECT_NE(colors[5].image.data, std::vector<std::uint8_t>(colors[5].image.data.size(), 2));
 }
 
 TEST(Inject, TheSameSeedGivesTheSameBytes) {

@@ -34,11 +34,12 @@ class GraphConfigTest : public ::testing::Test {
 
 TEST_F(GraphConfigTest, ReadsEachNodesSection) {
   const GraphConfig config = read(
-      "camera_ingest: {sync: exact}\n"
+      "camera_ingest: {sync: exact, depth_scale: 0.00025}\n"
       "simulator: {iterations: 7, free_run_rate_hz: 0}\n"
       "surface: {min_advance_m: 0.004}\n"
       "tool_tracker:\n");
   EXPECT_TRUE(config.pairing.exact);
+  EXPECT_EQ(config.depth_scale, 0.00025);
   EXPECT_EQ(config.pipeline.simulator.iterations, 7);
   EXPECT_EQ(config.pipeline.cutting.min_advance_m, 0.004);
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();

@@ -3,7 +3,7 @@
 #include "softbody_common/time.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/input_bag.h"
-#include "softbody_tracking/registration/depth_unit.h"
+#include "softbody_tracking/depth_unit/depth_unit.h"
 
 namespace softbody {
 

@@ -16,7 +16,7 @@
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/result_bag.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
-#include "softbody_tracking/registration/depth_unit.h"
+#include "softbody_tracking/depth_unit/depth_unit.h"
 
 namespace softbody {
 namespace {

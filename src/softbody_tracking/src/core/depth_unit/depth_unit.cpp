@@ -1,4 +1,4 @@
-#include "softbody_tracking/registration/depth_unit.h"
+#include "softbody_tracking/depth_unit/depth_unit.h"
 
 #include <cmath>
 
