@@ -76,6 +76,13 @@ std::vector<Mutation> nameMutations() {
            })},
           {"leading slash of depth", true, frames,
            onFrames([](Frame* f) { f->depth->header.frame_id = "/camera_color_optical_frame"; })},
+          {"leading slashes of some images", true, frames,
+           onSome(2,
+                  [](Frame* f) {
+                    f->color->header.frame_id = f->depth->header.frame_id = "/camera_color_optical_frame";
+                  })},
+          {"no frames", true, frames,
+           onFrames([](Frame* f) { f->color->header.frame_id = f->depth->header.frame_id = ""; })},
           {"depth without a frame", true, frames, onFrames([](Frame* f) { f->depth->header.frame_id = ""; })},
           {"two frames of colour", false, frames,
            onSome(2,

@@ -68,6 +68,13 @@ void addNotes(const std::vector<std::string>& more, std::vector<std::string>* no
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, SurfaceRecord* surface,
                const std::string& states) {
   if (surface->frame_id == frame_id) return;
+  if (surface->frame_id.empty() || frame_id.empty()) {
+    addNotes({fmt::format("'{}' and '{}' are taken as one frame, because images without a frame_id have none",
+                          surface->frame_id, frame_id)},
+             &surface->notes);
+    surface->frame_id = frame_id;
+    return;
+  }
   Transforms transforms(paths, frame_id, surface->frame_id);
   const std::size_t left_out =
       transforms.apply(&surface->states, [](const Eigen::Isometry3d& pose, MeshState* state) {
@@ -89,7 +96,8 @@ void expressIn(const std::string& frame_id, const std::vector<std::string>& path
 }
 
 void expressIn(const std::string& frame_id, const std::vector<std::string>& paths, ToolRecord* tool) {
-  if (tool->poses.empty() || tool->frame_id == frame_id) return;
+  const bool unknown = tool->frame_id.empty() || frame_id.empty();
+  if (tool->poses.empty() || tool->frame_id == frame_id || unknown) return;
   Transforms transforms(paths, frame_id, tool->frame_id);
   const std::size_t left_out = transforms.apply(
       &tool->poses, [](const Eigen::Isometry3d& pose, Eigen::Isometry3d* item) { *item = pose * *item; });

@@ -8,6 +8,7 @@
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/recorded_images.h"
+#include "softbody_tracking/ros/conversions.h"
 
 namespace softbody::evaluation {
 
@@ -36,8 +37,16 @@ std::string recordingFrame(const std::string& path, const CameraTopics& camera) 
   const rosbag::Bag bag = openBag(path);
   const CameraTopics topics = recordedTopics(bag, camera);
   requireTopic(bag, topics.color);
+  std::string why;
   rosbag::View view(bag, rosbag::TopicQuery(topics.color));
-  return recordedImage(*view.begin(), bag)->header.frame_id;
+  for (const rosbag::MessageInstance& instance : view) {
+    try {
+      return withoutSlash(recordedImage(instance, bag)->header.frame_id);
+    } catch (const std::invalid_argument& error) {  // damaged
+      why = error.what();
+    }
+  }
+  throw std::invalid_argument(fmt::format("{}: {} has no usable image: {}", path, topics.color, why));
 }
 
 bool hasRecording(const std::string& path, const CameraTopics& camera) {

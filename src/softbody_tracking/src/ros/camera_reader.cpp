@@ -81,10 +81,11 @@ std::optional<DepthCamera> depthCameraOf(const CameraMessages& messages, const L
   if (messages.depth_info == nullptr) {
     if (same_size && isIdentity(T_color_depth)) return std::nullopt;
     throw std::invalid_argument(fmt::format(
-        "depth is not registered to colour ({}x{} pixels in frame '{}', and {}x{} in '{}'), and "
-        "depth's camera_info is missing: set depth_info:= to its topic, or depth:= to the driver's "
-        "registered depth (RealSense: align_depth:=true)",
-        depth.width, depth.height, depth.header.frame_id, messages.color.width, messages.color.height,
+        "depth is not registered to colour ({}x{} and {}x{} pixels, in the frames '{}' and '{}'), and "
+        "depth's "
+        "camera_info is missing: set depth_info:= to its topic, or depth:= to the driver's registered depth "
+        "(RealSense: align_depth:=true)",
+        depth.width, depth.height, messages.color.width, messages.color.height, depth.header.frame_id,
         messages.color.header.frame_id));
   }
   const Lens lens =

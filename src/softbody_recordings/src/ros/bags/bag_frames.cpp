@@ -13,6 +13,7 @@
 #include "softbody_recordings/ros/recorded_images.h"
 #include "softbody_recordings/ros/typed_message.h"
 #include "softbody_tracking/ros/camera_reader.h"
+#include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
 namespace {
@@ -135,7 +136,9 @@ class Reader {
     }
     if (!frame.depth) ++report_.without_depth;
     images.pass = frame.pass;
-    use_.frame(images, frame.color->header, progress);
+    std_msgs::Header header = frame.color->header;
+    header.frame_id = withoutSlash(header.frame_id);
+    use_.frame(images, header, progress);
   }
 
   const rosbag::Bag& bag_;
