@@ -82,8 +82,8 @@ std::optional<DepthCamera> depthCameraOf(const CameraMessages& messages, const L
     if (same_size && isIdentity(T_color_depth)) return std::nullopt;
     throw std::invalid_argument(fmt::format(
         "depth is not registered to colour ({}x{} and {}x{} pixels, in the frames '{}' and '{}'), and "
-        "depth's "
-        "camera_info is missing: set depth_info:= to its topic, or depth:= to the driver's registered depth "
+        "depth's camera_info is missing: set depth_info:= to its topic, or depth:= to the driver's "
+        "registered depth "
         "(RealSense: align_depth:=true)",
         depth.width, depth.height, messages.color.width, messages.color.height, depth.header.frame_id,
         messages.color.header.frame_id));
