@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "softbody_common/depth_units.h"
+#include "softbody_common/camera_topics.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 
 namespace softbody {
