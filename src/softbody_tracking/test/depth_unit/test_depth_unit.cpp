@@ -26,8 +26,7 @@ std::optional<double> unitFor(const CameraImages& images) {
 }
 
 TEST(DepthUnit, TheUnitInWhichTheBodyHasItsSizeIsFound) {
-  for (const double unit_m : {0.00025, 0.01})
-    EXPECT_EQ(unitFor(imagesIn(unit_m)), unit_m) << unit_m;
+  for (const double unit_m : {0.00025, 0.01}) EXPECT_EQ(unitFor(imagesIn(unit_m)), unit_m) << unit_m;
 }
 
 TEST(DepthUnit, NoUnitFitsABodyOfAnotherShape) {
