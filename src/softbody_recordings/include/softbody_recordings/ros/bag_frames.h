@@ -36,7 +36,8 @@ struct BagFramesReport {
 
 /// Who reads a bag.
 struct BagFramesUse {
-  /// A frame's images, the colour image's header (its frame without a leading slash), and the progress through the bag (0..1).
+  /// A frame's images, the colour image's header (its frame without a leading slash), and the progress
+  /// through the bag (0..1).
   std::function<void(const CameraImages&, const std_msgs::Header&, double)> frame;
   /// What is said once about the camera.
   std::function<void(const std::string&)> note = [](const std::string&) {};

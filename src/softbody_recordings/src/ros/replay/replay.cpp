@@ -15,8 +15,8 @@
 #include "softbody_recordings/ros/graph_config.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/result_bag.h"
-#include "softbody_tracking/tool/tool_dropout_monitor.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"
+#include "softbody_tracking/tool/tool_dropout_monitor.h"
 
 namespace softbody {
 namespace {

@@ -22,7 +22,9 @@ int runValidateBag(int argc, char** argv) {
   std::string object;
   FileScope scope = FileScope::kOwnFolder;
   CLI::App app("Checks whether a recording is usable for tracking. Exit code 0: usable; 1: not usable");
-  app.add_option("input", input, "bag with the camera's topics")->required()->check(CLI::ExistingFile | CLI::ExistingDirectory);
+  app.add_option("input", input, "bag with the camera's topics")
+      ->required()
+      ->check(CLI::ExistingFile | CLI::ExistingDirectory);
   app.add_option("--object", object, "object YAML: also checks that the recording shows this body")
       ->check(CLI::ExistingPath);
   addAllowOutside(&app, &scope);
