@@ -14,6 +14,7 @@ const std::vector<Feed>& feeds() {
       {"tets_vtu", [](std::string_view bytes) { giveTets("vtu", bytes); }},
       {"tets_msh", [](std::string_view bytes) { giveTets("msh", bytes); }},
       {"tets_veg", [](std::string_view bytes) { giveTets("veg", bytes); }},
+      {"tets_tet", [](std::string_view bytes) { giveTets("tet", bytes); }},
       {"tets_tetgen", giveTetGen},
       {"object_yaml", giveObjectYaml},
       {"tool_yaml", giveToolYaml},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <yaml-cpp/yaml.h>
 
 #include <functional>
 #include <stdexcept>
@@ -34,6 +35,36 @@ TEST(ReadFile, RefusesWhatIsNoRegularFileAtOnce) {
               std::string::npos)
         << path;
   }
+}
+
+TEST(ReadTextFile, HasNoMarkAndOneKindOfLineEnds) {
+  const ScratchFolder folder;
+  replaceFile(folder / "a",
+              "\xef\xbb\xbf"
+              "a\r\nb\rc\n\nd\r");
+  EXPECT_EQ(readTextFile(folder / "a"), "a\nb\nc\n\nd\n");
+  for (const char* mark : {"\xff\xfe", "\xfe\xff"}) {
+    replaceFile(folder / "wide", mark + std::string("\0v\0", 4));
+    EXPECT_NE(
+        complaint([&] { readTextFile(folder / "wide"); }).find("wide: is UTF-16 text; save it as UTF-8"),
+        std::string::npos);
+  }
+}
+
+TEST(WithoutComment, KeepsTheSignWithinAWord) {
+  EXPECT_EQ(withoutComment("# a"), "");
+  EXPECT_EQ(withoutComment("v 1.#QNAN 2 # a # b"), "v 1.#QNAN 2 ");
+}
+
+TEST(IsInside, TakesAnEmptyPathForTheCurrentFolder) {
+  EXPECT_TRUE(isInside("a.obj", ""));
+  EXPECT_FALSE(isInside("../a.obj", ""));
+}
+
+TEST(ParseYamlFile, SkipsAByteOrderMark) {
+  const ScratchFolder folder;
+  replaceFile(folder / "a.yaml", "\xef\xbb\xbfobject:\r\n  unit: mm\r\n");
+  EXPECT_EQ(parseYamlFile((folder / "a.yaml").string())["object"]["unit"].as<std::string>(), "mm");
 }
 
 TEST(IsInside, ResolvesLinksAndDots) {

@@ -16,7 +16,7 @@ using test::TemporaryFolder;
 
 constexpr const char* kQuadObj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3 -2 -1\n";
 
-TEST(ReadObj, FansPolygonsAndResolvesNegativeIndices) {
+TEST(ReadObj, TriangulatesPolygonsAndResolvesNegativeIndices) {
   const TemporaryFolder folder;
   Warnings warnings;
   const SurfaceFile quad = readSurfaceFile(folder.write("quad.obj", kQuadObj), &warnings);
@@ -37,13 +37,13 @@ TEST(ReadObj, KeepsTextureCoordinatesPerCorner) {
   EXPECT_EQ(file.texture_coordinates.row(2), Eigen::RowVector3d(0.25, 0.5, 0));
 }
 
-TEST(ReadObj, WarnsOfTextureIndicesWithoutCoordinates) {
+TEST(ReadObj, WarnsOfCornersWithoutTextureCoordinates) {
   const TemporaryFolder folder;
   Warnings warnings;
   const std::string path = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/7\n");
-  EXPECT_EQ(readSurfaceFile(path, &warnings).texture_coordinates.rows(), 0);
+  EXPECT_EQ(readSurfaceFile(path, &warnings).texture_coordinates, Points(Points::Zero(3, 3)));
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("a.obj:5"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("a.obj: 1 of 3 triangle corners"), std::string::npos) << warnings[0];
 }
 
 TEST(WriteObj, ReadsBackBitForBit) {
@@ -177,12 +177,13 @@ TEST_P(BrokenSurface, IsRefusedWithFileAndPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenSurface,
     testing::Values(
-        BadSurface{"empty.obj", "", "no faces"}, BadSurface{"nan.obj", "v 0 0 0\nv 1 nan 0\n", ":2: 'nan'"},
+        BadSurface{"empty.obj", "", "no faces"},
+        BadSurface{"nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", ":2: 'nan'"},
         BadSurface{"short.obj", "v 0 0\n", ":1: 3 fields"},
         BadSurface{"range.obj", "v 0 0 0\n\nf 1 2 3\n", ":3: a face refers to"},
         BadSurface{"zero.obj", "v 0 0 0\nf 0 1 1\n", ":2: face corner '0'"},
         BadSurface{"negative.obj", "v 0 0 0\nf -2 -1 -1\n", ":2: face corner '-2'"},
-        BadSurface{"two.obj", "v 0 0 0\nf 1 1\n", ":2: a face of 2"},
+        BadSurface{"two.obj", "v 0 0 0\nf 1 1\n", "1 vertices and no faces"},
         BadSurface{"word.obj", "v 0 0 0\nf 1 x 1\n", ":2: 'x'"},
         BadSurface{"count.off", "OFF\n2000000000 1 0\n0 0 0\n", ":2: announces 2000000000"},
         BadSurface{"end.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: the file ends before vertex 3 of 3"},
@@ -257,7 +258,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadSurface{"f.vtu", vtu("0 0 inf", "0 1 2 3", "4"), "entry 2: 'inf'"},
         BadSurface{"g.vtu", vtu(kCorners, "0 1 2 3", "4", "appended"), "format is 'appended'"},
         BadSurface{"h.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4"), "no tet of positive volume"},
-        BadSurface{"a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", ":2: MSH version 4.1"},
+        BadSurface{"a.msh", "$MeshFormat\n4 0 8\n$EndMeshFormat\n",
+                   ":2: MSH version 4 is not supported; supported: 1, 2 and 4.1; convert it: gmsh"},
         BadSurface{"b.msh", "$MeshFormat\n2.2 1 8\n", ":2: binary MSH"},
         BadSurface{"c.msh", "$Nodes\n900000000\n1 0 0 0\n", ":2: announces"},
         BadSurface{"d.msh", "$Nodes\n1\n7 0 0 0\n$EndNodes\n$Elements\n1\n1 4 2 0 1 7 7 7 8\n",
@@ -266,7 +268,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadSurface{"a.veg", "*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n",
                    ":5: elements of kind CUBIC"},
         BadSurface{"a.node", "1 2 0 0\n", ":1: the vertices must be three"},
-        BadSurface{"a.tet", "", "supported: .vtu"}));
+        BadSurface{"a.tet", "4 vertices\n1 tets\n0 0 0\n", ":3: the file ends before vertex 2 of 4"},
+        BadSurface{"b.tet", "tet 1 1\n0 0 0\n8 0 0 0 0 0 0 0 0\n", ":3: a cell of 8 vertices"},
+        BadSurface{"a.mesh", "", "supported: .vtu"}));
 
 /// Whatever the bytes: a sound mesh, or a sentence.
 TEST(DamagedFiles, AreReadSoundlyOrRefused) {

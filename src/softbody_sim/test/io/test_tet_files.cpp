@@ -53,6 +53,42 @@ std::string writeMsh2(const TemporaryFolder& folder, const TetMesh& mesh) {
                                   numberedTets(mesh.tets, "{} 4 3 1 2 3 {} {} {} {}\n")));
 }
 
+/// Gmsh's format 4.1, with a block of a triangle.
+std::string writeMsh4(const TemporaryFolder& folder, const TetMesh& mesh) {
+  std::string ids, places;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    ids += fmt::format("{}\n", kFirst + kStep * v);
+    places += fmt::format("{:.17g} {:.17g} {:.17g}\n", mesh.vertices(v, 0), mesh.vertices(v, 1),
+                          mesh.vertices(v, 2));
+  }
+  return folder.write(
+      "body.msh", fmt::format("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 0 0\n"
+                              "$EndEntities\n$Nodes\n1 {0} 7 9999\n3 1 0 {0}\n{1}{2}$EndNodes\n$Elements\n"
+                              "2 {3} 1 {3}\n2 1 2 1\n1 7 10 13\n3 1 4 {4}\n{5}$EndElements\n",
+                              mesh.vertices.rows(), ids, places, mesh.tets.rows() + 1, mesh.tets.rows(),
+                              numberedTets(mesh.tets, "{} {} {} {} {}\n")));
+}
+
+/// One line for each vertex and tet, counted from 0. @param prefix of a tet.
+std::string plainLists(const TetMesh& mesh, const char* prefix) {
+  std::string text;
+  for (const auto& p : mesh.vertices.rowwise())
+    text += fmt::format("{:.17g} {:.17g} {:.17g}\n", p[0], p[1], p[2]);
+  for (const auto& t : mesh.tets.rowwise())
+    text += fmt::format("{}{} {} {} {}\n", prefix, t[0], t[1], t[2], t[3]);
+  return text;
+}
+
+std::string writeGeogram(const TemporaryFolder& folder, const TetMesh& mesh) {
+  return folder.write("body.tet", fmt::format("{} vertices\n{} tets\n{}", mesh.vertices.rows(),
+                                              mesh.tets.rows(), plainLists(mesh, "4 ")));
+}
+
+std::string writeQuartet(const TemporaryFolder& folder, const TetMesh& mesh) {
+  return folder.write("body.TET", fmt::format("\xef\xbb\xbftet {} {}\n{}", mesh.vertices.rows(),
+                                              mesh.tets.rows(), plainLists(mesh, "")));
+}
+
 std::string writeVeg(const TemporaryFolder& folder, const TetMesh& mesh) {
   return folder.write(
       "body.veg",
@@ -69,6 +105,14 @@ std::string writeTetGen(const TemporaryFolder& folder, const TetMesh& mesh) {
                                         numberedVertices(mesh.vertices, " 0.5 1")));
   return folder.write(
       "body.ele", fmt::format("{} 4 1\n{}", mesh.tets.rows(), numberedTets(mesh.tets, "{} {} {} {} {} 1\n")));
+}
+
+/// Tets of ten nodes. The nodes between corners are the first ones here.
+std::string writeQuadratic(const TemporaryFolder& folder, const TetMesh& mesh) {
+  folder.write("body.node",
+               fmt::format("{} 3 0 0\n{}", mesh.vertices.rows(), numberedVertices(mesh.vertices)));
+  return folder.write("body.ele", fmt::format("{} 10 0\n{}", mesh.tets.rows(),
+                                              numberedTets(mesh.tets, "{} {} {} {} {} 7 7 7 7 7 7\n")));
 }
 
 /// With a line of two vertices among the tets.
@@ -128,6 +172,10 @@ TEST_P(TetFormats, GiveTheSameBodyWithPositiveTetsThatFillTheBoundary) {
 INSTANTIATE_TEST_SUITE_P(All, TetFormats,
                          ::testing::Values(Format{"Msh1", writeMsh1, "2 elements other than tets"},
                                            Format{"Msh2", writeMsh2, "2 elements other than tets"},
+                                           Format{"Msh4", writeMsh4, "1 elements other than tets"},
+                                           Format{"Geogram", writeGeogram, ""},
+                                           Format{"Quartet", writeQuartet, ""},
+                                           Format{"Quadratic", writeQuadratic, "tets have 10 nodes"},
                                            Format{"Veg", writeVeg, "*MATERIAL is ignored"},
                                            Format{"TetGen", writeTetGen, ""},
                                            Format{"Vtu", writeVtuWithLine, "1 cells other than tets"}),

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
 namespace softbody {
 namespace {
@@ -26,9 +27,14 @@ struct OpenFile {
 
 /// Absolute, with links and ".." resolved as far as the system can.
 fs::path resolved(const fs::path& path) {
+  const fs::path absolute = fs::absolute(path.empty() ? "." : path);  // parent_path() of a bare name is empty
   std::error_code error;
-  const fs::path result = fs::weakly_canonical(fs::absolute(path), error);
-  return error ? fs::absolute(path).lexically_normal() : result;
+  const fs::path result = fs::weakly_canonical(absolute, error);
+  return error ? absolute.lexically_normal() : result;
+}
+
+bool startsWith(const std::string& bytes, std::string_view mark) {
+  return bytes.compare(0, mark.size(), mark) == 0;
 }
 
 [[noreturn]] void failToRead(const fs::path& path, const std::string& reason) {
@@ -52,6 +58,31 @@ std::string readFile(const fs::path& path) {
     if (count < 0 && errno != EINTR) failToRead(path, std::strerror(errno));
     if (count > 0) bytes.append(buffer.data(), static_cast<std::size_t>(count));
   }
+}
+
+std::string asText(std::string bytes, const fs::path& path) {
+  if (startsWith(bytes, "\xff\xfe") || startsWith(bytes, "\xfe\xff")) {
+    throw std::invalid_argument(
+        fmt::format("{}: is UTF-16 text; save it as UTF-8 or plain ASCII", path.string()));
+  }
+  if (startsWith(bytes, "\xef\xbb\xbf")) bytes.erase(0, 3);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    const bool ends_line = bytes[k] == '\r';
+    if (ends_line && k + 1 < bytes.size() && bytes[k + 1] == '\n') continue;
+    bytes[kept++] = ends_line ? '\n' : bytes[k];
+  }
+  bytes.resize(kept);
+  return bytes;
+}
+
+std::string readTextFile(const fs::path& path) { return asText(readFile(path), path); }
+
+std::string_view withoutComment(std::string_view line) {
+  for (std::size_t k = line.find('#'); k != std::string_view::npos; k = line.find('#', k + 1)) {
+    if (k == 0 || line[k - 1] == ' ' || line[k - 1] == '\t') return line.substr(0, k);
+  }
+  return line;
 }
 
 bool isInside(const fs::path& file, const fs::path& folder) {

@@ -7,9 +7,9 @@
 
 namespace softbody {
 
-/// Reads VTU (ascii), MSH 1 and 2 (ascii), TetGen (.node or .ele, the other one beside it) or VEG, in file
-/// units. Skips cells other than tets, reorders tets of negative volume, drops tets without volume and unused
-/// vertices.
+/// Reads VTU (ascii), MSH 1, 2 and 4.1 (ascii), TetGen (.node or .ele, the other one beside it), VEG or .tet,
+/// in file units. Skips cells other than tets, takes the corners of quadratic tets, reorders tets of negative
+/// volume, drops tets without volume and unused vertices.
 /// @throw std::invalid_argument with the file, the line or element, and the error.
 TetMesh readTetFile(const std::string& path, Warnings* warnings);
 

@@ -7,66 +7,103 @@
 namespace softbody {
 namespace {
 
-constexpr int kGmshTet = 4;
+constexpr int kGmshTet = 4, kGmshQuadraticTet = 11;
 
-/// Where an element's vertex ids start. Version 1: "id type physical elementary count ids...", version 2: "id
-/// type number-of-tags tags... ids...".
-std::size_t firstVertexField(const TextReader& reader, bool version_1) {
-  if (version_1) return 5;
-  const int tags = reader.integer(2);
-  if (tags < 0) reader.fail(fmt::format("{} tags", tags));
-  return 3 + static_cast<std::size_t>(tags);
-}
+class MshReader {
+ public:
+  explicit MshReader(const std::string& path) : reader_(path) {}
 
-/// @return the number of skipped elements, which are not tets.
-int readElements(TextReader& reader, bool version_1, NumberedVertices* mesh) {
-  const int count = reader.count(0);
-  int skipped = 0;
-  for (int e = 0; e < count; ++e) {
-    reader.require(fmt::format("element {} of {}", e + 1, count));
-    if (reader.integer(1) == kGmshTet) {
-      mesh->addTet(reader, firstVertexField(reader, version_1));
-    } else {
-      ++skipped;
+  TetMesh read(Warnings* warnings) {
+    bool has_vertices = false, has_elements = false;
+    while (reader_.next()) {
+      const std::string section = reader_.keyword();
+      if (section == "$meshformat") readFormat();
+      if (section == "$nod" || section == "$nodes") {
+        has_vertices = true;
+        reader_.require("the number of vertices");
+        version_ < 4.0 ? mesh_.readVertices(reader_, reader_.count(0)) : readVertexBlocks();
+      }
+      if (section == "$elm") version_ = 1.0;
+      if (section == "$elm" || section == "$elements") {
+        has_elements = true;
+        reader_.require("the number of elements");
+        version_ < 4.0 ? readElements(reader_.count(0)) : readElementBlocks();
+      }
+    }
+    if (!has_vertices) reader_.fail("the file ends without a $Nodes or $NOD section");
+    if (!has_elements) reader_.fail("the file ends without an $Elements or $ELM section");
+    if (skipped_ > 0)
+      warnings->push_back(
+          fmt::format("{}: {} elements other than tets were skipped", reader_.path(), skipped_));
+    return mesh_.mesh(reader_.path(), warnings);
+  }
+
+ private:
+  void readFormat() {
+    reader_.require("the format's version");
+    version_ = reader_.number(0);
+    const std::string advice =
+        fmt::format("convert it: gmsh {} -0 -format msh22 -o ascii.msh", reader_.path());
+    if (!((version_ >= 1.0 && version_ < 3.0) || version_ == 4.1))
+      reader_.fail(
+          fmt::format("MSH version {} is not supported; supported: 1, 2 and 4.1; {}", version_, advice));
+    if (reader_.integer(1) != 0) reader_.fail("binary MSH files are not supported; " + advice);
+  }
+
+  /// Blocks of version 4.1: "dimension tag parametric count", then the ids, then the coordinates.
+  void readVertexBlocks() {
+    for (int blocks = reader_.count(0); blocks > 0; --blocks) {
+      reader_.require("a block of vertices");
+      std::vector<int> ids(static_cast<std::size_t>(reader_.count(3)));
+      for (int& id : ids) {
+        reader_.require("a vertex id");
+        id = reader_.integer(0);
+      }
+      for (const int id : ids) {
+        reader_.require(fmt::format("vertex {}", id));
+        mesh_.addVertex(reader_, id, 0);
+      }
     }
   }
-  return skipped;
-}
 
-void checkFormat(TextReader& reader) {
-  reader.require("the format's version");
-  const double version = reader.number(0);
-  if (!(version >= 1.0 && version < 3.0))
-    reader.fail(fmt::format("MSH version {} is not supported; supported: 1 and 2", version));
-  if (reader.integer(1) != 0) reader.fail("binary MSH files are not supported; save as ascii");
-}
+  /// Blocks of version 4.1: "dimension tag type count", then "id vertex-ids...".
+  void readElementBlocks() {
+    for (int blocks = reader_.count(0); blocks > 0; --blocks) {
+      reader_.require("a block of elements");
+      const int type = reader_.integer(2);
+      for (int count = reader_.count(3); count > 0; --count) {
+        reader_.require("an element");
+        addElement(type, 1);
+      }
+    }
+  }
+
+  /// Version 1: "id type physical elementary count vertex-ids...", version 2: "id type number-of-tags tags...
+  /// vertex-ids...".
+  void readElements(int count) {
+    for (int e = 0; e < count; ++e) {
+      reader_.require(fmt::format("element {} of {}", e + 1, count));
+      const int tags = version_ < 2.0 ? 2 : reader_.integer(2);
+      if (tags < 0) reader_.fail(fmt::format("{} tags", tags));
+      addElement(reader_.integer(1), 3 + static_cast<std::size_t>(tags));
+    }
+  }
+
+  void addElement(int type, std::size_t first_field) {
+    if (type == kGmshTet || type == kGmshQuadraticTet)
+      mesh_.addTet(reader_, first_field, type == kGmshTet ? 4 : 10);
+    else
+      ++skipped_;
+  }
+
+  TextReader reader_;
+  NumberedVertices mesh_;
+  double version_ = 2.0;
+  int skipped_ = 0;
+};
 
 }  // namespace
 
-TetMesh readMsh(const std::string& path, Warnings* warnings) {
-  TextReader reader(path);
-  NumberedVertices mesh;
-  int skipped = 0;
-  bool has_vertices = false, has_elements = false;
-  while (reader.next()) {
-    const std::string section(reader.keyword());
-    if (section == "$MeshFormat") checkFormat(reader);
-    if (section == "$NOD" || section == "$Nodes") {
-      reader.require("the number of vertices");
-      mesh.readVertices(reader, reader.count(0));
-      has_vertices = true;
-    }
-    if (section == "$ELM" || section == "$Elements") {
-      reader.require("the number of elements");
-      skipped += readElements(reader, section == "$ELM", &mesh);
-      has_elements = true;
-    }
-  }
-  if (!has_vertices) reader.fail("the file ends without a $Nodes or $NOD section");
-  if (!has_elements) reader.fail("the file ends without an $Elements or $ELM section");
-  if (skipped > 0)
-    warnings->push_back(fmt::format("{}: {} elements other than tets were skipped", path, skipped));
-  return mesh.mesh();
-}
+TetMesh readMsh(const std::string& path, Warnings* warnings) { return MshReader(path).read(warnings); }
 
 }  // namespace softbody

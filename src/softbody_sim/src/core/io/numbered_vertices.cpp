@@ -2,22 +2,24 @@
 
 #include <fmt/format.h>
 
-#include "io/stack_rows.h"
+#include "softbody_common/stack_rows.h"
 
 namespace softbody {
 
 void NumberedVertices::readVertices(TextReader& reader, int count) {
   for (int v = 0; v < count; ++v) {
     reader.require(fmt::format("vertex {} of {}", v + 1, count));
-    const int id = reader.integer(0);
-    if (!index_of_id_.emplace(id, static_cast<int>(vertices_.size())).second) {
-      reader.fail(fmt::format("two vertices have the id {}", id));
-    }
-    vertices_.push_back(reader.point(1));
+    addVertex(reader, reader.integer(0), 1);
   }
 }
 
-void NumberedVertices::addTet(const TextReader& reader, std::size_t first_field) {
+void NumberedVertices::addVertex(const TextReader& reader, int id, std::size_t first_field) {
+  if (!index_of_id_.emplace(id, static_cast<int>(vertices_.size())).second)
+    reader.fail(fmt::format("two vertices have the id {}", id));
+  vertices_.push_back(reader.point(first_field));
+}
+
+void NumberedVertices::addTet(const TextReader& reader, std::size_t first_field, int nodes) {
   Eigen::RowVector4i tet;
   for (std::size_t k = 0; k < 4; ++k) {
     const int id = reader.integer(first_field + k);
@@ -27,8 +29,14 @@ void NumberedVertices::addTet(const TextReader& reader, std::size_t first_field)
     tet[static_cast<int>(k)] = index->second;
   }
   tets_.push_back(tet);
+  quadratic_ += nodes == 4 ? 0 : 1;
 }
 
-TetMesh NumberedVertices::mesh() const { return {stackRows<Points>(vertices_), stackRows<Tets>(tets_)}; }
+TetMesh NumberedVertices::mesh(const std::string& path, Warnings* warnings) const {
+  if (quadratic_ > 0)
+    warnings->push_back(
+        fmt::format("{}: {} tets have 10 nodes; only their corners were taken", path, quadratic_));
+  return {stackRows<Points>(vertices_), stackRows<Tets>(tets_)};
+}
 
 }  // namespace softbody

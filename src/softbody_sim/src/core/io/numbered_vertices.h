@@ -1,9 +1,12 @@
 #pragma once
 
+#include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "io/text_reader.h"
+#include "softbody_common/files/text_reader.h"
+#include "softbody_common/types.h"
+#include "softbody_sim/io/warnings.h"
 
 namespace softbody {
 
@@ -13,15 +16,20 @@ class NumberedVertices {
   /// Reads `count` lines "id x y z". The ids must differ.
   void readVertices(TextReader& reader, int count);
 
-  /// Adds the tet whose four ids start at a field of the reader's line.
-  void addTet(const TextReader& reader, std::size_t first_field);
+  /// Adds the vertex whose coordinates start at a field of the reader's line.
+  void addVertex(const TextReader& reader, int id, std::size_t first_field);
 
-  TetMesh mesh() const;
+  /// Adds the tet whose ids start at a field of the reader's line. @param nodes 4, or 10 of a quadratic tet.
+  void addTet(const TextReader& reader, std::size_t first_field, int nodes = 4);
+
+  /// @param path for the warning about quadratic tets.
+  TetMesh mesh(const std::string& path, Warnings* warnings) const;
 
  private:
   std::unordered_map<int, int> index_of_id_;
   std::vector<Eigen::RowVector3d> vertices_;
   std::vector<Eigen::RowVector4i> tets_;
+  int quadratic_ = 0;
 };
 
 }  // namespace softbody

@@ -2,29 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
-#include <fstream>
-#include <optional>
 #include <set>
-#include <stdexcept>
 
-#include "io/stack_rows.h"
-#include "io/text_reader.h"
+#include "io/polygon_soup.h"
+#include "softbody_common/files/text_reader.h"
 
 namespace softbody {
 namespace {
 
-struct Corner {
-  int vertex = 0;
-  int texture = -1;  ///< -1: none
-};
-
-struct Face {
-  std::array<Corner, 3> corners;
-  int line = 0;
-};
+constexpr std::size_t kMostNamed = 3;  // ignored keywords in a warning; a file of another kind has thousands
 
 class ObjReader {
  public:
@@ -32,34 +19,31 @@ class ObjReader {
 
   SurfaceFile read(Warnings* warnings) {
     while (reader_.next()) readLine();
-    for (const Face& face : faces_) checkVertices(face);
-    SurfaceFile file;
-    file.mesh.vertices = stackRows<Points>(vertices_);
-    file.mesh.triangles.resize(static_cast<Eigen::Index>(faces_.size()), 3);
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      for (int k = 0; k < 3; ++k)
-        file.mesh.triangles(static_cast<Eigen::Index>(f), k) = faces_[f].corners[k].vertex;
-    }
-    file.texture_coordinates = textureCoordinates(warnings);
-    for (const std::string& keyword : ignored_) {
-      warnings->push_back(fmt::format("{}: '{}' lines were ignored", reader_.path(), keyword));
-    }
+    SurfaceFile file = triangulated(soup_, reader_.path(), ":", warnings);
+    file.materials = std::move(materials_);
+    file.references = std::move(libraries_);
+    if (!ignored_.empty()) warnings->push_back(ignoredSentence());
     return file;
   }
 
  private:
   void readLine() {
-    static const std::set<std::string_view> kDecoration{"vn", "vp", "o", "g", "s", "usemtl", "mtllib"};
-    const std::string_view keyword = reader_.keyword();
+    static const std::set<std::string> kDecoration{"vn", "vp", "o", "g", "s"};
+    const std::string keyword = reader_.keyword();
     if (keyword == "v") {
-      vertices_.push_back(reader_.point(1));
+      soup_.addVertex(reader_, 1);
     } else if (keyword == "vt") {
-      const double v = reader_.fields().size() > 2 ? reader_.number(2) : 0.0;
-      texture_.emplace_back(reader_.number(1), v, 0.0);
+      const bool is_line = reader_.fields().size() == 2;
+      soup_.texture.emplace_back(parseNumber(reader_.field(1)), is_line ? 0.0 : parseNumber(reader_.field(2)),
+                                 0.0);
     } else if (keyword == "f") {
       readFace();
+    } else if (keyword == "usemtl") {
+      useMaterial(std::string(reader_.rest()));
+    } else if (keyword == "mtllib") {
+      libraries_.push_back({reader_.path(), reader_.line(), keyword, std::string(reader_.rest())});
     } else if (kDecoration.count(keyword) == 0) {
-      ignored_.emplace(keyword);
+      ignored_.emplace(reader_.fields().front());
     }
   }
 
@@ -67,21 +51,18 @@ class ObjReader {
     std::vector<Corner> corners;
     for (std::size_t k = 1; k < reader_.fields().size(); ++k)
       corners.push_back(readCorner(reader_.fields()[k]));
-    if (corners.size() < 3) reader_.fail(fmt::format("a face of {} corners", corners.size()));
-    for (std::size_t k = 2; k < corners.size(); ++k) {
-      faces_.push_back({{corners[0], corners[k - 1], corners[k]}, reader_.line()});
-    }
+    soup_.addFace(corners, material_, reader_.line());
   }
 
   /// "v", "v/vt", "v//vn" or "v/vt/vn".
   Corner readCorner(std::string_view text) const {
     const std::size_t slash = text.find('/');
     Corner corner;
-    corner.vertex = index(text.substr(0, slash), vertices_.size(), text);
+    corner.vertex = index(text.substr(0, slash), soup_.vertices.size(), text);
     if (slash == std::string_view::npos) return corner;
     const std::string_view rest = text.substr(slash + 1);
     const std::string_view texture = rest.substr(0, rest.find('/'));
-    if (!texture.empty()) corner.texture = index(texture, texture_.size(), text);
+    if (!texture.empty()) corner.texture = index(texture, soup_.texture.size(), text);
     return corner;
   }
 
@@ -97,39 +78,27 @@ class ObjReader {
     return static_cast<int>(zero_based);
   }
 
-  void checkVertices(const Face& face) const {
-    for (const Corner& corner : face.corners) {
-      if (static_cast<std::size_t>(corner.vertex) >= vertices_.size()) {
-        reader_.failAt(face.line, fmt::format("a face refers to vertex {}; the file has {} vertices",
-                                              corner.vertex + 1, vertices_.size()));
-      }
-    }
+  void useMaterial(const std::string& name) {
+    const auto [entry, is_new] = material_index_.try_emplace(name, static_cast<int>(materials_.size()));
+    if (is_new) materials_.push_back(name);
+    material_ = entry->second;
   }
 
-  /// Empty, with a warning, if a corner has no texture coordinate.
-  Points textureCoordinates(Warnings* warnings) const {
-    if (texture_.empty()) return {};
-    Points coordinates(static_cast<Eigen::Index>(3 * faces_.size()), 3);
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int texture = faces_[f].corners[k].texture;
-        if (texture < 0 || static_cast<std::size_t>(texture) >= texture_.size()) {
-          warnings->push_back(
-              fmt::format("{}:{}: a face corner without a valid texture coordinate; the texture "
-                          "coordinates of this file are ignored",
-                          reader_.path(), faces_[f].line));
-          return {};
-        }
-        coordinates.row(static_cast<Eigen::Index>(3 * f + k)) = texture_[static_cast<std::size_t>(texture)];
-      }
-    }
-    return coordinates;
+  std::string ignoredSentence() const {
+    std::string named;
+    std::size_t count = 0;
+    for (auto keyword = ignored_.begin(); keyword != ignored_.end() && count < kMostNamed; ++keyword, ++count)
+      named += (count > 0 ? ", '" : "'") + *keyword + "'";
+    const char* others = ignored_.size() > kMostNamed ? " and others" : "";
+    return fmt::format("{}: {} lines{} were ignored", reader_.path(), named, others);
   }
 
   TextReader reader_;
-  std::vector<Eigen::RowVector3d> vertices_;
-  std::vector<Eigen::RowVector3d> texture_;
-  std::vector<Face> faces_;
+  PolygonSoup soup_;
+  std::vector<FileReference> libraries_;
+  std::map<std::string, int> material_index_;
+  std::vector<std::string> materials_;
+  int material_ = -1;
   std::set<std::string> ignored_;
 };
 

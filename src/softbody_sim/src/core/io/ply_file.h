@@ -1,13 +1,11 @@
 #pragma once
 
-#include <string>
-
 #include "softbody_sim/io/surface_files.h"
 
 namespace softbody {
 
-/// PLY, ascii or binary (Turk 1994, "The PLY Polygon File Format"). Face indices are checked.
-/// @throw std::invalid_argument with file, element and error.
-SurfaceFile readPly(const std::string& path);
+/// Polygon File Format, ascii or binary of both byte orders, with texture coordinates of vertices (s, t or u,
+/// v) or of faces (texcoord). Errors as readSurfaceFile.
+SurfaceFile readPly(const std::string& path, Warnings* warnings);
 
 }  // namespace softbody

@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-TetMesh readTetGen(const std::string& path) {
+TetMesh readTetGen(const std::string& path, Warnings* warnings) {
   const std::filesystem::path base(path);
   NumberedVertices mesh;
   TextReader nodes(std::filesystem::path(base).replace_extension(".node").string());
@@ -19,15 +19,37 @@ TetMesh readTetGen(const std::string& path) {
 
   TextReader elements(std::filesystem::path(base).replace_extension(".ele").string());
   elements.require("the number of tets");
-  const int count = elements.count(0);
-  if (elements.fields().size() > 1 && elements.integer(1) != 4) {
-    elements.fail(fmt::format("tets of {} vertices; only 4 are supported", elements.integer(1)));
-  }
+  const int count = elements.count(0), corners = elements.fields().size() > 1 ? elements.integer(1) : 4;
+  if (corners != 4 && corners != 10)
+    elements.fail(fmt::format("tets of {} vertices; only 4 and 10 are supported", corners));
   for (int t = 0; t < count; ++t) {
     elements.require(fmt::format("tet {} of {}", t + 1, count));
-    mesh.addTet(elements, 1);
+    mesh.addTet(elements, 1, corners);
   }
-  return mesh.mesh();
+  return mesh.mesh(path, warnings);
+}
+
+TetMesh readTet(const std::string& path, Warnings* warnings) {
+  TextReader reader(path);
+  reader.require("the number of vertices");
+  const std::size_t first = reader.keyword() == "tet" ? 1 : 0;
+  const int vertex_count = reader.count(first);
+  const bool is_one_line = reader.fields().size() > 2;  // else "N vertices" and "M tets"
+  if (!is_one_line) reader.require("the number of tets");
+  const int tet_count = reader.count(is_one_line ? first + 1 : 0);
+  NumberedVertices mesh;
+  for (int v = 0; v < vertex_count; ++v) {
+    reader.require(fmt::format("vertex {} of {}", v + 1, vertex_count));
+    mesh.addVertex(reader, v, 0);
+  }
+  for (int t = 0; t < tet_count; ++t) {
+    reader.require(fmt::format("tet {} of {}", t + 1, tet_count));
+    const bool has_count = reader.fields().size() > 4;  // of vertices, before them
+    if (has_count && reader.integer(0) != 4)
+      reader.fail(fmt::format("a cell of {} vertices; only tets are supported", reader.integer(0)));
+    mesh.addTet(reader, has_count ? 1 : 0);
+  }
+  return mesh.mesh(path, warnings);
 }
 
 }  // namespace softbody

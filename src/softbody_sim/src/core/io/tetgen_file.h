@@ -1,14 +1,14 @@
 #pragma once
 
-#include <string>
-
 #include "softbody_sim/io/tet_files.h"
 
 namespace softbody {
 
-/// TetGen's .node and .ele files (TetGen manual, "File formats"). The orientation of the tets is as in the
-/// file; their indices are checked. @param path of either file. @throw std::invalid_argument with file, line
-/// and error.
-TetMesh readTetGen(const std::string& path);
+/// TetGen's .node and .ele files (TetGen manual, "File formats"). @param path of either. Errors as
+/// readTetFile.
+TetMesh readTetGen(const std::string& path, Warnings* warnings);
+
+/// The .tet files of Geogram ("N vertices", "M tets") and of Quartet ("tet N M"). Errors as readTetFile.
+TetMesh readTet(const std::string& path, Warnings* warnings);
 
 }  // namespace softbody

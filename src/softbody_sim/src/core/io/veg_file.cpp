@@ -14,8 +14,8 @@ void readVertices(TextReader& reader, NumberedVertices* mesh) {
 
 void readTets(TextReader& reader, NumberedVertices* mesh) {
   reader.require("the kind of elements");
-  if (reader.keyword() != "TET" && reader.keyword() != "TETS") {
-    reader.fail(fmt::format("elements of kind {}; only TET is supported", reader.keyword()));
+  if (reader.keyword() != "tet" && reader.keyword() != "tets") {
+    reader.fail(fmt::format("elements of kind {}; only TET is supported", reader.fields().front()));
   }
   reader.require("the number of elements");
   const int count = reader.count(0);
@@ -32,18 +32,18 @@ TetMesh readVeg(const std::string& path, Warnings* warnings) {
   NumberedVertices mesh;
   bool has_elements = false, has_material = false;
   while (reader.next()) {
-    if (reader.keyword() == "*INCLUDE")
+    if (reader.keyword() == "*include")
       reader.fail("*INCLUDE is not supported; put the sections into one file");
-    if (reader.keyword() == "*VERTICES") readVertices(reader, &mesh);
-    if (reader.keyword() == "*ELEMENTS") {
+    if (reader.keyword() == "*vertices") readVertices(reader, &mesh);
+    if (reader.keyword() == "*elements") {
       readTets(reader, &mesh);
       has_elements = true;
     }
-    has_material = has_material || reader.keyword() == "*MATERIAL";
+    has_material = has_material || reader.keyword() == "*material";
   }
   if (!has_elements) reader.fail("the file ends without an *ELEMENTS section");
   if (has_material) warnings->push_back(path + ": *MATERIAL is ignored; the object YAML gives the material");
-  return mesh.mesh();
+  return mesh.mesh(path, warnings);
 }
 
 }  // namespace softbody

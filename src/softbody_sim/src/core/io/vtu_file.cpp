@@ -6,17 +6,19 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "io/stack_rows.h"
-#include "io/text_reader.h"
+#include "softbody_common/files/text_reader.h"
+#include "softbody_common/stack_rows.h"
 #include "xml/xml_elements.h"
 
 namespace softbody {
 namespace {
 
+constexpr int kVtkQuadraticTetra = 24;
+
 class VtuReader {
  public:
   VtuReader(const std::string& path, std::string_view text, Warnings* warnings)
-      : path_(path), warnings_(warnings), elements_(xmlElements(text, path)) {}
+      : path_(path), warnings_(warnings), elements_(xmlElements(requireText(text), path)) {}
 
   TetMesh read() {
     const XmlElement& root = elements_.front();
@@ -30,11 +32,27 @@ class VtuReader {
       warnings_->push_back(fmt::format("{}: {} cells other than tets (the first of VTK type {}) were skipped",
                                        path_, skipped_, first_skipped_type_));
     }
+    if (quadratic_ > 0)
+      warnings_->push_back(
+          fmt::format("{}: {} tets have 10 nodes; only their corners were taken", path_, quadratic_));
     return {stackRows<Points>(vertices_), stackRows<Tets>(tets_)};
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw std::invalid_argument(path_ + ": " + what); }
+
+  /// Appended data may be bytes that are not XML. @return the text.
+  std::string_view requireText(std::string_view text) const {
+    if (text.find("<AppendedData") != std::string_view::npos) failBinary("appended");
+    return text;
+  }
+
+  [[noreturn]] void failBinary(std::string_view format) const {
+    fail(fmt::format(
+        "format is '{}'; only ascii is supported; convert it: meshio convert --ascii {} ascii.vtu, or "
+        "save it in ParaView with data mode Ascii",
+        format, path_));
+  }
 
   const XmlElement& element(int index) const { return elements_[static_cast<std::size_t>(index)]; }
 
@@ -91,11 +109,13 @@ class VtuReader {
 
   void addCell(std::size_t cell, double type, const std::vector<double>& connectivity, double begin,
                double end, int first_vertex) {
-    if (type != kVtkTetra) {
+    if (type != kVtkTetra && type != kVtkQuadraticTetra) {
       if (skipped_++ == 0) first_skipped_type_ = type;
       return;
     }
-    if (end - begin != 4.0) fail(fmt::format("cell {}: a tet of {} vertices", cell, end - begin));
+    quadratic_ += type == kVtkTetra ? 0 : 1;
+    if (end - begin != (type == kVtkTetra ? 4.0 : 10.0))
+      fail(fmt::format("cell {}: a tet of {} vertices", cell, end - begin));
     Eigen::RowVector4i tet;
     for (int k = 0; k < 4; ++k) {
       const double vertex = connectivity[static_cast<std::size_t>(begin) + static_cast<std::size_t>(k)];
@@ -118,8 +138,7 @@ class VtuReader {
       if (array.name != "DataArray" || (!name.empty() && array.attribute("Name") != name)) continue;
       const std::string label = fmt::format("<{}> {}", section, name);
       const std::string_view format = array.attribute("format");
-      if (!format.empty() && format != "ascii")
-        fail(fmt::format("{}: format is '{}'; only ascii is supported", label, format));
+      if (!format.empty() && format != "ascii") failBinary(format);
       return parseNumbers(array.text, label);
     }
     fail(fmt::format("no DataArray {} in <{}>", name, section));
@@ -146,7 +165,7 @@ class VtuReader {
   std::vector<XmlElement> elements_;
   std::vector<Eigen::RowVector3d> vertices_;
   std::vector<Eigen::RowVector4i> tets_;
-  std::size_t skipped_ = 0;
+  std::size_t skipped_ = 0, quadratic_ = 0;
   double first_skipped_type_ = 0.0;
 };
 

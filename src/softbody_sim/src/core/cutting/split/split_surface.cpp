@@ -5,8 +5,8 @@
 #include <numeric>
 #include <set>
 
-#include "cutting/split/constrained_triangulation.h"
 #include "cutting/split/cut_refused.h"
+#include "plane/constrained_triangulation.h"
 
 namespace softbody {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <tuple>
 
-#include "cutting/split/constrained_triangulation.h"
 #include "cutting/split/cut_refused.h"
+#include "plane/constrained_triangulation.h"
 
 namespace softbody {
 namespace {

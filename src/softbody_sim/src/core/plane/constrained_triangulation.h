@@ -1,17 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <vector>
-
-#include "cutting/split/half_edges.h"
 
 namespace softbody {
 
 /// A triangulation in the plane, and the regions between the constraints.
 struct PlanarTriangulation {
-  TriangleList triangles;    ///< counter-clockwise, indices of points
-  std::vector<int> regions;  ///< per triangle, 0..
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise, indices of points
+  std::vector<int> regions;                   ///< per triangle, 0..
 };
 
 /// Constrained Delaunay triangulation of the convex hull of the points (CGAL). The last of coincident points

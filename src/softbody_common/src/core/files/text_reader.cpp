@@ -1,4 +1,4 @@
-#include "io/text_reader.h"
+#include "softbody_common/files/text_reader.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "softbody_common/files/input_file.h"
@@ -15,7 +16,7 @@ namespace softbody {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view kBlank(" \t\r\f\v\0", 6);  // some exporters end a file with a zero byte
+constexpr std::string_view kBlank(" \t\f\v\0\x1a", 6);  // some files end with a zero byte or Ctrl-Z
 
 void splitFields(std::string_view line, std::vector<std::string_view>* fields) {
   fields->clear();
@@ -27,23 +28,27 @@ void splitFields(std::string_view line, std::vector<std::string_view>* fields) {
   }
 }
 
-std::string_view withoutComment(std::string_view line) { return line.substr(0, line.find('#')); }
-
-std::string_view withoutCarriageReturn(std::string_view line) {
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
+/// Names may end with a backslash: "g C:\\scans\\". Numbers do not.
+bool continues(std::string_view line) {
+  static const std::set<std::string_view> kNumbers{"v", "vt", "vn", "vp", "f", "l", "p"};
+  if (line.empty() || line.back() != '\\') return false;
+  std::vector<std::string_view> fields;
+  splitFields(line, &fields);
+  return kNumbers.count(fields.front()) > 0;
 }
-
-bool continues(std::string_view line) { return !line.empty() && line.back() == '\\'; }
 
 }  // namespace
 
 std::string extensionOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
+  return lowerCase(extension);
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower;
 }
 
 double parseNumber(std::string_view text) {
@@ -56,14 +61,14 @@ double parseNumber(std::string_view text) {
   return std::isfinite(value) && error != std::errc::invalid_argument ? value : kNan;
 }
 
-TextReader::TextReader(std::string path) : path_(std::move(path)), text_(readFile(path_)) {}
+TextReader::TextReader(std::string path) : path_(std::move(path)), text_(readTextFile(path_)) {}
 
 std::string_view TextReader::rawLine() {
   const std::size_t end = std::min(text_.find('\n', position_), text_.size());
   const std::string_view line = std::string_view(text_).substr(position_, end - position_);
   position_ = std::min(end + 1, text_.size());
   ++line_;
-  return withoutCarriageReturn(withoutComment(line));
+  return withoutComment(line);
 }
 
 bool TextReader::next() {
@@ -71,16 +76,23 @@ bool TextReader::next() {
     std::string_view line = rawLine();
     if (continues(line)) {
       joined_.clear();
-      while (continues(line)) {
+      for (; !line.empty() && line.back() == '\\'; line = position_ < text_.size() ? rawLine() : "")
         joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
-        line = position_ < text_.size() ? rawLine() : std::string_view();
-      }
       line = joined_.append(line);
     }
     splitFields(line, &fields_);
     if (!fields_.empty()) return true;
   }
   return false;
+}
+
+std::string_view TextReader::rest() const {
+  if (fields_.size() < 2) return {};
+  const char* const begin = fields_[1].data();
+  const std::string_view name(
+      begin, static_cast<std::size_t>(fields_.back().data() + fields_.back().size() - begin));
+  const bool is_quoted = name.size() > 1 && name.front() == '"' && name.back() == '"';
+  return is_quoted ? name.substr(1, name.size() - 2) : name;
 }
 
 void TextReader::require(const std::string& expected) {

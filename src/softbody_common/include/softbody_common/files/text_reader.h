@@ -1,15 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "softbody_common/types.h"
 
 namespace softbody {
 
 /// The extension of a path in lower case, without its dot.
 std::string extensionOf(const std::string& path);
+
+std::string lowerCase(std::string_view text);
 
 /// The number in a text, or NaN if the text is not a finite number.
 double parseNumber(std::string_view text);
@@ -17,8 +18,8 @@ double parseNumber(std::string_view text);
 /// Reads a text file line by line; errors carry "file:line: ".
 class TextReader {
  public:
-  /// Comments run from '#' to the end of the line. A '\' at the end of a line joins it with the next line.
-  /// @throw std::invalid_argument if the file cannot be read.
+  /// A '\' at the end of an OBJ's line of numbers joins it with the next line.
+  /// @throw std::invalid_argument as readTextFile.
   explicit TextReader(std::string path);
 
   /// Goes to the next line that has fields. False at the end of the file.
@@ -27,11 +28,15 @@ class TextReader {
   void require(const std::string& expected);
 
   const std::vector<std::string_view>& fields() const { return fields_; }
-  std::string_view keyword() const { return fields_.front(); }
+  /// The first field in lower case.
+  std::string keyword() const { return lowerCase(fields_.front()); }
   int line() const { return line_; }
   const std::string& path() const { return path_; }
+  /// The line after its first field, without blanks and quotes around it: a name, which may contain blanks.
+  std::string_view rest() const;
 
   /// The k-th field. @throw std::invalid_argument if it is missing or of another type.
+  std::string_view field(std::size_t k) const;
   double number(std::size_t k) const;
   int integer(std::size_t k) const;
   /// A number of entries that follow: at least 0, at most what the rest of the file can hold.
@@ -42,7 +47,6 @@ class TextReader {
   [[noreturn]] void failAt(int line, const std::string& what) const;
 
  private:
-  std::string_view field(std::size_t k) const;
   std::string_view rawLine();
 
   std::string path_;
