@@ -197,6 +197,8 @@ class Command(unittest.TestCase):
             self.assertEqual((self.folder / "out/texture.png").read_bytes(), b"\x89PNG\r\n\x1a\n...")
             self.assertIn(b"texture.png", (self.folder / "out" / mesh).read_bytes())
         self.assertEqual(self.export("--object", "object", "--format", "ply").returncode, 0)
+        self.write_object(image="C:\\Users\\me\\image.png")
+        self.assertEqual(self.export(*words, "ply").returncode, 0)
         self.write_object(image="../image.png")
         self.expect_refused(self.export(*words, "gltf"), "allow it with --allow-outside", self.files())
         self.assertEqual(self.export("--allow-outside", *words, "gltf").returncode, 0)

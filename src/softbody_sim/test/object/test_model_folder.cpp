@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "cage/volume_maker.h"
 #include "fixtures/object_model_test.h"
 #include "report/model_folder.h"
 #include "softbody_common/files/input_file.h"
+#include "softbody_sim/io/surface_files.h"
 
 namespace softbody {
 namespace {
@@ -41,6 +43,33 @@ TEST_F(ObjectModelTest, TheLengthOrTheScaleReplacesTheUnit) {
   EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.0, 0.2}), 0.2, 1e-6);
   EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.0, 0.0, 0.01}), 37 * 0.26 * 0.01, 1e-4);
   EXPECT_NE(output.str().find("**Verdict: good.**"), std::string::npos) << output.str();
+}
+
+TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
+  const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
+  const auto prepare = [&](const std::string& materials) {
+    folder_.write("skin.mtl", materials);
+    writeObj(folder_.file("skinned.obj"), torus, Points::Random(3 * torus.triangles.rows(), 3), "skin.mtl");
+    std::ostringstream output;
+    prepareModel({folder_.file("skinned.obj")}, folder_.file("out"), {}, output);
+    return output.str();
+  };
+  cv::imwrite(folder_.file("my skin.png"), cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3)));
+  cv::imwrite(folder_.file("skin.bmp"), cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3)));
+  EXPECT_EQ(prepare("newmtl body\nmap_Kd C:\\Users\\me\\my skin.png\n").find("picture"), std::string::npos);
+  EXPECT_EQ(readFile(folder_.file("out/visual.png")), readFile(folder_.file("my skin.png")));
+  Warnings warnings;
+  const SurfaceFile visual = readSurfaceFile(folder_.file("out/visual.obj"), &warnings);
+  const SurfacePictures pictures = surfacePictures(visual, FileScope::kOwnFolder, &warnings);
+  ASSERT_EQ(pictures.files, std::vector<std::string>{folder_.file("out/visual.png")});
+  EXPECT_EQ(pictures.picture, std::vector<int>(static_cast<std::size_t>(torus.triangles.rows()), 0));
+  EXPECT_TRUE(warnings.empty());
+
+  prepare("newmtl body\nmap_Kd -s 1 1 1 skin.bmp\n");
+  EXPECT_EQ(cv::imread(folder_.file("out/visual.png"))(cv::Rect(0, 0, 1, 1)).data[0], 1);
+  EXPECT_NE(prepare("newmtl body\nmap_Kd gone.png\n").find("map_Kd names 'gone.png', but there is no file"),
+            std::string::npos);
+  EXPECT_EQ(readFile(folder_.file("out/visual.obj")).find("mtllib"), std::string::npos);
 }
 
 TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {

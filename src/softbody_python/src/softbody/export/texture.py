@@ -57,11 +57,18 @@ def _visual_mesh(object_yaml):
 
 def _named(file, keyword, folder, allow_outside):
     """The file that the first line with a keyword names, or None."""
-    for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
-        first, _, value = line.strip().partition(" ")
-        if first == keyword and value.strip():
-            return _inside(file.parent / value.strip(), file, folder, allow_outside)
+    for line in file.read_text(encoding="utf-8-sig", errors="replace").splitlines():
+        first, *value = line.split(None, 1)[:2] or [""]
+        if first.lower() == keyword.lower() and value:
+            return _inside(_place(file.parent, value[0].strip().strip('"')), file, folder, allow_outside)
     return None
+
+
+def _place(folder, name):
+    """Where a file is that may be named with backslashes or by a path of another computer."""
+    slashed = pathlib.PurePosixPath(name.replace("\\", "/"))
+    places = [folder / name, folder / slashed, folder / slashed.name]
+    return next((place for place in places if place.is_file()), places[0])
 
 
 def _inside(path, named_in, folder, allow_outside):

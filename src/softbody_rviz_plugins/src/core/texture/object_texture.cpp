@@ -2,15 +2,14 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "softbody_common/files/object_path.h"
+#include "softbody_common/files/obj_materials.h"
 #include "softbody_common/files/yaml_map_reader.h"
 
 namespace softbody {
-namespace {
-
 namespace fs = std::filesystem;
 
 /// The rest of the first line that begins with a keyword, without spaces at its ends; empty if there is none.
@@ -40,13 +39,17 @@ fs::path namedFile(const fs::path& file, const char* keyword, const fs::path& fo
 
 fs::path textureImageOf(const fs::path& given, FileScope scope) {
   const fs::path yaml = objectYamlAt(given.string());
+fs::path textureImageOf(const fs::path& yaml, FileScope scope) {
   const YAML::Node root = parseYamlFile(yaml.string());
   YamlMapReader object(root["object"], yaml.string(), "object/");
   const fs::path mesh = object.file("visual_mesh", scope), folder = fs::absolute(yaml).parent_path();
   if (mesh.extension() != ".obj" && mesh.extension() != ".OBJ") return {};
-  const fs::path materials = namedFile(mesh, "mtllib", folder, scope);
-  if (materials.empty()) return {};
-  return namedFile(materials, "map_Kd", folder, scope);
+  std::vector<std::string> warnings;
+  const MaterialPictures pictures = picturesOf(fileReferences(mesh, {"mtllib"}), {},
+                                               scope == FileScope::kOwnFolder ? folder : "", &warnings);
+  if (!pictures.files.empty()) return pictures.files.front();
+  if (!warnings.empty()) throw std::invalid_argument(warnings.front());
+  return {};
 }
 
 }  // namespace softbody

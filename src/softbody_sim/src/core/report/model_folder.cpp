@@ -11,6 +11,7 @@
 
 #include "report/model_picture.h"
 #include "report/model_quality.h"
+#include "report/model_skin.h"
 #include "report/model_verdict.h"
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/files/staged_output.h"
@@ -24,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kModelProgress = 0.8;  // fraction of the time for making the model
-constexpr std::array<const char*, 6> kFiles{"visual.obj",        "cage.obj",         "tets.vtu",
+constexpr std::array<const char*, 9> kFiles{kSkinFiles[0],       kSkinFiles[1],      kSkinFiles[2],
+                                            "visual.obj",        "cage.obj",         "tets.vtu",
                                             "report/models.png", "report/report.md", "object.yaml"};
 constexpr std::string_view kMark = "# Made by prepare_model";  // how an object.yaml begins
 
@@ -103,7 +105,9 @@ void writePicture(const fs::path& path, const cv::Mat& picture) {
 /// object.yaml comes last: the files that it names then exist.
 void moveFiles(const fs::path& from, const fs::path& to) {
   fs::create_directories(to / "report");
-  for (const char* file : kFiles) fs::rename(from / file, to / file);
+  for (const char* file : kFiles) {
+    if (fs::exists(from / file)) fs::rename(from / file, to / file);
+  }
 }
 
 /// Metres per unit of the mesh file. @throw std::invalid_argument if the mesh cannot be read or has no
@@ -130,13 +134,14 @@ void prepareModel(const ModelSource& source, const std::string& folder, const Vo
   description.thickness_m = source.thickness * description.unit_m;
   VolumeSettings making = settings;
   making.progress = [&](double fraction) { settings.progress(kModelProgress * fraction); };
-  const ObjectModel model = buildObjectModel(description, making);
+  ObjectModel model = buildObjectModel(description, making);
   const TriangleMesh cage = cageOf(model.volume);
 
   const StagedFolder staging(target);
   fs::create_directories(staging.path() / "report");
+  const std::string material_file = writeSkin(source.mesh, staging.path(), &model.warnings);
   writeObj((staging.path() / "visual.obj").string(), {model.visual.rest_vertices, model.visual.triangles},
-           model.visual.texture_coordinates);
+           model.visual.texture_coordinates, material_file);
   writeObj((staging.path() / "cage.obj").string(), cage);
   writeVtu((staging.path() / "tets.vtu").string(), {model.volume.rest_vertices, model.volume.tets});
   const std::string text = report(source.mesh, model, measureModel(model));

@@ -17,8 +17,9 @@ struct ModelSource {
 };
 
 /// Writes FOLDER/{object.yaml, visual.obj, cage.obj, tets.vtu, report/report.md, report/models.png} in
-/// metres. Other files in the folder stay. If anything fails, the folder is unchanged. Files of these names
-/// are replaced only if prepare_model made them.
+/// metres; and visual.mtl with visual.png or visual.jpg, if the mesh has a picture. Other files in the folder
+/// stay. If anything fails, the folder is unchanged. Files of these names are replaced only if prepare_model
+/// made them.
 /// @param output gets the report.
 /// @throw std::invalid_argument if the mesh is refused; std::runtime_error if the folder cannot be written.
 void prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,

@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "bodies/obj_materials.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 
@@ -22,13 +21,6 @@ Picture readPicture(const std::string& path) {
     throw std::invalid_argument(fmt::format("{}: is not an image that OpenCV can read", path));
   cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
   return makePicture(image);
-}
-
-bool isObj(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension == ".obj";
 }
 
 }  // namespace
@@ -48,19 +40,17 @@ MeshTopology topologyOf(const Body& body) {
 
 Body readBody(const std::string& path, double unit_m, std::vector<std::string>* warnings, FileScope scope) {
   SurfaceFile file = readSurfaceFile(path, warnings);
+  SurfacePictures pictures = surfacePictures(file, scope, warnings);
   Body body;
   body.rest = {unit_m * file.mesh.vertices, std::move(file.mesh.triangles)};
-  if (body.rest.triangles.rows() == 0) throw std::invalid_argument(fmt::format("{}: holds no faces", path));
   body.skin.coordinates = std::move(file.texture_coordinates);
-  if (!isObj(path)) return body;
-  ObjMaterials materials = readObjMaterials(path, scope);
-  if (materials.files.empty()) return body;
+  if (pictures.files.empty()) return body;
   if (body.skin.coordinates.rows() == 0) {
     throw std::invalid_argument(
         fmt::format("{}: its materials name images, but it has no texture coordinates", path));
   }
-  body.skin.picture = std::move(materials.image);
-  std::transform(materials.files.begin(), materials.files.end(), std::back_inserter(body.skin.pictures),
+  body.skin.picture = std::move(pictures.picture);
+  std::transform(pictures.files.begin(), pictures.files.end(), std::back_inserter(body.skin.pictures),
                  readPicture);
   return body;
 }
