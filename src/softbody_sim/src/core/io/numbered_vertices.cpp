@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "softbody_common/stack_rows.h"
+#include "softbody_common/files/stack_rows.h"
 
 namespace softbody {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "plane/polygon_triangles.h"
-#include "softbody_common/stack_rows.h"
+#include "softbody_common/files/stack_rows.h"
 
 namespace softbody {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "softbody_common/files/stack_rows.h"
 #include "softbody_common/files/text_reader.h"
-#include "softbody_common/stack_rows.h"
 #include "xml/xml_elements.h"
 
 namespace softbody {

@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "softbody_common/stack_rows.h"
+#include "softbody_common/files/stack_rows.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
