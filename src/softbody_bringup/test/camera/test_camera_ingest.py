@@ -60,7 +60,7 @@ class CameraIngest(unittest.TestCase):
             self.be_well()
             self.camera.be(unstamped=(name,))
             self.wait_for_log(f"{TOPICS[name]}: an image without a stamp is dropped")
-            self.wait_for_status(DiagnosticStatus.ERROR, f"{TOPICS[name]} (its images have no stamp)")
+            self.wait_for_status(DiagnosticStatus.ERROR, f"{TOPICS[name]} (the stamp of its images is 0)")
         self.assertFalse([image for image in self.recorder.messages[RESULT] if image.header.stamp.is_zero()])
 
     def test_depth_in_a_frame_that_tf_does_not_know_is_refused_by_name(self):

@@ -85,12 +85,42 @@ TEST(SearchReport, NamesEachCauseWithNumbers) {
   expectWords(searchIn(wall), {"nothing stands free", "200 x 100 x 40 mm", "initial_pose"});
   expectWords(searchIn(bent(12.0)),
               {"200 x 100 x 40 mm", "disagreement", "allowed: 22 %", "mm. ", "bent", "initial_pose"});
-  RgbdFrame hidden = boxFrame();
-  hidden.depth(cv::Rect(0, 0, 340, 480)) = 0.25f;
-  expectWords(searchIn(hidden), {"200 x 100 x 40 mm", "Something is before", "initial_pose"});
-  RgbdFrame merged = boxFrame();
-  merged.depth(cv::Rect(320, 180, 320, 120)) = 0.49f;
-  expectWords(searchIn(merged), {"200 x 100 x 40 mm", "initial_pose"});
+}
+
+/// A report of a pose that disagrees.
+SearchReport disagreeing() {
+  SearchReport report;
+  report.body_m = {0.2, 0.1, 0.04};
+  report.part_m = {0.25, 0.11, 0.05};
+  report.part_distance_m = 0.5;
+  report.part_fits = true;
+  report.depth_share = 0.9;
+  report.cost = 0.31;
+  report.largest_cost = 0.22;
+  report.agreeing = 0.6;
+  report.difference_m = 0.012;
+  report.largest_without_edge = 0.35;
+  return report;
+}
+
+TEST(SearchReport, SaysWhatToDo) {
+  SearchReport report = disagreeing();
+  expectWords(report, {"250 x 110 x 50 mm at 0.50 m", "31 %", "22 %", "60 %", "12.0 mm", "bent"});
+  report.continuing = 0.4;
+  expectWords(report, {"goes on beyond 40 %", "touches"});
+  report.hidden = 0.3;
+  expectWords(report, {"before 30 % of it: take it away"});
+  report.part_at_border = true;
+  expectWords(report, {"border of the image"});
+  report.fitting_scale = 1.11;
+  expectWords(report, {"a mesh 11 % larger would fit", "--unit", "depth_scale"});
+  report = disagreeing();
+  report.cost = 0.1;
+  expectWords(report, {"colours or features"});
+  report.without_edge = 0.5;
+  expectWords(report, {"at 50 % of the outline (allowed: 35 %)"});
+  report.found = true;
+  EXPECT_EQ(whyNotFound(report), "");
 }
 
 TEST(SearchReport, ARoughPoseIsTriedFirst) {

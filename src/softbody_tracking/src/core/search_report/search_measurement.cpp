@@ -9,7 +9,6 @@
 #include "registration/body_candidates.h"
 #include "registration/body_edges.h"
 #include "registration/pose_cost.h"
-#include "registration/pose_refinement.h"
 #include "registration/search_anywhere.h"
 #include "registration/subsampled_frame.h"
 #include "softbody_common/rigid_fit.h"
@@ -19,8 +18,6 @@ namespace {
 
 // Columns of the images: those of the search, for parts and for the last step.
 constexpr int kPartColumns = 160, kCostColumns = 320;
-// First steps of the search with a scaled mesh: its centre may move by a fraction of the body.
-constexpr PoseRefinement::Steps kScaledSteps{0.1, 0.02};
 // A scale fits much better if it leaves at most this share of the cost; two causes could explain less.
 constexpr double kMuchBetter = 0.5;
 // Smallest change of scale that a part's size shows: a pixel at each side of a hundred.
@@ -28,7 +25,7 @@ constexpr double kSmallestChange = 0.03;
 // Factors between units: m, cm, mm and inch of a mesh; 0.1, 0.25 and 1 mm of depth.
 constexpr double kUnits[] = {0.001, 0.01, 0.0254, 0.1, 0.25, 4.0, 10.0, 1.0 / 0.0254, 100.0, 1000.0};
 // Units that are tried with a whole search.
-constexpr std::size_t kTriedUnits = 4;
+constexpr std::size_t kTriedUnits = 3;
 
 Eigen::Vector3d sidesOf(const Points& vertices) {
   Eigen::Vector3d sides = vertices.colwise().maxCoeff() - vertices.colwise().minCoeff();
@@ -162,6 +159,20 @@ bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Is
          shareWithoutEdge(frame, mesh, pose, distance_scale_m) <= kLargestShareWithoutEdge;
 }
 
+/// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
+/// wholly in view.
+std::optional<double> sizeRatio(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+                                const PoseHypothesis& best) {
+  const RgbdFrame image = subsampled(frame, kPartColumns);
+  const RasterImage mesh = rendered(image, meshes.full, best.pose);
+  const std::vector<Eigen::Vector3d> visible = visiblePoints(image, mesh);
+  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
+  const DepthPart* part = visible.empty() ? nullptr : partAt(parts, mesh);
+  if (part == nullptr || part->at_border) return std::nullopt;
+  const double ratio = part->spread_m / spreadOf(visible);
+  return std::abs(std::log(ratio)) > kSmallestChange ? std::optional(ratio) : std::nullopt;
+}
+
 }  // namespace
 
 SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
@@ -188,40 +199,27 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
   return report;
 }
 
-std::optional<double> fittingScaleNear(const RgbdFrame& frame, const ColorModel& colors,
-                                       const SearchMeshes& meshes, const PoseHypothesis& best,
-                                       const RegistrationConfig& config) {
-  const RgbdFrame image = subsampled(frame, kPartColumns);
-  const RasterImage seen = rendered(image, meshes.full, best.pose);
-  const std::vector<Eigen::Vector3d> visible = visiblePoints(image, seen);
-  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
-  const DepthPart* part = visible.empty() ? nullptr : partAt(parts, seen);
-  if (part == nullptr || part->at_border) return std::nullopt;
-  const double factor = part->spread_m / spreadOf(visible);
-  if (!(std::abs(std::log(factor)) > kSmallestChange)) return std::nullopt;
-  const TriangleMesh mesh = scaled(meshes.full, factor);
-  const RgbdFrame large = subsampled(frame, kCostColumns);
-  PoseRefinement refinement(large, mesh, config.distance_scale_m, std::nullopt);
-  Eigen::Isometry3d start = best.pose;  // with the body's centre where it was
-  start.translation() +=
-      (1.0 - factor) * (best.pose.linear() * meshes.full.vertices.colwise().mean().transpose());
-  const PoseHypothesis found = refinement.patternSearch(start, kScaledSteps);
-  const bool fits = found.cost <= config.max_cost && found.cost <= kMuchBetter * best.cost &&
-                    isBounded(frame, mesh, found.pose, config.distance_scale_m);
-  return fits ? std::optional(factor) : std::nullopt;
-}
-
-std::optional<double> fittingUnit(const RgbdFrame& frame, const ColorModel& colors,
-                                  const SearchMeshes& meshes, const RegistrationConfig& config) {
+std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& colors,
+                                   const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,
+                                   const RegistrationConfig& config) {
+  std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m);
+  if (best) {
+    const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best);
+    if (ratio) factors.push_back(*ratio);
+  }
+  // A pose that only lacks edges has a low cost: what fits then is the mesh that has them.
+  const bool lacks_edges = best && best->cost <= config.max_cost;
+  double highest_cost = best && !lacks_edges ? kMuchBetter * best->cost : config.max_cost;
+  highest_cost = std::min(highest_cost, config.max_cost);
   std::optional<double> fitting;
-  double lowest_cost = config.max_cost;
-  for (const double factor : likelyUnits(frame, colors, meshes.diameter_m)) {
+  for (const double factor : factors) {
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
-    const auto poses = posesAnywhere(frame, colors, other, {}, config.distance_scale_m);
-    if (poses.empty() || poses.front().cost > lowest_cost) continue;
-    if (!isBounded(frame, other.full, poses.front().pose, config.distance_scale_m)) continue;
-    fitting = factor;
-    lowest_cost = poses.front().cost;
+    for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config.distance_scale_m)) {
+      if (pose.cost > highest_cost || !isBounded(frame, other.full, pose.pose, config.distance_scale_m))
+        continue;
+      fitting = factor;
+      highest_cost = pose.cost;
+    }
   }
   return fitting;
 }

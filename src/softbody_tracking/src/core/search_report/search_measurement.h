@@ -14,16 +14,12 @@ namespace softbody {
 SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
                            const std::optional<PoseHypothesis>& best, const RegistrationConfig& config);
 
-/// The factor by which the mesh would have to be scaled to fit near the best pose of a failed search: the
-/// size of the part there, divided by the size of the mesh. Empty if the scaled mesh does not fit much
-/// better.
-std::optional<double> fittingScaleNear(const RgbdFrame& frame, const ColorModel& colors,
-                                       const SearchMeshes& meshes, const PoseHypothesis& best,
-                                       const RegistrationConfig& config);
-
-/// The factor between two units of length with which the body would be found. Takes as long as one or two
-/// searches.
-std::optional<double> fittingUnit(const RgbdFrame& frame, const ColorModel& colors,
-                                  const SearchMeshes& meshes, const RegistrationConfig& config);
+/// The factor by which the mesh would have to be scaled so that the body is found: the size of the part at
+/// the best pose divided by the size of the mesh there, or the factor between two units of length. Empty if
+/// no such mesh fits much better. Takes as long as a few searches.
+/// @param best pose of the search that failed; empty: no pose was tried.
+std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& colors,
+                                   const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,
+                                   const RegistrationConfig& config);
 
 }  // namespace softbody

@@ -27,8 +27,7 @@ SearchReport searchForBody(const RgbdFrame& frame, const TriangleMesh& rest_surf
     report.alike = outcome.found->alike;
     return report;
   }
-  if (outcome.best) report.fitting_scale = fittingScaleNear(frame, colors, meshes, *outcome.best, config);
-  if (!report.fitting_scale) report.fitting_scale = fittingUnit(frame, colors, meshes, config);
+  report.fitting_scale = fittingScale(frame, colors, meshes, outcome.best, config);
   return report;
 }
 

@@ -24,7 +24,7 @@ void Relocalizer::reset() {
   given_.reset();
   lost_frames_ = frames_to_depth_search_ = frames_to_feature_search_ = 0;
   failed_searches_ = 0;
-  fitting_unit_.reset();
+  fitting_scale_.reset();
   report_ = {};
 }
 
@@ -117,18 +117,16 @@ SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const Search
 }
 
 /// Another scale of the mesh is tried only at the start, because it does not change later; and less and less
-/// often, because it takes as long as two searches.
+/// often, because it takes as long as a few searches.
 SearchReport Relocalizer::explained(const RgbdFrame& frame, const SearchMeshes& meshes,
                                     const FrameObserver& observer,
                                     const std::optional<PoseHypothesis>& best) {
   SearchReport report = measureSearch(frame, observer.colors(), meshes, best, config_);
   if (recovering_) return report;
-  if (best) report.fitting_scale = fittingScaleNear(frame, observer.colors(), meshes, *best, config_);
   ++failed_searches_;
   const bool is_power_of_two = (failed_searches_ & (failed_searches_ - 1)) == 0;
-  if (is_power_of_two && !report.fitting_scale)
-    fitting_unit_ = fittingUnit(frame, observer.colors(), meshes, config_);
-  if (!report.fitting_scale) report.fitting_scale = fitting_unit_;
+  if (is_power_of_two) fitting_scale_ = fittingScale(frame, observer.colors(), meshes, best, config_);
+  report.fitting_scale = fitting_scale_;
   return report;
 }
 

@@ -77,8 +77,8 @@ class Relocalizer {
   int lost_frames_ = 0;
   int frames_to_depth_search_ = 0;
   int frames_to_feature_search_ = 0;
-  int failed_searches_ = 0;             ///< by depth, at the start
-  std::optional<double> fitting_unit_;  ///< see fittingUnit()
+  int failed_searches_ = 0;              ///< by depth, at the start
+  std::optional<double> fitting_scale_;  ///< see fittingScale()
   SearchReport report_;
 };
 
