@@ -75,8 +75,8 @@ std::string disagreement(const SearchReport& report) {
     return fmt::format("Something is before {} % of it: take it away", percent(report.hidden));
   if (report.continuing > kTouches)
     return fmt::format(
-        "The surface goes on beyond {} % of the outline: it touches something, or the mesh is too small. "
-        "Move it away",
+        "The surface goes on beyond {} % of the outline: it touches something, it is bent, or the mesh is "
+        "too small. Tracking starts when it stands free near its rest shape",
         percent(report.continuing));
   return "It is bent, or another object: tracking starts when it is near the rest shape of the mesh";
 }
@@ -93,7 +93,8 @@ std::string highCost(const SearchReport& report) {
 std::string noEdge(const SearchReport& report) {
   return fmt::format(
       "{}; {} % of its pixels agree, but at {} % of the outline (allowed: {} %) depth runs straight on: it "
-      "lies in a larger surface. Move the body away from it, {}",
+      "lies in a larger surface, or the mesh is too small. Move the body away from it, compare the mesh with "
+      "a ruler, {}",
       candidateText(report), percent(report.agreeing), percent(report.without_edge),
       percent(report.largest_without_edge), kPoseAdvice);
 }
