@@ -18,18 +18,25 @@ class Session {
                                    const std::string& reason) {
     std::map<int, std::string> warnings;
     for (int i = 0; i < frames; ++i, ++frame_) {
-      const auto warning = monitor_.update(1'000'000'000 + frame_ * 100'000'000LL, seen, reason);
+      const auto warning = monitor_.update(1'000'000'000 + frame_ * 100'000'000LL, seen, reason, [this] {
+        ++looks;
+        return cause;
+      });
       if (warning) warnings[frame_] = *warning;
     }
     return warnings;
   }
   void restart() { frame_ = 0; }
+  int looks = 0;
+  std::string cause;
   std::string missed() const { return monitor_.missedFrames(); }
 
  private:
   ToolDropoutMonitor monitor_;
   int frame_ = 0;
 };
+
+std::string nothing() { return {}; }
 
 ToolObservation bridged() {
   ToolObservation observation;
@@ -42,7 +49,7 @@ TEST(ToolDropoutMonitor, WarnsOfAToolThatIsNeverSeenLessAndLessOften) {
   const auto warnings = session.watch(250, std::nullopt, kNone);
   ASSERT_EQ(warnings.size(), 3u);
   EXPECT_EQ(warnings.at(50),
-            "the tool has not been seen in the first 5.0 s and cuts nothing: 51 frames: "
+            "there is no usable pose of the tool in the first 5.0 s, so it cuts nothing: 51 frames: "
             "no marker of the tool is seen");
   EXPECT_TRUE(warnings.count(100) == 1 && warnings.count(200) == 1);
   EXPECT_EQ(session.missed(), "250 frames: no marker of the tool is seen");
@@ -56,7 +63,8 @@ TEST(ToolDropoutMonitor, SaysHowLongAToolHasNotBeenSeenAndWhy) {
   const auto warnings = session.watch(60, std::nullopt, kNone);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings.begin()->second,
-            "the tool has not been seen for 5.0 s and cuts nothing: 40 frames: no marker of the tool is "
+            "there is no usable pose of the tool for 5.0 s, so it cuts nothing: 40 frames: no marker of the "
+            "tool is "
             "seen; 10 frames: two poses fit equally well");
   EXPECT_EQ(session.missed(),
             "90 frames: no marker of the tool is seen; 10 frames: two poses fit equally well");
@@ -70,14 +78,36 @@ TEST(ToolDropoutMonitor, IgnoresShortAbsences) {
   }
 }
 
+TEST(ToolDropoutMonitor, LooksCloserOnceASecondAndSaysWhatItFound) {
+  Session session;
+  session.watch(25, std::nullopt, kNone);
+  EXPECT_EQ(session.looks, 2);
+  session.cause = "marker 7 is mirrored";
+  session.watch(10, std::nullopt, kNone);
+  session.cause.clear();  // a blurred image
+  const auto warnings = session.watch(365, std::nullopt, kNone);
+  ASSERT_EQ(warnings.size(), 3u);
+  for (const auto& [frame, warning] : warnings)
+    EXPECT_NE(warning.find("Probably marker 7 is mirrored"), std::string::npos) << warning;
+  EXPECT_LE(session.looks, 9) << "in 40 s";
+  session.watch(1, ToolObservation(), "");
+  EXPECT_EQ(session.watch(60, std::nullopt, kNone).begin()->second.find("Probably"), std::string::npos);
+}
+
+TEST(ToolDropoutMonitor, MarkersThatAreSeenNeedNoCloserLook) {
+  Session session;
+  session.watch(200, bridged(), "two poses fit equally well");
+  EXPECT_EQ(session.looks, 0);
+}
+
 /// The camera has stopped for a while.
 TEST(ToolDropoutMonitor, WarnsOnceAfterALongGapBetweenFrames) {
   constexpr Nanoseconds kSecond = 1'000'000'000;
   ToolDropoutMonitor monitor;
-  monitor.update(kSecond, std::nullopt, kNone);
-  EXPECT_TRUE(monitor.update(101 * kSecond, std::nullopt, kNone));
-  EXPECT_FALSE(monitor.update(102 * kSecond, std::nullopt, kNone));
-  EXPECT_TRUE(monitor.update(161 * kSecond, std::nullopt, kNone));
+  monitor.update(kSecond, std::nullopt, kNone, nothing);
+  EXPECT_TRUE(monitor.update(101 * kSecond, std::nullopt, kNone, nothing));
+  EXPECT_FALSE(monitor.update(102 * kSecond, std::nullopt, kNone, nothing));
+  EXPECT_TRUE(monitor.update(161 * kSecond, std::nullopt, kNone, nothing));
 }
 
 TEST(ToolDropoutMonitor, RestartsWithABagThatLoops) {

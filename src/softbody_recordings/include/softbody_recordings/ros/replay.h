@@ -27,7 +27,7 @@ struct ReplaySummary {
   int states = 0, tools = 0, cuts = 0;  ///< frames with a surface; frames with the tool; cuts made
   int skipped = 0;                      ///< frames without a camera pose in tf
   int failed = 0;                       ///< frames that a stage could not process
-  std::string tool_missed;              ///< ToolDropoutMonitor::missedFrames()
+  std::string tool_missed;              ///< ToolDropoutMonitor::missedFrames() and cause()
   std::size_t pieces = 1;               ///< at the end
   std::map<TrackingState, int> frames_by_state;
   std::map<TrackingState, std::string> reasons;  ///< the last reason of each state

@@ -94,7 +94,7 @@ void Pipeline::makeWaitingCuts(FrameOutput* output) {
 
 /// A predicted blade does not cut. When it is seen again, it continues from its last cut.
 std::optional<Points> Pipeline::seenBlade(const RgbdFrame& frame, const FrameOutput& output) const {
-  if (!output.tool || output.tool->bridged || tool_tracker_->tool().blade.rows() == 0) return std::nullopt;
+  if (!output.tool || !output.tool->cuts || tool_tracker_->tool().blade.rows() == 0) return std::nullopt;
   return transformed(tool_tracker_->tool().blade, frame.T_fixed_camera * output.tool->T_camera_tool);
 }
 

@@ -16,6 +16,7 @@
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/result_bag.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"
+#include "softbody_tracking/tool/marker_absence.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
 
 namespace softbody {
@@ -108,6 +109,7 @@ class Replay {
     }
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     summary_.milliseconds += elapsed.count();
+    countTool(result.tool, header, frame);
     write(result, header);
   }
 
@@ -119,6 +121,7 @@ class Replay {
     output_.finish();
     const std::vector<std::uint32_t>& pieces = pipeline_.surfaceTopology().triangle_pieces;
     summary_.tool_missed = tool_dropouts_.missedFrames();
+    if (!tool_dropouts_.cause().empty()) summary_.tool_missed += ". Probably " + tool_dropouts_.cause();
     summary_.pieces = pieces.empty() ? 0 : 1 + *std::max_element(pieces.begin(), pieces.end());
     return summary_;
   }
@@ -131,7 +134,6 @@ class Replay {
   void write(const FrameOutput& result, const std_msgs::Header& header) {
     for (const std::string& warning : result.warnings)
       warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
-    countTool(result.tool, header);
     count(result);
     const double since_s = secondsBetween(topologies_written_, header.stamp);
     if (since_s < 0.0 || since_s >= kTopologyPeriod_s || !result.cuts.empty()) {
@@ -156,15 +158,17 @@ class Replay {
     count(skippedFrame(last_status_, header.frame_id, camera_poses_.outputFrame(), why));
     output_.writeStatus(last_status_, header);
     const std::optional<ToolObservation> tool = pipeline_.processUnplaced(frame);
-    countTool(tool, header);
+    countTool(tool, header, frame);
     if (tool) output_.writeTool(*tool, header);
   }
 
-  void countTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header) {
+  void countTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header,
+                 const RgbdFrame& frame) {
     if (!pipeline_.toolTracker()) return;
-    summary_.tools += tool ? 1 : 0;
-    const auto missing =
-        tool_dropouts_.update(toNanoseconds(header.stamp), tool, pipeline_.toolTracker()->reason());
+    summary_.tools += tool && !tool->ambiguous ? 1 : 0;
+    const auto missing = tool_dropouts_.update(
+        toNanoseconds(header.stamp), tool, pipeline_.toolTracker()->reason(),
+        [&] { return whyMarkersAreMissed(pipeline_.toolTracker()->tool(), frame.color); });
     if (missing) warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), *missing));
   }
 

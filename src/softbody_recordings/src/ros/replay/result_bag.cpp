@@ -56,12 +56,12 @@ void ResultBag::writeTool(const ToolObservation& tool, const std_msgs::Header& h
   geometry_msgs::PoseWithCovarianceStamped pose;
   pose.pose = toMessage(tool);
   write(topic(topics::kToolPose), pose, header);
-  if (blade_.rows() > 0 && !tool.bridged) {
+  if (blade_.rows() > 0 && tool.cuts) {
     geometry_msgs::PolygonStamped blade;
     blade.polygon = bladePolygon(blade_, tool.T_camera_tool);
     write(topic(topics::kToolBlade), blade, header);
   }
-  writeTransform(tool.T_camera_tool, frameInNamespace(namespace_, "tool"), header);
+  if (!tool.ambiguous) writeTransform(tool.T_camera_tool, frameInNamespace(namespace_, "tool"), header);
 }
 
 void ResultBag::writeStatus(const TrackingStatus& status, const std_msgs::Header& header) {

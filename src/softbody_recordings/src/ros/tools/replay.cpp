@@ -82,7 +82,7 @@ void print(const ReplaySummary& summary, const ReplayOptions& options) {
   if (!summary.read.last_error.empty()) fmt::print("last unusable frame: {}\n", summary.read.last_error);
   if (!options.tool.empty() || !options.journal.empty())
     fmt::print("frames with the tool {}, cuts {}, pieces {}\n", summary.tools, summary.cuts, summary.pieces);
-  if (!summary.tool_missed.empty()) fmt::print("tool not seen in {}\n", summary.tool_missed);
+  if (!summary.tool_missed.empty()) fmt::print("no usable pose of the tool in {}\n", summary.tool_missed);
   fmt::print(stderr, "replay: {:.1f} ms a frame; wrote {}\n",
              summary.milliseconds / std::max(1, summary.read.frames), options.output);
 }

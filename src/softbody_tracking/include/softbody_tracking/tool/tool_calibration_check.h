@@ -36,6 +36,7 @@ class ToolCalibrationCheck {
   std::vector<Eigen::Vector3d> positions_;  ///< of the tool, in frames where it was seen
   std::vector<double> reprojections_px_, depth_ratios_;
   std::map<std::string, int> reasons_;  ///< why the tool was not seen, with the number of frames
+  std::string cause_;                   ///< what the image showed instead of its markers; empty: nothing
 };
 
 }  // namespace softbody

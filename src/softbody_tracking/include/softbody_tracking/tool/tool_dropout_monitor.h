@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,19 +9,25 @@
 
 namespace softbody {
 
-/// Warns when a tool has not been seen for a long time. Then the tool does not cut, and the user may not know
-/// why.
+/// Warns when there has been no usable pose of a tool for a long time. Then the tool does not cut, and the
+/// user may not know why.
 class ToolDropoutMonitor {
  public:
   /// Takes the tracker's result for the next frame. An older stamp than the last one restarts the count.
-  /// @param reason ToolTracker::reason().
+  /// @param reason ToolTracker::reason(). @param look_closer says what the image shows instead of the
+  /// markers, as whyMarkersAreMissed. It is called once a second in the first seconds without a marker, then
+  /// with each warning.
   /// @return a warning when the tool has not been seen for 5 s, and again after 10, 20, 40, ... s.
   std::optional<std::string> update(Nanoseconds stamp, const std::optional<ToolObservation>& observation,
-                                    const std::string& reason);
+                                    const std::string& reason,
+                                    const std::function<std::string()>& look_closer);
 
   /// Number of all frames without the tool by reason, as in "12 frames: ...; 3 frames: ...". Empty
   /// without such frames.
   std::string missedFrames() const { return text(missed_); }
+
+  /// What look_closer said last, since the tool was last seen; empty: nothing.
+  const std::string& cause() const { return cause_; }
 
  private:
   using Counts = std::map<std::string, int>;
@@ -32,6 +39,8 @@ class ToolDropoutMonitor {
   Nanoseconds last_stamp_ = 0;
   bool ever_seen_ = false;
   double next_warning_s_ = 0.0;  ///< time without the tool that triggers the next warning
+  double next_look_s_ = 0.0;     ///< and the next closer look
+  std::string cause_;
 };
 
 }  // namespace softbody

@@ -35,10 +35,15 @@ struct ToolObservation {
   Eigen::Isometry3d T_camera_tool = Eigen::Isometry3d::Identity();  ///< colour optical frame
   PoseCovariance covariance = PoseCovariance::Zero();
   bool bridged = false;          ///< predicted from its motion, not seen; the covariance grows with time
+  bool ambiguous = false;        ///< another pose fits equally well; the covariance includes it
+  bool cuts = false;             ///< seen, certain, and where its motion led: the blade may cut
   int markers = 0;               ///< number of markers used; 0 if bridged
   double reprojection_px = 0.0;  ///< rms over the markers' corners
   double depth_offset_m = 0.0;   ///< mean measured minus computed depth on the markers; 0 without depth
 };
+
+/// ToolTracker::reason() of a frame without any of the tool's markers.
+constexpr char kNoMarkerSeen[] = "no marker of the tool is seen";
 
 /// Tracks a tool by the corners of its markers and the depth on them, all markers together.
 class ToolTracker {
@@ -47,13 +52,13 @@ class ToolTracker {
   explicit ToolTracker(const ToolDescription& tool, const ToolTrackerConfig& config = {});
   ~ToolTracker();
 
-  /// The tool's pose; nothing if it is neither seen nor bridged, and reason() says why. A frame of
-  /// another pass resets the tracker. Motion is predicted in the fixed frame: without a camera pose there
-  /// (frame.placed) the tool is neither predicted nor bridged. @param timer may be null.
+  /// The tool's pose; nothing if it is neither seen nor bridged. reason() says why the blade may not cut. A
+  /// frame of another pass resets the tracker. Motion is predicted in the fixed frame: without a camera pose
+  /// there (frame.placed) the tool is neither predicted nor bridged. @param timer may be null.
   std::optional<ToolObservation> track(const RgbdFrame& frame, StageTimer* timer);
 
   const ToolDescription& tool() const;
-  /// Why the tool was not seen in the last frame; empty: it was seen.
+  /// Why the tool's blade may not cut in the last frame; empty: it may.
   const std::string& reason() const;
   void reset();
 

@@ -36,17 +36,22 @@ inline cv::Mat1b markerImage(const Dictionary& dictionary, int id, int side) {
   return image;
 }
 
+/// With OpenCV's default, the edge of a bright plate around a marker can suppress the marker.
+constexpr double kMinMarkerDistanceRate = 0.02;
+
 class Detector {
  public:
-  /// @param min_marker_distance_rate as in cv::aruco::DetectorParameters.
-  Detector(const Dictionary& dictionary, double min_marker_distance_rate) {
+  /// @param min_perimeter_rate as in cv::aruco::DetectorParameters.
+  explicit Detector(const Dictionary& dictionary, double min_perimeter_rate = 0.03) {
 #if SOFTBODY_ARUCO_IN_OBJDETECT
     cv::aruco::DetectorParameters parameters;
-    parameters.minMarkerDistanceRate = min_marker_distance_rate;
+    parameters.minMarkerDistanceRate = kMinMarkerDistanceRate;
+    parameters.minMarkerPerimeterRate = min_perimeter_rate;
     detector_ = cv::aruco::ArucoDetector(dictionary, parameters);
 #else
     dictionary_ = cv::makePtr<Dictionary>(dictionary);
-    parameters_->minMarkerDistanceRate = min_marker_distance_rate;
+    parameters_->minMarkerDistanceRate = kMinMarkerDistanceRate;
+    parameters_->minMarkerPerimeterRate = min_perimeter_rate;
 #endif
   }
 

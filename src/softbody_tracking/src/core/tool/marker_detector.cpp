@@ -3,68 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
-#include <map>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "tool/aruco.h"
+#include "tool/marker_dictionary.h"
 #include "tool/marker_edges.h"
 
 namespace softbody {
 namespace {
 
-// With OpenCV's default, the edge of a bright plate around a marker can suppress the marker.
-constexpr double kMinMarkerDistanceRate = 0.02;
 constexpr double kReach = 0.7;        // of a cell: stays within the black border, which is one cell wide
 constexpr double kMinReach_px = 1.5;  // [px] the contour may be off by a pixel
 constexpr double kMaxReach_px = 5.0;  // [px] a longer profile adds only noise
-
-const std::map<std::string, int>& predefined() {
-  using namespace cv::aruco;
-  static const std::map<std::string, int> kNames{{"DICT_4X4_50", DICT_4X4_50},
-                                                 {"DICT_4X4_100", DICT_4X4_100},
-                                                 {"DICT_4X4_250", DICT_4X4_250},
-                                                 {"DICT_4X4_1000", DICT_4X4_1000},
-                                                 {"DICT_5X5_50", DICT_5X5_50},
-                                                 {"DICT_5X5_100", DICT_5X5_100},
-                                                 {"DICT_5X5_250", DICT_5X5_250},
-                                                 {"DICT_5X5_1000", DICT_5X5_1000},
-                                                 {"DICT_6X6_50", DICT_6X6_50},
-                                                 {"DICT_6X6_100", DICT_6X6_100},
-                                                 {"DICT_6X6_250", DICT_6X6_250},
-                                                 {"DICT_6X6_1000", DICT_6X6_1000},
-                                                 {"DICT_7X7_50", DICT_7X7_50},
-                                                 {"DICT_7X7_100", DICT_7X7_100},
-                                                 {"DICT_7X7_250", DICT_7X7_250},
-                                                 {"DICT_7X7_1000", DICT_7X7_1000},
-                                                 {"DICT_ARUCO_ORIGINAL", DICT_ARUCO_ORIGINAL},
-                                                 {"DICT_APRILTAG_16h5", DICT_APRILTAG_16h5},
-                                                 {"DICT_APRILTAG_25h9", DICT_APRILTAG_25h9},
-                                                 {"DICT_APRILTAG_36h10", DICT_APRILTAG_36h10},
-                                                 {"DICT_APRILTAG_36h11", DICT_APRILTAG_36h11}};
-  return kNames;
-}
-
-aruco::Dictionary readDictionaryFile(const std::string& path) try {
-  const cv::FileStorage file(path, cv::FileStorage::READ);
-  aruco::Dictionary dictionary;
-  if (!dictionary.readDictionary(file.root()) || dictionary.bytesList.empty())
-    throw std::invalid_argument(path +
-                                " is not a marker dictionary: nmarkers, markersize or marker_0 is missing");
-  return dictionary;
-} catch (const cv::Exception& error) {
-  throw std::invalid_argument(fmt::format("{} is not a marker dictionary: {}", path, error.err));
-}
-
-aruco::Dictionary findDictionary(const std::string& name) {
-  const auto found = predefined().find(name);
-  if (found != predefined().end()) return aruco::predefinedDictionary(found->second);
-  if (std::filesystem::is_regular_file(name)) return readDictionaryFile(name);
-  throw std::invalid_argument(fmt::format("the marker dictionary '{}' is unknown; known: {}, or a file", name,
-                                          fmt::join(dictionaryNames(), ", ")));
-}
 
 /// Refines the corners twice, because the detector's contour may be off by a pixel. The reach stays within
 /// the black border, which has other edges inside. @return false if the image does not show all four edges.
@@ -78,16 +30,12 @@ bool refineCorners(const cv::Mat1b& gray, int cells_a_side, std::vector<cv::Poin
 
 }  // namespace
 
-std::vector<std::string> dictionaryNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, number] : predefined()) names.push_back(name);
-  return names;
+int markersInDictionary(const std::string& dictionary) {
+  return uprightDictionary(dictionary).bytesList.rows;
 }
 
-int markersInDictionary(const std::string& dictionary) { return findDictionary(dictionary).bytesList.rows; }
-
 cv::Mat1b markerCells(const std::string& dictionary, int id) {
-  const aruco::Dictionary markers = findDictionary(dictionary);
+  const aruco::Dictionary markers = uprightDictionary(dictionary);
   if (id < 0 || id >= markers.bytesList.rows) {
     throw std::invalid_argument(
         fmt::format("marker id is {}; allowed in {}: 0 to {}", id, dictionary, markers.bytesList.rows - 1));
@@ -96,15 +44,17 @@ cv::Mat1b markerCells(const std::string& dictionary, int id) {
 }
 
 struct MarkerDetector::Implementation {
-  explicit Implementation(const aruco::Dictionary& dictionary)
-      : detector(dictionary, kMinMarkerDistanceRate), cells_a_side(dictionary.markerSize + 2) {}
+  Implementation(const std::string& name, const aruco::Dictionary& dictionary)
+      : detector(dictionary), cells_a_side(dictionary.markerSize + 2) {
+    requireCornerOrder(name, dictionary, detector);
+  }
 
   aruco::Detector detector;
   int cells_a_side;
 };
 
 MarkerDetector::MarkerDetector(const std::string& dictionary)
-    : implementation_(std::make_unique<Implementation>(findDictionary(dictionary))) {}
+    : implementation_(std::make_unique<Implementation>(dictionary, uprightDictionary(dictionary))) {}
 
 MarkerDetector::~MarkerDetector() = default;
 

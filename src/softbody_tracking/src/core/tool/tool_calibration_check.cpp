@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "softbody_tracking/tool/marker_absence.h"
+
 namespace softbody {
 namespace {
 
@@ -53,13 +55,18 @@ void ToolCalibrationCheck::add(const RgbdFrame& frame) {
   ++frames_;
   focal_px_ = frame.camera.fx;
   const auto observation = tracker_.track(frame, nullptr);
-  if (observation && !observation->bridged) {
+  if (observation && !observation->bridged && !observation->ambiguous) {
     positions_.push_back(observation->T_camera_tool.translation());
   } else {
-    ++reasons_[tracker_.reason()];
+    const int missed = ++reasons_[tracker_.reason()];
+    // A closer look takes as long as many frames: at the 1st, 2nd, 4th, 8th, ... of them.
+    if (tracker_.reason() == kNoMarkerSeen && (missed & (missed - 1)) == 0) {
+      const std::string cause = whyMarkersAreMissed(tracker_.tool(), frame.color);
+      if (!cause.empty()) cause_ = cause;
+    }
   }
   const auto corners = corners_only_.track(frame, nullptr);
-  if (!corners || corners->bridged) return;
+  if (!corners || corners->bridged || corners->ambiguous) return;
   reprojections_px_.push_back(corners->reprojection_px);
   const double z = corners->T_camera_tool.translation().z();
   if (corners->depth_offset_m != 0.0) depth_ratios_.push_back((z + corners->depth_offset_m) / z);
@@ -93,8 +100,9 @@ void ToolCalibrationCheck::addVisibilityFault(ToolCalibrationReport* report) con
   if (report->seen >= kMinSeenFraction * report->frames) return;
   const auto most_frequent = std::max_element(
       reasons_.begin(), reasons_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  report->faults.push_back(fmt::format("the tool is seen in {} of {} frames. The most frequent reason: {}",
-                                       report->seen, report->frames, most_frequent->first));
+  report->faults.push_back(
+      fmt::format("the tool is seen in {} of {} frames. The most frequent reason: {}{}{}", report->seen,
+                  report->frames, most_frequent->first, cause_.empty() ? "" : ". Probably ", cause_));
 }
 
 void ToolCalibrationCheck::addDepthFault(ToolCalibrationReport* report) const {

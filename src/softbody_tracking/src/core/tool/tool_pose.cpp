@@ -31,6 +31,8 @@ struct NormalEquations {
   Matrix6 A = Matrix6::Zero();
   Vector6 b = Vector6::Zero();
   double cost = 0.0;
+  Matrix6 corner_A = Matrix6::Zero();  ///< the corners' part of A
+  double corner_cost = 0.0;            ///< and of the cost
 
   void add(const Vector6& derivative, double residual, double weight) {
     A.noalias() += weight * derivative * derivative.transpose();
@@ -83,10 +85,12 @@ NormalEquations normalEquations(const std::vector<const MarkerMeasurement*>& mea
                                 const Pinhole& camera, const Eigen::Isometry3d& T,
                                 const ToolTrackerConfig& config) {
   NormalEquations equations;
-  for (const MarkerMeasurement* measurement : measurements) {
+  for (const MarkerMeasurement* measurement : measurements)
     addCorners(*measurement, camera, T, config, &equations);
-    if (config.use_depth) addDepths(*measurement, T, config, &equations);
-  }
+  equations.corner_A = equations.A;
+  equations.corner_cost = equations.cost;
+  if (!config.use_depth) return equations;
+  for (const MarkerMeasurement* measurement : measurements) addDepths(*measurement, T, config, &equations);
   return equations;
 }
 
@@ -193,10 +197,12 @@ PoseEstimate refinePose(const std::vector<const MarkerMeasurement*>& measurement
   }
   PoseEstimate estimate;
   estimate.T_camera_tool = T;
+  estimate.covariance = equations.A.ldlt().solve(Matrix6::Identity());
   estimate.cost = equations.cost;
-  estimate.variance_factor =
-      std::max(1.0, equations.cost / std::max(1.0, degreesOfFreedom(measurements, config)));
-  estimate.covariance = estimate.variance_factor * equations.A.ldlt().solve(Matrix6::Identity());
+  estimate.freedom = degreesOfFreedom(measurements, config);
+  estimate.corner_cost = equations.corner_cost;
+  estimate.corner_freedom =
+      8.0 * static_cast<double>(measurements.size()) - (estimate.covariance * equations.corner_A).trace();
   return estimate;
 }
 

@@ -29,9 +29,11 @@ double reprojectionRms(const MarkerMeasurement& measurement, const Pinhole& came
 
 struct PoseEstimate {
   Eigen::Isometry3d T_camera_tool = Eigen::Isometry3d::Identity();
-  PoseCovariance covariance = PoseCovariance::Zero();  ///< inverse normal matrix, times the variance factor
+  PoseCovariance covariance = PoseCovariance::Zero();  ///< inverse normal matrix
   double cost = 0.0;                                   ///< chi squared
-  double variance_factor = 1.0;                        ///< chi squared per degree of freedom, at least 1
+  double freedom = 0.0;                                ///< degrees of freedom of the cost
+  double corner_cost = 0.0;                            ///< the corners' part of the cost
+  double corner_freedom = 0.0;  ///< the corners' coordinates minus the parameters that they determine
 };
 
 /// Refines a pose with Levenberg-Marquardt over the corners and depth points of all markers. The residual of

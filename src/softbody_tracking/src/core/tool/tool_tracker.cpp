@@ -18,6 +18,8 @@ namespace {
 constexpr double kRegionMargin = 0.5;  // of the markers' extent in the image, for an error of the prediction
 constexpr double kRegionMargin_px = 24.0;  // [px] smallest margin, for small markers
 constexpr double kMinDepth_m = 0.01;       // [m] a marker nearer to the camera plane has no usable projection
+/// Of the blade's length: with a larger standard deviation a stroke would not be where the hand made it.
+constexpr double kMaxBladeStd = 0.1;
 
 cv::Mat1b grayOf(const cv::Mat3b& color) {
   cv::Mat1b gray;
@@ -58,11 +60,29 @@ PoseCovariance rotated(const PoseCovariance& covariance, const Eigen::Matrix3d& 
   return rotation * covariance * rotation.transpose();
 }
 
-ToolObservation observationOf(const ToolHypothesis& hypothesis, const RgbdFrame& frame) {
+/// Largest standard deviation of a blade's corner [m].
+double bladeStd(const Points& blade, const Eigen::Isometry3d& T, const PoseCovariance& covariance) {
+  double largest = 0.0;
+  for (const auto& corner : blade.rowwise()) {
+    const Eigen::Vector3d arm = T.linear() * corner.transpose();
+    Eigen::Matrix<double, 3, 6> J;  // of the corner by the pose
+    J << Eigen::Matrix3d::Identity(),
+        (Eigen::Matrix3d() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0).finished();
+    largest = std::max(largest, (J * covariance * J.transpose()).trace());
+  }
+  return std::sqrt(largest);
+}
+
+double lengthOf(const Points& blade) {
+  return (blade.colwise().maxCoeff() - blade.colwise().minCoeff()).norm();
+}
+
+ToolObservation observationOf(const std::vector<ToolHypothesis>& best_first, const RgbdFrame& frame) {
+  const ToolHypothesis& hypothesis = best_first.front();
   ToolObservation observation;
   observation.stamp = frame.stamp;
   observation.T_camera_tool = hypothesis.estimate.T_camera_tool;
-  observation.covariance = hypothesis.estimate.covariance;
+  observation.covariance = mixedCovariance(best_first);
   observation.markers = static_cast<int>(hypothesis.markers.size());
   observation.reprojection_px = rmsOver(hypothesis, frame.camera);
   observation.depth_offset_m = depthOffset(hypothesis.markers, observation.T_camera_tool);
@@ -87,7 +107,10 @@ ToolTrackerConfig readToolTrackerConfig(Parameters& parameters) {
 
 struct ToolTracker::Implementation {
   Implementation(const ToolDescription& description, const ToolTrackerConfig& tracker_config)
-      : tool(description), config(tracker_config), detector(description.dictionary) {
+      : tool(description),
+        config(tracker_config),
+        detector(description.dictionary),
+        noise(tracker_config.corner_std_px) {
     if (tool.markers.empty()) throw std::invalid_argument("a tool without markers cannot be tracked");
   }
 
@@ -112,7 +135,7 @@ struct ToolTracker::Implementation {
     if (!region.empty()) parts.emplace_back();
     for (const cv::Rect& part : parts) {
       measurements = measure(gray, frame, part);
-      auto hypotheses = toolHypotheses(measurements, frame.camera, predicted, config);
+      auto hypotheses = toolHypotheses(measurements, frame.camera, predicted, noise, config);
       if (!hypotheses.empty()) return hypotheses;
     }
     return {};
@@ -122,16 +145,39 @@ struct ToolTracker::Implementation {
     measurements.clear();
     const std::vector<ToolHypothesis> hypotheses = search(frame);
     if (measurements.empty()) {
-      reason = "no marker of the tool is seen";
+      reason = kNoMarkerSeen;
     } else if (hypotheses.empty()) {
       reason = fmt::format("no pose fits the markers to {} px", config.max_reprojection_px);
-    } else if (isAmbiguous(hypotheses, config)) {
-      reason = "two poses fit equally well: the marker is too small in the image, or it faces the camera";
     } else {
-      reason.clear();
-      return observationOf(hypotheses.front(), frame);
+      return judged(hypotheses, frame);
     }
     return std::nullopt;
+  }
+
+  ToolObservation judged(const std::vector<ToolHypothesis>& hypotheses, const RgbdFrame& frame) {
+    const ToolHypothesis& best = hypotheses.front();
+    noise.add(best.estimate.corner_cost, best.estimate.corner_freedom);
+    ToolObservation observation = observationOf(hypotheses, frame);
+    observation.ambiguous = isAmbiguous(hypotheses, true, config);
+    const bool follows = motion && !best.against_motion;
+    if (!follows) motion.reset();
+    const bool certain_alone = !isAmbiguous(hypotheses, false, config);
+    confirmed = follows && (confirmed || certain_alone);
+    if (observation.ambiguous || (follows && !confirmed)) {
+      reason = "two poses fit equally well: the marker is too small in the image, or it faces the camera";
+    } else if (isUncertain(observation)) {
+      reason = "the blade's place is uncertain: the markers are too small in the image";
+    } else {
+      reason.clear();
+    }
+    observation.cuts = reason.empty() && (confirmed || !frame.placed);
+    return observation;
+  }
+
+  bool isUncertain(const ToolObservation& observation) const {
+    if (tool.blade.rows() == 0) return false;
+    return bladeStd(tool.blade, observation.T_camera_tool, observation.covariance) >
+           kMaxBladeStd * lengthOf(tool.blade);
   }
 
   void forgetOldMotion(Nanoseconds stamp) {
@@ -173,7 +219,9 @@ struct ToolTracker::Implementation {
   ToolDescription tool;
   ToolTrackerConfig config;
   MarkerDetector detector;
-  std::optional<PoseMotion> motion;             ///< in the fixed frame
+  CornerNoise noise;
+  std::optional<PoseMotion> motion;  ///< in the fixed frame
+  bool confirmed = false;  ///< two poses in a row, each certain without the motion, began the motion
   std::vector<MarkerMeasurement> measurements;  ///< of the current frame; hypotheses point into it
   int pass = 0;                                 ///< of the last frame
   std::string reason = "no frame yet";
@@ -192,9 +240,12 @@ std::optional<ToolObservation> ToolTracker::track(const RgbdFrame& frame, StageT
   self.pass = frame.pass;
   self.forgetOldMotion(frame.stamp);
   std::optional<ToolObservation> observation = self.observe(frame);
-  if (!observation) return self.bridge(frame);
-  self.updateMotion(*observation, frame);
-  return observation;
+  if (observation && !observation->ambiguous) {
+    self.updateMotion(*observation, frame);
+    return observation;
+  }
+  const std::optional<ToolObservation> bridged = self.bridge(frame);
+  return bridged ? bridged : observation;
 }
 
 const ToolDescription& ToolTracker::tool() const { return implementation_->tool; }

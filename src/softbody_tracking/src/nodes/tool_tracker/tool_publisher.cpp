@@ -29,6 +29,7 @@ void ToolPublisher::publishPose(const std_msgs::Header& camera_header, const Too
   pose->header = camera_header;
   pose->pose = toMessage(observation);
   pose_publisher_.publish(pose);
+  if (observation.ambiguous) return;  // a transform has no covariance that could say so
   geometry_msgs::TransformStamped transform = tf2::eigenToTransform(observation.T_camera_tool);
   transform.header = camera_header;
   transform.child_frame_id = tool_frame_;

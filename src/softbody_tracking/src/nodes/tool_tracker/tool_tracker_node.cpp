@@ -6,6 +6,7 @@
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
+#include "softbody_tracking/tool/marker_absence.h"
 
 namespace softbody {
 namespace {
@@ -45,7 +46,8 @@ void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
   StageTimer timer;
   last_ = tracker_.track(frame, &timer);
   frame_error_.clear();
-  const auto warning = dropouts_.update(frame.stamp, last_, tracker_.reason());
+  const auto warning = dropouts_.update(frame.stamp, last_, tracker_.reason(),
+                                        [&] { return whyMarkersAreMissed(tracker_.tool(), frame.color); });
   if (warning) ROS_WARN_STREAM(*warning);
   if (last_) publish(header, frame);
   publisher_.publishTiming(header, timer.take());
@@ -67,8 +69,7 @@ void ToolTrackerNode::placeCamera(const std_msgs::Header& header, RgbdFrame* fra
 
 void ToolTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& frame) {
   publisher_.publishPose(header, *last_);
-  // A predicted tool must not cut.
-  if (last_->bridged) return;
+  if (!last_->cuts) return;
   publisher_.publishBlade(header, last_->T_camera_tool);
   if (frame.placed)
     publisher_.publishTrail(output_frame_.fixedHeader(header), frame.T_fixed_camera * last_->T_camera_tool);
@@ -81,9 +82,15 @@ void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
     return status.summary(DiagnosticStatus::ERROR, "frames come, but cannot be used: " + frame_error_);
   status.add("frames dropped to keep up", images_.dropped());
   if (!dropouts_.missedFrames().empty()) status.add("not seen in", dropouts_.missedFrames());
-  if (!last_) return status.summary(DiagnosticStatus::WARN, "not seen: " + tracker_.reason());
+  if (!dropouts_.cause().empty()) status.add("cause", dropouts_.cause());
+  if (!last_) {
+    const std::string cause = dropouts_.cause().empty() ? tracker_.reason() : dropouts_.cause();
+    return status.summary(DiagnosticStatus::WARN, "not seen: " + cause);
+  }
   if (last_->bridged) {
     status.summary(DiagnosticStatus::WARN, "bridged by its motion: " + tracker_.reason());
+  } else if (!tracker_.reason().empty()) {
+    status.summary(DiagnosticStatus::WARN, "seen, but does not cut: " + tracker_.reason());
   } else if (!tf_error_.empty()) {
     status.summary(DiagnosticStatus::WARN, "seen, but not predicted: " + tf_error_);
   } else {
