@@ -26,7 +26,7 @@ class ToolWithoutTf(unittest.TestCase):
                                 rosout=Log, diagnostics=DiagnosticArray)
 
     def test_1_the_reason_is_told(self):
-        self.recorder.wait_for_log("/softbody/tool_tracker", REASON)
+        self.recorder.wait_for_log("/softbody/tool_tracker", REASON + ": tf does not know the frame 'bench'")
         self.recorder.wait_for_status("tool_tracker: tool", DiagnosticStatus.WARN, "not predicted: " + REASON)
         self.recorder.wait_for("softbody/tool/pose")
         self.assertFalse(self.recorder.messages["softbody/tool/marker"])

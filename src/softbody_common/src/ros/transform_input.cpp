@@ -1,6 +1,7 @@
 #include "softbody_common/ros/transform_input.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <stdexcept>
 
@@ -61,6 +62,31 @@ void TransformInput::add(const geometry_msgs::TransformStamped& transform, bool 
 void TransformInput::warnOfRefused(const std::string& frame, const std::string& why) {
   ROS_WARN_STREAM_THROTTLE(5.0,
                            "the transform of '" << frame.substr(0, kLongestName) << "' is not used: " << why);
+}
+
+/// The frame at the end of the chain of parents. @param frame that tf knows.
+std::string TransformInput::rootOf(std::string frame) const {
+  std::string parent;
+  for (std::size_t i = 0; i < kMostFrames && buffer_._getParent(frame, ros::Time(), parent); ++i)
+    frame = parent;
+  return frame;
+}
+
+std::string TransformInput::whyMissing(const std::string& target, const std::string& source) const {
+  if (buffer_.canTransform(target, source, ros::Time())) return {};
+  for (const std::string& frame : {source, target}) {
+    if (buffer_._frameExists(frame)) continue;
+    std::vector<std::string> known;
+    buffer_._getFrameStrings(known);
+    return fmt::format(
+        "tf does not know the frame '{}'. It knows {}. Start what publishes the frame on /tf or "
+        "/tf_static, for example the camera's driver or static_transform_publisher",
+        frame, known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
+  }
+  return fmt::format(
+      "the frames '{}' and '{}' are not connected in tf: the transform between '{}' and '{}' is "
+      "missing on /tf or /tf_static",
+      source, target, rootOf(source), rootOf(target));
 }
 
 /// Frames are bounded, because any sender can name new ones. @throw std::length_error

@@ -45,6 +45,8 @@ Eigen::Isometry3d OutputFrame::lookUp(const std::string& target, const std_msgs:
          ros::WallTime::now() < deadline) {
     ros::WallDuration(kPoll_s).sleep();
   }
+  const std::string why = transforms_.whyMissing(target, source.frame_id);
+  if (!why.empty()) throw tf2::TransformException(why);
   const auto T_target_source = transforms_.buffer().lookupTransform(target, source.frame_id, source.stamp);
   try {
     return fromMessage(T_target_source.transform);

@@ -28,6 +28,10 @@ class TransformInput {
   /// Warns when another node sends the transform of a frame that this node sends. Call it once.
   void claim(const std::string& frame);
 
+  /// Why tf has no transform between two frames at any time, as a sentence: which frame it does not know, or
+  /// which two trees are not connected. Empty: it has one, only not at every time.
+  std::string whyMissing(const std::string& target, const std::string& source) const;
+
  private:
   struct Child {
     Timeline timeline;
@@ -36,6 +40,7 @@ class TransformInput {
   };
   void onMoving(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
   void add(const geometry_msgs::TransformStamped& transform, bool is_fixed);
+  std::string rootOf(std::string frame) const;
   void admit(const std::string& frame);
   static void warnOfRefused(const std::string& frame, const std::string& why);
   bool isNew(const geometry_msgs::TransformStamped& transform);

@@ -94,6 +94,11 @@ void BladeInput::skip(const ros::Time& stamp) {
 std::optional<Points> BladeInput::toStateFrame(const Blade& blade) {
   if (blade.header.frame_id == state_->frame_id) return blade.corners;
   if (!transforms_) transforms_ = std::make_unique<TransformInput>();
+  const std::string why = transforms_->whyMissing(state_->frame_id, blade.header.frame_id);
+  if (!why.empty()) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "the blade cannot cut: " << why);
+    return std::nullopt;
+  }
   try {
     const auto T =
         transforms_->buffer().lookupTransform(state_->frame_id, blade.header.frame_id, blade.header.stamp);
