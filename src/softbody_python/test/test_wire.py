@@ -99,9 +99,24 @@ class Wire(unittest.TestCase):
                 (broken(surface(1), vertex_parents=[1]), "vertex_parents"),
                 (broken(surface(1), texture_coordinates=nowhere[:4]), "three per triangle"),
                 (broken(state(1, 1, 0), confidence=[1.0]), "confidence"),
-                (broken(state(1, 1, 0), vertices=nowhere), "not finite")):
+                (broken(state(1, 1, 0), vertices=nowhere), r"vertices\[0\] is \(nan, 0, 0\); allowed: finite")):
             with self.assertRaisesRegex(WrongMessage, reason):
                 decoded(message)
+
+    def test_a_state_that_no_sender_can_mean(self):
+        for bad in (np.nan, np.inf, -np.inf, 1e20):
+            for field, place in (("vertices", 3), ("confidence", 5), ("standard_deviation", 7)):
+                message = hand_made.surface_state(1, 1, 0)
+                if field == "vertices":
+                    message.vertices[place].y = bad
+                else:
+                    getattr(message, field)[place] = bad
+                with self.assertRaisesRegex(WrongMessage, rf"{field}\[{place}\] is .*allowed"):
+                    decoded(message)
+        message = hand_made.surface_state(1, 1, 0)
+        message.vertices = hand_made.points([[0, 0, 0]] * hand_made.VERTICES)
+        with self.assertRaisesRegex(WrongMessage, "all vertices are at one place"):
+            decoded(message)
 
     def test_lazy_messages(self):
         """A message that keeps its bytes has the fields of one that is read at once, whatever is asked of it first."""

@@ -65,8 +65,20 @@ def _demand(condition, what):
         raise WrongMessage(what)
 
 
-def _check_finite(points, name):
-    _demand(np.isfinite(points).all(), f"{name} has a coordinate that is not finite")
+LARGEST_COORDINATE_M = 1e4  # as the nodes: single precision is coarse beyond
+
+
+def _check_range(values, low, high, name):
+    wrong = np.flatnonzero(~((values >= low) & (values <= high)))
+    if len(wrong):
+        raise WrongMessage(f"{name}[{wrong[0]}] is {values[wrong[0]]:g}; allowed: {low:g} to {high:g}")
+
+
+def _check_points(points, name):
+    wrong = np.flatnonzero(~(np.abs(points) <= LARGEST_COORDINATE_M).all(axis=1))
+    if len(wrong):
+        place = ", ".join(f"{value:g}" for value in points[wrong[0]])
+        raise WrongMessage(f"{name}[{wrong[0]}] is ({place}); allowed: finite, within {LARGEST_COORDINATE_M:g} m of the origin")
 
 
 def _check_elements(elements, pieces, count, name):
@@ -95,7 +107,7 @@ def _surface_topology(reader):
     rest, triangles = reader.rows("<f4", 3), reader.rows("<u4", 3)
     parents, pieces, cut = reader.rows("<i4"), reader.rows("<u4"), reader.rows("?")
     texture = _texture_coordinates(reader.rows("<f4", 3), len(triangles))
-    _check_finite(rest, "rest_vertices")
+    _check_points(rest, "rest_vertices")
     _check_elements(triangles, pieces, len(rest), "triangles")
     _demand(len(parents) == len(rest), "vertex_parents and rest_vertices differ in number")
     _demand(len(cut) == len(triangles), "cut_triangles and triangles differ in number")
@@ -109,7 +121,7 @@ def _volume_topology(reader):
     rest, tets, surface = reader.rows("<f4", 3), reader.rows("<u4", 4), reader.rows("<u4", 3)
     parents, pieces = reader.rows("<i4"), reader.rows("<u4")
     pose = np.array(reader.values("7d"))
-    _check_finite(rest, "rest_vertices")
+    _check_points(rest, "rest_vertices")
     _check_elements(tets, pieces, len(rest), "tets")
     _check_elements(surface, None, len(rest), "surface_triangles")
     _demand(len(parents) == len(rest), "vertex_parents and rest_vertices differ in number")
@@ -121,9 +133,12 @@ def _positions(reader):
     stamp, frame = reader.header()
     observed, revision = reader.time(), reader.values("I")[0]
     vertices, *estimates = reader.rows("<f4", 3), reader.rows("<f4"), reader.rows("<f4")
-    _check_finite(vertices, "vertices")
+    _check_points(vertices, "vertices")
+    _demand(len(vertices) < 2 or (vertices != vertices[0]).any(), "all vertices are at one place")
     for values, name in zip(estimates, ("confidence", "standard_deviation")):
         _demand(len(values) in (0, len(vertices)), f"{name} and vertices differ in number")
+    _check_range(estimates[0], 0.0, 1.0, "confidence")
+    _check_range(estimates[1], 0.0, LARGEST_COORDINATE_M, "standard_deviation")
     return Positions(stamp, observed, frame, revision, vertices,
                      *(values if len(values) else None for values in estimates))
 
