@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,14 @@ TEST(StatusWords, everyStateHasItsOwnSentence) {
     for (int b = 0; b < a; ++b)
       EXPECT_NE(sentenceOf(static_cast<TrackingState>(a)), sentenceOf(static_cast<TrackingState>(b)));
   }
+}
+
+TEST(FrameTimes, timesThatNoStageCanTakeAreIgnored) {
+  FrameTimes times;
+  times.add("surface", 1'000'000'000,
+            {{"a", std::nan(""), false}, {"b", 1e20, false}, {"c", -1.0, false}, {"d", 2.0, false}});
+  ASSERT_EQ(times.bars().size(), 1u);
+  EXPECT_EQ(times.bars()[0].stage, "d");
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 #include "surface/surface_model.h"
 
-#include <fmt/format.h>
-
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
+#include "body/state_check.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
@@ -21,11 +19,7 @@ SurfaceModel::SurfaceModel(MeshTopology topology, double crease_angle)
                                      topology_.rest_vertices.rows())) {}
 
 void SurfaceModel::setState(MeshState state) {
-  if (state.revision != topology_.revision || state.vertices.rows() != topology_.rest_vertices.rows()) {
-    throw std::invalid_argument(fmt::format(
-        "the state has {} vertices of revision {}, but the topology has {} of revision {}",
-        state.vertices.rows(), state.revision, topology_.rest_vertices.rows(), topology_.revision));
-  }
+  requireDrawable(state, topology_.revision, topology_.rest_vertices);
   state_ = std::move(state);
 }
 

@@ -38,7 +38,7 @@ class SurfaceModel {
   /// @param crease_angle edges that are sharper at rest stay sharp [rad].
   SurfaceModel(MeshTopology topology, double crease_angle);
 
-  /// @throw std::invalid_argument if the state is not of this topology; the model is then as before.
+  /// @throw std::invalid_argument as requireDrawable; the model is then as before.
   void setState(MeshState state);
 
   const MeshTopology& topology() const { return topology_; }

@@ -1,10 +1,10 @@
 #include "tets/tets_model.h"
 
-#include <fmt/format.h>
-
 #include <limits>
-#include <stdexcept>
 #include <utility>
+
+#include "body/state_check.h"
+#include "softbody_common/plausibility.h"
 
 namespace softbody {
 namespace {
@@ -35,11 +35,7 @@ void TetsModel::cutAway(const CutawayPlane& plane) {
 }
 
 void TetsModel::setState(MeshState state) {
-  if (state.revision != topology_.revision || state.vertices.rows() != topology_.rest_vertices.rows()) {
-    throw std::invalid_argument(fmt::format(
-        "the state has {} vertices of revision {}, but the tets have {} of revision {}",
-        state.vertices.rows(), state.revision, topology_.rest_vertices.rows(), topology_.revision));
-  }
+  requireDrawable(state, topology_.revision, topology_.rest_vertices);
   state_ = std::move(state);
 }
 
@@ -85,8 +81,9 @@ std::vector<Color> TetsModel::painted(TetColoring coloring, Color one_color, Col
 std::vector<Arrow> TetsModel::arrows(const TargetSet& targets, TargetKind kind, double stretch) const {
   std::vector<Arrow> arrows;
   for (const Target& target : targets.targets) {
-    if (target.kind == kind && target.place.tet >= 0 && target.place.tet < topology_.tets.rows())
-      arrows.push_back(arrowOf(target, state_->vertices, topology_.tets, stretch));
+    if (target.kind != kind || target.place.tet < 0 || target.place.tet >= topology_.tets.rows()) continue;
+    const Arrow arrow = arrowOf(target, state_->vertices, topology_.tets, stretch);
+    if (isPlausible(arrow.from) && isPlausible(arrow.to)) arrows.push_back(arrow);
   }
   return arrows;
 }

@@ -30,7 +30,7 @@ class TetsModel {
   explicit TetsModel(TetTopology topology);
 
   void cutAway(const CutawayPlane& plane);
-  /// @throw std::invalid_argument if the state is not of this topology; the model is then as before.
+  /// @throw std::invalid_argument as requireDrawable; the model is then as before.
   void setState(MeshState state);
 
   const TetTopology& topology() const { return topology_; }
@@ -46,7 +46,8 @@ class TetsModel {
   /// Per drawn vertex. @param values per tet, as values() gives them.
   std::vector<Color> painted(TetColoring coloring, Color one_color, ColorMap map,
                              const std::vector<float>& values, double maximum) const;
-  /// Arrows of the targets of one kind; targets in tets that do not exist are left out.
+  /// Arrows of the targets of one kind; targets in tets that do not exist are left out, as
+  /// are arrows of no sensible length.
   std::vector<Arrow> arrows(const TargetSet& targets, TargetKind kind, double stretch) const;
 
  private:

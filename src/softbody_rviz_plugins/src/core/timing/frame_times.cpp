@@ -7,6 +7,7 @@ namespace softbody {
 namespace {
 
 constexpr Nanoseconds kShown = 1'000'000'000;
+constexpr double kLongest_ms = 1e6;  // a stage that takes a quarter of an hour is a fault of its sender
 constexpr char kLatency[] = "camera-to-mesh latency";  // written by the surface
 // In the order in which data flows; other nodes come last.
 constexpr const char* kNodes[] = {"camera_ingest", "tool_tracker", "feature_tracker", "simulator", "surface"};
@@ -27,6 +28,7 @@ void FrameTimes::add(const std::string& node, Nanoseconds stamp, const std::vect
   newest_ = std::max(newest_, stamp);
   stamps_[node].push_back(stamp);
   for (const StageTime& stage : stages) {
+    if (!(stage.milliseconds >= 0.0 && stage.milliseconds <= kLongest_ms)) continue;
     if (!stage.initialization) row(node, stage.stage).samples.push_back({stamp, stage.milliseconds});
   }
   forget();

@@ -58,7 +58,7 @@ class BodyDisplay : public BodyDisplayBase {
       setState(*news->state);
       accept("State", stateText());
       moveTo(news->state->header);
-    } catch (const std::invalid_argument& error) {
+    } catch (const std::exception& error) {  // of Ogre, too: rviz would end
       refuse("State", error);
     }
     queueRender();
@@ -87,7 +87,7 @@ class BodyDisplay : public BodyDisplayBase {
       setTopology(message);
       has_topology_ = true;
       accept("Topology", topologyText());
-    } catch (const std::invalid_argument& error) {
+    } catch (const std::exception& error) {
       clearScene();
       refuse("Topology", error);
     }

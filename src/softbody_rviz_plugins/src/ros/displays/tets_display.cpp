@@ -132,7 +132,7 @@ void TetsDisplay::drawState() {
   try {
     arrows_.draw(*model_);
     deleteStatus("Targets");
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     refuse("Targets", error);
   }
 }
