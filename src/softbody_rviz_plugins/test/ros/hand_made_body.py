@@ -27,7 +27,7 @@ class Body:
         parts = [rectangle(-SIDE, SIDE / 2, SIDE, SIDE), rectangle(0.0, SIDE / 2, SIDE, SIDE)]
         return parts + ([rectangle(-SIDE, -SIDE / 2, 2 * SIDE, STRIP)] if cut else [])
 
-    def send_topology(self, revision=0, cut=False):
+    def send_topology(self, revision=0, cut=False, change=None):
         message = MeshTopology()
         message.header.frame_id, message.revision = FRAME, revision
         for piece, part in enumerate(self.corners(cut)):
@@ -38,13 +38,18 @@ class Body:
                 message.triangle_bodies.append(piece % 2)
                 message.cut_triangles.append(piece == 2)
         message.vertex_parents = list(range(len(message.rest_vertices)))
+        if change is not None:
+            change(message)
         self.topology.publish(message)
 
-    def send_state(self, revision=0, cut=False, offset=(0.0, 0.0, 0.0)):
+    def send_state(self, revision=0, cut=False, offset=(0.0, 0.0, 0.0), change=None):
+        """@param change: called with the message before it is sent."""
         message = MeshState()
         message.header.frame_id, message.header.stamp, message.revision = FRAME, rospy.Time.now(), revision
         message.observed = message.header.stamp
         message.vertices = [Point32(x + offset[0], y + offset[1], offset[2]) for part in self.corners(cut) for x, y in part]
         message.confidence = [1.0] * len(message.vertices)
         message.standard_deviation = [0.001 * k for k in range(len(message.vertices))]  # each vertex has its own
+        if change is not None:
+            change(message)
         self.state.publish(message)

@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 import rospy
 import rostest
+from geometry_msgs.msg import Point32
 
 from hand_made_body import BODY_DISPLAY, FRAME, LEFT, RIGHT, SIDE, STRIP, Body
 from rviz_screen import Rviz, pixels_of
@@ -72,13 +73,35 @@ class TestDisplay(unittest.TestCase):
         self.wait_for(self.shows(SIDE**2, SIDE**2, 2 * SIDE * STRIP), "the cut face")
 
     def test_a_bad_state_changes_nothing(self):
+        def one_vertex(value):
+            return lambda state: setattr(state.vertices[3], "x", value)
+
+        def all_zeros(state):
+            state.vertices = [Point32() for _ in state.vertices]
+
         self.start_again()
-        self.body.send_state(offset=(float("nan"), 0.0, 0.0))
-        time.sleep(1.0)
+        for change in (one_vertex(float("nan")), one_vertex(1e20), one_vertex(9e3), all_zeros,
+                       lambda state: state.vertices.pop(), lambda state: state.vertices.clear(),
+                       lambda state: setattr(state, "revision", 7),
+                       lambda state: setattr(state, "standard_deviation", [float("inf")] * len(state.vertices)),
+                       lambda state: setattr(state, "confidence", [float("nan")] * len(state.vertices))):
+            self.body.send_state(change=change)
+            time.sleep(0.5)
+            self.assertTrue(self.shows(SIDE**2, SIDE**2, 0.0)(self.rviz.picture()))
         self.body.send_state(cut=True)  # too many vertices
-        time.sleep(1.0)
+        time.sleep(0.5)
         self.assertTrue(self.shows(SIDE**2, SIDE**2, 0.0)(self.rviz.picture()))
         self.assertTrue(self.rviz.is_alive())
+
+    def test_a_bad_topology_is_not_drawn_and_the_next_good_one_is(self):
+        self.start_again()
+        for index in (8, 2**31, 2**32 - 1):
+            self.body.send_topology(revision=index % 5 + 2, change=lambda topology, index=index: setattr(
+                topology.triangles[1], "vertex_indices", [0, 1, index]))
+            self.body.send_state(revision=index % 5 + 2)
+            time.sleep(0.5)
+            self.assertTrue(self.rviz.is_alive())
+        self.start_again()
 
 
 if __name__ == "__main__":

@@ -47,6 +47,7 @@ struct PublishedMarker {
   std::uint64_t bits;
 };
 constexpr PublishedMarker kPublished[] = {
+    // by their authors; see docs/pipeline/tool_tracking.md
     {"DICT_4X4_", 0xb532},
     {"DICT_5X5_", 0x145b2bc},
     {"DICT_6X6_", 0x1e3dd82a6},

@@ -185,7 +185,7 @@ PoseEstimate refinePose(const std::vector<const MarkerMeasurement*>& measurement
     const NormalEquations next =
         usable ? normalEquations(measurements, camera, moved, config) : NormalEquations();
     if (usable && next.cost <= equations.cost) {
-      const bool converged = equations.cost - next.cost <= 1e-9 * equations.cost + 1e-12;
+      const bool converged = equations.cost - next.cost <= 1e-6 * equations.cost + 1e-12;
       T = moved;
       equations = next;
       damping = std::max(1e-9, 0.1 * damping);
