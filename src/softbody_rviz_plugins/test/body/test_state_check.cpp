@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -89,7 +90,7 @@ TEST(StateCheck, topologiesWithIndicesOutOfRangeAreRefused) {
     worse_surface.triangles[3].vertex_indices[1] = bad;
     EXPECT_THROW(fromMessage(worse_surface), std::invalid_argument);
     worse_surface = surface;
-    worse_surface.triangle_bodies[2] = bad + 10;
+    worse_surface.triangle_bodies[2] = std::max(bad, 12u);  // it has 12 triangles
     EXPECT_THROW(fromMessage(worse_surface), std::invalid_argument);
     auto worse_tets = tets;
     worse_tets.tets[2].vertex_indices[3] = bad;
