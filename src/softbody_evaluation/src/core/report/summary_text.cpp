@@ -3,20 +3,42 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "softbody_evaluation/report/verdict.h"
 
 namespace softbody::evaluation {
 namespace {
 
+constexpr std::size_t kWidth = 100;                  // about that of the table
 constexpr char kMeanError[] = "vertex error, mean";  // has no limits, but is asked for first
+
+std::string line(const std::string& name, const std::string& value, const std::string& unit,
+                 const std::string& rest) {
+  std::string text = fmt::format("  {:<50} {:>8} {:<5} {}", name, value, unit, rest);
+  return text.erase(text.find_last_not_of(' ') + 1) + "\n";
+}
 
 std::string row(const Figure& figure) {
   const std::string value = std::isnan(figure.value) ? "-" : fmt::format("{:.4g}", figure.value);
   const Level level = levelOf(figure.name, figure.value);
-  const std::string limits = limitsOf(figure.name);
   const std::string mark = level == Level::kGood ? "" : fmt::format("   <- {}", toText(level));
-  return fmt::format("  {:<50} {:>8} {:<2}  {}{}\n", figure.name, value, figure.unit, limits, mark);
+  return line(figure.name, value, figure.unit, limitsOf(figure.name) + mark);
+}
+
+/// Lines of at most kWidth characters. @param bullet before the first one; the others are as far inside.
+std::string paragraph(const std::string& bullet, const std::string& words) {
+  std::string text, line = bullet;
+  const std::string indent(bullet.size(), ' ');
+  std::istringstream stream(words);
+  for (std::string word; stream >> word;) {
+    if (line.size() > bullet.size() && line.size() + 1 + word.size() > kWidth) {
+      text += line + "\n";
+      line = indent;
+    }
+    line += (line.size() > bullet.size() ? " " : "") + word;
+  }
+  return text + line + "\n";
 }
 
 }  // namespace
@@ -24,15 +46,15 @@ std::string row(const Figure& figure) {
 std::string verdictText(const Report& report) {
   const Verdict verdict = judge(report);
   std::string text = "verdict: " + toText(verdict.level) + "\n";
-  if (!verdict.premise.empty()) text += "  " + verdict.premise + "\n";
-  for (const Finding& finding : verdict.findings) text += "  - " + finding.sentence + "\n";
-  for (const std::string& limit : verdict.limits) text += "  " + limit + "\n";
-  for (const std::string& note : report.notes) text += "  note: " + note + "\n";
+  if (!verdict.premise.empty()) text += paragraph("  ", verdict.premise);
+  for (const Finding& finding : verdict.findings) text += paragraph("  - ", finding.sentence);
+  for (const std::string& limit : verdict.limits) text += paragraph("  ", limit);
+  for (const std::string& note : report.notes) text += paragraph("  note: ", note);
   return text;
 }
 
 std::string summaryTable(const Report& report) {
-  std::string text;
+  std::string text = line("figure", "result", "", "limits");
   for (const Figure& figure : figures(report)) {
     if (figure.name == kMeanError || !limitsOf(figure.name).empty()) text += row(figure);
   }
