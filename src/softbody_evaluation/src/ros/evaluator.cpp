@@ -129,10 +129,11 @@ Measured measure(const EvaluatorOptions& options) {
 
   report.frames = {result.states.size(), result.states.size(), {}};
   report.volume = volumeOf(result);
+  // A live status that comes without a new image repeats a stamp, or has none.
   for (const StatusRecord& status : statuses) {
-    ++report.states[nameOf(status.state)];
-    report.state_of[status.stamp] = nameOf(status.state);
+    if (status.stamp > 0) report.state_of.emplace(status.stamp, nameOf(status.state));
   }
+  for (const auto& [stamp, state] : report.state_of) ++report.states[state];
   report.stages = summarize(readStageTimes(options.result, options.result_namespace + "/" + topics::kTiming));
   if (!recording.empty()) compareInCamera(options, recording, result, truth ? &*truth : nullptr, &measured);
   if (truth) {

@@ -144,6 +144,7 @@ TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
     }
     softbody_msgs::TrackingStatus status;
     for (int k = 0; k < 4; ++k) {
+      status.header.stamp = ros::Time(1.6e9 + k);
       status.state = k < 3 ? softbody_msgs::TrackingStatus::TRACKING : softbody_msgs::TrackingStatus::LOST;
       bag.write("/softbody/status", ros::Time(1.6e9 + k), status);
     }
@@ -163,6 +164,24 @@ TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
   options.truth.clear();
   options.recording = recording();
   EXPECT_FALSE(evaluate(options).silhouette->against_truth);
+}
+
+TEST(Evaluator, AStatusWithoutANewImageIsNoFrame) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("live.bag", asItIs);
+  options.truth = recording();
+  {
+    rosbag::Bag bag(options.result, rosbag::bagmode::Append);
+    softbody_msgs::TrackingStatus status;  // before the first image: without a stamp
+    for (int k = 0; k < 3; ++k) bag.write("/softbody/status", ros::Time(1.6e9 + k), status);
+    status.header.stamp = ros::Time(1.6e9 + 3);
+    status.state = softbody_msgs::TrackingStatus::TRACKING;
+    bag.write("/softbody/status", status.header.stamp, status);
+    status.state = softbody_msgs::TrackingStatus::LOST;  // once a second while no image comes
+    for (int k = 4; k < 7; ++k) bag.write("/softbody/status", ros::Time(1.6e9 + k), status);
+  }
+  const std::map<std::string, std::size_t> one_frame{{"tracking", 1}};
+  EXPECT_EQ(evaluate(options).states, one_frame);
 }
 
 TEST(Evaluator, TwoResultsSideBySide) {

@@ -38,7 +38,7 @@ struct PiecesReport {
 struct Report {
   FrameCount frames;
   std::map<std::string, std::size_t> states;    ///< frames by the tracker's state, if the result has states
-  std::map<Nanoseconds, std::string> state_of;  ///< the last state of each stamp
+  std::map<Nanoseconds, std::string> state_of;  ///< the first state of each stamp
   std::vector<std::string> frame_states;        ///< of the frames of vertex_error; empty text: unknown
   std::vector<std::string> notes;               ///< what was left out, in sentences
   std::optional<AlikePoses> alike;              ///< if the tracker said that poses look alike
