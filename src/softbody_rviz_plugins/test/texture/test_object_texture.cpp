@@ -32,7 +32,9 @@ class ObjectTexture : public ::testing::Test {
 TEST_F(ObjectTexture, isTheFirstImageOfTheMaterials) {
   const fs::path yaml = write("toy/object.yaml", "object: {visual_mesh: meshes/toy.obj}\n");
   write("toy/meshes/toy.obj", "# map_Kd no.png\nmtllib my toy.mtl \r\nv 0 0 0\n");
-  write("toy/meshes/my toy.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\nmap_Kd other.png\n");
+  write("toy/meshes/my toy.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\nnewmtl b\nmap_Kd other.png\n");
+  write("toy/meshes/skin.png", "");
+  write("toy/meshes/other.png", "");
   EXPECT_EQ(textureImageOf(yaml, FileScope::kOwnFolder), folder_ / "toy/meshes/skin.png");
 }
 
