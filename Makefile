@@ -10,7 +10,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data recordings cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table api tidy format
+.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -30,6 +30,11 @@ recordings: dependencies  ## change a recording in 200 ways: validate_bag must s
 	scripts/build
 	scripts/build tests
 	scripts/checks/recordings
+
+meshes: dependencies  ## prepare 100 meshes with defects and check verdict, volume, cuts and time; also those of ../shared/data
+	scripts/build
+	scripts/build tests
+	catkin_ws/devel/env.sh catkin_ws/devel/lib/development/softbody_sim/check_meshes $(or $(SEED),1) $(wildcard ../shared/data)
 
 cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,000 times at random, and measure the memory of cut bodies (slow)
 	scripts/build

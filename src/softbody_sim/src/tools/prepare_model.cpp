@@ -12,6 +12,8 @@
 
 namespace {
 
+constexpr int kBadVerdict = 3;  ///< exit code: the folder is written, but the model will not work
+
 /// "200mm" in metres. @throw CLI::ValidationError
 double lengthOf(const std::string& text) {
   std::size_t end = 0;
@@ -28,6 +30,32 @@ double lengthOf(const std::string& text) {
   return number * softbody::metresPer(unit);
 }
 
+/// Size, kind and choice of the body.
+void addBodyOptions(CLI::App* app, softbody::ModelSource* source) {
+  CLI::Option* unit = app->add_option("--unit", source->unit, "unit of the mesh")
+                          ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
+                          ->capture_default_str();
+  CLI::Option* length = app->add_option_function<std::string>(
+      "--length", [source](const std::string& text) { source->body.length_m = lengthOf(text); },
+      "longest side of the real body, with its unit, e.g. 200mm; instead of --unit");
+  length->excludes(unit);
+  app->add_option("--scale", source->scale, "metres for one unit of the mesh; instead of --unit")
+      ->check(CLI::PositiveNumber)
+      ->excludes(unit)
+      ->excludes(length);
+  app->add_option("--thickness", source->body.thickness,
+                  "thickness of a sheet, for a mesh that encloses no volume [unit of the mesh]")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--shell", source->body.shell,
+                  "which body of a file with several: a number of the list, largest or all; default: the "
+                  "largest if the "
+                  "others are below 5 % of the volume")
+      ->check(CLI::IsMember({"largest", "all"}) | CLI::Range(1, 100));
+  app->add_option("--simplify", source->body.triangles,
+                  "reduce the visual mesh to about this number of triangles")
+      ->check(CLI::Range(100, 10000000));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,25 +69,15 @@ int main(int argc, char** argv) {
   settings.progress = softbody::ProgressLine("prepare_model");
   app.add_option("MESH", source.mesh, "OBJ, PLY, STL or OFF")->required();
   app.add_option("--output", output, "output folder")->required();
-  CLI::Option* unit = app.add_option("--unit", source.unit, "unit of the mesh")
-                          ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
-                          ->capture_default_str();
-  CLI::Option* length = app.add_option_function<std::string>(
-      "--length", [&](const std::string& text) { source.length_m = lengthOf(text); },
-      "longest side of the real body, with its unit, e.g. 200mm; instead of --unit");
-  length->excludes(unit);
-  app.add_option("--scale", source.scale, "metres for one unit of the mesh; instead of --unit")
-      ->check(CLI::PositiveNumber)
-      ->excludes(unit)
-      ->excludes(length);
-  app.add_option("--thickness", source.thickness,
-                 "thickness of a sheet, for a mesh that encloses no volume [unit of the mesh]")
-      ->check(CLI::PositiveNumber);
+  addBodyOptions(&app, &source);
   app.add_option("--cage-vertices", settings.cage_vertices,
                  "approximate number of cage vertices; default: chosen from the shape")
       ->check(CLI::Range(20, 20000));
+  app.footer(
+      "Exit codes: 0 done; 1 the mesh could not be processed; 2 wrong usage; 3 done, but the verdict is "
+      "bad.");
   return softbody::runTool(&app, argc, argv, [&] {
-    softbody::prepareModel(source, output, settings, std::cerr);
-    return 0;
+    const softbody::Verdict verdict = softbody::prepareModel(source, output, settings, std::cerr);
+    return verdict == softbody::Verdict::kBad ? kBadVerdict : 0;
   });
 }

@@ -158,7 +158,6 @@ void addRepaired(std::vector<BrokenFile>* files) {
   files->push_back(
       {"holes.obj", asObj(withTriangles(torus.triangles.bottomRows(torus.triangles.rows() - 9))), ""});
   files->push_back({"duplicate_faces.obj", asObj(withTriangles(doubled)), ""});
-  files->push_back({"shells.obj", asObj(both(torus, smallTorus(0.5))), ""});
   files->push_back({"intersecting.obj", asObj(both(torus, smallTorus(0.05))), ""});
   files->push_back({"fin.obj", asObj(withFin()), ""});
 }

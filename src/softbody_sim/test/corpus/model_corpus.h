@@ -18,6 +18,9 @@ struct CorpusMesh {
 /// All of them under a folder, in the order of their names.
 std::vector<CorpusMesh> modelCorpus(const std::string& folder);
 
+/// The repaired surface of a file, or the boundary of its tets. Files go to `scratch`.
+TriangleMesh surfaceOf(const CorpusMesh& mesh, const std::string& scratch);
+
 struct PreparedModel {
   ModelQuality quality;
   double seconds = 0.0;

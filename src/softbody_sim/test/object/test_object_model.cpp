@@ -50,7 +50,7 @@ TEST_F(ObjectModelTest, AMeshWithHolesIsEnclosedToo) {
   const ObjectModel model = buildObjectModel(describe(mesh));
   expectSound(model);
   ASSERT_EQ(model.warnings.size(), 1U);
-  EXPECT_NE(model.warnings[0].find("not closed"), std::string::npos);
+  EXPECT_NE(model.warnings[0].find("1 holes were filled"), std::string::npos);
 }
 
 TEST_F(ObjectModelTest, AGivenCageIsFilled) {

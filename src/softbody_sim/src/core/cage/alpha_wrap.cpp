@@ -1,11 +1,13 @@
 #include "cage/alpha_wrap.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
 #include <array>
+#include <utility>
 #include <vector>
+
+#include "surface_mesh/cgal_mesh.h"
 
 namespace softbody {
 
@@ -24,22 +26,7 @@ TriangleMesh alphaWrap(const TriangleMesh& mesh, double alpha_m, double offset_m
   }
   CGAL::Surface_mesh<Point> wrap;
   CGAL::alpha_wrap_3(points, faces, alpha_m, offset_m, wrap);
-  wrap.collect_garbage();
-
-  TriangleMesh result;
-  result.vertices.resize(static_cast<Eigen::Index>(wrap.number_of_vertices()), 3);
-  for (const auto vertex : wrap.vertices()) {
-    const Point& point = wrap.point(vertex);
-    result.vertices.row(static_cast<Eigen::Index>(vertex)) << point.x(), point.y(), point.z();
-  }
-  result.triangles.resize(static_cast<Eigen::Index>(wrap.number_of_faces()), 3);
-  for (const auto face : wrap.faces()) {
-    int corner = 0;
-    for (const auto vertex : wrap.vertices_around_face(wrap.halfedge(face))) {
-      result.triangles(static_cast<Eigen::Index>(face), corner++) = static_cast<int>(vertex);
-    }
-  }
-  return result;
+  return fromCgal(std::move(wrap));
 }
 
 }  // namespace softbody

@@ -15,6 +15,7 @@ namespace softbody {
 namespace {
 
 constexpr int kSweeps = 6;
+constexpr int kMostUndos = 8;              ///< rounds of a sweep; one or two are usual
 constexpr double kMinGain = 4e-3;          ///< relative decrease of the volume below which fitting stops
 constexpr double kPlaneMargin = 1e-5;      ///< distance of the points from the planes, over the size
 constexpr double kMinMoveCosine = 0.7;     ///< cosine of the angle by which a move may turn a triangle
@@ -39,16 +40,18 @@ class CageFitter {
   }
 
   /// Moves every vertex once. A move can leave a point outside, beside a triangle that the point is not
-  /// assigned to. Such moves are undone.
+  /// assigned to. Such moves are undone, or all of them if that does not help.
   TriangleMesh sweep() {
     const Points before = cage_.vertices;
     assignPoints();
     for (Eigen::Index v = 0; v < cage_.vertices.rows(); ++v) moveVertex(v);
-    for (;;) {
+    for (int k = 0; k < kMostUndos; ++k) {
       const std::vector<Eigen::Index> beyond = pointsBeyond(points_, cage_);
       if (beyond.empty()) return cage_;
-      if (!undoMoves(beyond, before)) cage_.vertices = before;
+      if (!undoMoves(beyond, before)) break;
     }
+    cage_.vertices = before;
+    return cage_;
   }
 
  private:

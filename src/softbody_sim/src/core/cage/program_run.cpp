@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <system_error>
+#include <thread>
 
 namespace softbody {
 namespace {
@@ -91,13 +92,22 @@ bool readAll(int file, Clock::time_point deadline, std::string* bytes) {
   }
 }
 
-/// True if the child ended well.
-bool waitFor(pid_t child) {
+/// Waits for the child's end. @return whether it ended well; nothing if the deadline passes first.
+std::optional<bool> waitFor(pid_t child, Clock::time_point deadline) {
   int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return true;  // somebody else took the status
+  for (;;) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (ended < 0 && errno != EINTR) return true;  // somebody else took the status
+    if (Clock::now() >= deadline) return std::nullopt;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+void killAndWait(pid_t child) {
+  kill(child, SIGKILL);
+  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
 }
 
 }  // namespace
@@ -111,13 +121,15 @@ std::optional<std::string> outputOfProgram(const std::filesystem::path& program,
   Descriptor to_parent(ends[1]);
   const pid_t child = start(program.string(), argument, in.number(), to_parent.number());
   to_parent.reset();
+  const Clock::time_point deadline = Clock::now() + time_limit;
   std::string bytes;
-  if (!readAll(from_child.number(), Clock::now() + time_limit, &bytes)) {
-    kill(child, SIGKILL);
-    waitFor(child);
+  std::optional<bool> ended_well;
+  if (readAll(from_child.number(), deadline, &bytes)) ended_well = waitFor(child, deadline);
+  if (!ended_well) {
+    killAndWait(child);
     fail(ETIMEDOUT, program.string() + " does not end");
   }
-  return waitFor(child) ? std::optional<std::string>(std::move(bytes)) : std::nullopt;
+  return *ended_well ? std::optional<std::string>(std::move(bytes)) : std::nullopt;
 }
 
 }  // namespace softbody

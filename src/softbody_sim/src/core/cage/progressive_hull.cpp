@@ -1,14 +1,16 @@
 #include "cage/progressive_hull.h"
 
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
+#include "surface_mesh/cgal_mesh.h"
 #include "surface_mesh/half_spaces.h"
 #include "surface_mesh/surface_repair.h"
 
@@ -82,33 +84,16 @@ struct Placement {
 }  // namespace
 
 TriangleMesh progressiveHull(const TriangleMesh& mesh, int vertices) {
-  Surface surface;
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    surface.add_vertex({mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2)});
-  }
-  const auto vertex = [](int index) { return Surface::Vertex_index(static_cast<Surface::size_type>(index)); };
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    surface.add_face(vertex(mesh.triangles(f, 0)), vertex(mesh.triangles(f, 1)),
-                     vertex(mesh.triangles(f, 2)));
-  }
+  std::optional<Surface> built = toCgal<Kernel::Point_3>(mesh);
+  if (!built) throw std::runtime_error("the wrap is not a closed surface");
+  Surface& surface = *built;
   const long excess =
       static_cast<long>(surface.number_of_edges()) - 3L * static_cast<long>(surface.number_of_vertices());
   const auto edges = static_cast<std::size_t>(std::max(6L, 3L * vertices + excess));
   simplification::edge_collapse(surface, simplification::Count_stop_predicate<Surface>(edges),
                                 CGAL::parameters::get_cost(simplification::Edge_length_cost<Surface>())
                                     .get_placement(Placement{sizeOf(mesh.vertices)}));
-  surface.collect_garbage();
-  TriangleMesh result{Points(static_cast<Eigen::Index>(surface.number_of_vertices()), 3),
-                      Triangles(static_cast<Eigen::Index>(surface.number_of_faces()), 3)};
-  for (const auto v : surface.vertices())
-    result.vertices.row(static_cast<Eigen::Index>(v)) = toVector(surface.point(v));
-  for (const auto f : surface.faces()) {
-    int corner = 0;
-    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) {
-      result.triangles(static_cast<Eigen::Index>(f), corner++) = static_cast<int>(v);
-    }
-  }
-  return result;
+  return fromCgal(std::move(surface));
 }
 
 }  // namespace softbody

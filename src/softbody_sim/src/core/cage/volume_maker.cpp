@@ -15,7 +15,6 @@
 #include "cage/progressive_hull.h"
 #include "cage/tet_mesher.h"
 #include "softbody_common/tet_geometry.h"
-#include "surface_mesh/hole_caps.h"
 #include "surface_mesh/self_intersection.h"
 #include "surface_mesh/surface_repair.h"
 
@@ -105,13 +104,12 @@ double areaOf(const TriangleMesh& mesh) {
 
 TetMesh volumeAround(const TriangleMesh& visual, int cage_vertices,
                      const std::function<void(double)>& progress) {
-  const TriangleMesh body = withHolesCovered(visual);
-  if (cage_vertices == 0) cage_vertices = verticesByShape(body);
+  if (cage_vertices == 0) cage_vertices = verticesByShape(visual);
   progress(0.1);
   std::string reason;
   for (const Wrapping& wrapping : kWrappings) {
     try {
-      return wrapAndFill(body, cage_vertices, wrapping, progress);
+      return wrapAndFill(visual, cage_vertices, wrapping, progress);
     } catch (const std::system_error&) {
       throw;  // another wrap would not help
     } catch (const std::runtime_error& error) {

@@ -7,7 +7,7 @@
 namespace softbody {
 
 /// Tets whose boundary is a coarse, nearly uniform surface around all vertices of a mesh. The mesh may have
-/// holes, several shells and self-intersections.
+/// several shells and self-intersections.
 /// @param cage_vertices approximate number of vertices of the boundary; a complex shape needs more. 0: chosen
 /// from the shape. @param progress called with the finished fraction, 0..1.
 /// @throw std::runtime_error if no tets can be made.

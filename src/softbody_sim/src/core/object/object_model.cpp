@@ -11,23 +11,21 @@
 #include "cage/enclosure.h"
 #include "cage/volume_maker.h"
 #include "object/mesh_cache.h"
+#include "shells/shell_nesting.h"
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/tet_files.h"
 #include "softbody_sim/object/visual_mesh.h"
-#include "surface_mesh/hole_caps.h"
 #include "surface_mesh/surface_repair.h"
 
 namespace softbody {
 namespace {
 
 /// To be changed with the algorithm: meshes in the cache from older versions are then ignored.
-constexpr const char* kMakerVersion = "softbody volume 3";
-
-constexpr double kThinnest = 1e-3;  // mean thickness of a body over its size
+constexpr const char* kMakerVersion = "softbody volume 4";
 
 TriangleMesh loadCage(const ObjectDescription& description, Warnings* warnings) {
-  const WeldedSurface cage = loadSurface(description.cage_mesh, description.unit_m, warnings);
+  WeldedSurface cage = loadSurface(description.cage_mesh, description.unit_m, warnings);
   const EdgeReport edges = examineEdges(cage.mesh.triangles);
   if (!edges.closed() || edges.inconsistent > 0) {
     throw std::invalid_argument(fmt::format(
@@ -38,6 +36,7 @@ TriangleMesh loadCage(const ObjectDescription& description, Warnings* warnings) 
         edges.example[1] < 0 ? -1 : cage.vertex_parents[static_cast<std::size_t>(edges.example[1])],
         edges.inconsistent));
   }
+  orientShells(&cage);
   return cage.mesh;
 }
 
@@ -50,23 +49,10 @@ TetMesh fillCage(const ObjectDescription& description, Warnings* warnings) {
   }
 }
 
-/// @throw std::invalid_argument for a sheet, a triangle or another surface that encloses nothing.
-void requireVolume(const std::string& name, const TriangleMesh& visual) {
-  const TriangleMesh closed = withHolesCovered(visual);
-  const double thickness = 2.0 * std::abs(enclosedVolume(closed.vertices, closed.triangles)) / areaOf(closed);
-  if (thickness > kThinnest * sizeOf(visual.vertices)) return;
-  throw std::invalid_argument(
-      fmt::format("{}: encloses no volume: the mean thickness is {:.2g} mm. If it is a sheet, make a model "
-                  "with prepare_model --thickness",
-                  name, 1e3 * thickness));
-}
-
 TetMesh wrapVisual(const ObjectDescription& description, const MeshTopology& visual,
                    const VolumeSettings& settings) {
-  const TriangleMesh mesh{visual.rest_vertices, visual.triangles};
-  requireVolume(description.visual_mesh, mesh);
   try {
-    return volumeAround(mesh, settings.cage_vertices, settings.progress);
+    return volumeAround({visual.rest_vertices, visual.triangles}, settings.cage_vertices, settings.progress);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(
         fmt::format("{}: no volume could be made around it: {}", description.visual_mesh, error.what()));
@@ -77,9 +63,11 @@ TetMesh wrapVisual(const ObjectDescription& description, const MeshTopology& vis
 std::string volumeContent(const ObjectDescription& description, int cage_vertices) {
   const std::string cage = description.cage_mesh.empty() ? "" : readFile(description.cage_mesh);
   const std::string visual = readFile(description.visual_mesh);
+  const BodyOptions& body = description.body;
   return fmt::format(
-      "{}\nunit {:.17g} thickness {:.17g}\ncage vertices {}\ncage {} bytes\n{}visual {} bytes\n{}",
-      kMakerVersion, description.unit_m, description.thickness_m,
+      "{}\nunit {:.17g} thickness {:.17g} length {:.17g} shell {} triangles {}\ncage vertices {}\n"
+      "cage {} bytes\n{}visual {} bytes\n{}",
+      kMakerVersion, description.unit_m, body.thickness, body.length_m, body.shell, body.triangles,
       description.cage_mesh.empty() ? cage_vertices : 0, cage.size(), cage, visual.size(), visual);
 }
 

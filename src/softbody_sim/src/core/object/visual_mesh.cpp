@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "shells/body_choice.h"
+#include "shells/simplification.h"
+#include "shells/surface_transfer.h"
 #include "softbody_common/tet_geometry.h"
 #include "surface_mesh/surface_repair.h"
 #include "surface_mesh/thickening.h"
@@ -21,10 +24,6 @@ void warnOfSize(const std::string& name, const Points& vertices, Warnings* warni
 
 void warnOfEdges(const std::string& name, const Triangles& triangles, Warnings* warnings) {
   const EdgeReport edges = examineEdges(triangles);
-  if (edges.open > 0)
-    warnings->push_back(
-        fmt::format("{}: not closed, {} edges have one triangle; fill the holes if they are not meant", name,
-                    edges.open));
   if (edges.branching > 0) {
     warnings->push_back(
         fmt::format("{}: {} edges have more than two triangles; repair the mesh if this is not meant", name,
@@ -38,12 +37,36 @@ void warnOfEdges(const std::string& name, const Triangles& triangles, Warnings* 
   }
 }
 
+WeldedSurface simplifiedTo(int triangles, const WeldedSurface& surface, const std::string& name,
+                           Warnings* warnings) {
+  if (triangles == 0 || surface.mesh.triangles.rows() <= triangles) return surface;
+  WeldedSurface result = transferred(surface, simplified(surface.mesh, triangles));
+  warnings->push_back(fmt::format("{}: simplified from {} to {} triangles{}", name,
+                                  surface.mesh.triangles.rows(), result.mesh.triangles.rows(),
+                                  surface.texture_coordinates.rows() > 0
+                                      ? "; the texture is stretched in triangles across its seams"
+                                      : ""));
+  return result;
+}
+
+/// Given tets or a given cage say what the body is. Then no part of the mesh is left out.
+WeldedSurface loadBody(const ObjectDescription& description, Warnings* warnings) {
+  const std::string& name = description.visual_mesh;
+  const BodyOptions& body = description.body;
+  const bool is_sheet = body.thickness > 0.0;
+  WeldedSurface surface =
+      loadSurface(name, 1.0, warnings, is_sheet ? SurfaceKind::kSheet : SurfaceKind::kSolid);
+  if (is_sheet) surface = thickened(surface, body.thickness, name);
+  if (!description.tet_mesh.empty() || !description.cage_mesh.empty())
+    return wholeBody(std::move(surface), description.unit_m, name, warnings);
+  surface = chosenBody(std::move(surface), {body.shell, description.unit_m, body.length_m}, name, warnings);
+  return simplifiedTo(body.triangles, surface, name, warnings);
+}
+
 }  // namespace
 
 MeshTopology loadVisualMesh(const ObjectDescription& description, Warnings* warnings) {
-  WeldedSurface surface = loadSurface(description.visual_mesh, description.unit_m, warnings);
-  if (description.thickness_m > 0.0)
-    surface = thickened(surface, description.thickness_m, description.visual_mesh);
+  WeldedSurface surface = loadBody(description, warnings);
   warnOfSize(description.visual_mesh, surface.mesh.vertices, warnings);
   warnOfEdges(description.visual_mesh, surface.mesh.triangles, warnings);
   MeshTopology topology;

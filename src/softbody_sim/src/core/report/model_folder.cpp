@@ -41,14 +41,13 @@ std::string objectYaml(const std::string& mesh, const Material& material) {
       material.density_kg_m3, material.damping);
 }
 
-std::string report(const std::string& mesh, const ObjectModel& model, const ModelQuality& q) {
+std::string report(const std::string& mesh, const ObjectModel& model, const ModelQuality& q,
+                   const std::vector<Judgement>& judgements) {
   const Points& rest = model.visual.rest_vertices;
   const Eigen::RowVector3d extent = 1e3 * (rest.colwise().maxCoeff() - rest.colwise().minCoeff());
   std::string text =
       fmt::format("# {}\n\n{:.1f} x {:.1f} x {:.1f} mm, texture coordinates: {}\n\n", mesh, extent[0],
                   extent[1], extent[2], model.visual.texture_coordinates.rows() > 0 ? "yes" : "no");
-  std::vector<Judgement> judgements = judge(q, 1e-3 * extent.maxCoeff());
-  for (const std::string& warning : model.warnings) judgements.push_back({Verdict::kLookHere, warning});
   text += fmt::format("**Verdict: {}.**\n\n| | |\n|---|---|\n", nameOf(worst(judgements)));
   for (const Judgement& judgement : judgements)
     text += fmt::format("| {} | {} |\n", nameOf(judgement.verdict), judgement.sentence);
@@ -110,28 +109,16 @@ void moveFiles(const fs::path& from, const fs::path& to) {
   }
 }
 
-/// Metres per unit of the mesh file. @throw std::invalid_argument if the mesh cannot be read or has no
-/// extent.
-double metresPerUnit(const ModelSource& source) {
-  if (source.length_m <= 0.0) return source.scale > 0.0 ? source.scale : metresPer(source.unit);
-  Warnings repeated;  // reading the model gives them again
-  const Points points = readSurfaceFile(source.mesh, &repeated).mesh.vertices;
-  const double side =
-      points.rows() == 0 ? 0.0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
-  if (!(side > 0.0)) throw std::invalid_argument(fmt::format("{}: the mesh has no extent", source.mesh));
-  return source.length_m / side;
-}
-
 }  // namespace
 
-void prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
-                  std::ostream& output) {
+Verdict prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
+                     std::ostream& output) {
   const fs::path target = fs::weakly_canonical(fs::absolute(folder));
   requireReplaceable(target);
   ObjectDescription description;
   description.visual_mesh = source.mesh;
-  description.unit_m = metresPerUnit(source);
-  description.thickness_m = source.thickness * description.unit_m;
+  description.unit_m = source.scale > 0.0 ? source.scale : metresPer(source.unit);
+  description.body = source.body;
   VolumeSettings making = settings;
   making.progress = [&](double fraction) { settings.progress(kModelProgress * fraction); };
   ObjectModel model = buildObjectModel(description, making);
@@ -144,13 +131,16 @@ void prepareModel(const ModelSource& source, const std::string& folder, const Vo
            model.visual.texture_coordinates, material_file);
   writeObj((staging.path() / "cage.obj").string(), cage);
   writeVtu((staging.path() / "tets.vtu").string(), {model.volume.rest_vertices, model.volume.tets});
-  const std::string text = report(source.mesh, model, measureModel(model));
+  const ModelQuality quality = measureModel(model);
+  const std::vector<Judgement> judgements = judgementsOf(model, quality);
+  const std::string text = report(source.mesh, model, quality, judgements);
   writeBytes(staging.path() / "report/report.md", text);
   writePicture(staging.path() / "report/models.png", drawModel(model));
   writeBytes(staging.path() / "object.yaml", objectYaml(source.mesh, model.material));
   moveFiles(staging.path(), target);
   settings.progress(1.0);
   output << text << "written to " << target.string() << '\n';
+  return worst(judgements);
 }
 
 }  // namespace softbody

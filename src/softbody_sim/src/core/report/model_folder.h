@@ -3,6 +3,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "report/model_verdict.h"
 #include "softbody_sim/object/object_model.h"
 
 namespace softbody {
@@ -11,18 +12,17 @@ namespace softbody {
 struct ModelSource {
   std::string mesh;        ///< OBJ, PLY, STL or OFF
   std::string unit = "m";  ///< m, cm, mm or inch
-  double thickness = 0.0;  ///< of a sheet, in this unit; 0: the mesh encloses the body
-  double length_m = 0.0;   ///< of the longest side; above 0, it replaces the unit
   double scale = 0.0;      ///< metres per unit of the mesh; above 0, it replaces the unit
+  BodyOptions body;
 };
 
 /// Writes FOLDER/{object.yaml, visual.obj, cage.obj, tets.vtu, report/report.md, report/models.png} in
 /// metres; and visual.mtl with visual.png or visual.jpg, if the mesh has a picture. Other files in the folder
 /// stay. If anything fails, the folder is unchanged. Files of these names are replaced only if prepare_model
 /// made them.
-/// @param output gets the report.
+/// @param output gets the report. @return the verdict.
 /// @throw std::invalid_argument if the mesh is refused; std::runtime_error if the folder cannot be written.
-void prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
-                  std::ostream& output);
+Verdict prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
+                     std::ostream& output);
 
 }  // namespace softbody

@@ -1,6 +1,7 @@
 #include "report/model_verdict.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -16,6 +17,9 @@ constexpr double kEvenEdges = 3.0, kUnevenEdges = 6.0;          // 95th over 5th
 constexpr double kWideAngle_deg = 8.0, kNarrowAngle_deg = 3.0;  // 1st percentile of the tets' smallest angles
 constexpr int kQuickTets = 5000, kSlowTets = 20000;
 constexpr double kExactWeights = 1e-6, kRoughWeights = 1e-3;  // of the size
+constexpr double kFrame_ms = 1000.0 / 30.0;                   // of a usual camera
+constexpr double kCutVolumeError = 1e-3;    // a cut moves the surface by up to 1/20,000 of its size
+constexpr double kCalmEnergy = 1.0 + 1e-3;  // over the start; free motion only loses energy
 
 Verdict upTo(double value, double good, double bad) {
   return value <= good ? Verdict::kGood : value <= bad ? Verdict::kLookHere : Verdict::kBad;
@@ -24,6 +28,12 @@ Verdict upTo(double value, double good, double bad) {
 Judgement judged(Verdict verdict, std::string fact, const char* advice) {
   if (verdict != Verdict::kGood) fact += fmt::format("; {}", advice);
   return {verdict, std::move(fact)};
+}
+
+std::string placeOfCrossing(const ModelTrial& trial) {
+  if (trial.crossings == 0) return "";
+  const Eigen::Vector3d place = 1e3 * trial.crossing;
+  return fmt::format(", for example at ({:.1f}, {:.1f}, {:.1f}) mm", place[0], place[1], place[2]);
 }
 
 Judgement judgeSize(double side) {
@@ -56,7 +66,57 @@ Judgement judgeTets(const ModelQuality& q) {
                 "flat tets are too stiff; give another number of --cage-vertices");
 }
 
+Judgement judgeCuts(const ModelTrial& trial) {
+  if (!trial.refused_cuts.empty())
+    return {Verdict::kBad, fmt::format("cannot be cut {}; repair the mesh there{}",
+                                       fmt::join(trial.refused_cuts, "; "), placeOfCrossing(trial))};
+  if (trial.volume_error > kCutVolumeError)
+    return {Verdict::kBad, fmt::format("the pieces of a cut differ from the whole by {:.2g} % of its volume; "
+                                       "repair the mesh",
+                                       100.0 * trial.volume_error)};
+  if (trial.crossings > 0)
+    return {Verdict::kLookHere,
+            fmt::format("it can be cut, but not where {} pairs of triangles cross{}; repair "
+                        "the mesh there",
+                        trial.crossings, placeOfCrossing(trial))};
+  return {Verdict::kGood, "cut by three planes, the pieces have the volume of the whole"};
+}
+
+Judgement judgeMotion(const ModelTrial& trial) {
+  const bool calm = trial.inverted == 0 && trial.energy_growth <= kCalmEnergy;
+  if (!calm)
+    return {Verdict::kBad,
+            fmt::format("stretched and let go, {} tets end inverted and the energy grows to {:.2g} "
+                        "times; give another number of --cage-vertices",
+                        trial.inverted, trial.energy_growth)};
+  return {Verdict::kGood, fmt::format("stretched and let go, it comes to rest in a simulation of {:.1f} s",
+                                      trial.simulated_s)};
+}
+
+/// The number of triangles with which the surface takes half of the frame's time.
+int affordableTriangles(const FrameCost& cost, int triangles) {
+  const double share = 0.5 * kFrame_ms / (cost.surface_ms + cost.drawing_ms);
+  return std::max(1000, static_cast<int>(share * triangles) / 1000 * 1000);
+}
+
+Judgement judgeCost(const FrameCost& cost, int triangles) {
+  std::string fact = fmt::format(
+      "a frame takes {:.1f} ms on this machine: simulation {:.1f}, surface {:.1f}, drawing {:.1f}",
+      cost.total(), cost.simulation_ms, cost.surface_ms, cost.drawing_ms);
+  if (cost.total() <= kFrame_ms) return {Verdict::kGood, fact};
+  const bool by_surface = cost.surface_ms + cost.drawing_ms > cost.simulation_ms;
+  return {Verdict::kLookHere,
+          fmt::format("{}; a camera at 30 Hz gives a frame every {:.0f} ms; give {}", fact, kFrame_ms,
+                      by_surface ? fmt::format("--simplify {}", affordableTriangles(cost, triangles))
+                                 : "fewer --cage-vertices")};
+}
+
 }  // namespace
+
+std::vector<Judgement> judge(const ModelTrial& trial, int triangles) {
+  if (!trial.failure.empty()) return {{Verdict::kBad, "cannot be used: " + trial.failure}};
+  return {judgeCuts(trial), judgeMotion(trial), judgeCost(trial.cost, triangles)};
+}
 
 std::vector<Judgement> judge(const ModelQuality& q, double longest_side) {
   const double error = std::max(q.partition_error, q.reproduction_error / q.size);
@@ -72,6 +132,15 @@ std::vector<Judgement> judge(const ModelQuality& q, double longest_side) {
           judged(upTo(error, kExactWeights, kRoughWeights),
                  fmt::format("the cage's weights reproduce the visual mesh within {:.1e} of its size", error),
                  "the surface will not lie where the tets are; repair the mesh")};
+}
+
+std::vector<Judgement> judgementsOf(const ObjectModel& model, const ModelQuality& quality) {
+  const Points& rest = model.visual.rest_vertices;
+  std::vector<Judgement> all =
+      judge(quality, (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff());
+  for (Judgement& judgement : judge(tryModel(model), quality.visual_triangles)) all.push_back(judgement);
+  for (const std::string& warning : model.warnings) all.push_back({Verdict::kLookHere, warning});
+  return all;
 }
 
 Verdict worst(const std::vector<Judgement>& judgements) {

@@ -4,8 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "softbody_common/tet_geometry.h"
-
 namespace softbody {
 namespace {
 
@@ -39,8 +37,9 @@ std::vector<std::vector<std::pair<int, bool>>> neighbours(const Triangles& trian
   return result;
 }
 
-/// Flips the minority of every patch of triangles that is connected across edges with two triangles.
-std::vector<bool> agreeWithNeighbours(const Triangles& triangles) {
+}  // namespace
+
+std::vector<bool> trianglesToFlip(const Triangles& triangles) {
   const auto adjacent = neighbours(triangles);
   std::vector<bool> turn(adjacent.size(), false), reached(adjacent.size(), false);
   for (std::size_t seed = 0; seed < adjacent.size(); ++seed) {
@@ -60,33 +59,6 @@ std::vector<bool> agreeWithNeighbours(const Triangles& triangles) {
     if (2 * turned > static_cast<std::ptrdiff_t>(patch.size())) {
       for (const std::size_t f : patch) turn[f] = !turn[f];
     }
-  }
-  return turn;
-}
-
-Triangles turned(Triangles triangles, const std::vector<bool>& turn) {
-  for (std::size_t f = 0; f < turn.size(); ++f) {
-    if (turn[f])
-      std::swap(triangles(static_cast<Eigen::Index>(f), 1), triangles(static_cast<Eigen::Index>(f), 2));
-  }
-  return triangles;
-}
-
-}  // namespace
-
-std::vector<bool> trianglesToFlip(const TriangleMesh& mesh) {
-  std::vector<bool> turn = agreeWithNeighbours(mesh.triangles);
-  const std::vector<std::uint32_t> pieces =
-      trianglePieces(mesh.triangles, static_cast<int>(mesh.vertices.rows()));
-  // Relative to the centre, the volume of an open piece changes little with its hole.
-  const Points centred = mesh.vertices.rowwise() - mesh.vertices.colwise().mean();
-  const Triangles agreed = turned(mesh.triangles, turn);
-  std::map<std::uint32_t, double> volumes;
-  for (std::size_t f = 0; f < pieces.size(); ++f) {
-    volumes[pieces[f]] += enclosedVolume(centred, agreed.row(static_cast<Eigen::Index>(f)));
-  }
-  for (std::size_t f = 0; f < pieces.size(); ++f) {
-    if (volumes[pieces[f]] < 0.0) turn[f] = !turn[f];
   }
   return turn;
 }

@@ -6,8 +6,8 @@
 
 namespace softbody {
 
-/// Which triangles to flip so that neighbours agree and every piece encloses a positive volume. The majority
-/// of a piece keeps its orientation. Edges with more than two triangles are ignored.
-std::vector<bool> trianglesToFlip(const TriangleMesh& mesh);
+/// Which triangles to flip so that neighbours agree. The majority of every patch that is connected across
+/// edges with two triangles keeps its orientation.
+std::vector<bool> trianglesToFlip(const Triangles& triangles);
 
 }  // namespace softbody

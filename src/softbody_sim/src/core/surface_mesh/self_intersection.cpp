@@ -2,23 +2,33 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+
+#include <utility>
+#include <vector>
+
+#include "surface_mesh/cgal_mesh.h"
 
 namespace softbody {
+namespace {
+
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point>;
+
+}  // namespace
 
 bool intersectsItself(const TriangleMesh& mesh) {
-  using Surface = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
-  Surface surface;
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    surface.add_vertex({mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2)});
-  }
-  const auto vertex = [](int index) { return Surface::Vertex_index(static_cast<Surface::size_type>(index)); };
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    const auto face = surface.add_face(vertex(mesh.triangles(f, 0)), vertex(mesh.triangles(f, 1)),
-                                       vertex(mesh.triangles(f, 2)));
-    if (face == Surface::null_face()) return true;  // more than two triangles meet
-  }
-  return CGAL::Polygon_mesh_processing::does_self_intersect(surface);
+  const std::optional<Surface> surface = toCgal<Point>(mesh);
+  return !surface || CGAL::Polygon_mesh_processing::does_self_intersect(*surface);
+}
+
+std::vector<Eigen::Index> crossingTriangles(const TriangleMesh& mesh) {
+  const std::optional<Surface> surface = toCgal<Point>(mesh);
+  if (!surface) return {};
+  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
+  CGAL::Polygon_mesh_processing::self_intersections(*surface, std::back_inserter(pairs));
+  std::vector<Eigen::Index> first;
+  for (const auto& [a, b] : pairs) first.push_back(static_cast<Eigen::Index>(a));
+  return first;
 }
 
 }  // namespace softbody

@@ -26,13 +26,24 @@ struct EdgeReport {
 
 EdgeReport examineEdges(const Triangles& triangles);
 
-/// Welds vertices within 1e-7 of the mesh's size, drops flat and repeated triangles, and orients the others
-/// outward where possible. @param name of the mesh, for warnings. @throw std::invalid_argument if no triangle
-/// is left.
-WeldedSurface repairSurface(const SurfaceFile& file, const std::string& name, Warnings* warnings);
+/// Keeps these triangles, in this order, and drops the vertices that no triangle uses any more.
+void keepTriangles(const std::vector<Eigen::Index>& kept, WeldedSurface* surface);
+
+/// Turns triangles over, with their texture. @param flip #F. @return how many.
+std::ptrdiff_t flipTriangles(const std::vector<bool>& flip, WeldedSurface* surface);
+
+/// What a mesh is meant to be. The triangles of a sheet have no separate back.
+enum class SurfaceKind { kSolid, kSheet };
+
+/// Drops unused vertices, welds vertices within 1e-7 of the mesh's size (up to 1e-4 if that closes it), drops flat and repeated triangles,
+/// and makes neighbours face the same way. Vertices stay in file order.
+/// @param name of the mesh, for warnings. @throw std::invalid_argument if no triangle is left.
+WeldedSurface repairSurface(const SurfaceFile& file, const std::string& name, Warnings* warnings,
+                            SurfaceKind kind = SurfaceKind::kSolid);
 
 /// Reads a surface, scales it to metres and repairs it.
-WeldedSurface loadSurface(const std::string& path, double unit_m, Warnings* warnings);
+WeldedSurface loadSurface(const std::string& path, double unit_m, Warnings* warnings,
+                          SurfaceKind kind = SurfaceKind::kSolid);
 
 /// Length of the bounding box's diagonal.
 double sizeOf(const Points& vertices);

@@ -11,6 +11,8 @@
 namespace softbody {
 namespace {
 
+constexpr double kSameAngle = 1e-6;  ///< between coincident triangles [rad], well above rounding
+
 /// The half-edges by their start vertices; those of vertex v begin at first[v].
 struct OutgoingHalfEdges {
   std::vector<int> first, half_edges;
@@ -50,6 +52,25 @@ struct Spoke {
   bool forward;  ///< along the axis: the body lies towards smaller angles
 };
 
+/// Where triangles coincide, the body before them ends before the next one begins: no body is without
+/// thickness.
+void closeBeforeOpening(std::vector<Spoke>* spokes) {
+  const auto differ = [](const Spoke& a, const Spoke& b) { return b.angle - a.angle > kSameAngle; };
+  // An angle near -pi may coincide with one near pi.
+  for (std::size_t k = 0; k < spokes->size() && spokes->back().angle + kSameAngle > M_PI &&
+                          spokes->front().angle - kSameAngle < spokes->back().angle - 2.0 * M_PI;
+       ++k) {
+    spokes->back().angle -= 2.0 * M_PI;
+    std::rotate(spokes->rbegin(), spokes->rbegin() + 1, spokes->rend());
+  }
+  for (auto first = spokes->begin(); first != spokes->end();) {
+    const auto last = std::adjacent_find(first, spokes->end(), differ);
+    const auto end = last == spokes->end() ? last : last + 1;
+    std::stable_partition(first, end, [](const Spoke& spoke) { return spoke.forward; });
+    first = end;
+  }
+}
+
 std::vector<Spoke> spokesOf(const TriangleList& triangles, const Points& vertices,
                             const std::vector<int>& forward, const std::vector<int>& backward) {
   const Eigen::Vector3d origin = vertices.row(startOf(triangles, forward.front()));
@@ -63,6 +84,7 @@ std::vector<Spoke> spokesOf(const TriangleList& triangles, const Points& vertice
   for (const int h : forward) add(h, true);
   for (const int h : backward) add(h, false);
   std::sort(spokes.begin(), spokes.end(), [](const Spoke& a, const Spoke& b) { return a.angle < b.angle; });
+  closeBeforeOpening(&spokes);
   return spokes;
 }
 
@@ -82,7 +104,26 @@ void pairSpokes(const std::vector<Spoke>& spokes, std::vector<int>* mates) {
   }
 }
 
-std::vector<int> pairAll(const TriangleList& triangles, const Points& vertices) {
+/// @throw std::invalid_argument that names the edge of a half-edge without a mate.
+void requireMates(const TriangleList& triangles, const std::vector<int>& mates) {
+  const auto lone = std::find(mates.begin(), mates.end(), -1);
+  if (lone == mates.end()) return;
+  const int h = static_cast<int>(lone - mates.begin()), start = startOf(triangles, h),
+            end = endOf(triangles, h);
+  int forward = 0, backward = 0;
+  for (int other = 0; other < static_cast<int>(mates.size()); ++other) {
+    forward += startOf(triangles, other) == start && endOf(triangles, other) == end ? 1 : 0;
+    backward += startOf(triangles, other) == end && endOf(triangles, other) == start ? 1 : 0;
+  }
+  throw std::invalid_argument(
+      fmt::format("the mesh is not a closed oriented surface: the edge from vertex {} to {} has {} triangles "
+                  "in this direction and {} in the other",
+                  start, end, forward, backward));
+}
+
+}  // namespace
+
+std::vector<int> matesAcrossBody(const TriangleList& triangles, const Points& vertices) {
   const OutgoingHalfEdges outgoing(triangles, static_cast<std::size_t>(vertices.rows()));
   std::vector<int> mates(3 * triangles.size(), -1);
   for (int h = 0; h < static_cast<int>(mates.size()); ++h) {
@@ -91,12 +132,7 @@ std::vector<int> pairAll(const TriangleList& triangles, const Points& vertices) 
     int last = h, mate = -1;
     const int forward = outgoing.count(triangles, start, end, &last),
               backward = outgoing.count(triangles, end, start, &mate);
-    if (forward != backward) {
-      throw std::invalid_argument(fmt::format(
-          "the mesh is not a closed oriented surface: the edge from vertex {} to {} has {} triangles in "
-          "this direction and {} in the other",
-          start, end, forward, backward));
-    }
+    if (forward != backward) continue;
     if (forward == 1) {
       mates[h] = mate;
       mates[mate] = h;
@@ -109,10 +145,9 @@ std::vector<int> pairAll(const TriangleList& triangles, const Points& vertices) 
   return mates;
 }
 
-}  // namespace
-
 ManifoldMesh splitNonManifold(const TriangleList& triangles, const Points& vertices) {
-  ManifoldMesh manifold{triangles, pairAll(triangles, vertices), {}};
+  ManifoldMesh manifold{triangles, matesAcrossBody(triangles, vertices), {}};
+  requireMates(triangles, manifold.mates);
   const auto count = static_cast<int>(vertices.rows());
   std::vector<bool> taken(static_cast<std::size_t>(count), false), numbered(manifold.mates.size(), false);
   for (int corner = 0; corner < static_cast<int>(numbered.size()); ++corner) {

@@ -15,6 +15,11 @@ struct ManifoldMesh {
       copied_from;  ///< per copy, its original; copies are numbered after the vertices of the mesh
 };
 
+/// Per half-edge, its mate in the neighbouring triangle. At an edge with more than two triangles, two
+/// triangles with the body between them are neighbours. -1: the edge does not have the same number of
+/// triangles in both directions.
+std::vector<int> matesAcrossBody(const TriangleList& triangles, const Points& vertices);
+
 /// Makes a mesh manifold by duplicating non-manifold vertices: sheets that touch in edges or vertices are
 /// separated. At an edge with more than two triangles, two triangles with the body between them become
 /// neighbours. @throw std::invalid_argument if an edge does not have the same number of triangles in both
