@@ -7,8 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "shells/shell_nesting.h"
 #include "shells/hole_filling.h"
+#include "shells/shell_nesting.h"
 
 namespace softbody {
 namespace {

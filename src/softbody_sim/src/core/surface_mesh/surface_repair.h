@@ -35,8 +35,8 @@ std::ptrdiff_t flipTriangles(const std::vector<bool>& flip, WeldedSurface* surfa
 /// What a mesh is meant to be. The triangles of a sheet have no separate back.
 enum class SurfaceKind { kSolid, kSheet };
 
-/// Drops unused vertices, welds vertices within 1e-7 of the mesh's size (up to 1e-4 if that closes it), drops flat and repeated triangles,
-/// and makes neighbours face the same way. Vertices stay in file order.
+/// Drops unused vertices, welds vertices within 1e-7 of the mesh's size (up to 1e-4 if that closes it), drops
+/// flat and repeated triangles, and makes neighbours face the same way. Vertices stay in file order.
 /// @param name of the mesh, for warnings. @throw std::invalid_argument if no triangle is left.
 WeldedSurface repairSurface(const SurfaceFile& file, const std::string& name, Warnings* warnings,
                             SurfaceKind kind = SurfaceKind::kSolid);
