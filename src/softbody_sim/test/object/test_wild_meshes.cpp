@@ -16,11 +16,11 @@ struct WildMesh {
   const char* said = "";  ///< part of a warning
 };
 
-class WildMeshes : public test::ObjectModelTest, public testing::WithParamInterface<WildMesh> {};
+class WildMeshes : public test::ObjectModelTest, public ::testing::WithParamInterface<WildMesh> {};
 
 INSTANTIATE_TEST_SUITE_P(
     SharedData, WildMeshes,
-    testing::Values(
+    ::testing::Values(
         WildMesh{"plain.obj", 800}, WildMesh{"unused_outside.obj", 800, "1 vertices that no triangle uses"},
         WildMesh{"needle.obj", 800, "1 vertices of triangles without area"}, WildMesh{"bom_plain.obj", 800},
         WildMesh{"bom.stl", 800}, WildMesh{"backslash.obj", 800},

@@ -12,11 +12,12 @@ namespace softbody {
 
 /// The triangle mesh of a file, in file units. Polygons are triangulated.
 struct SurfaceFile {
-  TriangleMesh mesh;           ///< vertices in file order, all of them finite
-  Points texture_coordinates;  ///< empty, or 3 #F rows (u, v, 0), in the order of the triangles' corners
-  std::vector<int> material;   ///< #F: index into `materials`; -1: none
-  std::vector<std::string> materials;     ///< names (OBJ) or pictures (PLY)
-  std::vector<FileReference> references;  ///< material files (OBJ), or the picture of each material (PLY)
+  TriangleMesh mesh;               ///< vertices in file order, all of them finite
+  Points texture_coordinates;      ///< empty, or 3 #F rows (u, v, 0), in the order of the triangles' corners
+  std::vector<int> material = {};  ///< #F: index into `materials`; -1: none
+  std::vector<std::string> materials = {};  ///< names (OBJ) or pictures (PLY)
+  std::vector<FileReference> references =
+      {};  ///< material files (OBJ), or the picture of each material (PLY)
 };
 
 /// The pictures of a surface.

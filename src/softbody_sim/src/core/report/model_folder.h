@@ -13,7 +13,7 @@ struct ModelSource {
   std::string mesh;        ///< OBJ, PLY, STL or OFF
   std::string unit = "m";  ///< m, cm, mm or inch
   double scale = 0.0;      ///< metres per unit of the mesh; above 0, it replaces the unit
-  BodyOptions body;
+  BodyOptions body = {};
 };
 
 /// Writes FOLDER/{object.yaml, visual.obj, cage.obj, tets.vtu, report/report.md, report/models.png} in
