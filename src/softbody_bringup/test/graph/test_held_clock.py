@@ -38,7 +38,15 @@ class HeldClock(unittest.TestCase):
         cls.service = staticmethod(rospy.ServiceProxy("/softbody/feature_tracker/set_pose", SetPose))
         cls.recorder.wait(lambda seen: any(not targets.reset for targets in seen["softbody/targets"]),
                           "targets that go on from the last state")
+        cls.wait_for_true_frame()
         cls.hold()
+
+    @classmethod
+    def wait_for_true_frame(cls):
+        end = time.monotonic() + PATIENCE_S
+        while not cls.buffer.can_transform(OPTICAL_FRAME, TRUE_FRAME, rospy.Time(0)):
+            assert time.monotonic() < end, "no transform of the true body"
+            time.sleep(0.05)
 
     @classmethod
     def tick(cls):

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -133,11 +134,16 @@ void tryCuts(const CuttableSurface& surface, const MeshTopology& mesh, ModelTria
 }
 
 void findCrossings(const MeshTopology& mesh, ModelTrial* trial) {
-  const std::vector<Eigen::Index> crossing = crossingTriangles({mesh.rest_vertices, mesh.triangles});
+  const auto crossing = crossingTriangles({mesh.rest_vertices, mesh.triangles});
   trial->crossings = static_cast<int>(crossing.size());
   if (crossing.empty()) return;
-  for (const int v : mesh.triangles.row(crossing.front()))
-    trial->crossing += mesh.rest_vertices.row(v).transpose() / 3.0;
+  Eigen::AlignedBox3d common(Eigen::Vector3d::Constant(-1e9), Eigen::Vector3d::Constant(1e9));
+  for (const Eigen::Index triangle : crossing.front()) {
+    Eigen::AlignedBox3d box;
+    for (const int v : mesh.triangles.row(triangle)) box.extend(mesh.rest_vertices.row(v).transpose());
+    common = common.intersection(box);
+  }
+  trial->crossing = common.center();
 }
 
 }  // namespace

@@ -21,14 +21,15 @@ bool intersectsItself(const TriangleMesh& mesh) {
   return !surface || CGAL::Polygon_mesh_processing::does_self_intersect(*surface);
 }
 
-std::vector<Eigen::Index> crossingTriangles(const TriangleMesh& mesh) {
+std::vector<std::array<Eigen::Index, 2>> crossingTriangles(const TriangleMesh& mesh) {
   const std::optional<Surface> surface = toCgal<Point>(mesh);
   if (!surface) return {};
   std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
   CGAL::Polygon_mesh_processing::self_intersections(*surface, std::back_inserter(pairs));
-  std::vector<Eigen::Index> first;
-  for (const auto& [a, b] : pairs) first.push_back(static_cast<Eigen::Index>(a));
-  return first;
+  std::vector<std::array<Eigen::Index, 2>> triangles;
+  for (const auto& [a, b] : pairs)
+    triangles.push_back({static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)});
+  return triangles;
 }
 
 }  // namespace softbody

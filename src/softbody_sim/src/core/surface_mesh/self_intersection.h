@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "softbody_common/types.h"
@@ -10,8 +11,8 @@ namespace softbody {
 /// an edge (exact predicates, CGAL).
 bool intersectsItself(const TriangleMesh& mesh);
 
-/// One triangle of each pair that meets outside of its common vertices and edges. Empty if more than two
+/// The pairs of triangles that meet outside of their common vertices and edges. Empty if more than two
 /// triangles meet at an edge.
-std::vector<Eigen::Index> crossingTriangles(const TriangleMesh& mesh);
+std::vector<std::array<Eigen::Index, 2>> crossingTriangles(const TriangleMesh& mesh);
 
 }  // namespace softbody
