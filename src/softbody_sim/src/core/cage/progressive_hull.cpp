@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cage/half_spaces.h"
 #include "surface_mesh/cgal_mesh.h"
-#include "surface_mesh/half_spaces.h"
 #include "surface_mesh/surface_repair.h"
 
 namespace softbody {

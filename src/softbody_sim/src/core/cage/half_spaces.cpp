@@ -1,4 +1,4 @@
-#include "surface_mesh/half_spaces.h"
+#include "cage/half_spaces.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "surface_mesh/half_spaces.h"
+#include "cage/half_spaces.h"
 
 namespace softbody {
 namespace {
