@@ -106,6 +106,8 @@ class Mask(unittest.TestCase):
         small = Image(height=2, width=3, encoding="mono8", step=3, data=bytes(6))
         subscriber = rospy.Subscriber("/softbody/rgb/image_rect_color", Image, lambda message: self.answer(small, message))
         self.recorder.wait_for_log("/softbody/feature_tracker", "the mask is 3x2", Log.ERROR)
+        self.recorder.wait(lambda seen: any("the mask is 3x2" in s.reason for s in seen["softbody/status"]),
+                           "a status that says so")
         subscriber.unregister()
 
     def answer(self, mask, image):

@@ -135,6 +135,13 @@ TEST(ChosenBody, DustIsDroppedQuickly) {
   EXPECT_TRUE(chosen.says("shells were dropped as dust")) << chosen.said;
 }
 
+TEST(ChosenBody, OfManyEqualShellsTheFirstStay) {
+  TriangleMesh mesh = boxMesh({0.01, 0.01, 0.01});
+  for (int k = 1; k < 150; ++k)
+    mesh = together({mesh, boxMesh({0.01, 0.01, 0.01}, {0.02 * k, 0, 0}, {1, 1, 1})});
+  EXPECT_NEAR(choose(mesh, {"all", 1.0, 0.0}).volume(), 100 * 1e-6, 1e-12);
+}
+
 TEST(WholeBody, KeepsSurfacesThatEncloseNothing) {
   TriangleMesh fin{(Points(3, 3) << 3, 0, 0, 3.1, 0, 0, 3, 0.1, 0).finished(),
                    (Triangles(1, 3) << 0, 1, 2).finished()};

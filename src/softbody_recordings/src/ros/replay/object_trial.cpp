@@ -18,23 +18,24 @@ validation::TrialFacts tryObject(const std::string& path, const BagFramesConfig&
   StageTimer timer;
   validation::TrialFacts trial;
   trial.object = object;
-  Nanoseconds start = 0;
+  CameraImages first;  // with depth
   BagFramesUse use;
   use.frame = [&](const CameraImages& images, const std_msgs::Header&, double share) {
-    if (trial.found || trial.fitting_unit_m) return;
+    if (trial.found) return;
     const TrackingResult result = tracker.track(ingest.process(images), nullptr, &timer);
-    if (trial.frames++ == 0) start = images.stamp;
+    if (trial.frames++ == 0) first = images, first.depth = images.depth.clone();
     trial.found = result.has_targets;
-    trial.found_after_s = seconds(images.stamp - start);
+    trial.found_after_s = seconds(images.stamp - first.stamp);
     trial.unit_m = unitOf(images);
     progress(share);
-    if (trial.found || trial.frames > 1) return;
-    trial.first_reason = result.status.reason;
-    trial.fitting_unit_m = depthUnitThatFits(images, &ingest, defaults.tracker, pipeline.volumeTopology(),
-                                             pipeline.surfaceTopology());
+    if (!trial.found && trial.frames == 1) trial.first_reason = result.status.reason;
   };
-  use.enough = [&trial] { return trial.found || trial.fitting_unit_m.has_value(); };
+  use.enough = [&trial] { return trial.found; };
   readBagImages(openBag(path), config, use);
+  // As replay does: a body that comes into view later is no matter of the unit.
+  if (!trial.found && trial.frames > 0)
+    trial.fitting_unit_m = depthUnitThatFits(first, &ingest, defaults.tracker, pipeline.volumeTopology(),
+                                             pipeline.surfaceTopology());
   return trial;
 }
 

@@ -89,8 +89,9 @@ Judgement judgeMotion(const ModelTrial& trial) {
             fmt::format("stretched and let go, {} tets end inverted and the energy grows to {:.2g} "
                         "times; give another number of --cage-vertices",
                         trial.inverted, trial.energy_growth)};
-  return {Verdict::kGood, fmt::format("stretched and let go, it comes to rest in a simulation of {:.1f} s",
-                                      trial.simulated_s)};
+  return {Verdict::kGood,
+          fmt::format("stretched and let go, no tet inverts and the energy does not grow in {:.1f} s",
+                      trial.simulated_s)};
 }
 
 /// The number of triangles with which the surface takes half of the frame's time.

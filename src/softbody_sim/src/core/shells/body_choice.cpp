@@ -73,12 +73,15 @@ std::vector<Shell> dropSheets(const std::string& name, WeldedSurface* surface) {
 std::vector<Shell> dropDust(WeldedSurface* surface) {
   const std::vector<Shell> shells = shellsOf(surface->mesh);
   if (shells.size() <= kMostShells) return {};
-  std::vector<double> volumes;
-  for (const Shell& shell : shells) volumes.push_back(std::abs(shell.volume));
-  std::nth_element(volumes.begin(), volumes.begin() + kMostShells, volumes.end(), std::greater<>());
-  const double limit = volumes[kMostShells];
+  std::vector<std::size_t> order(shells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(shells[a].volume) > std::abs(shells[b].volume);
+  });
+  std::vector<bool> dust(shells.size(), false);
+  for (std::size_t k = kMostShells; k < order.size(); ++k) dust[order[k]] = true;
   return dropShells(
-      shells, [&](std::size_t s) { return std::abs(shells[s].volume) <= limit; }, surface);
+      shells, [&](std::size_t s) { return dust[s]; }, surface);
 }
 
 void flipOutward(WeldedSurface* surface) {

@@ -29,8 +29,10 @@ struct TrackingResult {
   TrackingStatus status;
 };
 
-/// Status of a frame that is not tracked because the camera's pose in the output frame is unknown. A tracked
-/// body stays in its place.
+/// Status of a frame that cannot be tracked. A tracked body stays in its place.
+TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& why);
+
+/// The same, because the camera's pose in the output frame is unknown.
 TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
                             const std::string& output_frame, const std::string& why);
 

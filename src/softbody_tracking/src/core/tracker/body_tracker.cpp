@@ -77,14 +77,18 @@ struct BodyTracker::Implementation {
   int pass = 0;                       ///< of the last frame
 };
 
-TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
-                            const std::string& output_frame, const std::string& why) {
+TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& why) {
   TrackingStatus status;
   status.state = last.state == TrackingState::kTracking ? TrackingState::kDegraded : last.state;
   status.features_total = last.features_total;
-  status.reason = fmt::format("frame skipped: tf does not say where {} is in output_frame {}: {}",
-                              camera_frame, output_frame, why);
+  status.reason = "frame skipped: " + why;
   return status;
+}
+
+TrackingStatus skippedFrame(const TrackingStatus& last, const std::string& camera_frame,
+                            const std::string& output_frame, const std::string& why) {
+  return skippedFrame(last, fmt::format("tf does not say where {} is in output_frame {}: {}", camera_frame,
+                                        output_frame, why));
 }
 
 TrackingStatus withoutImages(const TrackingStatus& last, const std::optional<double>& silence_s) {

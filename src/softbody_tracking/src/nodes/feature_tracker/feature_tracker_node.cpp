@@ -110,8 +110,9 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
   publish(header, frame, result);
   publisher_.publishTiming(header, timer.take());
 } catch (const std::exception& error) {
-  ROS_ERROR_STREAM_THROTTLE(
-      5.0, "frame " << received.images.color->header.stamp << " cannot be tracked: " << error.what());
+  const std_msgs::Header& header = received.images.color->header;
+  report(header, skippedFrame(last_status_, error.what()));
+  ROS_ERROR_STREAM_THROTTLE(5.0, "frame " << header.stamp << " cannot be tracked: " << error.what());
 }
 
 /// A bag has started again: states, blades and frames from the end of it are invalid.
