@@ -152,7 +152,7 @@ std::vector<const Mutation*> choose(const std::vector<Mutation>& all, Random* ra
   return chosen;
 }
 
-/// RECORDINGS=N: so many, first each mutation alone (make recordings).
+/// RECORDINGS=N sets their number: first each mutation alone (make recordings).
 TEST_F(MutatedRecordings, AreUsableExactlyWhenTheyCanBeTrackedAndMeasured) {
   const char* const wanted = std::getenv("RECORDINGS");
   const int count = wanted != nullptr ? std::atoi(wanted) : kQuick;

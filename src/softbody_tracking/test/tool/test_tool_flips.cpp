@@ -87,6 +87,25 @@ TEST(ToolFlips, GoodPrintsCutFromTheSecondFrame) {
   }
 }
 
+/// Without the camera's pose, a second pose cannot be compared with the first.
+TEST(ToolFlips, FramesWithoutTheCamerasPoseNeitherCutNorConfirm) {
+  const ToolDescription tool = knife(0.04, 2);
+  std::mt19937 random(3);
+  ToolTracker tracker(tool);
+  const auto cutsIn = [&](int i, bool placed) {
+    RgbdFrame frame = jitteredFrame(tool, held(0.4, 0.4, i), i * kPeriod, {0.1, true}, &random);
+    frame.placed = placed;
+    const auto answer = tracker.track(frame, nullptr);
+    return answer && answer->cuts;
+  };
+  EXPECT_FALSE(cutsIn(0, false));
+  EXPECT_FALSE(cutsIn(1, false));
+  EXPECT_FALSE(cutsIn(2, true));
+  EXPECT_FALSE(cutsIn(3, false));
+  EXPECT_TRUE(cutsIn(4, true));
+  EXPECT_TRUE(cutsIn(5, false));
+}
+
 TEST(CornerNoise, ApproachesTheSpreadOfTheResidualsAndNeverFallsBelowTheGivenValue) {
   std::mt19937 random(1);
   for (const double true_px : {0.05, 0.15, 1.0}) {

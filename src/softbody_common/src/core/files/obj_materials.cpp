@@ -36,7 +36,7 @@ std::vector<fs::path> placesOf(const FileReference& reference) {
   return {folder / reference.name, folder / slashed, folder / fs::path(slashed).filename()};
 }
 
-/// The place of a file that may be used. Empty if there is none.
+/// The path of a file that may be used; empty without such a file.
 fs::path allowedPlace(const FileReference& reference, const fs::path& within) {
   for (const fs::path& place : placesOf(reference)) {
     if (isFile(place) && (within.empty() || isInside(place, within))) return place;

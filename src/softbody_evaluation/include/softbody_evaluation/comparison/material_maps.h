@@ -10,7 +10,7 @@
 namespace softbody::evaluation {
 
 /// Sets SurfaceRecord::material where the tracker said that poses look alike and the mesh does look the same
-/// in the pose that it took. Begins anew where the tracker found an uncut body again.
+/// in the pose that it took. It starts again where the tracker found an uncut body again.
 /// @param statuses in order of the stamps. @param truth of the same mesh; null: nothing is compared.
 /// @return what the tracker said; empty if it never said so. A pose in which the mesh differs stays an error.
 std::optional<AlikePoses> mapMaterial(const std::vector<StatusRecord>& statuses, const SurfaceRecord* truth,

@@ -38,7 +38,7 @@ Skin readSkin(const std::string& path, Warnings* warnings) {
   return skin;
 }
 
-/// The picture on most triangles; empty if none is on any.
+/// The picture that most triangles show; empty if no triangle shows a picture.
 std::string chosenPicture(const std::string& mesh, const SurfacePictures& pictures, Warnings* warnings) {
   std::vector<std::size_t> uses(pictures.files.size(), 0);
   for (const int picture : pictures.picture) {

@@ -17,7 +17,7 @@ struct SearchReport {
 
   Eigen::Vector3d body_m = Eigen::Vector3d::Zero();  ///< sides of the mesh's bounding box, the largest first
   double depth_share = 0.0;                          ///< pixels with depth
-  double nearest_m = 0.0, farthest_m = 0.0;          ///< of all depth; 0: there is none
+  double nearest_m = 0.0, farthest_m = 0.0;          ///< of all depth; 0 without depth
 
   /// Of the part of the depth image that is most like the body; a size of 0: no part stands free.
   Eigen::Vector3d part_m = Eigen::Vector3d::Zero();  ///< along its principal axes, the largest first

@@ -72,7 +72,7 @@ double overlap(const DepthPart& part, const RasterImage& mesh) {
   return static_cast<double>(shared) / std::max<double>(1.0, covered + part.candidate.pixels - shared);
 }
 
-/// The part that a mesh covers best; without a mesh, the likeliest one. nullptr: there is none.
+/// The part that a mesh covers best; without a mesh, the likeliest one. nullptr without parts.
 const DepthPart* partAt(const std::vector<DepthPart>& parts, const std::optional<RasterImage>& mesh) {
   const auto badness = [&](const DepthPart& part) { return mesh ? -overlap(part, *mesh) : part.rating; };
   const auto best = std::min_element(parts.begin(), parts.end(),

@@ -13,7 +13,7 @@ constexpr double kMinCell_px = 2.0;  // smaller cells cannot be read
 constexpr int kBrighter = 15;        // grey levels of a bright pixel above its surroundings
 constexpr int kSmallestGap_px = 3, kLargestGap_px = 50;  // that is closed between the bright cells of a group
 constexpr double kGapStep = 1.4;  // from one gap to the next: cells join before they join their surroundings
-constexpr double kStraight = 0.02;     // of a group's perimeter: smaller bends in its outline are none
+constexpr double kStraight = 0.02;  // of a group's perimeter: smaller bends in its outline count as straight
 constexpr double kSurroundings = 6.0;  // part of the image's smaller side that counts as the surroundings
 
 cv::Mat1b brightPixels(const cv::Mat1b& gray) {

@@ -56,7 +56,7 @@ class Search {
   }
 
  private:
-  /// The tool's own among the markers; a marker with id -1 if there is none.
+  /// One of the tool's own among the markers, or a marker with id -1.
   template <typename Marker>
   Found own(const std::vector<Marker>& markers) const {
     for (const Marker& marker : markers) {

@@ -162,7 +162,8 @@ struct ToolTracker::Implementation {
     const bool follows = motion && !best.against_motion;
     if (!follows) motion.reset();
     const bool certain_alone = !isAmbiguous(hypotheses, false, config);
-    confirmed = follows && (confirmed || certain_alone);
+    // Without the camera's pose nothing says whether two poses agree.
+    confirmed = follows && (confirmed || (certain_alone && frame.placed));
     if (observation.ambiguous || (follows && !confirmed)) {
       reason = "two poses fit equally well: the marker is too small in the image, or it faces the camera";
     } else if (isUncertain(observation)) {
@@ -170,7 +171,7 @@ struct ToolTracker::Implementation {
     } else {
       reason.clear();
     }
-    observation.cuts = reason.empty() && (confirmed || !frame.placed);
+    observation.cuts = reason.empty() && confirmed;
     return observation;
   }
 
