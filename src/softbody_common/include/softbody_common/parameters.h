@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/node/node.h>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ class Parameters {
   explicit Parameters(YAML::Node values = YAML::Node(), std::string prefix = "");
 
   double number(const std::string& key, double fallback, double min, double max);
+  /// Empty if the key is missing.
+  std::optional<double> optionalNumber(const std::string& key, double min, double max);
   int integer(const std::string& key, int fallback, int min, int max);
   bool flag(const std::string& key, bool fallback);
   std::string text(const std::string& key, const std::string& fallback);

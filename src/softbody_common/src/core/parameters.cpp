@@ -44,6 +44,12 @@ double Parameters::number(const std::string& key, double fallback, double min, d
   return inRange(prefix_ + key, get(key, fallback, "a number"), min, max);
 }
 
+std::optional<double> Parameters::optionalNumber(const std::string& key, double min, double max) {
+  known_.insert(key);
+  if (!values_.IsMap() || !values_[key].IsDefined()) return std::nullopt;
+  return number(key, min, min, max);
+}
+
 int Parameters::integer(const std::string& key, int fallback, int min, int max) {
   return inRange(prefix_ + key, get(key, fallback, "a whole number"), min, max);
 }

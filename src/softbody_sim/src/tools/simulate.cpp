@@ -27,11 +27,11 @@ struct Options {
   std::vector<std::string> pins;
   std::vector<std::vector<std::string>> region_loads;
   double ground = std::numeric_limits<double>::quiet_NaN(), friction = 0.0;
-  bool until_rest = false;
+  bool until_rest = false, node_defaults = false;
   int steps = 100;
   std::optional<int> iterations;
-  double time_step_s = 1.0 / 30.0, tolerance = 1e-6, strain_smoothing = SimulatorConfig().strain_smoothing,
-         volume_smoothing = 1.0;
+  double time_step_s = 1.0 / 30.0, tolerance = 1e-6, strain_smoothing = SimulatorConfig().strain_smoothing;
+  std::optional<double> volume_smoothing;
 };
 
 void addMaterialOptions(CLI::App& app, Options& o) {
@@ -55,9 +55,8 @@ void addMaterialOptions(CLI::App& app, Options& o) {
       ->check(CLI::Range(0.0, 0.95))
       ->capture_default_str();
   app.add_option("--volume-smoothing", o.volume_smoothing,
-                 "the same of the volume energy; 1 prevents locking at Poisson's ratios above 0.4")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+                 "the same of the volume energy; default: from Poisson's ratio, so that the tets do not lock")
+      ->check(CLI::Range(0.0, 1.0));
 }
 
 void addProblemOptions(CLI::App& app, Options& o) {
@@ -98,13 +97,19 @@ void addSolverOptions(CLI::App& app, Options& o) {
                  "maximum number of iterations per step; default: 200 of fem, 20000 of pd")
       ->check(CLI::Range(1, 100000));
   app.add_option("--tolerance", o.tolerance,
-                 "a step has converged when no vertex moves further [mean edge lengths]")
+                 "a step has converged when the unbalanced forces are this share of the external ones")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  app.add_flag("--node-defaults", o.node_defaults,
+               "every setting as the node simulator without parameters; material, gravity and problem as given")
+      ->excludes("--solver", "--iterations", "--tolerance", "--elasticity", "--strain-smoothing",
+                 "--volume-smoothing");
 }
 
 SimulatorConfig configOf(const Options& o) {
   SimulatorConfig config;
+  config.gravity = Eigen::Vector3d(o.gravity.data());
+  if (o.node_defaults) return config;
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;
   config.elasticity = o.elasticity == "corotated" ? Elasticity::kCorotated : Elasticity::kNeoHookean;
   config.strain_smoothing = o.strain_smoothing;
@@ -113,7 +118,6 @@ SimulatorConfig configOf(const Options& o) {
   config.iterations = o.iterations.value_or(o.solver == "fem" ? 200 : 20000);
   config.tolerance = o.tolerance;
   config.max_time_step_s = o.time_step_s;
-  config.gravity = Eigen::Vector3d(o.gravity.data());
   return config;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "softbody_common/parameters.h"
@@ -17,12 +18,13 @@ struct SimulatorConfig {
   Elasticity elasticity = Elasticity::kCorotated;
   bool simulate = true;     ///< false: targets move surface vertices directly (Kang et al. 2022, Fig. 6)
   int iterations = 20;      ///< maximum of a step: local/global iterations, or Newton iterations
-  double tolerance = 1e-4;  ///< a step has converged when no vertex moves further [mean edge lengths]
+  /// A step has converged when the sum of the unbalanced forces is this share of that of the external forces.
+  double tolerance = 1e-3;
   int lbfgs_history = 5;    ///< moves that L-BFGS keeps, at most 5; 0: plain projective dynamics
   /// Fraction of the shear energy that uses strains smoothed around the vertices. It reduces the locking of
   /// linear tets in bending. 0: no smoothing.
   double strain_smoothing = 0.7;
-  double volume_smoothing = 0.7;   ///< the same of the volume energy; 1 for Poisson's ratios above 0.4
+  std::optional<double> volume_smoothing;  ///< the same of the volume energy; empty: volumeSmoothing(nu)
   bool single_precision = false;   ///< twice as fast, positions accurate to about 0.1 um
   std::string simd = "auto";       ///< vector instructions: auto (the widest available), sse4, avx2 or avx512
   bool normalized_mass = false;    ///< the mass is 1 kg for every density (Kang et al. 2022, section 5.1)

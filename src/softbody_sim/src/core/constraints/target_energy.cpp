@@ -21,18 +21,6 @@ double holdOf(const Spring& spring, const Eigen::Vector3d& offset) {
   return spring.isFriction() && length > spring.slide_m ? spring.slide_m / length : 1.0;
 }
 
-/// Stiffness matrix, relative to the stiffness. @param offset as it costs energy [m].
-Eigen::Matrix3d curvatureOf(const Spring& spring, const Eigen::Vector3d& offset) {
-  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  if (spring.normal.isZero(0.0)) return identity;
-  const Eigen::Matrix3d along = spring.normal * spring.normal.transpose();
-  if (!spring.isFriction()) return along;
-  const double hold = holdOf(spring, offset);
-  if (hold == 1.0) return identity - along;
-  const Eigen::Vector3d direction = offset.normalized();
-  return hold * (identity - along - direction * direction.transpose());
-}
-
 /// Whether one of the next `max_count` springs has the same place.
 bool soonFollows(SpringIterator first, SpringIterator end, const Spring& spring, std::size_t max_count) {
   const auto last = first + std::min<std::ptrdiff_t>(end - first, static_cast<std::ptrdiff_t>(max_count) + 1);
@@ -92,17 +80,30 @@ void TargetEnergy::addMetric(TetMatrix* matrix) const {
   }
 }
 
+bool TargetEnergy::hasContact() const {
+  return std::any_of(springs_.begin(), springs_.end(), [](const Spring& spring) { return spring.one_sided; });
+}
+
+Eigen::Matrix3d TargetEnergy::curvatureAt(const Spring& spring, const Points& x) {
+  const Eigen::Matrix3d all = spring.stiffness * Eigen::Matrix3d::Identity();
+  if (spring.normal.isZero(0.0)) return all;
+  const Eigen::Vector3d offset = offsetOf(spring, x);
+  const Eigen::Matrix3d along = spring.stiffness * spring.normal * spring.normal.transpose();
+  if (!spring.isFriction()) return spring.one_sided && offset.isZero(0.0) ? Eigen::Matrix3d::Zero() : along;
+  const double hold = holdOf(spring, offset);
+  if (hold == 1.0) return all - along;
+  const Eigen::Vector3d direction = offset.normalized();
+  return hold * (all - along - spring.stiffness * direction * direction.transpose());
+}
+
 void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
   for (const Spring& spring : springs_) {
-    const Eigen::Vector3d offset = offsetOf(spring, x);
-    if (spring.one_sided && offset.isZero(0.0)) continue;
-    const Eigen::Matrix3d curvature = curvatureOf(spring, offset);
+    const Eigen::Matrix3d curvature = curvatureAt(spring, x);
+    if (curvature.isZero(0.0)) continue;
     Eigen::MatrixXd block(12, 12);
     for (Eigen::Index a = 0; a < 4; ++a) {
-      for (Eigen::Index b = 0; b < 4; ++b) {
-        block.block<3, 3>(3 * a, 3 * b) =
-            spring.stiffness * spring.barycentric[a] * spring.barycentric[b] * curvature;
-      }
+      for (Eigen::Index b = 0; b < 4; ++b)
+        block.block<3, 3>(3 * a, 3 * b) = spring.barycentric[a] * spring.barycentric[b] * curvature;
     }
     matrix->addToGroup(static_cast<std::size_t>(spring.tet), block);
   }

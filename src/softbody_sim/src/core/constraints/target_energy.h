@@ -57,6 +57,11 @@ class TargetEnergy {
                      std::vector<TetVector>* removed) const;
 
   const std::vector<Spring>& springs() const { return springs_; }
+  bool hasContact() const;
+
+  /// Second derivative of a spring's energy by the place of its point [N/m]. Zero for a one-sided spring that
+  /// does not act.
+  static Eigen::Matrix3d curvatureAt(const Spring& spring, const Points& x);
 
  private:
   static Eigen::Vector3d offsetOf(const Spring& spring, const Points& x);

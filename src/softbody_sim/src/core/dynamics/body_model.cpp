@@ -34,18 +34,18 @@ double densityOf(const TetTopology& topology, const Material& material, const Si
 }
 
 std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Material& material,
-                                       const SimulatorConfig& config, double edge_length) {
+                                       const SimulatorConfig& config) {
   requireConsistent(config);
   const Lame lame = lameParameters(material.youngs_modulus_pa, material.poisson_ratio);
-  const Smoothing smoothing(config.strain_smoothing, config.volume_smoothing);
-  const double tolerance_m = config.tolerance * edge_length;
+  const Smoothing smoothing(config.strain_smoothing,
+                            config.volume_smoothing.value_or(volumeSmoothing(material.poisson_ratio)));
   if (config.solver == SolverKind::kFem) {
     return std::make_unique<FemSolver>(topology, config.elasticity, lame, smoothing,
-                                       FemSolver::Options{config.iterations, tolerance_m});
+                                       FemSolver::Options{config.iterations, config.tolerance});
   }
   ProjectiveDynamicsOptions options;
   options.minimizer.max_iterations = config.iterations;
-  options.minimizer.tolerance_m = tolerance_m;
+  options.minimizer.tolerance = config.tolerance;
   options.minimizer.history = config.lbfgs_history;
   options.single_precision = config.single_precision;
   options.simd = simdFromName(config.simd);
@@ -56,13 +56,17 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
 /// Largest stiffness of a pin relative to the body. Larger values would lose too many digits to rounding.
 constexpr double kPinStiffness = 1e5;
 
+/// A force that moves a free body by less in a step is too small to be balanced [mean edge lengths].
+constexpr double kNoticeableMove = 0.01;
+
 ConstrainedStep makeStep(const TetTopology& topology, const Material& material, const SimulatorConfig& config,
                          double edge_length, double target_stiffness, StepSolver* solver) {
   const double E = material.youngs_modulus_pa;
   return {topology,
           ContactForces(topology, config.contact_spacing * edge_length,
                         config.contact_stiffness * E / edge_length, 0.1 * edge_length),
-          {target_stiffness, config.target_accuracy_m, kPinStiffness * E * edge_length, 1e-3 * edge_length},
+          {target_stiffness, config.target_accuracy_m, kPinStiffness * E * edge_length, 1e-3 * edge_length,
+           kNoticeableMove * edge_length},
           solver};
 }
 
@@ -73,7 +77,7 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
     : topology(std::move(topology_in)),
       masses(lumpedMasses(topology, densityOf(topology, material, config))),
       target_stiffness(config.target_stiffness * material.youngs_modulus_pa * edge_length),
-      solver(makeSolver(topology, material, config, edge_length)),
+      solver(makeSolver(topology, material, config)),
       constrained_step(makeStep(topology, material, config, edge_length, target_stiffness, solver.get())),
       vertex_confidence(topology.rest_vertices, topology.tets),
       vertex_deviation(topology),

@@ -37,7 +37,7 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.normalized_mass = parameters.flag("normalized_mass", config.normalized_mass);
   config.lbfgs_history = parameters.integer("lbfgs_history", config.lbfgs_history, 0, 5);
   config.strain_smoothing = parameters.number("strain_smoothing", config.strain_smoothing, 0.0, 0.95);
-  config.volume_smoothing = parameters.number("volume_smoothing", config.volume_smoothing, 0.0, 1.0);
+  config.volume_smoothing = parameters.optionalNumber("volume_smoothing", 0.0, 1.0);
   config.single_precision = parameters.flag("single_precision", config.single_precision);
   config.simd = parameters.choice("simd", config.simd, {"auto", "sse4", "avx2", "avx512"});
   config.target_stiffness = parameters.number("target_stiffness", config.target_stiffness, 1e-6, 1e6);

@@ -42,6 +42,8 @@ void ConstrainedStep::setPotential(const Problem& problem) {
   potential_.prediction = problem.free.prediction;
   potential_.loads = problem.free.loads;
   if (problem.surroundings.loads.size() > 0) potential_.loads += problem.surroundings.loads;
+  potential_.reference_force_n =
+      potential_.loads.cwiseAbs().sum() + options_.noticeable_move_m * potential_.inertia.sum();
 }
 
 /// Stiffnesses are inverse variances, in a unit that the targets give.
@@ -61,13 +63,31 @@ void ConstrainedStep::addPins(const std::vector<Pin>& pins) {
   }
 }
 
-/// For a body that hangs or lies, its earlier shape is a better start than the prediction from the loads.
+/// For a body that hangs or lies, its earlier shape is a better start than the prediction from the loads. So is
+/// that shape moved rigidly to where springs and inertia want it, for one that slides or is carried.
 void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   const Surroundings& surroundings = problem.surroundings;
   if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
-  still_ = problem.before;
-  for (const Pin& pin : surroundings.pins) still_.row(pin.vertex) = x->row(pin.vertex) = pin.position;
-  if (energyAt(still_, problem) < energyAt(*x, problem)) x->swap(still_);
+  still_ = moved_ = problem.before;
+  findContacts(moved_, problem, &contacts_);
+  setSprings(problem.targets);
+  moveRigidly(*x, &moved_);
+  for (const Pin& pin : surroundings.pins)
+    still_.row(pin.vertex) = moved_.row(pin.vertex) = x->row(pin.vertex) = pin.position;
+  double lowest = energyAt(*x, problem);
+  for (Points* candidate : {&still_, &moved_}) {
+    const double energy = energyAt(*candidate, problem);
+    if (!(energy < lowest)) continue;
+    lowest = energy;
+    x->swap(*candidate);
+  }
+}
+
+/// A spring of friction gives way in one of these steps and slides in the next.
+void ConstrainedStep::moveRigidly(const Points& free, Points* x) {
+  constexpr int kMaxSteps = 5;
+  bool falls = rigid_descent_.descend(potential_, free, x);
+  for (int step = 1; step < kMaxSteps && falls; ++step) falls = rigid_descent_.descend(potential_, *x, x);
 }
 
 double ConstrainedStep::energyAt(const Points& x, const Problem& problem) {
@@ -83,7 +103,7 @@ void ConstrainedStep::iterate(const Problem& problem, Points* x) {
   findContacts(*x, problem, &contacts_);
   for (int round = 1;; ++round) {
     setSprings(problem.targets);
-    if (!problem.targets.empty()) rigid_descent_.descend(potential_, x);
+    if (!potential_.targets.springs().empty()) rigid_descent_.descend(potential_, *x, x);
     const int iterations = report.iterations;
     report = solver_->minimize(potential_, x);
     report.iterations += iterations;

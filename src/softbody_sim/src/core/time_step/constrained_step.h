@@ -18,6 +18,7 @@ class ConstrainedStep {
     double target_accuracy_m = 0.0;  ///< standard deviation of a target of weight 1
     double pin_stiffness = 0.0;      ///< the largest: far above all other stiffnesses [N/m]
     double contact_tolerance_m = 0.0;
+    double noticeable_move_m = 0.0;  ///< of a free body in a step; gives the unit of unbalanced forces
   };
   struct Result {
     StepReport report;
@@ -43,6 +44,7 @@ class ConstrainedStep {
   double stiffnessOf(const Pin& pin) const;
   void addPins(const std::vector<Pin>& pins);
   void chooseStart(const Problem& problem, Points* x);
+  void moveRigidly(const Points& free, Points* x);
   double energyAt(const Points& x, const Problem& problem);
   void iterate(const Problem& problem, Points* x);
   void findContacts(const Points& x, const Problem& problem, std::vector<Contact>* contacts);
@@ -58,7 +60,7 @@ class ConstrainedStep {
   const std::vector<Target> no_targets_;
   std::vector<Contact> contacts_;  ///< that the result was computed with
   std::vector<Contact> found_;     ///< at the result
-  Points still_, gradient_;
+  Points still_, moved_, gradient_;
   Result result_;
 };
 

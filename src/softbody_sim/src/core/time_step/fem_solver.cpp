@@ -28,6 +28,8 @@ FemSolver::~FemSolver() = default;
 StepReport FemSolver::minimize(const IncrementalPotential& potential, Points* x) {
   StepReport report;
   energy_ = evaluate(potential, *x, &gradient_);
+  const auto balanced = [&] { return gradient_.cwiseAbs().sum() <= options_.tolerance * energy_.external_n; };
+  report.converged = balanced();
   double step = 0.0;
   while (report.iterations < options_.max_iterations && !report.converged) {
     ++report.iterations;
@@ -35,12 +37,14 @@ StepReport FemSolver::minimize(const IncrementalPotential& potential, Points* x)
     if (step < 1.0 || !findDirection(potential, *x, Hessian::kExact))
       findDirection(potential, *x, Hessian::kProjected);
     step = 1.0;
-    report.last_move_m = direction_.rowwise().norm().maxCoeff();
-    // If no step along a descent direction lowers the energy, this is a minimum within rounding.
-    report.converged = !searchLine(potential, x, &step) || report.last_move_m < options_.tolerance_m;
-    report.last_move_m *= step;
+    // If no step along a descent direction lowers the energy, the rest is rounding.
+    if (!searchLine(potential, x, &step)) break;
+    report.last_move_m = step * direction_.rowwise().norm().maxCoeff();
+    report.converged = balanced();
   }
   report.residual_n = gradient_.rowwise().norm().maxCoeff();
+  report.unbalanced_n = gradient_.cwiseAbs().sum();
+  report.external_n = energy_.external_n;
   return report;
 }
 
@@ -48,9 +52,11 @@ double FemSolver::addElasticity(const Points& x, Points* gradient) const {
   return elasticity_.addTo(x, gradient);
 }
 
-double FemSolver::evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient) const {
-  const double energy = potential.evaluate(x, gradient);
-  return energy + elasticity_.addTo(x, gradient);
+StepEnergy FemSolver::evaluate(const IncrementalPotential& potential, const Points& x,
+                               Points* gradient) const {
+  const double outer = potential.evaluate(x, gradient);
+  const double external_n = potential.reference_force_n + gradient->cwiseAbs().sum();
+  return {outer + elasticity_.addTo(x, gradient), external_n};
 }
 
 /// False if the exact Hessian is not positive definite. The projected one is singular only for a body without
@@ -85,14 +91,15 @@ bool FemSolver::searchLine(const IncrementalPotential& potential, Points* x, dou
   constexpr double kArmijo = 1e-4;
   constexpr int kMaxHalvings = 20;
   const double slope = gradient_.cwiseProduct(direction_).sum();
-  const double rounding = 1e-12 * std::abs(energy_);
+  const double rounding = 1e-12 * std::abs(energy_.energy_j);
   for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
     trial_ = *x + *step * direction_;
-    const double rise = evaluate(potential, trial_, &trial_gradient_) - energy_;
+    const StepEnergy trial = evaluate(potential, trial_, &trial_gradient_);
+    const double rise = trial.energy_j - energy_.energy_j;
     const double trial_slope = trial_gradient_.cwiseProduct(direction_).sum();
     const bool slope_vanishes = rise <= rounding && std::abs(trial_slope) <= (1.0 - 2.0 * kArmijo) * -slope;
     if (!(rise <= kArmijo * *step * slope) && !slope_vanishes) continue;
-    energy_ += rise;
+    energy_ = trial;
     x->swap(trial_);
     gradient_.swap(trial_gradient_);
     return true;

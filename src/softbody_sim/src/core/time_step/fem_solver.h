@@ -4,6 +4,7 @@
 
 #include "elasticity/fem_elasticity.h"
 #include "tets/block_tet_matrix.h"
+#include "time_step/quasi_newton.h"
 #include "time_step/step_solver.h"
 
 namespace softbody {
@@ -15,7 +16,7 @@ class FemSolver : public StepSolver {
  public:
   struct Options {
     int max_iterations = 20;
-    double tolerance_m = 1e-6;  ///< converged when a full Newton step moves no vertex further
+    double tolerance = 1e-3;  ///< as MinimizerOptions
   };
 
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
@@ -30,7 +31,7 @@ class FemSolver : public StepSolver {
   struct Factor;
   enum class Hessian { kExact, kProjected };
 
-  double evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient) const;
+  StepEnergy evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient) const;
   bool findDirection(const IncrementalPotential& potential, const Points& x, Hessian kind);
   bool solveShifted(double shift);
   bool searchLine(const IncrementalPotential& potential, Points* x, double* step);
@@ -39,7 +40,7 @@ class FemSolver : public StepSolver {
   Options options_;
   BlockTetMatrix hessian_;
   std::unique_ptr<Factor> factor_;
-  double energy_ = 0.0;
+  StepEnergy energy_{0.0};
   Points gradient_, direction_, trial_, trial_gradient_;
 };
 

@@ -15,6 +15,7 @@ struct IncrementalPotential {
   Points prediction;        ///< #V by 3: positions without forces [m]
   Points loads;             ///< #V by 3: external forces, including gravity [N]
   TargetEnergy targets;
+  double reference_force_n = 0.0;  ///< of the loads, and a force that moves a free body noticeably [N]
 
   /// Energy [J]; sets its gradient [N], #V by 3.
   double evaluate(const Points& x, Points* gradient) const;

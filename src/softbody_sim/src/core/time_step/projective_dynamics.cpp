@@ -4,6 +4,7 @@
 #include "linear_solvers/global_step_solver.h"
 #include "tets/tet_matrix.h"
 #include "time_step/packed_potential.h"
+#include "time_step/rigid_correction.h"
 
 namespace softbody {
 
@@ -82,6 +83,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
         step_(topology.rest_vertices.rows(), options.simd),
         metric_(topology, elasticity),
         solver_(metric_.lower(), options.simd),
+        rigid_(topology),
         minimizer_(paddedRows(topology.rest_vertices.rows())),
         x_(Rows<T>::Zero(paddedRows(topology.rest_vertices.rows()), 4)),
         double_elasticity_(topology.rest_vertices, elasticity, options.simd),
@@ -92,12 +94,17 @@ class InPrecision : public ProjectiveDynamics::Precision {
     metric_.updateFactor(potential, &solver_);
     step_.set(potential, potential.prediction.colwise().mean());
     step_.toRows(*x, &x_);
-    const auto energy = [this](const Rows<T>& trial, Rows<T>* gradient) {
+    const auto energy = [&](const Rows<T>& trial, Rows<T>* gradient) {
       const double outer = step_.evaluate(trial, gradient);
-      return outer + elasticity_.addTo(trial, gradient);
+      const double external_n = potential.reference_force_n + static_cast<double>(gradient->cwiseAbs().sum());
+      return StepEnergy(outer + elasticity_.addTo(trial, gradient), external_n);
     };
     const auto solve = [this](const Rows<T>& B, Rows<T>* X) { solver_.solve(B, X); };
-    const StepReport report = minimizer_.minimize(energy, solve, options_, &x_);
+    const auto solve_contact = [&](const Rows<T>& B, Rows<T>* X) { rigid_.solve(solve, B, X); };
+    const bool contact = potential.targets.hasContact();
+    if (contact) rigid_.linearize(potential, *x);
+    const StepReport report = contact ? minimizer_.minimize(energy, solve_contact, options_, &x_)
+                                      : minimizer_.minimize(energy, solve, options_, &x_);
     step_.fromRows(x_, x);
     return report;
   }
@@ -116,6 +123,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
   PackedPotential<T> step_;
   StepMetric metric_;
   GlobalStepSolver<T> solver_;
+  RigidCorrection<T> rigid_;
   QuasiNewton<Rows<T>> minimizer_;
   Rows<T> x_;
   ElasticBlocks<double> double_elasticity_;

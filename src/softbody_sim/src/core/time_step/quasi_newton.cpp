@@ -62,21 +62,34 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
   history_ = std::min(options.history, kHistory);
   pair_count_ = 0;
   energy_ = energy(*x, &gradient_);
+  report.converged = isBalanced(options);
   while (report.iterations < options.max_iterations && !report.converged) {
     ++report.iterations;
     findDirection(metric);
     double step = 1.0;
     if (!searchLine(energy, x, &step)) {
-      // No gain along the steepest direction of the metric: a minimum within rounding.
-      report.converged = pair_count_ == 0;
+      // No gain along the steepest direction of the metric: the rest is rounding.
+      if (pair_count_ == 0) break;
       pair_count_ = 0;
       continue;
     }
     report.last_move_m = step * longestRow(direction_);
-    report.converged = step == 1.0 && report.last_move_m < options.tolerance_m;
+    report.converged = isBalanced(options);
   }
-  report.residual_n = residualOf(gradient_);
+  describe(&report);
   return report;
+}
+
+template <typename Positions>
+bool QuasiNewton<Positions>::isBalanced(const MinimizerOptions& options) const {
+  return static_cast<double>(gradient_.cwiseAbs().sum()) <= options.tolerance * energy_.external_n;
+}
+
+template <typename Positions>
+void QuasiNewton<Positions>::describe(StepReport* report) const {
+  report->residual_n = residualOf(gradient_);
+  report->unbalanced_n = static_cast<double>(gradient_.cwiseAbs().sum());
+  report->external_n = energy_.external_n;
 }
 
 /// Local and global steps of projective dynamics. They need no line search: the metric bounds the curvature
@@ -86,14 +99,15 @@ StepReport QuasiNewton<Positions>::iterate(const Energy& energy, const Metric& m
                                            const MinimizerOptions& options, Positions* x) {
   StepReport report;
   while (report.iterations < options.max_iterations && !report.converged) {
+    energy_ = energy(*x, &gradient_);
+    report.converged = isBalanced(options);
+    if (report.converged) break;
     ++report.iterations;
-    energy(*x, &gradient_);
     metric(gradient_, &direction_);
     *x -= direction_;
     report.last_move_m = longestRow(direction_);
-    report.converged = report.last_move_m < options.tolerance_m;
   }
-  report.residual_n = residualOf(gradient_);
+  describe(&report);
   return report;
 }
 
@@ -125,8 +139,8 @@ bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, doub
   if (!(slope < 0.0)) return false;
   for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
     trial_ = *x + static_cast<Scalar>(*step) * direction_;
-    const double trial_energy = energy(trial_, &trial_gradient_);
-    if (fallsEnough(trial_energy, slope, *step)) {
+    const StepEnergy trial_energy = energy(trial_, &trial_gradient_);
+    if (fallsEnough(trial_energy.energy_j, slope, *step)) {
       energy_ = trial_energy;
       residual_ = trial_ - *x;
       storeMove();
@@ -144,9 +158,9 @@ bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, doub
 template <typename Positions>
 bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, double step) const {
   constexpr double kArmijo = 1e-4;
-  if (trial_energy <= energy_ + kArmijo * step * slope) return true;
+  if (trial_energy <= energy_.energy_j + kArmijo * step * slope) return true;
   constexpr double kRounding = 1e-6;
-  return std::is_same_v<Scalar, float> && trial_energy <= energy_ + kRounding * std::abs(energy_) &&
+  return std::is_same_v<Scalar, float> && trial_energy <= energy_.energy_j + kRounding * std::abs(energy_.energy_j) &&
          dot(trial_gradient_, direction_) <= (2.0 * kArmijo - 1.0) * slope;
 }
 

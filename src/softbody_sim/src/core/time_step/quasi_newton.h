@@ -10,8 +10,16 @@ namespace softbody {
 
 struct MinimizerOptions {
   int max_iterations = 20;
-  double tolerance_m = 1e-6;  ///< converged if no vertex moves further in a full iteration
-  int history = 5;            ///< moves that L-BFGS keeps; 0: plain projective dynamics without line search
+  double tolerance = 1e-3;  ///< converged when the unbalanced forces are this share of the external ones
+  int history = 5;          ///< moves that L-BFGS keeps; 0: plain projective dynamics without line search
+};
+
+/// An energy [J], and the sum of the external forces that its gradient balances [N].
+struct StepEnergy {
+  StepEnergy(double energy, double external = 0.0) : energy_j(energy), external_n(external) {}
+
+  double energy_j;
+  double external_n;
 };
 
 /// Minimises an energy of vertex positions (one row per vertex) by L-BFGS with a constant metric as initial
@@ -21,8 +29,8 @@ struct MinimizerOptions {
 template <typename Positions>
 class QuasiNewton {
  public:
-  /// Returns the energy [J]; sets its gradient [N].
-  using Energy = std::function<double(const Positions& x, Positions* gradient)>;
+  /// Returns the energy; sets its gradient [N].
+  using Energy = std::function<StepEnergy(const Positions& x, Positions* gradient)>;
   /// X = A^-1 B with the metric A.
   using Metric = std::function<void(const Positions& B, Positions* X)>;
 
@@ -47,6 +55,8 @@ class QuasiNewton {
   void findDirection(const Metric& metric);
   bool searchLine(const Energy& energy, Positions* x, double* step);
   bool fallsEnough(double trial_energy, double slope, double step) const;
+  bool isBalanced(const MinimizerOptions& options) const;
+  void describe(StepReport* report) const;
   void storeMove();
   Pair& recent(int age) { return pairs_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)]; }
 
@@ -54,7 +64,7 @@ class QuasiNewton {
   int history_ = kHistory;
   int pair_count_ = 0;
   int newest_ = 0;
-  double energy_ = 0.0;
+  StepEnergy energy_{0.0};
   Positions gradient_, direction_, residual_, trial_, trial_gradient_, trial_gradient_change_;
 };
 

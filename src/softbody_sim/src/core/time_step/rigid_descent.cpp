@@ -10,6 +10,16 @@ namespace {
 // Stiffness added to each motion, as a share of the stiffest: a motion that nothing measures stays small.
 constexpr double kRegularization = 1e-9;
 
+Eigen::Vector3d pointOf(const TargetEnergy::Spring& spring, const Points& x) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 4; ++k) point += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
+  return point;
+}
+
+bool isClosed(const TargetEnergy::Spring& spring, const Eigen::Vector3d& point) {
+  return spring.normal.dot(point - spring.position) < 0.0;
+}
+
 Eigen::Isometry3d motionAbout(const Eigen::Vector3d& center, const Eigen::Matrix<double, 6, 1>& motion) {
   const Eigen::Vector3d turn = motion.head<3>();
   const double angle = turn.norm();
@@ -52,27 +62,31 @@ void RigidDescent::addVertices(const IncrementalPotential& potential, const Poin
   }
 }
 
-void RigidDescent::addSprings(const TargetEnergy& targets, const Points& x) {
+void RigidDescent::addSprings(const TargetEnergy& targets, const Points& free, const Points& x) {
   for (const TargetEnergy::Spring& spring : targets.springs()) {
-    if (spring.isFriction()) continue;  // it gives way
     Motion& motion = motions_[piece_of_vertex_[static_cast<std::size_t>(spring.vertices[0])]];
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 4; ++k) point += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
-    if (spring.normal.isZero(0.0)) {
+    const Eigen::Vector3d point = pointOf(spring, x);
+    if (spring.isFriction()) {
+      // The curvature is a multiple s P of a projection, so it is the sum of its columns' squares by s.
+      const Eigen::Matrix3d curvature = TargetEnergy::curvatureAt(spring, x);
+      const double scale = curvature.squaredNorm() / curvature.trace();
+      for (int k = 0; k < 3 && scale > 0.0; ++k)
+        motion.addCurvature(point, curvature.col(k), 1.0 / scale);
+    } else if (spring.normal.isZero(0.0)) {
       for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), spring.stiffness);
-    } else if (!spring.one_sided || spring.normal.dot(point - spring.position) < 0.0) {
+    } else if (!spring.one_sided || isClosed(spring, point) || isClosed(spring, pointOf(spring, free))) {
       motion.addCurvature(point, spring.normal, spring.stiffness);
     }
   }
 }
 
-void RigidDescent::descend(const IncrementalPotential& potential, Points* x) {
+bool RigidDescent::descend(const IncrementalPotential& potential, const Points& free, Points* x) {
   motions_.resize(pieces_.size());
   gradient_.resize(x->rows(), 3);
   moved_ = *x;
   const double before = potential.evaluate(*x, &gradient_);
   addVertices(potential, *x);
-  addSprings(potential.targets, *x);
+  addSprings(potential.targets, free, *x);
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     Motion& motion = motions_[p];
     // Turns and shifts have different units, so each is compared with its own kind.
@@ -84,7 +98,9 @@ void RigidDescent::descend(const IncrementalPotential& potential, Points* x) {
     const Eigen::Isometry3d T = motionAbout(motion.center, step);
     for (const int v : pieces_[p]) moved_.row(v) = T * Eigen::Vector3d(x->row(v));
   }
-  if (potential.evaluate(moved_, &gradient_) < before) x->swap(moved_);
+  if (!(potential.evaluate(moved_, &gradient_) < before)) return false;
+  x->swap(moved_);
+  return true;
 }
 
 }  // namespace softbody

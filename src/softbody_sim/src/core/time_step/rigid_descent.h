@@ -16,8 +16,9 @@ class RigidDescent {
   explicit RigidDescent(const TetTopology& topology);
 
   /// One Gauss-Newton step of the six motions of each piece. Keeps x if the potential would not fall.
-  /// @param x #V by 3 [m].
-  void descend(const IncrementalPotential& potential, Points* x);
+  /// @param x #V by 3 [m]. @param free a contact that is closed here counts as closed; so a body that only
+  /// touches does not fall through. @return whether the potential fell.
+  bool descend(const IncrementalPotential& potential, const Points& free, Points* x);
 
  private:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -33,7 +34,7 @@ class RigidDescent {
   };
 
   void addVertices(const IncrementalPotential& potential, const Points& x);
-  void addSprings(const TargetEnergy& targets, const Points& x);
+  void addSprings(const TargetEnergy& targets, const Points& free, const Points& x);
 
   std::vector<std::vector<int>> pieces_;
   std::vector<std::size_t> piece_of_vertex_;
