@@ -28,7 +28,7 @@ def agreement_rows():
             continue  # it can turn about what holds it, so the equilibrium is not unique
         gravity = 0.005 * 2e4 / (30.0 * (high[2] - low[2]))
         arguments = ["--static", "--poisson", 0.3, "--gravity", 0, 0, -gravity, "--pin",
-                     f"z<={limit!r}", "--tolerance", 1e-9]
+                     f"z<={limit!r}", "--tolerance", 1e-6]
         ends = []
         for solver in ("PD", "FEM corotated"):
             simulate(path, *arguments, *SOLVERS[solver], "--output", probe)
@@ -60,7 +60,7 @@ def prism_rows():
         axis, end = "xyz"[along], high[along] - 1e-6 * length
         row = simulate(path, "--static", "--young", young, "--poisson", 0, "--density", density, "--gravity",
                        *(-gravity * np.eye(3)[down]), "--pin", f"{axis}<{float(low[along] + 1e-6 * length)!r}", "--probe",
-                       f"{axis}>{float(end)!r}", "--tolerance", 1e-9, *SOLVERS["FEM corotated"])[-1]
+                       f"{axis}>{float(end)!r}", "--tolerance", 1e-6, *SOLVERS["FEM corotated"])[-1]
         rows.append((name, len(tets), f"{length * math.sqrt(area / inertia):.1f}",
                      f"{-row['probe_' + 'xyz'[down] + '_m'] / (1e-3 * length):.4f}"))
     return rows
@@ -75,7 +75,7 @@ def formulation_rows():
         other = beam_tip(rest, tets, young, poisson, density, 9.81)
         for solver in ("PD", "FEM corotated"):
             row = simulate(mesh, "--static", "--young", young, "--poisson", poisson, "--density", density, "--gravity", 0, 0,
-                           -9.81, "--pin", "x<1e-9", "--probe", "x>0.159999", "--tolerance", 1e-9, *SOLVERS[solver])[-1]
+                           -9.81, "--pin", "x<1e-9", "--probe", "x>0.159999", "--tolerance", 1e-6, *SOLVERS[solver])[-1]
             tip = np.array([row[f"probe_{axis}_m"] for axis in "xyz"])
             rows.append((f"{young:g}", poisson, solver, f"{1e3 * tip[0]:.4f}, {1e3 * tip[2]:.4f}",
                          f"{np.linalg.norm(tip - other) / np.linalg.norm(other):.0e}"))
@@ -88,7 +88,7 @@ def bending_rows():
     for name, options in SOLVERS.items():
         print(f"== bending {name}", file=sys.stderr)
         row = simulate(mesh, "--static", "--poisson", 0.45, "--pin", "x<1e-9", "--load", "x>0.199999", 0, 0, -0.35,
-                       "--probe", "x>0.199999", "--tolerance", 1e-7, *options)[-1]
+                       "--probe", "x>0.199999", "--tolerance", 1e-6, *options)[-1]
         rows.append((name, -1e3 * row["probe_z_m"], 100.0 * (row["volume_m3"] / (0.2 * 0.1 * 0.03) - 1.0)))
     return rows
 

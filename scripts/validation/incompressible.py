@@ -19,12 +19,12 @@ def membrane(s, t, u):
 
 def beam_move(mesh, poisson, options):
     return simulate(mesh, "--static", "--young", YOUNG, "--density", DENSITY, "--poisson", poisson, "--gravity", 0, 0,
-                    -GRAVITY, "--pin", "x<1e-9", "--probe", "x>0.0999999", "--tolerance", 1e-9, *options)[-1]["probe_z_m"]
+                    -GRAVITY, "--pin", "x<1e-9", "--probe", "x>0.0999999", "--tolerance", 1e-6, *options)[-1]["probe_z_m"]
 
 
 def membrane_move(mesh, poisson, options):
     return simulate(mesh, "--static", "--young", 1e6, "--poisson", poisson, "--pin", "x<1e-9", "--load", "x>47.99999", 0, 1,
-                    0, "--probe", "x>47.99999", "--tolerance", 1e-10, *options)[-1]["probe_y_m"]
+                    0, "--probe", "x>47.99999", "--tolerance", 1e-6, *options)[-1]["probe_y_m"]
 
 
 def references(poisson):

@@ -15,7 +15,7 @@ def cantilever(n, *solver):
     mesh, _ = box(f"cantilever_{n}", (10 * n, n, n), lambda x, y, z: (length * x, height * y, height * z))
     force = deflection * 3.0 * young * height**4 / 12.0 / length**3
     row = simulate(mesh, "--static", "--young", young, "--poisson", 0, "--pin", "x<1e-9", "--load", "x>0.999999", 0, 0,
-                   -force, "--probe", "x>0.999999", "--tolerance", 1e-9, *solver)[-1]
+                   -force, "--probe", "x>0.999999", "--tolerance", 1e-6, *solver)[-1]
     return 60 * n**3, -row["probe_z_m"] / deflection
 
 
@@ -23,7 +23,7 @@ def sag(n, *solver):
     length, young, density, gravity = 1.0, 1e6, 1000.0, 0.1
     mesh, _ = box(f"sag_{n}", (n, n, 4 * n), lambda x, y, z: (0.2 * x, 0.2 * y, length * z))
     row = simulate(mesh, "--static", "--young", young, "--poisson", 0, "--density", density, "--gravity", 0, 0, -gravity,
-                   "--pin", "z>0.999999", "--probe", "z<1e-9", "--tolerance", 1e-9, *solver)[-1]
+                   "--pin", "z>0.999999", "--probe", "z<1e-9", "--tolerance", 1e-6, *solver)[-1]
     return 24 * n**3, -row["probe_z_m"] / (density * gravity * length**2 / (2.0 * young))
 
 
@@ -31,7 +31,7 @@ def cook(n, *solver):
     young, force = 1e6, 1.0
     mesh, _ = box(f"cook_{n}", (n, n, 1), lambda s, t, u: (48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s), u))
     row = simulate(mesh, "--static", "--young", young, "--poisson", 1.0 / 3.0, "--pin", "x<1e-9", "--load", "x>47.99999",
-                   0, force, 0, "--probe", "x>47.99999 & y>51.99999 & y<52.00001", "--tolerance", 1e-10, *solver)[-1]
+                   0, force, 0, "--probe", "x>47.99999 & y>51.99999 & y<52.00001", "--tolerance", 1e-6, *solver)[-1]
     return 6 * n**2, row["probe_y_m"] / (23.96 * force / young)
 
 
@@ -46,7 +46,7 @@ def twist(n, *solver):
     loads.write_text("".join(f"{v},{x!r},{y!r},{z!r}\n" for v, (x, y, z) in zip(end.tolist(), around.tolist())))
     result = OUTPUT / f"twist_{n}.vtu"
     simulate(mesh, "--static", "--young", young, "--poisson", poisson, "--pin", "x<1e-9", "--loads", loads, "--tolerance",
-             1e-9, "--output", result, *solver)
+             1e-6, "--output", result, *solver)
     move = positions(result) - rest
 
     def angle(x):

@@ -30,7 +30,7 @@ struct Options {
   bool until_rest = false, node_defaults = false;
   int steps = 100;
   std::optional<int> iterations;
-  double time_step_s = 1.0 / 30.0, tolerance = 1e-6, strain_smoothing = SimulatorConfig().strain_smoothing;
+  double time_step_s = 1.0 / 30.0, tolerance = 1e-5, strain_smoothing = SimulatorConfig().strain_smoothing;
   std::optional<double> volume_smoothing;
 };
 
@@ -100,8 +100,9 @@ void addSolverOptions(CLI::App& app, Options& o) {
                  "a step has converged when the unbalanced forces are this share of the external ones")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_flag("--node-defaults", o.node_defaults,
-               "every setting as the node simulator without parameters; material, gravity and problem as given")
+  app.add_flag(
+         "--node-defaults", o.node_defaults,
+         "every setting as the node simulator without parameters; material, gravity and problem as given")
       ->excludes("--solver", "--iterations", "--tolerance", "--elasticity", "--strain-smoothing",
                  "--volume-smoothing");
 }
@@ -257,8 +258,14 @@ int run(const Options& o) {
     std::cout << line << std::flush;
   }
   if (!o.output.empty()) writeOutput(o.output, table, {simulator.state().vertices, topology.tets});
-  if (o.until_rest && !simulator.report().converged)
-    throw std::runtime_error("no equilibrium after the maximum number of iterations (--iterations)");
+  const StepReport& report = simulator.report();
+  if (o.until_rest && !report.converged) {
+    throw std::runtime_error(
+        fmt::format("no equilibrium after {} iterations: {:.3g} N of {:.3g} N are not balanced. More "
+                    "--iterations or a larger "
+                    "--tolerance may help; a body that nothing holds has no equilibrium",
+                    report.iterations, report.residual_n, report.external_n));
+  }
   return 0;
 }
 
@@ -268,9 +275,8 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Simulates a tet mesh under gravity, loads, pins and a ground plane, in time steps or to static "
       "equilibrium. "
-      "Prints one CSV row per step: mean displacement of the probe, elastic energy, largest unbalanced "
-      "force, "
-      "volume, force on the pins, iterations."};
+      "Prints one CSV row per step: mean displacement of the probe, elastic energy, sum of the "
+      "unbalanced forces, volume, force on the pins, iterations."};
   Options options;
   app.add_option("MESH", options.mesh, "VTU, MSH, TetGen .node/.ele or VEG")->required();
   app.add_option("--unit", options.unit, "unit of the mesh")

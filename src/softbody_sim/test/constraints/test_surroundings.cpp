@@ -22,7 +22,7 @@ class UnderBothSolvers : public ::testing::TestWithParam<SolverKind> {
   void SetUp() override {
     config_.solver = GetParam();
     config_.iterations = 1000;
-    config_.tolerance = 1e-7;
+    config_.tolerance = 1e-6;
     config_.gravity = {0.0, 0.0, -kGravity};
     material_.damping = 0.5;
   }
@@ -139,9 +139,9 @@ TEST_P(UnderBothSolvers, AToolAtOneMetrePerSecondDoesNotPassThrough) {
       simulator.step({}, (frame + 1) * kFrame, surroundings);
       EXPECT_LT(deepest(surroundings.obstacles[0], simulator.state().vertices), 0.002) << frame;
     }
-    // The free body is pushed 0.4 m and stays before the tool's axis. It may tip off the box's
-    // edge; then its middle is behind by at most its thickness.
-    EXPECT_LT(simulator.state().vertices.col(2).mean(), 0.08 - 0.033 * 12 + 0.03);
+    // The free body is pushed 0.4 m. It may tip over the box's edge; then its middle is behind by at most
+    // half its width.
+    EXPECT_LT(simulator.state().vertices.col(2).mean(), 0.08 - 0.033 * 12 + 0.05);
   }
 }
 

@@ -129,7 +129,7 @@ TEST(Simulator, AFailedStepChangesNothing) {
     simulator->step({}, kFrame);
   }
   Surroundings impossible;
-  impossible.loads = Points::Constant(topology.rest_vertices.rows(), 3, 1e300);
+  impossible.loads = Points::Constant(topology.rest_vertices.rows(), 3, 1e308);
   EXPECT_THROW(failing.step(placing(Eigen::Isometry3d::Identity()), 2 * kFrame, impossible),
                std::runtime_error);
   for (int frame = 2; frame <= 4; ++frame) {

@@ -95,7 +95,7 @@ TEST(ProjectiveDynamics, ReportsConvergenceAndResidual) {
   for (bool single : {false, true}) {
     ProjectiveDynamicsOptions options = withHistory(5, 3);
     options.single_precision = single;
-    options.minimizer.tolerance_m = 1e-6;
+    options.minimizer.tolerance = single ? 1e-4 : 1e-6;
     Points x = step.topology.rest_vertices;
     const StepReport capped = step.run(options, &x);
     EXPECT_FALSE(capped.converged);
@@ -104,13 +104,13 @@ TEST(ProjectiveDynamics, ReportsConvergenceAndResidual) {
     const StepReport report = step.run(options, &x);
     EXPECT_TRUE(report.converged);
     EXPECT_LT(report.iterations, 200);
-    EXPECT_LT(report.last_move_m, 1e-6);
+    EXPECT_LE(report.residual_n, options.minimizer.tolerance * report.external_n);
     EXPECT_LT(report.residual_n, 0.05 * capped.residual_n);
 
     Points gradient(step.count, 3);
     step.potential.evaluate(x, &gradient);
     CorotatedElasticity(step.topology.rest_vertices, step.topology.tets, step.lame).addTo(x, &gradient);
-    EXPECT_NEAR(report.residual_n, gradient.rowwise().norm().maxCoeff(), single ? 1e-3 : 1e-9);
+    EXPECT_NEAR(report.residual_n, gradient.cwiseAbs().sum(), single ? 1e-1 : 1e-9);
   }
 }
 

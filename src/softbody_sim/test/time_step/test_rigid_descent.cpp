@@ -45,7 +45,7 @@ TEST(RigidDescent, MovesABodyAlongItsSurfaceToItsTargets) {
   const IncrementalPotential potential = potentialOf(topology, start, planeTargets(topology, truth));
   RigidDescent descent(topology);
   Points x = start;
-  for (int i = 0; i < 3; ++i) descent.descend(potential, &x);
+  for (int i = 0; i < 3; ++i) descent.descend(potential, x, &x);
   EXPECT_LT((x - truth).rowwise().norm().maxCoeff(), 1e-5);
 }
 
@@ -58,7 +58,7 @@ TEST(RigidDescent, PiecesMoveOnTheirOwn) {
   truth.bottomRows(half).col(1).array() -= 0.02;
   RigidDescent descent(topology);
   Points x = start;
-  descent.descend(potentialOf(topology, start, planeTargets(topology, truth)), &x);
+  descent.descend(potentialOf(topology, start, planeTargets(topology, truth)), x, &x);
   EXPECT_LT((x - truth).rowwise().norm().maxCoeff(), 1e-6);
 }
 
@@ -73,7 +73,7 @@ TEST(RigidDescent, NeverRaisesThePotential) {
     const IncrementalPotential potential = potentialOf(topology, start, planeTargets(topology, truth));
     Points x = start, gradient(start.rows(), 3);
     const double before = potential.evaluate(x, &gradient);
-    descent.descend(potential, &x);
+    descent.descend(potential, x, &x);
     EXPECT_LE(potential.evaluate(x, &gradient), before);
     EXPECT_TRUE(x.allFinite());
   }

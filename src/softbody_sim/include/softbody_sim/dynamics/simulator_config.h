@@ -16,16 +16,16 @@ enum class SolverKind { kProjectiveDynamics, kFem };
 struct SimulatorConfig {
   SolverKind solver = SolverKind::kProjectiveDynamics;
   Elasticity elasticity = Elasticity::kCorotated;
-  bool simulate = true;     ///< false: targets move surface vertices directly (Kang et al. 2022, Fig. 6)
-  int iterations = 20;      ///< maximum of a step: local/global iterations, or Newton iterations
+  bool simulate = true;  ///< false: targets move surface vertices directly (Kang et al. 2022, Fig. 6)
+  int iterations = 20;   ///< maximum of a step: local/global iterations, or Newton iterations
   /// A step has converged when the sum of the unbalanced forces is this share of that of the external forces.
-  double tolerance = 1e-3;
-  int lbfgs_history = 5;    ///< moves that L-BFGS keeps, at most 5; 0: plain projective dynamics
+  double tolerance = 2e-4;
+  int lbfgs_history = 5;  ///< moves that L-BFGS keeps, at most 5; 0: plain projective dynamics
   /// Fraction of the shear energy that uses strains smoothed around the vertices. It reduces the locking of
   /// linear tets in bending. 0: no smoothing.
   double strain_smoothing = 0.7;
   std::optional<double> volume_smoothing;  ///< the same of the volume energy; empty: volumeSmoothing(nu)
-  bool single_precision = false;   ///< twice as fast, positions accurate to about 0.1 um
+  bool single_precision = false;           ///< twice as fast, positions accurate to about 0.1 um
   std::string simd = "auto";       ///< vector instructions: auto (the widest available), sse4, avx2 or avx512
   bool normalized_mass = false;    ///< the mass is 1 kg for every density (Kang et al. 2022, section 5.1)
   double target_stiffness = 10.0;  ///< of a target of weight 1, in units of E * mean edge length

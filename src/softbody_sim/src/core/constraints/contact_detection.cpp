@@ -135,13 +135,15 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
     for (std::size_t p = 0; p < points.size(); ++p) {
       const Eigen::Vector3d start = to_earlier * positionOf(points[p].place, before, tets);
       const Eigen::Vector3d end = to_obstacle * positionOf(points[p].place, after, tets);
+      const double start_distance = distanceTo(obstacle, start).distance;
+      if (start_distance > reach_m + (end - start).norm()) continue;  // it cannot come near
       const Eigen::Vector3d meeting = firstMeeting(obstacle, start, end);
       const SurfaceDistance surface = distanceTo(obstacle, meeting);
       if (surface.distance > reach_m) continue;
       contacts->push_back({static_cast<int>(p), static_cast<int>(o),
                            obstacle.pose * (meeting - surface.distance * surface.normal),
                            obstacle.pose.linear() * surface.normal, obstacle.pose * start,
-                           std::max(0.0, -distanceTo(obstacle, start).distance), obstacle.friction});
+                           std::max(0.0, -start_distance), obstacle.friction});
     }
   }
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dynamics/static_support.h"
+
 namespace softbody {
 namespace {
 
@@ -53,6 +55,9 @@ void ImplicitEuler::settle(BodyModel* model, const std::vector<Target>& targets,
   free_.inertia.setZero(model->masses.size());
   free_.prediction = solution_ = body->mesh.vertices;
   free_.loads.noalias() = model->masses * config_.gravity.transpose();
+  Points loads = free_.loads;
+  if (surroundings.loads.size() > 0) loads += surroundings.loads;
+  requireHeld(model->topology, targets, surroundings, loads);
   solve(model, targets, surroundings, body);
   body->mesh.vertices.swap(solution_);
   body->velocity.setZero();

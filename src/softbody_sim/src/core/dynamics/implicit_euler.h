@@ -20,7 +20,8 @@ class ImplicitEuler {
   void step(BodyModel* model, const std::vector<Target>& targets, double elapsed_s,
             const Surroundings& surroundings, BodyState* body);
 
-  /// Static equilibrium: a step of infinite length. @throw std::runtime_error as step() does.
+  /// Static equilibrium: a step of infinite length. @throw std::runtime_error as step() does, and
+  /// std::invalid_argument if nothing holds a piece under loads.
   void settle(BodyModel* model, const std::vector<Target>& targets, const Surroundings& surroundings,
               BodyState* body);
 

@@ -12,10 +12,10 @@
 namespace softbody {
 
 double volumeSmoothing(double poisson_ratio) {
-  // At 0.3, a beam of two cells with 0.3 of its volume energy not smoothed is 1 % from the reference.
-  constexpr double kUnsmoothed = 0.3, kHarmless = 0.3;
+  constexpr double kUnsmoothed = 0.3, kHarmless = 0.2;
   const auto ratio = [](double nu) { return 2.0 * nu / (1.0 - 2.0 * nu); };  // lambda / mu
-  return 1.0 - kUnsmoothed * std::min(1.0, ratio(kHarmless) / ratio(poisson_ratio));
+  const double softer = (1.0 - 2.0 * poisson_ratio) / (1.0 - 2.0 * kHarmless);
+  return 1.0 - kUnsmoothed * std::min(1.0, softer * ratio(kHarmless) / ratio(poisson_ratio));
 }
 
 EnergyShare tetShare(const Lame& lame, const Smoothing& smoothing) {

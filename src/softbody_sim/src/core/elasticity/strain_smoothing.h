@@ -20,8 +20,9 @@ struct Smoothing {
   double volume;  ///< of the term with lambda, in [0, 1]
 };
 
-/// The share of the volume energy to smooth, by Poisson's ratio: 0.7 up to 0.3. Above, the share that is not
-/// smoothed falls so that its stiffness, relative to that of shear, stays that of 0.3. So tets do not lock.
+/// The share of the volume energy to smooth, by Poisson's ratio: 0.7 up to 0.2. Above, the stiffness of the
+/// rest, relative to that of shear, falls with 1 - 2 nu: the less the volume may change, the less tets may
+/// resist it.
 double volumeSmoothing(double poisson_ratio);
 
 /// A part of the elastic energy: its fraction of the volume, and its material.

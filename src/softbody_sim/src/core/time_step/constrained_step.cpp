@@ -38,6 +38,7 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
 }
 
 void ConstrainedStep::setPotential(const Problem& problem) {
+  potential_.pinned.clear();
   potential_.inertia = problem.free.inertia;
   potential_.prediction = problem.free.prediction;
   potential_.loads = problem.free.loads;
@@ -56,6 +57,7 @@ double ConstrainedStep::stiffnessOf(const Pin& pin) const {
 void ConstrainedStep::addPins(const std::vector<Pin>& pins) {
   for (const Pin& pin : pins) {
     const double stiffness = stiffnessOf(pin);
+    if (stiffness == options_.pin_stiffness) potential_.pinned.push_back(pin.vertex);
     double& inertia = potential_.inertia[pin.vertex];
     auto prediction = potential_.prediction.row(pin.vertex);
     prediction = (inertia * prediction + stiffness * pin.position.transpose()) / (inertia + stiffness);
@@ -63,8 +65,8 @@ void ConstrainedStep::addPins(const std::vector<Pin>& pins) {
   }
 }
 
-/// For a body that hangs or lies, its earlier shape is a better start than the prediction from the loads. So is
-/// that shape moved rigidly to where springs and inertia want it, for one that slides or is carried.
+/// For a body that hangs or lies, its earlier shape is a better start than the prediction from the loads. So
+/// is that shape moved rigidly to where springs and inertia want it, for one that slides or is carried.
 void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   const Surroundings& surroundings = problem.surroundings;
   if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;

@@ -8,6 +8,12 @@ namespace softbody {
 
 struct FemSolver::Factor : Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> {};
 
+namespace {
+
+double roundingOf(const StepEnergy& energy) { return 1e-12 * std::abs(energy.energy_j); }
+
+}  // namespace
+
 FemSolver::FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
                      const Smoothing& smoothing, const Options& options)
     : elasticity_(topology, elasticity, lame, smoothing),
@@ -28,7 +34,10 @@ FemSolver::~FemSolver() = default;
 StepReport FemSolver::minimize(const IncrementalPotential& potential, Points* x) {
   StepReport report;
   energy_ = evaluate(potential, *x, &gradient_);
-  const auto balanced = [&] { return gradient_.cwiseAbs().sum() <= options_.tolerance * energy_.external_n; };
+  const auto balanced = [&] {
+    return std::isfinite(energy_.external_n) &&
+           energy_.unbalanced_n <= options_.tolerance * energy_.external_n;
+  };
   report.converged = balanced();
   double step = 0.0;
   while (report.iterations < options_.max_iterations && !report.converged) {
@@ -37,13 +46,17 @@ StepReport FemSolver::minimize(const IncrementalPotential& potential, Points* x)
     if (step < 1.0 || !findDirection(potential, *x, Hessian::kExact))
       findDirection(potential, *x, Hessian::kProjected);
     step = 1.0;
+    const StepEnergy before = energy_;
     // If no step along a descent direction lowers the energy, the rest is rounding.
     if (!searchLine(potential, x, &step)) break;
     report.last_move_m = step * direction_.rowwise().norm().maxCoeff();
     report.converged = balanced();
+    // So it is if neither the energy nor the forces fall; Newton's method would at least halve them.
+    if (before.energy_j - energy_.energy_j <= roundingOf(before) &&
+        2.0 * energy_.unbalanced_n > before.unbalanced_n)
+      break;
   }
-  report.residual_n = gradient_.rowwise().norm().maxCoeff();
-  report.unbalanced_n = gradient_.cwiseAbs().sum();
+  report.residual_n = energy_.unbalanced_n;
   report.external_n = energy_.external_n;
   return report;
 }
@@ -52,11 +65,9 @@ double FemSolver::addElasticity(const Points& x, Points* gradient) const {
   return elasticity_.addTo(x, gradient);
 }
 
-StepEnergy FemSolver::evaluate(const IncrementalPotential& potential, const Points& x,
-                               Points* gradient) const {
-  const double outer = potential.evaluate(x, gradient);
-  const double external_n = potential.reference_force_n + gradient->cwiseAbs().sum();
-  return {outer + elasticity_.addTo(x, gradient), external_n};
+StepEnergy FemSolver::evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient) {
+  const auto add = [&](Points* sum) { return elasticity_.addTo(x, sum); };
+  return balance_.complete(potential, potential.evaluate(x, gradient), add, gradient);
 }
 
 /// False if the exact Hessian is not positive definite. The projected one is singular only for a body without
@@ -91,7 +102,7 @@ bool FemSolver::searchLine(const IncrementalPotential& potential, Points* x, dou
   constexpr double kArmijo = 1e-4;
   constexpr int kMaxHalvings = 20;
   const double slope = gradient_.cwiseProduct(direction_).sum();
-  const double rounding = 1e-12 * std::abs(energy_.energy_j);
+  const double rounding = roundingOf(energy_);
   for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
     trial_ = *x + *step * direction_;
     const StepEnergy trial = evaluate(potential, trial_, &trial_gradient_);

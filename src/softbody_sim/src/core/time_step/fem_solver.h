@@ -4,7 +4,7 @@
 
 #include "elasticity/fem_elasticity.h"
 #include "tets/block_tet_matrix.h"
-#include "time_step/quasi_newton.h"
+#include "time_step/force_balance.h"
 #include "time_step/step_solver.h"
 
 namespace softbody {
@@ -16,7 +16,7 @@ class FemSolver : public StepSolver {
  public:
   struct Options {
     int max_iterations = 20;
-    double tolerance = 1e-3;  ///< as MinimizerOptions
+    double tolerance = 2e-4;  ///< as MinimizerOptions
   };
 
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
@@ -31,7 +31,7 @@ class FemSolver : public StepSolver {
   struct Factor;
   enum class Hessian { kExact, kProjected };
 
-  StepEnergy evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient) const;
+  StepEnergy evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient);
   bool findDirection(const IncrementalPotential& potential, const Points& x, Hessian kind);
   bool solveShifted(double shift);
   bool searchLine(const IncrementalPotential& potential, Points* x, double* step);
@@ -41,6 +41,7 @@ class FemSolver : public StepSolver {
   BlockTetMatrix hessian_;
   std::unique_ptr<Factor> factor_;
   StepEnergy energy_{0.0};
+  ForceBalance<Points> balance_;
   Points gradient_, direction_, trial_, trial_gradient_;
 };
 

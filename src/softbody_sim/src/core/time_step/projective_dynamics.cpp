@@ -3,6 +3,7 @@
 #include "elasticity/elastic_blocks.h"
 #include "linear_solvers/global_step_solver.h"
 #include "tets/tet_matrix.h"
+#include "time_step/force_balance.h"
 #include "time_step/packed_potential.h"
 #include "time_step/rigid_correction.h"
 
@@ -95,9 +96,8 @@ class InPrecision : public ProjectiveDynamics::Precision {
     step_.set(potential, potential.prediction.colwise().mean());
     step_.toRows(*x, &x_);
     const auto energy = [&](const Rows<T>& trial, Rows<T>* gradient) {
-      const double outer = step_.evaluate(trial, gradient);
-      const double external_n = potential.reference_force_n + static_cast<double>(gradient->cwiseAbs().sum());
-      return StepEnergy(outer + elasticity_.addTo(trial, gradient), external_n);
+      const auto add = [&](Rows<T>* sum) { return elasticity_.addTo(trial, sum); };
+      return balance_.complete(potential, step_.evaluate(trial, gradient), add, gradient);
     };
     const auto solve = [this](const Rows<T>& B, Rows<T>* X) { solver_.solve(B, X); };
     const auto solve_contact = [&](const Rows<T>& B, Rows<T>* X) { rigid_.solve(solve, B, X); };
@@ -123,6 +123,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
   PackedPotential<T> step_;
   StepMetric metric_;
   GlobalStepSolver<T> solver_;
+  ForceBalance<Rows<T>> balance_;
   RigidCorrection<T> rigid_;
   QuasiNewton<Rows<T>> minimizer_;
   Rows<T> x_;

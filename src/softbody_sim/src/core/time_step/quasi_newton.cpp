@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "simd/rows.h"
 
 namespace softbody {
 namespace {
+
+/// Of an energy, relative: sums of many terms.
+template <typename Scalar>
+constexpr double kRounding = std::is_same_v<Scalar, float> ? 1e-6 : 1e-14;
 
 template <typename Positions>
 double dot(const Positions& a, const Positions& b) {
@@ -32,12 +35,6 @@ double longestRow(const Positions& points) {
   }
   for (; v < points.rows(); ++v) include(v, 0);
   return std::sqrt(static_cast<double>(*std::max_element(longest.begin(), longest.end())));
-}
-
-/// Longest row; NaN if any number is not finite.
-template <typename Positions>
-double residualOf(const Positions& gradient) {
-  return gradient.allFinite() ? longestRow(gradient) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -63,9 +60,12 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
   pair_count_ = 0;
   energy_ = energy(*x, &gradient_);
   report.converged = isBalanced(options);
+  lowest_n_ = energy_.unbalanced_n;
+  idle_ = 0;
   while (report.iterations < options.max_iterations && !report.converged) {
     ++report.iterations;
     findDirection(metric);
+    const double before = energy_.energy_j;
     double step = 1.0;
     if (!searchLine(energy, x, &step)) {
       // No gain along the steepest direction of the metric: the rest is rounding.
@@ -75,6 +75,7 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
     }
     report.last_move_m = step * longestRow(direction_);
     report.converged = isBalanced(options);
+    if (isRounding(before)) break;
   }
   describe(&report);
   return report;
@@ -82,13 +83,21 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
 
 template <typename Positions>
 bool QuasiNewton<Positions>::isBalanced(const MinimizerOptions& options) const {
-  return static_cast<double>(gradient_.cwiseAbs().sum()) <= options.tolerance * energy_.external_n;
+  return std::isfinite(energy_.external_n) && energy_.unbalanced_n <= options.tolerance * energy_.external_n;
+}
+
+/// Whether several iterations gained nothing: neither the energy nor the unbalanced forces fell.
+template <typename Positions>
+bool QuasiNewton<Positions>::isRounding(double energy_before) {
+  const bool falls = energy_before - energy_.energy_j > kRounding<Scalar> * std::abs(energy_before);
+  idle_ = falls || energy_.unbalanced_n < lowest_n_ ? 0 : idle_ + 1;
+  lowest_n_ = std::min(lowest_n_, energy_.unbalanced_n);
+  return idle_ > 2 * kHistory;
 }
 
 template <typename Positions>
 void QuasiNewton<Positions>::describe(StepReport* report) const {
-  report->residual_n = residualOf(gradient_);
-  report->unbalanced_n = static_cast<double>(gradient_.cwiseAbs().sum());
+  report->residual_n = energy_.unbalanced_n;
   report->external_n = energy_.external_n;
 }
 
@@ -152,15 +161,13 @@ bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, doub
   return false;
 }
 
-/// Armijo's condition. In single precision the difference of two energies is lost in rounding long before the
-/// minimum; then the slope at the end of the step decides (approximate Wolfe condition, Hager and Zhang
-/// 2005).
+/// Armijo's condition. The difference of two energies is lost in rounding before the minimum; then the slope
+/// at the end of the step decides (approximate Wolfe condition, Hager and Zhang 2005).
 template <typename Positions>
 bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, double step) const {
   constexpr double kArmijo = 1e-4;
   if (trial_energy <= energy_.energy_j + kArmijo * step * slope) return true;
-  constexpr double kRounding = 1e-6;
-  return std::is_same_v<Scalar, float> && trial_energy <= energy_.energy_j + kRounding * std::abs(energy_.energy_j) &&
+  return trial_energy <= energy_.energy_j + kRounding<Scalar> * std::abs(energy_.energy_j) &&
          dot(trial_gradient_, direction_) <= (2.0 * kArmijo - 1.0) * slope;
 }
 

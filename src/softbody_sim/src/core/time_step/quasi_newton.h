@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "softbody_common/types.h"
@@ -10,16 +11,17 @@ namespace softbody {
 
 struct MinimizerOptions {
   int max_iterations = 20;
-  double tolerance = 1e-3;  ///< converged when the unbalanced forces are this share of the external ones
+  double tolerance = 2e-4;  ///< converged when the unbalanced forces are this share of the external ones
   int history = 5;          ///< moves that L-BFGS keeps; 0: plain projective dynamics without line search
 };
 
-/// An energy [J], and the sum of the external forces that its gradient balances [N].
+/// An energy and the forces in its gradient.
 struct StepEnergy {
-  StepEnergy(double energy, double external = 0.0) : energy_j(energy), external_n(external) {}
+  StepEnergy(double energy) : energy_j(energy) {}
 
   double energy_j;
-  double external_n;
+  double unbalanced_n = std::numeric_limits<double>::infinity();  ///< sum over vertices and components
+  double external_n = 0.0;                                        ///< the same of the forces from outside
 };
 
 /// Minimises an energy of vertex positions (one row per vertex) by L-BFGS with a constant metric as initial
@@ -56,6 +58,7 @@ class QuasiNewton {
   bool searchLine(const Energy& energy, Positions* x, double* step);
   bool fallsEnough(double trial_energy, double slope, double step) const;
   bool isBalanced(const MinimizerOptions& options) const;
+  bool isRounding(double energy_before);
   void describe(StepReport* report) const;
   void storeMove();
   Pair& recent(int age) { return pairs_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)]; }
@@ -65,6 +68,8 @@ class QuasiNewton {
   int pair_count_ = 0;
   int newest_ = 0;
   StepEnergy energy_{0.0};
+  double lowest_n_ = 0.0;  ///< unbalanced forces
+  int idle_ = 0;           ///< iterations without a gain
   Positions gradient_, direction_, residual_, trial_, trial_gradient_, trial_gradient_change_;
 };
 

@@ -70,8 +70,7 @@ void RigidDescent::addSprings(const TargetEnergy& targets, const Points& free, c
       // The curvature is a multiple s P of a projection, so it is the sum of its columns' squares by s.
       const Eigen::Matrix3d curvature = TargetEnergy::curvatureAt(spring, x);
       const double scale = curvature.squaredNorm() / curvature.trace();
-      for (int k = 0; k < 3 && scale > 0.0; ++k)
-        motion.addCurvature(point, curvature.col(k), 1.0 / scale);
+      for (int k = 0; k < 3 && scale > 0.0; ++k) motion.addCurvature(point, curvature.col(k), 1.0 / scale);
     } else if (spring.normal.isZero(0.0)) {
       for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), spring.stiffness);
     } else if (!spring.one_sided || isClosed(spring, point) || isClosed(spring, pointOf(spring, free))) {

@@ -165,7 +165,7 @@ TEST_F(CutElasticity, PiecesInFlightGoWhereTheirInertiaTakesThem) {
   potential.loads = Points::Zero(count_, 3);
   ProjectiveDynamicsOptions options;
   options.minimizer.max_iterations = 500;
-  options.minimizer.tolerance_m = 1e-9;
+  options.minimizer.tolerance = 1e-9;
   options.smoothing = kSmoothing;
   Points x = potential.prediction + randomPoints(count_, 2e-3, &random_);
   ProjectiveDynamics(body_, kLame, options).minimize(potential, &x);
