@@ -70,12 +70,12 @@ TEST(FindContacts, StopsAPointBeforeAnObstacleThatPassedThroughIt) {
   }
 }
 
-TEST(AddEarlierContacts, AddsContactsThatWereNotFoundAgainInOrder) {
+TEST(KeepEarlierContacts, AddsContactsThatWereNotFoundAgainInOrder) {
   const auto contact = [](int obstacle, int point, double height) {
     return Contact{point, obstacle, Eigen::Vector3d(0.0, 0.0, height), Eigen::Vector3d::UnitZ()};
   };
   std::vector<Contact> now{contact(0, 3, 1.0), contact(1, 2, 1.0)};
-  addEarlierContacts({contact(0, 1, 2.0), contact(0, 3, 2.0), contact(1, 0, 2.0), contact(2, 9, 2.0)}, &now);
+  keepEarlierContacts({contact(0, 1, 2.0), contact(0, 3, 2.0), contact(1, 0, 2.0), contact(2, 9, 2.0)}, &now);
   ASSERT_EQ(now.size(), 5u);
   EXPECT_TRUE(std::is_sorted(now.begin(), now.end(), isOrderedBefore));
   for (const Contact& found : now) {

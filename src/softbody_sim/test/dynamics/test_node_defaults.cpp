@@ -107,15 +107,19 @@ TEST(NodeDefaults, ABlockSticksBelowTheSlopeOfFriction) {
 
 TEST(NodeDefaults, ADroppedBlockComesToRestOnTheTable) {
   std::mt19937 random(3);
-  for (int k = 0; k < 10; ++k) {
-    Block block(logUniform(5e3, 1e6, &random), logUniform(30.0, 300.0, &random), 0.5, 0.0);
+  for (int k = 0; k < 20; ++k) {
+    Block block(logUniform(5e2, 1e7, &random), logUniform(30.0, 300.0, &random), 0.1 * (k % 10), 0.0);
     block.lift(0.1);
-    for (int frame = 0; frame < 2 * kFramesPerSecond; ++frame) block.step();
+    double deepest = 0.0;
+    for (int frame = 0; frame < 2 * kFramesPerSecond; ++frame) {
+      block.step();
+      deepest = std::max(deepest, block.penetration());
+    }
     const Points before = block.simulator().state().vertices;
     block.step();
     EXPECT_LT((block.simulator().state().vertices - before).rowwise().norm().maxCoeff(), 1e-4)
         << "case " << k;
-    EXPECT_LT(block.penetration(), 5e-4) << "case " << k;
+    EXPECT_LT(deepest, 5e-4) << "case " << k;
     EXPECT_NEAR(-block.simulator().reactions().obstacles[0].force.z(), block.weight(), 0.02 * block.weight());
   }
 }
@@ -166,7 +170,7 @@ TEST(NodeDefaults, ConvergedMeansThatThePinsCarryTheWeight) {
         EXPECT_NEAR(carried, weight, 0.01 * weight) << youngs_modulus_pa << ", " << iterations;
       }
     }
-    EXPECT_GE(converged, 9);
+    EXPECT_GE(converged, 16);  // at 1e11 Pa the rounding of pd may exceed its tolerance
   }
 }
 

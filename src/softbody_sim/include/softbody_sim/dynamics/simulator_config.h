@@ -34,7 +34,7 @@ struct SimulatorConfig {
   double max_time_step_s = 0.1;  ///< longer gaps between frames are simulated as a step of this length
   /// [m/s^2], in the frame of the targets. Zero: the rest shape already contains the effect of gravity.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  double contact_stiffness = 20.0;  ///< pressure at a depth of one mean edge length, in units of E
+  double contact_stiffness = 10.0;  ///< pressure at a depth of one mean edge length, in units of E
   double contact_spacing = 0.5;     ///< of the contact points on the surface [mean edge lengths]
   double undo_memory_mb = 40.0;     ///< as in CuttingConfig
 };

@@ -129,6 +129,7 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
                   const std::vector<Eigen::Isometry3d>& before_poses, double reach_m,
                   std::vector<Contact>* contacts) {
   contacts->clear();
+  if (!obstacles.empty()) contacts->reserve(points.size());
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     const Obstacle& obstacle = obstacles[o];
     const Eigen::Isometry3d to_obstacle = obstacle.pose.inverse(), to_earlier = before_poses[o].inverse();
@@ -152,11 +153,17 @@ bool isOrderedBefore(const Contact& a, const Contact& b) {
   return std::tie(a.obstacle, a.point) < std::tie(b.obstacle, b.point);
 }
 
-void addEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts) {
+void keepEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts) {
   const auto found = static_cast<std::ptrdiff_t>(contacts->size());
   for (const Contact& contact : earlier) {
     const auto begin = contacts->begin();
-    if (!std::binary_search(begin, begin + found, contact, isOrderedBefore)) contacts->push_back(contact);
+    const auto place = std::lower_bound(begin, begin + found, contact, isOrderedBefore);
+    if (place == begin + found || isOrderedBefore(contact, *place)) {
+      contacts->push_back(contact);
+    } else {
+      place->lift = contact.lift;
+      place->depth = contact.depth;
+    }
   }
   std::sort(contacts->begin(), contacts->end(), isOrderedBefore);
 }

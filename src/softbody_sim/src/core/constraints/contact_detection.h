@@ -27,6 +27,14 @@ struct Contact {
       Eigen::Vector3d::Zero();  ///< where the obstacle carries the point if it sticks [m]
   double depth = 0.0;     ///< that gives the largest force of friction; found at the start of the step [m]
   double friction = 0.0;  ///< coefficient
+  double lift = 0.0;      ///< of the plane above the obstacle, so that the point itself does not sink in [m]
+  Eigen::Vector3d slip = Eigen::Vector3d::Zero();  ///< of the point from its anchor, obstacle's frame [m]
+};
+
+/// What a step leaves to the next.
+struct ContactState {
+  std::vector<Eigen::Isometry3d> obstacle_poses;
+  std::vector<Contact> contacts;  ///< that push, ordered as by findContacts
 };
 
 /// One contact for each pair of point and obstacle closer than `reach_m`, sorted by obstacle, then by point.
@@ -40,9 +48,10 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
                   const std::vector<Eigen::Isometry3d>& before_poses, double reach_m,
                   std::vector<Contact>* contacts);
 
-/// Adds the contacts of `earlier` that were not found again. Otherwise a point would fall back after a
-/// contact has pushed it out of the obstacle's path. Both lists are ordered as by findContacts.
-void addEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
+/// Adds the contacts of `earlier` that were not found again, and gives its forces (lift, depth) to the others. Otherwise a
+/// point would fall back after a contact has pushed it out of the obstacle's path. Both lists are ordered as
+/// by findContacts.
+void keepEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
 
 /// The order of findContacts.
 bool isOrderedBefore(const Contact& a, const Contact& b);

@@ -8,23 +8,35 @@
 namespace softbody {
 
 ContactForces::ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness,
-                             double reach_m)
+                             double reach_m, double largest_lift_m)
     : topology_(&topology),
       spacing_m_(spacing_m),
       pressure_stiffness_(pressure_stiffness),
-      reach_m_(reach_m) {}
+      reach_m_(reach_m),
+      largest_lift_m_(largest_lift_m) {}
 
 void ContactForces::find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
-                         const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts) {
+                         const ContactState& state, std::vector<Contact>* contacts) {
   if (!obstacles.empty() && points_.empty()) points_ = sampleContactPoints(*topology_, spacing_m_);
-  findContacts(points_, topology_->tets, before, now, obstacles, before_poses, reach_m_, contacts);
+  findContacts(points_, topology_->tets, before, now, obstacles, state.obstacle_poses, reach_m_, contacts);
+  auto earlier = state.contacts.begin();
+  for (Contact& contact : *contacts) {
+    while (earlier != state.contacts.end() && isOrderedBefore(*earlier, contact)) ++earlier;
+    if (earlier == state.contacts.end() || isOrderedBefore(contact, *earlier)) continue;
+    contact.lift = earlier->lift;
+    contact.depth += earlier->lift;
+    const Eigen::Vector3d slip =
+        obstacles[static_cast<std::size_t>(contact.obstacle)].pose.linear() * earlier->slip;
+    contact.anchor -= slip - contact.normal.dot(slip) * contact.normal;
+  }
 }
 
 void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const {
   for (const Contact& contact : contacts) {
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const double stiffness = stiffnessOf(contact);
-    springs->addOneSided(point.place, topology_->tets, contact.position, contact.normal, stiffness);
+    springs->addOneSided(point.place, topology_->tets, contact.position + contact.lift * contact.normal,
+                         contact.normal, stiffness);
     if (contact.friction > 0.0)
       springs->addFriction(point.place, topology_->tets, contact.anchor, contact.normal, stiffness,
                            contact.friction * stiffness * contact.depth);
@@ -38,28 +50,58 @@ bool ContactForces::updateFriction(const Points& x, std::vector<Contact>* contac
     if (contact.friction == 0.0) continue;
     const double depth = depthOf(contact, x);
     total += stiffnessOf(contact) * depth;
-    change += stiffnessOf(contact) * std::abs(depth - contact.depth);
+    const Eigen::Vector3d before = frictionOf(contact, x);
     contact.depth = depth;
+    change += (frictionOf(contact, x) - before).norm();
   }
   return change > kNoticeable * total;
+}
+
+double ContactForces::updateLifts(const Points& x, std::vector<Contact>* contacts) const {
+  double largest = 0.0;
+  for (Contact& contact : *contacts) {
+    const double lift = std::min(depthOf(contact, x), largest_lift_m_);
+    // A lift above a point that the contact does not reach gives no force.
+    if (lift > 0.0) largest = std::max(largest, std::abs(lift - contact.lift));
+    contact.lift = lift;
+  }
+  return largest;
+}
+
+void ContactForces::remember(const Points& x, const std::vector<Obstacle>& obstacles, bool balanced,
+                             std::vector<Contact>* contacts) const {
+  for (Contact& contact : *contacts) {
+    contact.depth = depthOf(contact, x);
+    contact.slip =
+        obstacles[static_cast<std::size_t>(contact.obstacle)].pose.linear().transpose() * slipOf(contact, x);
+  }
+  if (balanced) updateLifts(x, contacts);
+  const auto pushes_not = [](const Contact& contact) { return contact.depth == 0.0; };
+  contacts->erase(std::remove_if(contacts->begin(), contacts->end(), pushes_not), contacts->end());
 }
 
 double ContactForces::stiffnessOf(const Contact& contact) const {
   return pressure_stiffness_ * points_[static_cast<std::size_t>(contact.point)].area;
 }
 
-/// The force on the body.
-Eigen::Vector3d ContactForces::frictionOf(const Contact& contact, const Points& x) const {
+/// Of the point from its anchor, as far as friction holds it [m].
+Eigen::Vector3d ContactForces::slipOf(const Contact& contact, const Points& x) const {
   const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
   Eigen::Vector3d offset = positionOf(point.place, x, topology_->tets) - contact.anchor;
   offset -= contact.normal.dot(offset) * contact.normal;
   const double slide = contact.friction * contact.depth, length = offset.norm();
-  return -stiffnessOf(contact) * (length > slide ? slide / length : 1.0) * offset;
+  return (length > slide ? slide / length : 1.0) * offset;
+}
+
+/// The force on the body.
+Eigen::Vector3d ContactForces::frictionOf(const Contact& contact, const Points& x) const {
+  return -stiffnessOf(contact) * slipOf(contact, x);
 }
 
 double ContactForces::depthOf(const Contact& contact, const Points& x) const {
   const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
-  return std::max(0.0, contact.normal.dot(contact.position - positionOf(point.place, x, topology_->tets)));
+  const Eigen::Vector3d place = positionOf(point.place, x, topology_->tets);
+  return std::max(0.0, contact.lift + contact.normal.dot(contact.position - place));
 }
 
 double ContactForces::largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,

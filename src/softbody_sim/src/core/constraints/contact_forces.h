@@ -8,24 +8,35 @@
 
 namespace softbody {
 
-/// Contact by one-sided springs: a penetration depth d gives the pressure k d. Friction obeys Coulomb's law:
-/// a point sticks to the obstacle up to the coefficient times the force of its contact, then it slides.
-/// Sticking is a spring too, to the point's place at the start of the step.
+/// Contact by one-sided springs: a depth d gives the pressure k d. The planes are lifted until the points lie
+/// on the obstacle itself (augmented Lagrangian, Hestenes 1969); the next step starts with these lifts.
+/// Friction obeys Coulomb's law: a point sticks to the obstacle up to the coefficient times the force of its
+/// contact, then it slides. Sticking is a spring too; its anchor stays from step to step (Cundall and Strack
+/// 1979).
 class ContactForces {
  public:
   /// @param topology outlives this; @param pressure_stiffness k [Pa/m]; @param reach_m larger distances are
-  /// no contact.
-  ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m);
+  /// no contact; @param largest_lift_m limits the force of a contact that cannot be kept.
+  ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m,
+                double largest_lift_m);
 
   /// Finds the contacts of a step. The first call with obstacles creates the contact points.
-  /// @param before, now, before_poses as in findContacts.
+  /// @param before, now as in findContacts; @param state of the last step.
   void find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
-            const std::vector<Eigen::Isometry3d>& before_poses, std::vector<Contact>* contacts);
+            const ContactState& state, std::vector<Contact>* contacts);
 
   void addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const;
 
   /// Friction from the depths at x from now on. @return whether the forces of friction change noticeably.
   bool updateFriction(const Points& x, std::vector<Contact>* contacts) const;
+
+  /// Lifts that give the forces at x with the points on the obstacle. @return the largest change [m].
+  double updateLifts(const Points& x, std::vector<Contact>* contacts) const;
+
+  /// Keeps of the contacts at the end of a step what the next step needs. @param balanced whether the forces
+  /// at x are.
+  void remember(const Points& x, const std::vector<Obstacle>& obstacles, bool balanced,
+                std::vector<Contact>* contacts) const;
 
   /// Largest difference between two lists in a point's penetration depth [m]. Both are ordered as by
   /// findContacts.
@@ -39,11 +50,12 @@ class ContactForces {
  private:
   double depthOf(const Contact& contact, const Points& x) const;
   double stiffnessOf(const Contact& contact) const;
+  Eigen::Vector3d slipOf(const Contact& contact, const Points& x) const;
   Eigen::Vector3d frictionOf(const Contact& contact, const Points& x) const;
 
   const TetTopology* topology_;
   std::vector<ContactPoint> points_;
-  double spacing_m_, pressure_stiffness_, reach_m_;
+  double spacing_m_, pressure_stiffness_, reach_m_, largest_lift_m_;
 };
 
 }  // namespace softbody

@@ -56,6 +56,10 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Materi
 /// Largest stiffness of a pin relative to the body. Larger values would lose too many digits to rounding.
 constexpr double kPinStiffness = 1e5;
 
+/// Penetration that needs no further round [mean edge lengths]. The next step starts with the lift that ends
+/// it.
+constexpr double kPenetration = 5e-3;
+
 /// A force that moves a free body by less in a step is too small to be balanced [mean edge lengths].
 constexpr double kNoticeableMove = 0.01;
 
@@ -64,9 +68,10 @@ ConstrainedStep makeStep(const TetTopology& topology, const Material& material, 
   const double E = material.youngs_modulus_pa;
   return {topology,
           ContactForces(topology, config.contact_spacing * edge_length,
-                        config.contact_stiffness * E / edge_length, 0.1 * edge_length),
+                        config.contact_stiffness * E / edge_length, 0.1 * edge_length,
+                        edge_length / config.contact_stiffness),
           {target_stiffness, config.target_accuracy_m, kPinStiffness * E * edge_length, 1e-3 * edge_length,
-           kNoticeableMove * edge_length},
+           kPenetration * edge_length, kNoticeableMove * edge_length},
           solver};
 }
 

@@ -31,11 +31,12 @@ void placeAtRest(const Points& rest_vertices, const Eigen::Isometry3d& pose, Nan
   body->velocity = body->loads = Points::Zero(rest_vertices.rows(), 3);
   body->stamp = stamp;
   body->placed = true;
-  body->obstacle_poses.clear();  // the obstacles did not move from their earlier poses to these
+  body->contact = {};  // the obstacles did not move from their earlier poses to these
 }
 
 void transferToEdit(const TetEdit& edit, const Tets& tets, BodyState* body) {
   MeshState& mesh = body->mesh;
+  body->contact.contacts.clear();  // they name points of the surface before
   mesh.confidence = transferred(edit.vertex_origins, tets, mesh.confidence);
   mesh.standard_deviation = transferred(edit.vertex_origins, tets, mesh.standard_deviation);
   body->mesh.vertices = applyBinding(edit.vertex_origins, body->mesh.vertices, tets);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "constraints/contact_detection.h"
 #include "cutting/volume/tet_edit.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
@@ -18,7 +19,7 @@ struct BodyState {
   MeshState mesh;
   StepReport report;
   Reactions reactions;
-  std::vector<Eigen::Isometry3d> obstacle_poses;  ///< at the end of the last step; empty: no step yet
+  ContactState contact;  ///< at the end of the last step; without poses: no step yet
 };
 
 /// Places the rest shape at a pose, without velocity and loads.

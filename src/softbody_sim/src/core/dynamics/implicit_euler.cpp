@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "dynamics/static_support.h"
 
@@ -65,17 +66,22 @@ void ImplicitEuler::settle(BodyModel* model, const std::vector<Target>& targets,
 
 void ImplicitEuler::solve(BodyModel* model, const std::vector<Target>& targets,
                           const Surroundings& surroundings, BodyState* body) {
-  obstacle_poses_.clear();
-  for (const Obstacle& obstacle : surroundings.obstacles) obstacle_poses_.push_back(obstacle.pose);
-  if (surroundings.obstacles_changed || body->obstacle_poses.size() != obstacle_poses_.size())
-    body->obstacle_poses = obstacle_poses_;
+  contact_.obstacle_poses.clear();
+  for (const Obstacle& obstacle : surroundings.obstacles) contact_.obstacle_poses.push_back(obstacle.pose);
+  if (surroundings.obstacles_changed ||
+      body->contact.obstacle_poses.size() != contact_.obstacle_poses.size()) {
+    body->contact.obstacle_poses = contact_.obstacle_poses;
+    body->contact.contacts.clear();
+  }
   const ConstrainedStep::Result& result = model->constrained_step.solve(
-      free_, targets, surroundings, body->mesh.vertices, body->obstacle_poses, &solution_);
+      free_, targets, surroundings, body->mesh.vertices, body->contact, &solution_);
   if (!solution_.allFinite() || !std::isfinite(result.report.residual_n))
     throw std::runtime_error("loads or targets leave a step without a finite result");
   body->report = result.report;
   body->reactions = result.reactions;
-  body->obstacle_poses.swap(obstacle_poses_);
+  contact_.contacts.reserve(result.contacts.capacity());
+  contact_.contacts = result.contacts;
+  std::swap(body->contact, contact_);
 }
 
 }  // namespace softbody

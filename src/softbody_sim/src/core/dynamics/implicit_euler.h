@@ -34,7 +34,7 @@ class ImplicitEuler {
   double damping_;
   IncrementalPotential free_;  ///< without targets and surroundings
   Points solution_;            ///< start of the minimisation, then its result [m]
-  std::vector<Eigen::Isometry3d> obstacle_poses_;
+  ContactState contact_;       ///< after the step
 };
 
 }  // namespace softbody

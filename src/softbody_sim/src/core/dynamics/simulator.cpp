@@ -229,7 +229,7 @@ void Simulator::setVertices(const Points& vertices) {
   }
   body.mesh.vertices = vertices;
   body.velocity.setZero();
-  body.obstacle_poses.clear();
+  body.contact = {};
 }
 
 void Simulator::setMaterial(const Material& material) {
@@ -237,6 +237,7 @@ void Simulator::setMaterial(const Material& material) {
   Implementation& s = *implementation_;
   s.material = material;
   s.makeModel(TetTopology(s.model->topology));
+  s.body.contact.contacts.clear();  // a depth gives another pressure now
   s.integrator = ImplicitEuler(s.config, material.damping);
   if (s.body.placed) s.model->load_estimator.balance(s.body.mesh.vertices, &s.body.loads);
 }

@@ -18,15 +18,14 @@ struct ConstrainedStep::Problem {
   const std::vector<Target>& targets;
   const Surroundings& surroundings;
   const Points& before;
-  const std::vector<Eigen::Isometry3d>& before_poses;
+  const ContactState& state;
 };
 
 const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential& free,
                                                       const std::vector<Target>& targets,
                                                       const Surroundings& surroundings, const Points& before,
-                                                      const std::vector<Eigen::Isometry3d>& before_poses,
-                                                      Points* x) {
-  const Problem problem{free, targets, surroundings, before, before_poses};
+                                                      const ContactState& state, Points* x) {
+  const Problem problem{free, targets, surroundings, before, state};
   setPotential(problem);
   addPins(surroundings.pins);
   gradient_.resize(x->rows(), 3);
@@ -34,6 +33,9 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
   iterate(problem, x);
   contact_.wrenches(contacts_, *x, surroundings.obstacles, &result_.reactions.obstacles);
   findPinForces(problem, *x);
+  result_.contacts.reserve(contacts_.capacity());
+  result_.contacts = contacts_;
+  contact_.remember(*x, surroundings.obstacles, result_.report.converged, &result_.contacts);
   return result_;
 }
 
@@ -73,7 +75,7 @@ void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   still_ = moved_ = problem.before;
   findContacts(moved_, problem, &contacts_);
   setSprings(problem.targets);
-  moveRigidly(*x, &moved_);
+  rigid_descent_.settle(potential_, *x, &moved_);
   for (const Pin& pin : surroundings.pins)
     still_.row(pin.vertex) = moved_.row(pin.vertex) = x->row(pin.vertex) = pin.position;
   double lowest = energyAt(*x, problem);
@@ -85,13 +87,6 @@ void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   }
 }
 
-/// A spring of friction gives way in one of these steps and slides in the next.
-void ConstrainedStep::moveRigidly(const Points& free, Points* x) {
-  constexpr int kMaxSteps = 5;
-  bool falls = rigid_descent_.descend(potential_, free, x);
-  for (int step = 1; step < kMaxSteps && falls; ++step) falls = rigid_descent_.descend(potential_, *x, x);
-}
-
 double ConstrainedStep::energyAt(const Points& x, const Problem& problem) {
   findContacts(x, problem, &contacts_);
   setSprings(problem.targets);
@@ -99,24 +94,19 @@ double ConstrainedStep::energyAt(const Points& x, const Problem& problem) {
 }
 
 void ConstrainedStep::iterate(const Problem& problem, Points* x) {
-  constexpr int kMaxRounds = 5;
+  const int max_rounds = problem.targets.empty() ? 10 : 5;
   StepReport& report = result_.report;
   report = {};
   findContacts(*x, problem, &contacts_);
   for (int round = 1;; ++round) {
     setSprings(problem.targets);
-    if (!potential_.targets.springs().empty()) rigid_descent_.descend(potential_, *x, x);
-    const int iterations = report.iterations;
-    report = solver_->minimize(potential_, x);
-    report.iterations += iterations;
-    if (problem.surroundings.obstacles.empty()) return;
-    findContacts(*x, problem, &found_);
-    addEarlierContacts(contacts_, &found_);
-    const bool friction_changes = contact_.updateFriction(*x, &found_);
-    if (!friction_changes &&
-        contact_.largestDepthChange(contacts_, found_, *x) < options_.contact_tolerance_m)
-      return;
-    if (round == kMaxRounds) {
+    if (potential_.targets.hasContact())
+      rigid_descent_.settle(potential_, *x, x);
+    else if (!potential_.targets.springs().empty())
+      rigid_descent_.descend(potential_, *x, x);
+    minimize(problem, x);
+    if (contactsStay(problem, *x)) return;
+    if (round == max_rounds) {
       report.converged = false;
       return;
     }
@@ -124,8 +114,35 @@ void ConstrainedStep::iterate(const Problem& problem, Points* x) {
   }
 }
 
+/// With targets, the next step corrects what is left of this one. Without, nothing would; nor after a static
+/// solve, which has no inertia.
+void ConstrainedStep::minimize(const Problem& problem, Points* x) {
+  const bool is_static = problem.free.inertia.isZero(0.0);
+  const int tries = is_static ? 50 : problem.targets.empty() ? 5 : 1;
+  StepReport& report = result_.report;
+  for (int k = 0; k < tries; ++k) {
+    const int iterations = report.iterations;
+    report = solver_->minimize(potential_, x);
+    report.iterations += iterations;
+    if (report.converged) return;
+  }
+}
+
+/// Finds the contacts at the result x of contacts_. @return whether they are those.
+bool ConstrainedStep::contactsStay(const Problem& problem, const Points& x) {
+  if (problem.surroundings.obstacles.empty()) return true;
+  findContacts(x, problem, &found_);
+  keepEarlierContacts(contacts_, &found_);
+  const double depth_change = contact_.largestDepthChange(contacts_, found_, x);
+  const bool friction_changes = contact_.updateFriction(x, &found_);
+  // Lifts are forces, and those of a shape that is not in balance are wrong.
+  const double lift_change = result_.report.converged ? contact_.updateLifts(x, &found_) : 0.0;
+  return !friction_changes && depth_change < options_.contact_tolerance_m &&
+         lift_change < options_.penetration_tolerance_m;
+}
+
 void ConstrainedStep::findContacts(const Points& x, const Problem& problem, std::vector<Contact>* contacts) {
-  contact_.find(problem.before, x, problem.surroundings.obstacles, problem.before_poses, contacts);
+  contact_.find(problem.before, x, problem.surroundings.obstacles, problem.state, contacts);
 }
 
 void ConstrainedStep::setSprings(const std::vector<Target>& targets) {

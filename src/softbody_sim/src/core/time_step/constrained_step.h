@@ -18,11 +18,13 @@ class ConstrainedStep {
     double target_accuracy_m = 0.0;  ///< standard deviation of a target of weight 1
     double pin_stiffness = 0.0;      ///< the largest: far above all other stiffnesses [N/m]
     double contact_tolerance_m = 0.0;
+    double penetration_tolerance_m = 0.0;
     double noticeable_move_m = 0.0;  ///< of a free body in a step; gives the unit of unbalanced forces
   };
   struct Result {
     StepReport report;
     Reactions reactions;
+    std::vector<Contact> contacts;  ///< for the ContactState of the next step
   };
 
   /// @param topology, solver outlive this.
@@ -31,11 +33,10 @@ class ConstrainedStep {
 
   /// Allocates only when the number of targets or contacts exceeds all earlier ones.
   /// @param free the step without targets and surroundings; @param before vertices at its start [m];
-  /// @param before_poses of the obstacles then; @param x start, then result [m]. @return valid until the next
-  /// call.
+  /// @param state of the contacts then; @param x start, then result [m]. @return valid until the next call.
   const Result& solve(const IncrementalPotential& free, const std::vector<Target>& targets,
-                      const Surroundings& surroundings, const Points& before,
-                      const std::vector<Eigen::Isometry3d>& before_poses, Points* x);
+                      const Surroundings& surroundings, const Points& before, const ContactState& state,
+                      Points* x);
 
  private:
   struct Problem;
@@ -44,9 +45,10 @@ class ConstrainedStep {
   double stiffnessOf(const Pin& pin) const;
   void addPins(const std::vector<Pin>& pins);
   void chooseStart(const Problem& problem, Points* x);
-  void moveRigidly(const Points& free, Points* x);
   double energyAt(const Points& x, const Problem& problem);
   void iterate(const Problem& problem, Points* x);
+  void minimize(const Problem& problem, Points* x);
+  bool contactsStay(const Problem& problem, const Points& x);
   void findContacts(const Points& x, const Problem& problem, std::vector<Contact>* contacts);
   void setSprings(const std::vector<Target>& targets);
   void findPinForces(const Problem& problem, const Points& x);

@@ -52,7 +52,11 @@ void RigidCorrection<T>::linearize(const IncrementalPotential& potential, const 
 
 template <typename T>
 void RigidCorrection<T>::setCenters(const Points& x) {
-  for (Piece& piece : pieces_) piece = {Eigen::Vector3d::Zero(), 0.0, Matrix6::Zero(), {}};
+  for (Piece& piece : pieces_) {
+    piece.center.setZero();
+    piece.vertex_count = 0.0;
+    piece.curvature.setZero();
+  }
   for (std::size_t v = 0; v < piece_of_vertex_.size(); ++v) {
     Piece& piece = pieces_[piece_of_vertex_[v]];
     piece.center += x.row(static_cast<Eigen::Index>(v)).transpose();

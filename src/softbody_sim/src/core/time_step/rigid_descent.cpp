@@ -1,6 +1,7 @@
 #include "time_step/rigid_descent.h"
 
 #include <Eigen/Dense>
+#include <cmath>
 
 #include "softbody_common/tet_geometry.h"
 
@@ -79,11 +80,9 @@ void RigidDescent::addSprings(const TargetEnergy& targets, const Points& free, c
   }
 }
 
-bool RigidDescent::descend(const IncrementalPotential& potential, const Points& free, Points* x) {
+/// A full Newton step. @param x where gradient_ was evaluated.
+void RigidDescent::move(const IncrementalPotential& potential, const Points& free, Points* x) {
   motions_.resize(pieces_.size());
-  gradient_.resize(x->rows(), 3);
-  moved_ = *x;
-  const double before = potential.evaluate(*x, &gradient_);
   addVertices(potential, *x);
   addSprings(potential.targets, free, *x);
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
@@ -95,11 +94,37 @@ bool RigidDescent::descend(const IncrementalPotential& potential, const Points& 
     }
     const Vector6d step = -motion.curvature.selfadjointView<Eigen::Lower>().ldlt().solve(motion.gradient);
     const Eigen::Isometry3d T = motionAbout(motion.center, step);
-    for (const int v : pieces_[p]) moved_.row(v) = T * Eigen::Vector3d(x->row(v));
+    for (const int v : pieces_[p]) x->row(v) = T * Eigen::Vector3d(x->row(v));
   }
+}
+
+bool RigidDescent::descend(const IncrementalPotential& potential, const Points& free, Points* x) {
+  gradient_.resize(x->rows(), 3);
+  moved_ = *x;
+  const double before = potential.evaluate(*x, &gradient_);
+  move(potential, free, &moved_);
   if (!(potential.evaluate(moved_, &gradient_) < before)) return false;
   x->swap(moved_);
   return true;
+}
+
+void RigidDescent::settle(const IncrementalPotential& potential, const Points& free, Points* x) {
+  constexpr int kMaxSteps = 8;
+  constexpr double kNoticeable = 1e-6;  // share of the energy
+  gradient_.resize(x->rows(), 3);
+  lowest_ = moved_ = *x;
+  double lowest = potential.evaluate(*x, &gradient_), before = lowest;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    move(potential, step == 0 ? free : moved_, &moved_);
+    const double energy = potential.evaluate(moved_, &gradient_);
+    if (energy < lowest) {
+      lowest = energy;
+      lowest_ = moved_;
+    }
+    if (std::abs(energy - before) <= kNoticeable * std::abs(before)) break;
+    before = energy;
+  }
+  x->swap(lowest_);
 }
 
 }  // namespace softbody

@@ -20,6 +20,10 @@ class RigidDescent {
   /// touches does not fall through. @return whether the potential fell.
   bool descend(const IncrementalPotential& potential, const Points& free, Points* x);
 
+  /// Newton steps of the same motions for a potential with contacts, which open and close on the way. The
+  /// potential may rise in between; x becomes the lowest point. @param free for the first step.
+  void settle(const IncrementalPotential& potential, const Points& free, Points* x);
+
  private:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
   using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -33,13 +37,14 @@ class RigidDescent {
     void addCurvature(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double stiffness);
   };
 
+  void move(const IncrementalPotential& potential, const Points& free, Points* x);
   void addVertices(const IncrementalPotential& potential, const Points& x);
   void addSprings(const TargetEnergy& targets, const Points& free, const Points& x);
 
   std::vector<std::vector<int>> pieces_;
   std::vector<std::size_t> piece_of_vertex_;
   std::vector<Motion> motions_;
-  Points gradient_, moved_;
+  Points gradient_, moved_, lowest_;
 };
 
 }  // namespace softbody
