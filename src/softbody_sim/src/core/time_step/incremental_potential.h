@@ -16,7 +16,7 @@ struct IncrementalPotential {
   Points prediction;        ///< #V by 3: positions without forces [m]
   Points loads;             ///< #V by 3: external forces, including gravity [N]
   TargetEnergy targets;
-  std::vector<int> pinned;         ///< vertices whose pins are as stiff as the solver allows
+  std::vector<int> pinned = {};    ///< vertices whose pins are as stiff as the solver allows
   double reference_force_n = 0.0;  ///< of the loads, and a force that moves a free body noticeably [N]
 
   /// Energy [J]; sets its gradient [N], #V by 3.
