@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dynamics/static_support.h"
+#include "constraints/static_support.h"
 
 namespace softbody {
 namespace {

@@ -1,4 +1,4 @@
-#include "dynamics/static_support.h"
+#include "constraints/static_support.h"
 
 #include <fmt/format.h>
 
