@@ -62,6 +62,32 @@ TEST(RigidDescent, PiecesMoveOnTheirOwn) {
   EXPECT_LT((x - truth).rowwise().norm().maxCoeff(), 1e-6);
 }
 
+/// Not short of it, where the contact does not act yet.
+TEST(RigidDescent, AFallingBodyComesToRestOnThePlaneInOneStep) {
+  const TetTopology topology = boxTopology(kCells, kSize);
+  constexpr double kGap = 1e-3, kStiffness = 1e6, kInertia = 10.0, kFall = 0.02;
+  IncrementalPotential potential;
+  potential.inertia = Eigen::VectorXd::Constant(topology.rest_vertices.rows(), kInertia);
+  potential.prediction = topology.rest_vertices;
+  potential.prediction.col(2).array() -= kFall;
+  potential.loads = Points::Zero(topology.rest_vertices.rows(), 3);
+  double springs = 0.0;
+  for (int t = 0; t < static_cast<int>(topology.tets.rows()); ++t) {
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::RowVector3d vertex = topology.rest_vertices.row(topology.tets(t, k));
+      if (vertex.z() > 1e-9) continue;
+      potential.targets.addOneSided({t, Eigen::Vector4d::Unit(k)}, topology.tets,
+                                    {vertex.x(), vertex.y(), -kGap}, Eigen::Vector3d::UnitZ(), kStiffness);
+      springs += kStiffness;
+    }
+  }
+  Points x = topology.rest_vertices;
+  RigidDescent descent(topology);
+  EXPECT_TRUE(descent.descend(potential, potential.prediction, &x));
+  const double inertia = potential.inertia.sum(), depth = inertia * (kFall - kGap) / (inertia + springs);
+  EXPECT_NEAR((x - topology.rest_vertices).col(2).mean(), -kGap - depth, 0.1 * depth);
+}
+
 TEST(RigidDescent, NeverRaisesThePotential) {
   std::mt19937 random(5);
   const TetTopology topology = boxTopology(kCells, kSize);

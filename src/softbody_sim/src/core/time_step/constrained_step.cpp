@@ -76,8 +76,10 @@ void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   findContacts(moved_, problem, &contacts_);
   setSprings(problem.targets);
   rigid_descent_.settle(potential_, *x, &moved_);
-  for (const Pin& pin : surroundings.pins)
-    still_.row(pin.vertex) = moved_.row(pin.vertex) = x->row(pin.vertex) = pin.position;
+  for (const Pin& pin : surroundings.pins) {
+    if (stiffnessOf(pin) == options_.pin_stiffness)
+      still_.row(pin.vertex) = moved_.row(pin.vertex) = x->row(pin.vertex) = pin.position;
+  }
   double lowest = energyAt(*x, problem);
   for (Points* candidate : {&still_, &moved_}) {
     const double energy = energyAt(*candidate, problem);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "simd/rows.h"
@@ -58,6 +59,7 @@ StepReport QuasiNewton<Positions>::minimize(const Energy& energy, const Metric& 
   StepReport report;
   history_ = std::min(options.history, kHistory);
   pair_count_ = 0;
+  extent_ = static_cast<double>(x->cwiseAbs().maxCoeff());
   energy_ = energy(*x, &gradient_);
   report.converged = isBalanced(options);
   lowest_n_ = energy_.unbalanced_n;
@@ -86,13 +88,22 @@ bool QuasiNewton<Positions>::isBalanced(const MinimizerOptions& options) const {
   return std::isfinite(energy_.external_n) && energy_.unbalanced_n <= options.tolerance * energy_.external_n;
 }
 
+/// Error of the energy: of its sum, and of the forces' work along the rounding of the positions.
+template <typename Positions>
+double QuasiNewton<Positions>::rounding() const {
+  constexpr double kEpsilon = std::numeric_limits<Scalar>::epsilon();
+  return kRounding<Scalar> * std::abs(energy_.energy_j) + kEpsilon * extent_ * energy_.external_n;
+}
+
 /// Whether several iterations gained nothing: neither the energy nor the unbalanced forces fell.
 template <typename Positions>
 bool QuasiNewton<Positions>::isRounding(double energy_before) {
   const bool falls = energy_before - energy_.energy_j > kRounding<Scalar> * std::abs(energy_before);
   idle_ = falls || energy_.unbalanced_n < lowest_n_ ? 0 : idle_ + 1;
   lowest_n_ = std::min(lowest_n_, energy_.unbalanced_n);
-  return idle_ > 2 * kHistory;
+  // Forces of a nearly incompressible body rise for up to a hundred iterations before they fall again.
+  constexpr int kPatience = 200;
+  return idle_ > kPatience;
 }
 
 template <typename Positions>
@@ -143,7 +154,7 @@ void QuasiNewton<Positions>::findDirection(const Metric& metric) {
 /// Halves the step until the energy falls enough. If it never does, returns false and leaves x.
 template <typename Positions>
 bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, double* step) {
-  constexpr int kMaxHalvings = 12;
+  constexpr int kMaxHalvings = 30;  // a free fall of 10 mm may meet a contact after 10 nm
   const double slope = dot(gradient_, direction_);
   if (!(slope < 0.0)) return false;
   for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {
@@ -167,7 +178,7 @@ template <typename Positions>
 bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, double step) const {
   constexpr double kArmijo = 1e-4;
   if (trial_energy <= energy_.energy_j + kArmijo * step * slope) return true;
-  return trial_energy <= energy_.energy_j + kRounding<Scalar> * std::abs(energy_.energy_j) &&
+  return trial_energy <= energy_.energy_j + rounding() &&
          dot(trial_gradient_, direction_) <= (2.0 * kArmijo - 1.0) * slope;
 }
 

@@ -59,6 +59,7 @@ class QuasiNewton {
   bool fallsEnough(double trial_energy, double slope, double step) const;
   bool isBalanced(const MinimizerOptions& options) const;
   bool isRounding(double energy_before);
+  double rounding() const;
   void describe(StepReport* report) const;
   void storeMove();
   Pair& recent(int age) { return pairs_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)]; }
@@ -69,6 +70,7 @@ class QuasiNewton {
   int newest_ = 0;
   StepEnergy energy_{0.0};
   double lowest_n_ = 0.0;  ///< unbalanced forces
+  double extent_ = 0.0;    ///< of the positions [m]
   int idle_ = 0;           ///< iterations without a gain
   Positions gradient_, direction_, residual_, trial_, trial_gradient_, trial_gradient_change_;
 };

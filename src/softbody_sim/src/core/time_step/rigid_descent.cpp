@@ -46,6 +46,11 @@ void RigidDescent::Motion::addCurvature(const Eigen::Vector3d& point, const Eige
   curvature.selfadjointView<Eigen::Lower>().rankUpdate(row, stiffness);
 }
 
+void RigidDescent::Motion::addGradient(const Eigen::Vector3d& point, const Eigen::Vector3d& force) {
+  gradient.head<3>() += (point - center).cross(force);
+  gradient.tail<3>() += force;
+}
+
 void RigidDescent::addVertices(const IncrementalPotential& potential, const Points& x) {
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     Motion& motion = motions_[p];
@@ -56,8 +61,7 @@ void RigidDescent::addVertices(const IncrementalPotential& potential, const Poin
     motion.curvature.setZero();
     for (const int v : pieces_[p]) {
       const Eigen::Vector3d point = x.row(v), force = gradient_.row(v);
-      motion.gradient.head<3>() += (point - motion.center).cross(force);
-      motion.gradient.tail<3>() += force;
+      motion.addGradient(point, force);
       for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), potential.inertia[v]);
     }
   }
@@ -74,8 +78,13 @@ void RigidDescent::addSprings(const TargetEnergy& targets, const Points& free, c
       for (int k = 0; k < 3 && scale > 0.0; ++k) motion.addCurvature(point, curvature.col(k), 1.0 / scale);
     } else if (spring.normal.isZero(0.0)) {
       for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), spring.stiffness);
-    } else if (!spring.one_sided || isClosed(spring, point) || isClosed(spring, pointOf(spring, free))) {
+    } else if (!spring.one_sided || isClosed(spring, point)) {
       motion.addCurvature(point, spring.normal, spring.stiffness);
+    } else if (isClosed(spring, pointOf(spring, free))) {
+      // It will act: the step ends where it does, not short of its plane.
+      const double gap = spring.normal.dot(point - spring.position);
+      motion.addCurvature(point, spring.normal, spring.stiffness);
+      motion.addGradient(point, spring.stiffness * gap * spring.normal);
     }
   }
 }

@@ -35,6 +35,7 @@ class RigidDescent {
     Matrix6d curvature;
 
     void addCurvature(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double stiffness);
+    void addGradient(const Eigen::Vector3d& point, const Eigen::Vector3d& force);
   };
 
   void move(const IncrementalPotential& potential, const Points& free, Points* x);
