@@ -15,6 +15,7 @@
 #include "linear_solvers/global_step_solver.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "tets/tet_matrix.h"
+#include "time_step/fem_solver.h"
 #include "time_step/projective_dynamics.h"
 
 /// Compares projective dynamics with a plain implementation, on bent bodies with one thread. `frame`: ten
@@ -22,7 +23,8 @@
 /// mean edge lengths of the minimum. Of the fast solver in single precision: `local` and `global` (one such
 /// step), `factor` (a new matrix), `update` (a matrix with a few other targets). The prefix `smoothed/` means
 /// the simulator's default strain smoothing, compared with a plain solver of the same energy. `global`,
-/// `factor` and `update` do not depend on it.
+/// `factor` and `update` do not depend on it. `volume_smoothing`: the time with all of the volume energy
+/// smoothed, relative to that of a sponge.
 namespace {
 
 using namespace softbody;
@@ -50,12 +52,15 @@ const BentBody& bodyOf(const std::string& name, bool with_volume) {
   return made.at(key);
 }
 
-ProjectiveDynamicsOptions options(Strains strains, bool single, Simd simd, int iterations, int history) {
+ElasticMaterials materialsOf(const BentBody& body, Strains strains) {
+  return {body.lame, smoothingOf(strains)};
+}
+
+ProjectiveDynamicsOptions options(bool single, Simd simd, int iterations, int history) {
   ProjectiveDynamicsOptions chosen;
   chosen.minimizer = {iterations, 0.0, history};
   chosen.single_precision = single;
   chosen.simd = simd;
-  chosen.smoothing = smoothingOf(strains);
   return chosen;
 }
 
@@ -108,8 +113,9 @@ Run plainFrame(const BentBody& body, Strains strains, int iterations) {
   };
 }
 
-Run fastFrame(const BentBody& body, const ProjectiveDynamicsOptions& chosen) {
-  const auto solver = std::make_shared<ProjectiveDynamics>(body.topology, body.lame, chosen);
+Run fastFrame(const BentBody& body, const ElasticMaterials& materials,
+              const ProjectiveDynamicsOptions& chosen) {
+  const auto solver = std::make_shared<ProjectiveDynamics>(body.topology, materials, chosen);
   Run frame = [solver, &body] {
     Points x = body.start;
     solver->minimize(body.potential, &x);
@@ -124,7 +130,7 @@ Run fastFrame(const BentBody& body, const ProjectiveDynamicsOptions& chosen) {
 /// minimum.
 int iterationsToMinimum(const BentBody& body, Strains strains, const std::function<Points(int)>& run) {
   Points minimum = body.start;
-  ProjectiveDynamics(body.topology, body.lame, options(strains, false, Simd::kAuto, 2000, 5))
+  ProjectiveDynamics(body.topology, materialsOf(body, strains), options(false, Simd::kAuto, 2000, 5))
       .minimize(body.potential, &minimum);
   for (int iterations = 1; iterations < 1000; ++iterations) {
     const double distance = (run(iterations) - minimum).rowwise().norm().maxCoeff();
@@ -150,7 +156,7 @@ void frames(State& state, const std::string& name, bool with_volume, Strains str
   for (bool single : {true, false}) {
     for (Simd simd : widths()) {
       names.push_back(fmt::format("{} {}", single ? "float" : "double", nameOf(simd)));
-      runs.push_back(fastFrame(body, options(strains, single, simd, kFrameIterations, 0)));
+      runs.push_back(fastFrame(body, materialsOf(body, strains), options(single, simd, kFrameIterations, 0)));
       if (bytes == 0.0) bytes = usedMemory() - before;
     }
   }
@@ -181,15 +187,15 @@ void converged(State& state, Strains strains) {
   for (int history : {5, 0}) {
     const int iterations = iterationsToMinimum(body, strains, [&](int count) {
       Points x = body.start;
-      const auto chosen = options(strains, false, Simd::kAuto, count, history);
-      ProjectiveDynamics(body.topology, body.lame, chosen).minimize(body.potential, &x);
+      const auto chosen = options(false, Simd::kAuto, count, history);
+      ProjectiveDynamics(body.topology, materialsOf(body, strains), chosen).minimize(body.potential, &x);
       return x;
     });
     const std::string kind = history > 0 ? "double lbfgs " : "double ";
     state.counters[kind + "iterations"] = iterations;
     for (Simd simd : widths()) {
       names.push_back(kind + nameOf(simd));
-      runs.push_back(fastFrame(body, options(strains, false, simd, iterations, history)));
+      runs.push_back(fastFrame(body, materialsOf(body, strains), options(false, simd, iterations, history)));
     }
   }
   for (auto _ : state) {
@@ -197,6 +203,35 @@ void converged(State& state, Strains strains) {
     report(state, names, times);
     state.counters[fmt::format("summary/pd_{}converged_ratio/sponge", prefixOf(strains, "_"))] =
         times[0] / times[1];
+  }
+}
+
+/// What it costs to smooth all of the volume energy, as nearly incompressible bodies need, instead of the
+/// share of a sponge: a step of the node, and one iteration of finite elements.
+void volumeSmoothingCost(State& state, const std::string& name) {
+  const BentBody& body = bodyOf(name, true);
+  const SimulatorConfig node;
+  std::vector<Run> runs;
+  for (const double volume : {volumeSmoothing(0.2), 1.0}) {
+    const ElasticMaterials materials(body.lame, {node.strain_smoothing, volume});
+    runs.push_back(
+        fastFrame(body, materials, options(false, Simd::kAuto, node.iterations, node.lbfgs_history)));
+    const auto fem = std::make_shared<FemSolver>(body.topology, Elasticity::kCorotated, materials,
+                                                 FemSolver::Options{1, 0.0});
+    runs.push_back([fem, &body] {
+      Points x = body.start;
+      fem->minimize(body.potential, &x);
+    });
+  }
+  for (auto _ : state) {
+    const std::vector<double> times = leastTimes(runs);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string solver = k == 0 ? "pd" : "fem";
+      state.counters[solver + " us"] = 1e6 * times[k];
+      state.counters[solver + " all smoothed us"] = 1e6 * times[k + 2];
+      state.counters[fmt::format("summary/{}_volume_smoothing_cost/{}", solver, name)] =
+          times[k + 2] / times[k];
+    }
   }
 }
 
@@ -285,6 +320,7 @@ void addBody(const std::string& name) {
   add("global/" + name, [body](State& s) { globalStep(s, body(), Simd::kAuto); });
   add("factor/" + name, [body](State& s) { factorize(s, body()); });
   add("update/" + name, [name](State& s) { updates(s, name); })->Iterations(1);
+  add("volume_smoothing/" + name, [name](State& s) { volumeSmoothingCost(s, name); })->Iterations(1);
 }
 
 void vectorWidth(State& state) {

@@ -84,7 +84,7 @@ void PlainProjectiveDynamics::addTets(const Points& rest_vertices) {
 }
 
 void PlainProjectiveDynamics::addPatches(const Points& rest_vertices, double smoothing) {
-  const SmoothedGradients smoothed = smoothedGradients(rest_vertices, tets_);
+  const SmoothedGradients smoothed = smoothedGradients(rest_vertices, tets_, lame_);
   for (Eigen::Index v = 0; v < smoothed.volumes.size(); ++v) {
     const int first = smoothed.first[v], last = smoothed.first[v + 1];
     patches_.push_back({{smoothed.vertices.begin() + first, smoothed.vertices.begin() + last},

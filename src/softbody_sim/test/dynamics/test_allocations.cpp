@@ -49,8 +49,8 @@ TEST(Allocations, AFrameAfterTheFirstMakesNone) {
       ProjectiveDynamicsOptions options;
       options.minimizer = {20, 0.0, history};
       options.single_precision = single;
-      options.smoothing = SimulatorConfig().strain_smoothing;
-      ProjectiveDynamics solver(topology, lameParameters(2.0e4, 0.3), options);
+      ProjectiveDynamics solver(topology, {lameParameters(2.0e4, 0.3), SimulatorConfig().strain_smoothing},
+                                options);
       Points x = topology.rest_vertices;
       for (int frame = 0; frame < 12; ++frame) {
         const Points goal = topology.rest_vertices + testing::randomPoints(x.rows(), 0.005, &random);

@@ -108,11 +108,8 @@ TEST_P(KnownSolutions, AFreeBodyFallsAsImplicitEulerSays) {
   EXPECT_LT((moves.rowwise() - fall).norm(), 1e-8);
 }
 
-TEST_P(KnownSolutions, AngularMomentumIsLostInProportionToTheTimeStep) {
-  const double coarse = spinLost(200), fine = spinLost(400);
-  EXPECT_GT(fine, 0.0);
-  EXPECT_LT(fine, 0.02);
-  EXPECT_NEAR(coarse / fine, 2.0, 0.25);
+TEST_P(KnownSolutions, AFreeBodyKeepsItsAngularMomentum) {
+  for (const int steps_per_second : {30, 200}) EXPECT_LT(std::abs(spinLost(steps_per_second)), 2e-3);
 }
 
 TEST_P(KnownSolutions, AHomogeneousStrainIsAnEquilibriumOfAnyMesh) {
@@ -195,6 +192,27 @@ TEST(Cantilever, WithSmoothedStrainsACoarseBeamBendsLikeAFineOne) {
   pd.tolerance = 1e-9;
   EXPECT_NEAR(cantileverRatio(2, pd), 1.0, 0.1);
   EXPECT_NEAR(cantileverRatio(4, pd), 1.0, 0.05);
+}
+
+/// Also where the energy no longer tells a gain from rounding.
+TEST(Cantilever, ProjectiveDynamicsBalancesForcesAtEveryStiffness) {
+  const TetTopology topology = sponge();
+  SimulatorConfig config;
+  config.iterations = 20000;
+  config.tolerance = 1e-5;
+  config.gravity = {0.0, 0.0, -9.81};
+  Surroundings held;
+  for (int v = 0; v < topology.rest_vertices.rows(); ++v)
+    if (topology.rest_vertices(v, 0) < 1e-9) held.pins.push_back({v, topology.rest_vertices.row(v)});
+  for (const double youngs_modulus_pa : {1e4, 1e7, 1e10}) {
+    for (const double poisson_ratio : {0.2, 0.49}) {
+      Simulator simulator(topology, {youngs_modulus_pa, poisson_ratio, 30.0, 0.0}, config);
+      simulator.step(placing(), 0);
+      simulator.settle({}, held);
+      EXPECT_TRUE(simulator.report().converged)
+          << youngs_modulus_pa << ", " << poisson_ratio << ": " << simulator.report().residual_n;
+    }
+  }
 }
 
 /// Bending hardly depends on Poisson's ratio. Without smoothing, the pressure of linear tets resists it.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <set>
 
 #include "cage/enclosure.h"
@@ -127,6 +129,26 @@ TEST_F(ObjectModelTest, DescriptionIsReadWithPathsRelativeToItsFile) {
   EXPECT_NE(description.warnings[0].find("object.yaml:4: unknown key object/colour"), std::string::npos);
 }
 
+TEST_F(ObjectModelTest, MaterialsOfRegionsTakeMissingValuesFromTheObject) {
+  describe(test::torus(0.1, 0.03, 12, 6));
+  const Material material =
+      loadObjectDescription(
+          yaml("object:\n  visual_mesh: visual.obj\n  unit: mm\n"
+               "  material: {poisson_ratio: 0.4, density_kg_m3: 100}\n"
+               "  materials:\n    - {min: [-1, -2, -3], max: [1, 2, 3], youngs_modulus_pa: 1.0e6}\n"
+               "    - {max: [0, 9, 9], density_kg_m3: 7}\n"))
+          .material;
+  ASSERT_EQ(material.regions.size(), 2U);
+  EXPECT_TRUE(material.regions[0].min.isApprox(Eigen::Vector3d(-0.001, -0.002, -0.003)));
+  EXPECT_TRUE(material.regions[0].max.isApprox(Eigen::Vector3d(0.001, 0.002, 0.003)));
+  EXPECT_EQ(material.regions[0].youngs_modulus_pa, 1e6);
+  EXPECT_EQ(material.regions[0].poisson_ratio, 0.4);
+  EXPECT_EQ(material.regions[0].density_kg_m3, 100.0);
+  EXPECT_EQ(material.regions[1].min, Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(material.regions[1].youngs_modulus_pa, material.youngs_modulus_pa);
+  EXPECT_EQ(material.regions[1].density_kg_m3, 7.0);
+}
+
 TEST_F(ObjectModelTest, BrokenDescriptionsAreRefusedWithLineKeyValueAndRange) {
   describe(test::torus(0.1, 0.03, 12, 6));
   const std::string begin = "object:\n  visual_mesh: visual.obj\n";
@@ -145,6 +167,10 @@ TEST_F(ObjectModelTest, BrokenDescriptionsAreRefusedWithLineKeyValueAndRange) {
       {begin + "  material:\n    density_kg_m3: heavy\n",
        ":4: object/material/density_kg_m3 is 'heavy'; allowed"},
       {begin + "  material: {youngs_modulus_pa: .nan}\n", ":3: object/material/youngs_modulus_pa"},
+      {begin + "  materials: 3\n", ":3: object/materials must be a list of maps"},
+      {begin + "  materials: [{density_kg_m3: 0}]\n", ":3: object/materials/0/density_kg_m3 is '0'; allowed"},
+      {begin + "  materials: [{min: [0, 0, 1], max: [1, 1, 0]}]\n",
+       ":3: object/materials/0: min must not exceed max"},
       {begin + "  initial_pose: [0, 0, 0]\n", ":3: object/initial_pose is '[0, 0, 0]'; allowed: a list of 7"},
       {begin + "  initial_pose: [0, 0, 0, 0, 0, 0, 2]\n", "has length 2; allowed: 0.99 to 1.01"}};
   for (const auto& [text, expected] : cases) {

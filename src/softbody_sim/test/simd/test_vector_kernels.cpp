@@ -139,7 +139,7 @@ void addTets(const CorotatedElasticity& elasticity, const Points& rest, const Po
   for (Eigen::Index t = 0; t < elasticity.tets().rows(); ++t) {
     const Eigen::RowVector4i tet = elasticity.tets().row(t);
     const Eigen::Matrix3d edges = edgesOf(x, tet), inverse = edgesOf(rest, tet).inverse();
-    rounding->add(elasticity.tetShare().volume * elasticity.volumes()[t], edges * inverse,
+    rounding->add(elasticity.tetLame(t).mu / kLame.mu * elasticity.volumes()[t], edges * inverse,
                   edges.colwise().norm() * inverse.rowwise().norm(), shapeGradients(inverse).norm());
   }
 }
@@ -151,7 +151,7 @@ void addPatches(const CorotatedElasticity& elasticity, const Points& x, Rounding
     const Eigen::MatrixX3d gradients = smoothed.gradients.middleRows(first, count);
     Eigen::MatrixX3d points(count, 3);
     for (int e = 0; e < count; ++e) points.row(e) = x.row(smoothed.vertices[first + e]);
-    rounding->add(elasticity.patchShare().volume * smoothed.volumes[v], points.transpose() * gradients,
+    rounding->add(elasticity.patchLame(v).mu / kLame.mu * smoothed.volumes[v], points.transpose() * gradients,
                   points.rowwise().norm().dot(gradients.rowwise().norm()), gradients.norm());
   }
 }

@@ -160,7 +160,7 @@ TEST(FemSolver, NewtonConvergesQuadratically) {
   goal.col(2) += 3.0 * goal.col(0).cwiseAbs2();  // a bend
   potential.targets.set(testing::vertexTargets(topology, goal), topology.tets, 30.0);
   const auto gradientAfter = [&](int iterations) {
-    FemSolver solver(topology, Elasticity::kNeoHookean, lameParameters(2e4, 0.3), {0.7, 1.0},
+    FemSolver solver(topology, Elasticity::kNeoHookean, {lameParameters(2e4, 0.3), {0.7, 1.0}},
                      {iterations, 0.0});
     Points x = topology.rest_vertices, gradient(count, 3);
     solver.minimize(potential, &x);

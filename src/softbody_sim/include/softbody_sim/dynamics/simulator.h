@@ -22,6 +22,7 @@ class Simulator {
   ~Simulator();
 
   const TetTopology& topology() const;
+  const Material& material() const;
 
   /// False until the first TargetSet with `reset` has placed the body.
   bool placed() const;

@@ -6,8 +6,10 @@
 #include "dynamics/occluded_piece_damping.h"
 #include "dynamics/vertex_confidence.h"
 #include "dynamics/vertex_deviation.h"
+#include "elasticity/tet_materials.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/constrained_step.h"
+#include "time_step/free_motion.h"
 #include "time_step/step_solver.h"
 
 namespace softbody {
@@ -20,7 +22,9 @@ struct BodyModel {
             double edge_length);
 
   TetTopology topology;
-  const Eigen::VectorXd masses;   ///< lumped [kg]
+  const TetMaterials materials;
+  const Eigen::VectorXd masses;  ///< lumped [kg]
+  const FreeMotion free_motion;
   const double target_stiffness;  ///< of a target of weight 1 [N/m]
   const std::unique_ptr<StepSolver> solver;
   ConstrainedStep constrained_step;

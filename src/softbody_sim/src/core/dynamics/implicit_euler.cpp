@@ -26,7 +26,11 @@ void ImplicitEuler::step(BodyModel* model, const std::vector<Target>& targets, d
   // A long gap is simulated as a shorter step, but the body moved during the whole gap.
   if (elapsed_s > 0.0) {
     const double passed_s = elapsed_s > config_.max_time_step_s ? elapsed_s : h;
-    body->velocity = (solution_ - body->mesh.vertices) / passed_s;
+    // Where targets hold the body, they say how it turns.
+    if (targets.empty())
+      model->free_motion.setVelocity(body->mesh.vertices, solution_, passed_s, &body->velocity);
+    else
+      body->velocity = (solution_ - body->mesh.vertices) / passed_s;
   }
   body->mesh.vertices.swap(solution_);
 }
@@ -42,7 +46,10 @@ double ImplicitEuler::startStep(BodyModel* model, const std::vector<Target>& tar
   if (moves) {
     body->velocity *= std::pow(1.0 - damping_, h / kNominalTimeStep);
     model->occluded_piece_damping.apply(targets, elapsed_s, &body->velocity);
-    free_.prediction += h * body->velocity;
+    if (targets.empty())
+      model->free_motion.advance(body->velocity, h, &free_.prediction);
+    else
+      free_.prediction += h * body->velocity;
     free_.loads.noalias() = model->masses * config_.gravity.transpose();
   }
   // The start includes gravity but not the estimated loads: the body's stiffness balances those.

@@ -70,6 +70,7 @@ Simulator::Implementation::Implementation(const TetTopology& topology, const Mat
       edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
       volume(topology, undoBytes()),
       integrator(config_in, material_in.damping) {
+  requireUsedRegions(topology, material_in);
   setTopology(topology);
 }
 
@@ -147,6 +148,8 @@ Simulator::Simulator(const TetTopology& topology, const Material& material, cons
 Simulator::~Simulator() = default;
 
 const TetTopology& Simulator::topology() const { return implementation_->model->topology; }
+
+const Material& Simulator::material() const { return implementation_->material; }
 
 bool Simulator::placed() const { return implementation_->body.placed; }
 
@@ -233,8 +236,9 @@ void Simulator::setVertices(const Points& vertices) {
 }
 
 void Simulator::setMaterial(const Material& material) {
-  softbody::requireUsable(material);
   Implementation& s = *implementation_;
+  softbody::requireUsable(material);
+  requireUsedRegions(s.uncut, material);
   s.material = material;
   s.makeModel(TetTopology(s.model->topology));
   s.body.contact.contacts.clear();  // a depth gives another pressure now

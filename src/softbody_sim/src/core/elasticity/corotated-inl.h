@@ -194,11 +194,10 @@ struct Response {
 
 /// Recomputes, lane by lane, the tets whose rotation is not or hardly unique.
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
-HWY_NOINLINE void respondOneByOne(D d, hn::Mask<D> wanted, T mu, T lambda, V volume, const Mat3<V>& F,
+HWY_NOINLINE void respondOneByOne(D d, hn::Mask<D> wanted, V shear, V bulk, const Mat3<V>& F,
                                   Response<V>* response) {
-  const Lame lame{static_cast<double>(mu), static_cast<double>(lambda)};
   constexpr std::size_t kMost = 16;
-  HWY_ALIGN T f[9][kMost], stress[9][kMost], energy[kMost], volumes[kMost];
+  HWY_ALIGN T f[9][kMost], stress[9][kMost], energy[kMost], shears[kMost], bulks[kMost];
   const V* columns = &F.c0.x;
   V* result = &response->stress.c0.x;
   for (int k = 0; k < 9; ++k) {
@@ -206,35 +205,37 @@ HWY_NOINLINE void respondOneByOne(D d, hn::Mask<D> wanted, T mu, T lambda, V vol
     hn::Store(result[k], d, stress[k]);
   }
   hn::Store(response->energy, d, energy);
-  hn::Store(hn::IfThenElse(wanted, volume, hn::Set(d, T{-1})), d, volumes);
+  hn::Store(hn::IfThenElse(wanted, shear, hn::Set(d, T{-1})), d, shears);
+  hn::Store(bulk, d, bulks);
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    if (volumes[lane] < T{0}) continue;
-    Eigen::Matrix3d one, density_gradient;
+    if (shears[lane] < T{0}) continue;
+    Eigen::Matrix3d one, gradient;
     for (int k = 0; k < 9; ++k) one(k) = static_cast<double>(f[k][lane]);
-    energy[lane] = volumes[lane] * static_cast<T>(corotatedEnergy(one, lame, &density_gradient));
-    for (int k = 0; k < 9; ++k) stress[k][lane] = volumes[lane] * static_cast<T>(density_gradient(k));
+    const Lame lame{0.5 * static_cast<double>(shears[lane]), static_cast<double>(bulks[lane])};
+    energy[lane] = static_cast<T>(corotatedEnergy(one, lame, &gradient));
+    for (int k = 0; k < 9; ++k) stress[k][lane] = static_cast<T>(gradient(k));
   }
   for (int k = 0; k < 9; ++k) result[k] = hn::Load(d, stress[k]);
   response->energy = hn::Load(d, energy);
 }
 
+/// @param shear 2 mu, @param bulk lambda, both times volume [J].
 template <class D, class V = hn::Vec<D>, typename T = hn::TFromD<D>>
-HWY_INLINE Response<V> respond(D d, T mu, T lambda, V volume, const Deformation<V>& deformation) {
+HWY_INLINE Response<V> respond(D d, V shear, V bulk, const Deformation<V>& deformation) {
   const V dilation = hn::Sub(deformation.trace, hn::Set(d, T{3}));
-  const V stiffness = hn::Mul(hn::Set(d, T{2} * mu), volume);
-  const V pressure = hn::Mul(hn::Mul(hn::Set(d, lambda), volume), dilation);
+  const V pressure = hn::Mul(bulk, dilation);
   const Mat3<V> strain = strainOf(d, deformation);
   const V squared =
       hn::Add(hn::Add(dot(strain.c0, strain.c0), dot(strain.c1, strain.c1)), dot(strain.c2, strain.c2));
   Response<V> response;
-  response.energy = hn::Mul(hn::Set(d, T(0.5)), hn::MulAdd(stiffness, squared, hn::Mul(pressure, dilation)));
-  // stiffness (F - R) + pressure R
-  response.stress = blend(hn::Sub(stiffness, pressure), strain, pressure, deformation.F);
+  response.energy = hn::Mul(hn::Set(d, T(0.5)), hn::MulAdd(shear, squared, hn::Mul(pressure, dilation)));
+  // shear (F - R) + pressure R
+  response.stress = blend(hn::Sub(shear, pressure), strain, pressure, deformation.F);
   // The limit of extractRotation().
   const V least_slope = hn::Mul(hn::Set(d, T(1e-2)), hn::Mul(deformation.squared_norm, deformation.trace));
   const auto unique = hn::And(hn::Gt(deformation.slope, least_slope), converged(d, deformation));
   if (HWY_UNLIKELY(!hn::AllTrue(d, unique))) {
-    respondOneByOne(d, hn::Not(unique), mu, lambda, volume, deformation.F, &response);
+    respondOneByOne(d, hn::Not(unique), shear, bulk, deformation.F, &response);
   }
   return response;
 }

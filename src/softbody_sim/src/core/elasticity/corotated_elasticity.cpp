@@ -1,6 +1,7 @@
 #include "elasticity/corotated_elasticity.h"
 
 #include <Eigen/LU>
+#include <utility>
 
 #include "elasticity/rotation.h"
 #include "tets/tet_shape.h"
@@ -15,19 +16,17 @@ double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix
   return lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * dilation * dilation;
 }
 
-CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
-                                         const Smoothing& smoothing)
+CorotatedElasticity::CorotatedElasticity(const Points& rest_vertices, const Tets& tets,
+                                         ElasticMaterials materials)
     : tets_(tets),
       inverse_edges_(tets.rows(), 9),
       volumes_(positiveVolumes(rest_vertices, tets)),
-      lame_(lame),
-      tet_share_(softbody::tetShare(lame, smoothing)),
-      patch_share_(softbody::patchShare(lame, smoothing)) {
+      materials_(std::move(materials)) {
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     const Eigen::Matrix3d inverse = edgesOf(rest_vertices, tets.row(t)).inverse();
     inverse_edges_.row(t) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(inverse.data());
   }
-  if (patch_share_.volume > 0.0) smoothed_ = smoothedGradients(rest_vertices, tets);
+  if (hasPatches(materials_)) smoothed_ = smoothedGradients(rest_vertices, tets, materials_);
 }
 
 Eigen::Matrix3d CorotatedElasticity::inverseEdges(Eigen::Index t) const {
@@ -44,9 +43,8 @@ double CorotatedElasticity::addTets(const Points& x, Points* gradient) const {
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
     const Eigen::Matrix3d inverse = inverseEdges(t);
     Eigen::Matrix3d stress;
-    const double volume = tet_share_.volume * volumes_[t];
-    energy += volume * corotatedEnergy(edgesOf(x, tets_.row(t)) * inverse, tet_share_.lame, &stress);
-    const Eigen::Matrix3d forces = volume * stress * inverse.transpose();
+    energy += volumes_[t] * corotatedEnergy(edgesOf(x, tets_.row(t)) * inverse, tetLame(t), &stress);
+    const Eigen::Matrix3d forces = volumes_[t] * stress * inverse.transpose();
     for (int k = 0; k < 3; ++k) gradient->row(tets_(t, k + 1)) += forces.col(k).transpose();
     gradient->row(tets_(t, 0)) -= (forces.col(0) + forces.col(1) + forces.col(2)).transpose();
   }
@@ -55,21 +53,22 @@ double CorotatedElasticity::addTets(const Points& x, Points* gradient) const {
 
 double CorotatedElasticity::addSmoothed(const Points& x, Points* gradient) const {
   double energy = 0.0;
-  for (Eigen::Index v = 0; v < smoothed_.volumes.size(); ++v) {
+  for (Eigen::Index p = 0; p < smoothed_.volumes.size(); ++p) {
     Eigen::Matrix3d F = Eigen::Matrix3d::Zero(), stress;
-    for (int e = smoothed_.first[v]; e < smoothed_.first[v + 1]; ++e)
+    for (int e = smoothed_.first[p]; e < smoothed_.first[p + 1]; ++e)
       F += x.row(smoothed_.vertices[e]).transpose() * smoothed_.gradients.row(e);
-    const double volume = patch_share_.volume * smoothed_.volumes[v];
-    energy += volume * corotatedEnergy(F, patch_share_.lame, &stress);
-    for (int e = smoothed_.first[v]; e < smoothed_.first[v + 1]; ++e)
+    const double volume = smoothed_.volumes[p];
+    energy += volume * corotatedEnergy(F, patchLame(p), &stress);
+    for (int e = smoothed_.first[p]; e < smoothed_.first[p + 1]; ++e)
       gradient->row(smoothed_.vertices[e]) += volume * smoothed_.gradients.row(e) * stress.transpose();
   }
   return energy;
 }
 
 void CorotatedElasticity::addMetric(TetMatrix* matrix) const {
-  const double stiffness = 2.0 * lame_.mu + 3.0 * lame_.lambda;
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
+    const Lame& lame = materials_.of(t).lame;
+    const double stiffness = 2.0 * lame.mu + 3.0 * lame.lambda;
     Eigen::Matrix<double, 3, 4> G;  // gradients of the shape functions
     G.rightCols<3>() = inverseEdges(t).transpose();
     G.col(0) = -G.rightCols<3>().rowwise().sum();

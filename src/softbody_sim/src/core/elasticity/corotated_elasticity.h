@@ -19,8 +19,10 @@ double corotatedEnergy(const Eigen::Matrix3d& F, const Lame& lame, Eigen::Matrix
 class CorotatedElasticity {
  public:
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
+  CorotatedElasticity(const Points& rest_vertices, const Tets& tets, ElasticMaterials materials);
   CorotatedElasticity(const Points& rest_vertices, const Tets& tets, const Lame& lame,
-                      const Smoothing& smoothing = {});
+                      const Smoothing& smoothing = {})
+      : CorotatedElasticity(rest_vertices, tets, ElasticMaterials(lame, smoothing)) {}
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
@@ -31,8 +33,11 @@ class CorotatedElasticity {
 
   const Eigen::Matrix<int, Eigen::Dynamic, 4>& tets() const { return tets_; }
   const Eigen::VectorXd& volumes() const { return volumes_; }  ///< [m^3]
-  const EnergyShare& tetShare() const { return tet_share_; }
-  const EnergyShare& patchShare() const { return patch_share_; }
+  Lame tetLame(Eigen::Index t) const { return tetPart(materials_.of(t)); }
+  Lame patchLame(Eigen::Index p) const {
+    return patchPart(
+        materials_.kinds[static_cast<std::size_t>(smoothed_.kinds[static_cast<std::size_t>(p)])]);
+  }
   const SmoothedGradients& smoothed() const { return smoothed_; }  ///< empty without smoothing
 
  private:
@@ -44,8 +49,7 @@ class CorotatedElasticity {
   Eigen::Matrix<double, Eigen::Dynamic, 9>
       inverse_edges_;  ///< of the rest edge matrices, column by column [1/m]
   Eigen::VectorXd volumes_;
-  Lame lame_;
-  EnergyShare tet_share_, patch_share_;
+  ElasticMaterials materials_;
   SmoothedGradients smoothed_;
 };
 

@@ -27,15 +27,11 @@ std::size_t blockCount(Eigen::Index tet_count) {
 
 template <typename T>
 ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const CorotatedElasticity& elasticity, Simd simd)
-    : blocks_(blockCount(elasticity.tets().rows())),
-      mu_(static_cast<T>(elasticity.tetShare().lame.mu)),
-      lambda_(static_cast<T>(elasticity.tetShare().lame.lambda)),
-      kernel_(elasticityKernel<T>(simd)) {
-  const double share = elasticity.tetShare().volume;
+    : blocks_(blockCount(elasticity.tets().rows())), kernel_(elasticityKernel<T>(simd)) {
   const auto count = static_cast<Eigen::Index>(blocks_.size());
   for (Eigen::Index i = 0; i < count * TetBlock<T>::kLanes; ++i) {
     // Neighbouring tets go into different blocks: sums into the same vertex would wait for each other. Unused
-    // lanes hold the last tet with volume 0.
+    // lanes hold the last tet without stiffness.
     const Eigen::Index t = std::min(i, elasticity.tets().rows() - 1);
     const Eigen::RowVector4i tet = elasticity.tets().row(t);
     const Eigen::Matrix3d inverse = inverseTriangle(edgesOf(rest_vertices, tet));
@@ -46,10 +42,11 @@ ElasticBlocks<T>::ElasticBlocks(const Points& rest_vertices, const CorotatedElas
         block.inverse_edges[k][lane] = static_cast<T>(inverse(row, column));
     }
     for (int k = 0; k < 4; ++k) block.corners[k][lane] = 4 * tet[k];
-    block.volume[lane] = i == t ? static_cast<T>(share * elasticity.volumes()[t]) : T{0};
+    const double volume = i == t ? elasticity.volumes()[t] : 0.0;
+    block.shear[lane] = static_cast<T>(2.0 * elasticity.tetLame(t).mu * volume);
+    block.bulk[lane] = static_cast<T>(elasticity.tetLame(t).lambda * volume);
   }
-  if (elasticity.patchShare().volume > 0.0)
-    patches_.emplace(elasticity.smoothed(), elasticity.patchShare(), simd);
+  if (elasticity.smoothed().volumes.size() > 0) patches_.emplace(elasticity, rest_vertices.rows(), simd);
 }
 
 template class ElasticBlocks<float>;

@@ -20,13 +20,12 @@ class ElasticBlocks {
 
   /// Energy [J]; adds its gradient [N].
   double addTo(const Rows<T>& x, Rows<T>* gradient) {
-    const double energy = kernel_(blocks_.data(), blocks_.size(), mu_, lambda_, x.data(), gradient->data());
+    const double energy = kernel_(blocks_.data(), blocks_.size(), x.data(), gradient->data());
     return patches_ ? energy + patches_->addTo(x, gradient) : energy;
   }
 
  private:
   std::vector<TetBlock<T>> blocks_;
-  T mu_, lambda_;
   ElasticityKernel<T> kernel_;
   std::optional<ElasticPatches<T>> patches_;
 };

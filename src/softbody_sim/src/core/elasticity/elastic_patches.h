@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "elasticity/lame_parameters.h"
+#include "elasticity/corotated_elasticity.h"
 #include "elasticity/smoothing_kernel.h"
-#include "elasticity/strain_smoothing.h"
 #include "simd/rows.h"
 
 namespace softbody {
@@ -13,16 +12,18 @@ namespace softbody {
 template <typename T>
 class ElasticPatches {
  public:
-  ElasticPatches(const SmoothedGradients& smoothed, const EnergyShare& share, Simd simd);
+  ElasticPatches(const CorotatedElasticity& elasticity, Eigen::Index vertex_count, Simd simd);
 
   /// Energy [J]; adds its gradient [N].
   double addTo(const Rows<T>& x, Rows<T>* gradient);
 
  private:
+  void transpose(const SmoothedGradients& smoothed, Eigen::Index vertex_count);
+
   std::vector<int> first_, rows_, columns_;
-  std::vector<T> gradients_, gradients_there_, volumes_;
+  std::vector<int> vertex_first_, vertex_rows_;  ///< empty if the same: then the pattern is symmetric
+  std::vector<T> gradients_, vertex_gradients_, shear_, bulk_;
   std::vector<T> deformations_, stresses_;  ///< buffers of the kernel
-  T mu_, lambda_;
   SmoothingKernel<T> kernel_;
 };
 

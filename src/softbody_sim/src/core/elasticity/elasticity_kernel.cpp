@@ -37,8 +37,7 @@ HWY_INLINE void addForces(D d, const TetBlock<T>& block, std::size_t lane, const
 
 /// kVectors vectors of tets at once, starting at lane `first` counted over all blocks.
 template <std::size_t kVectors, class D, typename T = hn::TFromD<D>>
-HWY_INLINE double addVectors(D d, const TetBlock<T>* blocks, std::size_t first, T mu, T lambda, const T* x,
-                             T* gradient) {
+HWY_INLINE double addVectors(D d, const TetBlock<T>* blocks, std::size_t first, const T* x, T* gradient) {
   using V = hn::Vec<D>;
   constexpr std::size_t kLanes = TetBlock<T>::kLanes;
   const std::size_t lanes = hn::Lanes(d);
@@ -50,8 +49,8 @@ HWY_INLINE double addVectors(D d, const TetBlock<T>* blocks, std::size_t first, 
   V sum = hn::Zero(d);
   for (std::size_t k = 0, tet = first; k < kVectors; ++k, tet += lanes) {
     const TetBlock<T>& block = blocks[tet / kLanes];
-    const V volume = hn::Load(d, block.volume + tet % kLanes);
-    const Response<V> response = respond(d, mu, lambda, volume, deformations[k]);
+    const V shear = hn::Load(d, block.shear + tet % kLanes), bulk = hn::Load(d, block.bulk + tet % kLanes);
+    const Response<V> response = respond(d, shear, bulk, deformations[k]);
     addForces(d, block, tet % kLanes, response.stress, gradient);
     sum = hn::Add(sum, response.energy);
   }
@@ -59,30 +58,27 @@ HWY_INLINE double addVectors(D d, const TetBlock<T>* blocks, std::size_t first, 
 }
 
 template <typename T>
-double corotated(const TetBlock<T>* blocks, std::size_t count, T mu, T lambda, const T* x, T* gradient) {
+double corotated(const TetBlock<T>* blocks, std::size_t count, const T* x, T* gradient) {
   const hn::CappedTag<T, TetBlock<T>::kLanes> d;
   const std::size_t lanes = hn::Lanes(d), end = count * TetBlock<T>::kLanes;
   double energy = 0.0;
   std::size_t first = 0;
-  for (; first + 4 * lanes <= end; first += 4 * lanes)
-    energy += addVectors<4>(d, blocks, first, mu, lambda, x, gradient);
+  for (; first + 4 * lanes <= end; first += 4 * lanes) energy += addVectors<4>(d, blocks, first, x, gradient);
   const std::size_t left = (end - first) / lanes;
-  if (left == 3) energy += addVectors<3>(d, blocks, first, mu, lambda, x, gradient);
-  if (left == 2) energy += addVectors<2>(d, blocks, first, mu, lambda, x, gradient);
-  if (left == 1) energy += addVectors<1>(d, blocks, first, mu, lambda, x, gradient);
+  if (left == 3) energy += addVectors<3>(d, blocks, first, x, gradient);
+  if (left == 2) energy += addVectors<2>(d, blocks, first, x, gradient);
+  if (left == 1) energy += addVectors<1>(d, blocks, first, x, gradient);
   return energy;
 }
 
 }  // namespace
 
-double corotatedFloat(const TetBlock<float>* blocks, std::size_t count, float mu, float lambda,
-                      const float* x, float* gradient) {
-  return corotated(blocks, count, mu, lambda, x, gradient);
+double corotatedFloat(const TetBlock<float>* blocks, std::size_t count, const float* x, float* gradient) {
+  return corotated(blocks, count, x, gradient);
 }
 
-double corotatedDouble(const TetBlock<double>* blocks, std::size_t count, double mu, double lambda,
-                       const double* x, double* gradient) {
-  return corotated(blocks, count, mu, lambda, x, gradient);
+double corotatedDouble(const TetBlock<double>* blocks, std::size_t count, const double* x, double* gradient) {
+  return corotated(blocks, count, x, gradient);
 }
 
 }  // namespace softbody::HWY_NAMESPACE

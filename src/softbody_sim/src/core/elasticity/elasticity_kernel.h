@@ -13,15 +13,15 @@ struct alignas(64) TetBlock {
   /// Inverse rest edge matrices: (0,0), (0,1), (1,1), (0,2), (1,2), (2,2) [1/m]. Each is rotated to upper
   /// triangular form, which does not change an isotropic energy.
   T inverse_edges[6][kLanes];
-  T volume[kLanes];        ///< [m^3]; 0: unused lane
+  T shear[kLanes];         ///< 2 mu times volume [J]; 0: unused lane
+  T bulk[kLanes];          ///< lambda times volume [J]
   int corners[4][kLanes];  ///< offsets of the vertices' rows
 };
 
 /// Energy [J] of the corotated material over `count` blocks; adds its gradient [N]. @param x, gradient rows
 /// of four numbers (x, y, z, 0).
 template <typename T>
-using ElasticityKernel = double (*)(const TetBlock<T>* blocks, std::size_t count, T mu, T lambda, const T* x,
-                                    T* gradient);
+using ElasticityKernel = double (*)(const TetBlock<T>* blocks, std::size_t count, const T* x, T* gradient);
 
 template <typename T>
 ElasticityKernel<T> elasticityKernel(Simd simd);

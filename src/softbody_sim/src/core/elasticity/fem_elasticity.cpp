@@ -57,27 +57,26 @@ Matrix9 densityHessian(const IsotropicEnergy& density, const PrincipalAxes& axes
 
 }  // namespace
 
-FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
-                             const Smoothing& smoothing)
+FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity,
+                             const ElasticMaterials& materials)
     : elasticity_(elasticity) {
-  const EnergyShare share = tetShare(lame, smoothing);
   const Eigen::VectorXd volumes = positiveVolumes(topology.rest_vertices, topology.tets);
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
     const Eigen::RowVector4i tet = topology.tets.row(t);
-    elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()),
-                         share.volume * volumes[t], share.lame});
+    elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()), volumes[t],
+                         tetPart(materials.of(t))});
   }
-  const EnergyShare patches = patchShare(lame, smoothing);
-  if (patches.volume > 0.0) addPatches(topology, patches);
+  if (hasPatches(materials)) addPatches(topology, materials);
 }
 
-void FemElasticity::addPatches(const TetTopology& topology, const EnergyShare& share) {
-  const SmoothedGradients smoothed = smoothedGradients(topology.rest_vertices, topology.tets);
-  for (Eigen::Index v = 0; v < smoothed.volumes.size(); ++v) {
-    const int first = smoothed.first[v], count = smoothed.first[v + 1] - first;
+void FemElasticity::addPatches(const TetTopology& topology, const ElasticMaterials& materials) {
+  const SmoothedGradients smoothed = smoothedGradients(topology.rest_vertices, topology.tets, materials);
+  for (Eigen::Index p = 0; p < smoothed.volumes.size(); ++p) {
+    const int first = smoothed.first[p], count = smoothed.first[p + 1] - first;
+    const auto kind = static_cast<std::size_t>(smoothed.kinds[static_cast<std::size_t>(p)]);
     elements_.push_back({Eigen::Map<const Eigen::VectorXi>(smoothed.vertices.data() + first, count),
-                         smoothed.gradients.middleRows(first, count), share.volume * smoothed.volumes[v],
-                         share.lame});
+                         smoothed.gradients.middleRows(first, count), smoothed.volumes[p],
+                         patchPart(materials.kinds[kind])});
   }
 }
 

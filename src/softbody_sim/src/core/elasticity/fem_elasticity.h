@@ -15,8 +15,10 @@ namespace softbody {
 class FemElasticity {
  public:
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
+  FemElasticity(const TetTopology& topology, Elasticity elasticity, const ElasticMaterials& materials);
   FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
-                const Smoothing& smoothing = {});
+                const Smoothing& smoothing = {})
+      : FemElasticity(topology, elasticity, ElasticMaterials(lame, smoothing)) {}
 
   /// Energy [J]; adds its gradient [N], #V by 3.
   double addTo(const Points& x, Points* gradient) const;
@@ -36,7 +38,7 @@ class FemElasticity {
     double volume;                     ///< [m^3]
     Lame lame;
   };
-  void addPatches(const TetTopology& topology, const EnergyShare& share);
+  void addPatches(const TetTopology& topology, const ElasticMaterials& materials);
   Eigen::Matrix3d deformationGradient(const Element& element, const Points& x) const;
 
   Elasticity elasticity_;

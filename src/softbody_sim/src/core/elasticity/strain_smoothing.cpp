@@ -10,6 +10,28 @@
 #include "tets/tet_shape.h"
 
 namespace softbody {
+namespace {
+
+/// Numbers the patches in the order of their vertices, and then of their materials' kinds.
+/// @return #kinds by #V, -1 where no tet of the kind is. @param kinds of the patches.
+Eigen::MatrixXi numberPatches(Eigen::Index vertex_count, const Tets& tets, const ElasticMaterials& materials,
+                              std::vector<int>* kinds) {
+  Eigen::MatrixXi numbers =
+      Eigen::MatrixXi::Constant(static_cast<Eigen::Index>(materials.kinds.size()), vertex_count, -1);
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    for (int a = 0; a < 4; ++a) numbers(materials.kindOf(t), tets(t, a)) = 0;
+  }
+  for (Eigen::Index v = 0; v < vertex_count; ++v) {
+    for (Eigen::Index kind = 0; kind < numbers.rows(); ++kind) {
+      if (numbers(kind, v) < 0) continue;
+      numbers(kind, v) = static_cast<int>(kinds->size());
+      kinds->push_back(static_cast<int>(kind));
+    }
+  }
+  return numbers;
+}
+
+}  // namespace
 
 double volumeSmoothing(double poisson_ratio) {
   constexpr double kUnsmoothed = 0.3, kHarmless = 0.2;
@@ -18,45 +40,52 @@ double volumeSmoothing(double poisson_ratio) {
   return 1.0 - kUnsmoothed * std::min(1.0, softer * ratio(kHarmless) / ratio(poisson_ratio));
 }
 
-EnergyShare tetShare(const Lame& lame, const Smoothing& smoothing) {
-  const double share = 1.0 - smoothing.strain;
-  return {share, {lame.mu, lame.lambda * ((1.0 - smoothing.volume) / share)}};
+Lame tetPart(const ElasticMaterial& m) {
+  return {m.lame.mu * (1.0 - m.smoothing.strain), m.lame.lambda * (1.0 - m.smoothing.volume)};
 }
 
-EnergyShare patchShare(const Lame& lame, const Smoothing& smoothing) {
-  const double share = smoothing.strain > 0.0 ? smoothing.strain : smoothing.volume;
-  if (lame.mu * smoothing.strain + lame.lambda * smoothing.volume == 0.0) return {0.0, lame};
-  return {share, {lame.mu * (smoothing.strain / share), lame.lambda * (smoothing.volume / share)}};
+Lame patchPart(const ElasticMaterial& m) {
+  return {m.lame.mu * m.smoothing.strain, m.lame.lambda * m.smoothing.volume};
 }
 
-SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tets) {
-  const Eigen::Index count = rest_vertices.rows();
+bool hasPatches(const ElasticMaterials& materials) {
+  return std::any_of(materials.kinds.begin(), materials.kinds.end(), [](const ElasticMaterial& material) {
+    const Lame part = patchPart(material);
+    return part.mu + part.lambda > 0.0;
+  });
+}
+
+SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tets,
+                                    const ElasticMaterials& materials) {
   const Eigen::VectorXd tet_volumes = tetVolumes(rest_vertices, tets);
   SmoothedGradients smoothed;
+  const Eigen::MatrixXi patches = numberPatches(rest_vertices.rows(), tets, materials, &smoothed.kinds);
+  const auto count = static_cast<Eigen::Index>(smoothed.kinds.size());
   smoothed.volumes.setZero(count);
-  std::array<std::vector<Eigen::Triplet<double>>, 3> weighted;  // row v: gradients times volumes
+  std::array<std::vector<Eigen::Triplet<double>>, 3> weighted;  // row p: gradients times volumes
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     const double share = 0.25 * tet_volumes[t];
     const Eigen::Matrix<double, 4, 3> gradients =
         share * shapeGradients(edgesOf(rest_vertices, tets.row(t)).inverse());
     for (int a = 0; a < 4; ++a) {
-      smoothed.volumes[tets(t, a)] += share;
+      const int patch = patches(materials.kindOf(t), tets(t, a));
+      smoothed.volumes[patch] += share;
       for (int b = 0; b < 4; ++b) {
-        for (int k = 0; k < 3; ++k) weighted[k].emplace_back(tets(t, a), tets(t, b), gradients(b, k));
+        for (int k = 0; k < 3; ++k) weighted[k].emplace_back(patch, tets(t, b), gradients(b, k));
       }
     }
   }
   for (int k = 0; k < 3; ++k) {
-    Eigen::SparseMatrix<double, Eigen::RowMajor> sums(count, count);  // the same pattern for every k
+    Eigen::SparseMatrix<double, Eigen::RowMajor> sums(count, rest_vertices.rows());  // one pattern for all k
     sums.setFromTriplets(weighted[k].begin(), weighted[k].end());
     smoothed.first.assign(sums.outerIndexPtr(), sums.outerIndexPtr() + count + 1);
     smoothed.vertices.assign(sums.innerIndexPtr(), sums.innerIndexPtr() + sums.nonZeros());
     if (k == 0) smoothed.gradients.resize(sums.nonZeros(), 3);
     smoothed.gradients.col(k) = Eigen::Map<const Eigen::VectorXd>(sums.valuePtr(), sums.nonZeros());
   }
-  for (Eigen::Index v = 0; v < count; ++v) {
-    smoothed.gradients.middleRows(smoothed.first[v], smoothed.first[v + 1] - smoothed.first[v]) /=
-        smoothed.volumes[v];
+  for (Eigen::Index p = 0; p < count; ++p) {
+    smoothed.gradients.middleRows(smoothed.first[p], smoothed.first[p + 1] - smoothed.first[p]) /=
+        smoothed.volumes[p];
   }
   return smoothed;
 }

@@ -25,28 +25,47 @@ struct Smoothing {
 /// resist it.
 double volumeSmoothing(double poisson_ratio);
 
-/// A part of the elastic energy: its fraction of the volume, and its material.
-struct EnergyShare {
-  double volume;
+/// A material, and which fractions of its energy are smoothed.
+struct ElasticMaterial {
   Lame lame;
+  Smoothing smoothing;
 };
 
-/// The parts of the tets and of the patches around the vertices. Together they are the material. Without
-/// energy in the patches their volume is 0.
-EnergyShare tetShare(const Lame& lame, const Smoothing& smoothing);
-EnergyShare patchShare(const Lame& lame, const Smoothing& smoothing);
+/// The part of a material that takes its strain from the tets, and the part that takes it from the patches
+/// around the vertices. Together they are the material.
+Lame tetPart(const ElasticMaterial& material);
+Lame patchPart(const ElasticMaterial& material);
+
+/// The elastic materials of a body.
+struct ElasticMaterials {
+  /// The same everywhere.
+  ElasticMaterials(const Lame& lame, const Smoothing& smoothing = {}) : kinds{{lame, smoothing}} {}
+
+  int kindOf(Eigen::Index tet) const { return of_tets.empty() ? 0 : of_tets[static_cast<std::size_t>(tet)]; }
+  const ElasticMaterial& of(Eigen::Index tet) const { return kinds[static_cast<std::size_t>(kindOf(tet))]; }
+
+  std::vector<ElasticMaterial> kinds;
+  std::vector<int> of_tets;  ///< #T: index of the kind; empty: all have the first
+};
 
 /// Deformation gradients averaged over the tets around each vertex (node-based smoothed finite elements: Liu,
-/// Nguyen-Thoi, Nguyen-Xuan, Lam 2009): F_v = sum_i x_i g_i^T over the vertices i of those tets. A linear tet
-/// has a single strain and locks in bending; the average does not.
+/// Nguyen-Thoi, Nguyen-Xuan, Lam 2009): F_p = sum_i x_i g_i^T over the vertices i of those tets. A linear tet
+/// has a single strain and locks in bending; the average does not. Where materials meet, strain jumps. So the
+/// tets of each kind around a vertex are a patch of their own.
 struct SmoothedGradients {
-  std::vector<int> first;      ///< #V + 1: first row of each vertex in `vertices` and `gradients`
-  std::vector<int> vertices;   ///< i, including v itself; symmetric: v is also a neighbour of i
+  std::vector<int> first;      ///< #P + 1: first row of each patch in `vertices` and `gradients`
+  std::vector<int> vertices;   ///< i, ascending in each patch
   Eigen::MatrixX3d gradients;  ///< g_i [1/m]
-  Eigen::VectorXd volumes;     ///< #V, a quarter of the volume of the tets around it [m^3]
+  Eigen::VectorXd volumes;     ///< #P, a quarter of the volume of the patch's tets [m^3]
+  std::vector<int> kinds;      ///< #P, of the material
 };
 
-/// @param tets of positive volume; every vertex belongs to one.
-SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tets);
+/// @param tets of positive volume; every vertex belongs to one. @return with one kind, patch v is that around
+/// vertex v.
+SmoothedGradients smoothedGradients(const Points& rest_vertices, const Tets& tets,
+                                    const ElasticMaterials& materials);
+
+/// Whether any energy is in the patches.
+bool hasPatches(const ElasticMaterials& materials);
 
 }  // namespace softbody

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <Eigen/Geometry>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -34,25 +36,66 @@ Material readMaterial(YamlMapReader& material) {
   return result;
 }
 
-/// `object/pins`: a list of maps with name, min, max and, if they move, frame. The box is in file units.
+/// The corners of a box, in file units. A corner may be missing if the box may be infinite.
+Eigen::AlignedBox3d readBox(YamlMapReader& reader, const YAML::Node& node, const std::string& name,
+                            double unit_m, bool may_be_infinite) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Eigen::AlignedBox3d box(Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity));
+  if (!may_be_infinite || reader.has("min"))
+    box.min() = unit_m * Eigen::Vector3d(reader.numbers("min", 3).data());
+  if (!may_be_infinite || reader.has("max"))
+    box.max() = unit_m * Eigen::Vector3d(reader.numbers("max", 3).data());
+  if (!(box.min().array() <= box.max().array()).all())
+    reader.fail(node, fmt::format("{}: min must not exceed max", name));
+  return box;
+}
+
+/// A list of maps in the object; empty if the key is missing.
+YAML::Node readList(YamlMapReader& object, const char* key) {
+  const YAML::Node list = object.get(key);
+  if (list.IsDefined() && !list.IsSequence())
+    object.fail(list, fmt::format("object/{} must be a list of maps", key));
+  return list;
+}
+
+/// `object/pins`: a list of maps with name, min, max and, if they move, frame.
 std::vector<PinRegion> readPins(YamlMapReader& object, const std::string& path, double unit_m,
                                 Warnings* warnings) {
   std::vector<PinRegion> pins;
-  const YAML::Node list = object.get("pins");
-  if (!list.IsDefined()) return pins;
-  if (!list.IsSequence()) object.fail(list, "object/pins must be a list of maps");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    YamlMapReader reader(list[i], path, fmt::format("object/pins/{}/", i));
+  const YAML::Node list = readList(object, "pins");
+  for (std::size_t i = 0; list.IsDefined() && i < list.size(); ++i) {
+    const std::string place = fmt::format("object/pins/{}", i);
+    YamlMapReader reader(list[i], path, place + "/");
     PinRegion pin{reader.text("name"), reader.text("frame"), {}, {}};
     if (pin.name.empty()) pin.name = fmt::format("pin{}", i);
-    pin.min = unit_m * Eigen::Vector3d(reader.numbers("min", 3).data());
-    pin.max = unit_m * Eigen::Vector3d(reader.numbers("max", 3).data());
-    if (!(pin.min.array() <= pin.max.array()).all())
-      reader.fail(list[i], fmt::format("object/pins/{}: min must not exceed max", i));
+    const Eigen::AlignedBox3d box = readBox(reader, list[i], place, unit_m, false);
+    pin.min = box.min();
+    pin.max = box.max();
     reader.warnOfUnknown(warnings);
     pins.push_back(pin);
   }
   return pins;
+}
+
+/// `object/materials`: a list of maps with min, max and the values that differ from the object's material.
+std::vector<MaterialRegion> readRegions(YamlMapReader& object, const std::string& path, double unit_m,
+                                        const Material& material, Warnings* warnings) {
+  std::vector<MaterialRegion> regions;
+  const YAML::Node list = readList(object, "materials");
+  for (std::size_t i = 0; list.IsDefined() && i < list.size(); ++i) {
+    const std::string place = fmt::format("object/materials/{}", i);
+    YamlMapReader reader(list[i], path, place + "/");
+    const Eigen::AlignedBox3d box = readBox(reader, list[i], place, unit_m, true);
+    const auto read = [&reader](const char* key, double fallback, const MaterialRange& range) {
+      return reader.number(key, fallback, range.min, range.max);
+    };
+    regions.push_back({box.min(), box.max(),
+                       read("youngs_modulus_pa", material.youngs_modulus_pa, kYoungsModulusRange),
+                       read("poisson_ratio", material.poisson_ratio, kPoissonRatioRange),
+                       read("density_kg_m3", material.density_kg_m3, kDensityRange)});
+    reader.warnOfUnknown(warnings);
+  }
+  return regions;
 }
 
 /// A TetGen mesh is two files. @throw std::invalid_argument if a link leads the other one out of its folder.
@@ -95,6 +138,8 @@ ObjectDescription loadObjectDescription(const std::string& given, FileScope scop
     description.material = readMaterial(material);
     material.warnOfUnknown(&description.warnings);
   }
+  description.material.regions =
+      readRegions(object, yaml_path, description.unit_m, description.material, &description.warnings);
   if (object.has("initial_pose")) description.initial_pose = object.pose("initial_pose");
   description.pins = readPins(object, yaml_path, description.unit_m, &description.warnings);
   object.warnOfUnknown(&description.warnings);

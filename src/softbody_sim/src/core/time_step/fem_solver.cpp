@@ -14,9 +14,9 @@ double roundingOf(const StepEnergy& energy) { return 1e-12 * std::abs(energy.ene
 
 }  // namespace
 
-FemSolver::FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
-                     const Smoothing& smoothing, const Options& options)
-    : elasticity_(topology, elasticity, lame, smoothing),
+FemSolver::FemSolver(const TetTopology& topology, Elasticity elasticity, const ElasticMaterials& materials,
+                     const Options& options)
+    : elasticity_(topology, elasticity, materials),
       options_(options),
       hessian_(elasticity_.groups(), topology.rest_vertices.rows()),
       factor_(std::make_unique<Factor>()),

@@ -20,7 +20,7 @@ class FemSolver : public StepSolver {
   };
 
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
-  FemSolver(const TetTopology& topology, Elasticity elasticity, const Lame& lame, const Smoothing& smoothing,
+  FemSolver(const TetTopology& topology, Elasticity elasticity, const ElasticMaterials& materials,
             const Options& options);
   ~FemSolver() override;
 

@@ -133,9 +133,9 @@ class InPrecision : public ProjectiveDynamics::Precision {
 
 }  // namespace
 
-ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const Lame& lame,
+ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const ElasticMaterials& materials,
                                        const ProjectiveDynamicsOptions& options)
-    : elasticity_(topology.rest_vertices, topology.tets, lame, options.smoothing) {
+    : elasticity_(topology.rest_vertices, topology.tets, materials) {
   if (options.single_precision)
     implementation_ = std::make_unique<InPrecision<float>>(topology, elasticity_, options);
   else

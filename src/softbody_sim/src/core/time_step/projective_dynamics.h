@@ -13,7 +13,6 @@ struct ProjectiveDynamicsOptions {
   MinimizerOptions minimizer;
   bool single_precision = false;  ///< twice as fast, positions accurate to about 0.1 um
   Simd simd = Simd::kAuto;
-  Smoothing smoothing;
 };
 
 /// Projective dynamics (Bouaziz et al. 2014) with corotated elasticity, accelerated by L-BFGS (Liu, Bouaziz,
@@ -22,7 +21,8 @@ struct ProjectiveDynamicsOptions {
 class ProjectiveDynamics : public StepSolver {
  public:
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
-  ProjectiveDynamics(const TetTopology& topology, const Lame& lame, const ProjectiveDynamicsOptions& options);
+  ProjectiveDynamics(const TetTopology& topology, const ElasticMaterials& materials,
+                     const ProjectiveDynamicsOptions& options);
   ~ProjectiveDynamics() override;
 
   StepReport minimize(const IncrementalPotential& potential, Points* x) override;

@@ -237,8 +237,8 @@ void SimulatorNode::publishEdited(const ros::Time& stamp) {
 
 bool SimulatorNode::onSetMaterial(softbody_msgs::SetMaterial::Request& request,
                                   softbody_msgs::SetMaterial::Response& response) try {
-  simulator_.setMaterial(
-      {request.youngs_modulus_pa, request.poisson_ratio, request.density_kg_m3, request.damping});
+  simulator_.setMaterial({request.youngs_modulus_pa, request.poisson_ratio, request.density_kg_m3,
+                          request.damping, simulator_.material().regions});
   response.success = 1;
   return true;
 } catch (const std::invalid_argument& error) {

@@ -166,9 +166,8 @@ TEST_F(CutElasticity, PiecesInFlightGoWhereTheirInertiaTakesThem) {
   ProjectiveDynamicsOptions options;
   options.minimizer.max_iterations = 500;
   options.minimizer.tolerance = 1e-9;
-  options.smoothing = kSmoothing;
   Points x = potential.prediction + randomPoints(count_, 2e-3, &random_);
-  ProjectiveDynamics(body_, kLame, options).minimize(potential, &x);
+  ProjectiveDynamics(body_, {kLame, kSmoothing}, options).minimize(potential, &x);
   EXPECT_LT((x - potential.prediction).cwiseAbs().maxCoeff(), 1e-7);
 }
 
