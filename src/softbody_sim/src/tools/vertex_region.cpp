@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -9,50 +12,44 @@
 namespace softbody {
 namespace {
 
-struct Condition {
-  int axis = 0;
-  std::string relation;
-  double limit = 0.0;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  bool isMetBy(double value) const {
-    if (relation == "<") return value < limit;
-    if (relation == "<=") return value <= limit;
-    if (relation == ">") return value > limit;
-    return value >= limit;
-  }
-};
-
-Condition parseCondition(const std::string& text) {
+/// Cuts the box to the half-space of a condition.
+void limitTo(const std::string& condition, Eigen::AlignedBox3d* box) {
   static const std::regex kForm(
       R"(\s*([xyz])\s*(<=|>=|<|>)\s*([-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?)\s*)");
   std::smatch match;
-  if (!std::regex_match(text, match, kForm)) {
+  if (!std::regex_match(condition, match, kForm)) {
     throw std::invalid_argument(fmt::format(
-        "'{}' is not a condition; allowed: x, y or z, then <, <=, > or >=, then a number [m]", text));
+        "'{}' is not a condition; allowed: x, y or z, then <, <=, > or >=, then a number [m]", condition));
   }
-  return {match[1].str()[0] - 'x', match[2].str(), std::stod(match[3].str())};
-}
-
-std::vector<Condition> parseRegion(const std::string& region) {
-  std::vector<Condition> conditions;
-  if (region == "all") return conditions;
-  if (region.empty()) return {parseCondition(region)};
-  std::stringstream parts(region);
-  for (std::string part; std::getline(parts, part, '&');) conditions.push_back(parseCondition(part));
-  return conditions;
+  const int axis = match[1].str()[0] - 'x';
+  const std::string relation = match[2];
+  const double limit = std::stod(match[3]);
+  const bool strict = relation.size() == 1;
+  double &min = box->min()[axis], &max = box->max()[axis];
+  if (relation[0] == '<')
+    max = std::min(max, strict ? std::nextafter(limit, -kInfinity) : limit);
+  else
+    min = std::max(min, strict ? std::nextafter(limit, kInfinity) : limit);
 }
 
 }  // namespace
 
-void requireRegion(const std::string& region) { parseRegion(region); }
+Eigen::AlignedBox3d boxOf(const std::string& region) {
+  Eigen::AlignedBox3d box(Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity));
+  if (region == "all") return box;
+  if (region.empty()) limitTo(region, &box);
+  std::stringstream parts(region);
+  for (std::string part; std::getline(parts, part, '&');) limitTo(part, &box);
+  return box;
+}
 
 std::vector<int> verticesWhere(const std::string& region, const Points& vertices) {
-  const std::vector<Condition> conditions = parseRegion(region);
+  const Eigen::AlignedBox3d box = boxOf(region);
   std::vector<int> chosen;
   for (int v = 0; v < vertices.rows(); ++v) {
-    bool met = true;
-    for (const Condition& condition : conditions) met = met && condition.isMetBy(vertices(v, condition.axis));
-    if (met) chosen.push_back(v);
+    if (box.contains(Eigen::Vector3d(vertices.row(v)))) chosen.push_back(v);
   }
   if (chosen.empty()) throw std::invalid_argument(fmt::format("no vertex lies in the region '{}'", region));
   return chosen;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -7,11 +8,12 @@
 
 namespace softbody {
 
-/// Checks the syntax of a region. @throw std::invalid_argument with the condition that cannot be read.
-void requireRegion(const std::string& region);
+/// The box of a region: "all", or conditions that all hold, such as "x<0.01" or "x>=0.9 & z>0.05" [m]. Both
+/// ends are included; a side without a condition is infinite.
+/// @throw std::invalid_argument with the condition that cannot be read.
+Eigen::AlignedBox3d boxOf(const std::string& region);
 
-/// Vertices in a region: "all", or conditions that all hold, such as "x<0.01" or "x>=0.9 & z>0.05" [m].
-/// @throw std::invalid_argument with the condition that cannot be read, or if the region has no vertex.
+/// Vertices in a region. @throw std::invalid_argument as boxOf does, or if the region has no vertex.
 std::vector<int> verticesWhere(const std::string& region, const Points& vertices);
 
 }  // namespace softbody
