@@ -19,8 +19,10 @@ def agreement_rows():
                         *MESHES.glob("*/*.veg")]):
         print(f"== agreement {path.name}", file=sys.stderr)
         probe = OUTPUT / "rest.vtu"
-        if run_tool(path, "--steps", 1, "--output", probe)[1].returncode != 0:
-            continue  # no tets; the tool has reported it
+        run = run_tool(path, "--steps", 1, "--output", probe)[1]
+        if run.returncode != 0:
+            print(run.stderr, end="", file=sys.stderr)
+            continue  # no tets
         rest = positions(probe)
         low, high = rest.min(axis=0), rest.max(axis=0)
         limit = low[2] + 0.25 * (high[2] - low[2])

@@ -1,6 +1,7 @@
 """The text of docs/validation.md."""
 from markdown_lines import paragraph, table
 
+from validation.as_the_node import node_sections
 from validation.comparisons import agreement_rows, bending_rows, formulation_rows, prism_rows, recovery_rows
 from validation.friction import friction_rows
 from validation.incompressible import RATIOS, incompressible_rows
@@ -13,6 +14,7 @@ def document(studies):
                         "known solutions. Every measured value comes from a run of `rosrun softbody_sim simulate`. "
                         "The meshes are boxes made by `scripts/validate`, or published meshes. The tets (tetrahedra) "
                         "are linear. A cell of a box is a cuboid of six tets."),
+             "", *node_sections(),
              "", "## Refinement against known solutions", "",
              *paragraph("The solver is FEM, static, with corotated elasticity and without smoothing. The list gives the place or quantity "
                         "that is compared, and the reference. The ratio is the result divided by the reference. The "
@@ -41,7 +43,8 @@ def smoothing_sections():
                          "values are deflections of the free end, divided by the reference "
                          "`scripts/validation/mixed_reference.py`. This is another program, with hexahedra that have a "
                          "pressure of their own. \"Smoothing\" gives the two shares, of strain and of volume. The "
-                         "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock."), "",
+                         "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock. Without the "
+                        "option, the share of volume follows from Poisson's ratio."), "",
               *table(["problem", "cells across", "solver", "smoothing", *map(str, RATIOS)], incompressible_rows())]
     prisms = prism_rows()
     if prisms:

@@ -16,17 +16,34 @@ SOLVERS = {"PD": ["--solver", "pd", *PLAIN], "FEM corotated": ["--solver", "fem"
            "FEM neo-Hookean": ["--solver", "fem", "--elasticity", "neo_hookean", *PLAIN]}
 
 
+NODE = ["--node-defaults"]
+
+
 def run_tool(mesh, *arguments):
     command = [WORKSPACE / "env.sh", WORKSPACE / "lib/softbody_sim/simulate", mesh, *map(str, arguments)]
-    return command, subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+    return command, subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def rows_of(text):
+    """The rows of a table of the tool, as maps of numbers."""
+    return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(io.StringIO(text))]
 
 
 def simulate(mesh, *arguments):
-    """The rows of one run of the tool, as maps of numbers."""
+    """The rows of one run of the tool."""
     command, run = run_tool(mesh, *arguments)
     if run.returncode != 0:
-        sys.exit(f"validate: {' '.join(map(str, command))} ended with {run.returncode}")
-    return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(io.StringIO(run.stdout))]
+        sys.exit(f"validate: {' '.join(map(str, command))} ended with {run.returncode}: {run.stderr}")
+    return rows_of(run.stdout)
+
+
+def settle(mesh, *arguments):
+    """The row of a static run, or None if the tool says that it has not converged."""
+    _, run = run_tool(mesh, "--static", *arguments)
+    rows = rows_of(run.stdout)
+    if run.returncode == 0 or (rows and not rows[-1]["converged"]):
+        return rows[-1] if run.returncode == 0 else None
+    sys.exit(f"validate: a static run ended with {run.returncode}: {run.stderr}")
 
 
 def box(name, cells, place):
