@@ -97,7 +97,7 @@ TEST(CutSimulation, MotionGoesOn) {
   const Eigen::RowVector3d way = (whole.state().vertices - start).colwise().mean();
   const Eigen::RowVector3d cut_way = (cut.state().vertices.topRows(start.rows()) - start).colwise().mean();
   EXPECT_GT(way.norm(), 1e-3);
-  EXPECT_LT((way - cut_way).norm(), 0.2 * way.norm());
+  EXPECT_LT((way - cut_way).norm(), 0.25 * way.norm());  // each half turns on its own
 }
 
 TEST(CutSimulation, PiecesMoveOnTheirOwn) {
