@@ -35,16 +35,15 @@ def smoothing_sections():
              *paragraph("The same problems and ratios, with few cells across and with the solver PD (projective "
                         "dynamics). The number in a column head is the number of cells. The share is the part of "
                         "the elastic energy whose strains are averaged around the vertices (`--strain-smoothing` "
-                        "and `--volume-smoothing`; the default of the node `simulator` is 0.7). A ratio above 1 means "
-                        "that the result is too soft."), "",
+                        "and `--volume-smoothing`). A ratio above 1 means that the result is too soft."), "",
              *table(["share", *(f"{name} {n}" for name, n in SMOOTHED)], smoothing_rows())]
     lines += ["## Nearly incompressible material", "",
               *paragraph("The beam has 100 x 30 x 30 mm and bends under a small weight. Cook's membrane is 10 thick. The "
                          "values are deflections of the free end, divided by the reference "
                          "`scripts/validation/mixed_reference.py`. This is another program, with hexahedra that have a "
                          "pressure of their own. \"Smoothing\" gives the two shares, of strain and of volume. The "
-                         "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock. Without the "
-                        "option, the share of volume follows from Poisson's ratio."), "",
+                         "last columns are Poisson's ratios. Where volume is not smoothed completely, the tets lock. Without "
+                         "the option, the share of volume follows from Poisson's ratio."), "",
               *table(["problem", "cells across", "solver", "smoothing", *map(str, RATIOS)], incompressible_rows())]
     prisms = prism_rows()
     if prisms:
