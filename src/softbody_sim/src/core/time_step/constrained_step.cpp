@@ -71,7 +71,11 @@ void ConstrainedStep::addPins(const std::vector<Pin>& pins) {
 /// is that shape moved rigidly to where springs and inertia want it, for one that slides or is carried.
 void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   const Surroundings& surroundings = problem.surroundings;
-  if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
+  if (surroundings.pins.empty() && surroundings.obstacles.empty()) {
+    if (!problem.targets.empty()) return;
+    findContacts(*x, problem, &contacts_);
+    if (contacts_.empty()) return;
+  }
   still_ = moved_ = problem.before;
   findContacts(moved_, problem, &contacts_);
   setSprings(problem.targets);
@@ -130,7 +134,6 @@ void ConstrainedStep::minimize(const Problem& problem, Points* x) {
 
 /// Finds the contacts at the result x of contacts_. @return whether they are those.
 bool ConstrainedStep::contactsStay(const Problem& problem, const Points& x) {
-  if (problem.surroundings.obstacles.empty()) return true;
   findContacts(x, problem, &found_);
   keepEarlierContacts(contacts_, &found_);
   const double depth_change = contact_.largestDepthChange(contacts_, found_, x);
