@@ -122,19 +122,22 @@ void SelfContact::find(const std::vector<ContactPoint>& points, const Points& be
     Meetings meetings;
     grid_.visit(box, [&](int k) {
       const int triangle = triangles_[static_cast<std::size_t>(k)];
-      if (faces(p, triangle)) meet(path, triangle, before, now, &meetings);
+      if (isOfOtherPiece(p, triangle)) meet(path, triangle, before, now, &meetings);
     });
     const Meeting meeting = choose(meetings);
     if (meeting.triangle >= 0) contacts->push_back(contactOf(path, meeting, before));
   }
 }
 
-/// Whether the point's surface faces that of another piece. So a point at the rim of a face does not touch
+bool SelfContact::isOfOtherPiece(std::size_t point, int triangle) const {
+  const int vertex = topology_->surface(triangle, 0);
+  return piece_of_vertex_[static_cast<std::size_t>(vertex)] != piece_of_point_[point];
+}
+
+/// Whether the point's surface faces the triangle. So a point at the rim of a face does not touch
 /// the sides of a face that lies flush on it.
 bool SelfContact::faces(std::size_t point, int triangle) const {
   constexpr double kFacing = -0.1;  // cosine of the angle between the normals
-  const int vertex = topology_->surface(triangle, 0);
-  if (piece_of_vertex_[static_cast<std::size_t>(vertex)] == piece_of_point_[point]) return false;
   for (const int own : triangles_of_point_[point])
     if (normals_.row(own).dot(normals_.row(triangle)) < kFacing) return true;
   return false;
@@ -146,6 +149,13 @@ void SelfContact::meet(const Path& path, int triangle, const Points& before, con
                         end = cornersOf(topology_->surface, triangle, now);
   const double start_distance = normals_before_.row(triangle).dot(path.start - start.col(0)),
                end_distance = normals_.row(triangle).dot(path.end - end.col(0));
+  const Eigen::Vector3d nearest = nearestOnTriangle(path.end, end.col(0), end.col(1), end.col(2));
+  const double distance = (path.end - nearest).norm();
+  if (distance < best->surface_distance) {
+    best->surface_distance = distance;
+    best->is_inside = end_distance < 0.0;
+  }
+  if (!faces(path.point, triangle)) return;
   // A point that lies on the triangle is a little inside.
   if (start_distance >= -options_.largest_m && end_distance < std::min(0.0, start_distance)) {
     constexpr double kRim = -0.01;  // so that no point slips through between two triangles
@@ -157,8 +167,6 @@ void SelfContact::meet(const Path& path, int triangle, const Points& before, con
       best->time = time;
     }
   }
-  const Eigen::Vector3d nearest = nearestOnTriangle(path.end, end.col(0), end.col(1), end.col(2));
-  const double distance = (path.end - nearest).norm();
   if (best->nearest.triangle >= 0 && distance >= std::abs(best->nearest.distance)) return;
   // Beside the triangle, its plane says little about the piece.
   const bool is_beside = distance > 0.01 * options_.reach_m && std::abs(end_distance) < 0.7 * distance;
@@ -166,14 +174,15 @@ void SelfContact::meet(const Path& path, int triangle, const Points& before, con
   best->nearest = {triangle, weightsOf(nearest, end), end_distance};
 }
 
-/// The nearest triangle is best, but only near the surface: deep inside, it may be that of the far side.
+/// The nearest triangle that faces the point is best, but only near the surface: deep inside, it may be that
+/// of the far side, and behind it the point may be outside.
 SelfContact::Meeting SelfContact::choose(const Meetings& meetings) const {
   const bool is_shallow = meetings.nearest.distance >= -options_.largest_m;
   const bool is_crossed = meetings.crossed.triangle >= 0;
   if (is_crossed && (meetings.crossed.distance < -options_.largest_m || meetings.nearest.triangle < 0 ||
                      !is_shallow))
     return meetings.crossed;
-  return meetings.nearest;
+  return is_shallow || meetings.is_inside ? meetings.nearest : Meeting();
 }
 
 Contact SelfContact::contactOf(const Path& path, const Meeting& meeting, const Points& before) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <vector>
 
 #include "constraints/box_grid.h"
@@ -47,11 +48,14 @@ class SelfContact {
   struct Meetings {
     Meeting crossed, nearest;
     double time = 0.0;  ///< of the crossing, 0 to 1
+    double surface_distance = std::numeric_limits<double>::max();  ///< of any triangle [m]
+    bool is_inside = false;                                        ///< by that triangle
   };
 
   void sortPoints(const std::vector<ContactPoint>& points);
   void collectTriangles(const Points& before, const Points& now);
   bool isNear(std::size_t piece, const Box& box) const;
+  bool isOfOtherPiece(std::size_t point, int triangle) const;
   bool faces(std::size_t point, int triangle) const;
   void meet(const Path& path, int triangle, const Points& before, const Points& now, Meetings* best) const;
   Meeting choose(const Meetings& meetings) const;
