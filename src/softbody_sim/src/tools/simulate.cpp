@@ -26,7 +26,7 @@ struct Options {
   std::vector<double> gravity{0.0, 0.0, 0.0};
   std::vector<std::string> pins;
   std::vector<std::vector<std::string>> region_loads;
-  double ground = std::numeric_limits<double>::quiet_NaN(), friction = 0.0;
+  double ground = std::numeric_limits<double>::quiet_NaN(), friction = 0.0, self_friction = 0.0;
   bool until_rest = false, node_defaults = false;
   int steps = 100;
   std::optional<int> iterations;
@@ -74,6 +74,10 @@ void addProblemOptions(CLI::App& app, Options& o) {
       ->check(CLI::Range(0.0, 10.0))
       ->needs("--ground")
       ->capture_default_str();
+  app.add_option("--self-friction", o.self_friction,
+                 "coefficient of Coulomb friction between pieces of the mesh that touch each other")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
   app.add_option("--start", o.start, "initial shape")
       ->check(CLI::IsMember({"rest", "flat", "inside_out", "random"}))
       ->capture_default_str();
@@ -110,6 +114,7 @@ void addSolverOptions(CLI::App& app, Options& o) {
 SimulatorConfig configOf(const Options& o) {
   SimulatorConfig config;
   config.gravity = Eigen::Vector3d(o.gravity.data());
+  config.self_friction = o.self_friction;
   if (o.node_defaults) return config;
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;
   config.elasticity = o.elasticity == "corotated" ? Elasticity::kCorotated : Elasticity::kNeoHookean;
