@@ -22,10 +22,13 @@ class ContactForces {
   ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m,
                 double largest_lift_m);
 
-  /// From now on, pieces of the body touch each other.
+  /// From now on, the body touches itself.
   void addSelfContact(const SelfContact::Options& options) { self_contact_.emplace(*topology_, options); }
 
-  /// Finds the contacts of a step. The first call in which something can touch creates the contact points.
+  /// Begins a step at the vertices `before`. The first call creates the contact points, if they are needed.
+  void start(const Points& before, const std::vector<Obstacle>& obstacles);
+
+  /// Finds the contacts of a step.
   /// @param before, now as in findContacts; @param state of the last step.
   void find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
             const ContactState& state, std::vector<Contact>* contacts);

@@ -45,8 +45,18 @@ SelfContact::SelfContact(const TetTopology& topology, const Options& options)
   piece_boxes_.resize(pieces.size());
 }
 
+void SelfContact::start(const std::vector<ContactPoint>& points, const Points& before) {
+  if (piece_of_point_.empty()) sortPoints(points);
+  if (!clearance_.isSet()) measureClearance(points, topology_->rest_vertices);
+  clearance_.start(before);
+  // Measured anew only now and then: half of the room is left.
+  if (2.0 * (clearance_.atStart() - options_.reach_m) < clearance_.measured() - options_.reach_m)
+    measureClearance(points, before);
+}
+
 bool SelfContact::mayTouch(const Points& before, const Points& now) {
-  if (piece_boxes_.size() < 2) return false;
+  parts_near_ = clearance_.until(before, now) < options_.reach_m;
+  if (piece_boxes_.size() < 2) return parts_near_;
   for (Box& box : piece_boxes_) box.setEmpty();
   for (std::size_t v = 0; v < piece_of_vertex_.size(); ++v) {
     const auto row = static_cast<Eigen::Index>(v);
@@ -56,7 +66,7 @@ bool SelfContact::mayTouch(const Points& before, const Points& now) {
   for (Box& box : piece_boxes_) box = Box(box.min() - margin, box.max() + margin);
   for (std::size_t p = 0; p < piece_boxes_.size(); ++p)
     if (isNear(p, piece_boxes_[p])) return true;
-  return false;
+  return parts_near_;
 }
 
 /// Whether the box of another piece meets this one.
@@ -72,7 +82,7 @@ void SelfContact::sortPoints(const std::vector<ContactPoint>& points) {
   std::vector<std::vector<int>> around(piece_of_vertex_.size());
   for (int f = 0; f < topology_->surface.rows(); ++f)
     for (int k = 0; k < 3; ++k) around[static_cast<std::size_t>(topology_->surface(f, k))].push_back(f);
-  for (const ContactPoint& point : points) {
+  for (const ContactPoint& point : points) {  // the triangles that have all vertices with weight
     std::vector<int> common;
     bool first = true;
     for (int k = 0; k < 4; ++k) {
@@ -84,8 +94,53 @@ void SelfContact::sortPoints(const std::vector<ContactPoint>& points) {
       first = false;
     }
     triangles_of_point_.push_back(common);
+    setNeighbors(triangles_of_point_.size() - 1, around);
     piece_of_point_.push_back(piece_of_vertex_[static_cast<std::size_t>(topology_->tets(point.place.tet, 0))]);
   }
+}
+
+void SelfContact::setNeighbors(std::size_t point, const std::vector<std::vector<int>>& around) {
+  std::vector<int> neighbors;
+  for (const int own : triangles_of_point_[point]) {
+    for (int k = 0; k < 3; ++k) {
+      const std::vector<int>& next = around[static_cast<std::size_t>(topology_->surface(own, k))];
+      neighbors.insert(neighbors.end(), next.begin(), next.end());
+    }
+  }
+  std::sort(neighbors.begin(), neighbors.end());
+  neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
+  neighbors_of_point_.push_back(neighbors);
+}
+
+bool SelfContact::isNeighbor(std::size_t point, int triangle) const {
+  const std::vector<int>& neighbors = neighbors_of_point_[point];
+  return std::binary_search(neighbors.begin(), neighbors.end(), triangle);
+}
+
+/// Parts of a piece that are not neighbours and not separated by its inside.
+void SelfContact::measureClearance(const std::vector<ContactPoint>& points, const Points& x) {
+  const double farthest = options_.deepest_m;
+  setNormals(topology_->surface, x, &normals_);
+  triangle_boxes_.clear();
+  for (int f = 0; f < topology_->surface.rows(); ++f) {
+    Box box;
+    for (int k = 0; k < 3; ++k) box.extend(x.row(topology_->surface(f, k)).transpose());
+    triangle_boxes_.emplace_back(box.min().array() - farthest, box.max().array() + farthest);
+  }
+  grid_.set(triangle_boxes_);
+  double least = farthest;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const Eigen::Vector3d point = positionOf(points[p].place, x, topology_->tets);
+    grid_.visit(Box(point), [&](int f) {
+      const Eigen::Vector3d corner = x.row(topology_->surface(f, 0));
+      if (normals_.row(f).dot(point - corner) < -options_.largest_m || isOfOtherPiece(p, f) || isNeighbor(p, f))
+        return;
+      const Eigen::Vector3d nearest = nearestOnTriangle(point, corner, x.row(topology_->surface(f, 1)),
+                                                        x.row(topology_->surface(f, 2)));
+      least = std::min(least, (point - nearest).norm());
+    });
+  }
+  clearance_.set(x, least);
 }
 
 void SelfContact::collectTriangles(const Points& before, const Points& now) {
@@ -93,15 +148,19 @@ void SelfContact::collectTriangles(const Points& before, const Points& now) {
   setNormals(topology_->surface, now, &normals_);
   triangles_.clear();
   triangle_boxes_.clear();
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(std::max(options_.reach_m, options_.deepest_m));
   for (int f = 0; f < topology_->surface.rows(); ++f) {
     Box box;
     for (int k = 0; k < 3; ++k) {
       const int v = topology_->surface(f, k);
       box.extend(before.row(v).transpose()).extend(now.row(v).transpose());
     }
-    box = Box(box.min() - margin, box.max() + margin);
-    if (!isNear(piece_of_vertex_[static_cast<std::size_t>(topology_->surface(f, 0))], box)) continue;
+    const auto grown = [&box](double margin) {
+      return Box(box.min().array() - margin, box.max().array() + margin);
+    };
+    const Box wide = grown(std::max(options_.reach_m, options_.deepest_m));
+    const bool is_near = isNear(piece_of_vertex_[static_cast<std::size_t>(topology_->surface(f, 0))], wide);
+    if (!is_near && !parts_near_) continue;
+    box = is_near ? wide : grown(options_.reach_m);
     triangles_.push_back(f);
     triangle_boxes_.push_back(box);
   }
@@ -109,7 +168,6 @@ void SelfContact::collectTriangles(const Points& before, const Points& now) {
 
 void SelfContact::find(const std::vector<ContactPoint>& points, const Points& before, const Points& now,
                        std::vector<Contact>* contacts) {
-  if (piece_of_point_.empty()) sortPoints(points);
   collectTriangles(before, now);
   if (triangles_.empty()) return;
   grid_.set(triangle_boxes_);
@@ -118,11 +176,13 @@ void SelfContact::find(const std::vector<ContactPoint>& points, const Points& be
                     positionOf(points[p].place, now, topology_->tets)};
     Box box(path.start);
     box.extend(path.end);
-    if (!isNear(piece_of_point_[p], box)) continue;
+    if (!parts_near_ && !isNear(piece_of_point_[p], box)) continue;
     Meetings meetings;
     grid_.visit(box, [&](int k) {
       const int triangle = triangles_[static_cast<std::size_t>(k)];
-      if (isOfOtherPiece(p, triangle)) meet(path, triangle, before, now, &meetings);
+      const bool is_other_piece = isOfOtherPiece(p, triangle);
+      if (is_other_piece || !isNeighbor(p, triangle))
+        meet(path, triangle, is_other_piece, before, now, &meetings);
     });
     const Meeting meeting = choose(meetings);
     if (meeting.triangle >= 0) contacts->push_back(contactOf(path, meeting, before));
@@ -143,15 +203,15 @@ bool SelfContact::faces(std::size_t point, int triangle) const {
   return false;
 }
 
-void SelfContact::meet(const Path& path, int triangle, const Points& before, const Points& now,
-                       Meetings* best) const {
+void SelfContact::meet(const Path& path, int triangle, bool is_other_piece, const Points& before,
+                       const Points& now, Meetings* best) const {
   const Eigen::Matrix3d start = cornersOf(topology_->surface, triangle, before),
                         end = cornersOf(topology_->surface, triangle, now);
   const double start_distance = normals_before_.row(triangle).dot(path.start - start.col(0)),
                end_distance = normals_.row(triangle).dot(path.end - end.col(0));
   const Eigen::Vector3d nearest = nearestOnTriangle(path.end, end.col(0), end.col(1), end.col(2));
   const double distance = (path.end - nearest).norm();
-  if (distance < best->surface_distance) {
+  if (is_other_piece && distance < best->surface_distance) {
     best->surface_distance = distance;
     best->is_inside = end_distance < 0.0;
   }
@@ -170,7 +230,9 @@ void SelfContact::meet(const Path& path, int triangle, const Points& before, con
   if (best->nearest.triangle >= 0 && distance >= std::abs(best->nearest.distance)) return;
   // Beside the triangle, its plane says little about the piece.
   const bool is_beside = distance > 0.01 * options_.reach_m && std::abs(end_distance) < 0.7 * distance;
-  if (is_beside || end_distance > options_.reach_m || end_distance < -options_.deepest_m) return;
+  // Deep behind a triangle of its own piece, a point is on the far side of a thin part.
+  const double deepest = is_other_piece ? options_.deepest_m : options_.largest_m;
+  if (is_beside || end_distance > options_.reach_m || end_distance < -deepest) return;
   best->nearest = {triangle, weightsOf(nearest, end), end_distance};
 }
 

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "constraints/box_grid.h"
+#include "constraints/clearance.h"
 #include "constraints/contact_detection.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
 
-/// Finds where pieces of the body touch each other: a point of one piece at a triangle of another one. Both
-/// are material points, so a contact moves with the body.
+/// Finds where the body touches itself: a point of the surface at a triangle of another piece, or of another
+/// part of its own piece. Both are material points, so a contact moves with the body.
 class SelfContact {
  public:
   struct Options {
@@ -23,7 +24,10 @@ class SelfContact {
 
   SelfContact(const TetTopology& topology, const Options& options);
 
-  /// Whether two pieces may come near each other between two shapes. Fast. @param before, now #V by 3 [m].
+  /// Begins a step at the vertices `before`. @param points the same in each call.
+  void start(const std::vector<ContactPoint>& points, const Points& before);
+
+  /// Whether parts may come near each other between two shapes. Fast. @param before, now #V by 3 [m].
   bool mayTouch(const Points& before, const Points& now);
 
   /// Appends the contacts of the shapes of the last mayTouch, at most one a point, sorted by point. A point that was outside touches the
@@ -55,9 +59,12 @@ class SelfContact {
   void sortPoints(const std::vector<ContactPoint>& points);
   void collectTriangles(const Points& before, const Points& now);
   bool isNear(std::size_t piece, const Box& box) const;
+  void setNeighbors(std::size_t point, const std::vector<std::vector<int>>& around);
+  void measureClearance(const std::vector<ContactPoint>& points, const Points& x);
+  bool isNeighbor(std::size_t point, int triangle) const;
   bool isOfOtherPiece(std::size_t point, int triangle) const;
   bool faces(std::size_t point, int triangle) const;
-  void meet(const Path& path, int triangle, const Points& before, const Points& now, Meetings* best) const;
+  void meet(const Path& path, int triangle, bool is_other_piece, const Points& before, const Points& now, Meetings* best) const;
   Meeting choose(const Meetings& meetings) const;
   Contact contactOf(const Path& path, const Meeting& meeting, const Points& before) const;
 
@@ -68,7 +75,10 @@ class SelfContact {
   std::vector<Box> piece_boxes_;  ///< over the step
   std::vector<std::size_t> piece_of_point_;
   std::vector<std::vector<int>> triangles_of_point_;
-  std::vector<int> triangles_;  ///< near another piece
+  std::vector<std::vector<int>> neighbors_of_point_;  ///< triangles within an edge of those, sorted
+  Clearance clearance_;                               ///< of parts of one piece
+  bool parts_near_ = false;                           ///< parts of one piece, in this step
+  std::vector<int> triangles_;                        ///< near another part
   std::vector<Box> triangle_boxes_;
   Points normals_before_, normals_;  ///< of all triangles, outward
   BoxGrid grid_;

@@ -29,6 +29,7 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
   setPotential(problem);
   addPins(surroundings.pins);
   gradient_.resize(x->rows(), 3);
+  contact_.start(before, surroundings.obstacles);
   chooseStart(problem, x);
   iterate(problem, x);
   contact_.wrenches(contacts_, *x, surroundings.obstacles, &result_.reactions.obstacles);
