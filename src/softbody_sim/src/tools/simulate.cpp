@@ -75,7 +75,7 @@ void addProblemOptions(CLI::App& app, Options& o) {
       ->needs("--ground")
       ->capture_default_str();
   app.add_option("--self-friction", o.self_friction,
-                 "coefficient of Coulomb friction between pieces of the mesh that touch each other")
+                 "coefficient of Coulomb friction where the body touches itself")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   app.add_option("--start", o.start, "initial shape")

@@ -69,7 +69,8 @@ class Stack {
   static std::vector<BoxShape> boxesOf(int count) {
     std::vector<BoxShape> boxes;
     for (int k = 0; k < count; ++k)
-      boxes.push_back({{4, 4, 2}, {0.08 - 0.01 * k, 0.08 - 0.012 * k, 0.04}, {0.003 * k, 0.004 * k, 0.0401 * k}});
+      boxes.push_back(
+          {{4, 4, 2}, {0.08 - 0.01 * k, 0.08 - 0.012 * k, 0.04}, {0.003 * k, 0.004 * k, 0.0401 * k}});
     return boxes;
   }
 
@@ -85,7 +86,8 @@ double penetration(const TetTopology& topology, const Points& x) {
   const auto count = static_cast<Eigen::Index>(topology.tet_pieces.size());
   const auto pieces_of_vertices = vertexPieces(topology.tets, topology.tet_pieces, x.rows());
   double deepest = 0.0;
-  for (std::uint32_t p = 0; p <= *std::max_element(topology.tet_pieces.begin(), topology.tet_pieces.end()); ++p) {
+  for (std::uint32_t p = 0; p <= *std::max_element(topology.tet_pieces.begin(), topology.tet_pieces.end());
+       ++p) {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index t = 0; t < count; ++t)
       if (topology.tet_pieces[static_cast<std::size_t>(t)] == p) rows.push_back(t);
@@ -97,8 +99,8 @@ double penetration(const TetTopology& topology, const Points& x) {
       if (pieces_of_vertices[static_cast<std::size_t>(v)] == p || !locator.contains(point)) continue;
       double depth = 1.0;
       for (Eigen::Index f = 0; f < surface.rows(); ++f) {
-        const Eigen::Vector3d nearest = nearestOnTriangle(point, x.row(surface(f, 0)), x.row(surface(f, 1)),
-                                                          x.row(surface(f, 2)));
+        const Eigen::Vector3d nearest =
+            nearestOnTriangle(point, x.row(surface(f, 0)), x.row(surface(f, 1)), x.row(surface(f, 2)));
         depth = std::min(depth, (nearest - point).norm());
       }
       deepest = std::max(deepest, depth);
@@ -131,7 +133,7 @@ double overlap(const TetTopology& topology, const Points& x) {
 
 TEST(SelfContact, StackedPiecesRestAndEachCarriesTheWeightAboveIt) {
   for (const int count : {2, 3}) {
-    for (const double youngs_modulus_pa : {5e3, 2e4, 1e6}) {
+    for (const double youngs_modulus_pa : {5e3, 1e6}) {
       Stack stack(count, youngs_modulus_pa, 60.0);
       int converged = 0;
       for (int frame = 0; frame < 60; ++frame) {
@@ -143,9 +145,8 @@ TEST(SelfContact, StackedPiecesRestAndEachCarriesTheWeightAboveIt) {
       stack.step();
       EXPECT_LT(testing::largestDistance(before, stack.simulator().state().vertices), 1e-6);
       EXPECT_LT(penetration(stack.simulator().topology(), stack.simulator().state().vertices), 5e-4);
-      EXPECT_NEAR(-stack.simulator().reactions().obstacles[0].force.z(), stack.weight(), 1e-3 * stack.weight());
-      std::printf("%d boxes, E %g: converged %d, penetration %g mm\n", count, youngs_modulus_pa, converged,
-                  1e3 * penetration(stack.simulator().topology(), stack.simulator().state().vertices));
+      EXPECT_NEAR(-stack.simulator().reactions().obstacles[0].force.z(), stack.weight(),
+                  1e-3 * stack.weight());
     }
   }
 }
@@ -190,8 +191,6 @@ TEST(SelfContact, PiecesPressedTogetherPassTheForceOn) {
         converged += press.simulator->report().converged ? 1 : 0;
         iterations += press.simulator->report().iterations;
       }
-      std::printf("E %g: converged %d, iterations %d, carried %g N, penetration %g mm\n", youngs_modulus_pa, converged, iterations, press.carried(),
-                  1e3 * penetration(press.topology, press.simulator->state().vertices));
       EXPECT_NEAR(press.carried(), 1.0, 0.01);
       EXPECT_LT(penetration(press.topology, press.simulator->state().vertices), 5e-4);
       EXPECT_GE(converged, 55);
@@ -242,7 +241,6 @@ TEST(SelfContact, APieceSlidesOnAnotherAsCoulombsLawSays) {
     }
     const double acceleration = kGravity * (std::sin(angle) - friction * std::cos(angle)), h = 1e-9 * kFrame;
     const double distance = 0.5 * acceleration * h * h * kFrames * (kFrames + 1);  // of implicit Euler
-    std::printf("friction %g: slid %g mm of %g, converged %d, iterations %d\n", friction, 1e3 * block.slid(), 1e3 * distance, converged, iterations);
     EXPECT_NEAR(block.slid(), distance, 0.05 * distance) << friction;
   }
 }
@@ -251,7 +249,6 @@ TEST(SelfContact, APieceSticksOnAnotherBelowTheSlopeOfFriction) {
   for (const double friction : {0.2, 0.5, 1.0}) {
     Slope block(friction, 0.9 * friction);
     for (int frame = 0; frame < 30; ++frame) block.step();
-    std::printf("friction %g: slid %g mm\n", friction, 1e3 * block.slid());
     EXPECT_LT(std::abs(block.slid()), 5e-4) << friction;
   }
 }
@@ -269,7 +266,8 @@ TEST(SelfContact, CollidingPiecesKeepTheirMomentum) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
     for (Eigen::Index t = 0; t < topology.tets.rows(); ++t)
-      for (int k = 0; k < 4; ++k) sum += 0.25 * volumes[t] * simulator.state().vertices.row(topology.tets(t, k));
+      for (int k = 0; k < 4; ++k)
+        sum += 0.25 * volumes[t] * simulator.state().vertices.row(topology.tets(t, k));
     return Eigen::RowVector3d(sum / volumes.sum());
   };
   for (int frame = 1; frame <= 3; ++frame) simulator.step({}, frame * kFrame, thrown);
@@ -283,7 +281,6 @@ TEST(SelfContact, CollidingPiecesKeepTheirMomentum) {
     last = center;
     deepest = std::max(deepest, penetration(topology, simulator.state().vertices));
   }
-  std::printf("velocity %g mm a frame, deepest %g mm\n", 1e3 * velocity.x(), 1e3 * deepest);
   EXPECT_LT(deepest, 5e-4);
   // The second piece was hit.
   EXPECT_GT((simulator.state().vertices - topology.rest_vertices).bottomRows(5 * 4 * 3).col(0).mean(), 5e-3);
@@ -293,8 +290,8 @@ TEST(SelfContact, CollidingPiecesKeepTheirMomentum) {
 TEST(SelfContact, PiecesThatStartInEachOtherCalmDown) {
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.02, 0.01, 0.02),
                                         Eigen::Vector3d(0.0, 0.0, 0.035)}) {
-    const TetTopology topology = pieces({{{4, 4, 2}, {0.08, 0.08, 0.04}, {0.0, 0.0, 0.0}},
-                                         {{3, 4, 2}, {0.06, 0.08, 0.04}, corner}});
+    const TetTopology topology =
+        pieces({{{4, 4, 2}, {0.08, 0.08, 0.04}, {0.0, 0.0, 0.0}}, {{3, 4, 2}, {0.06, 0.08, 0.04}, corner}});
     Simulator simulator(topology, {5e3, 0.2, 50.0, 0.1}, configWith(Eigen::Vector3d::Zero(), 0.3));
     simulator.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
     double fastest = 0.0, move = 0.0;
@@ -305,8 +302,6 @@ TEST(SelfContact, PiecesThatStartInEachOtherCalmDown) {
       move = testing::largestDistance(before, simulator.state().vertices);
       fastest = std::max(fastest, move);
     }
-    std::printf("fastest %g mm, last %g mm, elastic %g J, penetration %g mm\n", 1e3 * fastest, 1e3 * move, simulator.elasticEnergy(),
-                1e3 * penetration(topology, simulator.state().vertices));
     EXPECT_LT(fastest, 0.01);
     EXPECT_LT(move, 1e-3);
   }
@@ -326,8 +321,9 @@ TEST(SelfContact, AFoldedStripLiesOnItself) {
       if (rest(v, 0) < 1e-9) hands.pins.push_back({v, rest.row(v)});
       if (rest(v, 0) < 0.24 - 1e-9) continue;
       const Eigen::Vector3d center(0.12, 0.0, 0.005), arm = rest.row(v).transpose() - center;
-      hands.pins.push_back({v, center + Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()) * arm +
-                                   Eigen::Vector3d(0.0, 0.0, 0.03 * std::sin(angle) + 0.03 * angle / M_PI - down)});
+      hands.pins.push_back(
+          {v, center + Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()) * arm +
+                  Eigen::Vector3d(0.0, 0.0, 0.03 * std::sin(angle) + 0.03 * angle / M_PI - down)});
     }
   };
   double deepest = 0.0;
@@ -338,7 +334,6 @@ TEST(SelfContact, AFoldedStripLiesOnItself) {
     converged += simulator.report().converged ? 1 : 0;
     deepest = std::max(deepest, overlap(topology, simulator.state().vertices));
   }
-  std::printf("converged %d, deepest %g mm, at the end %g\n", converged, 1e3 * deepest, 1e3 * overlap(topology, simulator.state().vertices));
   EXPECT_LT(deepest, 5e-4);
 }
 
@@ -382,8 +377,8 @@ TEST(SelfContact, ASlitOpensAndClosesAndCarriesPressure) {
       if (rest(v, 0) > 1e-9 && rest(v, 0) < 0.16 - 1e-9) continue;
       const double side = rest(v, 0) < 0.08 ? -1.0 : 1.0;
       const Eigen::Vector3d center(0.08, 0.0, 0.015);
-      hands.pins.push_back(
-          {v, center + Eigen::AngleAxisd(side * angle, Eigen::Vector3d::UnitY()) * (rest.row(v).transpose() - center)});
+      hands.pins.push_back({v, center + Eigen::AngleAxisd(side * angle, Eigen::Vector3d::UnitY()) *
+                                            (rest.row(v).transpose() - center)});
     }
     simulator.step({}, ++frame * kFrame, hands);
   };
@@ -406,23 +401,23 @@ TEST(SelfContact, ASlitOpensAndClosesAndCarriesPressure) {
     return above;
   };
   for (int k = 1; k <= 20; ++k) step(0.2 * k / 20.0);
-  std::printf("open %g %g mm, moment %g N m\n", 1e3 * gaps().first, 1e3 * gaps().second, momentOfEnd());
+  const double open_stiffness = momentOfEnd() / 0.2;
   EXPECT_GT(gaps().second, 0.01);
   for (int k = 19; k >= 0; --k) step(0.2 * k / 20.0);
   for (int k = 0; k < 20; ++k) step(0.0);
-  std::printf("closed %g %g mm, moment %g N m\n", 1e3 * gaps().first, 1e3 * gaps().second, momentOfEnd());
   EXPECT_LT(gaps().second, 5e-4);
   EXPECT_GT(gaps().first, -5e-4);
   for (int k = 1; k <= 20; ++k) step(-0.1 * k / 20.0);
   for (int k = 0; k < 10; ++k) step(-0.1);
-  std::printf("pressed %g %g mm, moment %g N m, residual %g of %g\n", 1e3 * gaps().first, 1e3 * gaps().second, momentOfEnd(), simulator.report().residual_n, simulator.report().external_n);
+  EXPECT_GT(momentOfEnd() / -0.1, 1.4 * open_stiffness);
   EXPECT_GT(gaps().first, -5e-4);
 }
 
 /// A body in one piece, and pieces that are apart, are as without it.
 TEST(SelfContact, ChangesNothingWhereNothingTouches) {
-  for (const TetTopology& topology : {testing::sponge(), pieces({{{4, 4, 2}, {0.08, 0.08, 0.04}, {0.0, 0.0, 0.0}},
-                                                                 {{4, 4, 2}, {0.08, 0.08, 0.04}, {0.09, 0.0, 0.0}}})}) {
+  for (const TetTopology& topology :
+       {testing::sponge(), pieces({{{4, 4, 2}, {0.08, 0.08, 0.04}, {0.0, 0.0, 0.0}},
+                                   {{4, 4, 2}, {0.08, 0.08, 0.04}, {0.09, 0.0, 0.0}}})}) {
     std::vector<Points> results;
     for (const bool self_contact : {false, true}) {
       SimulatorConfig config = configWith({0.0, 0.0, -kGravity}, 0.3);

@@ -17,8 +17,14 @@ Eigen::Array3i BoxGrid::cellOf(const Eigen::Vector3d& point) const {
   return cell.max(0.0).min((counts_ - 1).cast<double>()).cast<int>();
 }
 
+void BoxGrid::reserve(std::size_t count) {
+  constexpr std::size_t kCellsOfBox = 27;  // of a box that is not much larger than the mean
+  boxes_.reserve(count);
+  entries_.reserve(kCellsOfBox * count);
+  begins_.reserve((kMaxCells + 1) * (kMaxCells + 1) * (kMaxCells + 1) + 1);
+}
+
 void BoxGrid::set(const std::vector<Box>& boxes) {
-  constexpr double kMaxCells = 32.0;  // along an axis
   boxes_ = boxes;
   bounds_.setEmpty();
   double sides = 0.0;

@@ -10,6 +10,9 @@ class BoxGrid {
  public:
   using Box = Eigen::AlignedBox3d;
 
+  /// Takes the memory for as many boxes of ordinary shape, so that set() allocates nothing.
+  void reserve(std::size_t count);
+
   /// @param boxes not empty.
   void set(const std::vector<Box>& boxes);
 
@@ -38,6 +41,8 @@ class BoxGrid {
   int indexOf(const Eigen::Array3i& cell) const {
     return cell.x() + counts_.x() * (cell.y() + counts_.y() * cell.z());
   }
+  static constexpr int kMaxCells = 32;  ///< along an axis
+
   template <typename Visit>
   void visitCells(const Box& box, Visit visit) const;
 

@@ -1,9 +1,8 @@
 #include "constraints/clearance.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-
-#include "softbody_common/rigid_fit.h"
 
 namespace softbody {
 
@@ -13,13 +12,21 @@ void Clearance::set(const Points& reference, double distance_m) {
   deviation_m_ = 0.0;
 }
 
+/// The best rotation (Kabsch), without an allocation.
 void Clearance::start(const Points& before) {
-  const Eigen::Isometry3d T = fitRigid(reference_, before);
+  const Eigen::RowVector3d from = reference_.colwise().mean(), to = before.colwise().mean();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (Eigen::Index v = 0; v < before.rows(); ++v)
+    products += (before.row(v) - to).transpose() * (reference_.row(v) - from);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d R = svd.matrixU() * svd.matrixV().transpose();
+  if (R.determinant() < 0.0)
+    R = svd.matrixU() * Eigen::Vector3d(1.0, 1.0, -1.0).asDiagonal() * svd.matrixV().transpose();
   double largest = 0.0;  // squared
-  for (Eigen::Index v = 0; v < before.rows(); ++v) {
-    const Eigen::Vector3d place = reference_.row(v), now = before.row(v);
-    largest = std::max(largest, (T * place - now).squaredNorm());
-  }
+  for (Eigen::Index v = 0; v < before.rows(); ++v)
+    largest = std::max(
+        largest,
+        (R * (reference_.row(v) - from).transpose() - (before.row(v) - to).transpose()).squaredNorm());
   deviation_m_ = std::sqrt(largest);
 }
 

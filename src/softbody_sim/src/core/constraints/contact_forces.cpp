@@ -25,15 +25,16 @@ ContactForces::ContactForces(const TetTopology& topology, double spacing_m, doub
       reach_m_(reach_m),
       largest_lift_m_(largest_lift_m) {}
 
-void ContactForces::start(const Points& before, const std::vector<Obstacle>& obstacles) {
-  if ((!obstacles.empty() || self_contact_) && points_.empty())
+void ContactForces::start(const Points& before, const std::vector<Obstacle>& obstacles, bool touches_itself) {
+  touches_itself_ = touches_itself && self_contact_;
+  if ((!obstacles.empty() || touches_itself_) && points_.empty())
     points_ = sampleContactPoints(*topology_, spacing_m_);
-  if (self_contact_) self_contact_->start(points_, before);
+  if (touches_itself_) self_contact_->start(points_, before);
 }
 
 void ContactForces::find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
                          const ContactState& state, std::vector<Contact>* contacts) {
-  const bool touches_itself = self_contact_ && self_contact_->mayTouch(before, now);
+  const bool touches_itself = touches_itself_ && self_contact_->mayTouch(before, now);
   findContacts(points_, topology_->tets, before, now, obstacles, state.obstacle_poses, reach_m_, contacts);
   if (touches_itself) self_contact_->find(points_, before, now, contacts);
   auto earlier = state.contacts.begin();

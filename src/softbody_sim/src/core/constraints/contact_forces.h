@@ -25,8 +25,9 @@ class ContactForces {
   /// From now on, the body touches itself.
   void addSelfContact(const SelfContact::Options& options) { self_contact_.emplace(*topology_, options); }
 
-  /// Begins a step at the vertices `before`. The first call creates the contact points, if they are needed.
-  void start(const Points& before, const std::vector<Obstacle>& obstacles);
+  /// Begins a step at the vertices `before`. The first call in which something can touch creates the contact
+  /// points. @param touches_itself whether contact of the body with itself counts, if it was added.
+  void start(const Points& before, const std::vector<Obstacle>& obstacles, bool touches_itself);
 
   /// Finds the contacts of a step.
   /// @param before, now as in findContacts; @param state of the last step.
@@ -64,6 +65,7 @@ class ContactForces {
 
   const TetTopology* topology_;
   std::optional<SelfContact> self_contact_;
+  bool touches_itself_ = false;  ///< in this step
   std::vector<ContactPoint> points_;
   double spacing_m_, pressure_stiffness_, reach_m_, largest_lift_m_;
 };

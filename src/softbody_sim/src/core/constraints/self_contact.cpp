@@ -79,6 +79,9 @@ bool SelfContact::isNear(std::size_t piece, const Box& box) const {
 /// The triangles around each point.
 void SelfContact::sortPoints(const std::vector<ContactPoint>& points) {
   tet_of_triangle_ = tetsOfSurface(*topology_);
+  triangles_.reserve(tet_of_triangle_.size());
+  triangle_boxes_.reserve(tet_of_triangle_.size());
+  grid_.reserve(tet_of_triangle_.size());
   std::vector<std::vector<int>> around(piece_of_vertex_.size());
   for (int f = 0; f < topology_->surface.rows(); ++f)
     for (int k = 0; k < 3; ++k) around[static_cast<std::size_t>(topology_->surface(f, k))].push_back(f);
@@ -95,7 +98,8 @@ void SelfContact::sortPoints(const std::vector<ContactPoint>& points) {
     }
     triangles_of_point_.push_back(common);
     setNeighbors(triangles_of_point_.size() - 1, around);
-    piece_of_point_.push_back(piece_of_vertex_[static_cast<std::size_t>(topology_->tets(point.place.tet, 0))]);
+    piece_of_point_.push_back(
+        piece_of_vertex_[static_cast<std::size_t>(topology_->tets(point.place.tet, 0))]);
   }
 }
 
@@ -133,10 +137,11 @@ void SelfContact::measureClearance(const std::vector<ContactPoint>& points, cons
     const Eigen::Vector3d point = positionOf(points[p].place, x, topology_->tets);
     grid_.visit(Box(point), [&](int f) {
       const Eigen::Vector3d corner = x.row(topology_->surface(f, 0));
-      if (normals_.row(f).dot(point - corner) < -options_.largest_m || isOfOtherPiece(p, f) || isNeighbor(p, f))
+      if (normals_.row(f).dot(point - corner) < -options_.largest_m || isOfOtherPiece(p, f) ||
+          isNeighbor(p, f))
         return;
-      const Eigen::Vector3d nearest = nearestOnTriangle(point, corner, x.row(topology_->surface(f, 1)),
-                                                        x.row(topology_->surface(f, 2)));
+      const Eigen::Vector3d nearest =
+          nearestOnTriangle(point, corner, x.row(topology_->surface(f, 1)), x.row(topology_->surface(f, 2)));
       least = std::min(least, (point - nearest).norm());
     });
   }
@@ -220,8 +225,8 @@ void SelfContact::meet(const Path& path, int triangle, bool is_other_piece, cons
   if (start_distance >= -options_.largest_m && end_distance < std::min(0.0, start_distance)) {
     constexpr double kRim = -0.01;  // so that no point slips through between two triangles
     const double time = std::max(0.0, start_distance) / (std::max(0.0, start_distance) - end_distance);
-    const Eigen::Vector3d weights = weightsOf((1.0 - time) * path.start + time * path.end,
-                                              (1.0 - time) * start + time * end);
+    const Eigen::Vector3d weights =
+        weightsOf((1.0 - time) * path.start + time * path.end, (1.0 - time) * start + time * end);
     if (weights.minCoeff() >= kRim && (best->crossed.triangle < 0 || time < best->time)) {
       best->crossed = {triangle, weights, end_distance};
       best->time = time;
@@ -241,8 +246,8 @@ void SelfContact::meet(const Path& path, int triangle, bool is_other_piece, cons
 SelfContact::Meeting SelfContact::choose(const Meetings& meetings) const {
   const bool is_shallow = meetings.nearest.distance >= -options_.largest_m;
   const bool is_crossed = meetings.crossed.triangle >= 0;
-  if (is_crossed && (meetings.crossed.distance < -options_.largest_m || meetings.nearest.triangle < 0 ||
-                     !is_shallow))
+  if (is_crossed &&
+      (meetings.crossed.distance < -options_.largest_m || meetings.nearest.triangle < 0 || !is_shallow))
     return meetings.crossed;
   return is_shallow || meetings.is_inside ? meetings.nearest : Meeting();
 }

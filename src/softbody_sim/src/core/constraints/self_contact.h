@@ -16,10 +16,10 @@ namespace softbody {
 class SelfContact {
  public:
   struct Options {
-    double reach_m = 0.0;     ///< larger distances are no contact
-    double largest_m = 0.0;   ///< depth that pushes; a point that starts deeper comes out over several steps
-    double deepest_m = 0.0;   ///< a point that starts deeper is not pushed
-    double friction = 0.0;    ///< coefficient
+    double reach_m = 0.0;    ///< larger distances are no contact
+    double largest_m = 0.0;  ///< depth that pushes; a point that starts deeper comes out over several steps
+    double deepest_m = 0.0;  ///< a point that starts deeper is not pushed
+    double friction = 0.0;   ///< coefficient
   };
 
   SelfContact(const TetTopology& topology, const Options& options);
@@ -30,8 +30,9 @@ class SelfContact {
   /// Whether parts may come near each other between two shapes. Fast. @param before, now #V by 3 [m].
   bool mayTouch(const Points& before, const Points& now);
 
-  /// Appends the contacts of the shapes of the last mayTouch, at most one a point, sorted by point. A point that was outside touches the
-  /// triangle that its path meets first, relative to the moving triangle. @param points the same in each call.
+  /// Appends the contacts of the shapes of the last mayTouch, at most one a point, sorted by point. A point
+  /// that was outside touches the triangle that its path meets first, relative to the moving triangle. @param
+  /// points the same in each call.
   void find(const std::vector<ContactPoint>& points, const Points& before, const Points& now,
             std::vector<Contact>* contacts);
 
@@ -51,7 +52,7 @@ class SelfContact {
   };
   struct Meetings {
     Meeting crossed, nearest;
-    double time = 0.0;  ///< of the crossing, 0 to 1
+    double time = 0.0;                                             ///< of the crossing, 0 to 1
     double surface_distance = std::numeric_limits<double>::max();  ///< of any triangle [m]
     bool is_inside = false;                                        ///< by that triangle
   };
@@ -64,7 +65,8 @@ class SelfContact {
   bool isNeighbor(std::size_t point, int triangle) const;
   bool isOfOtherPiece(std::size_t point, int triangle) const;
   bool faces(std::size_t point, int triangle) const;
-  void meet(const Path& path, int triangle, bool is_other_piece, const Points& before, const Points& now, Meetings* best) const;
+  void meet(const Path& path, int triangle, bool is_other_piece, const Points& before, const Points& now,
+            Meetings* best) const;
   Meeting choose(const Meetings& meetings) const;
   Contact contactOf(const Path& path, const Meeting& meeting, const Points& before) const;
 

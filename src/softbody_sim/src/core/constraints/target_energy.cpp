@@ -65,7 +65,6 @@ void TargetEnergy::coupleLast(const MaterialPoint& other, const Tets& tets) {
   spring.other_barycentric = other.barycentric;
 }
 
-
 /// Offset of the point from the spring's position, as far as it costs energy [m].
 Eigen::Vector3d TargetEnergy::offsetOf(const Spring& spring, const Points& x) {
   Eigen::Vector3d offset = -spring.position;
@@ -108,7 +107,8 @@ bool TargetEnergy::hasContact() const {
 }
 
 bool TargetEnergy::hasCoupled() const {
-  return std::any_of(springs_.begin(), springs_.end(), [](const Spring& spring) { return spring.isCoupled(); });
+  return std::any_of(springs_.begin(), springs_.end(),
+                     [](const Spring& spring) { return spring.isCoupled(); });
 }
 
 Eigen::Matrix3d TargetEnergy::curvatureAt(const Spring& spring, const Points& x) {

@@ -29,7 +29,8 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
   setPotential(problem);
   addPins(surroundings.pins);
   gradient_.resize(x->rows(), 3);
-  contact_.start(before, surroundings.obstacles);
+  // Targets show where the parts are; contact would only add their noise, and time.
+  contact_.start(before, surroundings.obstacles, targets.empty());
   chooseStart(problem, x);
   iterate(problem, x);
   contact_.wrenches(contacts_, *x, surroundings.obstacles, &result_.reactions.obstacles);
@@ -73,7 +74,6 @@ void ConstrainedStep::addPins(const std::vector<Pin>& pins) {
 void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   const Surroundings& surroundings = problem.surroundings;
   if (surroundings.pins.empty() && surroundings.obstacles.empty()) {
-    if (!problem.targets.empty()) return;
     findContacts(*x, problem, &contacts_);
     if (contacts_.empty()) return;
   }

@@ -106,8 +106,7 @@ template <typename T>
 typename RigidCorrection<T>::Basis RigidCorrection<T>::motionsAt(const Eigen::Vector4i& vertices,
                                                                  const Eigen::Vector4d& barycentric) const {
   Basis motions = Basis::Zero();
-  for (int k = 0; k < 4; ++k)
-    motions += barycentric[k] * exact_basis_[static_cast<std::size_t>(vertices[k])];
+  for (int k = 0; k < 4; ++k) motions += barycentric[k] * exact_basis_[static_cast<std::size_t>(vertices[k])];
   return motions;
 }
 

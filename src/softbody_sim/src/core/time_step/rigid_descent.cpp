@@ -89,8 +89,7 @@ void RigidDescent::addSprings(const TargetEnergy& targets, const Points& free, c
 void RigidDescent::addCurvature(const TargetEnergy::Spring& spring, const Points& x,
                                 const Eigen::Vector3d& direction, double stiffness) {
   const std::size_t piece = piece_of_vertex_[static_cast<std::size_t>(spring.vertices[0])];
-  const Vector6d slopes =
-      motions_[piece].slopes(pointOf(spring.vertices, spring.barycentric, x), direction);
+  const Vector6d slopes = motions_[piece].slopes(pointOf(spring.vertices, spring.barycentric, x), direction);
   if (!spring.isCoupled()) return motions_[piece].addCurvature(slopes, stiffness);
   const std::size_t other = piece_of_vertex_[static_cast<std::size_t>(spring.other_vertices[0])];
   const Vector6d opposite =

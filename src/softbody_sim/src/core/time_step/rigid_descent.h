@@ -10,8 +10,9 @@
 namespace softbody {
 
 /// Moves each connected piece of the tets rigidly towards the minimum of a step. Elasticity does not resist
-/// such a motion. Pieces that touch each other are solved together. But in the metric of projective dynamics a target with a normal resists in all directions,
-/// so its iteration moves a body only slowly along its own surface.
+/// such a motion. Pieces that touch each other are solved together. But in the metric of projective dynamics
+/// a target with a normal resists in all directions, so its iteration moves a body only slowly along its own
+/// surface.
 class RigidDescent {
  public:
   explicit RigidDescent(const TetTopology& topology);
