@@ -1,50 +1,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <optional>
-#include <utility>
 
+#include "fixtures/piece_meshes.h"
 #include "fixtures/test_meshes.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
 namespace {
 
+using testing::configWith;
 using testing::kFrame;
+using testing::pieces;
 
 constexpr double kGravity = 9.81;
-
-struct BoxShape {
-  Eigen::Vector3i cells;
-  Eigen::Vector3d size, corner;
-};
-
-/// Boxes as pieces of one body.
-TetTopology pieces(const std::vector<BoxShape>& boxes) {
-  TetTopology all;
-  all.rest_vertices.resize(0, 3);
-  all.tets.resize(0, 4);
-  for (const BoxShape& box : boxes) {
-    const TetTopology one = testing::boxTopology(box.cells, box.size);
-    const Eigen::Index count = all.rest_vertices.rows(), tets = all.tets.rows();
-    all.rest_vertices.conservativeResize(count + one.rest_vertices.rows(), 3);
-    all.rest_vertices.bottomRows(one.rest_vertices.rows()) =
-        one.rest_vertices.rowwise() + box.corner.transpose();
-    all.tets.conservativeResize(tets + one.tets.rows(), 4);
-    all.tets.bottomRows(one.tets.rows()) = one.tets.array() + static_cast<int>(count);
-  }
-  all.surface = boundaryTriangles(all.tets);
-  all.tet_pieces = tetPieces(all.tets, static_cast<int>(all.rest_vertices.rows()));
-  return all;
-}
-
-SimulatorConfig configWith(const Eigen::Vector3d& gravity, double friction) {
-  SimulatorConfig config;
-  config.gravity = gravity;
-  config.self_friction = friction;
-  return config;
-}
 
 /// A stack of boxes on a table, not aligned and with different meshes.
 class Stack {
@@ -66,8 +36,8 @@ class Stack {
   }
 
  private:
-  static std::vector<BoxShape> boxesOf(int count) {
-    std::vector<BoxShape> boxes;
+  static std::vector<testing::BoxShape> boxesOf(int count) {
+    std::vector<testing::BoxShape> boxes;
     for (int k = 0; k < count; ++k)
       boxes.push_back(
           {{4, 4, 2}, {0.08 - 0.01 * k, 0.08 - 0.012 * k, 0.04}, {0.003 * k, 0.004 * k, 0.0401 * k}});
@@ -102,28 +72,6 @@ double penetration(const TetTopology& topology, const Points& x) {
         const Eigen::Vector3d nearest =
             nearestOnTriangle(point, x.row(surface(f, 0)), x.row(surface(f, 1)), x.row(surface(f, 2)));
         depth = std::min(depth, (nearest - point).norm());
-      }
-      deepest = std::max(deepest, depth);
-    }
-  }
-  return deepest;
-}
-
-/// Largest depth of a vertex in tets of the same body that are not its own [m].
-double overlap(const TetTopology& topology, const Points& x) {
-  double deepest = 0.0;
-  for (Eigen::Index v = 0; v < x.rows(); ++v) {
-    for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-      if ((topology.tets.row(t).array() == v).any()) continue;
-      const Eigen::Vector4i tet = topology.tets.row(t);
-      if (barycentricCoordinates(x.row(v), x, tet).minCoeff() <= 0.0) continue;
-      double depth = 1.0;
-      for (Eigen::Index f = 0; f < topology.surface.rows(); ++f) {
-        if ((topology.surface.row(f).array() == v).any()) continue;
-        const Eigen::Vector3d nearest =
-            nearestOnTriangle(x.row(v), x.row(topology.surface(f, 0)), x.row(topology.surface(f, 1)),
-                              x.row(topology.surface(f, 2)));
-        depth = std::min(depth, (nearest - x.row(v).transpose()).norm());
       }
       deepest = std::max(deepest, depth);
     }
@@ -305,112 +253,6 @@ TEST(SelfContact, PiecesThatStartInEachOtherCalmDown) {
     EXPECT_LT(fastest, 0.01);
     EXPECT_LT(move, 1e-3);
   }
-}
-
-/// A strip whose ends are pinned and moved over each other: its halves must not pass through each other.
-TEST(SelfContact, AFoldedStripLiesOnItself) {
-  const TetTopology topology = pieces({{{24, 3, 1}, {0.24, 0.03, 0.01}, {0.0, 0.0, 0.0}}});
-  const Points& rest = topology.rest_vertices;
-  Simulator simulator(topology, {2e4, 0.2, 100.0, 0.1}, configWith({0.0, 0.0, -kGravity}, 0.3));
-  simulator.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
-  Surroundings hands;
-  hands.obstacles = {Obstacle::plane()};
-  const auto move = [&](double angle, double down) {  // of the right end, about the middle
-    hands.pins.clear();
-    for (int v = 0; v < rest.rows(); ++v) {
-      if (rest(v, 0) < 1e-9) hands.pins.push_back({v, rest.row(v)});
-      if (rest(v, 0) < 0.24 - 1e-9) continue;
-      const Eigen::Vector3d center(0.12, 0.0, 0.005), arm = rest.row(v).transpose() - center;
-      hands.pins.push_back(
-          {v, center + Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()) * arm +
-                  Eigen::Vector3d(0.0, 0.0, 0.03 * std::sin(angle) + 0.03 * angle / M_PI - down)});
-    }
-  };
-  double deepest = 0.0;
-  int converged = 0;
-  for (int frame = 1; frame <= 90; ++frame) {
-    move(M_PI * std::min(1.0, frame / 45.0), 0.022 * std::clamp((frame - 45) / 20.0, 0.0, 1.0));
-    simulator.step({}, frame * kFrame, hands);
-    converged += simulator.report().converged ? 1 : 0;
-    deepest = std::max(deepest, overlap(topology, simulator.state().vertices));
-  }
-  EXPECT_LT(deepest, 5e-4);
-}
-
-/// A box with a slit from above in its middle, half as deep as the box; its faces lie on each other.
-TetTopology slitBox(std::vector<std::pair<int, int>>* pairs) {
-  TetTopology body = testing::boxTopology({8, 4, 4}, {0.16, 0.06, 0.06});
-  const Eigen::Index count = body.rest_vertices.rows();
-  std::map<int, int> right;
-  for (int v = 0; v < count; ++v) {
-    if (std::abs(body.rest_vertices(v, 0) - 0.08) > 1e-9 || body.rest_vertices(v, 2) < 0.031) continue;
-    right[v] = static_cast<int>(count + static_cast<Eigen::Index>(right.size()));
-    pairs->emplace_back(v, right[v]);
-  }
-  const Points before = body.rest_vertices;
-  body.rest_vertices.conservativeResize(count + static_cast<Eigen::Index>(right.size()), 3);
-  for (const auto& [left, copy] : right) body.rest_vertices.row(copy) = before.row(left);
-  for (Eigen::Index t = 0; t < body.tets.rows(); ++t) {
-    double x = 0.0;
-    for (int k = 0; k < 4; ++k) x += 0.25 * before(body.tets(t, k), 0);
-    for (int k = 0; k < 4 && x > 0.08; ++k) {
-      const auto copy = right.find(body.tets(t, k));
-      if (copy != right.end()) body.tets(t, k) = copy->second;
-    }
-  }
-  body.surface = boundaryTriangles(body.tets);
-  body.tet_pieces = tetPieces(body.tets, static_cast<int>(body.rest_vertices.rows()));
-  return body;
-}
-
-TEST(SelfContact, ASlitOpensAndClosesAndCarriesPressure) {
-  std::vector<std::pair<int, int>> pairs;
-  const TetTopology body = slitBox(&pairs);
-  const Points& rest = body.rest_vertices;
-  Simulator simulator(body, {2e4, 0.2, 50.0, 0.1}, configWith(Eigen::Vector3d::Zero(), 0.3));
-  simulator.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
-  Nanoseconds frame = 0;
-  // The ends are turned about the middle: above 0 the slit opens, below it is pressed together.
-  const auto step = [&](double angle) {
-    Surroundings hands;
-    for (int v = 0; v < rest.rows(); ++v) {
-      if (rest(v, 0) > 1e-9 && rest(v, 0) < 0.16 - 1e-9) continue;
-      const double side = rest(v, 0) < 0.08 ? -1.0 : 1.0;
-      const Eigen::Vector3d center(0.08, 0.0, 0.015);
-      hands.pins.push_back({v, center + Eigen::AngleAxisd(side * angle, Eigen::Vector3d::UnitY()) *
-                                            (rest.row(v).transpose() - center)});
-    }
-    simulator.step({}, ++frame * kFrame, hands);
-  };
-  const auto gaps = [&] {  // smallest, largest
-    std::pair<double, double> range(1.0, -1.0);
-    for (const auto& [left, right] : pairs) {
-      const double gap = simulator.state().vertices(right, 0) - simulator.state().vertices(left, 0);
-      range = {std::min(range.first, gap), std::max(range.second, gap)};
-    }
-    return range;
-  };
-  const auto momentOfEnd = [&] {  // forces along x at the left end, above and below the middle
-    double above = 0.0;
-    std::size_t k = 0;
-    for (int v = 0; v < rest.rows(); ++v) {
-      if (rest(v, 0) > 1e-9 && rest(v, 0) < 0.16 - 1e-9) continue;
-      const double force = simulator.reactions().pins[k++].force.x();
-      if (rest(v, 0) < 1e-9) above += force * (rest(v, 2) - 0.03);
-    }
-    return above;
-  };
-  for (int k = 1; k <= 20; ++k) step(0.2 * k / 20.0);
-  const double open_stiffness = momentOfEnd() / 0.2;
-  EXPECT_GT(gaps().second, 0.01);
-  for (int k = 19; k >= 0; --k) step(0.2 * k / 20.0);
-  for (int k = 0; k < 20; ++k) step(0.0);
-  EXPECT_LT(gaps().second, 5e-4);
-  EXPECT_GT(gaps().first, -5e-4);
-  for (int k = 1; k <= 20; ++k) step(-0.1 * k / 20.0);
-  for (int k = 0; k < 10; ++k) step(-0.1);
-  EXPECT_GT(momentOfEnd() / -0.1, 1.4 * open_stiffness);
-  EXPECT_GT(gaps().first, -5e-4);
 }
 
 /// A body in one piece, and pieces that are apart, are as without it.
