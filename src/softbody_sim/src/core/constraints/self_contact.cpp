@@ -48,14 +48,16 @@ SelfContact::SelfContact(const TetTopology& topology, const Options& options)
 void SelfContact::start(const std::vector<ContactPoint>& points, const Points& before) {
   if (piece_of_point_.empty()) sortPoints(points);
   if (!clearance_.isSet()) measureClearance(points, topology_->rest_vertices);
-  clearance_.start(before);
+  at_start_m_ = clearance_.at(before);
   // Measured anew only now and then: half of the room is left.
-  if (2.0 * (clearance_.atStart() - options_.reach_m) < clearance_.measured() - options_.reach_m)
+  if (2.0 * (at_start_m_ - options_.reach_m) < clearance_.measured() - options_.reach_m) {
     measureClearance(points, before);
+    at_start_m_ = clearance_.measured();
+  }
 }
 
 bool SelfContact::mayTouch(const Points& before, const Points& now) {
-  parts_near_ = clearance_.until(before, now) < options_.reach_m;
+  parts_near_ = std::min(at_start_m_, clearance_.at(now)) < options_.reach_m;
   if (piece_boxes_.size() < 2) return parts_near_;
   for (Box& box : piece_boxes_) box.setEmpty();
   for (std::size_t v = 0; v < piece_of_vertex_.size(); ++v) {

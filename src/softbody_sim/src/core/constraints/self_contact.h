@@ -79,6 +79,7 @@ class SelfContact {
   std::vector<std::vector<int>> triangles_of_point_;
   std::vector<std::vector<int>> neighbors_of_point_;  ///< triangles within an edge of those, sorted
   Clearance clearance_;                               ///< of parts of one piece
+  double at_start_m_ = 0.0;                           ///< the same, at the start of the step
   bool parts_near_ = false;                           ///< parts of one piece, in this step
   std::vector<int> triangles_;                        ///< near another part
   std::vector<Box> triangle_boxes_;
