@@ -58,9 +58,9 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
                   const std::vector<Eigen::Isometry3d>& before_poses, double reach_m,
                   std::vector<Contact>* contacts);
 
-/// Adds the contacts of `earlier` that were not found again, and gives its forces (lift, depth) to the others. Otherwise a
-/// point would fall back after a contact has pushed it out of the obstacle's path. Both lists are ordered as
-/// by findContacts.
+/// Adds the contacts of `earlier` that were not found again, and gives its forces (lift, depth) to the
+/// others. Otherwise a point would fall back after a contact has pushed it out of the obstacle's path. Both
+/// lists are ordered as by findContacts.
 void keepEarlierContacts(const std::vector<Contact>& earlier, std::vector<Contact>* contacts);
 
 /// The order of findContacts.

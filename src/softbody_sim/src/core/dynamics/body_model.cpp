@@ -63,8 +63,8 @@ constexpr double kPenetration = 5e-3;
 /// A force that moves a free body by less in a step is too small to be balanced [mean edge lengths].
 constexpr double kNoticeableMove = 0.01;
 
-/// Distance up to which a point takes part in contact, and depth to which pieces that start in each other push
-/// themselves apart in a step [mean edge lengths].
+/// Distance up to which a point takes part in contact, and depth to which pieces that start in each other
+/// push themselves apart in a step [mean edge lengths].
 constexpr double kReach = 0.1;
 
 /// Depth in another piece from which its nearest surface may be that of the far side [mean edge lengths].
