@@ -81,6 +81,10 @@ void addProblemOptions(CLI::App& app, SimulateOptions& o) {
       ->check(CLI::Range(0.0, 10.0))
       ->needs("--ground")
       ->capture_default_str();
+  app.add_option("--self-friction", o.self_friction,
+                 "coefficient of Coulomb friction where the body touches itself")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
   app.add_option("--start", o.start, "initial shape")
       ->check(CLI::IsMember({"rest", "flat", "inside_out", "random"}))
       ->capture_default_str();
@@ -186,6 +190,7 @@ void addOptions(CLI::App* app, SimulateOptions* o) {
 SimulatorConfig configOf(const SimulateOptions& o) {
   SimulatorConfig config;
   config.gravity = Eigen::Vector3d(o.gravity.data());
+  config.self_friction = o.self_friction;
   if (o.node_defaults) return config;
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;
   config.elasticity = o.elasticity == "corotated" ? Elasticity::kCorotated : Elasticity::kNeoHookean;

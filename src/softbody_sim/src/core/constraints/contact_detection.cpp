@@ -98,16 +98,25 @@ Eigen::Vector3d firstMeeting(const Obstacle& obstacle, const Eigen::Vector3d& a,
 
 }  // namespace
 
+std::vector<int> tetsOfSurface(const TetTopology& topology) {
+  const std::map<std::array<int, 3>, int> owners = tetsOfFaces(topology.tets);
+  std::vector<int> tets;
+  for (Eigen::Index f = 0; f < topology.surface.rows(); ++f) {
+    std::array<int, 3> face{topology.surface(f, 0), topology.surface(f, 1), topology.surface(f, 2)};
+    std::sort(face.begin(), face.end());
+    tets.push_back(owners.at(face));
+  }
+  return tets;
+}
+
 std::vector<ContactPoint> sampleContactPoints(const TetTopology& topology, double spacing_m) {
   const double edge = longestEdge(topology.rest_vertices, topology.surface);
   const int n = std::clamp(static_cast<int>(std::ceil(edge / spacing_m)), 1, 8);
   const auto lattice = latticeTriangles(n);
-  const std::map<std::array<int, 3>, int> owners = tetsOfFaces(topology.tets);
+  const std::vector<int> tets = tetsOfSurface(topology);
   std::map<LatticePlace, ContactPoint> points;
   for (Eigen::Index f = 0; f < topology.surface.rows(); ++f) {
-    std::array<int, 3> face{topology.surface(f, 0), topology.surface(f, 1), topology.surface(f, 2)};
-    std::sort(face.begin(), face.end());
-    const int tet = owners.at(face);
+    const int tet = tets[static_cast<std::size_t>(f)];
     const double share = triangleArea(topology.rest_vertices, topology.surface, f) / (3.0 * n * n);
     for (const auto& triangle : lattice) {
       for (const std::array<int, 3>& corner : triangle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "softbody_common/types.h"
@@ -17,10 +18,13 @@ struct ContactPoint {
 /// @param spacing_m upper limit of the spacing, if 8 intervals suffice.
 std::vector<ContactPoint> sampleContactPoints(const TetTopology& topology, double spacing_m);
 
+/// The tet of each surface triangle.
+std::vector<int> tetsOfSurface(const TetTopology& topology);
+
 /// A contact as a constraint: the point must not cross the obstacle's tangent plane.
 struct Contact {
   int point = -1;                                      ///< index into the contact points
-  int obstacle = -1;                                   ///< index into the obstacles
+  int obstacle = -1;                                   ///< index into the obstacles, or kBody
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the obstacle's surface [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< outward
   Eigen::Vector3d anchor =
@@ -29,6 +33,12 @@ struct Contact {
   double friction = 0.0;  ///< coefficient
   double lift = 0.0;      ///< of the plane above the obstacle, so that the point itself does not sink in [m]
   Eigen::Vector3d slip = Eigen::Vector3d::Zero();  ///< of the point from its anchor, obstacle's frame [m]
+  /// Of a contact with the body itself: the place that the point touches. Position and anchor are relative to
+  /// it, and the slip is in the frame of the targets.
+  MaterialPoint other = {};
+
+  static constexpr int kBody = std::numeric_limits<int>::max();  ///< instead of an obstacle
+  bool isWithBody() const { return obstacle == kBody; }
 };
 
 /// What a step leaves to the next.

@@ -7,6 +7,16 @@
 
 namespace softbody {
 
+namespace {
+
+/// Of the frame of a contact's slip.
+Eigen::Matrix3d orientationOf(const Contact& contact, const std::vector<Obstacle>& obstacles) {
+  if (contact.isWithBody()) return Eigen::Matrix3d::Identity();
+  return obstacles[static_cast<std::size_t>(contact.obstacle)].pose.linear();
+}
+
+}  // namespace
+
 ContactForces::ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness,
                              double reach_m, double largest_lift_m)
     : topology_(&topology),
@@ -15,18 +25,25 @@ ContactForces::ContactForces(const TetTopology& topology, double spacing_m, doub
       reach_m_(reach_m),
       largest_lift_m_(largest_lift_m) {}
 
+void ContactForces::start(const Points& before, const std::vector<Obstacle>& obstacles, bool touches_itself) {
+  touches_itself_ = touches_itself && self_contact_;
+  if ((!obstacles.empty() || touches_itself_) && points_.empty())
+    points_ = sampleContactPoints(*topology_, spacing_m_);
+  if (touches_itself_) self_contact_->start(points_, before);
+}
+
 void ContactForces::find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
                          const ContactState& state, std::vector<Contact>* contacts) {
-  if (!obstacles.empty() && points_.empty()) points_ = sampleContactPoints(*topology_, spacing_m_);
+  const bool touches_itself = touches_itself_ && self_contact_->mayTouch(before, now);
   findContacts(points_, topology_->tets, before, now, obstacles, state.obstacle_poses, reach_m_, contacts);
+  if (touches_itself) self_contact_->find(points_, before, now, contacts);
   auto earlier = state.contacts.begin();
   for (Contact& contact : *contacts) {
     while (earlier != state.contacts.end() && isOrderedBefore(*earlier, contact)) ++earlier;
     if (earlier == state.contacts.end() || isOrderedBefore(contact, *earlier)) continue;
     contact.lift = earlier->lift;
     contact.depth += earlier->lift;
-    const Eigen::Vector3d slip =
-        obstacles[static_cast<std::size_t>(contact.obstacle)].pose.linear() * earlier->slip;
+    const Eigen::Vector3d slip = orientationOf(contact, obstacles) * earlier->slip;
     contact.anchor -= slip - contact.normal.dot(slip) * contact.normal;
   }
 }
@@ -37,9 +54,11 @@ void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnerg
     const double stiffness = stiffnessOf(contact);
     springs->addOneSided(point.place, topology_->tets, contact.position + contact.lift * contact.normal,
                          contact.normal, stiffness);
-    if (contact.friction > 0.0)
-      springs->addFriction(point.place, topology_->tets, contact.anchor, contact.normal, stiffness,
-                           contact.friction * stiffness * contact.depth);
+    if (contact.isWithBody()) springs->coupleLast(contact.other, topology_->tets);
+    if (contact.friction == 0.0) continue;
+    springs->addFriction(point.place, topology_->tets, contact.anchor, contact.normal, stiffness,
+                         contact.friction * stiffness * contact.depth);
+    if (contact.isWithBody()) springs->coupleLast(contact.other, topology_->tets);
   }
 }
 
@@ -72,8 +91,7 @@ void ContactForces::remember(const Points& x, const std::vector<Obstacle>& obsta
                              std::vector<Contact>* contacts) const {
   for (Contact& contact : *contacts) {
     contact.depth = depthOf(contact, x);
-    contact.slip =
-        obstacles[static_cast<std::size_t>(contact.obstacle)].pose.linear().transpose() * slipOf(contact, x);
+    contact.slip = orientationOf(contact, obstacles).transpose() * slipOf(contact, x);
   }
   if (balanced) updateLifts(x, contacts);
   const auto pushes_not = [](const Contact& contact) { return contact.depth == 0.0; };
@@ -86,8 +104,7 @@ double ContactForces::stiffnessOf(const Contact& contact) const {
 
 /// Of the point from its anchor, as far as friction holds it [m].
 Eigen::Vector3d ContactForces::slipOf(const Contact& contact, const Points& x) const {
-  const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
-  Eigen::Vector3d offset = positionOf(point.place, x, topology_->tets) - contact.anchor;
+  Eigen::Vector3d offset = placeOf(contact, x) - contact.anchor;
   offset -= contact.normal.dot(offset) * contact.normal;
   const double slide = contact.friction * contact.depth, length = offset.norm();
   return (length > slide ? slide / length : 1.0) * offset;
@@ -98,10 +115,16 @@ Eigen::Vector3d ContactForces::frictionOf(const Contact& contact, const Points& 
   return -stiffnessOf(contact) * slipOf(contact, x);
 }
 
+/// Of the point, relative to what position and anchor are relative to.
+Eigen::Vector3d ContactForces::placeOf(const Contact& contact, const Points& x) const {
+  const MaterialPoint& own = points_[static_cast<std::size_t>(contact.point)].place;
+  const Eigen::Vector3d place = positionOf(own, x, topology_->tets);
+  if (!contact.isWithBody()) return place;
+  return place - positionOf(contact.other, x, topology_->tets);
+}
+
 double ContactForces::depthOf(const Contact& contact, const Points& x) const {
-  const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
-  const Eigen::Vector3d place = positionOf(point.place, x, topology_->tets);
-  return std::max(0.0, contact.lift + contact.normal.dot(contact.position - place));
+  return std::max(0.0, contact.lift + contact.normal.dot(contact.position - placeOf(contact, x)));
 }
 
 double ContactForces::largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
@@ -123,6 +146,7 @@ void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points&
                              const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const {
   wrenches->assign(obstacles.size(), Wrench());
   for (const Contact& contact : contacts) {
+    if (contact.isWithBody()) continue;
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
     Eigen::Vector3d force = -pressure_stiffness_ * point.area * depthOf(contact, x) * contact.normal;

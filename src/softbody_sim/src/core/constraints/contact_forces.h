@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "constraints/contact_detection.h"
+#include "constraints/self_contact.h"
 #include "constraints/target_energy.h"
 #include "softbody_sim/constraints/surroundings.h"
 
@@ -12,7 +14,7 @@ namespace softbody {
 /// on the obstacle itself (augmented Lagrangian, Hestenes 1969); the next step starts with these lifts.
 /// Friction obeys Coulomb's law: a point sticks to the obstacle up to the coefficient times the force of its
 /// contact, then it slides. Sticking is a spring too; its anchor stays from step to step (Cundall and Strack
-/// 1979).
+/// 1979). A contact of the body with itself acts between two of its points.
 class ContactForces {
  public:
   /// @param topology outlives this; @param pressure_stiffness k [Pa/m]; @param reach_m larger distances are
@@ -20,7 +22,14 @@ class ContactForces {
   ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness, double reach_m,
                 double largest_lift_m);
 
-  /// Finds the contacts of a step. The first call with obstacles creates the contact points.
+  /// From now on, the body touches itself.
+  void addSelfContact(const SelfContact::Options& options) { self_contact_.emplace(*topology_, options); }
+
+  /// Begins a step at the vertices `before`. The first call in which something can touch creates the contact
+  /// points. @param touches_itself whether contact of the body with itself counts, if it was added.
+  void start(const Points& before, const std::vector<Obstacle>& obstacles, bool touches_itself);
+
+  /// Finds the contacts of a step.
   /// @param before, now as in findContacts; @param state of the last step.
   void find(const Points& before, const Points& now, const std::vector<Obstacle>& obstacles,
             const ContactState& state, std::vector<Contact>* contacts);
@@ -48,12 +57,15 @@ class ContactForces {
                 std::vector<Wrench>* wrenches) const;
 
  private:
+  Eigen::Vector3d placeOf(const Contact& contact, const Points& x) const;
   double depthOf(const Contact& contact, const Points& x) const;
   double stiffnessOf(const Contact& contact) const;
   Eigen::Vector3d slipOf(const Contact& contact, const Points& x) const;
   Eigen::Vector3d frictionOf(const Contact& contact, const Points& x) const;
 
   const TetTopology* topology_;
+  std::optional<SelfContact> self_contact_;
+  bool touches_itself_ = false;  ///< in this step
   std::vector<ContactPoint> points_;
   double spacing_m_, pressure_stiffness_, reach_m_, largest_lift_m_;
 };

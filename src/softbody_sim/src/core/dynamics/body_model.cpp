@@ -54,14 +54,26 @@ constexpr double kPenetration = 5e-3;
 /// A force that moves a free body by less in a step is too small to be balanced [mean edge lengths].
 constexpr double kNoticeableMove = 0.01;
 
+/// Distance up to which a point takes part in contact, and depth to which pieces that start in each other
+/// push themselves apart in a step [mean edge lengths].
+constexpr double kReach = 0.1;
+
+/// Depth in another piece from which its nearest surface may be that of the far side [mean edge lengths].
+constexpr double kDeepest = 1.0;
+
 /// Where materials differ, pins are stiff compared with the stiffest, contacts and targets with their mean.
 ConstrainedStep makeStep(const TetTopology& topology, const TetMaterials& materials,
                          const SimulatorConfig& config, double edge_length, double target_stiffness,
                          StepSolver* solver) {
-  return {topology,
-          ContactForces(topology, config.contact_spacing * edge_length,
+  ContactForces contact(topology, config.contact_spacing * edge_length,
                         config.contact_stiffness * materials.mean_youngs_modulus_pa / edge_length,
-                        0.1 * edge_length, edge_length / config.contact_stiffness),
+                        kReach * edge_length, edge_length / config.contact_stiffness);
+  if (config.self_contact) {
+    contact.addSelfContact(
+        {kReach * edge_length, kReach * edge_length, kDeepest * edge_length, config.self_friction});
+  }
+  return {topology,
+          std::move(contact),
           {target_stiffness, config.target_accuracy_m,
            kPinStiffness * materials.largest_youngs_modulus_pa * edge_length, 1e-3 * edge_length,
            kPenetration * edge_length, kNoticeableMove * edge_length},

@@ -44,6 +44,8 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.target_accuracy_m = parameters.number("target_accuracy_m", config.target_accuracy_m, 1e-6, 1.0);
   config.load_fade_s = parameters.number("load_fade_s", config.load_fade_s, 0.0, 1e3);
   config.contact_stiffness = parameters.number("contact_stiffness", config.contact_stiffness, 1e-3, 1e4);
+  config.self_contact = parameters.flag("self_contact", config.self_contact);
+  config.self_friction = parameters.number("self_friction", config.self_friction, 0.0, 10.0);
   config.contact_spacing = parameters.number("contact_spacing", config.contact_spacing, 0.1, 100.0);
   config.max_time_step_s = parameters.number("max_time_step_s", config.max_time_step_s, 1e-3, 10.0);
   config.undo_memory_mb = parameters.number("undo_memory_mb", config.undo_memory_mb, 0.0, 1e5);

@@ -29,6 +29,8 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
   setPotential(problem);
   addPins(surroundings.pins);
   gradient_.resize(x->rows(), 3);
+  // Targets show where the parts are; contact would only add their noise, and time.
+  contact_.start(before, surroundings.obstacles, targets.empty());
   chooseStart(problem, x);
   iterate(problem, x);
   contact_.wrenches(contacts_, *x, surroundings.obstacles, &result_.reactions.obstacles);
@@ -71,7 +73,10 @@ void ConstrainedStep::addPins(const std::vector<Pin>& pins) {
 /// is that shape moved rigidly to where springs and inertia want it, for one that slides or is carried.
 void ConstrainedStep::chooseStart(const Problem& problem, Points* x) {
   const Surroundings& surroundings = problem.surroundings;
-  if (surroundings.pins.empty() && surroundings.obstacles.empty()) return;
+  if (surroundings.pins.empty() && surroundings.obstacles.empty()) {
+    findContacts(*x, problem, &contacts_);
+    if (contacts_.empty()) return;
+  }
   still_ = moved_ = problem.before;
   findContacts(moved_, problem, &contacts_);
   setSprings(problem.targets);
@@ -132,7 +137,6 @@ void ConstrainedStep::minimize(const Problem& problem, Points* x) {
 
 /// Finds the contacts at the result x of contacts_. @return whether they are those.
 bool ConstrainedStep::contactsStay(const Problem& problem, const Points& x) {
-  if (problem.surroundings.obstacles.empty()) return true;
   findContacts(x, problem, &found_);
   keepEarlierContacts(contacts_, &found_);
   const double depth_change = contact_.largestDepthChange(contacts_, found_, x);

@@ -6,7 +6,9 @@
 
 namespace softbody {
 
-struct FemSolver::Factor : Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> {};
+struct FemSolver::Factor : Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> {
+  bool is_coupled = false;  ///< the analysed pattern couples tets
+};
 
 namespace {
 
@@ -77,18 +79,34 @@ bool FemSolver::findDirection(const IncrementalPotential& potential, const Point
   hessian_.addToDiagonal(potential.inertia);
   potential.targets.addHessian(x, &hessian_);
   elasticity_.addHessian(x, &hessian_, kind == Hessian::kProjected);
-  if (solveShifted(0.0)) return true;
+  const Eigen::SparseMatrix<double>& system = systemAt(potential, x);
+  if (solveShifted(system, 0.0)) return true;
   if (kind == Hessian::kExact) return false;
   const double mean = hessian_.lower().diagonal().mean();
   for (double shift = 1e-10; shift <= 1.0; shift *= 100.0) {
-    if (solveShifted(shift * mean)) return true;
+    if (solveShifted(system, shift * mean)) return true;
   }
   throw std::runtime_error("the Hessian could not be made positive definite");
 }
 
-bool FemSolver::solveShifted(double shift) {
+/// The pattern of couplings changes with the contacts, so it is analysed anew.
+const Eigen::SparseMatrix<double>& FemSolver::systemAt(const IncrementalPotential& potential,
+                                                       const Points& x) {
+  const bool is_coupled = potential.targets.hasCoupled();
+  if (!is_coupled && !factor_->is_coupled) return hessian_.lower();
+  std::vector<Eigen::Triplet<double>> entries;
+  potential.targets.addCouplings(x, &entries);
+  coupled_hessian_.resize(hessian_.lower().rows(), hessian_.lower().cols());
+  coupled_hessian_.setFromTriplets(entries.begin(), entries.end());
+  coupled_hessian_ += hessian_.lower();
+  factor_->analyzePattern(coupled_hessian_);
+  factor_->is_coupled = is_coupled;
+  return coupled_hessian_;
+}
+
+bool FemSolver::solveShifted(const Eigen::SparseMatrix<double>& system, double shift) {
   factor_->setShift(shift);
-  factor_->factorize(hessian_.lower());
+  factor_->factorize(system);
   if (factor_->info() != Eigen::Success) return false;
   const Eigen::Map<const Eigen::VectorXd> right(gradient_.data(), gradient_.size());
   Eigen::Map<Eigen::VectorXd>(direction_.data(), direction_.size()) = -factor_->solve(right);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <memory>
 
 #include "elasticity/fem_elasticity.h"
@@ -33,12 +34,14 @@ class FemSolver : public StepSolver {
 
   StepEnergy evaluate(const IncrementalPotential& potential, const Points& x, Points* gradient);
   bool findDirection(const IncrementalPotential& potential, const Points& x, Hessian kind);
-  bool solveShifted(double shift);
+  const Eigen::SparseMatrix<double>& systemAt(const IncrementalPotential& potential, const Points& x);
+  bool solveShifted(const Eigen::SparseMatrix<double>& system, double shift);
   bool searchLine(const IncrementalPotential& potential, Points* x, double* step);
 
   FemElasticity elasticity_;
   Options options_;
   BlockTetMatrix hessian_;
+  Eigen::SparseMatrix<double> coupled_hessian_;  ///< with the entries of springs between two tets
   std::unique_ptr<Factor> factor_;
   StepEnergy energy_{0.0};
   ForceBalance<Points> balance_;

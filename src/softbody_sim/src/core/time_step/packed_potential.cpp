@@ -9,9 +9,13 @@ TargetRow<T> toRow(const TargetEnergy::Spring& spring, const Eigen::RowVector3d&
   for (int k = 0; k < 4; ++k) {
     row.corners[k] = 4 * spring.vertices[k];
     row.barycentric[k] = static_cast<T>(spring.barycentric[k]);
+    row.other_corners[k] = 4 * spring.other_vertices[k];
+    row.other_barycentric[k] = static_cast<T>(spring.other_barycentric[k]);
   }
+  row.is_coupled = spring.isCoupled();
   // The coordinates sum to 1 only within rounding: subtract the origin times their sum.
-  const Eigen::Vector3d position = spring.position - spring.barycentric.sum() * origin.transpose();
+  const double sum = spring.barycentric.sum() - spring.other_barycentric.sum();
+  const Eigen::Vector3d position = spring.position - sum * origin.transpose();
   for (int k = 0; k < 3; ++k) {
     row.position[k] = static_cast<T>(position[k]);
     row.normal[k] = static_cast<T>(spring.normal[k]);

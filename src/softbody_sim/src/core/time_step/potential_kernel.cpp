@@ -43,6 +43,8 @@ HWY_INLINE void addTarget(const TargetRow<T>& target, const T* x, T* gradient, R
   for (int k = 1; k < 4; ++k) {
     offset = offset.plusProduct(target.barycentric[k], Row<T>::load(x + target.corners[k]));
   }
+  for (int k = 0; k < 4 && target.is_coupled; ++k)
+    offset = offset.minusProduct(target.other_barycentric[k], Row<T>::load(x + target.other_corners[k]));
   offset = offset.minus(Row<T>::load(target.position));
   if (target.has_normal) {
     const Row<T> normal = Row<T>::load(target.normal);
@@ -59,6 +61,10 @@ HWY_INLINE void addTarget(const TargetRow<T>& target, const T* x, T* gradient, R
   for (int k = 0; k < 4; ++k) {
     T* row = gradient + target.corners[k];
     Row<T>::load(row).plusProduct(target.barycentric[k], force).store(row);
+  }
+  for (int k = 0; k < 4 && target.is_coupled; ++k) {
+    T* row = gradient + target.other_corners[k];
+    Row<T>::load(row).minusProduct(target.other_barycentric[k], force).store(row);
   }
   *energy = energy->plusProduct(force.times(T{2} - hold), offset);
 }

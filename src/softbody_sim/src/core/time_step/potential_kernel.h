@@ -18,6 +18,9 @@ struct TargetRow {
   T slide;         ///< of friction: as TargetEnergy::Spring::slide_m
   bool one_sided;  ///< only pushes along the normal
   bool is_friction;
+  bool is_coupled;  ///< the position is relative to a second point, which gets the opposite force
+  int other_corners[4];
+  T other_barycentric[4];
 };
 
 /// View of an IncrementalPotential in rows (x, y, z, 0).

@@ -34,8 +34,8 @@ class StepMetric {
  public:
   StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity)
       : metric_(elasticMetric(topology, elasticity)), elastic_(metric_.values()) {
-    added_.reserve(kMaxUpdates + 1);
-    removed_.reserve(kMaxUpdates + 1);
+    added_.reserve(kMaxUpdates + 2);  // a coupled spring is two terms
+    removed_.reserve(kMaxUpdates + 2);
   }
 
   const Eigen::SparseMatrix<double>& lower() const { return metric_.lower(); }

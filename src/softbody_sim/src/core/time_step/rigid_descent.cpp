@@ -11,14 +11,18 @@ namespace {
 // Stiffness added to each motion, as a share of the stiffest: a motion that nothing measures stays small.
 constexpr double kRegularization = 1e-9;
 
-Eigen::Vector3d pointOf(const TargetEnergy::Spring& spring, const Points& x) {
+Eigen::Vector3d pointOf(const Eigen::Vector4i& vertices, const Eigen::Vector4d& barycentric,
+                        const Points& x) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 4; ++k) point += spring.barycentric[k] * x.row(spring.vertices[k]).transpose();
+  for (int k = 0; k < 4; ++k) point += barycentric[k] * x.row(vertices[k]).transpose();
   return point;
 }
 
-bool isClosed(const TargetEnergy::Spring& spring, const Eigen::Vector3d& point) {
-  return spring.normal.dot(point - spring.position) < 0.0;
+/// Of the spring's point in front of its plane [m].
+double gapOf(const TargetEnergy::Spring& spring, const Points& x) {
+  Eigen::Vector3d place = pointOf(spring.vertices, spring.barycentric, x);
+  if (spring.isCoupled()) place -= pointOf(spring.other_vertices, spring.other_barycentric, x);
+  return spring.normal.dot(place - spring.position);
 }
 
 Eigen::Isometry3d motionAbout(const Eigen::Vector3d& center, const Eigen::Matrix<double, 6, 1>& motion) {
@@ -39,11 +43,15 @@ RigidDescent::RigidDescent(const TetTopology& topology)
     for (const int v : pieces_[p]) piece_of_vertex_[static_cast<std::size_t>(v)] = p;
 }
 
-void RigidDescent::Motion::addCurvature(const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
-                                        double stiffness) {
-  Vector6d row;
-  row << (point - center).cross(direction), direction;
-  curvature.selfadjointView<Eigen::Lower>().rankUpdate(row, stiffness);
+RigidDescent::Vector6d RigidDescent::Motion::slopes(const Eigen::Vector3d& point,
+                                                    const Eigen::Vector3d& direction) const {
+  Vector6d result;
+  result << (point - center).cross(direction), direction;
+  return result;
+}
+
+void RigidDescent::Motion::addCurvature(const Vector6d& slopes, double stiffness) {
+  curvature.selfadjointView<Eigen::Lower>().rankUpdate(slopes, stiffness);
 }
 
 void RigidDescent::Motion::addGradient(const Eigen::Vector3d& point, const Eigen::Vector3d& force) {
@@ -62,47 +70,105 @@ void RigidDescent::addVertices(const IncrementalPotential& potential, const Poin
     for (const int v : pieces_[p]) {
       const Eigen::Vector3d point = x.row(v), force = gradient_.row(v);
       motion.addGradient(point, force);
-      for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), potential.inertia[v]);
+      for (int k = 0; k < 3; ++k)
+        motion.addCurvature(motion.slopes(point, Eigen::Vector3d::Unit(k)), potential.inertia[v]);
     }
   }
 }
 
 void RigidDescent::addSprings(const TargetEnergy& targets, const Points& free, const Points& x) {
   for (const TargetEnergy::Spring& spring : targets.springs()) {
-    Motion& motion = motions_[piece_of_vertex_[static_cast<std::size_t>(spring.vertices[0])]];
-    const Eigen::Vector3d point = pointOf(spring, x);
     if (spring.isFriction()) {
       // The curvature is a multiple s P of a projection, so it is the sum of its columns' squares by s.
       const Eigen::Matrix3d curvature = TargetEnergy::curvatureAt(spring, x);
       const double scale = curvature.squaredNorm() / curvature.trace();
-      for (int k = 0; k < 3 && scale > 0.0; ++k) motion.addCurvature(point, curvature.col(k), 1.0 / scale);
+      for (int k = 0; k < 3 && scale > 0.0; ++k) addCurvature(spring, x, curvature.col(k), 1.0 / scale);
     } else if (spring.normal.isZero(0.0)) {
-      for (int k = 0; k < 3; ++k) motion.addCurvature(point, Eigen::Vector3d::Unit(k), spring.stiffness);
-    } else if (!spring.one_sided || isClosed(spring, point)) {
-      motion.addCurvature(point, spring.normal, spring.stiffness);
-    } else if (isClosed(spring, pointOf(spring, free))) {
+      for (int k = 0; k < 3; ++k) addCurvature(spring, x, Eigen::Vector3d::Unit(k), spring.stiffness);
+    } else if (!spring.one_sided || gapOf(spring, x) < 0.0) {
+      addCurvature(spring, x, spring.normal, spring.stiffness);
+    } else if (gapOf(spring, free) < 0.0) {
       // It will act: the step ends where it does, not short of its plane.
-      const double gap = spring.normal.dot(point - spring.position);
-      motion.addCurvature(point, spring.normal, spring.stiffness);
-      motion.addGradient(point, spring.stiffness * gap * spring.normal);
+      addCurvature(spring, x, spring.normal, spring.stiffness);
+      addGradient(spring, x, spring.stiffness * gapOf(spring, x) * spring.normal);
     }
   }
 }
 
-/// A full Newton step. @param x where gradient_ was evaluated.
-void RigidDescent::move(const IncrementalPotential& potential, const Points& free, Points* x) {
-  motions_.resize(pieces_.size());
-  addVertices(potential, *x);
-  addSprings(potential.targets, free, *x);
-  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+void RigidDescent::addCurvature(const TargetEnergy::Spring& spring, const Points& x,
+                                const Eigen::Vector3d& direction, double stiffness) {
+  const std::size_t piece = piece_of_vertex_[static_cast<std::size_t>(spring.vertices[0])];
+  const Vector6d slopes = motions_[piece].slopes(pointOf(spring.vertices, spring.barycentric, x), direction);
+  if (!spring.isCoupled()) return motions_[piece].addCurvature(slopes, stiffness);
+  const std::size_t other = piece_of_vertex_[static_cast<std::size_t>(spring.other_vertices[0])];
+  const Vector6d opposite =
+      -motions_[other].slopes(pointOf(spring.other_vertices, spring.other_barycentric, x), direction);
+  if (other == piece) return motions_[piece].addCurvature(slopes + opposite, stiffness);
+  motions_[piece].addCurvature(slopes, stiffness);
+  motions_[other].addCurvature(opposite, stiffness);
+  if (piece > other)
+    couplingOf(piece, other) += stiffness * slopes * opposite.transpose();
+  else
+    couplingOf(other, piece) += stiffness * opposite * slopes.transpose();
+}
+
+void RigidDescent::addGradient(const TargetEnergy::Spring& spring, const Points& x,
+                               const Eigen::Vector3d& force) {
+  const auto add = [&](const Eigen::Vector4i& vertices, const Eigen::Vector4d& barycentric,
+                       const Eigen::Vector3d& part) {
+    Motion& motion = motions_[piece_of_vertex_[static_cast<std::size_t>(vertices[0])]];
+    motion.addGradient(pointOf(vertices, barycentric, x), part);
+  };
+  add(spring.vertices, spring.barycentric, force);
+  if (spring.isCoupled()) add(spring.other_vertices, spring.other_barycentric, -force);
+}
+
+RigidDescent::Matrix6d& RigidDescent::couplingOf(std::size_t row_piece, std::size_t column_piece) {
+  for (Coupling& coupling : couplings_)
+    if (coupling.row_piece == row_piece && coupling.column_piece == column_piece) return coupling.curvature;
+  couplings_.push_back({row_piece, column_piece, Matrix6d::Zero()});
+  return couplings_.back().curvature;
+}
+
+/// A Newton step of all motions.
+void RigidDescent::findSteps() {
+  const auto size = static_cast<Eigen::Index>(6 * motions_.size());
+  steps_.resize(size);
+  if (!couplings_.empty()) curvature_.setZero(size, size);
+  for (std::size_t p = 0; p < motions_.size(); ++p) {
     Motion& motion = motions_[p];
     // Turns and shifts have different units, so each is compared with its own kind.
     for (int first : {0, 3}) {
       auto diagonal = motion.curvature.diagonal().segment<3>(first);
       diagonal.array() += kRegularization * diagonal.maxCoeff();
     }
-    const Vector6d step = -motion.curvature.selfadjointView<Eigen::Lower>().ldlt().solve(motion.gradient);
-    const Eigen::Isometry3d T = motionAbout(motion.center, step);
+    const auto place = static_cast<Eigen::Index>(6 * p);
+    if (couplings_.empty()) {
+      steps_.segment<6>(place) =
+          -motion.curvature.selfadjointView<Eigen::Lower>().ldlt().solve(motion.gradient);
+    } else {
+      curvature_.block<6, 6>(place, place) = motion.curvature;
+      steps_.segment<6>(place) = -motion.gradient;
+    }
+  }
+  if (couplings_.empty()) return;
+  for (const Coupling& coupling : couplings_)
+    curvature_.block<6, 6>(static_cast<Eigen::Index>(6 * coupling.row_piece),
+                           static_cast<Eigen::Index>(6 * coupling.column_piece)) = coupling.curvature;
+  factor_.compute(curvature_);
+  steps_ = factor_.solve(steps_);
+}
+
+/// A full Newton step. @param x where gradient_ was evaluated.
+void RigidDescent::move(const IncrementalPotential& potential, const Points& free, Points* x) {
+  motions_.resize(pieces_.size());
+  couplings_.clear();
+  addVertices(potential, *x);
+  addSprings(potential.targets, free, *x);
+  findSteps();
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const Eigen::Isometry3d T =
+        motionAbout(motions_[p].center, steps_.segment<6>(static_cast<Eigen::Index>(6 * p)));
     for (const int v : pieces_[p]) x->row(v) = T * Eigen::Vector3d(x->row(v));
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
@@ -9,8 +10,9 @@
 namespace softbody {
 
 /// Moves each connected piece of the tets rigidly towards the minimum of a step. Elasticity does not resist
-/// such a motion. But in the metric of projective dynamics a target with a normal resists in all directions,
-/// so its iteration moves a body only slowly along its own surface.
+/// such a motion. Pieces that touch each other are solved together. But in the metric of projective dynamics
+/// a target with a normal resists in all directions, so its iteration moves a body only slowly along its own
+/// surface.
 class RigidDescent {
  public:
   explicit RigidDescent(const TetTopology& topology);
@@ -34,17 +36,33 @@ class RigidDescent {
     Vector6d gradient;
     Matrix6d curvature;
 
-    void addCurvature(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double stiffness);
+    /// Of the place of a point along the direction, by the six motions.
+    Vector6d slopes(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
+    void addCurvature(const Vector6d& slopes, double stiffness);
     void addGradient(const Eigen::Vector3d& point, const Eigen::Vector3d& force);
+  };
+  /// Mixed curvature of the motions of two pieces that touch each other.
+  struct Coupling {
+    std::size_t row_piece, column_piece;
+    Matrix6d curvature;
   };
 
   void move(const IncrementalPotential& potential, const Points& free, Points* x);
   void addVertices(const IncrementalPotential& potential, const Points& x);
   void addSprings(const TargetEnergy& targets, const Points& free, const Points& x);
+  void addCurvature(const TargetEnergy::Spring& spring, const Points& x, const Eigen::Vector3d& direction,
+                    double stiffness);
+  void addGradient(const TargetEnergy::Spring& spring, const Points& x, const Eigen::Vector3d& force);
+  Matrix6d& couplingOf(std::size_t row_piece, std::size_t column_piece);
+  void findSteps();
 
   std::vector<std::vector<int>> pieces_;
   std::vector<std::size_t> piece_of_vertex_;
   std::vector<Motion> motions_;
+  std::vector<Coupling> couplings_;
+  Eigen::MatrixXd curvature_;  ///< of the motions of all pieces, if some touch each other
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd steps_;  ///< of all motions
   Points gradient_, moved_, lowest_;
 };
 
