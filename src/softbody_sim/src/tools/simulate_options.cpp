@@ -81,9 +81,11 @@ void addProblemOptions(CLI::App& app, SimulateOptions& o) {
       ->check(CLI::Range(0.0, 10.0))
       ->needs("--ground")
       ->capture_default_str();
+  app.add_flag("--self-contact", o.self_contact, "parts of the body cannot enter each other");
   app.add_option("--self-friction", o.self_friction,
                  "coefficient of Coulomb friction where the body touches itself")
       ->check(CLI::Range(0.0, 10.0))
+      ->needs("--self-contact")
       ->capture_default_str();
   app.add_option("--start", o.start, "initial shape")
       ->check(CLI::IsMember({"rest", "flat", "inside_out", "random"}))
@@ -190,6 +192,7 @@ void addOptions(CLI::App* app, SimulateOptions* o) {
 SimulatorConfig configOf(const SimulateOptions& o) {
   SimulatorConfig config;
   config.gravity = Eigen::Vector3d(o.gravity.data());
+  config.self_contact = o.self_contact;
   config.self_friction = o.self_friction;
   if (o.node_defaults) return config;
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;

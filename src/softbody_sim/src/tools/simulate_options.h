@@ -23,6 +23,7 @@ struct SimulateOptions {
   std::vector<std::vector<std::string>> materials, moves, turns, region_loads;
   std::vector<std::vector<double>> pushers;
   double ground = std::numeric_limits<double>::quiet_NaN(), friction = 0.0, self_friction = 0.0;
+  bool self_contact = false;
   bool until_rest = false, node_defaults = false;
   int steps = 100;
   std::optional<int> iterations;

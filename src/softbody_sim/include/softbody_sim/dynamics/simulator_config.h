@@ -35,7 +35,7 @@ struct SimulatorConfig {
   /// [m/s^2], in the frame of the targets. Zero: the rest shape already contains the effect of gravity.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   double contact_stiffness = 10.0;  ///< pressure at a depth of one mean edge length, in units of E
-  bool self_contact = true;         ///< the body touches itself, in steps without targets
+  bool self_contact = false;        ///< the body touches itself, in steps without targets
   double self_friction = 0.0;       ///< coefficient of Coulomb friction of the body on itself
   double contact_spacing = 0.5;     ///< of the contact points on the surface [mean edge lengths]
   double undo_memory_mb = 40.0;     ///< as in CuttingConfig

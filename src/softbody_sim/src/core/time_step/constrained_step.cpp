@@ -126,10 +126,12 @@ void ConstrainedStep::iterate(const Problem& problem, Points* x) {
 void ConstrainedStep::minimize(const Problem& problem, Points* x) {
   const bool is_static = problem.free.inertia.isZero(0.0);
   const int tries = is_static ? 50 : problem.targets.empty() ? 5 : 1;
+  constexpr int kUsual = 20;  // iterations of a try
   StepReport& report = result_.report;
-  for (int k = 0; k < tries; ++k) {
+  for (int k = 0, spent = 0; k < tries && spent < kUsual * tries; ++k) {
     const int iterations = report.iterations;
     report = solver_->minimize(potential_, x);
+    spent += report.iterations;
     report.iterations += iterations;
     if (report.converged) return;
   }

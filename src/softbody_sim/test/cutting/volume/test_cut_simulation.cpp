@@ -125,11 +125,8 @@ TEST(CutSimulation, PiecesMoveOnTheirOwn) {
 }
 
 /// Estimated loads of a body pulled at both ends are balanced over the whole body, not over its halves.
-/// Contact is left out: where the halves spring back they push each other.
 TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
-  SimulatorConfig config;
-  config.self_contact = false;
-  Simulator simulator(testing::sponge(), Material(), config);
+  Simulator simulator(testing::sponge(), Material(), {});
   simulator.step(atRest(simulator), kFrame);
   const TetTopology uncut = simulator.topology();
   Points stretched = uncut.rest_vertices;
