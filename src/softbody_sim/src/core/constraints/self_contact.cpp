@@ -49,7 +49,7 @@ void SelfContact::start(const std::vector<ContactPoint>& points, const Points& b
   if (piece_of_point_.empty()) sortPoints(points);
   if (!clearance_.isSet()) measureClearance(points, topology_->rest_vertices);
   at_start_m_ = clearance_.at(before);
-  // Measured anew only now and then: half of the room is left.
+  // Measuring costs a search. It is done only when the shape has used up half of the room.
   if (2.0 * (at_start_m_ - options_.reach_m) < clearance_.measured() - options_.reach_m) {
     measureClearance(points, before);
     at_start_m_ = clearance_.measured();

@@ -89,7 +89,7 @@ bool FemSolver::findDirection(const IncrementalPotential& potential, const Point
   throw std::runtime_error("the Hessian could not be made positive definite");
 }
 
-/// The pattern of couplings changes with the contacts, so it is analysed anew.
+/// Contacts change which tets are coupled. So the matrix pattern is analysed in each call that has couplings.
 const Eigen::SparseMatrix<double>& FemSolver::systemAt(const IncrementalPotential& potential,
                                                        const Points& x) {
   const bool is_coupled = potential.targets.hasCoupled();
