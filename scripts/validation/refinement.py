@@ -28,10 +28,10 @@ def sag(n, *solver):
 
 
 def cook(n, *solver):
-    young, force = 1e6, 1.0
+    young, force = 1e6, 100.0  # far above the rounding of the forces, small against the shape
     mesh, _ = box(f"cook_{n}", (n, n, 1), lambda s, t, u: (48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s), u))
     row = simulate(mesh, "--static", "--young", young, "--poisson", 1.0 / 3.0, "--pin", "x<1e-9", "--load", "x>47.99999",
-                   0, force, 0, "--probe", "x>47.99999 & y>51.99999 & y<52.00001", "--tolerance", 1e-6, *solver)[-1]
+                   0, force, 0, "--probe", "x>47.99999 & y>51.99999 & y<52.00001", *solver)[-1]
     return 6 * n**2, row["probe_y_m"] / (23.96 * force / young)
 
 
