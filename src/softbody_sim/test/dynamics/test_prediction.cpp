@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "fixtures/test_meshes.h"
+#include <atomic>
+#include <limits>
+
+#include "fixtures/random_plans.h"
 #include "softbody_sim/dynamics/prediction.h"
 
 namespace softbody {
@@ -9,62 +12,175 @@ namespace {
 constexpr Nanoseconds kPredictedStep = 33333333;
 constexpr double kTimeStep = 1e-9 * kPredictedStep;
 
+Eigen::Isometry3d shifted(double x, double y, double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
 /// A sponge that is held at one end and swings.
 class Predictions : public ::testing::Test {
  protected:
-  Predictions() : simulator_(topology_, {2e4, 0.2, 30.0, 0.1}, configOf()) {
+  Predictions() : simulator_(topology_, {2e4, 0.2, 30.0, 0.1}, convergingConfig()) {
     for (int v = 0; v < topology_.rest_vertices.rows(); ++v) {
-      if (topology_.rest_vertices(v, 0) < 1e-9)
-        surroundings_.pins.push_back({v, topology_.rest_vertices.row(v)});
+      if (topology_.rest_vertices(v, 0) < 1e-9) hand_.held.push_back({v, topology_.rest_vertices.row(v)});
     }
-    TargetSet reset;
-    reset.reset = true;
-    simulator_.step(reset, 0);
+    surroundings_.pins = hand_.held;
+    simulator_.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
     for (int frame = 1; frame <= 5; ++frame) simulator_.step({}, frame * kPredictedStep, surroundings_);
   }
-  static SimulatorConfig configOf() {
-    SimulatorConfig config;
-    config.gravity = {0.0, 0.0, -9.81};
+  /// A prediction converges; the simulator that it is compared with has to, too.
+  static SimulatorConfig convergingConfig() {
+    SimulatorConfig config = testing::PredictionScene::configOf();
+    config.iterations = 200;
     return config;
   }
-  MotionPlan planOf(const Eigen::Vector3d& shift) const {
-    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-    motion.translation() = shift;
-    return {surroundings_, std::vector<RigidPath>(surroundings_.pins.size(), {{0.2}, {motion}}), {}};
+  MotionPlan planOf(const Eigen::Isometry3d& motion) const {
+    MotionPlan plan{{hand_}, {}};
+    plan.pins[0].path = {{0.2}, {motion}};
+    return plan;
   }
+  static PredictionSettings settingsOf(std::vector<double> times_s, int threads = 1) {
+    return {std::move(times_s), kTimeStep, threads};
+  }
+  /// What the body weighs [N].
+  double weight() const { return 9.81 * 30.0 * 0.2 * 0.1 * 0.03; }
 
   TetTopology topology_ = testing::sponge();
   Simulator simulator_;
   Surroundings surroundings_;
+  PlannedPins hand_{"hand", {}, {}};
 };
 
 TEST_F(Predictions, AreWhatTheSimulatorDoesAndLeaveItAlone) {
   const Points before = simulator_.state().vertices;
-  const auto predicted = predict(simulator_, {planOf({0.0, 0.0, 0.03})}, {0.11, 0.32}, kTimeStep, 1);
+  const auto predicted = predict(simulator_, {planOf(shifted(0.0, 0.0, 0.03))}, settingsOf({0.11, 0.32}));
   EXPECT_EQ(simulator_.state().vertices, before);
   ASSERT_EQ(predicted.at(0).size(), 2U);
   for (int step = 1; step <= 10; ++step) {
     Surroundings now = surroundings_;
+    Wrench sum;
     for (Pin& pin : now.pins) pin.position.z() += 0.03 * std::min(1.0, step * kTimeStep / 0.2);
     simulator_.step({}, (5 + step) * kPredictedStep, now);
     if (step != 4 && step != 10) continue;  // the first steps that reach 0.11 and 0.32 s
+    for (const Wrench& wrench : simulator_.reactions().pins) sum.force += wrench.force;
     const PredictedState& state = predicted[0][step == 4 ? 0 : 1];
     EXPECT_NEAR(state.time_s, step * kTimeStep, 1e-9);
-    EXPECT_LT((state.vertices - simulator_.state().vertices).rowwise().norm().maxCoeff(), 1e-5);
-    ASSERT_EQ(state.reactions.pins.size(), surroundings_.pins.size());
-    EXPECT_LT((state.reactions.pins[0].force - simulator_.reactions().pins[0].force).norm(), 1e-3);
+    EXPECT_TRUE(state.converged);
+    EXPECT_LT((state.vertices - simulator_.state().vertices).rowwise().norm().maxCoeff(), 1e-4);
+    EXPECT_LT((state.reactions.at("hand").force - sum.force).norm(), 0.01 * weight());
   }
 }
 
 TEST_F(Predictions, DependNeitherOnThreadsNorOnTheOtherPlans) {
+  testing::PredictionScene scene(topology_, {2e4, 0.2, 30.0, 0.1}, 4);
   std::vector<MotionPlan> plans;
-  for (int k = 0; k < 6; ++k) plans.push_back(planOf({0.0, 0.0, 0.005 * k}));
-  const auto alone = predict(simulator_, {plans[4]}, {0.5}, kTimeStep, 1);
+  for (int k = 0; k < 3; ++k) {
+    plans.push_back(scene.plans.push());
+    plans.push_back(scene.plans.grip());
+  }
+  const auto alone = predict(scene.lying, {plans[4]}, settingsOf({0.5}));
   for (const int threads : {1, 3}) {
-    const auto all = predict(simulator_, plans, {0.5}, kTimeStep, threads);
+    const auto all = predict(scene.lying, plans, settingsOf({0.5}, threads));
     EXPECT_EQ(all.at(4).at(0).vertices, alone.at(0).at(0).vertices);
     EXPECT_NE(all.at(3).at(0).vertices, alone.at(0).at(0).vertices);
   }
+}
+
+TEST_F(Predictions, OfRandomPlansConverge) {
+  int converged = 0, count = 0;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    testing::RandomPlans random(topology_.rest_vertices, seed);
+    testing::PredictionScene scene(topology_, {random.logUniform(5e3, 5e5), 0.2, 30.0, 0.1}, seed);
+    for (int k = 0; k < 4; ++k) {
+      const auto held = predict(scene.held, {scene.plans.lift(scene.hand)}, {{1.0}});
+      const auto lying = predict(scene.lying, {scene.plans.push(), scene.plans.grip()}, {{1.0}});
+      for (const auto& states : {held[0], lying[0], lying[1]}) {
+        converged += states[0].converged;
+        ++count;
+      }
+    }
+  }
+  EXPECT_EQ(converged, count);
+}
+
+TEST_F(Predictions, LetGoAndGripAtTheirTimes) {
+  MotionPlan plan = planOf(Eigen::Isometry3d::Identity());
+  plan.pins[0].period.end_s = 0.2;
+  PlannedPins grip{"grip", {}, PinRegion{"", "", {-0.01, -0.01, -1.0}, {0.05, 0.2, 1.0}, true}};
+  grip.path = {{0.4, 0.7}, {Eigen::Isometry3d::Identity(), shifted(0.0, 0.0, 0.02)}};
+  grip.period = {0.3, 0.8};
+  plan.pins.push_back(grip);
+  const auto states =
+      predict(simulator_, {plan}, settingsOf({0.1, 0.25, 0.35, 0.75, 0.9}))[0];
+  const auto names = [&](std::size_t k) {
+    std::string all;
+    for (const auto& [name, wrench] : states[k].reactions) all += name;
+    return all;
+  };
+  EXPECT_EQ(names(0), "hand");
+  EXPECT_EQ(names(1), "");
+  EXPECT_EQ(names(2), "grip");
+  EXPECT_EQ(names(3), "grip");
+  EXPECT_EQ(names(4), "");
+  const auto height = [&](std::size_t k, int vertex) { return states[k].vertices(vertex, 2); };
+  EXPECT_NEAR(height(3, 0) - height(2, 0), 0.02, 1e-4);
+  EXPECT_LT(height(1, 0), height(0, 0) - 1e-3);  // it falls
+  EXPECT_LT(height(4, 0), height(3, 0) - 1e-3);
+}
+
+TEST_F(Predictions, SayWhichPinOfWhichPlanHoldsNothing) {
+  MotionPlan bad = planOf(Eigen::Isometry3d::Identity());
+  bad.pins.push_back({"grip", {}, PinRegion{"", "", {5.0, 5.0, 5.0}, {6.0, 6.0, 6.0}}});
+  try {
+    predict(simulator_, {planOf(Eigen::Isometry3d::Identity()), bad}, settingsOf({0.1}, 2));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("plan 1: pin 'grip' holds nothing", 0), 0U) << error.what();
+  }
+}
+
+/// Two boxes stand in the way of a body that a third pushes from above.
+TEST_F(Predictions, SumsOfPatchesAreTheReactions) {
+  MotionPlan plan;
+  for (const double x : {0.03, 0.17}) {
+    PlannedObstacle leg{"legs", Obstacle::box({0.04, 0.2, 0.04}, 0.005), {}};
+    leg.name += x < 0.1 ? "_left" : "_right";
+    leg.shape.pose = shifted(x, 0.05, -0.04);
+    leg.shape.friction = 0.5;
+    plan.obstacles.push_back(leg);
+  }
+  PlannedObstacle comb{"comb", Obstacle::box({0.2, 0.2, 0.02}, 0.0), {}};
+  comb.shape.pose = shifted(0.1, 0.05, 0.06);
+  comb.path = {{0.5}, {shifted(0.0, 0.0, -0.045)}};
+  plan.obstacles.push_back(comb);
+  const PredictedState state = predict(simulator_, {plan}, settingsOf({0.6}))[0][0];
+  std::map<std::string, Wrench> sums;
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const ContactPatch& patch = state.contacts[k];
+    Wrench& sum = sums[state.contact_names[k]];
+    sum.force += patch.force;
+    sum.torque += patch.torque + patch.place.cross(patch.force);
+    EXPECT_NEAR(patch.normal.norm(), 1.0, 1e-9);
+    EXPECT_LT(patch.normal.dot(patch.force), 0.0);  // the body presses on the obstacle
+  }
+  EXPECT_EQ(sums.size(), 3U);
+  for (const auto& [name, wrench] : sums) {
+    EXPECT_LT((wrench.force - state.reactions.at(name).force).norm(), 1e-9) << name;
+    EXPECT_LT((wrench.torque - state.reactions.at(name).torque).norm(), 1e-9) << name;
+    EXPECT_GT(wrench.force.norm(), 0.1 * weight()) << name;
+  }
+}
+
+TEST_F(Predictions, ReportProgressAndEndWhenTheyAreCancelled) {
+  const std::vector<MotionPlan> plans(8, planOf(shifted(0.0, 0.0, 0.01)));
+  std::vector<std::size_t> done;
+  PredictionSettings settings = settingsOf({0.3}, 2);
+  settings.on_progress = [&](std::size_t count) { done.push_back(count); };
+  EXPECT_EQ(predict(simulator_, plans, settings).size(), plans.size());
+  EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+  std::atomic<int> steps{0};
+  settings.is_cancelled = [&] { return ++steps > 12; };
+  EXPECT_TRUE(predict(simulator_, plans, settings).empty());
+  EXPECT_LT(steps, 20);
 }
 
 TEST(RigidPath, IsLinearAndStaysAtItsEnd) {

@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "softbody_common/edit_history.h"
 #include "softbody_common/types.h"
+#include "softbody_sim/constraints/contact_patch.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/dynamics/simulator_config.h"
 #include "softbody_sim/object/material.h"
@@ -94,18 +96,27 @@ class Simulator {
 
   /// A simulator of the present body, without its edits. It goes on from here on its own.
   std::unique_ptr<Simulator> copyOfPresent() const;
+  /// Such a copy whose steps depend on its state alone, not on earlier steps.
+  std::unique_ptr<Simulator> copyForPrediction() const;
+  /// Takes over the state of another simulator of the same body and topology.
+  void returnTo(const Simulator& other);
 
   const MeshState& state() const;
   /// Of the last step.
   Nanoseconds stamp() const;
   const StepReport& report() const;
   const Reactions& reactions() const;
+  /// Where the body touched the obstacles in the last step.
+  std::vector<ContactPatch> contactPatches() const;
 
   /// Elastic energy of the present state [J].
   double elasticEnergy() const;
 
  private:
   struct Implementation;
+
+  std::unique_ptr<Simulator> copyWith(const SimulatorConfig& config) const;
+
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -9,9 +9,9 @@
 
 namespace softbody {
 
-/// The minimiser of a step: projective dynamics for speed, or finite elements with Newton's method for
-/// accuracy.
-enum class SolverKind { kProjectiveDynamics, kFem };
+/// The minimiser of a step: projective dynamics for speed, finite elements with Newton's method for accuracy,
+/// or the energy of projective dynamics for many simulations from one state (predict()).
+enum class SolverKind { kProjectiveDynamics, kFem, kPrediction };
 
 struct SimulatorConfig {
   SolverKind solver = SolverKind::kProjectiveDynamics;

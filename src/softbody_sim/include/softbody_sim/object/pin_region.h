@@ -1,7 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
+#include <vector>
+
+#include "softbody_common/types.h"
 
 namespace softbody {
 
@@ -13,5 +16,10 @@ struct PinRegion {
   /// Where the box is. False: in rest space. True: in `frame`, at the moment when it takes hold (a gripper).
   bool in_frame = false;
 };
+
+/// The points in a region's box, ascending. @param points #V by 3 [m]. @param T_box_points from their frame to
+/// that of the box.
+std::vector<int> verticesIn(const PinRegion& region, const Eigen::Isometry3d& T_box_points,
+                            const Points& points);
 
 }  // namespace softbody

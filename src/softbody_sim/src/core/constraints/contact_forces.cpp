@@ -142,6 +142,12 @@ double ContactForces::largestDepthChange(const std::vector<Contact>& a, const st
   return largest;
 }
 
+/// The force on the obstacle.
+Eigen::Vector3d ContactForces::forceOf(const Contact& contact, const Points& x) const {
+  const Eigen::Vector3d force = -stiffnessOf(contact) * depthOf(contact, x) * contact.normal;
+  return contact.friction > 0.0 ? Eigen::Vector3d(force - frictionOf(contact, x)) : force;
+}
+
 void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points& x,
                              const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const {
   wrenches->assign(obstacles.size(), Wrench());
@@ -149,13 +155,26 @@ void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points&
     if (contact.isWithBody()) continue;
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    Eigen::Vector3d force = -pressure_stiffness_ * point.area * depthOf(contact, x) * contact.normal;
-    if (contact.friction > 0.0) force -= frictionOf(contact, x);
+    const Eigen::Vector3d force = forceOf(contact, x);
     const Eigen::Vector3d arm =
         positionOf(point.place, x, topology_->tets) - obstacles[obstacle].pose.translation();
     (*wrenches)[obstacle].force += force;
     (*wrenches)[obstacle].torque += arm.cross(force);
   }
+}
+
+std::vector<PointForce> ContactForces::pointForces(const std::vector<Contact>& contacts,
+                                                   const Points& x) const {
+  std::vector<PointForce> forces;
+  for (const Contact& contact : contacts) {
+    if (contact.isWithBody()) continue;
+    const Eigen::Vector3d force = forceOf(contact, x);
+    if (force.isZero(0.0)) continue;
+    const MaterialPoint& place = points_[static_cast<std::size_t>(contact.point)].place;
+    forces.push_back(
+        {place, contact.obstacle, positionOf(place, x, topology_->tets), contact.normal, force});
+  }
+  return forces;
 }
 
 }  // namespace softbody

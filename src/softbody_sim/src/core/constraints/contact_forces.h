@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "constraints/contact_detection.h"
+#include "constraints/contact_patches.h"
 #include "constraints/self_contact.h"
 #include "constraints/target_energy.h"
 #include "softbody_sim/constraints/surroundings.h"
@@ -56,11 +57,15 @@ class ContactForces {
   void wrenches(const std::vector<Contact>& contacts, const Points& x, const std::vector<Obstacle>& obstacles,
                 std::vector<Wrench>* wrenches) const;
 
+  /// The body's forces on the obstacles, where there are any.
+  std::vector<PointForce> pointForces(const std::vector<Contact>& contacts, const Points& x) const;
+
  private:
   Eigen::Vector3d placeOf(const Contact& contact, const Points& x) const;
   double depthOf(const Contact& contact, const Points& x) const;
   double stiffnessOf(const Contact& contact) const;
   Eigen::Vector3d slipOf(const Contact& contact, const Points& x) const;
+  Eigen::Vector3d forceOf(const Contact& contact, const Points& x) const;
   Eigen::Vector3d frictionOf(const Contact& contact, const Points& x) const;
 
   const TetTopology* topology_;

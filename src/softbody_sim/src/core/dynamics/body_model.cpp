@@ -7,6 +7,7 @@
 
 #include "softbody_common/tet_geometry.h"
 #include "time_step/fem_solver.h"
+#include "time_step/prediction_solver.h"
 #include "time_step/projective_dynamics.h"
 
 namespace softbody {
@@ -35,10 +36,11 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Elasti
     return std::make_unique<FemSolver>(topology, config.elasticity, materials,
                                        FemSolver::Options{config.iterations, config.tolerance});
   }
+  const MinimizerOptions minimizer{config.iterations, config.tolerance, config.lbfgs_history};
+  if (config.solver == SolverKind::kPrediction)
+    return std::make_unique<PredictionSolver>(topology, materials, minimizer, simdFromName(config.simd));
   ProjectiveDynamicsOptions options;
-  options.minimizer.max_iterations = config.iterations;
-  options.minimizer.tolerance = config.tolerance;
-  options.minimizer.history = config.lbfgs_history;
+  options.minimizer = minimizer;
   options.single_precision = config.single_precision;
   options.simd = simdFromName(config.simd);
   return std::make_unique<ProjectiveDynamics>(topology, materials, options);

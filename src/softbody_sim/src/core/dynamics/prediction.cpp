@@ -1,84 +1,137 @@
 #include "softbody_sim/dynamics/prediction.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <atomic>
 #include <exception>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
 #include <thread>
 
+#include "dynamics/planned_surroundings.h"
 #include "softbody_common/time.h"
 
 namespace softbody {
 namespace {
 
-Surroundings surroundingsAt(const MotionPlan& plan, double time_s) {
-  Surroundings surroundings = plan.start;
-  for (std::size_t k = 0; k < plan.pins.size(); ++k)
-    surroundings.pins[k].position = plan.pins[k].at(time_s) * plan.start.pins[k].position;
-  for (std::size_t k = 0; k < plan.obstacles.size(); ++k)
-    surroundings.obstacles[k].pose = plan.obstacles[k].at(time_s) * plan.start.obstacles[k].pose;
-  return surroundings;
+/// The work that the threads of one call share.
+class Prediction {
+ public:
+  Prediction(const Simulator& present, const std::vector<MotionPlan>& plans,
+             const PredictionSettings& settings)
+      : present_(present), plans_(plans), settings_(settings), results_(plans.size()), errors_(plans.size()) {}
+
+  /// Predicts plans until none is left. Each thread has one simulator for all of its plans.
+  void work() {
+    const std::unique_ptr<Simulator> simulator = present_.copyForPrediction();
+    for (std::size_t k = next_++; k < plans_.size() && !cancelled_; k = next_++) {
+      try {
+        results_[k] = predictOne(plans_[k], simulator.get());
+      } catch (...) {
+        errors_[k] = std::current_exception();
+      }
+      reportProgress();
+    }
+  }
+
+  /// @throw the error of the first plan that has one.
+  std::vector<std::vector<PredictedState>> takeResults() {
+    if (cancelled_) return {};
+    for (std::size_t k = 0; k < plans_.size(); ++k) {
+      if (errors_[k]) rethrowOf(k);
+    }
+    return std::move(results_);
+  }
+
+ private:
+  std::vector<PredictedState> predictOne(const MotionPlan& plan, Simulator* simulator);
+  void reportProgress();
+  void rethrowOf(std::size_t plan) const;
+
+  const Simulator& present_;
+  const std::vector<MotionPlan>& plans_;
+  const PredictionSettings& settings_;
+  std::vector<std::vector<PredictedState>> results_;
+  std::vector<std::exception_ptr> errors_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> cancelled_{false};
+  std::mutex progress_;
+  std::size_t done_ = 0;
+};
+
+PredictedState stateOf(const Simulator& simulator, const PlannedSurroundings& surroundings, double time_s,
+                       bool converged) {
+  PredictedState state{time_s, converged, simulator.state().vertices,
+                       surroundings.sumsOf(simulator.reactions()), simulator.contactPatches(), {}};
+  for (const ContactPatch& patch : state.contacts)
+    state.contact_names.push_back(surroundings.nameOf(patch.obstacle));
+  return state;
 }
 
-std::vector<PredictedState> predictOne(const Simulator& present, const MotionPlan& plan,
-                                       const std::vector<double>& times_s, double time_step_s) {
+std::vector<PredictedState> Prediction::predictOne(const MotionPlan& plan, Simulator* simulator) {
   constexpr double kRounding = 1e-9;  // [s]
-  const std::unique_ptr<Simulator> simulator = present.copyOfPresent();
+  simulator->returnTo(present_);
   const Nanoseconds start = simulator->stamp();
+  PlannedSurroundings surroundings(plan, simulator->topology());
   TargetSet none;
   none.revision = simulator->topology().revision;
   std::vector<PredictedState> states;
+  const std::vector<double>& times_s = settings_.times_s;
   bool converged = true;
   for (int step = 1; states.size() < times_s.size(); ++step) {
-    const double time_s = step * time_step_s;
-    const Surroundings surroundings = surroundingsAt(plan, time_s);
-    simulator->step(none, start + nanoseconds(time_s), surroundings);
+    if (settings_.is_cancelled && settings_.is_cancelled()) cancelled_ = true;
+    if (cancelled_) return {};
+    const double time_s = step * settings_.time_step_s;
+    simulator->stepUnobserved(
+        none, start + nanoseconds(time_s),
+        surroundings.during(time_s - settings_.time_step_s, time_s, simulator->state().vertices));
     converged = converged && simulator->report().converged;
     while (states.size() < times_s.size() && times_s[states.size()] <= time_s + kRounding)
-      states.push_back(
-          {time_s, converged, surroundings, simulator->state().vertices, simulator->reactions()});
+      states.push_back(stateOf(*simulator, surroundings, time_s, converged));
   }
   return states;
 }
 
-}  // namespace
-
-Eigen::Isometry3d RigidPath::at(double time_s) const {
-  const auto after = std::lower_bound(times_s.begin(), times_s.end(), time_s);
-  if (times_s.empty()) return Eigen::Isometry3d::Identity();
-  if (after == times_s.end()) return motions.back();
-  const auto k = static_cast<std::size_t>(after - times_s.begin());
-  const Eigen::Isometry3d from = k == 0 ? Eigen::Isometry3d::Identity() : motions[k - 1];
-  const double begin_s = k == 0 ? 0.0 : times_s[k - 1];
-  const double share = (time_s - begin_s) / (times_s[k] - begin_s);
-  const Eigen::Quaterniond turn(from.linear()), next(motions[k].linear());
-  const Eigen::Vector3d shift = (1.0 - share) * from.translation() + share * motions[k].translation();
-  return Eigen::Translation3d(shift) * turn.slerp(share, next);
+void Prediction::reportProgress() {
+  if (!settings_.on_progress || cancelled_) return;
+  const std::lock_guard<std::mutex> lock(progress_);
+  settings_.on_progress(++done_);
 }
+
+void Prediction::rethrowOf(std::size_t plan) const {
+  try {
+    std::rethrow_exception(errors_[plan]);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("plan {}: {}", plan, error.what()));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("plan {}: {}", plan, error.what()));
+  }
+}
+
+}  // namespace
 
 std::vector<std::vector<PredictedState>> predict(const Simulator& present,
                                                  const std::vector<MotionPlan>& plans,
-                                                 const std::vector<double>& times_s, double time_step_s,
-                                                 int threads) {
-  std::vector<std::vector<PredictedState>> results(plans.size());
-  std::vector<std::exception_ptr> errors(plans.size());
-  std::atomic<std::size_t> next{0};
+                                                 const PredictionSettings& settings) {
+  Prediction prediction(present, plans, settings);
+  std::exception_ptr error;
+  std::mutex error_lock;
   const auto work = [&] {
-    for (std::size_t k = next++; k < plans.size(); k = next++) {
-      try {
-        results[k] = predictOne(present, plans[k], times_s, time_step_s);
-      } catch (...) {
-        errors[k] = std::current_exception();
-      }
+    try {
+      if (settings.on_thread_start) settings.on_thread_start();
+      prediction.work();
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(error_lock);
+      error = std::current_exception();
     }
   };
   std::vector<std::thread> workers;
-  for (int k = 1; k < threads && static_cast<std::size_t>(k) < plans.size(); ++k) workers.emplace_back(work);
-  work();
+  for (int k = 0; k < settings.threads && static_cast<std::size_t>(k) < plans.size(); ++k)
+    workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
-  return results;
+  if (error) std::rethrow_exception(error);
+  return prediction.takeResults();
 }
 
 }  // namespace softbody

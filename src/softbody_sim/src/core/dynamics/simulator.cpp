@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/contact_patches.h"
 #include "cutting/volume/edited_volume.h"
 #include "cutting/volume/undo_versions.h"
 #include "dynamics/body_model.h"
@@ -246,12 +247,29 @@ void Simulator::setMaterial(const Material& material) {
   if (s.body.placed) s.model->load_estimator.balance(s.body.mesh.vertices, &s.body.loads);
 }
 
-std::unique_ptr<Simulator> Simulator::copyOfPresent() const {
+std::unique_ptr<Simulator> Simulator::copyOfPresent() const { return copyWith(implementation_->config); }
+
+std::unique_ptr<Simulator> Simulator::copyWith(const SimulatorConfig& config) const {
   const Implementation& s = *implementation_;
-  auto copy = std::make_unique<Simulator>(s.uncut, s.material, s.config);
+  auto copy = std::make_unique<Simulator>(s.uncut, s.material, config);
   copy->implementation_->setTopology(s.model->topology);
   copy->implementation_->body = s.body;
   return copy;
+}
+
+std::unique_ptr<Simulator> Simulator::copyForPrediction() const {
+  SimulatorConfig config = implementation_->config;
+  if (config.solver == SolverKind::kProjectiveDynamics) {
+    constexpr int kIterations = 200;  // far more than a step needs
+    config.solver = SolverKind::kPrediction;
+    config.iterations = std::max(config.iterations, kIterations);
+  }
+  return copyWith(config);
+}
+
+void Simulator::returnTo(const Simulator& other) {
+  implementation_->body = other.implementation_->body;
+  implementation_->model->solver->restart(implementation_->body.mesh.vertices);
 }
 
 void Simulator::reset() {
@@ -326,6 +344,11 @@ const MeshState& Simulator::state() const { return implementation_->body.mesh; }
 const StepReport& Simulator::report() const { return implementation_->body.report; }
 
 const Reactions& Simulator::reactions() const { return implementation_->body.reactions; }
+
+std::vector<ContactPatch> Simulator::contactPatches() const {
+  const Implementation& s = *implementation_;
+  return patchesOf(s.model->constrained_step.contactForces(s.body.mesh.vertices), s.model->topology.tets);
+}
 
 double Simulator::elasticEnergy() const {
   const Points& x = implementation_->body.mesh.vertices;

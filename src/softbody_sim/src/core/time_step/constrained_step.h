@@ -38,6 +38,9 @@ class ConstrainedStep {
                       const Surroundings& surroundings, const Points& before, const ContactState& state,
                       Points* x);
 
+  /// Contact forces of the last step. @param x its result [m].
+  std::vector<PointForce> contactForces(const Points& x) const { return contact_.pointForces(contacts_, x); }
+
  private:
   struct Problem;
 

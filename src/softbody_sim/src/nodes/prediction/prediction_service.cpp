@@ -1,76 +1,65 @@
 #include "nodes/prediction/prediction_service.h"
 
-#include <algorithm>
-#include <chrono>
-#include <future>
-#include <stdexcept>
-#include <thread>
 #include <utility>
 
-#include "nodes/prediction/prediction_messages.h"
-
 namespace softbody {
-namespace {
 
-/// One processor stays free for the graph.
-int spareProcessors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
-
-}  // namespace
+PredictionService::OwnThread::OwnThread(ros::NodeHandle node_in) : node(node_in), spinner(1, &queue) {
+  node.setCallbackQueue(&queue);
+}
 
 PredictionService::PredictionService(const ros::NodeHandle& node, ros::NodeHandle private_node,
-                                     std::function<Present()> present)
-    : present_(std::move(present)),
-      threads_(spareProcessors()),
-      node_calls_(node.getCallbackQueue()),
-      spinner_(1, &queue_) {
-  private_node.setCallbackQueue(&queue_);
-  service_ = private_node.advertiseService("predict", &PredictionService::onPredict, this);
-  spinner_.start();
+                                     PlanPredictor::FindPresent find_present)
+    : predictor_(node, std::move(find_present)),
+      service_thread_(private_node),
+      action_thread_(private_node),
+      service_(service_thread_.node.advertiseService<softbody_msgs::PredictRequest,
+                                                     softbody_msgs::PredictResponse>(
+          "predict",
+          [this](softbody_msgs::PredictRequest& request, softbody_msgs::PredictResponse& response) {
+            response = predictor_.answer(request);
+            return true;
+          })),
+      action_(
+          action_thread_.node, "predict_plans", [this](const auto& goal) { onGoal(goal); }, false) {
+  action_.start();
+  service_thread_.spinner.start();
+  action_thread_.spinner.start();
 }
 
 PredictionService::~PredictionService() {
-  ends_ = true;
+  predictor_.end();
   service_.shutdown();
-  spinner_.stop();
+  action_.shutdown();
+  service_thread_.spinner.stop();
+  action_thread_.spinner.stop();
 }
 
-bool PredictionService::onPredict(softbody_msgs::Predict::Request& request,
-                                  softbody_msgs::Predict::Response& response) try {
-  requireUsable(request);
-  const Present present = waitForPresent();
-  std::vector<MotionPlan> plans;
-  for (const softbody_msgs::MotionPlan& plan : request.plans)
-    plans.push_back(fromMessage(plan, present.surroundings));
-  const auto predicted = predict(*present.simulator, plans, request.times, timeStepOf(request), threads_);
-  for (const std::vector<PredictedState>& states : predicted) {
-    for (const PredictedState& state : states)
-      response.states.push_back(toMessage(state, present.surroundings));
-  }
-  response.header = present.header;
-  response.revision = present.simulator->topology().revision;
-  response.success = 1;
-  return true;
-} catch (const std::exception& error) {
-  response.states.clear();
-  response.message = error.what();
-  return true;
-}
-
-/// The node is between two steps when it answers.
-Present PredictionService::waitForPresent() {
-  const auto promise = std::make_shared<std::promise<Present>>();
-  std::future<Present> answer = promise->get_future();
-  node_calls_.add([this, promise] {
-    try {
-      promise->set_value(present_());
-    } catch (...) {
-      promise->set_exception(std::current_exception());
-    }
-  });
-  while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
-    if (ends_) throw std::runtime_error("the simulator ends");
-  }
-  return answer.get();
+void PredictionService::onGoal(const softbody_msgs::PredictPlansGoalConstPtr& goal) {
+  softbody_msgs::PredictRequest request;
+  request.time_step = goal->time_step;
+  request.times = goal->times;
+  request.plans = goal->plans;
+  softbody_msgs::PredictPlansFeedback progress;
+  progress.total = static_cast<std::uint32_t>(goal->plans.size());
+  const softbody_msgs::PredictResponse response =
+      predictor_.answer(request, [this] { return action_.isPreemptRequested(); },
+                        [&](std::size_t done) {
+                          progress.done = static_cast<std::uint32_t>(done);
+                          action_.publishFeedback(progress);
+                        });
+  softbody_msgs::PredictPlansResult result;
+  result.success = response.success;
+  result.message = response.message;
+  result.header = response.header;
+  result.revision = response.revision;
+  result.states = response.states;
+  if (response.success)
+    action_.setSucceeded(result);
+  else if (action_.isPreemptRequested())
+    action_.setPreempted(result, result.message);
+  else
+    action_.setAborted(result, result.message);
 }
 
 }  // namespace softbody

@@ -1,45 +1,39 @@
 #pragma once
 
+#include <actionlib/server/simple_action_server.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <softbody_msgs/Predict.h>
+#include <softbody_msgs/PredictPlansAction.h>
 
-#include <atomic>
-#include <functional>
-#include <memory>
-
-#include "nodes/prediction/named_surroundings.h"
-#include "softbody_common/ros/queued_calls.h"
-#include "softbody_sim/dynamics/simulator.h"
+#include "nodes/prediction/plan_predictor.h"
 
 namespace softbody {
 
-/// The present, to predict from.
-struct Present {
-  std::unique_ptr<Simulator> simulator;
-  NamedSurroundings surroundings;
-  std_msgs::Header header;
-};
-
-/// The service ~predict. It answers in a thread of its own; the node only copies its simulator.
+/// The service ~predict and the action ~predict_plans. They answer in threads of their own.
 class PredictionService {
  public:
-  /// @param present is called in the node's queue. @throw std::invalid_argument if the body is not placed.
+  /// @param find_present as PlanPredictor's.
   PredictionService(const ros::NodeHandle& node, ros::NodeHandle private_node,
-                    std::function<Present()> present);
+                    PlanPredictor::FindPresent find_present);
   ~PredictionService();
 
  private:
-  bool onPredict(softbody_msgs::Predict::Request& request, softbody_msgs::Predict::Response& response);
-  Present waitForPresent();
+  /// Calls back in a thread of its own.
+  struct OwnThread {
+    explicit OwnThread(ros::NodeHandle node);
+    ros::CallbackQueue queue;
+    ros::NodeHandle node;
+    ros::AsyncSpinner spinner;
+  };
+  using Action = actionlib::SimpleActionServer<softbody_msgs::PredictPlansAction>;
 
-  std::function<Present()> present_;
-  const int threads_;
-  std::atomic<bool> ends_{false};
-  QueuedCalls node_calls_;
-  ros::CallbackQueue queue_;
-  ros::AsyncSpinner spinner_;
+  void onGoal(const softbody_msgs::PredictPlansGoalConstPtr& goal);
+
+  PlanPredictor predictor_;
+  OwnThread service_thread_, action_thread_;
   ros::ServiceServer service_;
+  Action action_;
 };
 
 }  // namespace softbody

@@ -10,17 +10,6 @@
 namespace softbody {
 namespace {
 
-/// Ascending. @param T_box_points from the frame of the points to that of the box.
-std::vector<int> verticesIn(const PinRegion& region, const Eigen::Isometry3d& T_box_points,
-                            const Points& points) {
-  std::vector<int> vertices;
-  for (int v = 0; v < points.rows(); ++v) {
-    const Eigen::Array3d p = T_box_points * Eigen::Vector3d(points.row(v));
-    if ((p >= region.min.array()).all() && (p <= region.max.array()).all()) vertices.push_back(v);
-  }
-  return vertices;
-}
-
 /// Those of before that still exist, and those that lie in the box now. Ascending.
 std::vector<int> stillHeld(const std::vector<int>& before, const std::vector<int>& inside,
                            Eigen::Index count) {

@@ -43,7 +43,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       diagnostics_(node, private_node, &simulator_, &surroundings_),
       surroundings_input_(node, private_node, &simulator_, &surroundings_),
       targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }),
-      predictions_(node, private_node, [this] { return present(); }) {
+      predictions_(node, private_node, [this](const auto& frames) { return present(frames); }) {
   if (options.gripper) gripper_.emplace(node, private_node, *options.gripper, &simulator_, &surroundings_);
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
   publisher_.publishEdited(simulator_, {});
@@ -76,11 +76,12 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
   publishState(header);
 }
 
-Present SimulatorNode::present() const {
+Present SimulatorNode::present(const std::set<std::string>& frames) const {
   if (!simulator_.placed()) throw std::invalid_argument("nothing to predict: the body is not placed yet");
   std_msgs::Header header = last_.header;
   header.stamp = toTime(simulator_.stamp());
-  return {simulator_.copyOfPresent(), surroundings_.lastSurroundings(), header};
+  return {simulator_.copyOfPresent(), surroundings_.lastSurroundings(), surroundings_.pinAccuracy_m(), header,
+          surroundings_.posesOf(frames)};
 }
 
 /// @return whether the stamp is accepted; if not, nothing changes. @throw std::invalid_argument likewise.

@@ -5,6 +5,8 @@
 #include <softbody_msgs/Targets.h>
 
 #include <optional>
+#include <set>
+#include <string>
 
 #include "nodes/prediction/prediction_service.h"
 #include "nodes/simulator/gripper_input.h"
@@ -43,7 +45,7 @@ class SimulatorNode {
   bool onSetMaterial(softbody_msgs::SetMaterial::Request& request,
                      softbody_msgs::SetMaterial::Response& response);
 
-  Present present() const;
+  Present present(const std::set<std::string>& frames) const;
   bool step(const softbody_msgs::Targets& message, const std_msgs::Header& header);
   void requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const;
   bool admits(const ros::Time& stamp);

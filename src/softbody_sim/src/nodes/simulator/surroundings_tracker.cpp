@@ -179,6 +179,16 @@ void SurroundingsTracker::placePins(const ros::Time& stamp, const Points& vertic
   }
 }
 
+std::map<std::string, Eigen::Isometry3d> SurroundingsTracker::posesOf(
+    const std::set<std::string>& frames) const {
+  std::map<std::string, Eigen::Isometry3d> poses;
+  for (const std::string& frame : frames) {
+    const auto found = poses_.find(frame, frame_, step_stamp_);
+    if (found) poses.emplace(frame, found->pose);
+  }
+  return poses;
+}
+
 void SurroundingsTracker::findConflicts(const std::vector<Target>& targets, const Tets& tets,
                                         const Points& vertices) {
   auto next = surroundings_.all.pins.cbegin();

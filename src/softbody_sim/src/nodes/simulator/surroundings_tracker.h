@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +78,10 @@ class SurroundingsTracker {
   /// What acted on the body at the last surroundingsAt(). Obstacles and pins that were set since do not act
   /// yet.
   const NamedSurroundings& lastSurroundings() const { return surroundings_; }
+
+  double pinAccuracy_m() const { return options_.accuracy_m; }
+  /// Poses of the frames that tf knows, at the last step.
+  std::map<std::string, Eigen::Isometry3d> posesOf(const std::set<std::string>& frames) const;
 
   /// Finds pins that the targets of the last surroundingsAt() contradict. @param vertices after the step [m].
   void findConflicts(const std::vector<Target>& targets, const Tets& tets, const Points& vertices);

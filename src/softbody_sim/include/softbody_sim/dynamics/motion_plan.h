@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "softbody_sim/constraints/surroundings.h"
+#include "softbody_sim/object/pin_region.h"
+
+namespace softbody {
+
+/// A rigid motion over time, in the frame of the targets. It starts with the identity at time 0.
+struct RigidPath {
+  std::vector<double> times_s;  ///< ascending, above 0
+  std::vector<Eigen::Isometry3d> motions;
+
+  /// Linear between two times; the last motion stays. The identity without times.
+  Eigen::Isometry3d at(double time_s) const;
+};
+
+/// When something acts [s from the present]: in the steps that end after `begin`, up to `end`.
+struct ActivePeriod {
+  double begin_s = 0.0, end_s = std::numeric_limits<double>::infinity();
+
+  bool contains(double time_s) const;
+};
+
+/// Pins of one name in a plan: those that hold at present, or a region that takes hold of the body at the
+/// begin of its period.
+struct PlannedPins {
+  std::string name;
+  std::vector<Pin> held;            ///< at present, if there is no region
+  std::optional<PinRegion> region;  ///< its box is in rest space or in `frame`
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< of the box, at present
+  double accuracy_m = 0.0;                                  ///< of a region's pins
+  RigidPath path = {};                   ///< of the box and of what it holds
+  ActivePeriod period = {};
+};
+
+struct PlannedObstacle {
+  std::string name;
+  Obstacle shape;  ///< at present
+  RigidPath path = {};
+  ActivePeriod period = {};
+};
+
+/// What a prediction assumes about the surroundings.
+struct MotionPlan {
+  std::vector<PlannedPins> pins;
+  std::vector<PlannedObstacle> obstacles;
+};
+
+}  // namespace softbody

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <softbody_msgs/MotionPlan.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "nodes/prediction/present.h"
+#include "softbody_sim/dynamics/motion_plan.h"
+
+namespace softbody {
+
+constexpr double kLongestPrediction_s = 60.0;
+
+/// @throw std::invalid_argument if times are not ascending above 0, up to kLongestPrediction_s.
+void requireAscending(const std::vector<double>& times, const std::string& what);
+
+/// The tf frames that plans name.
+std::set<std::string> framesOf(const std::vector<softbody_msgs::MotionPlan>& plans);
+
+/// @throw std::invalid_argument if a name is unknown or used twice, or if a path, a time, a box, a shape or a
+/// frame cannot be used.
+MotionPlan fromMessage(const softbody_msgs::MotionPlan& message, const Present& present);
+
+}  // namespace softbody

@@ -1,0 +1,97 @@
+#include "nodes/prediction/plan_predictor.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "nodes/prediction/plan_messages.h"
+#include "nodes/prediction/prediction_messages.h"
+#include "softbody_sim/dynamics/prediction.h"
+
+namespace softbody {
+namespace {
+
+/// One processor stays free for the graph.
+int spareProcessors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
+
+/// The graph's threads go first, also where it uses all processors. On Linux a thread has a priority of its
+/// own. Without the permission to change it, it stays.
+void giveWay() {
+  constexpr int kNiceness = 10;
+  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
+}
+
+std::vector<MotionPlan> plansOf(const softbody_msgs::PredictRequest& request, const Present& present) {
+  std::vector<MotionPlan> plans;
+  for (const softbody_msgs::MotionPlan& message : request.plans) {
+    try {
+      plans.push_back(fromMessage(message, present));
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("plan {}: {}", plans.size(), error.what()));
+    }
+  }
+  return plans;
+}
+
+}  // namespace
+
+PlanPredictor::PlanPredictor(const ros::NodeHandle& node, FindPresent find_present)
+    : find_present_(std::move(find_present)),
+      threads_(spareProcessors()),
+      node_calls_(node.getCallbackQueue()) {}
+
+softbody_msgs::PredictResponse PlanPredictor::answer(const softbody_msgs::PredictRequest& request,
+                                                     const std::function<bool()>& is_cancelled,
+                                                     const std::function<void(std::size_t)>& on_progress) try {
+  requireUsable(request);
+  const Present present = waitForPresent(framesOf(request.plans));
+  PredictionSettings settings;
+  settings.times_s = request.times;
+  settings.time_step_s = timeStepOf(request);
+  settings.threads = threads_;
+  settings.is_cancelled = [&] { return ends_ || (is_cancelled && is_cancelled()); };
+  settings.on_progress = on_progress;
+  settings.on_thread_start = giveWay;
+  const auto predicted = predict(*present.simulator, plansOf(request, present), settings);
+  softbody_msgs::PredictResponse response;
+  if (predicted.empty()) throw std::runtime_error("the prediction was cancelled");
+  for (const std::vector<PredictedState>& states : predicted) {
+    for (const PredictedState& state : states) response.states.push_back(toMessage(state));
+  }
+  response.header = present.header;
+  response.revision = present.simulator->topology().revision;
+  response.success = 1;
+  return response;
+} catch (const std::exception& error) {
+  softbody_msgs::PredictResponse response;
+  response.message = error.what();
+  return response;
+}
+
+/// The node is between two steps when it answers.
+Present PlanPredictor::waitForPresent(const std::set<std::string>& frames) {
+  const auto promise = std::make_shared<std::promise<Present>>();
+  std::future<Present> answer = promise->get_future();
+  node_calls_.add([this, promise, frames] {
+    try {
+      promise->set_value(find_present_(frames));
+    } catch (...) {
+      promise->set_exception(std::current_exception());
+    }
+  });
+  while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+    if (ends_) throw std::runtime_error("the simulator ends");
+  }
+  return answer.get();
+}
+
+}  // namespace softbody

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <std_msgs/Header.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "nodes/prediction/named_surroundings.h"
+#include "softbody_sim/dynamics/simulator.h"
+
+namespace softbody {
+
+/// The present, to predict from.
+struct Present {
+  std::unique_ptr<Simulator> simulator;
+  NamedSurroundings surroundings;
+  double pin_accuracy_m = 0.0;
+  std_msgs::Header header;
+  std::map<std::string, Eigen::Isometry3d> frames;  ///< poses of those that the plans name and tf knows
+};
+
+}  // namespace softbody
