@@ -8,8 +8,8 @@
 #include "bench/bent_bodies.h"
 #include "fixtures/random_plans.h"
 
-/// Predictions of a second, in 30 steps, with one thread: how many a second of processor time, and how many of
-/// 1000 random plans converge.
+/// Predictions of a second, in 30 steps, with one thread: how many a second of processor time, and how many
+/// of 1000 random plans converge.
 namespace {
 
 using namespace softbody;
@@ -64,15 +64,13 @@ void convergence(benchmark::State& state, const std::string& name) {
       Material material;
       material.youngs_modulus_pa = testing::RandomPlans(body.rest_vertices, seed).logUniform(5e3, 5e5);
       testing::PredictionScene scene(body, material, seed);
-      int kinds[3];
       for (const Kind kind : {Kind::kLift, Kind::kPush, Kind::kGrip}) {
         const auto plans = plansOf(kind, kPlansPerKind, &scene);
-        const int count = convergedOf(predict(kind == Kind::kLift ? scene.held : scene.lying, plans, {{1.0}}));
-        kinds[static_cast<int>(kind)] = count;
+        const int count =
+            convergedOf(predict(kind == Kind::kLift ? scene.held : scene.lying, plans, {{1.0}}));
         converged += count;
         all += kPlansPerKind;
       }
-      if (getenv("VERBOSE")) fprintf(stderr, "%s E %.0f lift %d push %d grip %d of %d\n", name.c_str(), material.youngs_modulus_pa, kinds[0], kinds[1], kinds[2], kPlansPerKind);
     }
     state.counters["converged_percent"] = 100.0 * converged / all;
     state.counters["summary/predictions_converged_percent/" + name] = 100.0 * converged / all;
@@ -90,9 +88,9 @@ int main(int argc, char** argv) {
       const auto run = [name, plan = plan, kind = kind](benchmark::State& s) { speed(s, name, plan, kind); };
       benchmark::RegisterBenchmark((plan + "/" + name).c_str(), run)->Iterations(1);
     }
-    benchmark::RegisterBenchmark(("convergence/" + name).c_str(),
-                                 [name](benchmark::State& s) { convergence(s, name); })
-        ->Iterations(1);
+    benchmark::RegisterBenchmark(("convergence/" + name).c_str(), [name](benchmark::State& s) {
+      convergence(s, name);
+    })->Iterations(1);
   }
   benchmark::RunSpecifiedBenchmarks();
   return 0;

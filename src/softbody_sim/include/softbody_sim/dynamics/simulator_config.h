@@ -49,6 +49,9 @@ double largestStiffness(const SimulatorConfig& config);
 /// stiff.
 void requireConsistent(const SimulatorConfig& config);
 
+/// The solver for many simulations from one state.
+SimulatorConfig configForPrediction(SimulatorConfig config);
+
 /// @throw std::invalid_argument as Parameters and requireConsistent do.
 SimulatorConfig readSimulatorConfig(Parameters& parameters);
 

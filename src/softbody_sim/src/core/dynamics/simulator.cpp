@@ -194,7 +194,6 @@ bool Simulator::hasLeft(const TargetSet& given) const {
 }
 
 void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const Surroundings& surroundings) {
-  constexpr double kHalfLife = 0.5;  // [s]
   Implementation& s = *implementation_;
   TargetSet storage;
   const TargetSet& earlier = s.toCurrentRevision(given, &storage);
@@ -202,13 +201,7 @@ void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const 
   if (!s.body.placed) throw std::invalid_argument("the body is not placed yet");
   s.next = s.body;
   s.advance(earlier, stamp, surroundings);
-  const double elapsed_s = seconds(s.next.stamp - s.body.stamp);
-  const auto fade = static_cast<float>(std::pow(0.5, elapsed_s / kHalfLife));
-  for (float& confidence : s.next.mesh.confidence) confidence *= fade;
-  // The variance goes to that of a vertex of which nothing is known.
-  constexpr float kUnknown = VertexDeviation::kUnknown_m * VertexDeviation::kUnknown_m;
-  for (float& deviation : s.next.mesh.standard_deviation)
-    deviation = std::sqrt(fade * deviation * deviation + (1.0f - fade) * kUnknown);
+  fadeUnobserved(seconds(s.next.stamp - s.body.stamp), &s.next.mesh);
   std::swap(s.body, s.next);
 }
 
@@ -258,13 +251,7 @@ std::unique_ptr<Simulator> Simulator::copyWith(const SimulatorConfig& config) co
 }
 
 std::unique_ptr<Simulator> Simulator::copyForPrediction() const {
-  SimulatorConfig config = implementation_->config;
-  if (config.solver == SolverKind::kProjectiveDynamics) {
-    constexpr int kIterations = 200;  // far more than a step needs
-    config.solver = SolverKind::kPrediction;
-    config.iterations = std::max(config.iterations, kIterations);
-  }
-  return copyWith(config);
+  return copyWith(configForPrediction(implementation_->config));
 }
 
 void Simulator::returnTo(const Simulator& other) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "softbody_common/target_limits.h"
@@ -24,6 +25,14 @@ void requireConsistent(const SimulatorConfig& config) {
   if (config.solver == SolverKind::kProjectiveDynamics && config.elasticity != Elasticity::kCorotated) {
     throw std::invalid_argument("elasticity is 'neo_hookean' with solver 'pd'; it needs solver 'fem'");
   }
+}
+
+SimulatorConfig configForPrediction(SimulatorConfig config) {
+  constexpr int kIterations = 200;  // far more than a step needs
+  if (config.solver != SolverKind::kProjectiveDynamics) return config;
+  config.solver = SolverKind::kPrediction;
+  config.iterations = std::max(config.iterations, kIterations);
+  return config;
 }
 
 SimulatorConfig readSimulatorConfig(Parameters& parameters) {

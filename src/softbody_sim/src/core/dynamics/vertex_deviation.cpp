@@ -104,4 +104,14 @@ void VertexDeviation::compute(const std::vector<Target>& targets, const Points& 
   }
 }
 
+void fadeUnobserved(double elapsed_s, MeshState* state) {
+  constexpr double kHalfLife_s = 0.5;
+  const auto fade = static_cast<float>(std::pow(0.5, elapsed_s / kHalfLife_s));
+  for (float& confidence : state->confidence) confidence *= fade;
+  // The variance goes to that of a vertex of which nothing is known.
+  constexpr float kUnknown = VertexDeviation::kUnknown_m * VertexDeviation::kUnknown_m;
+  for (float& deviation : state->standard_deviation)
+    deviation = std::sqrt(fade * deviation * deviation + (1.0f - fade) * kUnknown);
+}
+
 }  // namespace softbody

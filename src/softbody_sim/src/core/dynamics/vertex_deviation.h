@@ -43,4 +43,7 @@ class VertexDeviation {
   std::vector<double> to_measured_, to_fixed_;
 };
 
+/// Confidence and standard deviation after a time without an image.
+void fadeUnobserved(double elapsed_s, MeshState* state);
+
 }  // namespace softbody

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nodes/prediction/present.h"
-#include "softbody_sim/dynamics/motion_plan.h"
+#include "softbody_sim/prediction/motion_plan.h"
 
 namespace softbody {
 

@@ -15,7 +15,7 @@
 
 #include "nodes/prediction/plan_messages.h"
 #include "nodes/prediction/prediction_messages.h"
-#include "softbody_sim/dynamics/prediction.h"
+#include "softbody_sim/prediction/prediction.h"
 
 namespace softbody {
 namespace {
@@ -49,9 +49,9 @@ PlanPredictor::PlanPredictor(const ros::NodeHandle& node, FindPresent find_prese
       threads_(spareProcessors()),
       node_calls_(node.getCallbackQueue()) {}
 
-softbody_msgs::PredictResponse PlanPredictor::answer(const softbody_msgs::PredictRequest& request,
-                                                     const std::function<bool()>& is_cancelled,
-                                                     const std::function<void(std::size_t)>& on_progress) try {
+softbody_msgs::PredictResponse PlanPredictor::answer(
+    const softbody_msgs::PredictRequest& request, const std::function<bool()>& is_cancelled,
+    const std::function<void(std::size_t)>& on_progress) try {
   requireUsable(request);
   const Present present = waitForPresent(framesOf(request.plans));
   PredictionSettings settings;

@@ -2,7 +2,7 @@
 
 #include <softbody_msgs/Predict.h>
 
-#include "softbody_sim/dynamics/prediction.h"
+#include "softbody_sim/prediction/prediction.h"
 
 namespace softbody {
 

@@ -1,4 +1,4 @@
-#include "dynamics/planned_surroundings.h"
+#include "prediction/planned_surroundings.h"
 
 #include <fmt/format.h>
 
@@ -43,10 +43,10 @@ const Surroundings& PlannedSurroundings::during(double begin_s, double end_s, co
 void PlannedSurroundings::takeHold(const PlannedPins& planned, double time_s, const Points& vertices,
                                    Hold* hold) const {
   const Eigen::Isometry3d back = planned.path.at(time_s).inverse();
-  const std::vector<int> held = planned.region->in_frame
-                                    ? verticesIn(*planned.region, planned.frame.inverse() * back, vertices)
-                                    : verticesIn(*planned.region, Eigen::Isometry3d::Identity(),
-                                                 topology_->rest_vertices);
+  const std::vector<int> held =
+      planned.region->in_frame
+          ? verticesIn(*planned.region, planned.frame.inverse() * back, vertices)
+          : verticesIn(*planned.region, Eigen::Isometry3d::Identity(), topology_->rest_vertices);
   if (held.empty()) {
     throw std::invalid_argument(fmt::format(
         "pin '{}' holds nothing at {:.3g} s: no vertex of the body is in its box; move or enlarge the box",
@@ -67,8 +67,7 @@ std::map<std::string, Wrench> PlannedSurroundings::sumsOf(const Reactions& react
   for (std::size_t k = 0; k < reactions.pins.size(); ++k)
     add(plan_->pins[pin_owners_[k]].name, reactions.pins[k], surroundings_.pins[k].position);
   for (std::size_t k = 0; k < reactions.obstacles.size(); ++k)
-    add(nameOf(static_cast<int>(k)), reactions.obstacles[k],
-        surroundings_.obstacles[k].pose.translation());
+    add(nameOf(static_cast<int>(k)), reactions.obstacles[k], surroundings_.obstacles[k].pose.translation());
   return sums;
 }
 

@@ -31,11 +31,11 @@ struct ActivePeriod {
 /// begin of its period.
 struct PlannedPins {
   std::string name;
-  std::vector<Pin> held;            ///< at present, if there is no region
-  std::optional<PinRegion> region;  ///< its box is in rest space or in `frame`
+  std::vector<Pin> held;                                    ///< at present, if there is no region
+  std::optional<PinRegion> region;                          ///< its box is in rest space or in `frame`
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< of the box, at present
   double accuracy_m = 0.0;                                  ///< of a region's pins
-  RigidPath path = {};                   ///< of the box and of what it holds
+  RigidPath path = {};                                      ///< of the box and of what it holds
   ActivePeriod period = {};
 };
 

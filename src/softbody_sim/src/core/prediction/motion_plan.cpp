@@ -1,4 +1,4 @@
-#include "softbody_sim/dynamics/motion_plan.h"
+#include "softbody_sim/prediction/motion_plan.h"
 
 #include <algorithm>
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "softbody_sim/constraints/contact_patch.h"
-#include "softbody_sim/dynamics/motion_plan.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/prediction/motion_plan.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_sim/dynamics/motion_plan.h"
+#include "softbody_sim/prediction/motion_plan.h"
 
 namespace softbody {
 

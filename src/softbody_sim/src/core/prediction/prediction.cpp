@@ -1,4 +1,4 @@
-#include "softbody_sim/dynamics/prediction.h"
+#include "softbody_sim/prediction/prediction.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "dynamics/planned_surroundings.h"
+#include "prediction/planned_surroundings.h"
 #include "softbody_common/time.h"
 
 namespace softbody {
@@ -20,7 +20,11 @@ class Prediction {
  public:
   Prediction(const Simulator& present, const std::vector<MotionPlan>& plans,
              const PredictionSettings& settings)
-      : present_(present), plans_(plans), settings_(settings), results_(plans.size()), errors_(plans.size()) {}
+      : present_(present),
+        plans_(plans),
+        settings_(settings),
+        results_(plans.size()),
+        errors_(plans.size()) {}
 
   /// Predicts plans until none is left. Each thread has one simulator for all of its plans.
   void work() {
@@ -62,8 +66,12 @@ class Prediction {
 
 PredictedState stateOf(const Simulator& simulator, const PlannedSurroundings& surroundings, double time_s,
                        bool converged) {
-  PredictedState state{time_s, converged, simulator.state().vertices,
-                       surroundings.sumsOf(simulator.reactions()), simulator.contactPatches(), {}};
+  PredictedState state{time_s,
+                       converged,
+                       simulator.state().vertices,
+                       surroundings.sumsOf(simulator.reactions()),
+                       simulator.contactPatches(),
+                       {}};
   for (const ContactPatch& patch : state.contacts)
     state.contact_names.push_back(surroundings.nameOf(patch.obstacle));
   return state;

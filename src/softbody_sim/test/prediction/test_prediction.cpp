@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fixtures/random_plans.h"
-#include "softbody_sim/dynamics/prediction.h"
+#include "softbody_sim/prediction/prediction.h"
 
 namespace softbody {
 namespace {
@@ -109,8 +109,7 @@ TEST_F(Predictions, LetGoAndGripAtTheirTimes) {
   grip.path = {{0.4, 0.7}, {Eigen::Isometry3d::Identity(), shifted(0.0, 0.0, 0.02)}};
   grip.period = {0.3, 0.8};
   plan.pins.push_back(grip);
-  const auto states =
-      predict(simulator_, {plan}, settingsOf({0.1, 0.25, 0.35, 0.75, 0.9}))[0];
+  const auto states = predict(simulator_, {plan}, settingsOf({0.1, 0.25, 0.35, 0.75, 0.9}))[0];
   const auto names = [&](std::size_t k) {
     std::string all;
     for (const auto& [name, wrench] : states[k].reactions) all += name;
