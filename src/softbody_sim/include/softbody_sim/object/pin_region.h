@@ -17,8 +17,8 @@ struct PinRegion {
   bool in_frame = false;
 };
 
-/// The points in a region's box, ascending. @param points #V by 3 [m]. @param T_box_points from their frame to
-/// that of the box.
+/// The points in a region's box, ascending. @param points #V by 3 [m]. @param T_box_points from their frame
+/// to that of the box.
 std::vector<int> verticesIn(const PinRegion& region, const Eigen::Isometry3d& T_box_points,
                             const Points& points);
 

@@ -171,8 +171,7 @@ std::vector<PointForce> ContactForces::pointForces(const std::vector<Contact>& c
     const Eigen::Vector3d force = forceOf(contact, x);
     if (force.isZero(0.0)) continue;
     const MaterialPoint& place = points_[static_cast<std::size_t>(contact.point)].place;
-    forces.push_back(
-        {place, contact.obstacle, positionOf(place, x, topology_->tets), contact.normal, force});
+    forces.push_back({place, contact.obstacle, positionOf(place, x, topology_->tets), contact.normal, force});
   }
   return forces;
 }

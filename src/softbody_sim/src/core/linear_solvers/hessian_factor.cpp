@@ -5,17 +5,18 @@
 
 namespace softbody {
 
-class HessianFactor::Cholmod
-    : public Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> {
+class HessianFactor::Cholmod : public Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> {
  public:
   Cholmod() {
     cholmod().print = 0;
-    setMode(Eigen::CholmodSimplicialLLt);  // the supernodal one starts threads, which cost more than they gain
+    setMode(
+        Eigen::CholmodSimplicialLLt);  // the supernodal one starts threads, which cost more than they gain
   }
   const cholmod_factor& factor() const { return *m_cholmodFactor; }
 };
 
-HessianFactor::HessianFactor(const Eigen::SparseMatrix<double>& lower) : cholmod_(std::make_unique<Cholmod>()) {
+HessianFactor::HessianFactor(const Eigen::SparseMatrix<double>& lower)
+    : cholmod_(std::make_unique<Cholmod>()) {
   cholmod_->analyzePattern(lower);
 }
 

@@ -92,8 +92,9 @@ void PlanReader::requireFree(const std::string& name) const {
     return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
   };
   if (has(plan_.pins) || has(plan_.obstacles))
-    throw std::invalid_argument(fmt::format(
-        "the plan adds '{}', but a pin or an obstacle has that name already: choose another", shortened(name)));
+    throw std::invalid_argument(
+        fmt::format("the plan adds '{}', but a pin or an obstacle has that name already: choose another",
+                    shortened(name)));
 }
 
 Eigen::Isometry3d PlanReader::poseOf(const std::string& frame, const std::string& what) const {
@@ -118,7 +119,8 @@ void PlanReader::add(const softbody_msgs::PlannedPin& message) {
   pins.period = periodOf(message.grip_time, message.release_time, what);
   if (message.in_frame)
     pins.frame = poseOf(message.header.frame_id, what);
-  else if (verticesIn(*pins.region, Eigen::Isometry3d::Identity(), present_.simulator->topology().rest_vertices)
+  else if (verticesIn(*pins.region, Eigen::Isometry3d::Identity(),
+                      present_.simulator->topology().rest_vertices)
                .empty())
     throw std::invalid_argument(fmt::format("the box of {} contains no vertex of the volume", what));
   plan_.pins.push_back(std::move(pins));

@@ -17,8 +17,8 @@ namespace softbody {
 /// Answers requests for predictions, from any thread. The node only copies its simulator.
 class PlanPredictor {
  public:
-  /// @param frames names of tf frames, whose poses are wanted. @throw std::invalid_argument if the body is not
-  /// placed.
+  /// @param frames names of tf frames, whose poses are wanted. @throw std::invalid_argument if the body is
+  /// not placed.
   using FindPresent = std::function<Present(const std::set<std::string>& frames)>;
 
   /// @param find_present is called in the node's queue.

@@ -12,8 +12,8 @@ namespace softbody {
 namespace {
 
 constexpr double kShortestStep = 1e-3, kLongestStep = 1.0;  // [s]
-constexpr std::size_t kMostStates = 100000;                     // of one answer
-constexpr double kMostSteps = 100000;  // of all plans: some minutes of computing
+constexpr std::size_t kMostStates = 100000;                 // of one answer
+constexpr double kMostSteps = 100000;                       // of all plans: some minutes of computing
 
 }  // namespace
 

@@ -13,13 +13,14 @@ PredictionService::PredictionService(const ros::NodeHandle& node, ros::NodeHandl
     : predictor_(node, std::move(find_present)),
       service_thread_(private_node),
       action_thread_(private_node),
-      service_(service_thread_.node.advertiseService<softbody_msgs::PredictRequest,
-                                                     softbody_msgs::PredictResponse>(
-          "predict",
-          [this](softbody_msgs::PredictRequest& request, softbody_msgs::PredictResponse& response) {
-            response = predictor_.answer(request);
-            return true;
-          })),
+      service_(
+          service_thread_.node
+              .advertiseService<softbody_msgs::PredictRequest, softbody_msgs::PredictResponse>(
+                  "predict",
+                  [this](softbody_msgs::PredictRequest& request, softbody_msgs::PredictResponse& response) {
+                    response = predictor_.answer(request);
+                    return true;
+                  })),
       action_(
           action_thread_.node, "predict_plans", [this](const auto& goal) { onGoal(goal); }, false) {
   action_.start();
@@ -42,12 +43,12 @@ void PredictionService::onGoal(const softbody_msgs::PredictPlansGoalConstPtr& go
   request.plans = goal->plans;
   softbody_msgs::PredictPlansFeedback progress;
   progress.total = static_cast<std::uint32_t>(goal->plans.size());
-  const softbody_msgs::PredictResponse response =
-      predictor_.answer(request, [this] { return action_.isPreemptRequested(); },
-                        [&](std::size_t done) {
-                          progress.done = static_cast<std::uint32_t>(done);
-                          action_.publishFeedback(progress);
-                        });
+  const softbody_msgs::PredictResponse response = predictor_.answer(
+      request, [this] { return action_.isPreemptRequested(); },
+      [&](std::size_t done) {
+        progress.done = static_cast<std::uint32_t>(done);
+        action_.publishFeedback(progress);
+      });
   softbody_msgs::PredictPlansResult result;
   result.success = response.success;
   result.message = response.message;
