@@ -96,6 +96,17 @@ Eigen::Vector3d firstMeeting(const Obstacle& obstacle, const Eigen::Vector3d& a,
   return b;
 }
 
+/// The place whose tangent plane stops a point on its path from a to b, with the surface there: b, unless b
+/// is beyond the obstacle's other side; then the first meeting.
+std::pair<Eigen::Vector3d, SurfaceDistance> touchedPlace(const Obstacle& obstacle, const Eigen::Vector3d& a,
+                                                         const Eigen::Vector3d& b) {
+  const SurfaceDistance end = distanceTo(obstacle, b);
+  const Eigen::Vector3d meeting = firstMeeting(obstacle, a, b);
+  const SurfaceDistance surface = distanceTo(obstacle, meeting);
+  if (surface.normal.dot(end.normal) > 0.0) return {b, end};
+  return {meeting, surface};
+}
+
 }  // namespace
 
 std::vector<int> tetsOfSurface(const TetTopology& topology) {
@@ -147,8 +158,7 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
       const Eigen::Vector3d end = to_obstacle * positionOf(points[p].place, after, tets);
       const double start_distance = distanceTo(obstacle, start).distance;
       if (start_distance > reach_m + (end - start).norm()) continue;  // it cannot come near
-      const Eigen::Vector3d meeting = firstMeeting(obstacle, start, end);
-      const SurfaceDistance surface = distanceTo(obstacle, meeting);
+      const auto [meeting, surface] = touchedPlace(obstacle, start, end);
       if (surface.distance > reach_m) continue;
       contacts->push_back({static_cast<int>(p), static_cast<int>(o),
                            obstacle.pose * (meeting - surface.distance * surface.normal),

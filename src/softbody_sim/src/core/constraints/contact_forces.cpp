@@ -15,6 +15,10 @@ Eigen::Matrix3d orientationOf(const Contact& contact, const std::vector<Obstacle
   return obstacles[static_cast<std::size_t>(contact.obstacle)].pose.linear();
 }
 
+void addForce(const Eigen::Vector3d& force, const MaterialPoint& place, const Tets& tets, Points* forces) {
+  for (int k = 0; k < 4; ++k) forces->row(tets(place.tet, k)) += place.barycentric[k] * force.transpose();
+}
+
 }  // namespace
 
 ContactForces::ContactForces(const TetTopology& topology, double spacing_m, double pressure_stiffness,
@@ -62,18 +66,22 @@ void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnerg
   }
 }
 
-bool ContactForces::updateFriction(const Points& x, std::vector<Contact>* contacts) const {
+bool ContactForces::updateFriction(const Points& x, std::vector<Contact>* contacts) {
   constexpr double kNoticeable = 0.01;
-  double total = 0.0, change = 0.0;
+  double total = 0.0;
+  friction_change_.setZero(x.rows(), 3);
   for (Contact& contact : *contacts) {
     if (contact.friction == 0.0) continue;
     const double depth = depthOf(contact, x);
     total += stiffnessOf(contact) * depth;
     const Eigen::Vector3d before = frictionOf(contact, x);
     contact.depth = depth;
-    change += (frictionOf(contact, x) - before).norm();
+    const Eigen::Vector3d change = frictionOf(contact, x) - before;
+    addForce(change, points_[static_cast<std::size_t>(contact.point)].place, topology_->tets,
+             &friction_change_);
+    if (contact.isWithBody()) addForce(-change, contact.other, topology_->tets, &friction_change_);
   }
-  return change > kNoticeable * total;
+  return friction_change_.rowwise().norm().sum() > kNoticeable * total;
 }
 
 double ContactForces::updateLifts(const Points& x, std::vector<Contact>* contacts) const {

@@ -37,8 +37,9 @@ class ContactForces {
 
   void addSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) const;
 
-  /// Friction from the depths at x from now on. @return whether the forces of friction change noticeably.
-  bool updateFriction(const Points& x, std::vector<Contact>* contacts) const;
+  /// Friction from the depths at x from now on. @return whether that changes the forces on the vertices
+  /// noticeably. Where points are close together, force may move between them for long without effect.
+  bool updateFriction(const Points& x, std::vector<Contact>* contacts);
 
   /// Lifts that give the forces at x with the points on the obstacle. @return the largest change [m].
   double updateLifts(const Points& x, std::vector<Contact>* contacts) const;
@@ -72,6 +73,7 @@ class ContactForces {
   std::optional<SelfContact> self_contact_;
   bool touches_itself_ = false;  ///< in this step
   std::vector<ContactPoint> points_;
+  Points friction_change_;  ///< on the vertices [N]
   double spacing_m_, pressure_stiffness_, reach_m_, largest_lift_m_;
 };
 

@@ -139,12 +139,13 @@ void ConstrainedStep::minimize(const Problem& problem, Points* x) {
 
 /// Finds the contacts at the result x of contacts_. @return whether they are those.
 bool ConstrainedStep::contactsStay(const Problem& problem, const Points& x) {
-  findContacts(x, problem, &found_);
-  keepEarlierContacts(contacts_, &found_);
-  const double depth_change = contact_.largestDepthChange(contacts_, found_, x);
-  const bool friction_changes = contact_.updateFriction(x, &found_);
+  balanced_ = contacts_;
+  const bool friction_changes = contact_.updateFriction(x, &balanced_);
   // Lifts are forces, and those of a shape that is not in balance are wrong.
-  const double lift_change = result_.report.converged ? contact_.updateLifts(x, &found_) : 0.0;
+  const double lift_change = result_.report.converged ? contact_.updateLifts(x, &balanced_) : 0.0;
+  findContacts(x, problem, &found_);
+  keepEarlierContacts(balanced_, &found_);
+  const double depth_change = contact_.largestDepthChange(balanced_, found_, x);
   return !friction_changes && depth_change < options_.contact_tolerance_m &&
          lift_change < options_.penetration_tolerance_m;
 }

@@ -64,6 +64,7 @@ class ConstrainedStep {
   IncrementalPotential potential_;  ///< with pins and the springs of contacts_
   const std::vector<Target> no_targets_;
   std::vector<Contact> contacts_;  ///< that the result was computed with
+  std::vector<Contact> balanced_;  ///< those, with the forces at the result
   std::vector<Contact> found_;     ///< at the result
   Points still_, moved_, gradient_;
   Result result_;
