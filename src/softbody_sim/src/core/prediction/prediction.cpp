@@ -24,16 +24,17 @@ class Prediction {
         plans_(plans),
         settings_(settings),
         results_(plans.size()),
-        errors_(plans.size()) {}
+        end_(plans.size()) {}
 
-  /// Predicts plans until none is left. Each thread has one simulator for all of its plans.
+  /// Predicts plans until none is left, or one before it has failed. Each thread has one simulator for all of
+  /// its plans.
   void work() {
     const std::unique_ptr<Simulator> simulator = present_.copyForPrediction();
-    for (std::size_t k = next_++; k < plans_.size() && !cancelled_; k = next_++) {
+    for (std::size_t k = next_++; k < end_ && !cancelled_; k = next_++) {
       try {
         results_[k] = predictOne(plans_[k], simulator.get());
       } catch (...) {
-        errors_[k] = std::current_exception();
+        failAt(k);
       }
       reportProgress();
     }
@@ -42,25 +43,24 @@ class Prediction {
   /// @throw the error of the first plan that has one.
   std::vector<std::vector<PredictedState>> takeResults() {
     if (cancelled_) return {};
-    for (std::size_t k = 0; k < plans_.size(); ++k) {
-      if (errors_[k]) rethrowOf(k);
-    }
+    if (error_) rethrow();
     return std::move(results_);
   }
 
  private:
   std::vector<PredictedState> predictOne(const MotionPlan& plan, Simulator* simulator);
   void reportProgress();
-  void rethrowOf(std::size_t plan) const;
+  void failAt(std::size_t plan);
+  [[noreturn]] void rethrow() const;
 
   const Simulator& present_;
   const std::vector<MotionPlan>& plans_;
   const PredictionSettings& settings_;
   std::vector<std::vector<PredictedState>> results_;
-  std::vector<std::exception_ptr> errors_;
-  std::atomic<std::size_t> next_{0};
+  std::atomic<std::size_t> next_{0}, end_;  ///< a plan that fails is the end
+  std::exception_ptr error_;                ///< of plan end_
   std::atomic<bool> cancelled_{false};
-  std::mutex progress_;
+  std::mutex lock_;
   std::size_t done_ = 0;
 };
 
@@ -103,17 +103,25 @@ std::vector<PredictedState> Prediction::predictOne(const MotionPlan& plan, Simul
 
 void Prediction::reportProgress() {
   if (!settings_.on_progress || cancelled_) return;
-  const std::lock_guard<std::mutex> lock(progress_);
+  const std::lock_guard<std::mutex> lock(lock_);
   settings_.on_progress(++done_);
 }
 
-void Prediction::rethrowOf(std::size_t plan) const {
+/// Plans are taken in their order, and those before this one go on. So the first that fails is always found.
+void Prediction::failAt(std::size_t plan) {
+  const std::lock_guard<std::mutex> lock(lock_);
+  if (plan >= end_) return;
+  end_ = plan;
+  error_ = std::current_exception();
+}
+
+void Prediction::rethrow() const {
   try {
-    std::rethrow_exception(errors_[plan]);
+    std::rethrow_exception(error_);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("plan {}: {}", plan, error.what()));
+    throw std::invalid_argument(fmt::format("plan {}: {}", end_.load(), error.what()));
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("plan {}: {}", plan, error.what()));
+    throw std::runtime_error(fmt::format("plan {}: {}", end_.load(), error.what()));
   }
 }
 

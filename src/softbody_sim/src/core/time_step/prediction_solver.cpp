@@ -9,6 +9,9 @@ namespace {
 /// After so many iterations a Hessian of the present shape costs less than more iterations with an older one.
 constexpr int kManyIterations = 8;
 
+/// Plans of a call differ in what holds the body: not at all, by the pins of the present, by one grip.
+constexpr std::size_t kFirstFactors = 4;
+
 }  // namespace
 
 PredictionSolver::PredictionSolver(const TetTopology& topology, const ElasticMaterials& materials,
@@ -19,7 +22,6 @@ PredictionSolver::PredictionSolver(const TetTopology& topology, const ElasticMat
       fem_(topology, Elasticity::kCorotated, materials),
       hessian_(fem_.groups(), topology.rest_vertices.rows()),
       elastic_hessian_(hessian_),
-      first_(hessian_),
       present_(hessian_),
       step_(topology.rest_vertices.rows(), simd),
       minimizer_(paddedRows(topology.rest_vertices.rows())),
@@ -30,7 +32,7 @@ void PredictionSolver::restart(const Points& x) {
   factor_ = nullptr;
   if (first_shape_.rows() == x.rows() && first_shape_ == x) return;
   first_shape_ = x;
-  first_.inertia.resize(0);
+  first_.clear();
   is_first_ = false;
 }
 
@@ -50,17 +52,21 @@ void PredictionSolver::factorize(const IncrementalPotential& potential, const Po
   factor_ = factor;
 }
 
-/// The first factor serves all simulations whose inertia and pins are equal.
+/// The factors of the first shape serve all simulations whose inertia and pins are equal.
 void PredictionSolver::chooseFactor(const IncrementalPotential& potential, const Points& x) {
   if (factor_ && factor_->inertia == potential.inertia) return;
-  const bool contact = potential.targets.hasContact();
-  if (!contact && first_.inertia.size() == potential.inertia.size() && first_.inertia == potential.inertia) {
-    factor_ = &first_;
-    return;
-  }
   if (!is_first_) setElasticHessian(first_shape_);
   is_first_ = true;
-  factorize(potential, x, contact ? &present_ : &first_);
+  if (potential.targets.hasContact()) return factorize(potential, x, &present_);
+  for (const auto& factor : first_) {
+    if (factor->inertia == potential.inertia) {
+      factor_ = factor.get();
+      return;
+    }
+  }
+  if (first_.size() == kFirstFactors) first_.erase(first_.begin());
+  first_.push_back(std::make_unique<Factor>(hessian_));
+  factorize(potential, x, first_.back().get());
 }
 
 StepEnergy PredictionSolver::evaluate(const IncrementalPotential& potential, const Rows<double>& x,

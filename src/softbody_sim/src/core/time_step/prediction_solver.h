@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "elasticity/elastic_blocks.h"
 #include "elasticity/fem_elasticity.h"
@@ -31,7 +32,7 @@ class PredictionSolver : public StepSolver {
  private:
   /// A factor of the Hessian, and what it was made for.
   struct Factor {
-    Factor(const BlockTetMatrix& pattern) : solver(pattern.lower()) {}
+    explicit Factor(const BlockTetMatrix& pattern) : solver(pattern.lower()) {}
     Eigen::VectorXd inertia;  ///< empty: no factor
     HessianFactor solver;
   };
@@ -46,9 +47,10 @@ class PredictionSolver : public StepSolver {
   mutable ElasticBlocks<double> elasticity_;
   FemElasticity fem_;
   BlockTetMatrix hessian_, elastic_hessian_;
-  Points first_shape_;      ///< of all simulations
-  bool is_first_ = false;   ///< elastic_hessian_ is that of first_shape_
-  Factor first_, present_;  ///< without contact at the first shape, and at a later one
+  Points first_shape_;                          ///< of all simulations
+  bool is_first_ = false;                       ///< elastic_hessian_ is that of first_shape_
+  std::vector<std::unique_ptr<Factor>> first_;  ///< at the first shape, without contact
+  Factor present_;                              ///< with contact, or at a later shape
   Factor* factor_ = nullptr;
   PackedPotential<double> step_;
   ForceBalance<Rows<double>> balance_;

@@ -34,6 +34,13 @@ Eigen::Isometry3d motionAbout(const Eigen::Vector3d& center, const Eigen::Matrix
   return result;
 }
 
+/// The matrix of v -> a x v.
+Eigen::Matrix3d crossProductWith(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d matrix;
+  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return matrix;
+}
+
 }  // namespace
 
 RigidDescent::RigidDescent(const TetTopology& topology)
@@ -43,15 +50,10 @@ RigidDescent::RigidDescent(const TetTopology& topology)
     for (const int v : pieces_[p]) piece_of_vertex_[static_cast<std::size_t>(v)] = p;
 }
 
-RigidDescent::Vector6d RigidDescent::Motion::slopes(const Eigen::Vector3d& point,
-                                                    const Eigen::Vector3d& direction) const {
-  Vector6d result;
-  result << (point - center).cross(direction), direction;
+RigidDescent::Matrix63d RigidDescent::Motion::slopes(const Eigen::Vector3d& point) const {
+  Matrix63d result;
+  result << crossProductWith(point - center), Eigen::Matrix3d::Identity();
   return result;
-}
-
-void RigidDescent::Motion::addCurvature(const Vector6d& slopes, double stiffness) {
-  curvature.selfadjointView<Eigen::Lower>().rankUpdate(slopes, stiffness);
 }
 
 void RigidDescent::Motion::addGradient(const Eigen::Vector3d& point, const Eigen::Vector3d& force) {
@@ -66,50 +68,58 @@ void RigidDescent::addVertices(const IncrementalPotential& potential, const Poin
     for (const int v : pieces_[p]) motion.center += x.row(v).transpose();
     motion.center /= static_cast<double>(pieces_[p].size());
     motion.gradient.setZero();
-    motion.curvature.setZero();
+    double stiffness = 0.0;
+    Eigen::Vector3d first_moment = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
     for (const int v : pieces_[p]) {
-      const Eigen::Vector3d point = x.row(v), force = gradient_.row(v);
+      const Eigen::Vector3d point = x.row(v), arm = point - motion.center, force = gradient_.row(v);
       motion.addGradient(point, force);
-      for (int k = 0; k < 3; ++k)
-        motion.addCurvature(motion.slopes(point, Eigen::Vector3d::Unit(k)), potential.inertia[v]);
+      stiffness += potential.inertia[v];
+      first_moment += potential.inertia[v] * arm;
+      second_moment += potential.inertia[v] * arm * arm.transpose();
     }
+    const Eigen::Matrix3d mixed = crossProductWith(first_moment);
+    motion.curvature << second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment, mixed,
+        mixed.transpose(), stiffness * Eigen::Matrix3d::Identity();
   }
 }
 
 void RigidDescent::addSprings(const TargetEnergy& targets, const Points& free, const Points& x) {
   for (const TargetEnergy::Spring& spring : targets.springs()) {
-    if (spring.isFriction()) {
-      // The curvature is a multiple s P of a projection, so it is the sum of its columns' squares by s.
-      const Eigen::Matrix3d curvature = TargetEnergy::curvatureAt(spring, x);
-      const double scale = curvature.squaredNorm() / curvature.trace();
-      for (int k = 0; k < 3 && scale > 0.0; ++k) addCurvature(spring, x, curvature.col(k), 1.0 / scale);
-    } else if (spring.normal.isZero(0.0)) {
-      for (int k = 0; k < 3; ++k) addCurvature(spring, x, Eigen::Vector3d::Unit(k), spring.stiffness);
-    } else if (!spring.one_sided || gapOf(spring, x) < 0.0) {
-      addCurvature(spring, x, spring.normal, spring.stiffness);
+    const bool is_plane = !spring.isFriction() && !spring.normal.isZero(0.0);
+    if (!is_plane) {
+      addCurvature(spring, x, TargetEnergy::curvatureAt(spring, x));
+      continue;
+    }
+    const Eigen::Matrix3d curvature = spring.stiffness * spring.normal * spring.normal.transpose();
+    if (!spring.one_sided || gapOf(spring, x) < 0.0) {
+      addCurvature(spring, x, curvature);
     } else if (gapOf(spring, free) < 0.0) {
       // It will act: the step ends where it does, not short of its plane.
-      addCurvature(spring, x, spring.normal, spring.stiffness);
+      addCurvature(spring, x, curvature);
       addGradient(spring, x, spring.stiffness * gapOf(spring, x) * spring.normal);
     }
   }
 }
 
 void RigidDescent::addCurvature(const TargetEnergy::Spring& spring, const Points& x,
-                                const Eigen::Vector3d& direction, double stiffness) {
+                                const Eigen::Matrix3d& curvature) {
   const std::size_t piece = piece_of_vertex_[static_cast<std::size_t>(spring.vertices[0])];
-  const Vector6d slopes = motions_[piece].slopes(pointOf(spring.vertices, spring.barycentric, x), direction);
-  if (!spring.isCoupled()) return motions_[piece].addCurvature(slopes, stiffness);
+  const auto add = [&](std::size_t p, const Matrix63d& slopes) {
+    motions_[p].curvature += slopes * curvature * slopes.transpose();
+  };
+  const Matrix63d slopes = motions_[piece].slopes(pointOf(spring.vertices, spring.barycentric, x));
+  if (!spring.isCoupled()) return add(piece, slopes);
   const std::size_t other = piece_of_vertex_[static_cast<std::size_t>(spring.other_vertices[0])];
-  const Vector6d opposite =
-      -motions_[other].slopes(pointOf(spring.other_vertices, spring.other_barycentric, x), direction);
-  if (other == piece) return motions_[piece].addCurvature(slopes + opposite, stiffness);
-  motions_[piece].addCurvature(slopes, stiffness);
-  motions_[other].addCurvature(opposite, stiffness);
+  const Matrix63d opposite =
+      -motions_[other].slopes(pointOf(spring.other_vertices, spring.other_barycentric, x));
+  if (other == piece) return add(piece, slopes + opposite);
+  add(piece, slopes);
+  add(other, opposite);
   if (piece > other)
-    couplingOf(piece, other) += stiffness * slopes * opposite.transpose();
+    couplingOf(piece, other) += slopes * curvature * opposite.transpose();
   else
-    couplingOf(other, piece) += stiffness * opposite * slopes.transpose();
+    couplingOf(other, piece) += opposite * curvature * slopes.transpose();
 }
 
 void RigidDescent::addGradient(const TargetEnergy::Spring& spring, const Points& x,

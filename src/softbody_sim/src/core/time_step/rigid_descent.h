@@ -28,6 +28,7 @@ class RigidDescent {
 
  private:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
+  using Matrix63d = Eigen::Matrix<double, 6, 3>;
   using Vector6d = Eigen::Matrix<double, 6, 1>;
 
   /// The potential's change by a small turn about the centre and a shift: gradient and curvature.
@@ -36,9 +37,8 @@ class RigidDescent {
     Vector6d gradient;
     Matrix6d curvature;
 
-    /// Of the place of a point along the direction, by the six motions.
-    Vector6d slopes(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
-    void addCurvature(const Vector6d& slopes, double stiffness);
+    /// Of the place of a point, by the six motions.
+    Matrix63d slopes(const Eigen::Vector3d& point) const;
     void addGradient(const Eigen::Vector3d& point, const Eigen::Vector3d& force);
   };
   /// Mixed curvature of the motions of two pieces that touch each other.
@@ -50,8 +50,7 @@ class RigidDescent {
   void move(const IncrementalPotential& potential, const Points& free, Points* x);
   void addVertices(const IncrementalPotential& potential, const Points& x);
   void addSprings(const TargetEnergy& targets, const Points& free, const Points& x);
-  void addCurvature(const TargetEnergy::Spring& spring, const Points& x, const Eigen::Vector3d& direction,
-                    double stiffness);
+  void addCurvature(const TargetEnergy::Spring& spring, const Points& x, const Eigen::Matrix3d& curvature);
   void addGradient(const TargetEnergy::Spring& spring, const Points& x, const Eigen::Vector3d& force);
   Matrix6d& couplingOf(std::size_t row_piece, std::size_t column_piece);
   void findSteps();
