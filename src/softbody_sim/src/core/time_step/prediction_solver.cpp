@@ -7,7 +7,7 @@ namespace softbody {
 namespace {
 
 /// After so many iterations a Hessian of the present shape costs less than more iterations with an older one.
-constexpr int kManyIterations = 8;
+constexpr int kManyIterations = 20;
 
 /// Plans of a call differ in what holds the body: not at all, by the pins of the present, by one grip.
 constexpr std::size_t kFirstFactors = 4;
