@@ -96,9 +96,10 @@ class Simulator {
 
   /// A simulator of the present body, without its edits. It goes on from here on its own.
   std::unique_ptr<Simulator> copyOfPresent() const;
-  /// Such a copy whose steps depend on its state alone, not on earlier steps.
+  /// Such a copy for many simulations from one state. Each begins with returnTo().
   std::unique_ptr<Simulator> copyForPrediction() const;
-  /// Takes over the state of another simulator of the same body and topology.
+  /// Takes over the state of another simulator with the same tets. Steps from here do not depend on earlier
+  /// ones of this simulator.
   void returnTo(const Simulator& other);
 
   const MeshState& state() const;

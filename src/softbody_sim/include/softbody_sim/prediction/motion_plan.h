@@ -41,7 +41,8 @@ struct PlannedPins {
 
 struct PlannedObstacle {
   std::string name;
-  Obstacle shape;  ///< at present
+  Obstacle shape;         ///< at present
+  bool acts_now = false;  ///< it is an obstacle of the present step; those come first, in its order
   RigidPath path = {};
   ActivePeriod period = {};
 };

@@ -17,8 +17,8 @@ struct PredictedState {
   Points vertices;        ///< [m]
   /// On the pins and obstacles that act, by name: the body's force, and its torque about the frame's origin.
   std::map<std::string, Wrench> reactions;
-  std::vector<ContactPatch> contacts;      ///< on the obstacles
-  std::vector<std::string> contact_names;  ///< per patch: the obstacle
+  std::vector<ContactPatch> contacts;      ///< on the plan's obstacles
+  std::vector<std::string> contact_names;  ///< per patch: of the obstacle
 };
 
 struct PredictionSettings {
@@ -35,7 +35,7 @@ struct PredictionSettings {
 
 /// Simulates each plan from the present state of a placed body, which does not change. The threads share
 /// nothing that a plan changes. So a result depends neither on the other plans nor on the number of threads.
-/// @return per plan, per time; empty if cancelled.
+/// @return per plan, per time; empty if cancelled. Loads that were estimated go on.
 /// @throw std::invalid_argument if a region holds no vertex when it takes hold, or as Simulator::step does;
 /// the sentence begins with the plan.
 std::vector<std::vector<PredictedState>> predict(const Simulator& present,

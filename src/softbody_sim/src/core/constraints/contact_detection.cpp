@@ -97,13 +97,14 @@ Eigen::Vector3d firstMeeting(const Obstacle& obstacle, const Eigen::Vector3d& a,
 }
 
 /// The place whose tangent plane stops a point on its path from a to b, with the surface there: b, unless b
-/// is beyond the obstacle's other side; then the first meeting.
+/// has left the obstacle again or is nearer to another side of it; then the first meeting.
 std::pair<Eigen::Vector3d, SurfaceDistance> touchedPlace(const Obstacle& obstacle, const Eigen::Vector3d& a,
-                                                         const Eigen::Vector3d& b) {
+                                                         const Eigen::Vector3d& b, double reach_m) {
   const SurfaceDistance end = distanceTo(obstacle, b);
   const Eigen::Vector3d meeting = firstMeeting(obstacle, a, b);
+  if (meeting == b) return {b, end};
   const SurfaceDistance surface = distanceTo(obstacle, meeting);
-  if (surface.normal.dot(end.normal) > 0.0) return {b, end};
+  if (end.distance <= reach_m && surface.normal.dot(end.normal) > 0.0) return {b, end};
   return {meeting, surface};
 }
 
@@ -158,7 +159,7 @@ void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, con
       const Eigen::Vector3d end = to_obstacle * positionOf(points[p].place, after, tets);
       const double start_distance = distanceTo(obstacle, start).distance;
       if (start_distance > reach_m + (end - start).norm()) continue;  // it cannot come near
-      const auto [meeting, surface] = touchedPlace(obstacle, start, end);
+      const auto [meeting, surface] = touchedPlace(obstacle, start, end, reach_m);
       if (surface.distance > reach_m) continue;
       contacts->push_back({static_cast<int>(p), static_cast<int>(o),
                            obstacle.pose * (meeting - surface.distance * surface.normal),

@@ -48,9 +48,10 @@ struct ContactState {
 };
 
 /// One contact for each pair of point and obstacle closer than `reach_m`, sorted by obstacle, then by point.
-/// A point touches the surface point that is nearest to it now. Detection is continuous: if that is on
-/// another side of the obstacle than where its path, relative to the moving obstacle, first meets it, it
-/// touches that place. So no point passes through a thin or fast obstacle between two steps.
+/// A point touches the surface point that is nearest to it now. Detection is continuous: if its path,
+/// relative to the moving obstacle, has passed through the obstacle or comes nearer to another side, it
+/// touches where the path first meets the obstacle. So no point passes through a thin or fast obstacle
+/// between two steps.
 /// @param before, after vertices at the start of the step and now [m].
 /// @param before_poses of the obstacles at the start of the step.
 void findContacts(const std::vector<ContactPoint>& points, const Tets& tets, const Points& before,

@@ -29,10 +29,17 @@ ContactForces::ContactForces(const TetTopology& topology, double spacing_m, doub
       reach_m_(reach_m),
       largest_lift_m_(largest_lift_m) {}
 
+void ContactForces::restart() {
+  if (self_contact_) self_contact_->restart();
+}
+
+void ContactForces::createPoints() {
+  if (points_.empty()) points_ = sampleContactPoints(*topology_, spacing_m_);
+}
+
 void ContactForces::start(const Points& before, const std::vector<Obstacle>& obstacles, bool touches_itself) {
   touches_itself_ = touches_itself && self_contact_;
-  if ((!obstacles.empty() || touches_itself_) && points_.empty())
-    points_ = sampleContactPoints(*topology_, spacing_m_);
+  if (!obstacles.empty() || touches_itself_) createPoints();
   if (touches_itself_) self_contact_->start(points_, before);
 }
 
@@ -68,6 +75,7 @@ void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnerg
 
 bool ContactForces::updateFriction(const Points& x, std::vector<Contact>* contacts) {
   constexpr double kNoticeable = 0.01;
+  if (contacts->empty()) return false;
   double total = 0.0;
   friction_change_.setZero(x.rows(), 3);
   for (Contact& contact : *contacts) {
@@ -150,12 +158,6 @@ double ContactForces::largestDepthChange(const std::vector<Contact>& a, const st
   return largest;
 }
 
-/// The force on the obstacle.
-Eigen::Vector3d ContactForces::forceOf(const Contact& contact, const Points& x) const {
-  const Eigen::Vector3d force = -stiffnessOf(contact) * depthOf(contact, x) * contact.normal;
-  return contact.friction > 0.0 ? Eigen::Vector3d(force - frictionOf(contact, x)) : force;
-}
-
 void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points& x,
                              const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const {
   wrenches->assign(obstacles.size(), Wrench());
@@ -163,7 +165,8 @@ void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points&
     if (contact.isWithBody()) continue;
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    const Eigen::Vector3d force = forceOf(contact, x);
+    Eigen::Vector3d force = -stiffnessOf(contact) * depthOf(contact, x) * contact.normal;
+    if (contact.friction > 0.0) force -= frictionOf(contact, x);
     const Eigen::Vector3d arm =
         positionOf(point.place, x, topology_->tets) - obstacles[obstacle].pose.translation();
     (*wrenches)[obstacle].force += force;
@@ -171,15 +174,16 @@ void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points&
   }
 }
 
-std::vector<PointForce> ContactForces::pointForces(const std::vector<Contact>& contacts,
-                                                   const Points& x) const {
+std::vector<PointForce> ContactForces::pointForces(const ContactState& state, const Points& x) {
+  createPoints();
   std::vector<PointForce> forces;
-  for (const Contact& contact : contacts) {
+  for (const Contact& contact : state.contacts) {
     if (contact.isWithBody()) continue;
-    const Eigen::Vector3d force = forceOf(contact, x);
-    if (force.isZero(0.0)) continue;
     const MaterialPoint& place = points_[static_cast<std::size_t>(contact.point)].place;
-    forces.push_back({place, contact.obstacle, positionOf(place, x, topology_->tets), contact.normal, force});
+    const Eigen::Isometry3d& pose = state.obstacle_poses[static_cast<std::size_t>(contact.obstacle)];
+    const Eigen::Vector3d offset = contact.depth * contact.normal - pose.linear() * contact.slip;
+    forces.push_back({place, contact.obstacle, positionOf(place, x, topology_->tets), contact.normal,
+                      -stiffnessOf(contact) * offset});
   }
   return forces;
 }

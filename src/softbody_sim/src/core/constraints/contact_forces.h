@@ -26,6 +26,9 @@ class ContactForces {
   /// From now on, the body touches itself.
   void addSelfContact(const SelfContact::Options& options) { self_contact_.emplace(*topology_, options); }
 
+  /// Forgets what a simulation from other shapes has left.
+  void restart();
+
   /// Begins a step at the vertices `before`. The first call in which something can touch creates the contact
   /// points. @param touches_itself whether contact of the body with itself counts, if it was added.
   void start(const Points& before, const std::vector<Obstacle>& obstacles, bool touches_itself);
@@ -58,15 +61,15 @@ class ContactForces {
   void wrenches(const std::vector<Contact>& contacts, const Points& x, const std::vector<Obstacle>& obstacles,
                 std::vector<Wrench>* wrenches) const;
 
-  /// The body's forces on the obstacles, where there are any.
-  std::vector<PointForce> pointForces(const std::vector<Contact>& contacts, const Points& x) const;
+  /// The body's forces on the obstacles, where there are any. @param state at the vertices x [m].
+  std::vector<PointForce> pointForces(const ContactState& state, const Points& x);
 
  private:
+  void createPoints();
   Eigen::Vector3d placeOf(const Contact& contact, const Points& x) const;
   double depthOf(const Contact& contact, const Points& x) const;
   double stiffnessOf(const Contact& contact) const;
   Eigen::Vector3d slipOf(const Contact& contact, const Points& x) const;
-  Eigen::Vector3d forceOf(const Contact& contact, const Points& x) const;
   Eigen::Vector3d frictionOf(const Contact& contact, const Points& x) const;
 
   const TetTopology* topology_;

@@ -24,6 +24,9 @@ class SelfContact {
 
   SelfContact(const TetTopology& topology, const Options& options);
 
+  /// Forgets the shape that was measured last.
+  void restart() { clearance_ = {}; }
+
   /// Begins a step at the vertices `before`. @param points the same in each call.
   void start(const std::vector<ContactPoint>& points, const Points& before);
 

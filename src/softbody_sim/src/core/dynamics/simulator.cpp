@@ -256,7 +256,7 @@ std::unique_ptr<Simulator> Simulator::copyForPrediction() const {
 
 void Simulator::returnTo(const Simulator& other) {
   implementation_->body = other.implementation_->body;
-  implementation_->model->solver->restart(implementation_->body.mesh.vertices);
+  implementation_->model->constrained_step.restart(implementation_->body.mesh.vertices);
 }
 
 void Simulator::reset() {
@@ -334,7 +334,8 @@ const Reactions& Simulator::reactions() const { return implementation_->body.rea
 
 std::vector<ContactPatch> Simulator::contactPatches() const {
   const Implementation& s = *implementation_;
-  return patchesOf(s.model->constrained_step.contactForces(s.body.mesh.vertices), s.model->topology.tets);
+  return patchesOf(s.model->constrained_step.contactForces(s.body.contact, s.body.mesh.vertices),
+                   s.model->topology.tets);
 }
 
 double Simulator::elasticEnergy() const {

@@ -29,8 +29,11 @@ void requireConsistent(const SimulatorConfig& config) {
 
 SimulatorConfig configForPrediction(SimulatorConfig config) {
   constexpr int kIterations = 200;  // far more than a step needs
-  if (config.solver != SolverKind::kProjectiveDynamics) return config;
+  if (config.solver == SolverKind::kFem) return config;
   config.solver = SolverKind::kPrediction;
+  // Only with a history there is a line search, and this metric does not bound the curvature as that of
+  // projective dynamics does.
+  config.lbfgs_history = std::max(config.lbfgs_history, 1);
   config.iterations = std::max(config.iterations, kIterations);
   return config;
 }

@@ -9,8 +9,11 @@ class HessianFactor::Cholmod : public Eigen::CholmodDecomposition<Eigen::SparseM
  public:
   Cholmod() {
     cholmod().print = 0;
-    setMode(
-        Eigen::CholmodSimplicialLLt);  // the supernodal one starts threads, which cost more than they gain
+    // By default CHOLMOD may also try METIS, which draws random numbers that threads share.
+    cholmod().nmethods = 1;
+    cholmod().method[0].ordering = CHOLMOD_AMD;
+    // The supernodal mode starts threads, which cost more than they gain.
+    setMode(Eigen::CholmodSimplicialLLt);
   }
   const cholmod_factor& factor() const { return *m_cholmodFactor; }
 };

@@ -12,6 +12,8 @@ PlannedSurroundings::PlannedSurroundings(const MotionPlan& plan, const TetTopolo
     if (plan.pins[k].region) continue;
     holds_[k] = {true, plan.pins[k].held};
   }
+  for (std::size_t k = 0; k < plan.obstacles.size(); ++k)
+    if (plan.obstacles[k].acts_now) active_obstacles_.push_back(k);
 }
 
 const Surroundings& PlannedSurroundings::during(double begin_s, double end_s, const Points& vertices) {

@@ -21,9 +21,12 @@ class PlannedSurroundings {
   /// Forces by name; torques about the frame's origin. @param reactions of the last step.
   std::map<std::string, Wrench> sumsOf(const Reactions& reactions) const;
 
-  /// The name of an obstacle of the last step.
+  /// Index in the plan of an obstacle of the last step.
+  int planned(int obstacle) const {
+    return static_cast<int>(active_obstacles_[static_cast<std::size_t>(obstacle)]);
+  }
   const std::string& nameOf(int obstacle) const {
-    return plan_->obstacles[active_obstacles_[static_cast<std::size_t>(obstacle)]].name;
+    return plan_->obstacles[static_cast<std::size_t>(planned(obstacle))].name;
   }
 
  private:

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -15,16 +15,14 @@
 namespace softbody {
 namespace {
 
+constexpr double kRounding_s = 1e-9;
+
 /// The work that the threads of one call share.
 class Prediction {
  public:
   Prediction(const Simulator& present, const std::vector<MotionPlan>& plans,
              const PredictionSettings& settings)
-      : present_(present),
-        plans_(plans),
-        settings_(settings),
-        results_(plans.size()),
-        end_(plans.size()) {}
+      : present_(present), plans_(plans), settings_(settings), results_(plans.size()), end_(plans.size()) {}
 
   /// Predicts plans until none is left, or one before it has failed. Each thread has one simulator for all of
   /// its plans.
@@ -72,13 +70,14 @@ PredictedState stateOf(const Simulator& simulator, const PlannedSurroundings& su
                        surroundings.sumsOf(simulator.reactions()),
                        simulator.contactPatches(),
                        {}};
-  for (const ContactPatch& patch : state.contacts)
+  for (ContactPatch& patch : state.contacts) {
     state.contact_names.push_back(surroundings.nameOf(patch.obstacle));
+    patch.obstacle = surroundings.planned(patch.obstacle);
+  }
   return state;
 }
 
 std::vector<PredictedState> Prediction::predictOne(const MotionPlan& plan, Simulator* simulator) {
-  constexpr double kRounding = 1e-9;  // [s]
   simulator->returnTo(present_);
   const Nanoseconds start = simulator->stamp();
   PlannedSurroundings surroundings(plan, simulator->topology());
@@ -95,7 +94,7 @@ std::vector<PredictedState> Prediction::predictOne(const MotionPlan& plan, Simul
         none, start + nanoseconds(time_s),
         surroundings.during(time_s - settings_.time_step_s, time_s, simulator->state().vertices));
     converged = converged && simulator->report().converged;
-    while (states.size() < times_s.size() && times_s[states.size()] <= time_s + kRounding)
+    while (states.size() < times_s.size() && times_s[states.size()] <= time_s + kRounding_s)
       states.push_back(stateOf(*simulator, surroundings, time_s, converged));
   }
   return states;
@@ -143,8 +142,8 @@ std::vector<std::vector<PredictedState>> predict(const Simulator& present,
     }
   };
   std::vector<std::thread> workers;
-  for (int k = 0; k < settings.threads && static_cast<std::size_t>(k) < plans.size(); ++k)
-    workers.emplace_back(work);
+  const auto wanted = std::min(static_cast<std::size_t>(std::max(1, settings.threads)), plans.size());
+  while (workers.size() < wanted) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   if (error) std::rethrow_exception(error);
   return prediction.takeResults();

@@ -41,6 +41,11 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
   return result_;
 }
 
+void ConstrainedStep::restart(const Points& x) {
+  contact_.restart();
+  solver_->restart(x);
+}
+
 void ConstrainedStep::setPotential(const Problem& problem) {
   potential_.pinned.clear();
   potential_.inertia = problem.free.inertia;
@@ -139,11 +144,13 @@ void ConstrainedStep::minimize(const Problem& problem, Points* x) {
 
 /// Finds the contacts at the result x of contacts_. @return whether they are those.
 bool ConstrainedStep::contactsStay(const Problem& problem, const Points& x) {
+  balanced_.reserve(contacts_.capacity());
   balanced_ = contacts_;
   const bool friction_changes = contact_.updateFriction(x, &balanced_);
   // Lifts are forces, and those of a shape that is not in balance are wrong.
   const double lift_change = result_.report.converged ? contact_.updateLifts(x, &balanced_) : 0.0;
   findContacts(x, problem, &found_);
+  contact_.updateFriction(x, &found_);
   keepEarlierContacts(balanced_, &found_);
   const double depth_change = contact_.largestDepthChange(balanced_, found_, x);
   return !friction_changes && depth_change < options_.contact_tolerance_m &&

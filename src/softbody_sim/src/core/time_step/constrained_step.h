@@ -31,6 +31,9 @@ class ConstrainedStep {
   ConstrainedStep(const TetTopology& topology, ContactForces contact, const Options& options,
                   StepSolver* solver);
 
+  /// Forgets what a simulation from other shapes has left. @param x first shape of the next one [m].
+  void restart(const Points& x);
+
   /// Allocates only when the number of targets or contacts exceeds all earlier ones.
   /// @param free the step without targets and surroundings; @param before vertices at its start [m];
   /// @param state of the contacts then; @param x start, then result [m]. @return valid until the next call.
@@ -38,8 +41,10 @@ class ConstrainedStep {
                       const Surroundings& surroundings, const Points& before, const ContactState& state,
                       Points* x);
 
-  /// Contact forces of the last step. @param x its result [m].
-  std::vector<PointForce> contactForces(const Points& x) const { return contact_.pointForces(contacts_, x); }
+  /// @param state of the contacts at the vertices x [m].
+  std::vector<PointForce> contactForces(const ContactState& state, const Points& x) {
+    return contact_.pointForces(state, x);
+  }
 
  private:
   struct Problem;

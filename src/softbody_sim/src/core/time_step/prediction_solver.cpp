@@ -26,7 +26,9 @@ PredictionSolver::PredictionSolver(const TetTopology& topology, const ElasticMat
       step_(topology.rest_vertices.rows(), simd),
       minimizer_(paddedRows(topology.rest_vertices.rows())),
       x_(Rows<double>::Zero(paddedRows(topology.rest_vertices.rows()), 4)),
-      gradient_(x_) {}
+      gradient_(x_) {
+  restart(topology.rest_vertices);
+}
 
 void PredictionSolver::restart(const Points& x) {
   factor_ = nullptr;
@@ -54,18 +56,19 @@ void PredictionSolver::factorize(const IncrementalPotential& potential, const Po
 
 /// The factors of the first shape serve all simulations whose inertia and pins are equal.
 void PredictionSolver::chooseFactor(const IncrementalPotential& potential, const Points& x) {
-  if (factor_ && factor_->inertia == potential.inertia) return;
+  if (factor_ && factor_->isFor(potential)) return;
   if (!is_first_) setElasticHessian(first_shape_);
   is_first_ = true;
   if (potential.targets.hasContact()) return factorize(potential, x, &present_);
   for (const auto& factor : first_) {
-    if (factor->inertia == potential.inertia) {
-      factor_ = factor.get();
-      return;
-    }
+    if (!factor->isFor(potential)) continue;
+    factor_ = factor.get();
+    return;
   }
-  if (first_.size() == kFirstFactors) first_.erase(first_.begin());
-  first_.push_back(std::make_unique<Factor>(hessian_));
+  if (first_.size() < kFirstFactors)
+    first_.push_back(std::make_unique<Factor>(hessian_));
+  else
+    std::rotate(first_.begin(), first_.begin() + 1, first_.end());
   factorize(potential, x, first_.back().get());
 }
 

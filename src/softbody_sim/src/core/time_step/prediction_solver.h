@@ -24,7 +24,6 @@ class PredictionSolver : public StepSolver {
   PredictionSolver(const TetTopology& topology, const ElasticMaterials& materials,
                    const MinimizerOptions& options, Simd simd);
 
-  /// Starts a simulation. @param x its first shape [m].
   void restart(const Points& x) override;
   StepReport minimize(const IncrementalPotential& potential, Points* x) override;
   double addElasticity(const Points& x, Points* gradient) const override;
@@ -35,6 +34,10 @@ class PredictionSolver : public StepSolver {
     explicit Factor(const BlockTetMatrix& pattern) : solver(pattern.lower()) {}
     Eigen::VectorXd inertia;  ///< empty: no factor
     HessianFactor solver;
+
+    bool isFor(const IncrementalPotential& potential) const {
+      return inertia.size() == potential.inertia.size() && inertia == potential.inertia;
+    }
   };
 
   void setElasticHessian(const Points& x);
