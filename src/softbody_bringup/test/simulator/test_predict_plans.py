@@ -7,8 +7,10 @@ import threading
 import unittest
 
 import actionlib
+import numpy as np
 import rospy
 import rostest
+import softbody
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion
 from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedPin, PredictPlansAction, PredictPlansGoal,
@@ -126,6 +128,26 @@ class PredictPlans(unittest.TestCase):
         other.send_goal(PredictPlansGoal(times=[1.0], plans=lifts(2)))
         self.assertEqual(self.ended(self.action, GoalStatus.PREEMPTED).message, "another goal has come")
         self.assertEqual(len(self.ended(other, GoalStatus.SUCCEEDED).states), 2)
+
+    def test_python_starts_cancels_and_waits(self):
+        body, progress, runs = softbody.Body(), [], threading.Event()
+        self.addCleanup(body.close)
+        plans = [{"hand": [(0.5, [0.0, 0.0, 0.001 * k])]} for k in range(20)]
+        predictions = body.predict_plans(plans, [0.5], on_progress=lambda *numbers: progress.append(numbers)).result(SOON_S)
+        for plan, [prediction] in zip(body.predict(plans, [0.5]), predictions):
+            np.testing.assert_array_equal(prediction.vertices, plan[0].vertices)
+        self.assertEqual(progress[0], (1, 20))
+        running = body.predict_plans(1000 * [{}], [20.0], on_progress=lambda *_: runs.set())
+        self.assertRaises(TimeoutError, running.result, 0.01)
+        self.assertTrue(runs.wait(PATIENCE_S), "no progress")
+        self.assertFalse(running.done())
+        running.cancel()
+        self.assertRaisesRegex(softbody.Cancelled, "cancelled", running.result, SOON_S)
+        replaced = body.predict_plans(1000 * [{}], [20.0])
+        self.assertEqual(len(body.predict_plans([{}], [0.5]).result(SOON_S)), 1)
+        self.assertRaises(softbody.Cancelled, replaced.result, SOON_S)
+        self.assertRaisesRegex(softbody.Refused, "'foot'", body.predict_plans([{"foot": []}], [0.5]).result, SOON_S)
+        self.assertRaises(rospy.ROSException, softbody.Body("/nowhere", service_timeout_s=0.1).predict_plans, [{}], [0.5])
 
     def test_a_running_graph_is_not_disturbed(self):
         """Targets at 30 Hz, each answered by a state, in order, while 1000 plans are predicted."""

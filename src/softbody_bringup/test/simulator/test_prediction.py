@@ -138,6 +138,25 @@ class Prediction(unittest.TestCase):
                 np.testing.assert_allclose(prediction.vertices, array(state.vertices), atol=1e-6)
                 self.assertAlmostEqual(prediction.reactions["hand"][0][2], state.reactions[0].force.z, places=4)
 
+    def test_python_plans_are_the_messages(self):
+        up = [(0.5, [0.0, 0.0, 0.1])]
+        made = (softbody.Plan().grip("claw", [-1] * 3, [1] * 3, frame="world", begin_s=0.1, end_s=0.6, path=up)
+                .grip("tail", [-1] * 3, [1] * 3)
+                .add_obstacle("ball", "sphere", [0, 0, 1], radius=0.02, friction=0.5, begin_s=0.2, end_s=0.7)
+                .add_obstacle("block", "box", [0, 0, 2], frame="world", size=[0.1, 0.1, 0.1])
+                .release("hand", 0.3))
+        message = MotionPlan(pins=[pin(header=Header(frame_id="world"), in_frame=True, grip_time=0.1, release_time=0.6),
+                                   pin("tail")],
+                             obstacles=[ball(friction=0.5, begin_time=0.2, end_time=0.7),
+                                        ball("block", header=Header(frame_id="world"), shape="box", radius=0.0,
+                                             size=Vector3(0.1, 0.1, 0.1), pose=Pose(Point(0.0, 0.0, 2.0), Quaternion(w=1.0)))],
+                             releases=[PlannedRelease("hand", 0.3)], motions=[motion([0.5], [[0.0, 0.0, 0.1]], "claw")])
+        self.assertEqual(made.message(), message)
+        [[early, late]] = softbody.Body().predict([made], [0.25, 1.0])
+        self.assertEqual((set(early.reactions), set(late.reactions)),
+                         ({"ball", "block", "claw", "hand", "tail"}, {"block", "tail"}))
+        self.assertEqual(late.contacts, [])
+
     def test_bad_requests_are_refused_with_a_sentence(self):
         self.assertFalse(self.unplaced.success)
         self.assertIn("not placed", self.unplaced.message)
