@@ -13,8 +13,7 @@ namespace {
 
 constexpr double kShortestStep = 1e-3, kLongestStep = 1.0;  // [s]
 constexpr std::size_t kMostStates = 100000;                 // of one answer
-// Of one answer. A message is serialized at once, and meanwhile the node publishes nothing else.
-constexpr double kMostVertices = 2e7;
+constexpr double kMostVertices = 2e7;                       // likewise: 240 MB
 constexpr std::size_t kMostFrames = 100;
 
 }  // namespace
