@@ -4,6 +4,7 @@ import os
 import random
 import sys
 import threading
+import time
 import unittest
 
 import actionlib
@@ -21,6 +22,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "
 from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
 
 PERIOD_S = 1.0 / 30.0
+LEAST_RATE_HZ = 10.0  # where other programs use all processors
 SOON_S = 20.0  # the long goal takes minutes
 
 
@@ -150,16 +152,18 @@ class PredictPlans(unittest.TestCase):
         self.assertRaises(rospy.ROSException, softbody.Body("/nowhere", service_timeout_s=0.1).predict_plans, [{}], [0.5])
 
     def test_a_running_graph_is_not_disturbed(self):
-        """Targets at 30 Hz, each answered by a state, in order, while 1000 plans are predicted."""
+        """Targets at 30 Hz, each answered by a state, in order, while 1000 plans are predicted. On a busy machine the
+        next one waits for the answer."""
         self.action.send_goal(PredictPlansGoal(times=[1.0], plans=lifts(1000)))
-        sent, rate = [], rospy.Rate(1.0 / PERIOD_S)
+        sent, rate, begin = [], rospy.Rate(1.0 / PERIOD_S), time.monotonic()
         while not self.action.wait_for_result(rospy.Duration(1e-3)):
             sent.append(self.send())
-            self.assertLess(len(sent), PATIENCE_S / PERIOD_S, "the goal does not end")
+            self.wait_for_state(sent[-1])
+            self.assertLess(time.monotonic() - begin, PATIENCE_S, "the goal does not end")
             rate.sleep()
+        duration_s = time.monotonic() - begin
         self.assertEqual(len(self.ended(self.action, GoalStatus.SUCCEEDED).states), 1000)
-        self.assertGreater(len(sent), 10)
-        self.wait_for_state(sent[-1])
+        self.assertGreater(len(sent), LEAST_RATE_HZ * duration_s)
         answered = [s.header.stamp for s in self.recorder.messages["softbody/volume/state"] if s.header.stamp >= sent[0]]
         self.assertEqual(answered, sent)
 
