@@ -220,6 +220,11 @@ class PythonLive(unittest.TestCase):
     def test_example_pin(self):
         self.assertRegex(self.example("pin_to_gripper.py", "gripper", 0.5), "^[1-9][0-9]* vertices of the volume follow gripper")
 
+    def test_example_grip(self):
+        lines = [line for line in self.example("predict_grip.py", 0.05).splitlines() if line.startswith("gripped")]
+        self.assertEqual(len(lines), 5)
+        self.assertIn("at 0.8 to 1.0 of the length: force", lines[-1])
+
 
 if __name__ == "__main__":
     rospy.init_node("test_python_live")

@@ -8,9 +8,11 @@ import numpy as np
 import rospy
 import rostest
 import softbody
-from geometry_msgs.msg import Point, Point32, Pose, Quaternion
-from softbody_msgs.msg import MeshState, MotionPlan, PlannedMotion, Targets, TetTopology
+from geometry_msgs.msg import Point, Point32, Pose, Quaternion, Vector3
+from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObstacle, PlannedPin, PlannedRelease, Targets,
+                               TetTopology)
 from softbody_msgs.srv import Pin, Predict
+from std_msgs.msg import Header
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import Recorder  # pylint: disable=wrong-import-position
@@ -23,6 +25,63 @@ def array(points):
 def raised(name, height):
     return MotionPlan(motions=[PlannedMotion(name=name, times=[0.5],
                                              poses=[Pose(Point(0.0, 0.0, height), Quaternion(w=1.0))])])
+
+
+def pin(name="claw", **fields):
+    return PlannedPin(**{"name": name, "min": Point32(-1, -1, -1), "max": Point32(1, 1, 1), **fields})
+
+
+def ball(name="ball", **fields):
+    return PlannedObstacle(**{"name": name, "shape": "sphere", "radius": 0.02,
+                              "pose": Pose(Point(0.0, 0.0, 1.0), Quaternion(w=1.0)), **fields})
+
+
+def motion(times, poses, name="hand"):
+    return PlannedMotion(name=name, times=times, poses=[Pose(Point(*shift), Quaternion(w=1.0)) for shift in poses])
+
+
+NAN, NOWHERE, UP = float("nan"), Header(frame_id="nowhere"), [0.0, 0.0, 0.1]
+
+# Each is refused: its plan, and words of the reason. "hand" acts at present.
+REFUSED_PLANS = (
+    (MotionPlan(motions=[motion([0.5], [UP], "foot")]), "motions[0] 'foot'", "no pin or obstacle", "known names: hand"),
+    (MotionPlan(motions=[motion([0.5], [UP])] * 2), "motions[1] 'hand'", "twice"),
+    (MotionPlan(motions=[motion([], [])] * 2), "motions[1] 'hand'", "twice"),
+    (MotionPlan(motions=[motion([0.5, 0.5], [UP, UP])]), "motions[0] 'hand'", "ascending"),
+    (MotionPlan(motions=[motion([NAN], [UP])]), "motions[0] 'hand'", "nan", "ascending"),
+    (MotionPlan(motions=[motion([0.5, 0.6], [UP])]), "motions[0] 'hand'", "2 times with 1 poses"),
+    (MotionPlan(motions=[motion([0.4, 0.5], [UP, [0.0, NAN, 0.0]])]), "motions[0] 'hand'", "poses[1]", "finite"),
+    (MotionPlan(motions=[PlannedMotion(name="hand", times=[0.5], poses=[Pose()])]), "poses[0]", "quaternion"),
+    (MotionPlan(pins=[pin("hand")]), "pins[0] 'hand'", "already"),
+    (MotionPlan(pins=[pin(), pin()]), "pins[1] 'claw'", "already"),
+    (MotionPlan(pins=[pin("claw")], obstacles=[ball("claw")]), "obstacles[0] 'claw'", "already"),
+    (MotionPlan(pins=[pin("a b")]), "pins[0] 'a b'", "letters"),
+    (MotionPlan(pins=[pin("")]), "pins[0] ''", "letters"),
+    (MotionPlan(pins=[pin(min=Point32(1, 1, 1), max=Point32(-1, -1, -1))]), "pins[0] 'claw'", "box", "empty"),
+    (MotionPlan(pins=[pin(max=Point32(1, NAN, 1))]), "pins[0] 'claw'", "box", "empty"),
+    (MotionPlan(pins=[pin(min=Point32(0.9, 0.9, 0.9))]), "pins[0] 'claw'", "no vertex", "enlarge"),
+    (MotionPlan(pins=[pin(header=NOWHERE, in_frame=True)]), "pins[0] 'claw'", "tf does not know frame 'nowhere'"),
+    (MotionPlan(pins=[pin(header=NOWHERE)]), "pins[0] 'claw'", "set in_frame"),
+    (MotionPlan(pins=[pin(in_frame=True, min=Point32(0.9, 0.9, 0.9), grip_time=0.5)]), "'claw'", "no vertex", "0.5 s"),
+    (MotionPlan(pins=[pin(grip_time=-0.1)]), "pins[0] 'claw'", "grip_time is -0.1"),
+    (MotionPlan(pins=[pin(grip_time=NAN)]), "pins[0] 'claw'", "grip_time is nan"),
+    (MotionPlan(pins=[pin(release_time=61.0)]), "pins[0] 'claw'", "release_time is 61", "0 to 60 s"),
+    (MotionPlan(pins=[pin(grip_time=0.5, release_time=0.5)]), "pins[0] 'claw'", "not after", "later"),
+    (MotionPlan(pins=[pin(grip_time=0.51, release_time=0.52)]), "pins[0] 'claw'", "no step", "longer"),
+    (MotionPlan(obstacles=[ball(shape="cone")]), "obstacles[0] 'ball'", "shape", "cone", "capsule"),
+    (MotionPlan(obstacles=[ball(shape="")]), "obstacles[0] 'ball'", "shape", "capsule"),
+    (MotionPlan(obstacles=[ball(radius=-1.0)]), "obstacles[0] 'ball'", "radius_m", "-1"),
+    (MotionPlan(obstacles=[ball(shape="box", size=Vector3(0.1, 0.1, NAN))]), "obstacles[0] 'ball'", "size_m"),
+    (MotionPlan(obstacles=[ball(friction=NAN)]), "obstacles[0] 'ball'", "friction"),
+    (MotionPlan(obstacles=[ball(pose=Pose())]), "obstacles[0] 'ball'", "quaternion"),
+    (MotionPlan(obstacles=[ball(header=NOWHERE)]), "obstacles[0] 'ball'", "tf does not know frame 'nowhere'"),
+    (MotionPlan(obstacles=[ball(begin_time=0.5, end_time=0.4)]), "obstacles[0] 'ball'", "end_time 0.4 s is not after"),
+    (MotionPlan(obstacles=[ball(f"ball_{k}") for k in range(1001)]), "obstacles[1000]", "fewer"),
+    (MotionPlan(releases=[PlannedRelease("foot", 0.5)]), "releases[0] 'foot'", "no pin or obstacle"),
+    (MotionPlan(releases=[PlannedRelease("hand", 0.0), PlannedRelease("hand", 0.5)]), "releases[1] 'hand'", "twice"),
+    (MotionPlan(releases=[PlannedRelease("hand", NAN)]), "releases[0] 'hand'", "time is nan"),
+    (MotionPlan(pins=[pin()], releases=[PlannedRelease("claw", 0.5)]), "releases[0] 'claw'", "release_time"),
+)
 
 
 class Prediction(unittest.TestCase):
@@ -79,6 +138,25 @@ class Prediction(unittest.TestCase):
                 np.testing.assert_allclose(prediction.vertices, array(state.vertices), atol=1e-6)
                 self.assertAlmostEqual(prediction.reactions["hand"][0][2], state.reactions[0].force.z, places=4)
 
+    def test_python_plans_are_the_messages(self):
+        up = [(0.5, [0.0, 0.0, 0.1])]
+        made = (softbody.Plan().grip("claw", [-1] * 3, [1] * 3, frame="world", begin_s=0.1, end_s=0.6, path=up)
+                .grip("tail", [-1] * 3, [1] * 3)
+                .add_obstacle("ball", "sphere", [0, 0, 1], radius=0.02, friction=0.5, begin_s=0.2, end_s=0.7)
+                .add_obstacle("block", "box", [0, 0, 2], frame="world", size=[0.1, 0.1, 0.1])
+                .release("hand", 0.3))
+        message = MotionPlan(pins=[pin(header=Header(frame_id="world"), in_frame=True, grip_time=0.1, release_time=0.6),
+                                   pin("tail")],
+                             obstacles=[ball(friction=0.5, begin_time=0.2, end_time=0.7),
+                                        ball("block", header=Header(frame_id="world"), shape="box", radius=0.0,
+                                             size=Vector3(0.1, 0.1, 0.1), pose=Pose(Point(0.0, 0.0, 2.0), Quaternion(w=1.0)))],
+                             releases=[PlannedRelease("hand", 0.3)], motions=[motion([0.5], [[0.0, 0.0, 0.1]], "claw")])
+        self.assertEqual(made.message(), message)
+        [[early, late]] = softbody.Body().predict([made], [0.25, 1.0])
+        self.assertEqual((set(early.reactions), set(late.reactions)),
+                         ({"ball", "block", "claw", "hand", "tail"}, {"block", "tail"}))
+        self.assertEqual(late.contacts, [])
+
     def test_bad_requests_are_refused_with_a_sentence(self):
         self.assertFalse(self.unplaced.success)
         self.assertIn("not placed", self.unplaced.message)
@@ -86,10 +164,33 @@ class Prediction(unittest.TestCase):
                                (dict(times=[1.0, 0.5], plans=[MotionPlan()]), "ascending"),
                                (dict(times=[], plans=[MotionPlan()]), "nothing to predict"),
                                (dict(times=[1.0], plans=[MotionPlan()], time_step=-1.0), "time_step"),
-                               (dict(times=[60.0], plans=2 * [MotionPlan()], time_step=0.001), "fewer plans")):
+                               (dict(times=[1.0], plans=[MotionPlan()], time_step=NAN), "time_step"),
+                               (dict(times=[NAN], plans=[MotionPlan()]), "ascending"),
+                               (dict(times=[60.0], plans=2 * [MotionPlan()], time_step=0.001), "fewer plans"),
+                               (dict(times=[0.1], plans=[MotionPlan(obstacles=[ball(header=Header(frame_id=f"frame_{k}"))])
+                                                         for k in range(101)]), "101 frames")):
             answer = self.predict(**request)
             self.assertFalse(answer.success)
             self.assertIn(words, answer.message)
+
+    def test_bad_plans_are_refused_by_plan_and_entry_and_the_node_goes_on(self):
+        good = raised("hand", 0.01)
+        expected = self.predict(times=[0.7], plans=[good])
+        self.assertTrue(expected.success, expected.message)
+        for plan, *words in REFUSED_PLANS:
+            with self.subTest(words):
+                answer = self.predict(times=[0.7], plans=[good, plan])
+                self.assertFalse(answer.success)
+                self.assertEqual(answer.states, [])
+                for word in ["plan 1: ", *words]:
+                    self.assertIn(word, answer.message)
+                self.assertEqual(self.predict(times=[0.7], plans=[good]), expected)
+
+    def test_a_frame_may_have_a_leading_slash(self):
+        plan = MotionPlan(pins=[pin(header=Header(frame_id="/world"), in_frame=True)], releases=[PlannedRelease("hand", 0.0)])
+        answer = self.predict(times=[0.5], plans=[plan])
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.states[0].names, ["claw"])
 
 
 if __name__ == "__main__":

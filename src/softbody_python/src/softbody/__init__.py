@@ -4,7 +4,10 @@
     body = softbody.Body(); state = body.wait(); body.cut(point, normal)
 """
 from softbody.bag import BagError, ResultBag, read
-from softbody.body import Body, Refused
+from softbody.body import Body
+from softbody.errors import Cancelled, Refused
+from softbody.plan import Plan
 from softbody.state import State, SurfaceTopology, Volume, VolumeTopology
 
-__all__ = ["BagError", "Body", "Refused", "ResultBag", "State", "SurfaceTopology", "Volume", "VolumeTopology", "read"]
+__all__ = ["BagError", "Body", "Cancelled", "Plan", "Refused", "ResultBag", "State", "SurfaceTopology", "Volume",
+           "VolumeTopology", "read"]

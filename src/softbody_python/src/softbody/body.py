@@ -5,22 +5,21 @@ import time
 
 import rospy
 from geometry_msgs.msg import Point, Point32, Pose, PoseStamped, Quaternion, Vector3
-from softbody_msgs.msg import MeshState, MeshTopology, TetTopology
+from softbody_msgs.msg import MeshState, MeshTopology, PredictPlansGoal, TetTopology
 from softbody_msgs.srv import (ClosestPoint, ClosestPointRequest, CutBody, CutBodyRequest, Pin, PinRequest, Predict,
                                PreviewCut, PreviewCutRequest, Release, SaveMesh, SetMaterial, SetObstacle,
                                SetObstacleRequest, SetPose)
 from std_srvs.srv import Trigger
 
+from softbody.errors import Refused
 from softbody.join import Joiner
 from softbody.lazy import bytes_of, lazy
-from softbody.prediction import plan_message, prediction_of
+from softbody.plan import plan_message
+from softbody.prediction import predictions_of
+from softbody.running_prediction import RunningPrediction, connect
 from softbody.wire import WrongMessage, decode
 
 QUEUE_SIZE, BUFFER_SIZE = 30, 1 << 24  # messages; bytes, which hold the largest message
-
-
-class Refused(Exception):
-    """The graph has refused a request. The message is its reason."""
 
 
 class Body:
@@ -37,6 +36,7 @@ class Body:
         self._changed = threading.Condition()
         self._order = threading.RLock()  # one callback at a time, in the order of the states
         self._latest, self._undelivered, self._callbacks = None, collections.deque(), []
+        self._predict_client = None  # of the action, from the first use on
         subjects = [("surface/topology", MeshTopology, self._joiner.add_topology),
                     ("surface/state", MeshState, self._joiner.add_surface)]
         if with_volume:
@@ -49,6 +49,8 @@ class Body:
         """Ends the subscriptions."""
         for subscriber in self._subscribers:
             subscriber.unregister()
+        if self._predict_client is not None:
+            self._predict_client.stop()
 
     # --- states --------------------------------------------------------------------------------------------------
     def latest(self):
@@ -169,13 +171,24 @@ class Body:
     def predict(self, plans, times, time_step_s=0.0):
         """Simulates plans from the present state. The tracked body does not change.
 
-        @param plans: each a map: name of a pin or obstacle -> list of (time [s], motion), the motion a shift [m] or a
-        4 x 4 matrix in the frame of the states. @param times: when the body is wanted [s], ascending.
+        @param plans: each a softbody.Plan, or a map: name of a pin or obstacle -> list of (time [s], motion), the motion a
+        shift [m] or a 4 x 4 matrix in the frame of the states. @param times: when the body is wanted [s], ascending.
         @return per plan a list with a Prediction per time.
         """
-        states = self._call("simulator/predict", Predict, time_step_s, times, [plan_message(plan) for plan in plans]).states
-        predictions = [prediction_of(state) for state in states]
-        return [predictions[k:k + len(times)] for k in range(0, len(predictions), len(times))]
+        messages = [plan_message(plan) for plan in plans]
+        return predictions_of(self._call("simulator/predict", Predict, time_step_s, times, messages).states, len(times))
+
+    def predict_plans(self, plans, times, time_step_s=0.0, on_progress=None):
+        """Starts what predict() does, and returns at once. Ten times as many steps are allowed.
+
+        @param on_progress: called with (plans done, plans in total), in a thread of rospy. @return a RunningPrediction:
+        `result(timeout_s)` waits and returns, `cancel()` ends it. The graph works at one at a time: the next one replaces
+        it.
+        """
+        goal = PredictPlansGoal(time_step_s, times, [plan_message(plan) for plan in plans])
+        if self._predict_client is None:
+            self._predict_client = connect(self._name("simulator/predict_plans"), self.service_timeout_s)
+        return RunningPrediction(self._predict_client, goal, on_progress)
 
     # --- inside --------------------------------------------------------------------------------------------------
     def _name(self, name):

@@ -2,23 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/geometry_messages.h"
 #include "softbody_sim/ros/conversions.h"
 
 namespace softbody {
 namespace {
 
+// The time of a step grows with both.
+constexpr std::size_t kMostPins = 1000, kMostObstacles = 1000;
+constexpr std::size_t kMostNamesSaid = 10;
+
 std::string shortened(const std::string& name) { return name.substr(0, 100); }
+
+std::string frameOf(const std_msgs::Header& header) { return frameName(header.frame_id, "a planned motion"); }
 
 /// What the messages of a plan say, by name.
 class PlanReader {
  public:
-  explicit PlanReader(const Present& present) : present_(present) {}
+  PlanReader(const Present& present, double time_step_s) : present_(present), time_step_s_(time_step_s) {}
 
   void addPresent();
   void add(const softbody_msgs::PlannedPin& message);
@@ -28,81 +36,114 @@ class PlanReader {
   MotionPlan take() { return std::move(plan_); }
 
  private:
-  /// Path and period of a pin or an obstacle.
+  /// A pin or an obstacle of the plan.
   struct Entry {
-    RigidPath* path;
-    ActivePeriod* period;
-    bool is_present, moves;
+    bool is_pin;
+    std::size_t index;
+    bool is_present, moves = false, is_released = false;
   };
-  void requireFree(const std::string& name) const;
-  Entry find(const std::string& name);
-  Eigen::Isometry3d poseOf(const std::string& frame, const std::string& what) const;
+  void insert(const std::string& name, const Entry& entry);
+  Entry& find(const std::string& name);
+  RigidPath& pathOf(const Entry& entry);
+  ActivePeriod& periodOf(const Entry& entry);
+  ActivePeriod period(double begin_s, double end_s, const char* begin_name, const char* end_name) const;
+  Eigen::Isometry3d poseOf(const std_msgs::Header& header) const;
+  std::string namesInPlan() const;
 
   const Present& present_;
+  const double time_step_s_;
   MotionPlan plan_;
-  std::size_t present_pins_ = 0, present_obstacles_ = 0;
+  std::map<std::string, Entry> entries_;
 };
 
-double endOf(double time_s) { return time_s == 0.0 ? std::numeric_limits<double>::infinity() : time_s; }
+void requireTime(double time_s, const char* field) {
+  if (time_s >= 0.0 && time_s <= kLongestPrediction_s) return;
+  throw std::invalid_argument(
+      fmt::format("{} is {} s; allowed: 0 to {} s", field, time_s, kLongestPrediction_s));
+}
 
-ActivePeriod periodOf(double begin_s, double end_s, const std::string& what) {
-  for (const double time : {begin_s, end_s}) {
-    if (time >= 0.0 && time <= kLongestPrediction_s) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: its time is {} s; allowed: 0 to {} s", what, time, kLongestPrediction_s));
+Eigen::Isometry3d motionOf(const std::vector<geometry_msgs::Pose>& poses, std::size_t k) {
+  try {
+    return fromMessage(poses[k]);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("poses[{}]: {}", k, error.what()));
   }
-  if (end_s != 0.0 && end_s <= begin_s)
-    throw std::invalid_argument(
-        fmt::format("{}: it ends at {} s, but it begins at {} s; let it end later", what, end_s, begin_s));
-  return {begin_s, endOf(end_s)};
+}
+
+/// When a planned pin or obstacle acts. @param end_s 0: it stays.
+ActivePeriod PlanReader::period(double begin_s, double end_s, const char* begin_name,
+                                const char* end_name) const {
+  constexpr double kRounding_s = 1e-9;
+  requireTime(begin_s, begin_name);
+  requireTime(end_s, end_name);
+  if (end_s == 0.0) return {begin_s, std::numeric_limits<double>::infinity()};
+  if (end_s <= begin_s) {
+    throw std::invalid_argument(fmt::format("{} {} s is not after {} {} s: let it end later, or never (0)",
+                                            end_name, end_s, begin_name, begin_s));
+  }
+  const ActivePeriod period{begin_s, end_s};
+  const double first_s = (std::floor((begin_s + kRounding_s) / time_step_s_) + 1.0) * time_step_s_;
+  if (period.contains(first_s)) return period;
+  throw std::invalid_argument(
+      fmt::format("no step of {:.4g} s ends between {} {} s and {} {} s: let it act longer, or "
+                  "ask for shorter steps",
+                  time_step_s_, begin_name, begin_s, end_name, end_s));
+}
+
+void PlanReader::insert(const std::string& name, const Entry& entry) {
+  if (entries_.emplace(name, entry).second) return;
+  throw std::invalid_argument("a pin or an obstacle of the plan has this name already: choose another");
 }
 
 void PlanReader::addPresent() {
   const NamedSurroundings& now = present_.surroundings;
-  std::map<std::string, std::size_t> known;
   for (std::size_t k = 0; k < now.pins.size(); ++k) {
-    const auto entry = known.emplace(now.pins[k], plan_.pins.size());
+    const Entry next{true, plan_.pins.size(), true};
+    const auto entry = entries_.emplace(now.pins[k], next);
     if (entry.second) plan_.pins.push_back({now.pins[k], {}, {}});
-    plan_.pins[entry.first->second].held.push_back(now.all.pins[k]);
+    plan_.pins[entry.first->second.index].held.push_back(now.all.pins[k]);
   }
-  for (std::size_t k = 0; k < now.obstacles.size(); ++k)
+  for (std::size_t k = 0; k < now.obstacles.size(); ++k) {
+    insert(now.obstacles[k], {false, k, true});
     plan_.obstacles.push_back({now.obstacles[k], now.all.obstacles[k]});
-  present_pins_ = plan_.pins.size();
-  present_obstacles_ = plan_.obstacles.size();
+  }
 }
 
-PlanReader::Entry PlanReader::find(const std::string& name) {
-  for (std::size_t k = 0; k < plan_.pins.size(); ++k) {
-    PlannedPins& pins = plan_.pins[k];
-    if (pins.name == name) return {&pins.path, &pins.period, k < present_pins_, !pins.path.times_s.empty()};
+std::string PlanReader::namesInPlan() const {
+  std::string names;
+  std::size_t count = 0;
+  for (const auto& entry : entries_) {
+    if (++count > kMostNamesSaid) return names + ", ...";
+    names += (names.empty() ? "" : ", ") + entry.first;
   }
-  for (std::size_t k = 0; k < plan_.obstacles.size(); ++k) {
-    PlannedObstacle& obstacle = plan_.obstacles[k];
-    if (obstacle.name == name)
-      return {&obstacle.path, &obstacle.period, k < present_obstacles_, !obstacle.path.times_s.empty()};
-  }
+  return names.empty() ? "none" : names;
+}
+
+PlanReader::Entry& PlanReader::find(const std::string& name) {
+  const auto found = entries_.find(name);
+  if (found != entries_.end()) return found->second;
   throw std::invalid_argument(fmt::format(
-      "no pin or obstacle that acts has the name '{}': add it to the plan, or set it by the services pin or "
-      "set_obstacle first",
-      shortened(name)));
+      "no pin or obstacle has this name at present, and the plan adds none; known names: {}. Add "
+      "it to the plan, or set it by the services pin or set_obstacle; then it acts from the next step on",
+      namesInPlan()));
 }
 
-void PlanReader::requireFree(const std::string& name) const {
-  const auto has = [&](const auto& entries) {
-    return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
-  };
-  if (has(plan_.pins) || has(plan_.obstacles))
-    throw std::invalid_argument(
-        fmt::format("the plan adds '{}', but a pin or an obstacle has that name already: choose another",
-                    shortened(name)));
+RigidPath& PlanReader::pathOf(const Entry& entry) {
+  return entry.is_pin ? plan_.pins[entry.index].path : plan_.obstacles[entry.index].path;
 }
 
-Eigen::Isometry3d PlanReader::poseOf(const std::string& frame, const std::string& what) const {
+ActivePeriod& PlanReader::periodOf(const Entry& entry) {
+  return entry.is_pin ? plan_.pins[entry.index].period : plan_.obstacles[entry.index].period;
+}
+
+Eigen::Isometry3d PlanReader::poseOf(const std_msgs::Header& header) const {
+  const std::string frame = frameOf(header);
   if (frame.empty()) return Eigen::Isometry3d::Identity();
   const auto found = present_.frames.find(frame);
   if (found != present_.frames.end()) return found->second;
-  throw std::invalid_argument(fmt::format("{}: tf does not know frame '{}' in '{}'; check the name", what,
-                                          shortened(frame), present_.header.frame_id));
+  throw std::invalid_argument(
+      fmt::format("tf does not know frame '{}' in '{}': check the name, and that a node publishes the frame",
+                  shortened(frame), present_.header.frame_id));
 }
 
 void PlanReader::add(const softbody_msgs::PlannedPin& message) {
@@ -112,17 +153,23 @@ void PlanReader::add(const softbody_msgs::PlannedPin& message) {
   box.min = message.min;
   box.max = message.max;
   PlannedPins pins{message.name, {}, fromMessage(box)};
-  requireFree(pins.name);
-  const std::string what = fmt::format("pin '{}'", pins.name);
   pins.region->in_frame = message.in_frame != 0;
   pins.accuracy_m = present_.pin_accuracy_m;
-  pins.period = periodOf(message.grip_time, message.release_time, what);
-  if (message.in_frame)
-    pins.frame = poseOf(message.header.frame_id, what);
-  else if (verticesIn(*pins.region, Eigen::Isometry3d::Identity(),
-                      present_.simulator->topology().rest_vertices)
-               .empty())
-    throw std::invalid_argument(fmt::format("the box of {} contains no vertex of the volume", what));
+  pins.period = period(message.grip_time, message.release_time, "grip_time", "release_time");
+  if (plan_.pins.size() >= kMostPins)
+    throw std::invalid_argument(fmt::format("the plan has {} pins already: add fewer", plan_.pins.size()));
+  if (message.in_frame) {
+    pins.frame = poseOf(message.header);
+  } else if (!message.header.frame_id.empty()) {
+    throw std::invalid_argument(
+        fmt::format("frame_id is '{}', but the box is in rest space: set in_frame, or leave frame_id empty",
+                    shortened(message.header.frame_id)));
+  } else if (verticesIn(*pins.region, Eigen::Isometry3d::Identity(),
+                        present_.simulator->topology().rest_vertices)
+                 .empty()) {
+    throw std::invalid_argument("its box contains no vertex of the volume at rest: move or enlarge the box");
+  }
+  insert(pins.name, {true, plan_.pins.size(), false});
   plan_.pins.push_back(std::move(pins));
 }
 
@@ -137,37 +184,54 @@ void PlanReader::add(const softbody_msgs::PlannedObstacle& message) {
   shape.pose = message.pose;
   shape.friction = message.friction;
   PlannedObstacle obstacle{message.name, fromMessage(shape).shape};
-  requireFree(obstacle.name);
-  const std::string what = fmt::format("obstacle '{}'", obstacle.name);
-  obstacle.shape.pose = poseOf(message.header.frame_id, what) * obstacle.shape.pose;
-  obstacle.period = periodOf(message.begin_time, message.end_time, what);
-  plan_.obstacles.push_back(obstacle);
+  obstacle.shape.pose = poseOf(message.header) * obstacle.shape.pose;
+  obstacle.period = period(message.begin_time, message.end_time, "begin_time", "end_time");
+  if (plan_.obstacles.size() >= kMostObstacles) {
+    throw std::invalid_argument(
+        fmt::format("the plan has {} obstacles already: add fewer", plan_.obstacles.size()));
+  }
+  insert(obstacle.name, {false, plan_.obstacles.size(), false});
+  plan_.obstacles.push_back(std::move(obstacle));
 }
 
 void PlanReader::add(const softbody_msgs::PlannedRelease& message) {
-  const Entry entry = find(message.name);
-  const std::string what = fmt::format("release of '{}'", shortened(message.name));
-  if (!entry.is_present)
+  Entry& entry = find(message.name);
+  if (!entry.is_present) {
     throw std::invalid_argument(
-        fmt::format("{}: the plan adds it, so its own message says when it ends", what));
-  if (entry.period->end_s != ActivePeriod().end_s)
-    throw std::invalid_argument(fmt::format("two releases of '{}' in one plan", shortened(message.name)));
-  periodOf(0.0, message.time, what);
-  entry.period->end_s = message.time;
+        "the plan adds what has this name: set the release_time of the pin, or the end_time of the "
+        "obstacle instead");
+  }
+  if (std::exchange(entry.is_released, true))
+    throw std::invalid_argument("the plan releases it twice: give one release");
+  requireTime(message.time, "time");
+  periodOf(entry).end_s = message.time;
 }
 
 void PlanReader::add(const softbody_msgs::PlannedMotion& message) {
-  const Entry entry = find(message.name);
-  const std::string what = fmt::format("motion of '{}'", shortened(message.name));
-  if (entry.moves)
-    throw std::invalid_argument(fmt::format("two motions of '{}' in one plan", shortened(message.name)));
-  requireAscending(message.times, what);
+  Entry& entry = find(message.name);
+  if (std::exchange(entry.moves, true))
+    throw std::invalid_argument("the plan moves it twice: give one motion with all times");
+  requireAscending(message.times, "times");
   if (message.times.size() != message.poses.size()) {
-    throw std::invalid_argument(
-        fmt::format("{}: {} times with {} poses", what, message.times.size(), message.poses.size()));
+    throw std::invalid_argument(fmt::format("{} times with {} poses: give one pose per time",
+                                            message.times.size(), message.poses.size()));
   }
-  entry.path->times_s = message.times;
-  for (const geometry_msgs::Pose& pose : message.poses) entry.path->motions.push_back(fromMessage(pose));
+  RigidPath& path = pathOf(entry);
+  path.times_s = message.times;
+  for (std::size_t k = 0; k < message.poses.size(); ++k) path.motions.push_back(motionOf(message.poses, k));
+}
+
+/// @param field of the messages in the plan, for errors.
+template <typename Messages>
+void addAll(const Messages& messages, const char* field, PlanReader* reader) {
+  for (std::size_t k = 0; k < messages.size(); ++k) {
+    try {
+      reader->add(messages[k]);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(
+          fmt::format("{}[{}] '{}': {}", field, k, shortened(messages[k].name), error.what()));
+    }
+  }
 }
 
 }  // namespace
@@ -188,21 +252,21 @@ std::set<std::string> framesOf(const std::vector<softbody_msgs::MotionPlan>& pla
   std::set<std::string> frames;
   for (const softbody_msgs::MotionPlan& plan : plans) {
     for (const softbody_msgs::PlannedPin& pin : plan.pins)
-      if (pin.in_frame) frames.insert(pin.header.frame_id);
+      if (pin.in_frame) frames.insert(frameOf(pin.header));
     for (const softbody_msgs::PlannedObstacle& obstacle : plan.obstacles)
-      frames.insert(obstacle.header.frame_id);
+      frames.insert(frameOf(obstacle.header));
   }
   frames.erase("");
   return frames;
 }
 
-MotionPlan fromMessage(const softbody_msgs::MotionPlan& message, const Present& present) {
-  PlanReader reader(present);
+MotionPlan fromMessage(const softbody_msgs::MotionPlan& message, const Present& present, double time_step_s) {
+  PlanReader reader(present, time_step_s);
   reader.addPresent();
-  for (const softbody_msgs::PlannedPin& pin : message.pins) reader.add(pin);
-  for (const softbody_msgs::PlannedObstacle& obstacle : message.obstacles) reader.add(obstacle);
-  for (const softbody_msgs::PlannedRelease& release : message.releases) reader.add(release);
-  for (const softbody_msgs::PlannedMotion& motion : message.motions) reader.add(motion);
+  addAll(message.pins, "pins", &reader);
+  addAll(message.obstacles, "obstacles", &reader);
+  addAll(message.releases, "releases", &reader);
+  addAll(message.motions, "motions", &reader);
   return reader.take();
 }
 

@@ -16,11 +16,11 @@ constexpr double kLongestPrediction_s = 60.0;
 /// @throw std::invalid_argument if times are not ascending above 0, up to kLongestPrediction_s.
 void requireAscending(const std::vector<double>& times, const std::string& what);
 
-/// The tf frames that plans name.
+/// The tf frames that plans name, without leading slashes.
 std::set<std::string> framesOf(const std::vector<softbody_msgs::MotionPlan>& plans);
 
 /// @throw std::invalid_argument if a name is unknown or used twice, or if a path, a time, a box, a shape or a
-/// frame cannot be used.
-MotionPlan fromMessage(const softbody_msgs::MotionPlan& message, const Present& present);
+/// frame cannot be used. The sentence begins with the entry of the plan.
+MotionPlan fromMessage(const softbody_msgs::MotionPlan& message, const Present& present, double time_step_s);
 
 }  // namespace softbody

@@ -20,6 +20,11 @@
 namespace softbody {
 namespace {
 
+// Some seconds to minutes of computing. Nobody can end a call of the service.
+constexpr double kMostSteps = 1e5, kMostStepsWithCancel = 1e6;
+
+constexpr char kEnded[] = "the prediction was cancelled, or the simulator ends";
+
 /// One processor stays free for the graph.
 int spareProcessors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
 
@@ -34,7 +39,7 @@ std::vector<MotionPlan> plansOf(const softbody_msgs::PredictRequest& request, co
   std::vector<MotionPlan> plans;
   for (const softbody_msgs::MotionPlan& message : request.plans) {
     try {
-      plans.push_back(fromMessage(message, present));
+      plans.push_back(fromMessage(message, present, timeStepOf(request)));
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("plan {}: {}", plans.size(), error.what()));
     }
@@ -52,18 +57,20 @@ PlanPredictor::PlanPredictor(const ros::NodeHandle& node, FindPresent find_prese
 softbody_msgs::PredictResponse PlanPredictor::answer(
     const softbody_msgs::PredictRequest& request, const std::function<bool()>& is_cancelled,
     const std::function<void(std::size_t)>& on_progress) try {
-  requireUsable(request);
-  const Present present = waitForPresent(framesOf(request.plans));
+  requireUsable(request, is_cancelled ? kMostStepsWithCancel : kMostSteps);
+  const std::function<bool()> ends = [&] { return ends_ || (is_cancelled && is_cancelled()); };
+  const Present present = waitForPresent(framesOf(request.plans), ends);
+  requireAnswerFits(request, present.simulator->topology().rest_vertices.rows());
   PredictionSettings settings;
   settings.times_s = request.times;
   settings.time_step_s = timeStepOf(request);
   settings.threads = threads_;
-  settings.is_cancelled = [&] { return ends_ || (is_cancelled && is_cancelled()); };
+  settings.is_cancelled = ends;
   settings.on_progress = on_progress;
   settings.on_thread_start = giveWay;
   const auto predicted = predict(*present.simulator, plansOf(request, present), settings);
+  if (predicted.empty()) throw std::runtime_error(kEnded);
   softbody_msgs::PredictResponse response;
-  if (predicted.empty()) throw std::runtime_error("the prediction was cancelled");
   for (const std::vector<PredictedState>& states : predicted) {
     for (const PredictedState& state : states) response.states.push_back(toMessage(state));
   }
@@ -78,7 +85,10 @@ softbody_msgs::PredictResponse PlanPredictor::answer(
 }
 
 /// The node is between two steps when it answers.
-Present PlanPredictor::waitForPresent(const std::set<std::string>& frames) {
+Present PlanPredictor::waitForPresent(const std::set<std::string>& frames,
+                                      const std::function<bool()>& ends) {
+  requireFewFrames(frames);
+  if (ends()) throw std::runtime_error(kEnded);
   const auto promise = std::make_shared<std::promise<Present>>();
   std::future<Present> answer = promise->get_future();
   node_calls_.add([this, promise, frames] {
@@ -89,7 +99,7 @@ Present PlanPredictor::waitForPresent(const std::set<std::string>& frames) {
     }
   });
   while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
-    if (ends_) throw std::runtime_error("the simulator ends");
+    if (ends()) throw std::runtime_error(kEnded);
   }
   return answer.get();
 }

@@ -24,7 +24,8 @@ class PlanPredictor {
   /// @param find_present is called in the node's queue.
   PlanPredictor(const ros::NodeHandle& node, FindPresent find_present);
 
-  /// @param is_cancelled, on_progress as in PredictionSettings; may be empty.
+  /// @param is_cancelled, on_progress as in PredictionSettings; may be empty. Who can cancel may ask for
+  /// more.
   softbody_msgs::PredictResponse answer(const softbody_msgs::PredictRequest& request,
                                         const std::function<bool()>& is_cancelled = {},
                                         const std::function<void(std::size_t)>& on_progress = {});
@@ -33,7 +34,7 @@ class PlanPredictor {
   void end() { ends_ = true; }
 
  private:
-  Present waitForPresent(const std::set<std::string>& frames);
+  Present waitForPresent(const std::set<std::string>& frames, const std::function<bool()>& ends);
 
   FindPresent find_present_;
   const int threads_;

@@ -13,11 +13,12 @@ namespace {
 
 constexpr double kShortestStep = 1e-3, kLongestStep = 1.0;  // [s]
 constexpr std::size_t kMostStates = 100000;                 // of one answer
-constexpr double kMostSteps = 100000;                       // of all plans: some minutes of computing
+constexpr double kMostVertices = 2e7;                       // likewise: 240 MB
+constexpr std::size_t kMostFrames = 100;
 
 }  // namespace
 
-void requireUsable(const softbody_msgs::PredictRequest& request) {
+void requireUsable(const softbody_msgs::PredictRequest& request, double most_steps) {
   if (request.time_step != 0.0 &&
       !(request.time_step >= kShortestStep && request.time_step <= kLongestStep)) {
     throw std::invalid_argument(fmt::format("time_step is {} s; allowed: 0 (1/30 s), or {} to {} s",
@@ -31,12 +32,28 @@ void requireUsable(const softbody_msgs::PredictRequest& request) {
                                             request.plans.size(), request.times.size(), kMostStates));
   }
   const double step = timeStepOf(request), steps = std::ceil(request.times.back() / step);
-  if (static_cast<double>(request.plans.size()) * steps > kMostSteps) {
+  if (static_cast<double>(request.plans.size()) * steps > most_steps) {
     throw std::invalid_argument(fmt::format(
-        "{} plans of {} s in steps of {} s are more than {} steps: ask for fewer plans, a shorter "
-        "time or longer steps",
-        request.plans.size(), request.times.back(), step, kMostSteps));
+        "{} plans of {} s in steps of {:.4g} s are more than {:.0f} steps: ask for fewer plans, a "
+        "shorter time or longer steps",
+        request.plans.size(), request.times.back(), step, most_steps));
   }
+}
+
+void requireFewFrames(const std::set<std::string>& frames) {
+  if (frames.size() <= kMostFrames) return;
+  throw std::invalid_argument(
+      fmt::format("the plans name {} frames of tf; allowed: up to {}: give the poses in fewer frames",
+                  frames.size(), kMostFrames));
+}
+
+void requireAnswerFits(const softbody_msgs::PredictRequest& request, Eigen::Index vertex_count) {
+  const auto plans = request.plans.size(), times = request.times.size();
+  if (static_cast<double>(plans * times) * static_cast<double>(vertex_count) <= kMostVertices) return;
+  throw std::invalid_argument(fmt::format(
+      "{} plans at {} times with {} vertices are more than {:.0f} vertices: ask for fewer plans or "
+      "fewer times",
+      plans, times, vertex_count, kMostVertices));
 }
 
 double timeStepOf(const softbody_msgs::PredictRequest& request) {

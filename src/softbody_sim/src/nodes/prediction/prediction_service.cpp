@@ -43,7 +43,7 @@ void PredictionService::onGoal(const softbody_msgs::PredictPlansGoalConstPtr& go
   request.plans = goal->plans;
   softbody_msgs::PredictPlansFeedback progress;
   progress.total = static_cast<std::uint32_t>(goal->plans.size());
-  const softbody_msgs::PredictResponse response = predictor_.answer(
+  softbody_msgs::PredictResponse response = predictor_.answer(
       request, [this] { return action_.isPreemptRequested(); },
       [&](std::size_t done) {
         progress.done = static_cast<std::uint32_t>(done);
@@ -54,13 +54,15 @@ void PredictionService::onGoal(const softbody_msgs::PredictPlansGoalConstPtr& go
   result.message = response.message;
   result.header = response.header;
   result.revision = response.revision;
-  result.states = response.states;
-  if (response.success)
-    action_.setSucceeded(result);
-  else if (action_.isPreemptRequested())
-    action_.setPreempted(result, result.message);
-  else
-    action_.setAborted(result, result.message);
+  result.states = std::move(response.states);
+  finish(std::move(result));
+}
+
+void PredictionService::finish(softbody_msgs::PredictPlansResult result) {
+  if (result.success) return action_.setSucceeded(result);
+  if (!action_.isPreemptRequested()) return action_.setAborted(result, result.message);
+  result.message = action_.isNewGoalAvailable() ? "another goal has come" : "the goal was cancelled";
+  action_.setPreempted(result, result.message);
 }
 
 }  // namespace softbody

@@ -29,6 +29,7 @@ class PredictionService {
   using Action = actionlib::SimpleActionServer<softbody_msgs::PredictPlansAction>;
 
   void onGoal(const softbody_msgs::PredictPlansGoalConstPtr& goal);
+  void finish(softbody_msgs::PredictPlansResult result);
 
   PlanPredictor predictor_;
   OwnThread service_thread_, action_thread_;
