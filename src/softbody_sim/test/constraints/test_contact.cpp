@@ -70,6 +70,51 @@ TEST(FindContacts, StopsAPointBeforeAnObstacleThatPassedThroughIt) {
   }
 }
 
+/// The contacts of one point of the sponge with an obstacle that has moved, in the frame of the point at the
+/// end.
+std::vector<Contact> contactsOfPath(Obstacle obstacle, const Eigen::Vector3d& from,
+                                    const Eigen::Vector3d& to) {
+  const TetTopology topology = testing::sponge();
+  const ContactPoint point = sampleContactPoints(topology, 0.02).front();
+  const Eigen::Vector3d place = positionOf(point.place, topology.rest_vertices, topology.tets);
+  obstacle.pose = Eigen::Translation3d(place - to);
+  std::vector<Contact> contacts;
+  findContacts({point}, topology.tets, topology.rest_vertices, topology.rest_vertices, {obstacle},
+               {Eigen::Isometry3d(Eigen::Translation3d(place - from))}, 0.001, &contacts);
+  return contacts;
+}
+
+TEST(FindContacts, StopsAPointThatABallGrazes) {
+  for (const double share : {0.1, 0.5, 0.8, 0.99}) {
+    const double radius = 0.01, height = share * radius, half = radius * std::sqrt(1.0 - share * share);
+    const auto contacts = contactsOfPath(Obstacle::sphere(radius), {0.05, 0.0, height}, {-0.05, 0.0, height});
+    ASSERT_EQ(contacts.size(), 1u) << share;
+    EXPECT_LT((contacts[0].normal - Eigen::Vector3d(half, 0.0, height) / radius).norm(), 1e-4) << share;
+  }
+}
+
+TEST(FindContacts, FollowsAPointThatSlidesRoundAnObstacle) {
+  const double radius = 0.01, depth = 1e-4;
+  for (const double angle : {0.1, 0.4, 0.8}) {
+    const Eigen::Vector3d normal(std::cos(angle), std::sin(angle), 0.0);
+    const auto contacts =
+        contactsOfPath(Obstacle::sphere(radius), {radius + depth, 0.0, 0.0}, (radius - depth) * normal);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_LT((contacts[0].normal - normal).norm(), 1e-9);
+  }
+}
+
+TEST(FindContacts, KeepsAPointOnItsSideOfAPlate) {
+  const Obstacle plate = Obstacle::box({0.1, 0.1, 0.004}, 0.0);
+  for (const double start : {0.003, 0.0015}) {  // outside and inside
+    for (const double end : {0.0005, -0.0005, -0.003}) {
+      const auto contacts = contactsOfPath(plate, {0.0, 0.0, start}, {0.001, 0.0, end});
+      ASSERT_EQ(contacts.size(), 1u);
+      EXPECT_LT((contacts[0].normal - Eigen::Vector3d::UnitZ()).norm(), 1e-9) << start << ", " << end;
+    }
+  }
+}
+
 TEST(KeepEarlierContacts, AddsContactsThatWereNotFoundAgainInOrder) {
   const auto contact = [](int obstacle, int point, double height) {
     return Contact{point, obstacle, Eigen::Vector3d(0.0, 0.0, height), Eigen::Vector3d::UnitZ()};

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 
@@ -82,6 +83,57 @@ TEST_F(Predictions, DependNeitherOnThreadsNorOnTheOtherPlans) {
     const auto all = predict(scene.lying, plans, settingsOf({0.5}, threads));
     EXPECT_EQ(all.at(4).at(0).vertices, alone.at(0).at(0).vertices);
     EXPECT_NE(all.at(3).at(0).vertices, alone.at(0).at(0).vertices);
+  }
+}
+
+/// What a worker keeps from plan to plan is used here: factors, a Hessian of a bent body, contacts.
+TEST_F(Predictions, DependNotOnTheirOrder) {
+  std::vector<MotionPlan> plans;
+  testing::RandomPlans random(topology_.rest_vertices, 7);
+  for (int k = 0; k < 8; ++k) {
+    MotionPlan plan = k % 2 == 0 ? random.lift(hand_) : random.grip();
+    plan.obstacles.clear();
+    plans.push_back(plan);
+  }
+  plans.push_back(planOf(shifted(0.0, 0.1, 0.15)));
+  plans.push_back(random.push());
+  const auto forwards = predict(simulator_, plans, settingsOf({0.5}));
+  std::reverse(plans.begin(), plans.end());
+  auto backwards = predict(simulator_, plans, settingsOf({0.5}, 2));
+  std::reverse(backwards.begin(), backwards.end());
+  for (std::size_t k = 0; k < plans.size(); ++k)
+    EXPECT_EQ(forwards[k][0].vertices, backwards[k][0].vertices) << k;
+}
+
+/// Friction holds the body on a slope. A plan without changes goes on as the simulator does.
+TEST_F(Predictions, KeepTheContactsOfThePresent) {
+  const Eigen::AngleAxisd slope(0.4, Eigen::Vector3d::UnitY());
+  PlannedObstacle table{"table", Obstacle::plane()};
+  table.shape.pose = slope;
+  table.shape.friction = 0.8;
+  table.acts_now = true;
+  Simulator lying(topology_, {2e4, 0.2, 30.0, 0.1}, convergingConfig());
+  lying.step(testing::placing(Eigen::Isometry3d(slope)), 0);
+  Surroundings surroundings;
+  surroundings.obstacles = {table.shape};
+  for (int frame = 1; frame <= 60; ++frame) lying.step({}, frame * kPredictedStep, surroundings);
+  const auto states = predict(lying, {{{}, {table}}}, settingsOf({kTimeStep, 0.3}))[0];
+  for (const PredictedState& state : states) {
+    EXPECT_TRUE(state.converged);
+    EXPECT_LT((state.vertices - lying.state().vertices).rowwise().norm().maxCoeff(), 1e-6);
+    EXPECT_NEAR(state.reactions.at("table").force.z(), -weight(), 0.01 * weight());
+  }
+}
+
+TEST_F(Predictions, WorkWithoutHistoryAndWithAStiffBody) {
+  for (const double youngs_modulus_pa : {2e4, 1e9}) {
+    SimulatorConfig config = testing::PredictionScene::configOf();
+    config.lbfgs_history = youngs_modulus_pa < 1e6 ? 0 : 5;
+    Simulator body(topology_, {youngs_modulus_pa, 0.2, 30.0, 0.1}, config);
+    body.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
+    const PredictedState state = predict(body, {planOf(shifted(0.0, 0.0, 0.02))}, settingsOf({1.0}))[0][0];
+    EXPECT_TRUE(state.converged) << youngs_modulus_pa;
+    EXPECT_NEAR(state.reactions.at("hand").force.z(), -weight(), 0.02 * weight()) << youngs_modulus_pa;
   }
 }
 

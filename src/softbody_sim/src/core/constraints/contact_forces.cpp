@@ -106,8 +106,8 @@ double ContactForces::updateLifts(const Points& x, std::vector<Contact>* contact
 void ContactForces::remember(const Points& x, const std::vector<Obstacle>& obstacles, bool balanced,
                              std::vector<Contact>* contacts) const {
   for (Contact& contact : *contacts) {
-    contact.depth = depthOf(contact, x);
     contact.slip = orientationOf(contact, obstacles).transpose() * slipOf(contact, x);
+    contact.depth = depthOf(contact, x);
   }
   if (balanced) updateLifts(x, contacts);
   const auto pushes_not = [](const Contact& contact) { return contact.depth == 0.0; };

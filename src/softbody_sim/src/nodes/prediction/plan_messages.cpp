@@ -105,7 +105,7 @@ void PlanReader::addPresent() {
   }
   for (std::size_t k = 0; k < now.obstacles.size(); ++k) {
     insert(now.obstacles[k], {false, k, true});
-    plan_.obstacles.push_back({now.obstacles[k], now.all.obstacles[k]});
+    plan_.obstacles.push_back({now.obstacles[k], now.all.obstacles[k], true});
   }
 }
 
