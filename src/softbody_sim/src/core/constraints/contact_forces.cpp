@@ -165,7 +165,9 @@ void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points&
     if (contact.isWithBody()) continue;
     const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    Eigen::Vector3d force = -stiffnessOf(contact) * depthOf(contact, x) * contact.normal;
+    const double depth = depthOf(contact, x);
+    if (depth == 0.0) continue;  // friction from a depth before this is a rest of the iteration
+    Eigen::Vector3d force = -stiffnessOf(contact) * depth * contact.normal;
     if (contact.friction > 0.0) force -= frictionOf(contact, x);
     const Eigen::Vector3d arm =
         positionOf(point.place, x, topology_->tets) - obstacles[obstacle].pose.translation();
