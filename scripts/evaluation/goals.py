@@ -2,7 +2,7 @@
 import math
 
 from evaluation.figures import (DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, fault_times, get,
-                                moving_times, number, worst, wrong_matches)
+                                moving_times, number, tracking_share, worst, wrong_matches)
 from evaluation.world_goals import world_goals
 from markdown_lines import table
 
@@ -35,6 +35,10 @@ class Values:
 
     def toy(self, kind, *keys):
         return get(self.reports.get((kind, "toys")), "depth_residual", "all", *keys)
+
+    def toy_tracking(self, kind):
+        share = tracking_share(self.reports.get((kind, "toys")) or {})
+        return None if share is None else 100.0 * share
 
     def toy_within(self, kind):
         """Over all frames: a frame without a surface counts as 0 %."""
@@ -92,6 +96,7 @@ def cut_goals(values):
 
 def toy_goals(values):
     return [
+        ("recorded toy: frames called TRACKING", ">= 95", "%", values.toy_tracking("toys")),
         ("recorded toy: depth residual, median", "<= 4.0", "mm", values.toy("toys", "residual", "median_mm")),
         ("recorded toy: measured pixels within 10 mm", ">= 90", "%", values.toy_within("toys")),
         ("recorded toy without a rough pose: the same", ">= 90", "%", values.toy_within("no pose")),

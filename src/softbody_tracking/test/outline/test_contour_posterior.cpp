@@ -43,6 +43,18 @@ TEST(ContourPosterior, MovesWithTheLine) {
   }
 }
 
+/// The log odds are constant up to a pixel before the end, where they are zero. Half of them is independent.
+TEST(ContourPosterior, DoubtGrowsWithDistanceAndWithWhatThePixelsKnow) {
+  EXPECT_NEAR(contourPosterior(lineWithEndAt(0.0)).doubt, 0.0, 0.1);
+  for (const double log_odds : {0.5, 1.0, 3.0}) {
+    for (const double end : {-9.0, -4.0, 4.0, 9.0}) {
+      const double ratio = 0.5 * log_odds * (std::abs(end) - 0.5);
+      EXPECT_NEAR(contourPosterior(lineWithEndAt(end, log_odds)).doubt, std::sqrt(2.0 * ratio), 1e-6);
+    }
+  }
+  EXPECT_EQ(contourPosterior(lineWithEndAt(0.0, 0.0)).doubt, 0.0);
+}
+
 TEST(ContourPosterior, BothSidesCountEqually) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 1.5);

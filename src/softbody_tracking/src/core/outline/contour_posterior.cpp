@@ -16,6 +16,18 @@ constexpr double kLargestAtBorder = 0.05;
 // Smallest variance [px^2]: the outline is sampled at the centres of pixels, a uniform error of one pixel.
 constexpr double kSmallestVariance = 1.0 / 12.0;
 
+/// The logarithm of the likelihood of an end at the predicted outline. @param ends in the order of the line.
+double logLikelihoodAtOutline(const std::vector<LinePixel>& ends) {
+  const auto after =
+      std::lower_bound(ends.begin(), ends.end(), 0.0,
+                       [](const LinePixel& end, double distance) { return end.distance < distance; });
+  if (after == ends.begin()) return ends.front().log_odds;
+  if (after == ends.end()) return ends.back().log_odds;
+  const LinePixel& before = *(after - 1);
+  const double share = -before.distance / (after->distance - before.distance);
+  return before.log_odds + share * (after->log_odds - before.log_odds);
+}
+
 }  // namespace
 
 ContourPosterior contourPosterior(const std::vector<LinePixel>& line) {
@@ -42,7 +54,8 @@ ContourPosterior contourPosterior(const std::vector<LinePixel>& line) {
   }
   const double at_border = std::exp(std::max(ends.front().log_odds, ends.back().log_odds) - largest);
   const double mean = first / sum, variance = second / sum - mean * mean;
-  return {mean, variance + kSmallestVariance, at_border > kLargestAtBorder};
+  const double doubt = std::sqrt(2.0 * std::max(0.0, largest - logLikelihoodAtOutline(ends)));
+  return {mean, variance + kSmallestVariance, doubt, at_border > kLargestAtBorder};
 }
 
 }  // namespace softbody

@@ -14,7 +14,10 @@ struct LinePixel {
 struct ContourPosterior {
   double mean = 0.0;      ///< distance from the predicted outline [px], positive outside
   double variance = 0.0;  ///< [px^2]
-  bool beyond = false;    ///< the end may well lie beyond the line; mean and variance are then useless
+  /// How much the line contradicts an end at the predicted outline [standard deviations]: the square root of
+  /// twice the logarithm of the likelihood ratio between the best end and that one (Wilks 1938).
+  double doubt = 0.0;
+  bool beyond = false;  ///< the end may well lie beyond the line; mean and variance are then useless
 };
 
 /// If the body ends at the distance d, the pixels before d show the body, and those behind show something

@@ -11,6 +11,7 @@ constexpr int kWantedSamples = 240;  // wanted number of samples around the body
 constexpr int kBorder = 8;           // [px] at the image border an outline may be the image's own
 constexpr int kNormalWindow = 4;     // [px] each way; window in which the outline's direction is measured
 constexpr float kFarther = 0.02f;  // [m] the background is at least this far behind the body; far above noise
+constexpr double kContradiction = 3.0;  // [standard deviations] from which a line contradicts the prediction
 constexpr std::size_t kFewestPixels = 8;   // of a line that can show where the body ends
 constexpr double kLargestDeviation = 3.0;  // [px] with more, the end is nearly anywhere
 
@@ -113,7 +114,7 @@ const OutlineAssociations& OutlineAssociator::associate(const RgbdFrame& frame, 
     const ContourPosterior end = contourPosterior(pixels);
     if (end.variance > kLargestDeviation * kLargestDeviation) continue;
     ++shown;
-    apart_px += end.beyond ? line.reach() : std::abs(end.mean);
+    if (end.doubt > kContradiction) apart_px += end.beyond ? line.reach() : std::abs(end.mean);
     if (end.beyond || line.endsOtherPart(end.mean)) continue;
     found_.associations.push_back(contourAssociation(frame.camera, sample, predicted, end, weight));
   }

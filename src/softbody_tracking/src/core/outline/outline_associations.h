@@ -13,8 +13,9 @@ namespace softbody {
 /// The predicted outline compared with a frame.
 struct OutlineAssociations {
   std::vector<Association> associations;  ///< only the distance across the outline in the image counts
-  /// Area between predicted and measured outline, as a share of the body's area in the image. Where the
-  /// outline is hidden, it is assumed to be as elsewhere.
+  /// Area between predicted and measured outline, as a share of the body's area in the image. Only lines that
+  /// contradict the prediction count: one that knows little says nothing against it. Where the outline is
+  /// hidden, it is assumed to be as elsewhere.
   double disagreement = 0.0;
 };
 
