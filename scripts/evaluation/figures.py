@@ -103,8 +103,9 @@ def visible_while_tracking(report):
 
 
 def false_tracking(report):
-    """Frames called TRACKING after the first second, of a result with a wrong object."""
-    return sum(state == "tracking" for time, state in report["states_by_time"] if time >= FALSE_AFTER_S)
+    """Frames called TRACKING after the first second, of a result with a wrong object; None: refused at the start."""
+    states = [state for time, state in report["states_by_time"] if time >= FALSE_AFTER_S]
+    return states.count("tracking") if states else None
 
 
 def time_until_normal(report, unhidden, after_s):
@@ -155,7 +156,7 @@ def summary_line(reports):
             words.append(f"{name}, {STARTS} starts: {number(report['max_mm'])} mm apart")
             continue
         if kind == "wrong":
-            words.append(f"{name}: {false_tracking(report)} frames tracking")
+            words.append(f"{name}: {number(false_tracking(report), 0)} frames tracking")
             continue
         error = get(report, "vertex_error", "all", "mean_mm")
         what = ", ".join(name) if kind == "fault" else name if kind in ("scene", name) else f"{name}, {kind}"

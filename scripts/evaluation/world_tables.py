@@ -47,7 +47,8 @@ def wrong_objects(reports):
     rows = []
     for what, report in of_kind(reports, "wrong").items():
         late = [state for time, state in report["states_by_time"] if time >= FALSE_AFTER_S]
-        rows.append([what, late[0] if late else "-", f"{false_tracking(report)} of {len(late)}"])
+        rows.append([what, late[0], f"{false_tracking(report)} of {len(late)}"] if late
+                    else [what, "refused at the start", "-"])
     return section("Wrong objects",
                    "The scene `bend`, tracked with the model of another object, which is not in the images. It gets the "
                    "rough pose of the true object. The tracker should not call this TRACKING.",

@@ -66,13 +66,13 @@ def plain_run(scene):
     return reports
 
 
-def scaled_object(config, factor):
+def scaled_object(config, factor, name):
     """The object with another size, at the same rough pose; its cage and tets are made at the start of `replay`."""
-    mesh = OUTPUT / "wrong_scaled.obj"
+    mesh = OUTPUT / f"{name}.obj"
     lines = (config.parent / re.search(r"visual_mesh: *(\S+)", config.read_text())[1]).read_text().splitlines()
     mesh.write_text("\n".join("v " + " ".join(str(factor * float(x)) for x in line.split()[1:4])
                               if line.startswith("v ") else line for line in lines) + "\n")
-    scaled = OUTPUT / "wrong_scaled.yaml"
+    scaled = mesh.with_suffix(".yaml")
     scaled.write_text(f"object:\n  visual_mesh: {mesh}\n  initial_pose: {pose_of(config)}\n")
     return scaled
 
@@ -82,7 +82,8 @@ def wrong_object_runs():
     sponge, doll = ROOT / "config/sponge.yaml", ROOT / "config/doll.yaml"
     recording = OUTPUT / "wrong.bag"
     tool("virtual_camera", "--scene", "bend", "--duration", WRONG_S, "--output", recording)
-    cases = {"the object 1.3 times as large": scaled_object(sponge, 1.3),
+    cases = {"the object 1.3 times as large": scaled_object(sponge, 1.3, "wrong_1_3"),
+             "the object 1.15 times as large": scaled_object(sponge, 1.15, "wrong_1_15"),
              "another object of the same length": with_pose(doll, "wrong_doll", pose_of(sponge))}
     reports = {}
     for number, (what, config) in enumerate(cases.items(), 1):
