@@ -234,15 +234,45 @@ TEST_F(Predictions, ReportProgressAndEndWhenTheyAreCancelled) {
   EXPECT_LT(steps, 20);
 }
 
+/// While a body leaves the ground, its friction goes to zero.
+TEST_F(Predictions, ConvergeWhenTheBodyLeavesTheGround) {
+  testing::PredictionScene scene(topology_, {2e4, 0.2, 30.0, 0.1}, 4);
+  MotionPlan plan{{}, {scene.plans.table()}};
+  plan.obstacles[0].shape.friction = 0.3;
+  for (const double x : {0.0, 0.18}) {
+    PlannedPins grip{
+        x == 0.0 ? "left" : "right", {}, PinRegion{"", "", {x - 1e-3, -1.0, -1.0}, {x + 0.021, 1.0, 1.0}}};
+    grip.accuracy_m = 0.001;
+    grip.path = {{0.2, 0.8}, {Eigen::Isometry3d::Identity(), shifted(0.0, 0.0, 0.03)}};
+    plan.pins.push_back(grip);
+  }
+  const PredictedState state = predict(scene.lying, {plan}, settingsOf({1.0}))[0][0];
+  EXPECT_TRUE(state.converged);
+  EXPECT_TRUE(state.contacts.empty());
+}
+
+TEST(RigidPath, TurnsAboutTheCentre) {
+  const Eigen::Vector3d center(0.0, 0.1, 0.5);
+  const Eigen::AngleAxisd turn(M_PI / 2, Eigen::Vector3d::UnitX());
+  const RigidPath path{
+      {1.0}, {shifted(0.02, 0.0, 0.0) * Eigen::Translation3d(center) * turn * Eigen::Translation3d(-center)}};
+  for (const double time_s : {0.0, 0.3, 1.0, 2.0}) {
+    const double share = std::min(1.0, time_s);
+    EXPECT_LT((path.at(time_s, center) * center - center - Eigen::Vector3d(0.02 * share, 0.0, 0.0)).norm(),
+              1e-12);
+    EXPECT_NEAR(Eigen::AngleAxisd(path.at(time_s, center).linear()).angle(), share * M_PI / 2, 1e-9);
+  }
+}
+
 TEST(RigidPath, IsLinearAndStaysAtItsEnd) {
   Eigen::Isometry3d motion(Eigen::Translation3d(0.0, 0.02, 0.0) *
                            Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()));
   const RigidPath path{{1.0, 2.0}, {motion, Eigen::Isometry3d::Identity()}};
-  EXPECT_TRUE(path.at(0.0).isApprox(Eigen::Isometry3d::Identity()));
-  EXPECT_NEAR(path.at(0.5).translation().y(), 0.01, 1e-12);
-  EXPECT_NEAR(Eigen::AngleAxisd(path.at(1.5).linear()).angle(), 0.2, 1e-12);
-  EXPECT_TRUE(path.at(1.0).isApprox(motion));
-  EXPECT_TRUE(path.at(9.0).isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(path.at(0.0, Eigen::Vector3d::Zero()).isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_NEAR(path.at(0.5, Eigen::Vector3d::Zero()).translation().y(), 0.01, 1e-12);
+  EXPECT_NEAR(Eigen::AngleAxisd(path.at(1.5, Eigen::Vector3d::Zero()).linear()).angle(), 0.2, 1e-12);
+  EXPECT_TRUE(path.at(1.0, Eigen::Vector3d::Zero()).isApprox(motion));
+  EXPECT_TRUE(path.at(9.0, Eigen::Vector3d::Zero()).isApprox(Eigen::Isometry3d::Identity()));
 }
 
 }  // namespace

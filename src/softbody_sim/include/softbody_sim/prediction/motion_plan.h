@@ -16,8 +16,9 @@ struct RigidPath {
   std::vector<double> times_s;  ///< ascending, above 0
   std::vector<Eigen::Isometry3d> motions;
 
-  /// Linear between two times; the last motion stays. The identity without times.
-  Eigen::Isometry3d at(double time_s) const;
+  /// Between two times the turn is about a centre, which moves on a straight line. The last motion stays. The
+  /// identity without times. @param center of what moves, at time 0 [m].
+  Eigen::Isometry3d at(double time_s, const Eigen::Vector3d& center) const;
 };
 
 /// When something acts [s from the present]: in the steps that end after `begin`, up to `end`.

@@ -73,7 +73,7 @@ void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnerg
   }
 }
 
-bool ContactForces::updateFriction(const Points& x, std::vector<Contact>* contacts) {
+bool ContactForces::updateFriction(const Points& x, double unnoticed_n, std::vector<Contact>* contacts) {
   constexpr double kNoticeable = 0.01;
   if (contacts->empty()) return false;
   double total = 0.0;
@@ -89,7 +89,7 @@ bool ContactForces::updateFriction(const Points& x, std::vector<Contact>* contac
              &friction_change_);
     if (contact.isWithBody()) addForce(-change, contact.other, topology_->tets, &friction_change_);
   }
-  return friction_change_.rowwise().norm().sum() > kNoticeable * total;
+  return friction_change_.rowwise().norm().sum() > std::max(kNoticeable * total, unnoticed_n);
 }
 
 double ContactForces::updateLifts(const Points& x, std::vector<Contact>* contacts) const {

@@ -42,7 +42,8 @@ class ContactForces {
 
   /// Friction from the depths at x from now on. @return whether that changes the forces on the vertices
   /// noticeably. Where points are close together, force may move between them for long without effect.
-  bool updateFriction(const Points& x, std::vector<Contact>* contacts);
+  /// @param unnoticed_n a sum of changes that is too small in any case [N].
+  bool updateFriction(const Points& x, double unnoticed_n, std::vector<Contact>* contacts);
 
   /// Lifts that give the forces at x with the points on the obstacle. @return the largest change [m].
   double updateLifts(const Points& x, std::vector<Contact>* contacts) const;

@@ -77,8 +77,8 @@ ConstrainedStep makeStep(const TetTopology& topology, const TetMaterials& materi
   return {topology,
           std::move(contact),
           {target_stiffness, config.target_accuracy_m,
-           kPinStiffness * materials.largest_youngs_modulus_pa * edge_length, 1e-3 * edge_length,
-           kPenetration * edge_length, kNoticeableMove * edge_length},
+           kPinStiffness * materials.largest_youngs_modulus_pa * edge_length, config.tolerance,
+           1e-3 * edge_length, kPenetration * edge_length, kNoticeableMove * edge_length},
           solver};
 }
 

@@ -4,7 +4,7 @@
 
 namespace softbody {
 
-Eigen::Isometry3d RigidPath::at(double time_s) const {
+Eigen::Isometry3d RigidPath::at(double time_s, const Eigen::Vector3d& center) const {
   const auto after = std::lower_bound(times_s.begin(), times_s.end(), time_s);
   if (times_s.empty()) return Eigen::Isometry3d::Identity();
   if (after == times_s.end()) return motions.back();
@@ -13,8 +13,8 @@ Eigen::Isometry3d RigidPath::at(double time_s) const {
   const double begin_s = k == 0 ? 0.0 : times_s[k - 1];
   const double share = (time_s - begin_s) / (times_s[k] - begin_s);
   const Eigen::Quaterniond turn(from.linear()), next(motions[k].linear());
-  const Eigen::Vector3d shift = (1.0 - share) * from.translation() + share * motions[k].translation();
-  return Eigen::Translation3d(shift) * turn.slerp(share, next);
+  const Eigen::Vector3d moved = (1.0 - share) * (from * center) + share * (motions[k] * center);
+  return Eigen::Translation3d(moved) * turn.slerp(share, next) * Eigen::Translation3d(-center);
 }
 
 bool ActivePeriod::contains(double time_s) const {

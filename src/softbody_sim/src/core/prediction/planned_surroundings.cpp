@@ -6,12 +6,30 @@
 
 namespace softbody {
 
-PlannedSurroundings::PlannedSurroundings(const MotionPlan& plan, const TetTopology& topology)
-    : plan_(&plan), topology_(&topology), holds_(plan.pins.size()) {
-  for (std::size_t k = 0; k < plan.pins.size(); ++k) {
-    if (plan.pins[k].region) continue;
-    holds_[k] = {true, plan.pins[k].held};
+namespace {
+
+/// At present. @param vertices then.
+Eigen::Vector3d centerOf(const PlannedPins& planned, const TetTopology& topology, const Points& vertices) {
+  if (planned.region && planned.region->in_frame)
+    return planned.frame * (0.5 * (planned.region->min + planned.region->max));
+  std::vector<Eigen::Vector3d> places;
+  for (const Pin& pin : planned.held) places.push_back(pin.position);
+  if (planned.region) {
+    for (const int v : verticesIn(*planned.region, Eigen::Isometry3d::Identity(), topology.rest_vertices))
+      places.push_back(vertices.row(v));
   }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& place : places) sum += place;
+  return places.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(places.size()));
+}
+
+}  // namespace
+
+PlannedSurroundings::PlannedSurroundings(const MotionPlan& plan, const TetTopology& topology,
+                                         const Points& vertices)
+    : plan_(&plan), topology_(&topology), holds_(plan.pins.size()) {
+  for (std::size_t k = 0; k < plan.pins.size(); ++k)
+    holds_[k] = {!plan.pins[k].region, centerOf(plan.pins[k], topology, vertices), plan.pins[k].held};
   for (std::size_t k = 0; k < plan.obstacles.size(); ++k)
     if (plan.obstacles[k].acts_now) active_obstacles_.push_back(k);
 }
@@ -23,7 +41,7 @@ const Surroundings& PlannedSurroundings::during(double begin_s, double end_s, co
     const PlannedPins& planned = plan_->pins[k];
     if (!planned.period.contains(end_s)) continue;
     if (!holds_[k].began) takeHold(planned, begin_s, vertices, &holds_[k]);
-    const Eigen::Isometry3d motion = planned.path.at(end_s);
+    const Eigen::Isometry3d motion = planned.path.at(end_s, holds_[k].center);
     for (const Pin& pin : holds_[k].pins)
       surroundings_.pins.push_back({pin.vertex, motion * pin.position, pin.accuracy_m});
     pin_owners_.resize(surroundings_.pins.size(), k);
@@ -36,7 +54,8 @@ const Surroundings& PlannedSurroundings::during(double begin_s, double end_s, co
     if (!planned.period.contains(end_s)) continue;
     active_obstacles_.push_back(k);
     surroundings_.obstacles.push_back(planned.shape);
-    surroundings_.obstacles.back().pose = planned.path.at(end_s) * planned.shape.pose;
+    surroundings_.obstacles.back().pose =
+        planned.path.at(end_s, planned.shape.pose.translation()) * planned.shape.pose;
   }
   surroundings_.obstacles_changed = before != active_obstacles_;
   return surroundings_;
@@ -44,7 +63,7 @@ const Surroundings& PlannedSurroundings::during(double begin_s, double end_s, co
 
 void PlannedSurroundings::takeHold(const PlannedPins& planned, double time_s, const Points& vertices,
                                    Hold* hold) const {
-  const Eigen::Isometry3d back = planned.path.at(time_s).inverse();
+  const Eigen::Isometry3d back = planned.path.at(time_s, hold->center).inverse();
   const std::vector<int> held =
       planned.region->in_frame
           ? verticesIn(*planned.region, planned.frame.inverse() * back, vertices)

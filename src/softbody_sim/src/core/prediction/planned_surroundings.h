@@ -11,8 +11,8 @@ namespace softbody {
 /// The surroundings of a plan from step to step.
 class PlannedSurroundings {
  public:
-  /// @param plan, topology outlive this.
-  PlannedSurroundings(const MotionPlan& plan, const TetTopology& topology);
+  /// @param plan, topology outlive this. @param vertices at present [m].
+  PlannedSurroundings(const MotionPlan& plan, const TetTopology& topology, const Points& vertices);
 
   /// Those of the step from `begin_s` to `end_s`. Regions take hold of `vertices`, the state at its start.
   /// @throw std::invalid_argument if a region that takes hold has no vertex.
@@ -33,6 +33,7 @@ class PlannedSurroundings {
   /// A region's pins, from the moment when it takes hold.
   struct Hold {
     bool began = false;
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of what it holds or of the box, at present [m]
     std::vector<Pin> pins;  ///< positions as if they had moved along the path since the present
   };
 

@@ -80,7 +80,7 @@ PredictedState stateOf(const Simulator& simulator, const PlannedSurroundings& su
 std::vector<PredictedState> Prediction::predictOne(const MotionPlan& plan, Simulator* simulator) {
   simulator->returnTo(present_);
   const Nanoseconds start = simulator->stamp();
-  PlannedSurroundings surroundings(plan, simulator->topology());
+  PlannedSurroundings surroundings(plan, simulator->topology(), simulator->state().vertices);
   TargetSet none;
   none.revision = simulator->topology().revision;
   std::vector<PredictedState> states;

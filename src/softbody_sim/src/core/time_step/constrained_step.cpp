@@ -146,11 +146,13 @@ void ConstrainedStep::minimize(const Problem& problem, Points* x) {
 bool ConstrainedStep::contactsStay(const Problem& problem, const Points& x) {
   balanced_.reserve(contacts_.capacity());
   balanced_ = contacts_;
-  const bool friction_changes = contact_.updateFriction(x, &balanced_);
+  // Of a body that leaves an obstacle, friction is soon smaller than what a balance leaves open.
+  const double unnoticed_n = options_.tolerance * result_.report.external_n;
+  const bool friction_changes = contact_.updateFriction(x, unnoticed_n, &balanced_);
   // Lifts are forces, and those of a shape that is not in balance are wrong.
   const double lift_change = result_.report.converged ? contact_.updateLifts(x, &balanced_) : 0.0;
   findContacts(x, problem, &found_);
-  contact_.updateFriction(x, &found_);
+  contact_.updateFriction(x, 0.0, &found_);
   keepEarlierContacts(balanced_, &found_);
   const double depth_change = contact_.largestDepthChange(balanced_, found_, x);
   return !friction_changes && depth_change < options_.contact_tolerance_m &&
