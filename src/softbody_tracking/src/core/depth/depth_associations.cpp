@@ -5,6 +5,7 @@
 #include <map>
 
 #include "softbody_common/target_limits.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -123,12 +124,6 @@ bool continues(const Block* before, const Block& occluder, const Block& next) {
   return std::abs(step - last_step) < kOccluderContinuity;
 }
 
-double median(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
-
 /// Compares each block with its piece. What a whole piece does is no occluder's doing.
 void subtractMotionOfPieces(const SurfaceSamples& surface, std::vector<Block>* blocks) {
   std::map<std::uint32_t, std::vector<double>> differences;
@@ -147,7 +142,6 @@ double usualVariance(const std::vector<Block>& blocks) {
   std::vector<double> variances;
   for (const Block& block : blocks)
     if (block.kind == BlockKind::kAgrees) variances.push_back(block.variance);
-  if (variances.empty()) return kSmallestVariance;
   return median(&variances);
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/median.h"
+
 namespace softbody {
 namespace {
 
@@ -79,8 +81,8 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
 }
 
 void weighByResidual(double scale, std::vector<Association>* associations, double least_scale_m) {
-  const double median = std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
-  const double length = std::max(least_scale_m, scale * median);
+  const double usual = std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
+  const double length = std::max(least_scale_m, scale * usual);
   for (Association& association : *associations) {
     const double ratio = association.residual() / length;
     association.weight /= 1.0 + ratio * ratio;
@@ -94,15 +96,12 @@ double rmsResidual(const std::vector<Association>& associations) {
 }
 
 double medianResidual(const AssociationRefs& associations) {
-  if (associations.empty()) return 0.0;
   std::vector<double> residuals;
   const std::size_t step = 1 + associations.size() / kEnoughForMedian;
   residuals.reserve(associations.size() / step + 1);
   for (std::size_t i = 0; i < associations.size(); i += step)
     residuals.push_back(std::abs(associations[i]->residual()));
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return median(&residuals);
 }
 
 }  // namespace softbody
