@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kEnoughForMedian = 500;
 // Smallest median residual [m]: measurements are not more precise than that.
 constexpr double kSmallestMedian = 0.001;
+// Smallest scale of a rigid step's Cauchy weights [m]: residuals below the depth noise are no outliers.
+constexpr double kSmallestScale = 0.003;
 // Stiffness added in every direction, as a share of the mean: a direction without data does not move.
 constexpr double kRegularization = 1e-3;
 // Absolute part of it, for data that fix nothing.
@@ -60,7 +62,7 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
   for (const Association* a : associations) equations.center += a->predicted;
   equations.center /= static_cast<double>(associations.size());
 
-  const double scale = std::max(least_scale_m, 2.0 * medianResidual(associations));
+  const double scale = std::max({kSmallestScale, least_scale_m, 2.0 * medianResidual(associations)});
   for (const Association* a : associations) {
     const double ratio = a->residual() / scale;
     equations.add(*a, a->weight / (1.0 + ratio * ratio));
