@@ -7,6 +7,7 @@
 #include "outline/contour_posterior.h"
 #include "prediction/association.h"
 #include "softbody_common/pinhole.h"
+#include "softbody_common/rasterizer.h"
 
 namespace softbody {
 
@@ -19,6 +20,16 @@ struct ContourSample {
   std::uint32_t piece = 0;   ///< of the body
   Eigen::Vector3d position;  ///< camera frame [m]
 };
+
+/// Where a rendered body's contours are sampled.
+struct ContourGrid {
+  cv::Rect region;  ///< without the image's border
+  int spacing_px;   ///< between neighbouring samples
+};
+ContourGrid contourGrid(const RasterImage& image);
+
+/// Step of the rendered depth between neighbouring pixels at which a surface ends [m]; far above noise.
+constexpr double kSurfaceEnds = 0.02;
 
 /// How much contours count.
 struct ContourWeight {
