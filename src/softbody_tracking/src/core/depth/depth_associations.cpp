@@ -14,7 +14,6 @@ constexpr double kMinSlope =
     0.05;  // normal times ray at z = 1; below it the plane's depth is ill-conditioned
 constexpr double kSmallestVariance = 1e-6 / 12.0;  // [m^2] of depth in a block: cameras round to 1 mm
 constexpr double kDepthScale = 4.0;                // of the robust loss, in median residuals
-constexpr float kBehind = 0.01f;         // [m] what is not the body and farther than this is behind it
 constexpr double kOccluderStep = 0.003;  // [m] an occluder's end is at least this far before the prediction
 constexpr double kOccluderContinuity =
     0.008;                             // [m] largest depth step between neighbouring blocks of an occluder
@@ -62,7 +61,7 @@ BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterIma
       const bool body = std::abs(difference) <= gate &&
                         colors.logOdds(color[i]) + evidence.logOdds(difference, block.predicted) > 0.0;
       if (!body) {
-        ++(difference > kBehind ? pixels.farther : pixels.nearer);
+        ++(difference > kBehindSurface ? pixels.farther : pixels.nearer);
       } else {
         ++pixels.agreeing;
         pixels.sum += difference;

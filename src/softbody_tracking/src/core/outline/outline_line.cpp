@@ -12,8 +12,6 @@ constexpr double kReach = 0.026;
 constexpr double kColorLimit = 3.0, kDepthLimit = 1.5;
 // Pixels beside the predicted outline that something nearer must not cover.
 constexpr double kUncovered = 3.0;
-// Farther than the surface at the outline by this [m] is another part of the body; above noise and slope.
-constexpr double kOtherPart = 0.01;
 // Where the depth of an end is read [px inside it]; nearer to it, depth mixes body and background.
 constexpr double kInside = 4.0, kRagged = 1.0;
 
@@ -37,7 +35,7 @@ bool OutlineLine::endsOtherPart(double end) const {
     if (pixels_[i].distance < end - kInside || pixels_[i].distance > end - kRagged || farther_by_[i] == 0.0)
       continue;
     ++measured;
-    farther += farther_by_[i] > kOtherPart ? 1 : 0;
+    farther += farther_by_[i] > kBehindSurface ? 1 : 0;
   }
   return 2 * farther > measured;
 }
