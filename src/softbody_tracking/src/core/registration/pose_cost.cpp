@@ -108,8 +108,8 @@ PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {
   return counts;
 }
 
-double PoseCost::support(const Eigen::Isometry3d& pose) {
-  const double saved = kWorstPlausibleCost - (*this)(pose);
+double PoseCost::support(const Eigen::Isometry3d& pose, double max_cost) {
+  const double saved = max_cost - (*this)(pose);
   return saved <= 0.0 ? 0.0 : saved * cv::countNonZero(image_.depth(image_.region));
 }
 
