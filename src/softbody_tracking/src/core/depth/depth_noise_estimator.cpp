@@ -53,7 +53,6 @@ DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vect
 }
 
 void DepthNoiseEstimator::update(const DepthNoiseSample& sample) {
-  if (sample.count == 0) return;
   const double count = count_ + static_cast<double>(sample.count);
   variance_ += (sample.density * sample.density - variance_) * static_cast<double>(sample.count) / count;
   count_ = std::min(count, kMaxCount);

@@ -33,9 +33,9 @@ constexpr double kSurfaceEnds = 0.02;
 
 /// How much contours count.
 struct ContourWeight {
-  double per_edge = 1.0;    ///< of a contour that is one mean edge of the tets long and precise to 1 mm
-  double edge_m = 0.0;      ///< mean edge of the tets
-  double spacing_px = 1.0;  ///< between neighbouring samples
+  double per_edge;    ///< of a contour that is one mean edge of the tets long and precise to 1 mm
+  double edge_m;      ///< mean edge of the tets
+  double spacing_px;  ///< between neighbouring samples
 };
 
 /// Only the distance across the contour in the image counts. @param predicted position of the sample, camera

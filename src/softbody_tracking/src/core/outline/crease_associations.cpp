@@ -165,7 +165,6 @@ void CreaseAssociator::associate(const RgbdFrame& frame, const PredictedSurface&
       const double log_odds = ((to_behind.square() - to_before.square()) / (2.0 * variance)).sum();
       line_.push_back({distances_[i], std::clamp(log_odds, -kPixelLimit, kPixelLimit)});
     }
-    if (line_.size() < 2) continue;
     const ContourPosterior end = contourPosterior(line_);
     if (end.beyond || end.variance > kLargestCreaseDeviation * kLargestCreaseDeviation) continue;
     associations->push_back(contourAssociation(frame.camera, crease, moved, end, weight));

@@ -1,6 +1,5 @@
 #include "registration/search_near_pose.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "registration/body_edges.h"
@@ -23,7 +22,7 @@ PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes
   std::vector<Eigen::Isometry3d> starts;
   for (const Eigen::Vector3d& turn : smallTurns()) starts.push_back(search.turned(rough_pose, turn));
   std::vector<PoseHypothesis> poses = search.align(starts);
-  poses.resize(std::min(poses.size(), kRefined));
+  poses.resize(kRefined);
   poses = search.refine(std::move(poses));
   sortByCost(&poses);
   const Eigen::Isometry3d pose = search.polish({poses.front()}).front().pose;
