@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <random>
 #include <vector>
 
 #include "patches/feature_patch.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -82,9 +82,7 @@ TEST(FeaturePatch, StopsWhereItHardlyMovesOn) {
     left.push_back(cv::norm(last - once.pixel));
   }
   ASSERT_GT(left.size(), 200u);
-  const auto median = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
-  std::nth_element(left.begin(), median, left.end());
-  EXPECT_LT(*median, 0.008);
+  EXPECT_LT(median(&left), 0.008);
 }
 
 TEST(FeaturePatch, LearnsNothingFromBlankPixelsEdgesOrTheBorder) {

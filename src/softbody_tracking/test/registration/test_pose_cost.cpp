@@ -32,10 +32,12 @@ TEST(PoseCost, IsHighestWhereNothingIsInView) {
 
 TEST(PoseCost, GivesNoSupportToImplausiblePoses) {
   const RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1);
-  PoseCost cost(frame, kMesh, RegistrationConfig().distance_scale_m);
-  EXPECT_GT(cost.support(boxPose()), 1000.0);
+  const RegistrationConfig config;
+  PoseCost cost(frame, kMesh, config.distance_scale_m);
+  EXPECT_GT(cost.support(boxPose(), config.max_cost), 1000.0);
   for (double aside_m : {0.05, 0.2, 5.0})
-    EXPECT_EQ(cost.support(Eigen::Translation3d(aside_m, 0.0, 0.0) * boxPose()), 0.0) << aside_m;
+    EXPECT_EQ(cost.support(Eigen::Translation3d(aside_m, 0.0, 0.0) * boxPose(), config.max_cost), 0.0)
+        << aside_m;
 }
 
 }  // namespace

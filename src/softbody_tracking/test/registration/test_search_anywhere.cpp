@@ -24,7 +24,7 @@ std::optional<FoundPose> search(const RgbdFrame& frame, const FeatureShare& feat
 }
 
 std::vector<PoseHypothesis> boxPoses(const RgbdFrame& frame) {
-  return posesAnywhere(frame, ColorModel(), boxMeshes(), {}, RegistrationConfig().distance_scale_m);
+  return posesAnywhere(frame, ColorModel(), boxMeshes(), {}, RegistrationConfig());
 }
 
 Eigen::Isometry3d nearPose() { return Eigen::Translation3d(-0.1, 0.0, 0.0) * boxPose(); }

@@ -5,6 +5,7 @@
 
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
+#include "statistics/median.h"
 #include "tracker/frame_matcher.h"
 #include "tracker/frame_observer.h"
 
@@ -43,10 +44,7 @@ class FramesOfBox : public ::testing::Test {
       const Eigen::Vector3d place = positionOf(match.association.place, truth_, box_.volume.tets);
       if (match.inlier) errors.push_back((match.association.measured - place).norm());
     }
-    if (errors.empty()) return 1.0;
-    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-    std::nth_element(errors.begin(), middle, errors.end());
-    return *middle;
+    return errors.empty() ? 1.0 : median(&errors);
   }
 
   static long inliers(const Observation& seen) {

@@ -8,8 +8,6 @@
 namespace softbody {
 namespace {
 
-// Features, or blocks of depth, without which a piece cannot be judged.
-constexpr int kFewest = 12;
 // Blocks of depth that suffice, whatever part of the piece is occluded.
 constexpr int kEnough = 150;
 // Share of a piece's visible blocks that must agree; a rim beside the blade is less.
@@ -61,8 +59,9 @@ double largestError(const Evidence& evidence, const Points& points) {
 
 Observability observabilityOf(const Evidence& evidence, const Points& points) {
   if (evidence.agreeing >= kEnough) return Observability::kGood;
-  const bool judgeable = evidence.features >= kFewest ||
-                         (evidence.agreeing >= kFewest && evidence.agreeing >= kLeastShown * evidence.blocks);
+  const bool judgeable =
+      evidence.features >= kFewestAssociations ||
+      (evidence.agreeing >= kFewestAssociations && evidence.agreeing >= kLeastShown * evidence.blocks);
   const double error = judgeable ? largestError(evidence, points) : kPartialError;
   if (error >= kPartialError) return Observability::kPoor;
   return error >= kGoodError ? Observability::kPartial : Observability::kGood;
@@ -93,7 +92,7 @@ std::vector<bool> piecesInView(const SurfaceSamples& samples, std::size_t piece_
   for (const SurfaceSample& sample : samples.samples) ++blocks[sample.piece];
   std::vector<bool> in_view;
   in_view.reserve(piece_count);
-  for (const int count : blocks) in_view.push_back(count >= kFewest);
+  for (const int count : blocks) in_view.push_back(count >= kFewestAssociations);
   return in_view;
 }
 
@@ -104,7 +103,7 @@ std::vector<bool> confirmedPieces(const SurfaceSamples& samples, const std::vect
   for (const Association& association : depth) ++agreeing[association.piece];
   std::vector<bool> confirmed;
   for (std::size_t p = 0; p < piece_count; ++p)
-    confirmed.push_back(agreeing[p] >= kFewest && agreeing[p] >= kConfirmed * blocks[p]);
+    confirmed.push_back(agreeing[p] >= kFewestAssociations && agreeing[p] >= kConfirmed * blocks[p]);
   return confirmed;
 }
 

@@ -8,6 +8,9 @@
 
 namespace softbody {
 
+/// Fewest associations (features or blocks of depth) that determine a rigid motion reliably.
+constexpr int kFewestAssociations = 12;
+
 /// How well the measurements of a frame determine the rigid motion of a piece of a cut body.
 enum class Observability {
   kPoor,     ///< not determined: only a rim beside the blade is visible, or a few features close together

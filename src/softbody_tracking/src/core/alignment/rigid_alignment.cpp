@@ -1,7 +1,5 @@
 #include "alignment/rigid_alignment.h"
 
-#include <algorithm>
-
 #include "alignment/piece_observability.h"
 
 namespace softbody {
@@ -17,8 +15,6 @@ constexpr int kPixelStep = 2;
 constexpr double kConvergence = 3e-4;
 // Weight that holds a piece with partial observability back, as a share of the weight of its measurements.
 constexpr double kHeldShare = 0.15;
-// Smallest scale of the robust loss [m]: residuals below the depth noise are no outliers.
-constexpr double kSmallestScale = 0.003;
 // First scale of the robust loss, in usual errors of the prediction, and its factor from one iteration to the
 // next: a motion that was not predicted is no outlier (graduated non-convexity, Blake and Zisserman 1987).
 constexpr double kFirstScale = 2.0, kNarrowing = 0.5;
@@ -73,8 +69,7 @@ RigidMotions steppedMotions(const RigidMotions& motions, const std::vector<Point
     std::vector<Association> held;
     if (observability[piece] == Observability::kPartial)
       held = heldBack(pieces[piece], motions[piece], measured[piece]);
-    result[piece] =
-        rigidStep(measured[piece], held, std::max(kSmallestScale, least_scale_m)) * motions[piece];
+    result[piece] = rigidStep(measured[piece], held, least_scale_m) * motions[piece];
   }
   return result;
 }

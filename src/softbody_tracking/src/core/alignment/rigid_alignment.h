@@ -8,9 +8,6 @@
 
 namespace softbody {
 
-/// Fewest associations (features and blocks of depth) that determine a rigid motion reliably.
-constexpr int kFewestAssociations = 12;
-
 /// Associations of the inliers. The pixel of a feature measures its position perpendicular to the ray. The
 /// position along the ray is measured better by the depth around it. So each feature gives two associations
 /// with normals perpendicular to the ray.

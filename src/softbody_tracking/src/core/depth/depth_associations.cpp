@@ -5,6 +5,7 @@
 #include <map>
 
 #include "softbody_common/target_limits.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kMinSlope =
     0.05;  // normal times ray at z = 1; below it the plane's depth is ill-conditioned
 constexpr double kSmallestVariance = 1e-6 / 12.0;  // [m^2] of depth in a block: cameras round to 1 mm
 constexpr double kDepthScale = 4.0;                // of the robust loss, in median residuals
-constexpr float kBehind = 0.01f;         // [m] what is not the body and farther than this is behind it
 constexpr double kOccluderStep = 0.003;  // [m] an occluder's end is at least this far before the prediction
 constexpr double kOccluderContinuity =
     0.008;                             // [m] largest depth step between neighbouring blocks of an occluder
@@ -61,7 +61,7 @@ BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterIma
       const bool body = std::abs(difference) <= gate &&
                         colors.logOdds(color[i]) + evidence.logOdds(difference, block.predicted) > 0.0;
       if (!body) {
-        ++(difference > kBehind ? pixels.farther : pixels.nearer);
+        ++(difference > kBehindSurface ? pixels.farther : pixels.nearer);
       } else {
         ++pixels.agreeing;
         pixels.sum += difference;
@@ -123,12 +123,6 @@ bool continues(const Block* before, const Block& occluder, const Block& next) {
   return std::abs(step - last_step) < kOccluderContinuity;
 }
 
-double median(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
-
 /// Compares each block with its piece. What a whole piece does is no occluder's doing.
 void subtractMotionOfPieces(const SurfaceSamples& surface, std::vector<Block>* blocks) {
   std::map<std::uint32_t, std::vector<double>> differences;
@@ -147,7 +141,6 @@ double usualVariance(const std::vector<Block>& blocks) {
   std::vector<double> variances;
   for (const Block& block : blocks)
     if (block.kind == BlockKind::kAgrees) variances.push_back(block.variance);
-  if (variances.empty()) return kSmallestVariance;
   return median(&variances);
 }
 

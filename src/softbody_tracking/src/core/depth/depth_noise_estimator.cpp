@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "depth/depth_associations.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -46,16 +47,12 @@ DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vect
   differences.clear();
   addSecondDifferences(surface, blocks, {spacing, 0}, &differences);
   addSecondDifferences(surface, blocks, {0, spacing}, &differences);
-  if (differences.empty()) return {};
-  const auto median = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), median, differences.end());
   // Of white noise, a second difference has six times the variance. The median resists outliers.
-  const double sigma = *median / (kMedianPerSigma * std::sqrt(6.0));  // times the depth
+  const double sigma = median(&differences) / (kMedianPerSigma * std::sqrt(6.0));  // times the depth
   return {sigma * surface.block_px / focal_px, differences.size()};
 }
 
 void DepthNoiseEstimator::update(const DepthNoiseSample& sample) {
-  if (sample.count == 0) return;
   const double count = count_ + static_cast<double>(sample.count);
   variance_ += (sample.density * sample.density - variance_) * static_cast<double>(sample.count) / count;
   count_ = std::min(count, kMaxCount);

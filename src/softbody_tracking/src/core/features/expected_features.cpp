@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "prediction/depth_evidence.h"
+
 namespace softbody {
 namespace {
 
@@ -34,7 +36,7 @@ bool isOccluded(const RgbdFrame& frame, const ColorModel& colors, const cv::Poin
                 double reach) {
   const cv::Rect image(cv::Point(), frame.color.size());
   const cv::Point center = toPixel(pixel);
-  const auto nearest = static_cast<float>(z - reach), farthest = static_cast<float>(z + kVisibleTolerance);
+  const auto nearest = static_cast<float>(z - reach), farthest = static_cast<float>(z + kBehindSurface);
   const auto isForeign = [&](const cv::Point& place) {
     if (!image.contains(place)) return false;
     if (!frame.covered.empty() && frame.covered(place) != 0) return true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "features/pixel_grid.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -34,12 +35,6 @@ constexpr int kFewestTogether = 20;
 constexpr std::size_t kBeside = 8;
 // Number of matches that the surroundings' turn and stretch count for in the fit of a limb.
 constexpr double kLimbMatches = 4.0;
-
-double median(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
 
 /// Motion of matches relative to the prediction, linear in the image: a part of a body that turns and
 /// stretches.

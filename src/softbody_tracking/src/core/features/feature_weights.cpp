@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "statistics/median.h"
+
 namespace softbody {
 namespace {
 
@@ -20,12 +22,9 @@ double trustIn(const MapFeature& feature) {
 }
 
 void weighByAgreement(std::vector<FeatureMatch>* matches) {
-  if (matches->empty()) return;
   std::vector<double> shares;
   for (const FeatureMatch& match : *matches) shares.push_back(match.unexplained);
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
-  const double usual = std::max(*middle, kSmallestShare);
+  const double usual = std::max(median(&shares), kSmallestShare);
   for (FeatureMatch& match : *matches) {
     const double ratio = match.unexplained / (kUnusual * usual);
     match.association.weight /= 1.0 + ratio * ratio;

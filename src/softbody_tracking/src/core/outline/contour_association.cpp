@@ -6,6 +6,18 @@
 #include "softbody_common/target_limits.h"
 
 namespace softbody {
+namespace {
+
+constexpr int kWantedSamples = 240;  // wanted number of samples around the body
+constexpr int kBorder = 8;           // [px] at the image border an outline may be the image's own
+
+}  // namespace
+
+ContourGrid contourGrid(const RasterImage& image) {
+  const cv::Rect region = image.region & cv::Rect(kBorder, kBorder, image.depth.cols - 2 * kBorder,
+                                                  image.depth.rows - 2 * kBorder);
+  return {region, std::max(1, 2 * (region.width + region.height) / kWantedSamples)};
+}
 
 Association contourAssociation(const Pinhole& camera, const ContourSample& sample,
                                const Eigen::Vector3d& predicted, const ContourPosterior& end,

@@ -7,6 +7,7 @@
 #include "outline/contour_posterior.h"
 #include "prediction/association.h"
 #include "softbody_common/pinhole.h"
+#include "softbody_common/rasterizer.h"
 
 namespace softbody {
 
@@ -20,11 +21,21 @@ struct ContourSample {
   Eigen::Vector3d position;  ///< camera frame [m]
 };
 
+/// Where a rendered body's contours are sampled.
+struct ContourGrid {
+  cv::Rect region;  ///< without the image's border
+  int spacing_px;   ///< between neighbouring samples
+};
+ContourGrid contourGrid(const RasterImage& image);
+
+/// Step of the rendered depth between neighbouring pixels at which a surface ends [m]; far above noise.
+constexpr double kSurfaceEnds = 0.02;
+
 /// How much contours count.
 struct ContourWeight {
-  double per_edge = 1.0;    ///< of a contour that is one mean edge of the tets long and precise to 1 mm
-  double edge_m = 0.0;      ///< mean edge of the tets
-  double spacing_px = 1.0;  ///< between neighbouring samples
+  double per_edge;    ///< of a contour that is one mean edge of the tets long and precise to 1 mm
+  double edge_m;      ///< mean edge of the tets
+  double spacing_px;  ///< between neighbouring samples
 };
 
 /// Only the distance across the contour in the image counts. @param predicted position of the sample, camera

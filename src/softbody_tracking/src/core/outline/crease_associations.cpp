@@ -8,16 +8,13 @@
 namespace softbody {
 namespace {
 
-constexpr int kWantedCreases = 240;    // wanted number of samples, if the creases were as long as the outline
-constexpr int kCreaseBorder = 8;       // [px] from the image border
-constexpr double kSharp = 0.85;        // cosine between the sides' normals, below which light shows a crease
-constexpr float kSameSurface = 0.02f;  // [m] largest step of depth between neighbouring pixels of a surface
-constexpr double kSameSide = 0.95;     // cosine between normals of one side along a line
-constexpr int kCreaseReach = 8;        // [px] each way; how far the crease is searched
-constexpr int kSideReach = 16;         // [px] each way; how far the sides' colours are measured
-constexpr double kFewestOfSide = 4;    // pixels that tell the colour of a side
-constexpr double kContrast = 4.0;      // least difference of the sides, in standard deviations of a pixel
-constexpr double kGreyNoise = 2.0;     // smallest standard deviation of a channel
+constexpr double kSharp = 0.85;      // cosine between the sides' normals, below which light shows a crease
+constexpr double kSameSide = 0.95;   // cosine between normals of one side along a line
+constexpr int kCreaseReach = 8;      // [px] each way; how far the crease is searched
+constexpr int kSideReach = 16;       // [px] each way; how far the sides' colours are measured
+constexpr double kFewestOfSide = 4;  // pixels that tell the colour of a side
+constexpr double kContrast = 4.0;    // least difference of the sides, in standard deviations of a pixel
+constexpr double kGreyNoise = 2.0;   // smallest standard deviation of a channel
 constexpr double kTextureLength =
     8.0;                             // [px] neighbouring pixels of a texture are alike over about this length
 constexpr double kPixelLimit = 8.0;  // largest log odds of a pixel: any pixel may be wrong
@@ -64,11 +61,7 @@ struct SideColors {
 void CreaseAssociator::sample(const PredictedSurface& surface) {
   samples_.clear();
   if (config_.weight <= 0.0 || !surface.hasCreases()) return;
-  const cv::Mat1f& rendered = surface.image().depth;
-  const cv::Rect region =
-      surface.image().region & cv::Rect(kCreaseBorder, kCreaseBorder, rendered.cols - 2 * kCreaseBorder,
-                                        rendered.rows - 2 * kCreaseBorder);
-  const int spacing = std::max(1, 2 * (region.width + region.height) / kWantedCreases);
+  const auto [region, spacing] = contourGrid(surface.image());
   spacing_px_ = spacing;
   for (int v = region.y + spacing / 2; v < region.br().y; v += spacing) {
     for (int u = region.x + 1; u < region.br().x; ++u) addSample(surface, {u - 1, v}, {u, v});
@@ -86,7 +79,7 @@ void CreaseAssociator::addSample(const PredictedSurface& surface, const cv::Poin
   const int triangle_a = image.triangle(a), triangle_b = image.triangle(b);
   if (triangle_a == triangle_b || triangle_a < 0 || triangle_b < 0) return;
   if (!surface.isAtCrease(triangle_a) || !surface.isAtCrease(triangle_b)) return;
-  if (std::abs(image.depth(a) - image.depth(b)) > kSameSurface) return;
+  if (std::abs(image.depth(a) - image.depth(b)) > kSurfaceEnds) return;
   const Eigen::Vector3d n_a = surface.normal(triangle_a), n_b = surface.normal(triangle_b);
   if (n_a.dot(n_b) > kSharp || surface.isAtCut(triangle_a) || surface.isAtCut(triangle_b)) return;
   const Eigen::Vector3d p_a = surface.camera().unproject(a.x, a.y, image.depth(a));
@@ -172,7 +165,6 @@ void CreaseAssociator::associate(const RgbdFrame& frame, const PredictedSurface&
       const double log_odds = ((to_behind.square() - to_before.square()) / (2.0 * variance)).sum();
       line_.push_back({distances_[i], std::clamp(log_odds, -kPixelLimit, kPixelLimit)});
     }
-    if (line_.size() < 2) continue;
     const ContourPosterior end = contourPosterior(line_);
     if (end.beyond || end.variance > kLargestCreaseDeviation * kLargestCreaseDeviation) continue;
     associations->push_back(contourAssociation(frame.camera, crease, moved, end, weight));

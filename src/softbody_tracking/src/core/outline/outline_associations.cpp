@@ -7,21 +7,18 @@
 namespace softbody {
 namespace {
 
-constexpr int kWantedSamples = 240;  // wanted number of samples around the body
-constexpr int kBorder = 8;           // [px] at the image border an outline may be the image's own
-constexpr int kNormalWindow = 4;     // [px] each way; window in which the outline's direction is measured
-constexpr float kFarther = 0.02f;  // [m] the background is at least this far behind the body; far above noise
+constexpr int kNormalWindow = 4;        // [px] each way; window in which the outline's direction is measured
 constexpr double kContradiction = 3.0;  // [standard deviations] from which a line contradicts the prediction
 constexpr std::size_t kFewestPixels = 8;   // of a line that can show where the body ends
 constexpr double kLargestDeviation = 3.0;  // [px] with more, the end is nearly anywhere
 
 /// Whether a surface ends at a pixel of this depth, given the depth beside it. Depth 0: no surface.
 bool endsAt(float depth, float beside) {
-  return depth > 0.0f && (beside <= 0.0f || beside - depth > kFarther);
+  return depth > 0.0f && (beside <= 0.0f || beside - depth > kSurfaceEnds);
 }
 
 /// Whether a surface ends between two neighbouring pixels. Depth 0: nothing is rendered.
-bool isStep(float a, float b) { return std::abs(a - b) > kFarther; }
+bool isStep(float a, float b) { return std::abs(a - b) > kSurfaceEnds; }
 
 /// A straight outline beside a pixel.
 struct OutlineEdge {
@@ -33,7 +30,7 @@ struct OutlineEdge {
 std::optional<OutlineEdge> edgeAt(const cv::Mat1f& rendered, const cv::Point& pixel) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int outside = 0;
-  const float farthest = rendered(pixel) + kFarther;
+  const float farthest = rendered(pixel) + static_cast<float>(kSurfaceEnds);
   for (int j = -kNormalWindow; j <= kNormalWindow; ++j) {
     const float* depth = rendered[pixel.y + j] + pixel.x;
     for (int i = -kNormalWindow; i <= kNormalWindow; ++i) {
@@ -58,12 +55,11 @@ void OutlineAssociator::sample(const PredictedSurface& surface) {
   samples_.clear();
   if (config_.weight <= 0.0) return;
   const cv::Mat1f& rendered = surface.image().depth;
-  const cv::Rect region = surface.image().region & cv::Rect(kBorder, kBorder, rendered.cols - 2 * kBorder,
-                                                            rendered.rows - 2 * kBorder);
+  const auto [region, spacing] = contourGrid(surface.image());
   covered_px_ = std::max(1, cv::countNonZero(rendered(surface.image().region)));
-  spacing_px_ = std::max(1, 2 * (region.width + region.height) / kWantedSamples);
+  spacing_px_ = spacing;
   // Rows of pixels cross the steep parts of the outline, columns cross the flat parts.
-  for (int v = region.y + spacing_px_ / 2; v < region.br().y; v += spacing_px_) {
+  for (int v = region.y + spacing / 2; v < region.br().y; v += spacing) {
     const float* row = rendered[v];
     for (int u = region.x; u <= region.br().x; ++u) {
       if (isStep(row[u - 1], row[u])) addEnds(surface, {u - 1, v}, {u, v});
@@ -71,7 +67,7 @@ void OutlineAssociator::sample(const PredictedSurface& surface) {
   }
   for (int v = region.y; v <= region.br().y; ++v) {
     const float *above = rendered[v - 1], *row = rendered[v];
-    for (int u = region.x + spacing_px_ / 2; u < region.br().x; u += spacing_px_) {
+    for (int u = region.x + spacing / 2; u < region.br().x; u += spacing) {
       if (isStep(above[u], row[u])) addEnds(surface, {u, v - 1}, {u, v});
     }
   }

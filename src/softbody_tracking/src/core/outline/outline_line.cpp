@@ -8,14 +8,10 @@ namespace {
 
 // How far the end of the body is searched, each way [rad]: 16 px of an image with 640 x 480 pixels.
 constexpr double kReach = 0.026;
-// Step of the predicted depth [m] between neighbouring pixels at which a part of the body ends.
-constexpr double kStep = 0.02;
 // Largest log odds of one pixel, by colour and by depth: any pixel may be wrong. Depth is ragged at edges.
 constexpr double kColorLimit = 3.0, kDepthLimit = 1.5;
 // Pixels beside the predicted outline that something nearer must not cover.
 constexpr double kUncovered = 3.0;
-// Farther than the surface at the outline by this [m] is another part of the body; above noise and slope.
-constexpr double kOtherPart = 0.01;
 // Where the depth of an end is read [px inside it]; nearer to it, depth mixes body and background.
 constexpr double kInside = 4.0, kRagged = 1.0;
 
@@ -39,7 +35,7 @@ bool OutlineLine::endsOtherPart(double end) const {
     if (pixels_[i].distance < end - kInside || pixels_[i].distance > end - kRagged || farther_by_[i] == 0.0)
       continue;
     ++measured;
-    farther += farther_by_[i] > kOtherPart ? 1 : 0;
+    farther += farther_by_[i] > kBehindSurface ? 1 : 0;
   }
   return 2 * farther > measured;
 }
@@ -60,7 +56,7 @@ const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, c
     const double distance = (Eigen::Vector2d(pixel.x, pixel.y) - start).dot(outward) - sample.to_edge;
     const double predicted = rendered_(rendered_pixel) > 0.0f ? rendered_(rendered_pixel) + farther_by : 0.0;
     // On a limb narrower than the reach the line begins at its other side: behind that nothing of it shows.
-    const bool begins = step <= 0 && (predicted <= 0.0 || body - predicted > kStep);
+    const bool begins = step <= 0 && (predicted <= 0.0 || body - predicted > kSurfaceEnds);
     if (begins) pixels_.clear(), farther_by_.clear();
     body = step <= 0 ? predicted : moved.z();
     if (begins || (!pixels_.empty() && distance <= pixels_.back().distance)) continue;

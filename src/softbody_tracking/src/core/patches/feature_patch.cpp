@@ -124,11 +124,7 @@ FeaturePatch::Alignment FeaturePatch::align(const GrayPyramid& image, const Eige
   for (int l = std::min(coarsest_level, static_cast<int>(levels_.size()) - 1); l >= 0; --l) {
     cv::Point2f center = image.toLevel(result.pixel, l);
     result.correlation = alignLevel(levels_[l], image.level(l), warp, &center);
-    if (result.correlation > 0.0f) {
-      result.pixel = image.toFrame(center, l);
-    } else if (l == 0) {
-      result.correlation = -1.0f;
-    }
+    if (result.correlation > 0.0f) result.pixel = image.toFrame(center, l);
   }
   return result;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/median.h"
+
 namespace softbody {
 namespace {
 
@@ -11,6 +13,8 @@ namespace {
 constexpr std::size_t kEnoughForMedian = 500;
 // Smallest median residual [m]: measurements are not more precise than that.
 constexpr double kSmallestMedian = 0.001;
+// Smallest scale of a rigid step's Cauchy weights [m]: residuals below the depth noise are no outliers.
+constexpr double kSmallestScale = 0.003;
 // Stiffness added in every direction, as a share of the mean: a direction without data does not move.
 constexpr double kRegularization = 1e-3;
 // Absolute part of it, for data that fix nothing.
@@ -58,7 +62,7 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
   for (const Association* a : associations) equations.center += a->predicted;
   equations.center /= static_cast<double>(associations.size());
 
-  const double scale = std::max(least_scale_m, 2.0 * medianResidual(associations));
+  const double scale = std::max({kSmallestScale, least_scale_m, 2.0 * medianResidual(associations)});
   for (const Association* a : associations) {
     const double ratio = a->residual() / scale;
     equations.add(*a, a->weight / (1.0 + ratio * ratio));
@@ -79,8 +83,8 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
 }
 
 void weighByResidual(double scale, std::vector<Association>* associations, double least_scale_m) {
-  const double median = std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
-  const double length = std::max(least_scale_m, scale * median);
+  const double usual = std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
+  const double length = std::max(least_scale_m, scale * usual);
   for (Association& association : *associations) {
     const double ratio = association.residual() / length;
     association.weight /= 1.0 + ratio * ratio;
@@ -94,15 +98,12 @@ double rmsResidual(const std::vector<Association>& associations) {
 }
 
 double medianResidual(const AssociationRefs& associations) {
-  if (associations.empty()) return 0.0;
   std::vector<double> residuals;
   const std::size_t step = 1 + associations.size() / kEnoughForMedian;
   residuals.reserve(associations.size() / step + 1);
   for (std::size_t i = 0; i < associations.size(); i += step)
     residuals.push_back(std::abs(associations[i]->residual()));
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return median(&residuals);
 }
 
 }  // namespace softbody

@@ -44,10 +44,10 @@ inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
 /// The small rigid motion from predictions to measurements: one Gauss-Newton step with Cauchy weights
 /// (point-to-plane with a normal, point-to-point without; Chen and Medioni 1992).
 /// @param held further associations with full weight; they do not change the scale of the Cauchy weights.
-/// @param least_scale_m of the Cauchy weights; residuals far below it are no outliers.
+/// @param least_scale_m of the Cauchy weights, at least 3 mm; residuals far below it are no outliers.
 /// @return identity if the associations do not determine a motion.
 Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held = {},
-                            double least_scale_m = 0.003);
+                            double least_scale_m = 0.0);
 
 /// Robust loss (Cauchy): reduces the weights of associations whose residuals are large beside the others'.
 /// @param scale in median residuals, which are at least 1 mm: there the weight is halved.

@@ -5,6 +5,9 @@
 
 namespace softbody {
 
+/// What is farther than the predicted surface by more than this [m] is behind it; above noise and slope.
+constexpr double kBehindSurface = 0.01;
+
 /// How much the depth of a pixel speaks for the body, where the body is predicted. What is not the body is
 /// anywhere within a metre, or touches the body like the table below it.
 class DepthEvidence {

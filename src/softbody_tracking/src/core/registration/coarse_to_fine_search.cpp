@@ -9,9 +9,6 @@
 namespace softbody {
 namespace {
 
-// Columns of the images of steps 2 and 3: enough for the outline's shape, few enough to render hundreds of
-// times.
-constexpr int kMediumColumns = 160, kLargeColumns = 320;
 // First steps of step 2: a pose after ICP is off by up to that.
 constexpr PoseRefinement::Steps kCoarseSteps{0.1, 0.02};
 // First steps of step 3: the precision that step 2 leaves.
@@ -23,10 +20,10 @@ std::vector<PoseHypothesis> searched(PoseRefinement* refinement, const PoseRefin
   return poses;
 }
 
-std::vector<PoseHypothesis> ranked(PoseCost* cost, std::vector<PoseHypothesis> poses) {
+std::vector<PoseHypothesis> ranked(PoseCost* cost, double max_cost, std::vector<PoseHypothesis> poses) {
   std::vector<std::pair<double, PoseHypothesis>> rated;
   rated.reserve(poses.size());
-  for (const PoseHypothesis& pose : poses) rated.emplace_back(-cost->support(pose.pose), pose);
+  for (const PoseHypothesis& pose : poses) rated.emplace_back(-cost->support(pose.pose, max_cost), pose);
   std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) {
     return std::tie(a.first, a.second.cost) < std::tie(b.first, b.second.cost);
   });
@@ -43,15 +40,16 @@ void sortByCost(std::vector<PoseHypothesis>* poses) {
 
 CoarseToFineSearch::CoarseToFineSearch(const RgbdFrame& frame, const TriangleMesh& full,
                                        const TriangleMesh& coarse, const Alignment& alignment,
-                                       double distance_scale_m,
+                                       const RegistrationConfig& config,
                                        const std::optional<Eigen::Isometry3d>& preferred)
     : icp_iterations_(alignment.icp_iterations),
+      max_cost_(config.max_cost),
       small_(subsampled(frame, alignment.columns)),
       medium_(subsampled(frame, kMediumColumns)),
       large_(subsampled(frame, kLargeColumns)),
-      alignment_(small_, coarse, distance_scale_m, preferred),
-      refinement_(medium_, coarse, distance_scale_m, preferred),
-      polishing_(large_, full, distance_scale_m, preferred) {}
+      alignment_(small_, coarse, config.distance_scale_m, preferred),
+      refinement_(medium_, coarse, config.distance_scale_m, preferred),
+      polishing_(large_, full, config.distance_scale_m, preferred) {}
 
 Eigen::Isometry3d CoarseToFineSearch::turned(const Eigen::Isometry3d& pose,
                                              const Eigen::Vector3d& turn) const {
@@ -78,11 +76,11 @@ std::vector<PoseHypothesis> CoarseToFineSearch::polish(std::vector<PoseHypothesi
 }
 
 std::vector<PoseHypothesis> CoarseToFineSearch::rankRefined(std::vector<PoseHypothesis> poses) {
-  return ranked(&refinement_.cost(), std::move(poses));
+  return ranked(&refinement_.cost(), max_cost_, std::move(poses));
 }
 
 std::vector<PoseHypothesis> CoarseToFineSearch::rankPolished(std::vector<PoseHypothesis> poses) {
-  return ranked(&polishing_.cost(), std::move(poses));
+  return ranked(&polishing_.cost(), max_cost_, std::move(poses));
 }
 
 }  // namespace softbody

@@ -4,8 +4,13 @@
 #include <vector>
 
 #include "registration/pose_refinement.h"
+#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
+
+/// Columns of the images of steps 2 and 3: enough for the outline's shape, few enough to render hundreds of
+/// times.
+constexpr int kMediumColumns = 160, kLargeColumns = 320;
 
 void sortByCost(std::vector<PoseHypothesis>* poses);
 
@@ -22,7 +27,7 @@ class CoarseToFineSearch {
 
   /// @param preferred see PoseRefinement.
   CoarseToFineSearch(const RgbdFrame& frame, const TriangleMesh& full, const TriangleMesh& coarse,
-                     const Alignment& alignment, double distance_scale_m,
+                     const Alignment& alignment, const RegistrationConfig& config,
                      const std::optional<Eigen::Isometry3d>& preferred = std::nullopt);
   CoarseToFineSearch(const CoarseToFineSearch&) = delete;
   CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
@@ -49,6 +54,7 @@ class CoarseToFineSearch {
 
  private:
   int icp_iterations_;
+  double max_cost_;
   RgbdFrame small_, medium_, large_;
   PoseRefinement alignment_, refinement_, polishing_;
 };

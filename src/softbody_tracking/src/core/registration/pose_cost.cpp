@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "softbody_common/rigid_fit.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -100,19 +101,15 @@ PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {
         ++(difference > 0.0 ? counts.farther : counts.nearer);
     }
   }
-  if (!differences.empty()) {
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::nth_element(differences.begin(), middle, differences.end());
-    counts.difference_m = *middle;
-  }
+  counts.difference_m = median(&differences);
   const Outline outline = outlineOf(frame_, image, scale_);
   counts.outline = outline.measured;
   counts.continuing = outline.continuing;
   return counts;
 }
 
-double PoseCost::support(const Eigen::Isometry3d& pose) {
-  const double saved = kWorstPlausibleCost - (*this)(pose);
+double PoseCost::support(const Eigen::Isometry3d& pose, double max_cost) {
+  const double saved = max_cost - (*this)(pose);
   return saved <= 0.0 ? 0.0 : saved * cv::countNonZero(image_.depth(image_.region));
 }
 

@@ -8,9 +8,6 @@
 
 namespace softbody {
 
-/// Mean cost of a pixel above which a pose is not plausible, if only depth supports it.
-constexpr double kWorstPlausibleCost = 0.22;
-
 /// Depth is noisier far away: the distance scale grows with the distance beyond 1 m.
 /// @param scale at up to 1 m [m].
 double distanceScaleAt(double z, double scale);
@@ -40,9 +37,9 @@ class PoseCost {
 
   PoseAgreement agreement(const Eigen::Isometry3d& pose);
 
-  /// How much of the depth supports a pose: (kWorstPlausibleCost - cost) times the number of covered pixels;
+  /// How much of the depth supports a pose: (max_cost - cost) times the number of covered pixels;
   /// 0 if the cost is higher. It prefers a large match to a few distant pixels, which could be any body.
-  double support(const Eigen::Isometry3d& pose);
+  double support(const Eigen::Isometry3d& pose, double max_cost);
 
   /// Renders the mesh. @return valid until the next call of any member.
   const RasterImage& render(const Points& vertices);

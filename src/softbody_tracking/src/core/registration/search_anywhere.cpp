@@ -102,8 +102,8 @@ std::vector<PoseHypothesis>::iterator groupAlike(const Pinhole& camera, const Tr
 std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorModel& colors,
                                           const SearchMeshes& meshes,
                                           const std::vector<Eigen::Isometry3d>& guesses,
-                                          double distance_scale_m) {
-  CoarseToFineSearch search(frame, meshes.full, meshes.coarse, kGlobalAlignment, distance_scale_m);
+                                          const RegistrationConfig& config) {
+  CoarseToFineSearch search(frame, meshes.full, meshes.coarse, kGlobalAlignment, config);
   std::vector<PoseHypothesis> found, best_of_places;
   for (const auto& starts : startsByPlace(search.mediumFrame(), colors, meshes, guesses)) {
     const std::vector<PoseHypothesis> here =
@@ -122,7 +122,7 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorMod
 SearchOutcome searchAnywhere(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
                              const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
                              const RegistrationConfig& config) {
-  std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config.distance_scale_m);
+  std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config);
   SearchOutcome outcome;
   if (!found.empty()) outcome.best = found.front();
   const auto implausible = [&](const PoseHypothesis& pose) {

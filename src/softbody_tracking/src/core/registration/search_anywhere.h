@@ -20,7 +20,7 @@ namespace softbody {
 std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorModel& colors,
                                           const SearchMeshes& meshes,
                                           const std::vector<Eigen::Isometry3d>& guesses,
-                                          double distance_scale_m);
+                                          const RegistrationConfig& config);
 
 /// Finds the body without a pose. Among poses that look alike in depth, the one with the most features wins.
 /// If features contradict a place, or cannot decide, the next place is tried; there the features must confirm

@@ -1,6 +1,5 @@
 #include "registration/search_near_pose.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "registration/body_edges.h"
@@ -18,12 +17,12 @@ constexpr std::size_t kRefined = 4;
 }  // namespace
 
 PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes,
-                              const Eigen::Isometry3d& rough_pose, double distance_scale_m) {
-  CoarseToFineSearch search(frame, meshes.full, meshes.medium, kAlignment, distance_scale_m, rough_pose);
+                              const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config) {
+  CoarseToFineSearch search(frame, meshes.full, meshes.medium, kAlignment, config, rough_pose);
   std::vector<Eigen::Isometry3d> starts;
   for (const Eigen::Vector3d& turn : smallTurns()) starts.push_back(search.turned(rough_pose, turn));
   std::vector<PoseHypothesis> poses = search.align(starts);
-  poses.resize(std::min(poses.size(), kRefined));
+  poses.resize(kRefined);
   poses = search.refine(std::move(poses));
   sortByCost(&poses);
   const Eigen::Isometry3d pose = search.polish({poses.front()}).front().pose;
@@ -32,7 +31,7 @@ PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes
 
 SearchOutcome searchNearAccepted(const RgbdFrame& frame, const SearchMeshes& meshes,
                                  const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config) {
-  const PoseHypothesis best = searchNearPose(frame, meshes, rough_pose, config.distance_scale_m);
+  const PoseHypothesis best = searchNearPose(frame, meshes, rough_pose, config);
   const bool accepted =
       best.cost <= config.max_cost &&
       shareWithoutEdge(frame, meshes.full, best.pose, config.distance_scale_m) <= kLargestShareWithoutEdge;

@@ -13,7 +13,7 @@ namespace softbody {
 /// search from this pose and from small turns of it.
 /// @return the best pose with its PoseCost; the caller decides whether the cost is acceptable.
 PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes,
-                              const Eigen::Isometry3d& rough_pose, double distance_scale_m);
+                              const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config);
 
 /// The same, accepted if its cost is small and the body has edges there.
 /// @param config `max_cost` is the largest cost.

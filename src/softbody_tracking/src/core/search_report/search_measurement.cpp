@@ -8,6 +8,7 @@
 
 #include "registration/body_candidates.h"
 #include "registration/body_edges.h"
+#include "registration/coarse_to_fine_search.h"
 #include "registration/pose_cost.h"
 #include "registration/search_anywhere.h"
 #include "registration/subsampled_frame.h"
@@ -16,8 +17,6 @@
 namespace softbody {
 namespace {
 
-// Columns of the images: those of the search, for parts and for the last step.
-constexpr int kPartColumns = 160, kCostColumns = 320;
 // A scale fits much better if it leaves at most this share of the cost; two causes could explain less.
 constexpr double kMuchBetter = 0.5;
 // Smallest change of scale that a part's size shows: a pixel at each side of a hundred.
@@ -101,7 +100,7 @@ void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseH
                  double distance_scale_m, SearchReport* report) {
   report->pose = best.pose;
   report->cost = best.cost;
-  const RgbdFrame image = subsampled(frame, kCostColumns);
+  const RgbdFrame image = subsampled(frame, kLargeColumns);
   const PoseAgreement seen = PoseCost(image, meshes.full, distance_scale_m).agreement(best.pose);
   const double covered = std::max(1, seen.covered);
   report->agreeing = seen.agreeing / covered;
@@ -125,7 +124,7 @@ double widestView(const RgbdFrame& image) {
 
 /// The factors with which the body would have the size of a part of the image, the likeliest first.
 std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors, double diameter_m) {
-  const RgbdFrame image = subsampled(frame, kPartColumns);
+  const RgbdFrame image = subsampled(frame, kMediumColumns);
   const double widest_m = widestView(image);
   std::vector<std::pair<double, double>> units;  // difference in size, factor
   for (const double factor : kUnits) {
@@ -146,7 +145,7 @@ std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors
 /// Whether the image shows the whole outline of a posed mesh. A wall that fills the image fits any large
 /// mesh.
 bool isWhollyInView(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
-  const RgbdFrame image = subsampled(frame, kPartColumns);
+  const RgbdFrame image = subsampled(frame, kMediumColumns);
   const cv::Rect region = rendered(image, mesh, pose).region;
   const cv::Rect inner(1, 1, image.depth.cols - 2, image.depth.rows - 2);
   return (region & inner) == region && region.area() >= kFewestPixels;
@@ -163,7 +162,7 @@ bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Is
 /// wholly in view.
 std::optional<double> sizeRatio(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
                                 const PoseHypothesis& best) {
-  const RgbdFrame image = subsampled(frame, kPartColumns);
+  const RgbdFrame image = subsampled(frame, kMediumColumns);
   const RasterImage mesh = rendered(image, meshes.full, best.pose);
   const std::vector<Eigen::Vector3d> visible = visiblePoints(image, mesh);
   const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
@@ -181,7 +180,7 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
   report.body_m = sidesOf(meshes.full.vertices);
   report.largest_cost = config.max_cost;
   report.largest_without_edge = kLargestShareWithoutEdge;
-  const RgbdFrame image = subsampled(frame, kPartColumns);
+  const RgbdFrame image = subsampled(frame, kMediumColumns);
   measureDepth(image, &report);
   std::optional<RasterImage> mesh;
   if (best) {
@@ -214,7 +213,7 @@ std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& col
   std::optional<double> fitting;
   for (const double factor : factors) {
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
-    for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config.distance_scale_m)) {
+    for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config)) {
       if (pose.cost > highest_cost || !isBounded(frame, other.full, pose.pose, config.distance_scale_m))
         continue;
       fitting = factor;

@@ -84,7 +84,7 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   if (!rough) return std::nullopt;
   const auto scope = timer->stage("Model Registration", true);
   const PoseHypothesis found =
-      searchNearPose(frame, meshesOf(observer->surface().topology()), *rough, config_.distance_scale_m);
+      searchNearPose(frame, meshesOf(observer->surface().topology()), *rough, config_);
   // Features distinguish poses that are alike in depth.
   if (found.cost > kDeformedCost || !confirms(observer->featureShare(frame, found.pose))) return std::nullopt;
   return FoundPose{found.pose, 1};

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "alignment/rigid_alignment.h"
+#include "alignment/piece_observability.h"
 
 namespace softbody {
 namespace {
