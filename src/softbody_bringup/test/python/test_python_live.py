@@ -14,7 +14,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose, Quaternion
 from softbody_msgs.msg import MeshState, Targets
-from softbody_msgs.srv import SetPose, SetPoseResponse
+from softbody_msgs.srv import Release, SetPose, SetPoseResponse
 from std_srvs.srv import Trigger, TriggerResponse
 
 import softbody
@@ -200,6 +200,9 @@ class PythonLive(unittest.TestCase):
         with self.assertRaisesRegex(rospy.ROSException, "/nobody/surface/undo"):
             nobody.undo()
         with self.assertRaisesRegex(rospy.ROSException, "/nobody/simulator/release"):
+            nobody.release("grip")
+        rospy.Service("/nobody/simulator/release", Release, lambda _: None)  # rospy answers that it fails
+        with self.assertRaisesRegex(rospy.ROSException, "/nobody/simulator/release: no answer: "):
             nobody.release("grip")
         with self.assertRaisesRegex(TimeoutError, "no state of revision 99"):
             self.body.wait(timeout_s=0.2, revision=99)

@@ -136,6 +136,7 @@ class PredictPlans(unittest.TestCase):
         self.addCleanup(body.close)
         plans = [{"hand": [(0.5, [0.0, 0.0, 0.001 * k])]} for k in range(20)]
         predictions = body.predict_plans(plans, [0.5], on_progress=lambda *numbers: progress.append(numbers)).result(SOON_S)
+        self.assertEqual((predictions.frame, predictions.revision), ("world", 0))
         for plan, [prediction] in zip(body.predict(plans, [0.5]), predictions):
             np.testing.assert_array_equal(prediction.vertices, plan[0].vertices)
         self.assertEqual(progress[0], (1, 20))

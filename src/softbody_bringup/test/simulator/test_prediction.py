@@ -48,7 +48,7 @@ REFUSED_PLANS = (
     (MotionPlan(motions=[motion([0.5], [UP])] * 2), "motions[1] 'hand'", "twice"),
     (MotionPlan(motions=[motion([], [])] * 2), "motions[1] 'hand'", "twice"),
     (MotionPlan(motions=[motion([0.5, 0.5], [UP, UP])]), "motions[0] 'hand'", "ascending"),
-    (MotionPlan(motions=[motion([NAN], [UP])]), "motions[0] 'hand'", "nan", "ascending"),
+    (MotionPlan(motions=[motion([NAN], [UP])]), "motions[0] 'hand'", "nan", "above 0"),
     (MotionPlan(motions=[motion([0.5, 0.6], [UP])]), "motions[0] 'hand'", "2 times with 1 poses"),
     (MotionPlan(motions=[motion([0.4, 0.5], [UP, [0.0, NAN, 0.0]])]), "motions[0] 'hand'", "poses[1]", "finite"),
     (MotionPlan(motions=[PlannedMotion(name="hand", times=[0.5], poses=[Pose()])]), "poses[0]", "quaternion"),
@@ -57,7 +57,7 @@ REFUSED_PLANS = (
     (MotionPlan(pins=[pin("claw")], obstacles=[ball("claw")]), "obstacles[0] 'claw'", "already"),
     (MotionPlan(pins=[pin("a b")]), "pins[0] 'a b'", "letters"),
     (MotionPlan(pins=[pin("")]), "pins[0] ''", "letters"),
-    (MotionPlan(pins=[pin(min=Point32(1, 1, 1), max=Point32(-1, -1, -1))]), "pins[0] 'claw'", "box", "empty"),
+    (MotionPlan(pins=[pin(min=Point32(1, 1, 1), max=Point32(-1, -1, -1))]), "pins[0] 'claw': the box is empty"),
     (MotionPlan(pins=[pin(max=Point32(1, NAN, 1))]), "pins[0] 'claw'", "box", "empty"),
     (MotionPlan(pins=[pin(min=Point32(0.9, 0.9, 0.9))]), "pins[0] 'claw'", "no vertex", "enlarge"),
     (MotionPlan(pins=[pin(header=NOWHERE, in_frame=True)]), "pins[0] 'claw'", "tf does not know frame 'nowhere'"),
@@ -70,8 +70,11 @@ REFUSED_PLANS = (
     (MotionPlan(pins=[pin(grip_time=0.51, release_time=0.52)]), "pins[0] 'claw'", "no step", "longer"),
     (MotionPlan(obstacles=[ball(shape="cone")]), "obstacles[0] 'ball'", "shape", "cone", "capsule"),
     (MotionPlan(obstacles=[ball(shape="")]), "obstacles[0] 'ball'", "shape", "capsule"),
-    (MotionPlan(obstacles=[ball(radius=-1.0)]), "obstacles[0] 'ball'", "radius_m", "-1"),
-    (MotionPlan(obstacles=[ball(shape="box", size=Vector3(0.1, 0.1, NAN))]), "obstacles[0] 'ball'", "size_m"),
+    (MotionPlan(obstacles=[ball(radius=-1.0)]), "obstacles[0] 'ball': radius is -1;"),
+    (MotionPlan(obstacles=[ball(shape="box", radius=-1.0, size=Vector3(0.1, 0.1, 0.1))]), "obstacles[0] 'ball': radius is -1;"),
+    (MotionPlan(obstacles=[ball(shape="capsule", length=-1.0)]), "obstacles[0] 'ball': length is -1;"),
+    (MotionPlan(obstacles=[ball(shape="box", size=Vector3(0.1, 0.1, NAN))]), "obstacles[0] 'ball': size is ["),
+    (MotionPlan(obstacles=[ball(shape="box", size=Vector3(0.1, 0.1, -0.1))]), "obstacles[0] 'ball': size is ["),
     (MotionPlan(obstacles=[ball(friction=NAN)]), "obstacles[0] 'ball'", "friction"),
     (MotionPlan(obstacles=[ball(pose=Pose())]), "obstacles[0] 'ball'", "quaternion"),
     (MotionPlan(obstacles=[ball(header=NOWHERE)]), "obstacles[0] 'ball'", "tf does not know frame 'nowhere'"),
@@ -133,7 +136,9 @@ class Prediction(unittest.TestCase):
         for motion, message in (([0.0, 0.0, 0.04], raised("hand", 0.04)), (lifted, raised("hand", 0.04)),
                                 (turned, MotionPlan(motions=[quarter]))):
             raw = self.predict(times=[0.5, 2.0], plans=[message]).states
-            [plan] = body.predict([{"hand": [(0.5, motion)]}], [0.5, 2.0])
+            predicted = body.predict([{"hand": [(0.5, motion)]}], [0.5, 2.0])
+            self.assertEqual((predicted.stamp, predicted.frame, predicted.revision), (self.state.header.stamp, "world", 0))
+            [plan] = predicted
             for prediction, state in zip(plan, raw):
                 np.testing.assert_allclose(prediction.vertices, array(state.vertices), atol=1e-6)
                 self.assertAlmostEqual(prediction.reactions["hand"][0][2], state.reactions[0].force.z, places=4)
@@ -165,7 +170,9 @@ class Prediction(unittest.TestCase):
                                (dict(times=[], plans=[MotionPlan()]), "nothing to predict"),
                                (dict(times=[1.0], plans=[MotionPlan()], time_step=-1.0), "time_step"),
                                (dict(times=[1.0], plans=[MotionPlan()], time_step=NAN), "time_step"),
-                               (dict(times=[NAN], plans=[MotionPlan()]), "ascending"),
+                               (dict(times=[NAN], plans=[MotionPlan()]), "nan s is not above 0"),
+                               (dict(times=[0.0], plans=[MotionPlan()]), "times: 0 s is not above 0"),
+                               (dict(times=[61.0], plans=[MotionPlan()]), "times: 61 s is too long; allowed: up to 60 s"),
                                (dict(times=[60.0], plans=2 * [MotionPlan()], time_step=0.001), "fewer plans"),
                                (dict(times=[0.1], plans=[MotionPlan(obstacles=[ball(header=Header(frame_id=f"frame_{k}"))])
                                                          for k in range(101)]), "101 frames")):

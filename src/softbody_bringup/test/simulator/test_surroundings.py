@@ -262,8 +262,8 @@ class Surroundings(GripperCases, unittest.TestCase):
 
     def test_obstacles_that_cannot_be_are_refused(self):
         self.refused(self.obstacle(FAR, shape="cone"), "'ball'", "shape", "capsule")
-        self.refused(self.obstacle(FAR, shape="sphere"), "radius_m", "0")
-        self.refused(self.obstacle(FAR, shape="box", size=Vector3(0.1, 0.1, -0.1)), "size_m", "-0.1")
+        self.refused(self.obstacle(FAR, shape="sphere"), "obstacle 'ball': radius is 0;")
+        self.refused(self.obstacle(FAR, shape="box", size=Vector3(0.1, 0.1, -0.1)), "obstacle 'ball': size is [", "-0.1")
         self.refused(self.obstacle([0.0, 0.0, float("nan")], shape="plane"), "pose")
         self.refused(self.set_obstacle(name="ball", shape="plane"), "quaternion")
         self.assertNotIn("/softbody/reaction/ball", self.reactions())

@@ -14,8 +14,8 @@ from std_srvs.srv import Trigger
 from softbody.errors import Refused
 from softbody.join import Joiner
 from softbody.lazy import bytes_of, lazy
-from softbody.plan import plan_message
-from softbody.prediction import predictions_of
+from softbody.plan import plan_messages
+from softbody.prediction import Predictions
 from softbody.running_prediction import RunningPrediction, connect
 from softbody.wire import WrongMessage, decode
 
@@ -25,8 +25,8 @@ QUEUE_SIZE, BUFFER_SIZE = 30, 1 << 24  # messages; bytes, which hold the largest
 class Body:
     """States by subscription, and the services of the graph as functions.
 
-    Every function that asks the graph raises rospy.ServiceException or rospy.ROSException if it does not answer, and
-    Refused with the graph's reason if it does not do what was asked.
+    Every function that asks the graph raises rospy.ROSException if it does not answer, and Refused with the graph's reason
+    if it does not do what was asked.
     """
 
     def __init__(self, namespace="/softbody", with_volume=True, service_timeout_s=10.0):
@@ -141,21 +141,21 @@ class Body:
         self._call("simulator/set_material", SetMaterial, youngs_modulus_pa, poisson_ratio, density_kg_m3, damping)
 
     def set_obstacle(self, name, shape="", position=(0, 0, 0), orientation=(0, 0, 0, 1), frame="", radius=0.0,
-                     length=0.0, size=(0, 0, 0)):
+                     length=0.0, size=(0, 0, 0), friction=0.0):
         """Adds an obstacle that the body cannot enter, or replaces the one of the same name.
 
         @param shape: plane, sphere, capsule or box; empty: only moves the obstacle. @param position: x, y, z [m].
         @param orientation: quaternion x, y, z, w. @param frame: it follows this frame of tf; empty: that of the states.
         @param radius: [m] of a sphere or capsule, or of a box's edges. @param length: [m] of a capsule along z.
-        @param size: [m] of a box.
+        @param size: [m] of a box. @param friction: coefficient of Coulomb friction, 0 to 10.
         """
         request = SetObstacleRequest(name=name, shape=shape, radius=radius, length=length, size=Vector3(*size),
-                                     pose=_pose(position, orientation))
+                                     pose=_pose(position, orientation), friction=friction)
         request.header.frame_id = frame
         self._call("simulator/set_obstacle", SetObstacle, request)
 
     def pin(self, name, low, high, frame=""):
-        """Holds the volume's vertices in a box of the rest frame, from the next step on.
+        """Holds the volume's vertices in a box in rest space, from the next step on.
 
         @param low, high: corners [m]. @param frame: they follow this frame of tf; empty: they stay where they are.
         @return the number of vertices that are held.
@@ -171,12 +171,12 @@ class Body:
     def predict(self, plans, times, time_step_s=0.0):
         """Simulates plans from the present state. The tracked body does not change.
 
-        @param plans: each a softbody.Plan, or a map: name of a pin or obstacle -> list of (time [s], motion), the motion a
-        shift [m] or a 4 x 4 matrix in the frame of the states. @param times: when the body is wanted [s], ascending.
-        @return per plan a list with a Prediction per time.
+        @param plans: a list, each a softbody.Plan, or a map: name of a pin or obstacle -> list of (time [s], motion), the
+        motion a shift [m] or a rigid 4 x 4 matrix in the frame of the states. @param times: when the body is wanted [s],
+        ascending, above 0.
+        @return Predictions: per plan a list with a Prediction per time. They have stamp, frame and revision.
         """
-        messages = [plan_message(plan) for plan in plans]
-        return predictions_of(self._call("simulator/predict", Predict, time_step_s, times, messages).states, len(times))
+        return Predictions(self._call("simulator/predict", Predict, time_step_s, times, plan_messages(plans)), len(times))
 
     def predict_plans(self, plans, times, time_step_s=0.0, on_progress=None):
         """Starts what predict() does, and returns at once. Ten times as many steps are allowed.
@@ -185,7 +185,7 @@ class Body:
         `result(timeout_s)` waits and returns, `cancel()` ends it. The graph works at one at a time: the next one replaces
         it.
         """
-        goal = PredictPlansGoal(time_step_s, times, [plan_message(plan) for plan in plans])
+        goal = PredictPlansGoal(time_step_s, times, plan_messages(plans))
         if self._predict_client is None:
             self._predict_client = connect(self._name("simulator/predict_plans"), self.service_timeout_s)
         return RunningPrediction(self._predict_client, goal, on_progress)
@@ -228,7 +228,10 @@ class Body:
     def _call(self, name, kind, *arguments):
         name = self._name(name)
         rospy.wait_for_service(name, self.service_timeout_s)
-        answer = rospy.ServiceProxy(name, kind)(*arguments)
+        try:
+            answer = rospy.ServiceProxy(name, kind)(*arguments)
+        except rospy.ServiceException as error:
+            raise rospy.ROSException(f"{name}: no answer: {error}") from error
         if not answer.success:
             raise Refused(f"{name}: {answer.message}")
         return answer

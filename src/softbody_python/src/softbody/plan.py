@@ -1,14 +1,19 @@
 """What a prediction assumes about pins and obstacles."""
+import collections.abc
+
 import numpy as np
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, Vector3
 from softbody_msgs.msg import MotionPlan, PlannedMotion, PlannedObstacle, PlannedPin, PlannedRelease
+
+RIGID_TOLERANCE = 1e-3  # of the entries of R^T R and of the last row: matrices of float32, and rounded by hand
 
 
 class Plan:
     """Motions of pins and obstacles, and pins and obstacles that come or go. Each function returns the plan.
 
-    Times are in seconds from the present state. A path is a list of (time, motion). A motion is a shift [m], or a 4 x 4
-    matrix in the frame of the states; it starts from the present place. Between two times it is linear.
+    Times are in seconds from the present state. A path is a list of (time, motion), with times above 0. A motion is a
+    shift [m], or a rigid 4 x 4 matrix, in the frame of the states. It starts from the present place. Between two times it
+    is linear.
     """
 
     def __init__(self):
@@ -23,8 +28,9 @@ class Plan:
     def grip(self, name, low, high, frame=None, begin_s=0.0, end_s=None, path=None):
         """Holds the volume's vertices in a box, where they are at `begin_s`. Lets them go at `end_s`; None: never.
 
-        @param low, high: corners [m]. @param frame: None: the box is in the rest frame. Otherwise it is in this frame of
-        tf at present (empty: the frame of the states), and the path moves it. @param path: None: it stays.
+        @param low, high: corners [m]. @param frame: None: the box is in rest space. Otherwise it is in this frame of tf
+        at present (empty: the frame of the states). It does not follow the frame; only the path moves it.
+        @param path: None: it stays.
         """
         pin = PlannedPin(name=name, min=Point32(*low), max=Point32(*high), in_frame=frame is not None, grip_time=begin_s,
                          release_time=_end(end_s))
@@ -57,8 +63,14 @@ class Plan:
         return self if path is None else self.move(name, path)
 
 
-def plan_message(plan):
-    """@param plan: a Plan, or a map: name of a pin or obstacle -> its path."""
+def plan_messages(plans):
+    """@param plans: each a Plan, or a map: name of a pin or obstacle -> its path."""
+    if isinstance(plans, (Plan, collections.abc.Mapping)):
+        raise ValueError("plans is a list of plans")
+    return [_plan_message(plan) for plan in plans]
+
+
+def _plan_message(plan):
     if isinstance(plan, Plan):
         return plan.message()
     motions = Plan()
@@ -80,7 +92,16 @@ def _pose(motion):
         return Pose(Point(*motion), Quaternion(w=1.0))
     if motion.shape != (4, 4):
         raise ValueError(f"a motion has the shape {motion.shape}; allowed: a shift of 3 numbers, or a 4 x 4 matrix")
+    if not _is_rigid(motion):
+        raise ValueError(f"the matrix of a motion is not rigid: {motion.tolist()}; allowed: a rotation and a shift, with the "
+                         "last row 0 0 0 1")
     return Pose(Point(*motion[:3, 3]), Quaternion(*_quaternion(motion[:3, :3])))
+
+
+def _is_rigid(motion):
+    rotation = motion[:3, :3]
+    return (np.isfinite(motion).all() and np.allclose(rotation.T @ rotation, np.eye(3), rtol=0, atol=RIGID_TOLERANCE)
+            and np.linalg.det(rotation) > 0 and np.allclose(motion[3], [0, 0, 0, 1], rtol=0, atol=RIGID_TOLERANCE))
 
 
 def _quaternion(rotation):

@@ -12,10 +12,14 @@ Prediction = collections.namedtuple("Prediction", "time vertices converged react
 Contact = collections.namedtuple("Contact", "name place normal force torque")
 
 
-def predictions_of(states, time_count):
-    """Per plan a list with a Prediction per time."""
-    predictions = [_prediction(state) for state in states]
-    return [predictions[k:k + time_count] for k in range(0, len(predictions), time_count)]
+class Predictions(list):
+    """Per plan a list with a Prediction per time. stamp and revision of the present state, frame of the results."""
+
+    def __init__(self, answer, time_count):
+        """@param answer: of the service or of the action."""
+        predictions = [_prediction(state) for state in answer.states]
+        super().__init__(predictions[k:k + time_count] for k in range(0, len(predictions), time_count))
+        self.stamp, self.frame, self.revision = answer.header.stamp, answer.header.frame_id, answer.revision
 
 
 def _prediction(state):

@@ -9,7 +9,7 @@ from actionlib_msgs.msg import GoalStatus
 from softbody_msgs.msg import PredictPlansAction
 
 from softbody.errors import Cancelled, Refused
-from softbody.prediction import predictions_of
+from softbody.prediction import Predictions
 
 PERIOD_S = 0.1  # between two looks at whether the server is there
 
@@ -51,12 +51,15 @@ class RunningPrediction:
         """Waits for the predictions. @param timeout_s: None: as long as it takes. @return as Body.predict.
 
         @throw Refused with the graph's reason. @throw Cancelled. @throw TimeoutError: it goes on.
+        @throw rospy.ROSException if the simulator has ended or was started again.
         """
         if not self._wait(self.done, timeout_s):
             raise TimeoutError(f"{self._name}: not done within {timeout_s} s")
         status, result = self._handle.get_goal_status(), self._handle.get_result()
         if status == GoalStatus.SUCCEEDED:
-            return predictions_of(result.states, self._time_count)
+            return Predictions(result, self._time_count)
+        if status == GoalStatus.LOST:
+            raise rospy.ROSException(f"{self._name}: the simulator was started again, and does not know the prediction")
         reason = f"{self._name}: {self._handle.get_goal_status_text()}"
         if status in (GoalStatus.PREEMPTED, GoalStatus.RECALLED):
             raise Cancelled(reason)
@@ -71,6 +74,8 @@ class RunningPrediction:
         end = None if timeout_s is None else time.monotonic() + timeout_s
         with self._changed:
             while not condition():
+                if rospy.is_shutdown():
+                    raise rospy.ROSInterruptException("the node ends")
                 left = PERIOD_S if end is None else min(PERIOD_S, end - time.monotonic())
                 if left <= 0.0:
                     return False

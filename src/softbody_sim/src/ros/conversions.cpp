@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/tet_geometry.h"
@@ -28,9 +30,25 @@ PinRegion pinRegionOf(const Message& message) {
                          fromPoint32(message.max)};
   if ((region.min.array() <= region.max.array()).all()) return region;  // false for NaN
   throw std::invalid_argument(fmt::format(
-      "the box of pin '{}' is empty: min ({:.6g}, {:.6g}, {:.6g}) is not below max ({:.6g}, {:.6g}, {:.6g})",
-      region.name, region.min.x(), region.min.y(), region.min.z(), region.max.x(), region.max.y(),
-      region.max.z()));
+      "the box is empty: min ({:.6g}, {:.6g}, {:.6g}) is not below max ({:.6g}, {:.6g}, {:.6g})",
+      region.min.x(), region.min.y(), region.min.z(), region.max.x(), region.max.y(), region.max.z()));
+}
+
+/// What parameters and messages call the same.
+const std::pair<std::string, std::string> kObstacleFields[] = {
+    {"radius_m", "radius"},
+    {"rounding_m", "radius"},
+    {"length_m", "length"},
+    {"size_m", "size"},
+    {"the quaternion of its pose (last four numbers: x y z w)", "the quaternion of its pose"}};
+
+/// What is wrong with a parameter, as what is wrong with a field. Whose it is, the message's reader says.
+std::string aboutField(std::string fault, const std::string& obstacle) {
+  for (const std::string& owner : {"obstacle '" + obstacle + "': ", std::string("parameter ")})
+    if (fault.compare(0, owner.size(), owner) == 0) fault.erase(0, owner.size());
+  for (const auto& [key, field] : kObstacleFields)
+    if (fault.compare(0, key.size(), key) == 0) fault.replace(0, key.size(), field);
+  return fault;
 }
 
 }  // namespace
@@ -53,8 +71,12 @@ ObstacleDescription fromMessage(const softbody_msgs::SetObstacleRequest& request
   map["length_m"] = request.length;
   map["friction"] = request.friction;
   map["size_m"] = std::vector<double>{request.size.x, request.size.y, request.size.z};
-  Parameters parameters(map, "obstacle '" + request.name + "': ");
-  return readObstacle(parameters);
+  Parameters parameters(map);
+  try {
+    return readObstacle(parameters);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(aboutField(error.what(), request.name));
+  }
 }
 
 std_msgs::ColorRGBA colorMessage(const Eigen::Vector3f& rgb) {

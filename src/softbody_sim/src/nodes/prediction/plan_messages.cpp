@@ -21,7 +21,13 @@ constexpr std::size_t kMostNamesSaid = 10;
 
 std::string shortened(const std::string& name) { return name.substr(0, 100); }
 
-std::string frameOf(const std_msgs::Header& header) { return frameName(header.frame_id, "a planned motion"); }
+std::string frameOf(const softbody_msgs::PlannedPin& pin) {
+  return frameName(pin.header.frame_id, fmt::format("planned pin '{}'", shortened(pin.name)));
+}
+
+std::string frameOf(const softbody_msgs::PlannedObstacle& obstacle) {
+  return frameName(obstacle.header.frame_id, fmt::format("planned obstacle '{}'", shortened(obstacle.name)));
+}
 
 /// What the messages of a plan say, by name.
 class PlanReader {
@@ -47,7 +53,7 @@ class PlanReader {
   RigidPath& pathOf(const Entry& entry);
   ActivePeriod& periodOf(const Entry& entry);
   ActivePeriod period(double begin_s, double end_s, const char* begin_name, const char* end_name) const;
-  Eigen::Isometry3d poseOf(const std_msgs::Header& header) const;
+  Eigen::Isometry3d poseOf(const std::string& frame) const;
   std::string namesInPlan() const;
 
   const Present& present_;
@@ -136,8 +142,7 @@ ActivePeriod& PlanReader::periodOf(const Entry& entry) {
   return entry.is_pin ? plan_.pins[entry.index].period : plan_.obstacles[entry.index].period;
 }
 
-Eigen::Isometry3d PlanReader::poseOf(const std_msgs::Header& header) const {
-  const std::string frame = frameOf(header);
+Eigen::Isometry3d PlanReader::poseOf(const std::string& frame) const {
   if (frame.empty()) return Eigen::Isometry3d::Identity();
   const auto found = present_.frames.find(frame);
   if (found != present_.frames.end()) return found->second;
@@ -159,11 +164,12 @@ void PlanReader::add(const softbody_msgs::PlannedPin& message) {
   if (plan_.pins.size() >= kMostPins)
     throw std::invalid_argument(fmt::format("the plan has {} pins already: add fewer", plan_.pins.size()));
   if (message.in_frame) {
-    pins.frame = poseOf(message.header);
+    pins.frame = poseOf(frameOf(message));
   } else if (!message.header.frame_id.empty()) {
-    throw std::invalid_argument(
-        fmt::format("frame_id is '{}', but the box is in rest space: set in_frame, or leave frame_id empty",
-                    shortened(message.header.frame_id)));
+    throw std::invalid_argument(fmt::format(
+        "frame_id is '{}', but the box is in rest space, and a plan follows no frame: set in_frame "
+        "if the box is in this frame at present, or leave frame_id empty",
+        shortened(message.header.frame_id)));
   } else if (verticesIn(*pins.region, Eigen::Isometry3d::Identity(),
                         present_.simulator->topology().rest_vertices)
                  .empty()) {
@@ -184,7 +190,7 @@ void PlanReader::add(const softbody_msgs::PlannedObstacle& message) {
   shape.pose = message.pose;
   shape.friction = message.friction;
   PlannedObstacle obstacle{message.name, fromMessage(shape).shape};
-  obstacle.shape.pose = poseOf(message.header) * obstacle.shape.pose;
+  obstacle.shape.pose = poseOf(frameOf(message)) * obstacle.shape.pose;
   obstacle.period = period(message.begin_time, message.end_time, "begin_time", "end_time");
   if (plan_.obstacles.size() >= kMostObstacles) {
     throw std::invalid_argument(
@@ -239,10 +245,17 @@ void addAll(const Messages& messages, const char* field, PlanReader* reader) {
 void requireAscending(const std::vector<double>& times, const std::string& what) {
   double before = 0.0;
   for (const double time : times) {
-    if (!(time > before && time <= kLongestPrediction_s)) {
+    if (!(time > 0.0)) {  // also NaN
+      throw std::invalid_argument(fmt::format(
+          "{}: {} s is not above 0; the present is time 0 and needs no entry: leave it out", what, time));
+    }
+    if (time > kLongestPrediction_s) {
       throw std::invalid_argument(
-          fmt::format("{}: {} s comes after {} s; allowed: ascending times above 0, up to {} s", what, time,
-                      before, kLongestPrediction_s));
+          fmt::format("{}: {} s is too long; allowed: up to {} s", what, time, kLongestPrediction_s));
+    }
+    if (time <= before) {
+      throw std::invalid_argument(
+          fmt::format("{}: {} s comes after {} s: give ascending times, each once", what, time, before));
     }
     before = time;
   }
@@ -252,9 +265,8 @@ std::set<std::string> framesOf(const std::vector<softbody_msgs::MotionPlan>& pla
   std::set<std::string> frames;
   for (const softbody_msgs::MotionPlan& plan : plans) {
     for (const softbody_msgs::PlannedPin& pin : plan.pins)
-      if (pin.in_frame) frames.insert(frameOf(pin.header));
-    for (const softbody_msgs::PlannedObstacle& obstacle : plan.obstacles)
-      frames.insert(frameOf(obstacle.header));
+      if (pin.in_frame) frames.insert(frameOf(pin));
+    for (const softbody_msgs::PlannedObstacle& obstacle : plan.obstacles) frames.insert(frameOf(obstacle));
   }
   frames.erase("");
   return frames;

@@ -23,8 +23,6 @@ namespace {
 // Some seconds to minutes of computing. Nobody can end a call of the service.
 constexpr double kMostSteps = 1e5, kMostStepsWithCancel = 1e6;
 
-constexpr char kEnded[] = "the prediction was cancelled, or the simulator ends";
-
 /// One processor stays free for the graph.
 int spareProcessors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
 
@@ -54,13 +52,14 @@ PlanPredictor::PlanPredictor(const ros::NodeHandle& node, FindPresent find_prese
       threads_(spareProcessors()),
       node_calls_(node.getCallbackQueue()) {}
 
-softbody_msgs::PredictResponse PlanPredictor::answer(
+std::optional<softbody_msgs::PredictResponse> PlanPredictor::answer(
     const softbody_msgs::PredictRequest& request, const std::function<bool()>& is_cancelled,
     const std::function<void(std::size_t)>& on_progress) try {
   requireUsable(request, is_cancelled ? kMostStepsWithCancel : kMostSteps);
   const std::function<bool()> ends = [&] { return ends_ || (is_cancelled && is_cancelled()); };
-  const Present present = waitForPresent(framesOf(request.plans), ends);
-  requireAnswerFits(request, present.simulator->topology().rest_vertices.rows());
+  const std::optional<Present> present = waitForPresent(framesOf(request.plans), ends);
+  if (!present) return std::nullopt;
+  requireAnswerFits(request, present->simulator->topology().rest_vertices.rows());
   PredictionSettings settings;
   settings.times_s = request.times;
   settings.time_step_s = timeStepOf(request);
@@ -68,14 +67,14 @@ softbody_msgs::PredictResponse PlanPredictor::answer(
   settings.is_cancelled = ends;
   settings.on_progress = on_progress;
   settings.on_thread_start = giveWay;
-  const auto predicted = predict(*present.simulator, plansOf(request, present), settings);
-  if (predicted.empty()) throw std::runtime_error(kEnded);
+  const auto predicted = predict(*present->simulator, plansOf(request, *present), settings);
+  if (predicted.empty()) return std::nullopt;
   softbody_msgs::PredictResponse response;
   for (const std::vector<PredictedState>& states : predicted) {
     for (const PredictedState& state : states) response.states.push_back(toMessage(state));
   }
-  response.header = present.header;
-  response.revision = present.simulator->topology().revision;
+  response.header = present->header;
+  response.revision = present->simulator->topology().revision;
   response.success = 1;
   return response;
 } catch (const std::exception& error) {
@@ -85,10 +84,10 @@ softbody_msgs::PredictResponse PlanPredictor::answer(
 }
 
 /// The node is between two steps when it answers.
-Present PlanPredictor::waitForPresent(const std::set<std::string>& frames,
-                                      const std::function<bool()>& ends) {
+std::optional<Present> PlanPredictor::waitForPresent(const std::set<std::string>& frames,
+                                                     const std::function<bool()>& ends) {
   requireFewFrames(frames);
-  if (ends()) throw std::runtime_error(kEnded);
+  if (ends()) return std::nullopt;
   const auto promise = std::make_shared<std::promise<Present>>();
   std::future<Present> answer = promise->get_future();
   node_calls_.add([this, promise, frames] {
@@ -99,7 +98,7 @@ Present PlanPredictor::waitForPresent(const std::set<std::string>& frames,
     }
   });
   while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
-    if (ends()) throw std::runtime_error(kEnded);
+    if (ends()) return std::nullopt;
   }
   return answer.get();
 }

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -25,16 +26,17 @@ class PlanPredictor {
   PlanPredictor(const ros::NodeHandle& node, FindPresent find_present);
 
   /// @param is_cancelled, on_progress as in PredictionSettings; may be empty. Who can cancel may ask for
-  /// more.
-  softbody_msgs::PredictResponse answer(const softbody_msgs::PredictRequest& request,
-                                        const std::function<bool()>& is_cancelled = {},
-                                        const std::function<void(std::size_t)>& on_progress = {});
+  /// more. @return empty: it was cancelled, or end() was called.
+  std::optional<softbody_msgs::PredictResponse> answer(
+      const softbody_msgs::PredictRequest& request, const std::function<bool()>& is_cancelled = {},
+      const std::function<void(std::size_t)>& on_progress = {});
 
   /// Ends all answers soon.
   void end() { ends_ = true; }
 
  private:
-  Present waitForPresent(const std::set<std::string>& frames, const std::function<bool()>& ends);
+  std::optional<Present> waitForPresent(const std::set<std::string>& frames,
+                                        const std::function<bool()>& ends);
 
   FindPresent find_present_;
   const int threads_;

@@ -1,10 +1,20 @@
 #include "nodes/prediction/prediction_service.h"
 
+#include <optional>
 #include <utility>
 
 namespace softbody {
+namespace {
 
-PredictionService::OwnThread::OwnThread(ros::NodeHandle node_in) : node(node_in), spinner(1, &queue) {
+softbody_msgs::PredictResponse endOfSimulator() {
+  softbody_msgs::PredictResponse response;
+  response.message = "the simulator ends";
+  return response;
+}
+
+}  // namespace
+
+PredictionService::OwnThread::OwnThread(const ros::NodeHandle& parent) : node(parent), spinner(1, &queue) {
   node.setCallbackQueue(&queue);
 }
 
@@ -18,7 +28,7 @@ PredictionService::PredictionService(const ros::NodeHandle& node, ros::NodeHandl
               .advertiseService<softbody_msgs::PredictRequest, softbody_msgs::PredictResponse>(
                   "predict",
                   [this](softbody_msgs::PredictRequest& request, softbody_msgs::PredictResponse& response) {
-                    response = predictor_.answer(request);
+                    response = predictor_.answer(request).value_or(endOfSimulator());
                     return true;
                   })),
       action_(
@@ -43,24 +53,26 @@ void PredictionService::onGoal(const softbody_msgs::PredictPlansGoalConstPtr& go
   request.plans = goal->plans;
   softbody_msgs::PredictPlansFeedback progress;
   progress.total = static_cast<std::uint32_t>(goal->plans.size());
-  softbody_msgs::PredictResponse response = predictor_.answer(
+  std::optional<softbody_msgs::PredictResponse> answer = predictor_.answer(
       request, [this] { return action_.isPreemptRequested(); },
       [&](std::size_t done) {
         progress.done = static_cast<std::uint32_t>(done);
         action_.publishFeedback(progress);
       });
+  if (!answer && action_.isPreemptRequested()) return finishCancelled();
+  softbody_msgs::PredictResponse response = std::move(answer).value_or(endOfSimulator());
   softbody_msgs::PredictPlansResult result;
   result.success = response.success;
   result.message = response.message;
   result.header = response.header;
   result.revision = response.revision;
   result.states = std::move(response.states);
-  finish(std::move(result));
+  if (result.success) return action_.setSucceeded(result);
+  action_.setAborted(result, result.message);
 }
 
-void PredictionService::finish(softbody_msgs::PredictPlansResult result) {
-  if (result.success) return action_.setSucceeded(result);
-  if (!action_.isPreemptRequested()) return action_.setAborted(result, result.message);
+void PredictionService::finishCancelled() {
+  softbody_msgs::PredictPlansResult result;
   result.message = action_.isNewGoalAvailable() ? "another goal has come" : "the goal was cancelled";
   action_.setPreempted(result, result.message);
 }

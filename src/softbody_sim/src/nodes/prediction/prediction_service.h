@@ -21,7 +21,7 @@ class PredictionService {
  private:
   /// Calls back in a thread of its own.
   struct OwnThread {
-    explicit OwnThread(ros::NodeHandle node);
+    explicit OwnThread(const ros::NodeHandle& parent);
     ros::CallbackQueue queue;
     ros::NodeHandle node;
     ros::AsyncSpinner spinner;
@@ -29,7 +29,7 @@ class PredictionService {
   using Action = actionlib::SimpleActionServer<softbody_msgs::PredictPlansAction>;
 
   void onGoal(const softbody_msgs::PredictPlansGoalConstPtr& goal);
-  void finish(softbody_msgs::PredictPlansResult result);
+  void finishCancelled();
 
   PlanPredictor predictor_;
   OwnThread service_thread_, action_thread_;

@@ -18,6 +18,12 @@ std::string nobodyHasTheName(const std::string& name, const SurroundingsTracker&
                      names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
 }
 
+ObstacleDescription obstacleOf(const softbody_msgs::SetObstacleRequest& request) try {
+  return fromMessage(request);
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(fmt::format("obstacle '{}': {}", request.name.substr(0, 100), error.what()));
+}
+
 }  // namespace
 
 SurroundingsInput::SurroundingsInput(ros::NodeHandle node, ros::NodeHandle private_node,
@@ -39,7 +45,7 @@ void SurroundingsInput::onPinMessage(const softbody_msgs::PinRegionConstPtr& mes
     surroundings_->addPin(fromMessage(*message), simulator_->topology().rest_vertices);
     surroundings_->waitingForFrame(message->name);
   } catch (const std::exception& error) {
-    ROS_WARN_STREAM("the pin is not added: " << error.what());
+    ROS_WARN_STREAM("pin '" << message->name << "' is not added: " << error.what());
   }
 }
 
@@ -58,7 +64,7 @@ bool SurroundingsInput::onPin(softbody_msgs::Pin::Request& request,
 bool SurroundingsInput::onSetObstacle(softbody_msgs::SetObstacle::Request& request,
                                       softbody_msgs::SetObstacle::Response& response) try {
   if (!request.shape.empty())
-    surroundings_->setObstacle(fromMessage(request));
+    surroundings_->setObstacle(obstacleOf(request));
   else if (!surroundings_->moveObstacle(request.name, request.header.frame_id, fromMessage(request.pose)))
     throw std::invalid_argument(nobodyHasTheName(request.name, *surroundings_) +
                                 "; a new obstacle needs a shape: plane, sphere, capsule or box");

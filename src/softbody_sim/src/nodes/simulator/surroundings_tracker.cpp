@@ -135,7 +135,17 @@ std::size_t SurroundingsTracker::insert(HeldRegion held) {
 bool SurroundingsTracker::removePin(const std::string& name) { return pins_.erase(name) > 0; }
 
 void SurroundingsTracker::updatePins(const Points& rest_vertices, const Points& vertices) {
-  for (auto& entry : pins_) entry.second.held.updateVertices(rest_vertices, vertices);
+  surroundings_.all.pins.clear();
+  surroundings_.pins.clear();
+  for (auto& [name, pin] : pins_) {
+    pin.held.updateVertices(rest_vertices, vertices);
+    if (pin.held.hasPositions()) appendPins(name, pin.held);
+  }
+}
+
+void SurroundingsTracker::appendPins(const std::string& name, const HeldRegion& held) {
+  if (held.acts()) held.appendPins(options_.accuracy_m, &surroundings_.all.pins);
+  surroundings_.pins.resize(surroundings_.all.pins.size(), name);
 }
 
 void SurroundingsTracker::forgetPinPositions() {
@@ -174,8 +184,7 @@ void SurroundingsTracker::placePins(const ros::Time& stamp, const Points& vertic
     }
     frame.update(poses_, frame_, stamp);
     held.setFramePose(frame.pose());
-    if (held.acts()) held.appendPins(options_.accuracy_m, &surroundings_.all.pins);
-    surroundings_.pins.resize(surroundings_.all.pins.size(), entry.first);
+    appendPins(entry.first, held);
   }
 }
 

@@ -75,8 +75,8 @@ class SurroundingsTracker {
   const Surroundings& surroundingsAt(const std::string& frame, const ros::Time& stamp,
                                      const Points& vertices);
 
-  /// What acted on the body at the last surroundingsAt(). Obstacles and pins that were set since do not act
-  /// yet.
+  /// What acted on the body at the last surroundingsAt(), with the pins of the last updatePins(). Obstacles
+  /// and pins that were set since do not act yet.
   const NamedSurroundings& lastSurroundings() const { return surroundings_; }
 
   double pinAccuracy_m() const { return options_.accuracy_m; }
@@ -111,6 +111,7 @@ class SurroundingsTracker {
   PlacedObstacle* find(const std::string& obstacle);
   void placeObstacles(const ros::Time& stamp);
   void placePins(const ros::Time& stamp, const Points& vertices);
+  void appendPins(const std::string& name, const HeldRegion& held);
   void judge(double conflict_m, HeldPin* pin) const;
   void publishObstacles(const Reactions& reactions, const ros::Time& stamp);
   void publishPins(const Reactions& reactions, const ros::Time& stamp);
