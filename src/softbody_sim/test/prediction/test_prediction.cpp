@@ -66,8 +66,8 @@ TEST_F(Predictions, AreWhatTheSimulatorDoesAndLeaveItAlone) {
     const PredictedState& state = predicted[0][step == 4 ? 0 : 1];
     EXPECT_NEAR(state.time_s, step * kTimeStep, 1e-9);
     EXPECT_TRUE(state.converged);
-    EXPECT_LT((state.vertices - simulator_.state().vertices).rowwise().norm().maxCoeff(), 1e-4);
-    EXPECT_LT((state.reactions.at("hand").force - sum.force).norm(), 0.01 * weight());
+    EXPECT_LT((state.vertices - simulator_.state().vertices).rowwise().norm().maxCoeff(), 1e-5);
+    EXPECT_LT((state.reactions.at("hand").force - sum.force).norm(), 1e-3 * weight());
   }
 }
 
@@ -121,7 +121,7 @@ TEST_F(Predictions, KeepTheContactsOfThePresent) {
   for (const PredictedState& state : states) {
     EXPECT_TRUE(state.converged);
     EXPECT_LT((state.vertices - lying.state().vertices).rowwise().norm().maxCoeff(), 1e-7);
-    EXPECT_NEAR(state.reactions.at("table").force.z(), -weight(), 0.01 * weight());
+    EXPECT_NEAR(state.reactions.at("table").force.z(), -weight(), 1e-6 * weight());
   }
 }
 
@@ -133,7 +133,7 @@ TEST_F(Predictions, WorkWithoutHistoryAndWithAStiffBody) {
     body.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
     const PredictedState state = predict(body, {planOf(shifted(0.0, 0.0, 0.02))}, settingsOf({1.0}))[0][0];
     EXPECT_TRUE(state.converged) << youngs_modulus_pa;
-    EXPECT_NEAR(state.reactions.at("hand").force.z(), -weight(), 0.02 * weight()) << youngs_modulus_pa;
+    EXPECT_NEAR(state.reactions.at("hand").force.z(), -weight(), 5e-3 * weight()) << youngs_modulus_pa;
   }
 }
 
@@ -236,8 +236,8 @@ TEST_F(Predictions, ReportProgressAndEndWhenTheyAreCancelled) {
 
 /// A body that is stretched becomes thin and leaves the ground. Meanwhile its friction goes to zero.
 TEST_F(Predictions, ConvergeWhenTheBodyLeavesTheGround) {
-  for (const double youngs_modulus_pa : {5e3, 2e4, 1e5}) {
-    testing::PredictionScene scene(topology_, {youngs_modulus_pa, 0.2, 30.0, 0.1}, 4);
+  testing::PredictionScene scene(topology_, {2e4, 0.2, 30.0, 0.1}, 2);
+  for (const double stretch_m : {0.01, 0.02, 0.03, 0.04, 0.05}) {
     MotionPlan plan{{}, {scene.plans.table()}};
     plan.obstacles[0].shape.friction = 0.3;
     for (const double side : {-1.0, 1.0}) {
@@ -246,11 +246,10 @@ TEST_F(Predictions, ConvergeWhenTheBodyLeavesTheGround) {
       grip.region->min = {std::min(end, inside) - 1e-3, -1.0, -1.0};
       grip.region->max = {std::max(end, inside) + 1e-3, 1.0, 1.0};
       grip.accuracy_m = 0.001;
-      grip.path = {{1.0}, {shifted(0.02 * side, 0.0, 0.0)}};
+      grip.path = {{1.0}, {shifted(stretch_m * side, 0.0, 0.0)}};
       plan.pins.push_back(grip);
     }
-    const PredictedState state = predict(scene.lying, {plan}, settingsOf({1.0}))[0][0];
-    EXPECT_TRUE(state.converged) << youngs_modulus_pa;
+    EXPECT_TRUE(predict(scene.lying, {plan}, settingsOf({1.0}))[0][0].converged) << stretch_m;
   }
 }
 

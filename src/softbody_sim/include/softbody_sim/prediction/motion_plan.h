@@ -21,11 +21,16 @@ struct RigidPath {
   Eigen::Isometry3d at(double time_s, const Eigen::Vector3d& center) const;
 };
 
+/// Times that differ by less are equal [s].
+constexpr double kTimeRounding_s = 1e-9;
+
 /// When something acts [s from the present]: in the steps that end after `begin`, up to `end`.
 struct ActivePeriod {
   double begin_s = 0.0, end_s = std::numeric_limits<double>::infinity();
 
   bool contains(double time_s) const;
+  /// Whether a step ends in it. The steps begin at the present.
+  bool holdsStep(double time_step_s) const;
 };
 
 /// Pins of one name in a plan: those that hold at present, or a region that takes hold of the body at the

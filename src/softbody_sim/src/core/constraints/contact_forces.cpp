@@ -92,6 +92,10 @@ bool ContactForces::updateFriction(const Points& x, double unnoticed_n, std::vec
   return friction_change_.rowwise().norm().sum() > std::max(kNoticeable * total, unnoticed_n);
 }
 
+void ContactForces::takeDepths(const Points& x, std::vector<Contact>* contacts) const {
+  for (Contact& contact : *contacts) contact.depth = depthOf(contact, x);
+}
+
 double ContactForces::updateLifts(const Points& x, std::vector<Contact>* contacts) const {
   double largest = 0.0;
   for (Contact& contact : *contacts) {
@@ -158,21 +162,24 @@ double ContactForces::largestDepthChange(const std::vector<Contact>& a, const st
   return largest;
 }
 
-void ContactForces::wrenches(const std::vector<Contact>& contacts, const Points& x,
+PointForce ContactForces::forceOf(const Contact& contact, const Eigen::Isometry3d& pose,
+                                  const Points& x) const {
+  const MaterialPoint& place = points_[static_cast<std::size_t>(contact.point)].place;
+  const Eigen::Vector3d offset = contact.depth * contact.normal - pose.linear() * contact.slip;
+  return {place, contact.obstacle, positionOf(place, x, topology_->tets), contact.normal,
+          -stiffnessOf(contact) * offset};
+}
+
+void ContactForces::wrenches(const std::vector<Contact>& remembered, const Points& x,
                              const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const {
   wrenches->assign(obstacles.size(), Wrench());
-  for (const Contact& contact : contacts) {
+  for (const Contact& contact : remembered) {
     if (contact.isWithBody()) continue;
-    const ContactPoint& point = points_[static_cast<std::size_t>(contact.point)];
     const auto obstacle = static_cast<std::size_t>(contact.obstacle);
-    const double depth = depthOf(contact, x);
-    if (depth == 0.0) continue;  // friction from a depth before this is a rest of the iteration
-    Eigen::Vector3d force = -stiffnessOf(contact) * depth * contact.normal;
-    if (contact.friction > 0.0) force -= frictionOf(contact, x);
-    const Eigen::Vector3d arm =
-        positionOf(point.place, x, topology_->tets) - obstacles[obstacle].pose.translation();
-    (*wrenches)[obstacle].force += force;
-    (*wrenches)[obstacle].torque += arm.cross(force);
+    const Eigen::Isometry3d& pose = obstacles[obstacle].pose;
+    const PointForce point = forceOf(contact, pose, x);
+    (*wrenches)[obstacle].force += point.force;
+    (*wrenches)[obstacle].torque += (point.position - pose.translation()).cross(point.force);
   }
 }
 
@@ -181,11 +188,7 @@ std::vector<PointForce> ContactForces::pointForces(const ContactState& state, co
   std::vector<PointForce> forces;
   for (const Contact& contact : state.contacts) {
     if (contact.isWithBody()) continue;
-    const MaterialPoint& place = points_[static_cast<std::size_t>(contact.point)].place;
-    const Eigen::Isometry3d& pose = state.obstacle_poses[static_cast<std::size_t>(contact.obstacle)];
-    const Eigen::Vector3d offset = contact.depth * contact.normal - pose.linear() * contact.slip;
-    forces.push_back({place, contact.obstacle, positionOf(place, x, topology_->tets), contact.normal,
-                      -stiffnessOf(contact) * offset});
+    forces.push_back(forceOf(contact, state.obstacle_poses[static_cast<std::size_t>(contact.obstacle)], x));
   }
   return forces;
 }

@@ -45,6 +45,9 @@ class ContactForces {
   /// @param unnoticed_n a sum of changes that is too small in any case [N].
   bool updateFriction(const Points& x, double unnoticed_n, std::vector<Contact>* contacts);
 
+  /// Friction from the depths at x, of contacts that have just been found.
+  void takeDepths(const Points& x, std::vector<Contact>* contacts) const;
+
   /// Lifts that give the forces at x with the points on the obstacle. @return the largest change [m].
   double updateLifts(const Points& x, std::vector<Contact>* contacts) const;
 
@@ -58,15 +61,18 @@ class ContactForces {
   double largestDepthChange(const std::vector<Contact>& a, const std::vector<Contact>& b,
                             const Points& x) const;
 
-  /// The body's force and torque on each obstacle.
-  void wrenches(const std::vector<Contact>& contacts, const Points& x, const std::vector<Obstacle>& obstacles,
-                std::vector<Wrench>* wrenches) const;
+  /// The body's force and torque on each obstacle. @param remembered as remember() leaves them at x.
+  void wrenches(const std::vector<Contact>& remembered, const Points& x,
+                const std::vector<Obstacle>& obstacles, std::vector<Wrench>* wrenches) const;
 
   /// The body's forces on the obstacles, where there are any. @param state at the vertices x [m].
   std::vector<PointForce> pointForces(const ContactState& state, const Points& x);
 
  private:
   void createPoints();
+  /// The body's force on an obstacle. @param contact as remember() leaves it at x. @param pose of the
+  /// obstacle.
+  PointForce forceOf(const Contact& contact, const Eigen::Isometry3d& pose, const Points& x) const;
   Eigen::Vector3d placeOf(const Contact& contact, const Points& x) const;
   double depthOf(const Contact& contact, const Points& x) const;
   double stiffnessOf(const Contact& contact) const;

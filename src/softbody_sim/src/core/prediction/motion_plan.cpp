@@ -1,6 +1,7 @@
 #include "softbody_sim/prediction/motion_plan.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace softbody {
 
@@ -18,8 +19,11 @@ Eigen::Isometry3d RigidPath::at(double time_s, const Eigen::Vector3d& center) co
 }
 
 bool ActivePeriod::contains(double time_s) const {
-  constexpr double kRounding_s = 1e-9;
-  return time_s > begin_s + kRounding_s && time_s <= end_s + kRounding_s;
+  return time_s > begin_s + kTimeRounding_s && time_s <= end_s + kTimeRounding_s;
+}
+
+bool ActivePeriod::holdsStep(double time_step_s) const {
+  return contains((std::floor((begin_s + kTimeRounding_s) / time_step_s) + 1.0) * time_step_s);
 }
 
 }  // namespace softbody

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 namespace softbody {
-
 namespace {
 
 /// At present. @param vertices then.

@@ -15,8 +15,6 @@
 namespace softbody {
 namespace {
 
-constexpr double kRounding_s = 1e-9;
-
 /// The work that the threads of one call share.
 class Prediction {
  public:
@@ -24,8 +22,8 @@ class Prediction {
              const PredictionSettings& settings)
       : present_(present), plans_(plans), settings_(settings), results_(plans.size()), end_(plans.size()) {}
 
-  /// Predicts plans until none is left, or one before it has failed. Each thread has one simulator for all of
-  /// its plans.
+  /// Predicts plans until none is left. A plan that fails is the last one. Each thread has one simulator for
+  /// all of its plans.
   void work() {
     const std::unique_ptr<Simulator> simulator = present_.copyForPrediction();
     for (std::size_t k = next_++; k < end_ && !cancelled_; k = next_++) {
@@ -94,7 +92,7 @@ std::vector<PredictedState> Prediction::predictOne(const MotionPlan& plan, Simul
         none, start + nanoseconds(time_s),
         surroundings.during(time_s - settings_.time_step_s, time_s, simulator->state().vertices));
     converged = converged && simulator->report().converged;
-    while (states.size() < times_s.size() && times_s[states.size()] <= time_s + kRounding_s)
+    while (states.size() < times_s.size() && times_s[states.size()] <= time_s + kTimeRounding_s)
       states.push_back(stateOf(*simulator, surroundings, time_s, converged));
   }
   return states;

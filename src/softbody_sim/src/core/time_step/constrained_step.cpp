@@ -33,11 +33,11 @@ const ConstrainedStep::Result& ConstrainedStep::solve(const IncrementalPotential
   contact_.start(before, surroundings.obstacles, targets.empty());
   chooseStart(problem, x);
   iterate(problem, x);
-  contact_.wrenches(contacts_, *x, surroundings.obstacles, &result_.reactions.obstacles);
   findPinForces(problem, *x);
   result_.contacts.reserve(contacts_.capacity());
   result_.contacts = contacts_;
   contact_.remember(*x, surroundings.obstacles, result_.report.converged, &result_.contacts);
+  contact_.wrenches(result_.contacts, *x, surroundings.obstacles, &result_.reactions.obstacles);
   return result_;
 }
 
@@ -152,7 +152,7 @@ bool ConstrainedStep::contactsStay(const Problem& problem, const Points& x) {
   // Lifts are forces, and those of a shape that is not in balance are wrong.
   const double lift_change = result_.report.converged ? contact_.updateLifts(x, &balanced_) : 0.0;
   findContacts(x, problem, &found_);
-  contact_.updateFriction(x, 0.0, &found_);
+  contact_.takeDepths(x, &found_);
   keepEarlierContacts(balanced_, &found_);
   const double depth_change = contact_.largestDepthChange(balanced_, found_, x);
   return !friction_changes && depth_change < options_.contact_tolerance_m &&

@@ -6,7 +6,8 @@
 namespace softbody {
 namespace {
 
-/// After so many iterations a Hessian of the present shape costs less than more iterations with an older one.
+/// Iterations with an older Hessian. After them, a Hessian of the present shape costs less than more
+/// iterations.
 constexpr int kManyIterations = 20;
 
 /// Plans of a call differ in what holds the body: not at all, by the pins of the present, by one grip.

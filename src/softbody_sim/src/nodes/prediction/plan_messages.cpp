@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -79,7 +78,6 @@ Eigen::Isometry3d motionOf(const std::vector<geometry_msgs::Pose>& poses, std::s
 /// When a planned pin or obstacle acts. @param end_s 0: it stays.
 ActivePeriod PlanReader::period(double begin_s, double end_s, const char* begin_name,
                                 const char* end_name) const {
-  constexpr double kRounding_s = 1e-9;
   requireTime(begin_s, begin_name);
   requireTime(end_s, end_name);
   if (end_s == 0.0) return {begin_s, std::numeric_limits<double>::infinity()};
@@ -88,8 +86,7 @@ ActivePeriod PlanReader::period(double begin_s, double end_s, const char* begin_
                                             end_name, end_s, begin_name, begin_s));
   }
   const ActivePeriod period{begin_s, end_s};
-  const double first_s = (std::floor((begin_s + kRounding_s) / time_step_s_) + 1.0) * time_step_s_;
-  if (period.contains(first_s)) return period;
+  if (period.holdsStep(time_step_s_)) return period;
   throw std::invalid_argument(
       fmt::format("no step of {:.4g} s ends between {} {} s and {} {} s: let it act longer, or "
                   "ask for shorter steps",
