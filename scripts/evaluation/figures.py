@@ -6,6 +6,8 @@ NOISE_FREE = ("bend", "push", "pull", "twist", "press")
 # Scenes with a body of one colour.
 PLAIN_MOTIONS = ("bend", "push", "pull", "twist", "press")
 PLAIN = (*PLAIN_MOTIONS, "still", "rigid")
+# Scenes with hands of the body's own colour: a plain hand has the same colour as a plain body.
+OWN_COLOUR = ("touch", "squeeze")
 FALSE_AFTER_S = 1.0
 STARTS = 20  # rough poses of each plain scene
 MOVING = ("still", "bend", "push", "twist")

@@ -1,8 +1,8 @@
 """The goals of scenes like the real world: hands, distance, speed, low light, bodies of one colour, wrong objects."""
-from evaluation.figures import (PLAIN, PLAIN_MOTIONS, false_tracking, get, mean_within, of_kind, time_until_normal,
+from evaluation.figures import (OWN_COLOUR, PLAIN, PLAIN_MOTIONS, false_tracking, get, mean_within, of_kind, time_until_normal,
                                 visible_while_tracking, worst)
 
-HELD_S = (1.5, 3.5)  # when the hand of `touch` holds the body
+HELD_S = (1.5, 3.5)  # when the hands of `touch` and `squeeze` hold the body
 MOVING_S, RESTED_S = (0.5, 5.0), 7.0  # of `far`; it has been at rest for 2 s
 WRONG_MM = 15.0  # a vertex this far off is not tracked
 
@@ -16,6 +16,12 @@ def volume(report):
     """The largest error of the volume [%]."""
     share = get(report, "volume", "largest_error")
     return None if share is None else 100.0 * abs(share)
+
+
+def wrong_while_tracking(reports):
+    """Frames called TRACKING with a visible vertex far off; None if no frame was called so."""
+    errors = [error for report in reports for error in visible_while_tracking(report)]
+    return sum(error > WRONG_MM for error in errors) if errors else None
 
 
 def plain_goals(reports):
@@ -51,6 +57,15 @@ def hand_goals(reports):
         ("squeeze: error of the volume", "<= 5", "%", volume(squeeze))]
 
 
+def own_colour_goals(reports):
+    held = [reports.get(("plain", name)) for name in OWN_COLOUR]
+    return [
+        *((f"one colour, hands too: {name}: mean error of visible vertices while held", "<= 1.0", "mm",
+           mean_within(report, "frame_visible_mean_mm", *HELD_S)) for name, report in zip(OWN_COLOUR, held)),
+        (f"one colour, hands too: frames called TRACKING with a visible vertex more than {WRONG_MM:.0f} mm off", "<= 0",
+         "frames", wrong_while_tracking(held) if all(held) else None)]
+
+
 def camera_goals(reports):
     far, dim = reports.get(("scene", "far")), reports.get(("scene", "dim"))
 
@@ -81,11 +96,11 @@ def honest_goals(reports):
     wrong = of_kind(reports, "wrong")
     return [
         (f"frames called TRACKING with a visible vertex more than {WRONG_MM:.0f} mm off, all scenes", "<= 0", "frames",
-         sum(error > WRONG_MM for report in checked for error in visible_while_tracking(report)) if checked else None),
+         wrong_while_tracking(checked)),
         *((f"{what}: frames called TRACKING after 1 s", "<= 0", "frames", false_tracking(report))
           for what, report in wrong.items())]
 
 
 def world_goals(reports):
-    return [*plain_goals(reports), *hand_goals(reports), *camera_goals(reports), *doll_goals(reports),
-            *honest_goals(reports)]
+    return [*plain_goals(reports), *hand_goals(reports), *own_colour_goals(reports), *camera_goals(reports),
+            *doll_goals(reports), *honest_goals(reports)]

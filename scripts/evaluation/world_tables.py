@@ -17,10 +17,11 @@ def plain_bodies(reports):
                      number(max(error["frame_mean_mm"])), number(get(report, "jitter", "per_vertex", "rms_mm")),
                      number(get(starts, "mean_mm")), number(get(starts, "max_mm"))])
     return section("Bodies of one colour",
-                   f"The sponge with `--texture plain` (`still` for 10 s). Each scene is also tracked from {STARTS} "
-                   "rough poses within 2 mm and 1 degree of each other. In each frame after 0.5 s, the mean distance of "
-                   "the vertices is computed between the two results that are farthest apart. The last two columns "
-                   "give its mean over the frames, and its value in the worst frame. All errors are in mm.",
+                   "The sponge with `--texture plain` (`still` for 10 s). In `touch` and `squeeze` the hands have the "
+                   f"body's own colour. Each other scene is also tracked from {STARTS} rough poses within 2 mm and "
+                   "1 degree of each other. In each frame after 0.5 s, the mean distance of the vertices is computed "
+                   "between the two results that are farthest apart. The last two columns give its mean over the "
+                   "frames, and its value in the worst frame. All errors are in mm.",
                    ["scene", "frames answered", "tracking [%]", "mean", "mean visible", "mean hidden", "worst frame",
                     "jitter while still", f"between {STARTS} starts, mean", "worst frame"], rows)
 

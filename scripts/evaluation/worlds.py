@@ -5,7 +5,7 @@ import random
 import re
 import subprocess
 
-from evaluation.figures import PLAIN, STARTS
+from evaluation.figures import OWN_COLOUR, PLAIN, STARTS
 from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, measure, object_of, pose_of, tool, track, with_pose
 
 PLAIN_CAMERA = {"still": ("--duration", "10")}
@@ -50,17 +50,18 @@ def starts(pose, count=STARTS, seed=1):
 
 
 def plain_run(scene):
-    """A body of one colour: the report, and how far apart the results from several starts are."""
+    """A body of one colour: the report; without hands also how far apart the results from several starts are."""
     name = f"{scene}_plain"
     recording, config = OUTPUT / f"{name}.bag", object_of(scene)
     tool("virtual_camera", "--scene", scene, "--texture", "plain", "--output", recording,
          *PLAIN_CAMERA.get(scene, ()))
     reports = {("plain", scene): measure(name, recording, config, "--truth", recording)}
     results = []
-    for number, pose in enumerate(starts(pose_of(config)), 1):
+    for number, pose in enumerate(starts(pose_of(config)) if scene in PLAIN else [], 1):
         start = f"{name}_start_{number}"
         results.append(track(start, recording, with_pose(config, start, pose), "--allow-outside"))
-    reports[("starts", scene)] = bags("spread", *results)
+    if results:
+        reports[("starts", scene)] = bags("spread", *results)
     for used in (recording, *results):
         used.unlink()
     return reports
@@ -100,5 +101,5 @@ def wrong_object_runs():
 
 def world_runs(scenes):
     """Pieces of work as (words, function)."""
-    work = [(f"{scene}, plain", lambda scene=scene: plain_run(scene)) for scene in PLAIN if scene in scenes]
+    work = [(f"{scene}, plain", lambda scene=scene: plain_run(scene)) for scene in (*PLAIN, *OWN_COLOUR) if scene in scenes]
     return work + ([("wrong objects", wrong_object_runs)] if "bend" in scenes else [])
