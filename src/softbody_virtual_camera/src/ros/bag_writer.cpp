@@ -55,6 +55,7 @@ void writeBag(VirtualCamera* camera, const BagOptions& options, const std::funct
     writeCuts(*camera, last_revision, revision, stamp, &bag);
     last_revision = revision;
     writeFrame(messages, stamp, &bag);
+    if (options.labels) bag.write(absolute(kTruthLabelsTopic), stamp, messages.labels);
     progress(frame + 1);
   }
   bag.finish();

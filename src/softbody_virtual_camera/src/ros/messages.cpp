@@ -58,6 +58,8 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
   messages.color = cv_bridge::CvImage(header, sensor_msgs::image_encodings::RGB8, capture.color).toImageMsg();
   messages.depth =
       cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_16UC1, capture.depth_mm).toImageMsg();
+  messages.labels =
+      cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_8UC1, capture.labels).toImageMsg();
   messages.info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(camera));
   messages.info->header = header;
   messages.truth = boost::make_shared<softbody_msgs::MeshState>(toMessage(capture.truth));
@@ -79,8 +81,9 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
 }
 
 void setStamp(const ros::Time& stamp, CaptureMessages* messages) {
-  for (std_msgs::Header* header : {&messages->color->header, &messages->depth->header,
-                                   &messages->info->header, &messages->truth->header}) {
+  for (std_msgs::Header* header :
+       {&messages->color->header, &messages->depth->header, &messages->labels->header,
+        &messages->info->header, &messages->truth->header}) {
     header->stamp = stamp;
   }
   messages->truth->observed = stamp;

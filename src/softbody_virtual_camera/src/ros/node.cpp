@@ -64,6 +64,7 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
   depth_ = node.advertise<sensor_msgs::Image>(name(topics::kCameraDepth), kQueue);
   depth_info_ = node.advertise<sensor_msgs::CameraInfo>(name(topics::kCameraDepthInfo), kQueue);
   truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(name(kTruthTopologyTopic), 1, true);
+  truth_labels_ = node.advertise<sensor_msgs::Image>(name(kTruthLabelsTopic), kQueue);
   truth_state_ = node.advertise<softbody_msgs::MeshState>(name(kTruthStateTopic), kQueue);
   if (camera_->scene().state(0.0).T_camera_tool) {
     truth_tool_ = node.advertise<geometry_msgs::PoseStamped>(name(kTruthToolPoseTopic), kQueue);
@@ -80,7 +81,9 @@ void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& 
 }
 
 bool VirtualCameraNode::hasSubscribers() const {
-  return color_.getNumSubscribers() + depth_.getNumSubscribers() + truth_state_.getNumSubscribers() > 0;
+  return color_.getNumSubscribers() + depth_.getNumSubscribers() + truth_state_.getNumSubscribers() +
+             truth_labels_.getNumSubscribers() >
+         0;
 }
 
 double VirtualCameraNode::sceneTime(int frame) const {
@@ -121,6 +124,7 @@ void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time
   depth_info_.publish(messages.info);
   color_.publish(messages.color);
   depth_.publish(messages.depth);
+  truth_labels_.publish(messages.labels);
   truth_state_.publish(messages.truth);
 }
 

@@ -7,6 +7,7 @@
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -19,7 +20,8 @@
 namespace softbody::virtual_camera {
 namespace {
 
-std::string write(const std::string& name, std::uint64_t seed, const NoiseOptions& noise = {}) {
+std::string write(const std::string& name, std::uint64_t seed, const NoiseOptions& noise = {},
+                  bool labels = false) {
   CameraSetup setup;
   setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
   setup.seed = seed;
@@ -28,7 +30,7 @@ std::string write(const std::string& name, std::uint64_t seed, const NoiseOption
   setup.noise = noise;
   VirtualCamera camera = makeCamera(setup);
   const std::string path = testing::TempDir() + name;
-  writeBag(&camera, {path, 35, 30.0}, [](int) {});
+  writeBag(&camera, {path, 35, 30.0, labels}, [](int) {});
   return path;
 }
 
@@ -87,6 +89,28 @@ TEST(BagWriter, HoldsTheContractsTopicsWithOneStampAFrame) {
   EXPECT_EQ(count["/tf_static"], 2);
   EXPECT_EQ(stamps.size(), 35u);
   for (const auto& [stamp, images] : stamps) EXPECT_EQ(images, 3);
+}
+
+TEST(BagWriter, WritesLabelsWhenAskedWithTheStampOfTheImages) {
+  const auto labelsIn = [](const rosbag::Bag& bag) {
+    std::vector<sensor_msgs::ImageConstPtr> images;
+    for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/ground_truth/labels")))
+      images.push_back(m.instantiate<sensor_msgs::Image>());
+    return images;
+  };
+  EXPECT_TRUE(labelsIn(rosbag::Bag(write("plain.bag", 1))).empty());
+  rosbag::Bag bag(write("labels.bag", 1, {}, true));
+  std::vector<ros::Time> stamps;
+  for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/camera/color/image_raw")))
+    stamps.push_back(m.getTime());
+  const auto images = labelsIn(bag);
+  ASSERT_EQ(images.size(), stamps.size());
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    EXPECT_EQ(images[i]->header.stamp, stamps[i]);
+    EXPECT_EQ(images[i]->header.frame_id, "camera_color_optical_frame");
+    EXPECT_EQ(images[i]->encoding, "8UC1");
+    EXPECT_EQ(std::count(images[i]->data.begin(), images[i]->data.end(), 1) > 100, true);
+  }
 }
 
 TEST(BagWriter, WritesWideImagesAtSixtyHertz) {

@@ -24,6 +24,7 @@ NoiseOptions noNoise();
 struct Capture {
   cv::Mat3b color;     ///< r, g, b
   cv::Mat1w depth_mm;  ///< registered to colour; 0: not measured
+  cv::Mat1b labels;    ///< true labels of the pixels, without noise, as in pixel_labels.h
   MeshState
       truth;  ///< in the optical frame, or in the world if the camera moves; confidence 1: visible, 0: hidden
   Eigen::Isometry3d T_camera_body;

@@ -25,7 +25,8 @@ Canvas emptyCanvas(const Pinhole& camera);
 class Layer {
  public:
   explicit Layer(const Pinhole& camera) : camera_(camera) {}
-  void add(const Actor& actor);
+  /// @param label of its pixels, as in pixel_labels.h.
+  void add(const Actor& actor, std::uint8_t label);
 
   /// @param vertices of the actors, in the order of add(), in the camera's frame [m].
   void place(const std::vector<const Points*>& vertices, const Lights& lights);
@@ -33,6 +34,9 @@ class Layer {
   /// Draws the placed actors. @param color gets the size of the canvas.
   void drawColor(const Canvas& behind, cv::Mat3b* color);
   void drawDepth(const Canvas& behind, cv::Mat1f* inverse_z);
+
+  /// The labels of the last depth; background where the layer is not seen.
+  void drawLabels(cv::Mat1b* labels) const;
 
   /// Draws colour and depth.
   Canvas draw(const Canvas& behind);
@@ -47,8 +51,9 @@ class Layer {
   cv::Vec3b pixelColor(const cv::Vec3b& behind, int u, int v) const;
 
   Pinhole camera_;
-  Triangles triangles_;          ///< of all actors
-  std::vector<char> one_sided_;  ///< per triangle: of a closed surface
+  Triangles triangles_;               ///< of all actors
+  std::vector<char> one_sided_;       ///< per triangle: of a closed surface
+  std::vector<std::uint8_t> labels_;  ///< per triangle
   CornerShading shading_;
   BakedTexture texture_;
   Points vertices_;  ///< of all actors

@@ -10,6 +10,7 @@ namespace softbody::virtual_camera {
 struct RenderedImage {
   cv::Mat3b color;                ///< r, g, b; anti-aliased by 2 by 2 samples per pixel
   cv::Mat1f depth;                ///< z of the nearest surface at the pixel's centre [m]; 0: nothing
+  cv::Mat1b labels;               ///< of the same surface, as in pixel_labels.h; nothing: background
   std::vector<float> visibility;  ///< per vertex of the first actor; 1: visible, 0: hidden
 };
 
@@ -21,7 +22,7 @@ class Renderer {
 
   /// Ignores the vertices of still actors and the light on them.
   void render(const SceneState& state, RenderedImage* image);
-  /// Only colour, or only depth and visibility.
+  /// Only colour, or only depth, labels and visibility.
   void renderColor(const SceneState& state, cv::Mat3b* color);
   void renderDepth(const SceneState& state, RenderedImage* image);
 

@@ -11,7 +11,8 @@ struct BagOptions {
   std::string path;
   int frames = 150;
   double rate_hz = 30.0;
-  bool small = false;  ///< bz2: half the size, but slow to write and to read; otherwise lz4
+  bool labels = false;  ///< also the true labels of the pixels
+  bool small = false;   ///< bz2: half the size, but slow to write and to read; otherwise lz4
 };
 
 /// Writes the camera's topics, the truth and /tf into a bag. The record time is the header stamp, and the

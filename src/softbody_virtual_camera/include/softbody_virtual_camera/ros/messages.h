@@ -25,6 +25,7 @@ constexpr char kGripperTopic[] = "gripper/closed";
 
 constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
+constexpr char kTruthLabelsTopic[] = "ground_truth/labels";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
 constexpr char kTruthCutTopic[] = "ground_truth/cut";
 
@@ -32,6 +33,7 @@ constexpr char kTruthCutTopic[] = "ground_truth/cut";
 struct CaptureMessages {
   sensor_msgs::ImagePtr color, depth;  ///< rgb8; 16UC1 [mm], registered to colour
   sensor_msgs::CameraInfoPtr info;     ///< of both images
+  sensor_msgs::ImagePtr labels;        ///< 8UC1, as in pixel_labels.h
   softbody_msgs::MeshStatePtr truth;   ///< in the optical frame, or in the world if the camera moves
   /// optical frame -> ground_truth_softbody, gripper and its fingers; with a moving camera also
   /// world -> camera_link

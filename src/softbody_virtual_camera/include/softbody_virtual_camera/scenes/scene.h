@@ -20,6 +20,8 @@ struct Actor {
   double crease_angle_rad = 0.7;  ///< edges with a larger angle at rest are creases
   UvTexture skin = {};            ///< replaces the texture on the triangles that it covers
   bool still = false;             ///< never moves in the camera's frame, so it is rendered once
+  bool background =
+      false;  ///< table or wall; other things than the body are occluders. Still things must be it
 };
 
 /// Distant lights. The shares of ambient, main and fill light add up to 1.

@@ -97,6 +97,7 @@ Capture VirtualCamera::capture(int frame, double t) {
   color_noise_.apply(frame, &capture.color);
   depth_noise_.apply(frame, camera_.fx, &image_.depth);
   capture.depth_mm = toMillimetres(image_.depth);
+  capture.labels = image_.labels.clone();
   capture.truth.revision = state.revision;
   capture.truth.vertices =
       state.T_world_camera ? transformed(*state.T_world_camera, state.vertices.at(0)) : state.vertices.at(0);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/pixel_labels.h"
+
 namespace softbody::virtual_camera {
 namespace {
 
@@ -52,13 +54,14 @@ Canvas emptyCanvas(const Pinhole& camera) {
   return {cv::Mat3b(size, kBackground), cv::Mat1f(size * kColorSamples, 0.0f), cv::Mat1f(size, 0.0f)};
 }
 
-void Layer::add(const Actor& actor) {
+void Layer::add(const Actor& actor, std::uint8_t label) {
   const Eigen::Index first_vertex = vertices_.rows(), first_triangle = triangles_.rows();
   vertices_.conservativeResize(first_vertex + actor.rest.vertices.rows(), 3);
   triangles_.conservativeResize(first_triangle + actor.rest.triangles.rows(), 3);
   triangles_.bottomRows(actor.rest.triangles.rows()) =
       actor.rest.triangles.array() + static_cast<int>(first_vertex);
   one_sided_.resize(static_cast<std::size_t>(triangles_.rows()), isClosed(actor.rest));
+  labels_.resize(static_cast<std::size_t>(triangles_.rows()), label);
   shading_.add(actor.rest, actor.crease_angle_rad);
   texture_.add(actor.rest, actor.texture, actor.skin, actor.texel_m);
 }
@@ -95,6 +98,20 @@ void Layer::drawDepth(const Canvas& behind, cv::Mat1f* inverse_z) {
   behind.inverse_z.copyTo(*inverse_z);
   if (!projection_.box.empty()) {
     depth_samples_.inverse_z(projection_.box).copyTo((*inverse_z)(projection_.box));
+  }
+}
+
+void Layer::drawLabels(cv::Mat1b* labels) const {
+  labels->create(depth_samples_.triangle.size());
+  labels->setTo(labels::kBackground);
+  const cv::Rect& box = projection_.box;
+  for (int v = box.y; v < box.y + box.height; ++v) {
+    for (int u = box.x; u < box.x + box.width; ++u) {
+      const int seen = depth_samples_.triangle(v, u);
+      if (seen < 0) continue;
+      const int triangle = projection_.weights[static_cast<std::size_t>(seen)].index;
+      (*labels)(v, u) = labels_[static_cast<std::size_t>(triangle)];
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "softbody_common/pixel_labels.h"
+
 namespace softbody::virtual_camera {
 namespace {
 
@@ -15,6 +17,12 @@ std::vector<const Points*> select(const std::vector<Points>& vertices, const std
   return selected;
 }
 
+/// The first actor is the body.
+std::uint8_t labelOf(const Scene& scene, std::size_t actor) {
+  if (actor == 0) return labels::kBody;
+  return scene.actors[actor].background ? labels::kBackground : labels::kOccluder;
+}
+
 }  // namespace
 
 Renderer::Renderer(const Scene& scene, const Pinhole& camera)
@@ -23,7 +31,7 @@ Renderer::Renderer(const Scene& scene, const Pinhole& camera)
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     // The body is always in the moving layer, because its visibility is needed.
     still_.push_back(i > 0 && scene.actors[i].still);
-    (still_.back() ? still : moving_).add(scene.actors[i]);
+    (still_.back() ? still : moving_).add(scene.actors[i], labelOf(scene, i));
   }
   const SceneState start = scene.state(0.0);
   still.place(select(start.vertices, still_, true), start.lights);
@@ -59,6 +67,7 @@ void Renderer::drawDepth(RenderedImage* image) {
       return inverse_z > 0.0f ? z : 0.0f;
     });
   }
+  moving_.drawLabels(&image->labels);
   image->visibility = moving_.visibility(body_vertices_, inverse_z_);
 }
 

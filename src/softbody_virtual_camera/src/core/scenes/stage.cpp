@@ -46,7 +46,8 @@ Stage makeStage(const Body& body, std::uint64_t seed, float contrast, double dis
                   {table, woodTexture(hash(seed, 2)), 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
   stage.actors[0].skin = withContrast(body.skin, contrast);
-  stage.actors[1].still = stage.actors[2].still = true;
+  for (const std::size_t around : {1u, 2u})
+    stage.actors[around].still = stage.actors[around].background = true;
   const Eigen::Matrix3d R_camera_world = stage.T_camera_world.linear();
   stage.lights.to_main = R_camera_world * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
   if (contrast == 0.0f) {

@@ -21,7 +21,7 @@ struct Arguments {
   std::string output;
   double duration_s = 0.0;
   bool noise = true;
-  bool small = false;
+  bool labels = false, small = false;
   std::vector<std::string> without;
 };
 
@@ -61,6 +61,7 @@ void declareImages(CLI::App* app, Arguments* arguments) {
   app->add_option("--without", arguments->without, "parts of the noise to switch off")
       ->check(CLI::IsMember(noiseParts()));
   app->add_flag("!--no-hands", setup.hands, "hide the hands; the body moves as with them");
+  app->add_flag("--labels", arguments->labels, "also write the true label of each pixel");
   app->add_flag("--small", arguments->small, "compress with bz2: half the size, but slow");
   app->add_option("--duration", arguments->duration_s, "length [s]; default: that of the scene")
       ->check(CLI::Range(0.001, 36000.0));
@@ -81,9 +82,10 @@ void write(const Arguments& arguments) {
   for (const std::string& warning : warnings) fmt::print(stderr, "virtual_camera: warning: {}\n", warning);
   const double duration_s = arguments.duration_s > 0.0 ? arguments.duration_s : camera.scene().duration_s;
   const int frames = std::max(1, static_cast<int>(std::lround(duration_s * arguments.setup.rate_hz)));
-  writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz, arguments.small}, [&](int done) {
-    if (done % 30 == 0) fmt::print(stderr, "frame {} of {}\n", done, frames);
-  });
+  writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz, arguments.labels, arguments.small},
+           [&](int done) {
+             if (done % 30 == 0) fmt::print(stderr, "frame {} of {}\n", done, frames);
+           });
   fmt::print(stderr, "{}: scene {}, {} frames\n", arguments.output, arguments.setup.scene, frames);
 }
 
