@@ -104,7 +104,7 @@ def scene_run(kind, scene, *camera_arguments, replay_arguments=()):
     """Records and measures one scene; {(kind, scene): report}. Faults are put into the same recording."""
     name = scene if kind == "scene" else f"{scene}_{kind.replace(' ', '_')}"
     recording = OUTPUT / f"{name}.bag"
-    tool("virtual_camera", "--scene", scene, "--output", recording, *camera_arguments)
+    tool("virtual_camera", "--scene", scene, "--labels", "--output", recording, *camera_arguments)
     config, allowed = config_of(scene, name)
     reports, unhidden = {}, ()
     if kind == "scene" and scene in HIDDEN:

@@ -18,11 +18,12 @@ def accuracy(reports):
         lengths = [error["all"][key] for key in ("mean_mm", "rms_mm", "p95_mm", "max_mm")]
         rows.append([name, frames(report), percent(tracking_share(report), 0), *map(number, lengths),
                      number(error["visible"]["mean_mm"]), number(error["hidden"]["mean_mm"]),
-                     percent(get(report, "silhouette", "mean_iou")), percent(get(report, "volume", "largest_error"))])
+                     percent(get(report, "silhouette", "mean_iou")), percent(get(report, "labels", "right")),
+                     percent(get(report, "volume", "largest_error"))])
     return section("Every scene", "Distances of the vertices from their true positions [mm], over all answered "
                                   "frames. A frame is answered if the result has a surface with its stamp.",
                    ["scene", "frames answered", "tracking [%]", "mean", "RMS", "p95", "max", "mean visible",
-                    "mean hidden", "silhouette IoU [%]", "volume error at most [%]"], rows)
+                    "mean hidden", "silhouette IoU [%]", "labels right [%]", "volume error at most [%]"], rows)
 
 
 def noise(reports):

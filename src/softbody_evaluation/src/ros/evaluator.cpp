@@ -16,6 +16,7 @@
 #include "softbody_evaluation/report/report_json.h"
 #include "softbody_evaluation/report/report_text.h"
 #include "softbody_evaluation/ros/frame_change.h"
+#include "softbody_evaluation/ros/label_reader.h"
 #include "softbody_evaluation/ros/recording_reader.h"
 #include "softbody_evaluation/ros/result_reader.h"
 #include "softbody_evaluation/ros/surface_reader.h"
@@ -141,6 +142,8 @@ Measured measure(const EvaluatorOptions& options) {
     if (unhidden) addNotes(unhidden->notes, &report.notes);
     compareWithTruth(options, result, *truth, unhidden ? &*unhidden : nullptr, &report, &measured.pictures);
     addTool(options, recording, &report);
+    report.labels = compareLabels(options.result, options.result_namespace + "/" + topics::kLabels,
+                                  options.truth, std::string("/") + virtual_camera::kTruthLabelsTopic);
   }
   if (report.frames.answered == 0) {
     throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame in {}", options.result,

@@ -9,6 +9,7 @@
 #include "softbody_evaluation/measures/calibration.h"
 #include "softbody_evaluation/measures/cut_surface.h"
 #include "softbody_evaluation/measures/depth_residual.h"
+#include "softbody_evaluation/measures/label_agreement.h"
 #include "softbody_evaluation/measures/pose_error.h"
 #include "softbody_evaluation/measures/silhouette.h"
 #include "softbody_evaluation/measures/stage_times.h"
@@ -49,6 +50,7 @@ struct Report {
   std::vector<Absence> absences;                 ///< occlusions and times out of view
   std::optional<JitterReport> jitter;            ///< while the truth is still
   std::optional<PoseErrorReport> tool;           ///< if the truth has a tool
+  std::optional<LabelReport> labels;             ///< if result and truth have label images
   std::optional<SilhouetteReport> silhouette;    ///< if there is a recording
   std::map<StageName, Summary> stages;           ///< [ms], if the result has timing
   std::optional<ResidualReport> residual;        ///< over all frames

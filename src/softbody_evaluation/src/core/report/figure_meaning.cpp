@@ -32,6 +32,7 @@ constexpr Meaning kMeanings[] = {
     {"tool position", "Distance of the tool from its true place."},
     {"tool rotation", "Angle between the tool and its true orientation."},
     {"jitter", "Motion of the vertices while the body stands still."},
+    {"labels right", "Pixels around the body that have the true label: background, body or occluder."},
     {"silhouette IoU", "Common pixels of mesh and body, over all pixels of either; 1 is best."},
     {"depth residual", "Distance along the camera's axis between the mesh and the measured depth."},
     {"depth within",

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/units.h"
+#include "softbody_common/pixel_labels.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -76,6 +77,15 @@ void addTool(const PoseErrorReport& tool, std::vector<Figure>* figures) {
   figures->push_back({"tool rotation, p95", "deg", kDegrees * tool.rotation.p95});
 }
 
+void addLabels(const LabelReport& report, std::vector<Figure>* figures) {
+  figures->push_back({"labels right", "%", 100.0 * report.right});
+  for (std::size_t i = 0; i < report.of_class.size(); ++i) {
+    if (report.of_class[i])
+      figures->push_back(
+          {fmt::format("labels right, {}", labels::kNames[i]), "%", 100.0 * *report.of_class[i]});
+  }
+}
+
 void addVolume(const VolumeReport& volume, std::vector<Figure>* figures) {
   figures->push_back({"volume change, mean", "%", 100.0 * volume.change.mean});
   figures->push_back({"volume change, largest", "%", 100.0 * volume.change.largest});
@@ -102,6 +112,7 @@ std::vector<Figure> figures(const Report& report) {
   addAbsences(report.absences, &all);
   if (report.jitter) all.push_back({"jitter while still, RMS", "mm", 1e3 * report.jitter->per_vertex.rms});
   if (report.tool) addTool(*report.tool, &all);
+  if (report.labels) addLabels(*report.labels, &all);
   if (report.silhouette) {
     const std::string name =
         report.silhouette->against_truth ? "silhouette IoU" : "silhouette IoU against depth";

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/units.h"
+#include "softbody_common/pixel_labels.h"
 #include "softbody_evaluation/report/verdict.h"
 
 namespace softbody::evaluation {
@@ -131,6 +132,18 @@ json toJson(const PoseErrorReport& report) {
           {"rotation_deg", inDegrees(report.rotation)}};
 }
 
+json toJson(const LabelReport& report) {
+  json document = {{"frames", report.frames},
+                   {"pixels", report.pixels},
+                   {"right", report.right},
+                   {"unknown", report.unknown}};
+  for (std::size_t i = 0; i < report.of_class.size(); ++i) {
+    json& share = document[labels::kNames[i]];  // null: no such pixel
+    if (report.of_class[i]) share = *report.of_class[i];
+  }
+  return document;
+}
+
 json toJson(const SilhouetteReport& report) {
   return {{"against", report.against_truth ? "truth" : "depth"},
           {"frames", report.frames},
@@ -183,6 +196,7 @@ json toJson(const Report& report) {
                           {"per_vertex", inMillimetres(report.jitter->per_vertex)}};
   }
   if (report.tool) document["tool"] = toJson(*report.tool);
+  if (report.labels) document["labels"] = toJson(*report.labels);
   if (report.silhouette) document["silhouette"] = toJson(*report.silhouette);
   if (!report.stages.empty()) document["stages"] = toJson(report.stages);
   if (report.residual) {

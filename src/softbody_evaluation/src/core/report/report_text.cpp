@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/units.h"
+#include "softbody_common/pixel_labels.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -81,6 +82,16 @@ std::string absenceLine(const Absence& absence) {
       backAfter(absence.recovery_to_before_s, "the error before"));
 }
 
+std::string labelLine(const LabelReport& report) {
+  std::string text = fmt::format("labels: {:.2f} % of {} pixels right, {:.2f} % unknown",
+                                 100.0 * report.right, report.pixels, 100.0 * report.unknown);
+  for (std::size_t i = 0; i < report.of_class.size(); ++i) {
+    if (report.of_class[i])
+      text += fmt::format(", {} {:.2f} %", labels::kNames[i], 100.0 * *report.of_class[i]);
+  }
+  return text + fmt::format("; {} frames\n", report.frames);
+}
+
 std::string optionalLines(const Report& report) {
   std::string text = cutLines(report);
   if (report.calibration) {
@@ -101,6 +112,7 @@ std::string optionalLines(const Report& report) {
                         report.tool->answered, report.tool->expected, mm(report.tool->position.mean),
                         mm(report.tool->position.p95), kDegrees * report.tool->rotation.mean);
   }
+  if (report.labels) text += labelLine(*report.labels);
   if (report.silhouette) {
     text += fmt::format("silhouette IoU against {}: {:.4f} mean, {:.4f} worst of {} frames\n",
                         report.silhouette->against_truth ? "truth" : "measured depth",
