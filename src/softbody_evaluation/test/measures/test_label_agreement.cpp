@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 #include "softbody_evaluation/measures/label_agreement.h"
 
 namespace softbody::evaluation {

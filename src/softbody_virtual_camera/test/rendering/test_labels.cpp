@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fixtures/scene_fixtures.h"
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/units.h"
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 
 namespace softbody::evaluation {
 namespace {

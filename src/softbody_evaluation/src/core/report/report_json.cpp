@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/units.h"
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 #include "softbody_evaluation/report/verdict.h"
 
 namespace softbody::evaluation {

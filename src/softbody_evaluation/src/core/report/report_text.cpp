@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "report/units.h"
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 
 namespace softbody::virtual_camera {
 namespace {

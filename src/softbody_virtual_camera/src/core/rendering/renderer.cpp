@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "softbody_common/pixel_labels.h"
+#include "softbody_common/images/pixel_labels.h"
 
 namespace softbody::virtual_camera {
 namespace {
