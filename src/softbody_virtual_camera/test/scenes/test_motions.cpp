@@ -161,5 +161,29 @@ TEST(Motions, SqueezeShortensTheBodyLikePushAndKeepsItsMiddle) {
   }
 }
 
+TEST(Motions, OnTheTableTheBodyLiesInItsShadow) {
+  for (const char* body : {"sponge", "doll"}) {
+    const Scene scene = motionScene("table", body), above = motionScene("still", body);
+    for (const double t : {0.0, 1.5, 2.5, 5.0}) {
+      const Points placed = transformed(scene.T_camera_world.inverse(), scene.state(t).vertices[0]);
+      EXPECT_NEAR(placed.col(2).minCoeff(), 0.0, 1e-9) << body << " at " << t;
+      EXPECT_LT(placed.leftCols(2).colwise().mean().norm(), 0.02) << body << " at " << t;
+    }
+    const auto brightness = [&](double x, double y) {
+      const Eigen::Vector3d place(x, y, 0.0);
+      return scene.actors[1].texture(place).y() / above.actors[1].texture(place).y();
+    };
+    EXPECT_NEAR(brightness(0.0, 0.0), 0.4, 1e-3);
+    EXPECT_NEAR(brightness(0.3, -0.2), 1.0, 1e-3);
+    float last = 0.0f;
+    for (double x = 0.0; x < 0.3; x += 1e-3) {
+      const float now = brightness(x, 0.0);
+      EXPECT_GE(now, last - 1e-5f);
+      EXPECT_LT(now - std::max(last, 0.4f), 0.05f);  // soft
+      last = now;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace softbody::virtual_camera

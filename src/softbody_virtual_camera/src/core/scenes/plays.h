@@ -16,6 +16,7 @@ Play fastPlay(const Stage& stage);   ///< bends twice a second and swings at up 
 Play rollPlay(const Stage& stage);   ///< bends upwards to 14 1/m; a body that is too thick for it, sideways
 Play farPlay(const Stage& stage);    ///< bends, then rests for 3 s
 Play dimPlay(const Stage& stage);    ///< bends in low light from a lamp that flickers
+Play tablePlay(const Stage& stage);  ///< on the table, becomes shorter by 10 %
 Play leavePlay(const Stage& stage);  ///< out of view to the left and back
 
 }  // namespace softbody::virtual_camera

@@ -23,18 +23,19 @@ using PlayMaker = Play (*)(const Stage& stage);
 /// A scene without a tool.
 struct Setting {
   PlayMaker play;
-  double distance_m = kNear_m;
+  Place place = {};
 };
 
 using CutMaker = Scene (*)(const Stage& stage, const Tool& tool);
 
 const std::map<std::string, Setting>& plays() {
   static const std::map<std::string, Setting> settings = {
-      {"still", {stillPlay}}, {"bend", {bendPlay}},       {"twist", {twistPlay}},  {"push", {pushPlay}},
-      {"pull", {pullPlay}},   {"shake", {shakePlay}},     {"rigid", {rigidPlay}},  {"fast", {fastPlay}},
-      {"roll", {rollPlay}},   {"dim", {dimPlay}},         {"far", {farPlay, 0.9}}, {"leave", {leavePlay}},
-      {"press", {pressPlay}}, {"occlude", {occludePlay}}, {"touch", {touchPlay}},  {"squeeze", {squeezePlay}},
-      {"grasp", {graspPlay}}};
+      {"still", {stillPlay}},     {"bend", {bendPlay}},       {"twist", {twistPlay}},
+      {"push", {pushPlay}},       {"pull", {pullPlay}},       {"shake", {shakePlay}},
+      {"rigid", {rigidPlay}},     {"fast", {fastPlay}},       {"roll", {rollPlay}},
+      {"dim", {dimPlay}},         {"far", {farPlay, {0.9}}},  {"leave", {leavePlay}},
+      {"press", {pressPlay}},     {"occlude", {occludePlay}}, {"touch", {touchPlay}},
+      {"squeeze", {squeezePlay}}, {"grasp", {graspPlay}},     {"table", {tablePlay, {kNear_m, true}}}};
   return settings;
 }
 
@@ -97,7 +98,7 @@ Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, c
   const BodyFrame frame = frameOf(body.rest.vertices);
   const Stage stage =
       makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed,
-                contrastOf(texture), play != plays().end() ? play->second.distance_m : kNear_m);
+                contrastOf(texture), play != plays().end() ? play->second.place : Place());
   Scene scene = play != plays().end() ? perform(stage, play->second.play(stage))
                                       : cut->second(stage, scaled(readTool(tool_file), 1.0 / frame.scale));
   scene.name = name;

@@ -12,6 +12,7 @@ namespace softbody::virtual_camera {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kYaw = 25.0 * kDegree;  // of the body
 
 /// Optical frame of a camera at `eye` that looks at `target`, its x axis level.
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
@@ -23,33 +24,52 @@ Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
   return T_world_camera.inverse();
 }
 
-/// Height of the body's origin above the table [m], with space to bend.
-double heightOf(const TriangleMesh& body) {
+/// Height of the body's origin above the table [m]; unless it lies there, with space to bend.
+double heightOf(const TriangleMesh& body, bool on_table) {
   constexpr double kLeast = 0.08, kClearance = 0.02;
-  return std::max(kLeast, kClearance - body.vertices.col(2).minCoeff());
+  const double below = -body.vertices.col(2).minCoeff();
+  return on_table ? below : std::max(kLeast, kClearance + below);
+}
+
+/// The texture of the table around a body that lies on it: darker below the body, and beside it where the
+/// light does not come. All in the world's frame.
+Texture withShadow(const Texture& texture, const TriangleMesh& body, const Eigen::Vector3d& to_light) {
+  constexpr double kSoft = 0.025;  // [m]
+  constexpr float kDarkest = 0.6f;
+  const Eigen::Vector3d low = body.vertices.colwise().minCoeff(), high = body.vertices.colwise().maxCoeff();
+  const Eigen::Vector3d half = 0.5 * (high - low);
+  const Eigen::Vector3d aside = -half.z() / to_light.z() * to_light;
+  return [=](const Eigen::Vector3d& p) -> Eigen::Vector3f {
+    const Eigen::Vector3d from_middle = Eigen::AngleAxisd(-kYaw, Eigen::Vector3d::UnitZ()) * (p - aside);
+    const Eigen::Vector2d beyond = (from_middle.cwiseAbs() - half).head<2>().cwiseMax(0.0);
+    return (1.0f - kDarkest * static_cast<float>(std::exp(-beyond.squaredNorm() / (kSoft * kSoft)))) *
+           texture(p);
+  };
 }
 
 }  // namespace
 
-Stage makeStage(const Body& body, std::uint64_t seed, float contrast, double distance_m) {
-  constexpr double kElevation = 42.0 * kDegree, kYaw = 25.0 * kDegree;
-  const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest));
+Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Place& place) {
+  constexpr double kElevation = 42.0 * kDegree;
+  const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest, place.on_table));
+  const Eigen::Vector3d to_light = Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
   const Eigen::Vector3d eye =
-      center + distance_m * Eigen::Vector3d(0.0, -std::cos(kElevation), std::sin(kElevation));
+      center + place.distance_m * Eigen::Vector3d(0.0, -std::cos(kElevation), std::sin(kElevation));
   Stage stage;
   stage.T_camera_world = lookAt(eye, center);
   stage.T_camera_body =
       stage.T_camera_world * Eigen::Translation3d(center) * Eigen::AngleAxisd(kYaw, Eigen::Vector3d::UnitZ());
   const TriangleMesh table = rectangle({-0.8, -0.3, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.8, 0.0});
   const TriangleMesh wall = rectangle({-0.8, 0.5, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.0, 0.8});
+  const Texture wood = woodTexture(hash(seed, 2));
   stage.actors = {{body.rest, withContrast(cellTexture(hash(seed, 1)), contrast)},
-                  {table, woodTexture(hash(seed, 2)), 1.6e-3},
+                  {table, place.on_table ? withShadow(wood, body.rest, to_light) : wood, 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
   stage.actors[0].skin = withContrast(body.skin, contrast);
   for (const std::size_t around : {1u, 2u})
     stage.actors[around].still = stage.actors[around].background = true;
   const Eigen::Matrix3d R_camera_world = stage.T_camera_world.linear();
-  stage.lights.to_main = R_camera_world * Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
+  stage.lights.to_main = R_camera_world * to_light;
   if (contrast == 0.0f) {
     stage.lights.to_fill = R_camera_world * Eigen::Vector3d(0.70, -0.65, 0.30).normalized();
     stage.lights.ambient = stage.lights.fill = 0.25f;

@@ -17,8 +17,12 @@ struct Stage {
 };
 constexpr double kNear_m = 0.5;  ///< usual distance between camera and body
 /// @param contrast of the body's texture; a body of one colour has a second light, to show its shape.
-/// @param distance_m between the camera and the middle of the body.
-Stage makeStage(const Body& body, std::uint64_t seed, float contrast, double distance_m = kNear_m);
+/// Where the body is at the start. On the table it lies in its own soft shadow.
+struct Place {
+  double distance_m = kNear_m;  ///< between the camera and the middle of the body
+  bool on_table = false;        ///< otherwise it hovers above it
+};
+Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Place& place);
 
 /// A thing that moves in front of the camera.
 struct Prop {
