@@ -8,6 +8,9 @@ PLAIN_MOTIONS = ("bend", "push", "pull", "twist", "press")
 PLAIN = (*PLAIN_MOTIONS, "still", "rigid")
 # Scenes with hands of the body's own colour: a plain hand has the same colour as a plain body.
 OWN_COLOUR = ("touch", "squeeze")
+# Scenes that every texture is measured in, with both bodies.
+TEXTURED = tuple(body + scene for body in ("", "doll_") for scene in (*NOISE_FREE, "far", "fast", "table"))
+TEXTURES = ("weak", "plain")
 FALSE_AFTER_S = 1.0
 STARTS = 20  # rough poses of each plain scene
 MOVING = ("still", "bend", "push", "twist")
@@ -140,7 +143,7 @@ def calibration_bins(reports):
     """{bin: [count, sum of squared predictions, sum of squared errors]} over all scenes [mm^2]."""
     bins = {}
     for (kind, _), report in reports.items():
-        for row in (get(report, "calibration", "bins") or []) if kind in ("scene", "plain") else []:
+        for row in (get(report, "calibration", "bins") or []) if kind in ("scene", *TEXTURES) else []:
             total = bins.setdefault(math.floor(2.0 * math.log2(max(row["predicted_rms_mm"], 1e-3))), [0, 0.0, 0.0])
             total[0] += row["count"]
             total[1] += row["count"] * row["predicted_rms_mm"] ** 2

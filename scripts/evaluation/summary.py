@@ -25,7 +25,7 @@ def figures(reports):
          get(hidden[0], "covered", "mean_mm") if hidden else None),
         ("sponge, cut: largest distance between the cut surface and the true one", "<= 2.0", "mm",
          worst(scene("cut", "cut_surface", way, "max_mm") for way in ("distance", "missed"))),
-        ("recorded toy, real camera: median distance from the measured depth", "<= 4.0", "mm",
+        ("recorded toy, real camera: median distance from the measured depth", "<= 1.2", "mm",
          get(reports.get(("toys", "toys")), "depth_residual", "all", "residual", "median_mm")),
     ]
 

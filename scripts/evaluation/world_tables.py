@@ -1,7 +1,7 @@
 """The tables of docs/evaluation.md on bodies of one colour, predicted errors and wrong objects."""
 import math
 
-from evaluation.figures import (FALSE_AFTER_S, STARTS, calibration_bins, false_tracking, frames, get, number, of_kind,
+from evaluation.figures import (FALSE_AFTER_S, OWN_COLOUR, PLAIN, STARTS, TEXTURED, TEXTURES, calibration_bins, false_tracking, frames, get, number, of_kind,
                                 percent, tracking_share)
 from evaluation.tables import section
 
@@ -11,6 +11,8 @@ CALIBRATION_PLOT = "docs/images/calibration.svg"
 def plain_bodies(reports):
     rows = []
     for name, report in of_kind(reports, "plain").items():
+        if name not in (*PLAIN, *OWN_COLOUR):
+            continue
         error, starts = report["vertex_error"], reports.get(("starts", name))
         rows.append([name, frames(report), percent(tracking_share(report), 0), number(error["all"]["mean_mm"]),
                      number(error["visible"]["mean_mm"]), number(error["hidden"]["mean_mm"]),
@@ -26,12 +28,28 @@ def plain_bodies(reports):
                     "jitter while still", f"between {STARTS} starts, mean", "worst frame"], rows)
 
 
+def textures(reports):
+    kinds = ("scene", *TEXTURES)
+    rows = []
+    for scene in TEXTURED:
+        found = [reports.get((kind, scene)) for kind in kinds]
+        if any(found[1:]):
+            rows.append([scene, *(number(get(report, "vertex_error", part, "mean_mm"))
+                                  for part in ("visible", "hidden") for report in found)])
+    return section("Textures",
+                   "The same scenes with the textures `rich` (as in all other tables), `weak` and `plain`. Mean errors "
+                   "of the visible and of the hidden vertices, in mm.",
+                   ["scene", *(f"{part}, {texture}" for part in ("visible", "hidden")
+                               for texture in ("rich", *TEXTURES))], rows)
+
+
 def predicted_errors(reports):
     rows = []
-    for kind in ("scene", "plain"):
+    words = {"scene": "", "plain": ", one colour", "weak": ", weak texture"}
+    for kind in words:
         for name, report in of_kind(reports, kind).items():
             found = get(report, "calibration")
-            rows.append([name if kind == "scene" else f"{name}, one colour", percent(get(found, "within_90_visible")),
+            rows.append([name + words[kind], percent(get(found, "within_90_visible")),
                          percent(get(found, "within_90_hidden")), number(get(found, "median_ratio"))])
     lines = section("Predicted errors",
                     "A state can give a standard deviation for each vertex: the predicted RMS of its distance from the "

@@ -5,8 +5,8 @@ import random
 import re
 import subprocess
 
-from evaluation.figures import OWN_COLOUR, PLAIN, STARTS
-from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, measure, object_of, pose_of, tool, track, with_pose
+from evaluation.figures import OWN_COLOUR, PLAIN, STARTS, TEXTURED, TEXTURES
+from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, object_of, pose_of, tool, track, with_pose
 
 PLAIN_CAMERA = {"still": ("--duration", "10")}
 START_M, START_RAD = 0.001, math.radians(0.5)  # from the middle, so starts are within 2 mm and 1 degree of each other
@@ -53,7 +53,7 @@ def plain_run(scene):
     """A body of one colour: the report; without hands also how far apart the results from several starts are."""
     name = f"{scene}_plain"
     recording, config = OUTPUT / f"{name}.bag", object_of(scene)
-    tool("virtual_camera", "--scene", scene, "--texture", "plain", "--output", recording,
+    tool("virtual_camera", "--scene", scene, "--texture", "plain", "--labels", "--output", recording,
          *PLAIN_CAMERA.get(scene, ()))
     reports = {("plain", scene): measure(name, recording, config, "--truth", recording)}
     results = []
@@ -65,6 +65,19 @@ def plain_run(scene):
     for used in (recording, *results):
         used.unlink()
     return reports
+
+
+def texture_run(scene, texture):
+    """A scene with another texture, without pictures; {(texture, scene): report}."""
+    name = f"{scene}_{texture}"
+    recording = OUTPUT / f"{name}.bag"
+    tool("virtual_camera", "--scene", scene, "--texture", texture, "--labels", "--output", recording)
+    config, allowed = config_of(scene, name)
+    result = track(name, recording, config, *allowed)
+    text = tool("evaluate", result, "--truth", recording, "--json")
+    (OUTPUT / f"{name}.json").write_text(text)
+    recording.unlink()
+    return {(texture, scene): json.loads(text)}
 
 
 def scaled_object(config, factor, name):
@@ -102,4 +115,7 @@ def wrong_object_runs():
 def world_runs(scenes):
     """Pieces of work as (words, function)."""
     work = [(f"{scene}, plain", lambda scene=scene: plain_run(scene)) for scene in (*PLAIN, *OWN_COLOUR) if scene in scenes]
+    work += [(f"{scene}, {texture}", lambda scene=scene, texture=texture: texture_run(scene, texture))
+             for texture in TEXTURES for scene in TEXTURED
+             if scene in scenes and not (texture == "plain" and scene in PLAIN)]
     return work + ([("wrong objects", wrong_object_runs)] if "bend" in scenes else [])
