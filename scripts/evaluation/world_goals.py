@@ -1,6 +1,6 @@
 """The goals of scenes like the real world: hands, distance, speed, low light, bodies of one colour, wrong objects."""
-from evaluation.figures import (OWN_COLOUR, PLAIN, PLAIN_MOTIONS, TEXTURES, false_tracking, get, mean_within, of_kind, time_until_normal,
-                                visible_while_tracking, worst)
+from evaluation.figures import (OWN_COLOUR, PLAIN, PLAIN_MOTIONS, TEXTURES, false_tracking, get, mean_within,
+                                of_kind, time_until_normal, visible_while_tracking, worst)
 
 HELD_S = (1.5, 3.5)  # when the hands of `touch` and `squeeze` hold the body
 MOVING_S, RESTED_S = (0.5, 5.0), 7.0  # of `far`; it has been at rest for 2 s

@@ -1,8 +1,8 @@
 """The tables of docs/evaluation.md on bodies of one colour, predicted errors and wrong objects."""
 import math
 
-from evaluation.figures import (FALSE_AFTER_S, OWN_COLOUR, PLAIN, STARTS, TEXTURED, TEXTURES, calibration_bins, false_tracking, frames, get, number, of_kind,
-                                percent, tracking_share)
+from evaluation.figures import (FALSE_AFTER_S, OWN_COLOUR, PLAIN, STARTS, TEXTURED, TEXTURES, calibration_bins,
+                                false_tracking, frames, get, number, of_kind, percent, tracking_share)
 from evaluation.tables import section
 
 CALIBRATION_PLOT = "docs/images/calibration.svg"

@@ -6,7 +6,8 @@ import re
 import subprocess
 
 from evaluation.figures import OWN_COLOUR, PLAIN, STARTS, TEXTURED, TEXTURES
-from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, object_of, pose_of, tool, track, with_pose
+from evaluation.runs import (DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, object_of, pose_of, tool, track,
+                             with_pose)
 
 PLAIN_CAMERA = {"still": ("--duration", "10")}
 START_M, START_RAD = 0.001, math.radians(0.5)  # from the middle, so starts are within 2 mm and 1 degree of each other
@@ -114,7 +115,8 @@ def wrong_object_runs():
 
 def world_runs(scenes):
     """Pieces of work as (words, function)."""
-    work = [(f"{scene}, plain", lambda scene=scene: plain_run(scene)) for scene in (*PLAIN, *OWN_COLOUR) if scene in scenes]
+    work = [(f"{scene}, plain", lambda scene=scene: plain_run(scene))
+            for scene in (*PLAIN, *OWN_COLOUR) if scene in scenes]
     work += [(f"{scene}, {texture}", lambda scene=scene, texture=texture: texture_run(scene, texture))
              for texture in TEXTURES for scene in TEXTURED
              if scene in scenes and not (texture == "plain" and scene in PLAIN)]
