@@ -41,7 +41,7 @@ TEST(CutBody, HoldsAPieceThatDoesNotShowUntilItDoes) {
   const int middle = cvRound(tracked.frame().camera.project(boxPose().translation()).x());
   const cv::Rect right(middle - 20, 0, 640 - middle + 20, 480);
   TrackingResult result;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 12; ++i) {
     result = tracked.show(rest, [&](RgbdFrame* frame) { frame->depth(right).setTo(0.3f); });
   }
   EXPECT_EQ(result.status.state, TrackingState::kDegraded);

@@ -9,7 +9,7 @@ namespace softbody {
 
 /// A gap this short in what is seen is normal, and no search waits longer [ns]: ten frames at 30 Hz, which
 /// cost a tenth.
-constexpr Nanoseconds kLongestGap = 290'000'000;
+constexpr Nanoseconds kLongestGap = 320'000'000;
 
 /// Decides when to try again what failed: at once, then after waits that double. Searches that fail again and
 /// again, as in another light, then cost little. Time is that of the frames.
