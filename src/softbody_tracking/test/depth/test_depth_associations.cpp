@@ -131,7 +131,7 @@ TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
 /// Sum of the weights, downweighted by the noise of this frame alone.
 double totalWeight(DepthAssociations found, double volume_edge_m) {
   DepthNoiseEstimator noise;
-  noise.update(found.noise);
+  noise.update(found.noise, 1.0);
   downweightByNoise(noise.patchStdDev(volume_edge_m) / volume_edge_m, &found);
   double sum = 0.0;
   for (const Association& a : found.associations) sum += a.weight;
@@ -264,7 +264,7 @@ TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
 }
 
 TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
-  colors_.learnRegion(frame_, surface_.image());
+  colors_.learnRegion(frame_, surface_.image(), 1.0);
   EXPECT_EQ(associate().occluded_blocks, 0);
   frame_.color.setTo(frame_.color(10, 10));  // the wall's
   const DepthAssociations found = associate();
@@ -322,7 +322,7 @@ TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
 TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
   constexpr double kHeight = 0.03, kRadiusPx = 90.0;
   const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
-  colors_.learnRegion(frame_, surface_.image());
+  colors_.learnRegion(frame_, surface_.image(), 1.0);
   for (int v = 0; v < frame_.depth.rows; ++v) {
     for (int u = 0; u < frame_.depth.cols; ++u) {
       const double distance = (Eigen::Vector2d(u, v) - middle).norm();

@@ -12,6 +12,7 @@ namespace softbody {
 namespace {
 
 constexpr double kFocal = 600.0, kDepth = 0.5;  // [px], [m]
+constexpr double kFrameInterval_s = 1.0 / 30.0;
 
 /// Blocks of a surface that faces the camera. @param difference of a block, by column and row [m].
 DepthNoiseSample sampleOf(const cv::Size& grid, int block_px,
@@ -83,42 +84,42 @@ TEST(SampleDepthNoise, ComparesBlocksWithIndependentErrors) {
 TEST(DepthNoiseEstimator, AWiderPatchHasLessNoise) {
   DepthNoiseEstimator noise;
   EXPECT_EQ(noise.patchStdDev(0.03), 0.0) << "unknown";
-  for (int frame = 0; frame < 100; ++frame) noise.update({6e-6, 2000});
+  for (int frame = 0; frame < 100; ++frame) noise.update({6e-6, 2000}, kFrameInterval_s);
   EXPECT_NEAR(noise.patchStdDev(0.03), 0.2e-3, 1e-6);
   EXPECT_NEAR(noise.patchStdDev(0.06), 0.1e-3, 1e-6);
 }
 
 TEST(DepthNoiseEstimator, OneFrameThatShowsMuchIsEnough) {
   DepthNoiseEstimator noise;
-  noise.update({6e-6, 2000});
+  noise.update({6e-6, 2000}, kFrameInterval_s);
   EXPECT_NEAR(noise.patchStdDev(1.0), 6e-6, 0.1e-6);
 }
 
 TEST(DepthNoiseEstimator, FollowsAChangeWithinEightFrames) {
   DepthNoiseEstimator noise;
-  for (int frame = 0; frame < 100; ++frame) noise.update({2e-6, 2000});
-  for (int frame = 0; frame < 8; ++frame) noise.update({6e-6, 2000});
+  for (int frame = 0; frame < 100; ++frame) noise.update({2e-6, 2000}, kFrameInterval_s);
+  for (int frame = 0; frame < 8; ++frame) noise.update({6e-6, 2000}, kFrameInterval_s);
   EXPECT_NEAR(noise.patchStdDev(1.0), 6e-6, 0.2e-6);
 }
 
 /// A hand covers most of the body.
 TEST(DepthNoiseEstimator, AFrameThatShowsLittleChangesLittle) {
   DepthNoiseEstimator noise;
-  for (int frame = 0; frame < 10; ++frame) noise.update({6e-6, 2000});
+  for (int frame = 0; frame < 10; ++frame) noise.update({6e-6, 2000}, kFrameInterval_s);
   const double before = noise.patchStdDev(1.0);
-  noise.update({});
+  noise.update({}, kFrameInterval_s);
   EXPECT_EQ(noise.patchStdDev(1.0), before);
-  noise.update({3e-6, 31});
-  noise.update({9e-6, 29});
-  EXPECT_NEAR(noise.patchStdDev(1.0), before, 0.02 * before);
+  noise.update({3e-6, 31}, kFrameInterval_s);
+  noise.update({9e-6, 29}, kFrameInterval_s);
+  EXPECT_NEAR(noise.patchStdDev(1.0), before, 0.03 * before);
 }
 
 /// A body that never shows much.
 TEST(DepthNoiseEstimator, ManyFramesThatShowLittleAreEnough) {
   DepthNoiseEstimator noise;
-  noise.update({6e-6, 5});
+  noise.update({6e-6, 5}, kFrameInterval_s);
   EXPECT_LT(noise.patchStdDev(1.0), 3e-6) << "five second differences are few";
-  for (int frame = 0; frame < 300; ++frame) noise.update({6e-6, 5});
+  for (int frame = 0; frame < 300; ++frame) noise.update({6e-6, 5}, kFrameInterval_s);
   EXPECT_NEAR(noise.patchStdDev(1.0), 6e-6, 0.1e-6);
 }
 

@@ -80,7 +80,7 @@ class FeatureMapTest : public ::testing::Test {
     Found found{expect(map_), {}};
     found.all = matcher().alignAll(found.expected);
     markOutliers(frame_.camera, config_.max_disagreement_m, &found.all.matches);
-    map_.score(found.expected, found.all.matches, {true});
+    map_.score(found.expected, found.all.matches, {true}, 1.0 / 30.0);
     return found;
   }
 
@@ -234,16 +234,29 @@ TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
   EXPECT_TRUE(map_.features().empty());
 }
 
+TEST_F(FeatureMapTest, TriesFeaturesForTheSameTimeAtAnyRate) {
+  const ExpectedFeatures expected = expect(map_);
+  const FeatureMap fresh = map_;
+  for (const int rate : {15, 30, 60}) {
+    map_ = fresh;
+    for (int i = 0; i < rate; ++i) {
+      EXPECT_EQ(map_.features().empty(), i > 0.7 * rate + 1.0) << i << " of " << rate;
+      map_.score(expected, {}, {true}, 1.0 / rate);
+      if (i < 0.55 * rate || i > 0.7 * rate) map_.retire();
+    }
+  }
+}
+
 TEST_F(FeatureMapTest, LearnsNothingOfAPieceWithPoorObservability) {
   FeatureMap none{FeatureConfig()};
   admit(keypoints(), &none, 0, false);
   EXPECT_TRUE(none.features().empty());
   const Found found = align();
   const std::vector<MapFeature> before = map_.features();
-  map_.score(found.expected, found.all.matches, {false});
+  map_.score(found.expected, found.all.matches, {false}, 1.0 / 30.0);
   for (std::size_t f = 0; f < before.size(); ++f) {
-    EXPECT_EQ(map_.features()[f].predicted, before[f].predicted);
-    EXPECT_EQ(map_.features()[f].matched, before[f].matched);
+    EXPECT_EQ(map_.features()[f].expected_s, before[f].expected_s);
+    EXPECT_EQ(map_.features()[f].found_s, before[f].found_s);
   }
 }
 

@@ -64,11 +64,11 @@ TEST(FeatureWeights, AreWholeWherePatchesFitExactly) {
   EXPECT_EQ(weightsOf({0.0, 0.0, 0.0}), std::vector<double>(3, 1.0));
 }
 
-MapFeature featureWith(double place_deviation_m, int predicted, int matched) {
+MapFeature featureWith(double place_deviation_m, double expected_s, double found_s) {
   MapFeature feature;
   feature.place_variance = place_deviation_m * place_deviation_m;
-  feature.predicted = predicted;
-  feature.matched = matched;
+  feature.expected_s = expected_s;
+  feature.found_s = found_s;
   return feature;
 }
 
@@ -84,12 +84,11 @@ TEST(FeatureTrust, FallsWithTheVarianceOfItsPlace) {
     EXPECT_GT(trustIn(featureWith(deviation, 9, 5)), trustIn(featureWith(2.0 * deviation + 1e-4, 9, 5)));
 }
 
-TEST(FeatureTrust, TendsToTheShareOfFramesThatShowedIt) {
+TEST(FeatureTrust, TendsToTheShareOfTimeThatShowedIt) {
   EXPECT_NEAR(trustIn(featureWith(0.0, 100000, 20000)), 0.2, 1e-4);
-  for (int predicted = 1; predicted < 40; ++predicted)
-    for (int matched = 0; matched < predicted; ++matched)
-      EXPECT_LT(trustIn(featureWith(0.0, predicted, matched)),
-                trustIn(featureWith(0.0, predicted, matched + 1)));
+  for (int expected = 1; expected < 40; ++expected)
+    for (int found = 0; found < expected; ++found)
+      EXPECT_LT(trustIn(featureWith(0.0, expected, found)), trustIn(featureWith(0.0, expected, found + 1)));
 }
 
 }  // namespace

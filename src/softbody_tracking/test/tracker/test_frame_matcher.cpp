@@ -31,7 +31,7 @@ class FramesOfBox : public ::testing::Test {
 
   Observation show(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& predicted) {
     truth_ = transformed(box_.volume.rest_vertices, pose);
-    const RgbdFrame frame = renderFrame(box_, truth_, 1);
+    const RgbdFrame frame = renderFrame(box_, truth_, stamp_ += kFrameInterval);
     Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, predicted));
     observer_->learnFeatures(frame, seen);
     return seen;
@@ -54,6 +54,7 @@ class FramesOfBox : public ::testing::Test {
   BoxBody box_ = makeBox();
   TrackerConfig config_;
   std::unique_ptr<FrameObserver> observer_;
+  Nanoseconds stamp_ = 0;
   Points truth_;
 };
 

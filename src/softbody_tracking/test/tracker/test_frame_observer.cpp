@@ -27,7 +27,8 @@ class TurnedBox : public ::testing::Test {
 
   template <typename Edit>
   Observation show(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& predicted, Edit edit) {
-    RgbdFrame frame = renderFrame(box_, transformed(box_.volume.rest_vertices, pose), 1);
+    RgbdFrame frame =
+        renderFrame(box_, transformed(box_.volume.rest_vertices, pose), stamp_ += kFrameInterval);
     edit(&frame);
     Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, predicted));
     observer_->learnFeatures(frame, seen);
@@ -59,12 +60,14 @@ class TurnedBox : public ::testing::Test {
                           back_ = boxPose() * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX());
   TrackerConfig config_;
   std::unique_ptr<FrameObserver> observer_;
+  Nanoseconds stamp_ = 0;
 };
 
 /// The deviation grows linearly along x at rest.
 TEST_F(TurnedBox, FeaturesKnowHowUncertainTheirPlacesAre) {
   const auto deviationAt = [](const Eigen::Vector3d& rest) { return 0.01 + 0.02 * rest.x(); };
-  const RgbdFrame frame = renderFrame(box_, transformed(box_.volume.rest_vertices, front_), 1);
+  const RgbdFrame frame =
+      renderFrame(box_, transformed(box_.volume.rest_vertices, front_), stamp_ += kFrameInterval);
   const Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, front_));
   std::vector<float> deviations;
   for (const auto& vertex : box_.volume.rest_vertices.rowwise())
@@ -186,7 +189,7 @@ TEST_F(ResetBox, IsAsAtFirst) {
     EXPECT_EQ(features[f].id, other.id);
     EXPECT_EQ(features[f].place.tet, other.place.tet);
     EXPECT_EQ(features[f].place.barycentric, other.place.barycentric);
-    EXPECT_EQ(features[f].matched, other.matched);
+    EXPECT_EQ(features[f].found_s, other.found_s);
   }
 }
 

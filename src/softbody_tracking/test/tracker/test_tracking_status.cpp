@@ -75,6 +75,7 @@ TEST(StatusOf, IsLostWhereNothingAgrees) {
   EXPECT_NE(statusOf(seen, {}).reason.find("out of view"), std::string::npos);
 }
 
+constexpr Nanoseconds kFrameInterval = 33'333'333;
 using Names = std::vector<std::set<std::uint32_t>>;
 
 /// Status of three pieces after some frames. @param reason of each frame before.
@@ -90,7 +91,7 @@ TrackingStatus statusAfter(const std::vector<Observability>& observability, cons
     status = {};
     status.state = state;
     status.reason = reason;
-    status = held.report(seen, Names{{2}, {0, 3}, {1}}, status);
+    status = held.report(seen, Names{{2}, {0, 3}, {1}}, i * kFrameInterval, status);
   }
   return status;
 }
@@ -130,7 +131,7 @@ TEST(HeldPieces, AreInferredOutOfViewOrTooSmall) {
     status.state = TrackingState::kTracking;
     for (int i = 0; i < 20; ++i) {
       status.reason.clear();
-      status = held.report(seen, Names{{0}, {1}}, status);
+      status = held.report(seen, Names{{0}, {1}}, i * kFrameInterval, status);
     }
     EXPECT_EQ(status.state, TrackingState::kTracking);
     EXPECT_EQ(status.reason,

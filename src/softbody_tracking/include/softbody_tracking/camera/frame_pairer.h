@@ -42,8 +42,8 @@ struct UnpairedImages {
 /// A pair is complete as soon as no image nearer in time can come. Two facts show this: stamps in a stream
 /// increase, and the next image of a stream comes at least half of the shortest gap so far after the last
 /// one. A pair with equal stamps is complete at once. A colour image without a depth image makes a frame,
-/// too, but at most kMostWithoutDepth times in a row. After that, the depth stream has stopped or has another
-/// clock.
+/// too, but only within kLongestWithoutDepth of one with depth. After that, the depth stream has stopped or
+/// has another clock.
 /// @tparam ColorPtr, DepthPtr, InfoPtr pointers to the images and to the camera's description; null: none.
 template <typename ColorPtr, typename DepthPtr, typename InfoPtr>
 class FramePairer {
@@ -90,8 +90,7 @@ class FramePairer {
       const Partner partner = partnerOf(stamp);
       if (!partner.certain && !overdue && !finish) return std::nullopt;
       colors_.images.pop_front();
-      const bool makes_frame =
-          partner.depth || every_color_ || (partner.certain && ++without_depth_ <= kMostWithoutDepth);
+      const bool makes_frame = partner.depth || every_color_ || (partner.certain && followsDepth(stamp));
       if (!info_ || !makes_frame) {
         ++unpaired_.colors_alone;
         continue;
@@ -99,7 +98,7 @@ class FramePairer {
       Frame frame{stamp, pass, color, nullptr, info_};
       if (partner.depth) {
         frame.depth = depths_.images[*partner.depth].image;
-        without_depth_ = 0;
+        last_with_depth_ = stamp;
         unpaired_.depths_alone += static_cast<int>(*partner.depth);
         depths_.drop(*partner.depth + 1);
       }
@@ -117,8 +116,8 @@ class FramePairer {
   }
 
  private:
-  /// One second at 30 Hz. If depth is missing for longer, this is a fault that the user must see.
-  static constexpr int kMostWithoutDepth = 30;
+  /// If depth is missing for longer, this is a fault that the user must see.
+  static constexpr Nanoseconds kLongestWithoutDepth = 1'000'000'000;
 
   template <typename Pointer>
   struct Image {
@@ -222,13 +221,19 @@ class FramePairer {
     *late += verdict.kind == StampVerdict::kLate ? 1 : 0;
   }
 
+  /// Whether a frame with depth is near enough in time for one without.
+  bool followsDepth(Nanoseconds stamp) const {
+    return last_with_depth_ && std::llabs(stamp - *last_with_depth_) <= kLongestWithoutDepth;
+  }
+
   Nanoseconds tolerance_;
   std::size_t queue_size_;
   bool every_color_;
   Queue<ColorPtr> colors_;
   Queue<DepthPtr> depths_;
   InfoPtr info_{};
-  int without_depth_ = kMostWithoutDepth;  ///< frames in a row; the first frame needs depth
+  std::optional<Nanoseconds>
+      last_with_depth_;  ///< stamp of the last frame with depth; none: the next needs it
   UnpairedImages unpaired_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "depth/depth_associations.h"
+#include "prediction/memory.h"
 #include "statistics/median.h"
 
 namespace softbody {
@@ -12,7 +13,6 @@ namespace {
 constexpr int kMinSpacing_px =
     4;  // [px] between blocks: a stereo camera gives neighbouring pixels equal errors
 constexpr double kMedianPerSigma = 0.6745;  // median of |x| for a standard normal x
-constexpr double kMaxCount = 3000.0;        // memory in second differences: about two frames of 1500 blocks
 
 bool agree(const DepthBlock& a, const DepthBlock& b, const DepthBlock& c) {
   constexpr auto kAgrees = DepthBlock::Kind::kAgrees;
@@ -52,10 +52,10 @@ DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vect
   return {sigma * surface.block_px / focal_px, differences.size()};
 }
 
-void DepthNoiseEstimator::update(const DepthNoiseSample& sample) {
-  const double count = count_ + static_cast<double>(sample.count);
-  variance_ += (sample.density * sample.density - variance_) * static_cast<double>(sample.count) / count;
-  count_ = std::min(count, kMaxCount);
+void DepthNoiseEstimator::update(const DepthNoiseSample& sample, double elapsed_s) {
+  const double remembered = std::max(kFewest, count_ * (1.0 - newestShare(elapsed_s, kErrorMemory_s)));
+  count_ = remembered + static_cast<double>(sample.count);
+  variance_ += (sample.density * sample.density - variance_) * static_cast<double>(sample.count) / count_;
 }
 
 double DepthNoiseEstimator::patchStdDev(double side_m) const { return std::sqrt(variance_) / side_m; }

@@ -29,14 +29,18 @@ DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vect
 /// half.
 class DepthNoiseEstimator {
  public:
-  void update(const DepthNoiseSample& sample);
+  /// @param elapsed_s since the sample before.
+  void update(const DepthNoiseSample& sample, double elapsed_s);
 
   /// Standard deviation of the mean depth over a square patch [m].
   double patchStdDev(double side_m) const;
 
  private:
-  double variance_ = 0.0;  ///< square of the density [m^4]
-  double count_ = 30.0;    ///< second differences in it; starts as if 30 of them had measured no noise
+  /// Fewest second differences behind an estimate: it starts as if these had measured no noise.
+  static constexpr double kFewest = 30.0;
+
+  double variance_ = 0.0;   ///< square of the density [m^4]
+  double count_ = kFewest;  ///< second differences in it, fewer the older they are
 };
 
 }  // namespace softbody

@@ -10,19 +10,20 @@ namespace {
 
 // Largest map, in multiples of max_features; it also holds features of sides that are out of view.
 constexpr int kMostKnown = 4;
-// Frames in which a feature must have been expected before it can be dropped.
-constexpr int kTrialFrames = 20;
-// Share of these frames in which it must be found; below it is a reflection or a shadow.
+// Time [s] for which a feature must have been expected before it can be dropped.
+constexpr double kTrial_s = 0.65;
+// Smallest hit rate of a feature; below it is a reflection or a shadow.
 constexpr double kWorstHitRate = 0.2;
 
 }  // namespace
 
 void FeatureMap::score(const ExpectedFeatures& expected, const std::vector<FeatureMatch>& matches,
-                       const std::vector<bool>& observed) {
+                       const std::vector<bool>& observed, double elapsed_s) {
+  const double shown_s = std::min(elapsed_s, kMemory_s);
   for (const ExpectedFeature& feature : expected.visible)
-    features_[feature.feature].predicted += observed[feature.piece] ? 1 : 0;
+    features_[feature.feature].expected_s += observed[feature.piece] ? shown_s : 0.0;
   for (const FeatureMatch& match : matches)
-    features_[match.feature].matched += match.inlier && observed[match.association.piece] ? 1 : 0;
+    features_[match.feature].found_s += match.inlier && observed[match.association.piece] ? shown_s : 0.0;
 }
 
 int FeatureMap::room(int expected_in_view) const {
@@ -39,8 +40,8 @@ void FeatureMap::add(const std::vector<MapFeature>& features) {
 }
 
 void FeatureMap::retire() {
-  const auto hopeless = [](const MapFeature& f) {
-    return f.predicted >= kTrialFrames && f.matched < kWorstHitRate * f.predicted;
+  const auto hopeless = [](const MapFeature& feature) {
+    return feature.expected_s >= kTrial_s && feature.hitRate() < kWorstHitRate;
   };
   features_.erase(std::remove_if(features_.begin(), features_.end(), hopeless), features_.end());
 }

@@ -16,10 +16,11 @@ class FeatureMap {
 
   const std::vector<MapFeature>& features() const { return features_; }
 
-  /// Counts for each expected feature whether it was found.
+  /// Scores for each expected feature whether it was found.
   /// @param observed for each piece; features on pieces that are not observed are not scored.
+  /// @param elapsed_s since the frame before. A pause counts little: nothing was seen in it.
   void score(const ExpectedFeatures& expected, const std::vector<FeatureMatch>& matches,
-             const std::vector<bool>& observed);
+             const std::vector<bool>& observed, double elapsed_s);
 
   /// How many features may be added if this many are expected in the view.
   int room(int expected_in_view) const;

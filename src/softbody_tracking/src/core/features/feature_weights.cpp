@@ -17,7 +17,7 @@ constexpr double kPerVertex = 2.5;
 }  // namespace
 
 double trustIn(const MapFeature& feature) {
-  const double hits = (feature.matched + 1.0) / (feature.predicted + 1.0);
+  const double hits = feature.hitRate();
   return hits / (1.0 + feature.place_variance / (kUnitDeviation * kUnitDeviation));
 }
 

@@ -4,6 +4,7 @@
 
 #include "features/orb_extractor.h"
 #include "patches/feature_patch.h"
+#include "prediction/memory.h"
 #include "prediction/predicted_surface.h"
 
 namespace softbody {
@@ -24,8 +25,13 @@ struct MapFeature : FeaturePlace {
   Eigen::Index first_vertices = 0;                      ///< number of the body's vertices then
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< measured position at admission, fixed frame [m]
   double place_variance = 0.0;                          ///< of its place, as known at admission [m^2]
-  int predicted = 0;                                    ///< frames in which it was expected
-  int matched = 0;                                      ///< frames in which it was found
+  double expected_s = 0.0;                              ///< time for which it was expected
+  double found_s = 0.0;                                 ///< time of this for which it was found
+
+  /// Probability that it is found where it is expected (rule of succession: it was found at admission).
+  double hitRate() const { return (found_s + kAdmission_s) / (expected_s + kAdmission_s); }
+  /// Time [s] that the admission counts for: one frame at 30 Hz.
+  static constexpr double kAdmission_s = 1.0 / 30.0;
 };
 
 /// Corners of a tet at rest as columns (x, y, z, 1). This matrix maps barycentric coordinates to the rest

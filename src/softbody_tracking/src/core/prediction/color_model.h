@@ -28,7 +28,9 @@ class ColorModel {
 
   /// Colours beside and on the body in the last frames, and how they tell the two apart.
   const RegionColors& region() const { return region_; }
-  void learnRegion(const RgbdFrame& frame, const RasterImage& rendered) { region_.learn(frame, rendered); }
+  void learnRegion(const RgbdFrame& frame, const RasterImage& rendered, double elapsed_s) {
+    region_.learn(frame, rendered, elapsed_s);
+  }
 
   /// Forgets what was learned.
   void reset() { of_body_.clear(), region_.reset(); }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "prediction/memory.h"
+
 namespace softbody {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr int kInside = 3;
 constexpr int kStep = 2;
 // Pixels on each side, below which nothing is learned: a few pixels may show anything.
 constexpr float kFewest = 100.0f;
-// Share of the newest frame in the statistics: they follow a lamp that flickers within a few frames.
-constexpr float kRate = 0.2f;
 // Density of a colour that was never seen: it speaks for neither side.
 constexpr float kUnseen = 1e-3f;
 
@@ -35,15 +35,15 @@ void RegionColors::reset() {
   log_odds_.assign(kBins, 0.0f);
 }
 
-void RegionColors::blend(const std::vector<float>& counts, std::vector<float>* densities) {
+void RegionColors::blend(const std::vector<float>& counts, double elapsed_s, std::vector<float>* densities) {
   const float sum = std::accumulate(counts.begin(), counts.end(), 0.0f);
-  const float rate = densities->empty() ? 1.0f : kRate;
+  const auto rate = static_cast<float>(densities->empty() ? 1.0 : newestShare(elapsed_s, kMemory_s));
   densities->resize(kBins, 0.0f);
   for (std::size_t i = 0; i < counts.size(); ++i)
     (*densities)[i] += rate * (counts[i] / sum - (*densities)[i]);
 }
 
-void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered) {
+void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, double elapsed_s) {
   counts_of_body_.assign(kBins, 0.0f);
   counts_around_.assign(kBins, 0.0f);
   const cv::Rect& covered = rendered.region;
@@ -69,8 +69,8 @@ void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered) {
     }
   }
   if (on_body < kFewest || around < kFewest) return;
-  blend(counts_of_body_, &body_);
-  blend(counts_around_, &surroundings_);
+  blend(counts_of_body_, elapsed_s, &body_);
+  blend(counts_around_, elapsed_s, &surroundings_);
   for (std::size_t i = 0; i < log_odds_.size(); ++i)
     log_odds_[i] = std::log((body_[i] + kUnseen) / (surroundings_[i] + kUnseen));
 }

@@ -18,7 +18,8 @@ class RegionColors {
 
   /// Learns from a frame. The body is where it is rendered and where depth and earlier colours speak for it:
   /// a hand where the body is predicted stays part of the surroundings, like what is beside the body.
-  void learn(const RgbdFrame& frame, const RasterImage& rendered);
+  /// @param elapsed_s since the frame before.
+  void learn(const RgbdFrame& frame, const RasterImage& rendered, double elapsed_s);
 
   bool learned() const { return !body_.empty(); }
   /// Log odds that a pixel of this colour (blue, green, red) shows the body; 0 before learn().
@@ -32,7 +33,7 @@ class RegionColors {
   static std::size_t bin(const cv::Vec3b& color) {
     return static_cast<std::size_t>((color[0] >> 4) << 8 | (color[1] >> 4) << 4 | color[2] >> 4);
   }
-  void blend(const std::vector<float>& counts, std::vector<float>* densities);
+  void blend(const std::vector<float>& counts, double elapsed_s, std::vector<float>* densities);
 
   DepthEvidence evidence_;
   std::vector<float> body_, surroundings_;  ///< share of the pixels in each bin; empty before learn()

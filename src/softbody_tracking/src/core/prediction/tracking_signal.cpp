@@ -1,13 +1,12 @@
 #include "prediction/tracking_signal.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "prediction/memory.h"
 
 namespace softbody {
 namespace {
 
-// Time over which corrections are averaged [s]: some frames tell noise from motion.
-constexpr double kMemory = 0.15;
 // Square of white noise, as a share of the square of its second difference: 1 / (1 + 4 + 1).
 constexpr double kNoiseShare = 1.0 / 6.0;
 // Smallest share of a measurement that is followed, so that no error lasts.
@@ -22,7 +21,7 @@ void TrackingSignal::observe(const Points& corrections, double elapsed_s) {
     square_ = corrections.rowwise().squaredNorm();
     noise_.setZero(count);
   } else {
-    const double share = 1.0 - std::exp(-elapsed_s / kMemory);
+    const double share = newestShare(elapsed_s, kMemory_s);
     const Points rough = corrections - 2.0 * last_ + before_;
     noise_ += share * (kNoiseShare * rough.rowwise().squaredNorm() - noise_);
     square_ += share * (corrections.rowwise().squaredNorm() - square_);

@@ -151,12 +151,12 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   result.has_targets = true;
   result.status = judge(seen, associations);
   const TrackingState state = result.status.state;
-  relocalizer.countLoss(state == TrackingState::kLost);
+  relocalizer.noteLoss(state == TrackingState::kLost, stamp);
   if (state == TrackingState::kLost) prediction->reset();
   result.features = trackedFeatures(seen, observer->features(), T_camera_fixed);
   result.targets = targetSetOf(frame, seen, associations, state == TrackingState::kLost ? nullptr : answer);
   result.targets.reset = answer == nullptr;
-  result.status = held.report(seen, observer->surface().piecesOfSurface(), std::move(result.status));
+  result.status = held.report(seen, observer->surface().piecesOfSurface(), stamp, std::move(result.status));
   if (state == TrackingState::kTracking) learnFeatures(frame, seen, answer);
   result.status.features_total = knownFeatures();
   return result;

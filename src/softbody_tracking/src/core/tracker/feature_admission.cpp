@@ -11,10 +11,6 @@ namespace {
 
 // Tiles of the predicted surface: its quarters.
 constexpr int kTiles = 4;
-// Frames from one tile to the next.
-constexpr int kFramesBetweenTiles = 3;
-// Factor on this once all tiles were searched without a new feature.
-constexpr int kSlowFactor = 3;
 // Share of enough features that one tile may get; it may have more texture than others.
 constexpr double kTileShare = 0.7;
 // Smallest distance between features, in edges of the volume; closer ones measure the same vertices.
@@ -35,7 +31,10 @@ double deviationAt(const MaterialPoint& place, const TetTopology& volume,
 
 }  // namespace
 
-void FeatureAdmission::reset() { frames_to_next_tile_ = fruitless_tiles_ = tile_ = 0; }
+void FeatureAdmission::reset() {
+  rounds_.reset();
+  fruitless_tiles_ = tile_ = 0;
+}
 
 int FeatureAdmission::enoughFeatures(double visible_vertices) const {
   if (config_.between_frames) return config_.max_features;
@@ -76,14 +75,18 @@ void FeatureAdmission::admitIn(const LearnedFrame& from, int room, FeatureMap* m
 }
 
 void FeatureAdmission::admit(const LearnedFrame& from, FeatureMap* map) {
-  if (--frames_to_next_tile_ >= 0) return;
+  if (!rounds_.isDue(from.frame.stamp)) return;
   const std::size_t known = map->features().size();
   const int expected = from.seen.expected.count();
   const int room = std::min(map->room(expected), enoughFeatures(from.seen.visible_vertices) - expected);
-  const bool full = room <= 0;
-  if (!full) admitIn(from, room, map);
-  fruitless_tiles_ = full || map->features().size() > known ? 0 : fruitless_tiles_ + 1;
-  frames_to_next_tile_ = kFramesBetweenTiles * (fruitless_tiles_ < kTiles ? 1 : kSlowFactor) - 1;
+  if (room <= 0) return;
+  admitIn(from, room, map);
+  const bool fruitful = map->features().size() > known;
+  if (fruitful) rounds_.reset();
+  fruitless_tiles_ = fruitful ? 0 : fruitless_tiles_ + 1;
+  if (fruitless_tiles_ < kTiles) return;
+  fruitless_tiles_ = 0;
+  rounds_.failed();
 }
 
 }  // namespace softbody

@@ -5,6 +5,7 @@
 #include "patches/gray_pyramid.h"
 #include "prediction/color_model.h"
 #include "prediction/predicted_surface.h"
+#include "tracker/backoff.h"
 #include "tracker/observation.h"
 
 namespace softbody {
@@ -31,7 +32,7 @@ class FeatureAdmission {
 
   /// To be called when the body was edited. New surface may be visible, so tiles are searched at the full
   /// rate again.
-  void bodyEdited() { fruitless_tiles_ = 0; }
+  void bodyEdited() { rounds_.reset(); }
   void reset();
 
  private:
@@ -39,11 +40,14 @@ class FeatureAdmission {
   cv::Rect nextTile(const cv::Rect& covered);
   void admitIn(const LearnedFrame& from, int room, FeatureMap* map);
 
+  /// Of surface that shows no new feature [ns]: its tiles then cost as little as one in ten frames.
+  static constexpr Nanoseconds kLongestWait = 1'000'000'000;
+
   FeatureConfig config_;
   OrbExtractor orb_;
-  int frames_to_next_tile_ = 0;
-  int fruitless_tiles_ = 0;  ///< consecutive tiles without a new feature
-  int tile_ = 0;             ///< the tile of the surface that was searched last
+  Backoff rounds_{kLongestWait};  ///< of all tiles, without a new feature
+  int fruitless_tiles_ = 0;       ///< consecutive tiles without a new feature
+  int tile_ = 0;                  ///< the tile of the surface that was searched last
 };
 
 }  // namespace softbody

@@ -79,7 +79,7 @@ FollowedFeatures FeatureFollower::follow(const FollowedBody& body, RenderedPredi
     features = improvePrediction(body, std::move(features), prediction);
   if (!countOn(body.followed, features.expected, features.found.matches).isMissing()) wide_search_.reset();
   const std::vector<bool> due = piece_search_.duePieces(
-      countByPiece(body.followed.size(), features.expected, features.found.matches), body.followed);
+      countByPiece(body.followed.size(), features.expected, features.found.matches), body.frame.stamp);
   if (any(due)) features = searchPieces(body, due, std::move(features), prediction);
   return features;
 }
@@ -158,7 +158,10 @@ FollowedFeatures FeatureFollower::searchWide(const FollowedBody& body, const Pre
 /// Renders the prediction where features, or the depth without them, say that the body is, and matches again.
 FollowedFeatures FeatureFollower::improvePrediction(const FollowedBody& body, FollowedFeatures features,
                                                     RenderedPrediction* prediction) {
-  if (wide_search_.isDue()) features = searchWide(body, prediction->surface(), std::move(features));
+  if (wide_search_.isDue(body.frame.stamp)) {
+    features = searchWide(body, prediction->surface(), std::move(features));
+    wide_search_.failed();
+  }
   const RigidMotions rough = prediction->align(body.frame, body.colors, features.found.matches);
   if (largestMotion(prediction->surface(), rough) <= kRenderAgain) return features;
   prediction->render(body.frame.camera, prediction->surface().movedVolume(rough));

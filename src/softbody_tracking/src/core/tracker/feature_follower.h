@@ -7,10 +7,10 @@
 #include "features/orb_extractor.h"
 #include "patches/gray_pyramid.h"
 #include "prediction/color_model.h"
+#include "tracker/backoff.h"
 #include "tracker/frame_matcher.h"
 #include "tracker/piece_search.h"
 #include "tracker/rendered_prediction.h"
-#include "tracker/search_backoff.h"
 
 namespace softbody {
 
@@ -53,7 +53,7 @@ class FeatureFollower {
   const GrayPyramid& image() const { return image_; }
 
   /// To be called when the body has other pieces.
-  void forgetPieces() { piece_search_.forgetPieces(); }
+  void forgetPieces() { piece_search_.reset(); }
   void reset();
 
  private:
@@ -74,7 +74,7 @@ class FeatureFollower {
   OrbExtractor orb_;
   FrameMatcher frame_matcher_;
   GrayPyramid image_;
-  SearchBackoff wide_search_;
+  Backoff wide_search_;
   PieceSearch piece_search_;
 };
 

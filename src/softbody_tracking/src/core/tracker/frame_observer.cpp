@@ -1,10 +1,12 @@
 #include "tracker/frame_observer.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "features/feature_weights.h"
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/time.h"
 
 namespace softbody {
 FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& volume,
@@ -24,6 +26,7 @@ void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology&
 }
 
 void FrameObserver::reset() {
+  last_stamp_.reset();
   map_.reset();
   colors_.reset();
   depth_noise_ = {};
@@ -34,10 +37,12 @@ void FrameObserver::reset() {
 }
 
 Observation FrameObserver::observe(const RgbdFrame& frame, const Points& predicted) {
+  elapsed_s_ = last_stamp_ ? seconds(frame.stamp - *last_stamp_) : std::numeric_limits<double>::infinity();
+  last_stamp_ = frame.stamp;
   prediction_.render(frame.camera, predicted);
   if (!colors_.learned())
     colors_.learn(frame.color, agreeingPixels(prediction_.surface().image().depth, frame.depth));
-  if (!colors_.region().learned()) colors_.learnRegion(frame, prediction_.surface().image());
+  if (!colors_.region().learned()) colors_.learnRegion(frame, prediction_.surface().image(), elapsed_s_);
   FollowedFeatures features = follower_.follow(followedBody(frame), &prediction_);
   const double visible_vertices = shownVertices(prediction_.samples(), prediction_.surface().volume()) *
                                   features.expected.unoccludedShare();
@@ -47,10 +52,10 @@ Observation FrameObserver::observe(const RgbdFrame& frame, const Points& predict
   Observation seen = measure(frame, motions, std::move(features));
   seen.visible_vertices = visible_vertices;
   tracked_before_ = seen.atLeast(Observability::kPartial);
-  map_.score(seen.expected, seen.matches, tracked_before_);
-  colors_.learnRegion(frame, prediction_.surface().image());
+  map_.score(seen.expected, seen.matches, tracked_before_, elapsed_s_);
+  colors_.learnRegion(frame, prediction_.surface().image(), elapsed_s_);
   prediction_.move(motions);
-  prediction_.learnError(predicted);
+  prediction_.learnError(predicted, elapsed_s_);
   for (FeatureMatch& match : seen.matches)
     match.association.predicted = motions[match.association.piece] * match.association.predicted;
   return seen;
@@ -64,7 +69,7 @@ Observation FrameObserver::measure(const RgbdFrame& frame, const RigidMotions& m
   seen.missed = std::move(features.found.missed);
   seen.expected = std::move(features.expected);
   seen.depth = prediction_.associateDepth(frame, motions, colors_);
-  depth_noise_.update(seen.depth.noise);
+  depth_noise_.update(seen.depth.noise, elapsed_s_);
   const double edge_m = prediction_.volumeEdge();
   downweightByNoise(depth_noise_.patchStdDev(edge_m) / edge_m, &seen.depth);
   seen.outline = prediction_.associateOutline(frame, motions, colors_);

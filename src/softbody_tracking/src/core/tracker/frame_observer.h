@@ -49,6 +49,8 @@ class FrameObserver {
   Observation measure(const RgbdFrame& frame, const RigidMotions& motions, FollowedFeatures features);
 
   TrackerConfig config_;
+  std::optional<Nanoseconds> last_stamp_;
+  double elapsed_s_ = 0.0;  ///< from the frame before to the last one; infinite for the first
   RenderedPrediction prediction_;
   DepthNoiseEstimator depth_noise_;
   FeatureMap map_;

@@ -9,12 +9,8 @@
 namespace softbody {
 namespace {
 
-// Consecutive lost frames after which the body is searched for; a hand may cover it for a moment.
-constexpr int kLostFramesBeforeSearch = 10;
 // Largest cost of a pose that features then have to confirm: a lost body may be bent.
 constexpr double kDeformedCost = 0.5;
-// Frames from one search that failed to the next: a search anywhere takes about a second.
-constexpr int kFramesBetweenSearches = 10;
 
 }  // namespace
 
@@ -22,8 +18,8 @@ void Relocalizer::reset() {
   first_frame_ = true;
   tracked_ = recovering_ = false;
   given_.reset();
-  lost_frames_ = frames_to_depth_search_ = frames_to_feature_search_ = 0;
-  failed_searches_ = 0;
+  lost_since_.reset();
+  for (Backoff* search : {&depth_search_, &feature_search_, &scale_search_}) search->reset();
   fitting_scale_.reset();
   report_ = {};
 }
@@ -35,10 +31,10 @@ void Relocalizer::startNear(const Eigen::Isometry3d& rough_pose) {
 
 Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer) {
   if (first_frame_) takeInitialPose(frame, observer->surface().volume());
-  if (lost_frames_ >= kLostFramesBeforeSearch) {
+  if (lost_since_ && frame.stamp - *lost_since_ >= kLongestGap) {
     tracked_ = false;
     recovering_ = true;
-    lost_frames_ = 0;
+    lost_since_.reset();
   }
   std::optional<FoundPose> found;
   if (recovering_) found = searchByFeatures(frame, observer, timer);
@@ -49,8 +45,11 @@ Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* 
   return Outcome::kFound;
 }
 
-void Relocalizer::countLoss(bool lost) {
-  lost_frames_ = lost ? lost_frames_ + 1 : 0;
+void Relocalizer::noteLoss(bool lost, Nanoseconds stamp) {
+  if (!lost)
+    lost_since_.reset();
+  else if (!lost_since_)
+    lost_since_ = stamp;
   recovering_ = recovering_ && lost;
 }
 
@@ -71,17 +70,18 @@ void Relocalizer::startTracking(const RgbdFrame& frame, const FoundPose& found) 
   pose_ = frame.T_fixed_camera * found.pose;
   alike_ = found.alike;
   tracked_ = true;
-  lost_frames_ = frames_to_depth_search_ = frames_to_feature_search_ = 0;
+  lost_since_.reset();
+  for (Backoff* search : {&depth_search_, &feature_search_}) search->reset();
   found_at_ = frame.stamp;
 }
 
 /// A lost body is found in the first frame that shows enough of its features.
 std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, FrameObserver* observer,
                                                        StageTimer* timer) {
-  if (frames_to_feature_search_-- > 0) return std::nullopt;
+  if (!feature_search_.isDue(frame.stamp)) return std::nullopt;
   const std::optional<Eigen::Isometry3d> rough = observer->recognizePose(frame);
-  frames_to_feature_search_ = rough ? kFramesBetweenSearches : 0;
   if (!rough) return std::nullopt;
+  feature_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
   const PoseHypothesis found =
       searchNearPose(frame, meshesOf(observer->surface().topology()), *rough, config_);
@@ -92,8 +92,8 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
 
 std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, FrameObserver* observer,
                                                     StageTimer* timer) {
-  if (frames_to_depth_search_-- > 0) return std::nullopt;
-  frames_to_depth_search_ = kFramesBetweenSearches;
+  if (!depth_search_.isDue(frame.stamp)) return std::nullopt;
+  depth_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
   const SearchMeshes& meshes = meshesOf(observer->surface().topology());
   const SearchOutcome outcome = searchByDepthNow(frame, meshes, observer);
@@ -123,9 +123,10 @@ SearchReport Relocalizer::explained(const RgbdFrame& frame, const SearchMeshes& 
                                     const std::optional<PoseHypothesis>& best) {
   SearchReport report = measureSearch(frame, observer.colors(), meshes, best, config_);
   if (recovering_) return report;
-  ++failed_searches_;
-  const bool is_power_of_two = (failed_searches_ & (failed_searches_ - 1)) == 0;
-  if (is_power_of_two) fitting_scale_ = fittingScale(frame, observer.colors(), meshes, best, config_);
+  if (scale_search_.isDue(frame.stamp)) {
+    fitting_scale_ = fittingScale(frame, observer.colors(), meshes, best, config_);
+    scale_search_.failed();
+  }
   report.fitting_scale = fitting_scale_;
   return report;
 }

@@ -7,8 +7,10 @@
 #include "registration/coarse_mesh.h"
 #include "registration/found_pose.h"
 #include "softbody_common/stage_timer.h"
+#include "softbody_common/time.h"
 #include "softbody_tracking/search_report/search_report.h"
 #include "softbody_tracking/tracker_config.h"
+#include "tracker/backoff.h"
 #include "tracker/frame_observer.h"
 
 namespace softbody {
@@ -38,8 +40,8 @@ class Relocalizer {
   /// @param observer gives the models, features and colours, and tests poses by features.
   Outcome locate(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer);
 
-  /// Counts consecutive frames in which the tracked body was lost. After ten of them the search begins.
-  void countLoss(bool lost);
+  /// Call it after each frame in which the body was tracked. After kLongestGap without it the search begins.
+  void noteLoss(bool lost, Nanoseconds stamp);
   /// Sets the pose from tracking. A later search starts there.
   void setPose(const Eigen::Isometry3d& pose) { pose_ = pose; }
 
@@ -74,10 +76,9 @@ class Relocalizer {
   std::optional<Eigen::Isometry3d> given_;  ///< rough pose of the object's file or the user, fixed frame
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
   Nanoseconds found_at_ = 0;
-  int lost_frames_ = 0;
-  int frames_to_depth_search_ = 0;
-  int frames_to_feature_search_ = 0;
-  int failed_searches_ = 0;              ///< by depth, at the start
+  std::optional<Nanoseconds> lost_since_;  ///< stamp of the first frame without the tracked body
+  Backoff depth_search_, feature_search_;
+  Backoff scale_search_{kLatestTime};
   std::optional<double> fitting_scale_;  ///< see fittingScale()
   SearchReport report_;
 };

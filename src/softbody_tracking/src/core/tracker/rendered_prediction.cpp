@@ -2,13 +2,11 @@
 
 #include <utility>
 
+#include "prediction/memory.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 namespace {
-
-// Share of the last frame in the usual error of the prediction: motion changes within some frames.
-constexpr double kNewestShare = 0.5;
 
 /// Weight 0 if no target would use the outline: then it is not sampled.
 OutlineConfig usedOutline(const TrackerConfig& config) {
@@ -42,9 +40,9 @@ RigidMotions RenderedPrediction::align(const RgbdFrame& frame, const ColorModel&
   return alignRigidly(frame, surface_, samples_, colors, matches, outline, usual_error_m_, &depth_);
 }
 
-void RenderedPrediction::learnError(const Points& predicted) {
+void RenderedPrediction::learnError(const Points& predicted, double elapsed_s) {
   const double error_m = (surface_.volumeVertices() - predicted).rowwise().norm().maxCoeff();
-  usual_error_m_ += kNewestShare * (error_m - usual_error_m_);
+  usual_error_m_ += newestShare(elapsed_s, kErrorMemory_s) * (error_m - usual_error_m_);
 }
 
 const DepthAssociations& RenderedPrediction::associateDepth(const RgbdFrame& frame,

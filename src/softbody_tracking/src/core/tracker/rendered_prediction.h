@@ -41,7 +41,8 @@ class RenderedPrediction {
 
   /// Learns how far predictions are off: later alignments expect such motions.
   /// @param predicted vertices of the volume, which then were aligned and moved.
-  void learnError(const Points& predicted);
+  /// @param elapsed_s since the frame before.
+  void learnError(const Points& predicted, double elapsed_s);
   void forgetError() { usual_error_m_ = 0.0; }
 
  private:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "alignment/piece_observability.h"
+#include "tracker/backoff.h"
 
 namespace softbody {
 namespace {
@@ -20,8 +21,6 @@ constexpr double kLargestDisagreement = 0.18;
 constexpr double kFewestTracked = 0.05;
 // Smallest share of inliers among the matches.
 constexpr double kWorstInlierRatio = 0.2;
-// Frames for which a piece of a cut body must be held before the status reports it; shorter gaps are normal.
-constexpr int kHeldFrames = 5;
 
 /// Share of the body's area that the image contradicts: between the outlines near the prediction, and where
 /// something farther is seen than the body. Lines across the outline end before a body that is far from its
@@ -83,13 +82,16 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
 }
 
 TrackingStatus HeldPieces::report(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
-                                  TrackingStatus status) {
-  frames_.resize(seen.observability.size(), 0);
+                                  Nanoseconds stamp, TrackingStatus status) {
+  since_.resize(seen.observability.size());
   std::set<std::uint32_t> all, missing, hidden;
-  for (std::size_t p = 0; p < frames_.size(); ++p) {
-    frames_[p] = seen.observability[p] == Observability::kPoor ? frames_[p] + 1 : 0;
+  for (std::size_t p = 0; p < since_.size(); ++p) {
+    if (seen.observability[p] != Observability::kPoor)
+      since_[p].reset();
+    else if (!since_[p])
+      since_[p] = stamp;
     all.insert(names[p].begin(), names[p].end());
-    if (frames_[p] < kHeldFrames) continue;
+    if (!since_[p] || stamp - *since_[p] < kLongestGap) continue;
     (seen.in_view[p] ? missing : hidden).insert(names[p].begin(), names[p].end());
   }
   if (status.state != TrackingState::kTracking) return status;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,20 +14,21 @@ namespace softbody {
 /// targets.
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations);
 
-/// Reports pieces of a cut body that were not measured for some frames and are held in their places. A piece
+/// Reports pieces of a cut body that were not measured for some time and are held in their places. A piece
 /// in view degrades the tracking. A piece out of view, or too small to be tracked, does not: its place is
 /// inferred, like that of all hidden parts.
 class HeldPieces {
  public:
-  /// Call once a frame. @param names for each piece, its numbers in the visual mesh.
+  /// Call once a frame. @param names for each piece, its numbers in the visual mesh. @param stamp of the
+  /// frame.
   /// @return the status, degraded or with a longer reason.
   TrackingStatus report(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
-                        TrackingStatus status);
+                        Nanoseconds stamp, TrackingStatus status);
 
-  void reset() { frames_.clear(); }
+  void reset() { since_.clear(); }
 
  private:
-  std::vector<int> frames_;  ///< per piece: consecutive frames with poor observability
+  std::vector<std::optional<Nanoseconds>> since_;  ///< per piece: stamp since which its observability is poor
 };
 
 }  // namespace softbody

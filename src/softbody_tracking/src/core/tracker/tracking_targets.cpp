@@ -8,8 +8,7 @@ std::vector<TrackedFeature> trackedFeatures(const Observation& seen, const std::
   for (const FeatureMatch& match : seen.matches) {
     if (!match.inlier) continue;
     const MapFeature& feature = known[match.feature];
-    const double confidence =
-        feature.predicted > 0 ? static_cast<double>(feature.matched) / feature.predicted : 0.0;
+    const double confidence = feature.expected_s > 0.0 ? feature.found_s / feature.expected_s : 0.0;
     result.push_back({feature.id,
                       {match.pixel.x, match.pixel.y},
                       match.association.measured,
