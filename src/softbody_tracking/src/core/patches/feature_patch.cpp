@@ -7,8 +7,6 @@
 namespace softbody {
 namespace {
 
-// Size of a cache line [bytes] on the usual processors.
-constexpr std::size_t kCacheLine = 64;
 // Most iterations; a patch that is visible converges in fewer.
 constexpr int kIterations = 8;
 // After this many iterations the correlation must reach kHopeless, or the patch is not there.
@@ -115,7 +113,8 @@ float FeaturePatch::alignLevel(const Level& level, const RowPairs& image, const 
 void FeaturePatch::prefetch() const {
   if (levels_.empty()) return;
   const char* level = reinterpret_cast<const char*>(levels_.data());
-  for (std::size_t line = 0; line < sizeof(Level); line += kCacheLine) __builtin_prefetch(level + line);
+  for (std::size_t line = 0; line < sizeof(Level); line += alignof(PatchSamples))
+    __builtin_prefetch(level + line);
 }
 
 FeaturePatch::Alignment FeaturePatch::align(const GrayPyramid& image, const Eigen::Matrix2f& warp,
