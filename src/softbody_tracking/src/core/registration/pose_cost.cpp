@@ -10,6 +10,8 @@
 namespace softbody {
 namespace {
 
+// Standard deviation of depth at 1 m [m], of usual cameras.
+constexpr double kSigmaAtMetre = 0.0025;
 // Cost of a covered pixel without depth, 0..1: it neither supports nor contradicts a pose.
 constexpr double kUnmeasuredCost = 0.3;
 // Cost of a pixel with something nearer, 0..1. Below the 1 of free space: occlusion is possible, looking
@@ -72,6 +74,8 @@ double renderedCost(const RgbdFrame& frame, const RasterImage& image, double sca
 }
 
 }  // namespace
+
+double depthSigma(double z) { return kSigmaAtMetre * z * std::max(1.0, z); }
 
 double distanceScaleAt(double z, double scale) { return scale * std::max(1.0, z); }
 

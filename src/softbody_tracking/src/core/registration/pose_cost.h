@@ -8,6 +8,16 @@
 
 namespace softbody {
 
+/// Poses whose costs differ by at most this explain the depth equally well: noise changes a cost by as much.
+constexpr double kAlikeCost = 0.02;
+
+/// A difference of more standard deviations is no noise.
+constexpr double kDoubt = 3.0;
+
+/// Standard deviation of a depth [m]: the noise of a stereo camera grows with the square of the distance.
+/// Below 1 m the camera's calibration and rounding are left.
+double depthSigma(double z);
+
 /// Depth is noisier far away: the distance scale grows with the distance beyond 1 m.
 /// @param scale at up to 1 m [m].
 double distanceScaleAt(double z, double scale);

@@ -1,7 +1,8 @@
 #include "registration/search_starts.h"
 
-#include <array>
 #include <cmath>
+
+#include "registration/found_pose.h"
 
 namespace softbody {
 namespace {
@@ -30,12 +31,10 @@ std::vector<Eigen::Matrix3d> orientations() {
 }  // namespace
 
 std::vector<Eigen::Vector3d> smallTurns() {
-  // 0.2 rad are 11 degrees: a rough pose that is wrong by 15 degrees has a start near the true one.
-  constexpr std::array<double, 3> kTurnsRad{0.0, 0.2, -0.2};
   std::vector<Eigen::Vector3d> turns;
-  for (double x : kTurnsRad) {
-    for (double y : kTurnsRad) {
-      for (double z : kTurnsRad) turns.emplace_back(x, y, z);
+  for (double x : {0.0, kOtherTurn, -kOtherTurn}) {
+    for (double y : {0.0, kOtherTurn, -kOtherTurn}) {
+      for (double z : {0.0, kOtherTurn, -kOtherTurn}) turns.emplace_back(x, y, z);
     }
   }
   return turns;

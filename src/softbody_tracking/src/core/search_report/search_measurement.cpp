@@ -123,7 +123,8 @@ double widestView(const RgbdFrame& image) {
 }
 
 /// The factors with which the body would have the size of a part of the image, the likeliest first.
-std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors, double diameter_m) {
+std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors, double diameter_m,
+                                double distance_scale_m) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const double widest_m = widestView(image);
   std::vector<std::pair<double, double>> units;  // difference in size, factor
@@ -131,7 +132,7 @@ std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors
     const double size_m = factor * diameter_m;
     if (size_m > widest_m) continue;
     double difference = std::numeric_limits<double>::max();
-    for (const DepthPart& part : findDepthParts(image, colors, size_m))
+    for (const DepthPart& part : findDepthParts(image, colors, size_m, distance_scale_m))
       if (part.fits) difference = std::min(difference, part.rating + std::log(part.candidate.pixels));
     if (difference < std::numeric_limits<double>::max()) units.emplace_back(difference, factor);
   }
@@ -161,11 +162,12 @@ bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Is
 /// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
 /// wholly in view.
 std::optional<double> sizeRatio(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
-                                const PoseHypothesis& best) {
+                                const PoseHypothesis& best, const RegistrationConfig& config) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const RasterImage mesh = rendered(image, meshes.full, best.pose);
   const std::vector<Eigen::Vector3d> visible = visiblePoints(image, mesh);
-  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
+  const std::vector<DepthPart> parts =
+      findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
   const DepthPart* part = visible.empty() ? nullptr : partAt(parts, mesh);
   if (part == nullptr || part->at_border) return std::nullopt;
   const double ratio = part->spread_m / spreadOf(visible);
@@ -187,7 +189,8 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
     measurePose(frame, meshes, *best, config.distance_scale_m, &report);
     mesh = rendered(image, meshes.full, best->pose);
   }
-  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
+  const std::vector<DepthPart> parts =
+      findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
   if (const DepthPart* part = partAt(parts, mesh)) {
     report.part_m = part->size_m;
     report.part_distance_m = part->candidate.center.norm();
@@ -201,9 +204,9 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
 std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& colors,
                                    const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,
                                    const RegistrationConfig& config) {
-  std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m);
+  std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m, config.distance_scale_m);
   if (best) {
-    const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best);
+    const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best, config);
     if (ratio) factors.push_back(*ratio);
   }
   // A pose that only lacks edges has a low cost: what fits then is the mesh that has them.
