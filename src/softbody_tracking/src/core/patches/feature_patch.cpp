@@ -9,9 +9,6 @@ namespace {
 
 // Most iterations; a patch that is visible converges in fewer.
 constexpr int kIterations = 8;
-// After this many iterations the correlation must reach kHopeless, or the patch is not there.
-constexpr int kHopelessAfter = 3;
-constexpr float kHopeless = 0.4f;  // correlation of patch and image; 1: equal
 // Last step [px of the level]; the remaining error is smaller than the step.
 constexpr float kConverged = 0.1f;
 // Standard deviation of the grey values below which a patch shows only noise.
@@ -98,7 +95,6 @@ float FeaturePatch::alignLevel(const Level& level, const RowPairs& image, const 
     const PatchSums sums = comparePatch(image, *center, warp, level.pattern);
     if (sums.spread < kSmallestSpread * kPatchSide) return -1.0f;
     correlation = sums.product / sums.spread;
-    if (i >= kHopelessAfter && correlation < kHopeless) return -1.0f;
     const Eigen::Vector2f shift =
         level.inverse_hessian * Eigen::Vector2f(sums.along_x / sums.spread - level.dx_offset,
                                                 sums.along_y / sums.spread - level.dy_offset);

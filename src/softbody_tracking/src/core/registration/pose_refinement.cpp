@@ -11,8 +11,6 @@ namespace {
 
 // Smallest step of the pattern search [px]; below it the image decides nothing.
 constexpr double kPrecision = 0.125;
-// First gate of the ICP, in distance scales; wide enough for a start that is a few centimetres off.
-constexpr double kFirstGate = 4.0;
 
 /// Like the square, but below 1.
 double saturated(double ratio2) { return ratio2 / (1.0 + ratio2); }
@@ -89,8 +87,8 @@ Eigen::Isometry3d PoseRefinement::moved(const Eigen::Isometry3d& pose, const Eig
 
 Eigen::Isometry3d PoseRefinement::icp(Eigen::Isometry3d pose, int iterations) {
   const double scale = scaleAt(pose);
-  double gate = kFirstGate * scale;
-  const double narrowing = std::pow(kFirstGate, -2.0 / iterations);  // the second half converges
+  double gate = scale + kOtherPlace * diameter_m_;  // a start in the same place, and the misfit there
+  const double narrowing = std::pow(scale / gate, 2.0 / iterations);  // the second half converges
   for (int i = 0; i < iterations; ++i) {
     pose = rigidStep(refsTo(associations(pose, gate))) * pose;
     gate = std::max(scale, narrowing * gate);

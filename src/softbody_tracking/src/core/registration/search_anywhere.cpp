@@ -7,14 +7,9 @@
 #include "registration/body_edges.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/search_starts.h"
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/rigid_fit.h"
 
 namespace softbody {
 namespace {
-
-// Largest share of covered pixels with a foreign colour; with more, something else is there.
-constexpr double kLargestForeignShare = 0.5;
 
 bool inOnePlace(const SearchMeshes& meshes, const PoseHypothesis& a, const PoseHypothesis& b) {
   const Eigen::Vector3d center = meshes.full.vertices.colwise().mean().transpose();
@@ -50,22 +45,6 @@ std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame
   for (const BodyCandidate& candidate : candidates)
     result.push_back(allOrientations(meshes, candidate.center));
   return result;
-}
-
-/// Share of the pixels covered at a pose whose colour is not the body's.
-double foreignShare(const RgbdFrame& frame, const ColorModel& colors, const TriangleMesh& mesh,
-                    const Eigen::Isometry3d& pose) {
-  RasterImage image;
-  rasterize(frame.camera, transformed(mesh.vertices, pose), mesh.triangles, &image);
-  int covered = 0, foreign = 0;
-  for (int v = image.region.y; v < image.region.br().y; ++v) {
-    for (int u = image.region.x; u < image.region.br().x; ++u) {
-      if (image.triangle(v, u) < 0) continue;
-      ++covered;
-      foreign += colors.belongs(frame.color(v, u)) ? 0 : 1;
-    }
-  }
-  return covered == 0 ? 1.0 : static_cast<double>(foreign) / covered;
 }
 
 /// Moves the poses that are alike with the first one to the front. @return the end of these.
@@ -108,8 +87,7 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const ColorModel& colors, c
   const auto implausible = [&](const PoseHypothesis& pose) {
     return pose.cost > config.max_cost ||
            shareWithoutEdge(frame, meshes.full, pose.pose, config.distance_scale_m) >
-               kLargestShareWithoutEdge ||
-           foreignShare(frame, colors, meshes.full, pose.pose) > kLargestForeignShare;
+               kLargestShareWithoutEdge;
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
   for (bool first = true; !found.empty(); first = false) {

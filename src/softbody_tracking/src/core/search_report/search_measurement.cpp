@@ -17,14 +17,8 @@
 namespace softbody {
 namespace {
 
-// A scale fits much better if it leaves at most this share of the cost; two causes could explain less.
-constexpr double kMuchBetter = 0.5;
-// Smallest change of scale that a part's size shows: a pixel at each side of a hundred.
-constexpr double kSmallestChange = 0.03;
 // Factors between units: m, cm, mm and inch of a mesh; 0.1, 0.25 and 1 mm of depth.
 constexpr double kUnits[] = {0.001, 0.01, 0.0254, 0.1, 0.25, 4.0, 10.0, 1.0 / 0.0254, 100.0, 1000.0};
-// Units that are tried with a whole search.
-constexpr std::size_t kTriedUnits = 3;
 
 Eigen::Vector3d sidesOf(const Points& vertices) {
   Eigen::Vector3d sides = vertices.colwise().maxCoeff() - vertices.colwise().minCoeff();
@@ -42,7 +36,7 @@ void measureDepth(const RgbdFrame& frame, SearchReport* report) {
     report->farthest_m = std::max<double>(report->farthest_m, z);
   }
   if (measured > 0) report->nearest_m = nearest;
-  report->depth_share = frame.depth.empty() ? 0.0 : measured / static_cast<double>(frame.depth.total());
+  if (measured >= kFewestPixels) report->depth_share = measured / static_cast<double>(frame.depth.total());
 }
 
 /// A posed mesh in the image of the parts.
@@ -107,7 +101,7 @@ void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseH
   report->nearer = seen.nearer / covered;
   report->farther = seen.farther / covered;
   report->difference_m = seen.difference_m;
-  report->continuing = static_cast<double>(seen.continuing) / std::max(1, seen.outline);
+  report->continuing = seen.continuing / std::max(1, seen.outline);
   report->without_edge = shareWithoutEdge(frame, meshes.full, best.pose, distance_scale_m);
 }
 
@@ -139,7 +133,7 @@ std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors
   std::sort(units.begin(), units.end());
   std::vector<double> factors;
   for (const auto& unit : units)
-    if (factors.size() < kTriedUnits) factors.push_back(unit.second);
+    if (factors.size() < kKept) factors.push_back(unit.second);
   return factors;
 }
 
@@ -170,8 +164,10 @@ std::optional<double> sizeRatio(const RgbdFrame& frame, const ColorModel& colors
       findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
   const DepthPart* part = visible.empty() ? nullptr : partAt(parts, mesh);
   if (part == nullptr || part->at_border) return std::nullopt;
-  const double ratio = part->spread_m / spreadOf(visible);
-  return std::abs(std::log(ratio)) > kSmallestChange ? std::optional(ratio) : std::nullopt;
+  const double spread_m = spreadOf(visible), pixel_m = part->candidate.center.z() / image.camera.fx;
+  // A pixel at each side shows no difference.
+  if (std::abs(part->spread_m - spread_m) < 2.0 * pixel_m) return std::nullopt;
+  return part->spread_m / spread_m;
 }
 
 }  // namespace
@@ -209,11 +205,8 @@ std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& col
     const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best, config);
     if (ratio) factors.push_back(*ratio);
   }
-  // A pose that only lacks edges has a low cost: what fits then is the mesh that has them.
-  const bool lacks_edges = best && best->cost <= config.max_cost;
-  double highest_cost = best && !lacks_edges ? kMuchBetter * best->cost : config.max_cost;
-  highest_cost = std::min(highest_cost, config.max_cost);
   std::optional<double> fitting;
+  double highest_cost = config.max_cost;
   for (const double factor : factors) {
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
     for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config)) {
