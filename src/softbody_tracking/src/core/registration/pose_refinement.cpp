@@ -10,7 +10,7 @@ namespace softbody {
 namespace {
 
 // Smallest step of the pattern search [px]; below it the image decides nothing.
-constexpr double kPrecision = 0.125;
+constexpr double kPrecision = 0.1;
 
 /// Like the square, but below 1.
 double saturated(double ratio2) { return ratio2 / (1.0 + ratio2); }
