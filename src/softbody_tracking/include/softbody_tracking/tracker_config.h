@@ -7,7 +7,7 @@ namespace softbody {
 /// Registration: alignment of the rest shape with a depth image, without a prediction.
 struct RegistrationConfig {
   /// Larger depth differences count as free space or occlusion [m]. Beyond a distance of 1 m the value is
-  /// multiplied by the distance in metres, because depth is noisier there.
+  /// multiplied by the square of the distance in metres, because depth is noisier there.
   double distance_scale_m = 0.02;
   double max_cost = 0.22;  ///< mean cost of a pixel, 0..1, above which a pose is rejected
 };

@@ -96,9 +96,11 @@ TEST(PosesAnywhere, PreferManyPixelsToFew) {
   cv::add(frame.depth, noise, frame.depth, frame.depth < 1.0f);
   frame.depth = cv::min(frame.depth, other.depth);
   const auto found = boxPoses(frame);
-  ASSERT_GE(found.size(), 2u);
-  EXPECT_LT((found.front().pose.translation() - near.translation()).norm(), 0.03);
-  EXPECT_GT(found.front().cost, found[1].cost) << "the far one fits better";
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(isAt(found.front().pose, near));
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const PoseHypothesis& pose) {
+    return isAt(pose.pose, far) && pose.cost < found.front().cost;
+  })) << "the far one fits better";
 }
 
 TEST(SearchAnywhere, CountsAlikePosesInOnePlaceOnly) {

@@ -33,7 +33,7 @@ struct SearchReport {
   double continuing = 0.0;    ///< pixels just outside the outline whose depth continues the surface
   double without_edge = 0.0;  ///< outline at which depth runs straight on
   double largest_without_edge = 0.0;
-  /// The mesh times this factor fits much better; empty: no such factor is known.
+  /// The mesh times this factor would be found; empty: no such factor is known.
   std::optional<double> fitting_scale;
 };
 

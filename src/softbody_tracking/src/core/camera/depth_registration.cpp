@@ -9,7 +9,6 @@
 namespace softbody {
 namespace {
 
-constexpr double kNearest_m = 1e-3;  // nearer than any camera measures; keeps the division by depth finite
 // Squares of a slanted surface are farther apart than those of a surface that faces the camera.
 constexpr double kOverlap = 1.2;
 
@@ -49,8 +48,9 @@ cv::Mat1f registeredDepth(const cv::Mat1f& depth, const Pinhole& from, const Eig
       const double z = depth(v, u);
       if (z <= 0.0) continue;
       const Eigen::Vector3d point = T_to_from * from.unproject(u, v, z);
-      if (point.z() < kNearest_m) continue;
       const double scale = z / point.z();
+      // So near that one pixel would fill the image: no camera measures that.
+      if (point.z() <= 0.0 || width * scale > to.width) continue;
       // At least half a pixel, so that a coarser camera keeps every point.
       drawSquare(point, std::max(0.5, width * scale), std::max(0.5, height * scale), to, &result);
     }

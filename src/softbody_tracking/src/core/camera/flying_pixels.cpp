@@ -6,8 +6,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kMinNearNeighbors = 2;     // of eight: a thin wire has two, a stray pixel has none
-constexpr float kDiagonalFactor = 1.5f;  // diagonal neighbours are sqrt(2) pixels away; rounded up
+constexpr int kMinNearNeighbors = 2;  // of eight: a thin wire has two, a stray pixel has none
 
 /// Whether z lies between a and b and is near neither.
 int isStep(float a, float b, float z, float reach) {
@@ -22,7 +21,7 @@ int isNear(float neighbor, float z, float reach) { return static_cast<int>(std::
 void filterRow(const float* __restrict above, const float* __restrict row, const float* __restrict below,
                float ratio, int width, float* __restrict result) {
   for (int i = 0; i < width; ++i) {
-    const float z = row[i + 1], reach = ratio * z, diagonal = kDiagonalFactor * reach;
+    const float z = row[i + 1], reach = ratio * z, diagonal = static_cast<float>(M_SQRT2) * reach;
     const int support = isNear(row[i], z, reach) + isNear(row[i + 2], z, reach) +
                         isNear(above[i + 1], z, reach) + isNear(below[i + 1], z, reach) +
                         isNear(above[i], z, diagonal) + isNear(above[i + 2], z, diagonal) +

@@ -13,7 +13,6 @@ using Types = std::map<std::string, std::string>;
 
 constexpr char kImage[] = "sensor_msgs/Image", kCompressed[] = "sensor_msgs/CompressedImage",
                kInfo[] = "sensor_msgs/CameraInfo";
-constexpr std::size_t kMostNamed = 6;  // topics; a longer list does not help the reader of the message
 
 struct StreamWords {
   const char *argument, *transport, *type, *without;
@@ -50,8 +49,7 @@ std::vector<std::string> candidates(Stream stream, const char* type, const Types
   std::vector<std::string> found;
   for (const auto& [topic, its_type] : published) {
     const bool wanted = its_type == type || (type == kImage && its_type == kCompressed);
-    if (wanted && fits(stream, topic) && found.size() < kMostNamed)
-      found.push_back(fmt::format("{} ({})", topic, its_type));
+    if (wanted && fits(stream, topic)) found.push_back(fmt::format("{} ({})", topic, its_type));
   }
   return found;
 }
@@ -85,7 +83,7 @@ std::vector<std::string> otherCameras(const StreamTopics& topics, const Types& p
     const bool is_new = cameras.empty() || cameras.back() != camera;
     const bool fits =
         isPublished(camera + color_name, published) && isPublished(camera + depth_name, published);
-    if (fits && is_new && cameras.size() < kMostNamed) cameras.push_back(camera);
+    if (fits && is_new) cameras.push_back(camera);
   }
   return cameras;
 }

@@ -9,8 +9,6 @@
 namespace softbody {
 namespace {
 
-constexpr std::size_t kMaxArrivals = 30;  // messages kept of each stream: a second of images
-
 /// Smallest difference between a stamp of a and a stamp of b.
 Nanoseconds smallestDifference(const std::vector<Nanoseconds>& a, const std::vector<Nanoseconds>& b) {
   Nanoseconds smallest = std::numeric_limits<Nanoseconds>::max();
@@ -31,7 +29,7 @@ std::string describeSilence(const StreamTopic& topic, bool unstamped) {
 void StreamMonitor::noteArrival(Stream stream, Nanoseconds stamp, Nanoseconds now) {
   std::deque<Arrival>& arrivals = arrivals_[static_cast<std::size_t>(stream)];
   arrivals.push_back({stamp, now});
-  if (arrivals.size() > kMaxArrivals) arrivals.pop_front();
+  while (now - arrivals.front().time > timeout_) arrivals.pop_front();
   ever_arrived_[static_cast<std::size_t>(stream)] = true;
 }
 

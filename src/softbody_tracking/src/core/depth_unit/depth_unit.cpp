@@ -9,19 +9,15 @@
 namespace softbody {
 namespace {
 
-// Of the vertices: where most of the outline is outside of the image, any wall would fit.
-constexpr double kShown = 0.9;
-
-/// Share of the vertices that are within the image. @param vertices camera frame [m].
-double shownShare(const Points& vertices, const Pinhole& camera) {
-  Eigen::Index shown = 0;
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const Eigen::Vector3d point = vertices.row(v);
-    if (point.z() <= 0.0) continue;
+/// Whether all vertices are within the image: where the outline is outside of it, any wall would fit.
+/// @param vertices camera frame [m].
+bool isWhollyShown(const Points& vertices, const Pinhole& camera) {
+  for (const auto& vertex : vertices.rowwise()) {
+    const Eigen::Vector3d point = vertex;
     const Eigen::Vector2d pixel = camera.project(point);
-    shown += pixel.x() >= 0.0 && pixel.x() < camera.width && pixel.y() >= 0.0 && pixel.y() < camera.height;
+    if (point.z() <= 0.0 || !camera.contains(pixel.x(), pixel.y())) return false;
   }
-  return static_cast<double>(shown) / static_cast<double>(vertices.rows());
+  return true;
 }
 
 }  // namespace
@@ -39,7 +35,7 @@ std::optional<double> depthUnitThatFits(CameraImages images, CameraIngest* inges
     const TrackingResult result = tracker.track(ingest->process(images), nullptr, &timer);
     if (!result.has_targets) continue;
     const Points vertices = transformed(surface.rest_vertices, result.targets.body_pose);
-    if (shownShare(vertices, images.rectified) >= kShown) return unit_m;
+    if (isWhollyShown(vertices, images.rectified)) return unit_m;
   }
   return std::nullopt;
 }

@@ -7,13 +7,8 @@
 namespace softbody {
 namespace {
 
-// Size of a cache line [bytes] on the usual processors.
-constexpr std::size_t kCacheLine = 64;
 // Most iterations; a patch that is visible converges in fewer.
 constexpr int kIterations = 8;
-// After this many iterations the correlation must reach kHopeless, or the patch is not there.
-constexpr int kHopelessAfter = 3;
-constexpr float kHopeless = 0.4f;  // correlation of patch and image; 1: equal
 // Last step [px of the level]; the remaining error is smaller than the step.
 constexpr float kConverged = 0.1f;
 // Standard deviation of the grey values below which a patch shows only noise.
@@ -100,7 +95,6 @@ float FeaturePatch::alignLevel(const Level& level, const RowPairs& image, const 
     const PatchSums sums = comparePatch(image, *center, warp, level.pattern);
     if (sums.spread < kSmallestSpread * kPatchSide) return -1.0f;
     correlation = sums.product / sums.spread;
-    if (i >= kHopelessAfter && correlation < kHopeless) return -1.0f;
     const Eigen::Vector2f shift =
         level.inverse_hessian * Eigen::Vector2f(sums.along_x / sums.spread - level.dx_offset,
                                                 sums.along_y / sums.spread - level.dy_offset);
@@ -115,7 +109,8 @@ float FeaturePatch::alignLevel(const Level& level, const RowPairs& image, const 
 void FeaturePatch::prefetch() const {
   if (levels_.empty()) return;
   const char* level = reinterpret_cast<const char*>(levels_.data());
-  for (std::size_t line = 0; line < sizeof(Level); line += kCacheLine) __builtin_prefetch(level + line);
+  for (std::size_t line = 0; line < sizeof(Level); line += alignof(PatchSamples))
+    __builtin_prefetch(level + line);
 }
 
 FeaturePatch::Alignment FeaturePatch::align(const GrayPyramid& image, const Eigen::Matrix2f& warp,

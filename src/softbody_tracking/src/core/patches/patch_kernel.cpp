@@ -46,7 +46,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Sums are taken in 16 lanes, whatever the vectors' width, and nothing is fused: all widths round alike.
-constexpr int kLanes = 16;
+constexpr int kLanes = PatchSamples::kLanes;
 using Floats = hn::CappedTag<float, kLanes>;
 using Ints = hn::RebindToSigned<Floats>;
 constexpr int kWidth = static_cast<int>(hn::MaxLanes(Floats()));
@@ -145,13 +145,14 @@ struct Sum {
   hn::Vec<Floats> parts[kParts];
 };
 
-constexpr float kMiddleGray = 128.0f;  // sums of differences from it lose fewer digits
-
 /// @param sums spread squared, product, along x, along y.
 void compare(const PatchView& view, const float* values, const float* dx, const float* dy, float* sums) {
   const Floats df;
   const Samples samples(view);
-  const auto gray = hn::Set(df, kMiddleGray);
+  // Sums of differences from the middle's grey lose fewer digits than sums of greys.
+  const auto middle =
+      static_cast<std::ptrdiff_t>(view.center_v) * view.stride + static_cast<std::ptrdiff_t>(view.center_u);
+  const auto gray = hn::Set(df, static_cast<float>(view.image[2 * middle]));
   Sum all, square, product, along_x, along_y;
   for (int i = 0; i < PatchSamples::kPadded; i += kLanes) {
     for (int part = 0; part < kParts; ++part) {

@@ -11,7 +11,8 @@ constexpr int kPatchSize = kPatchSide * kPatchSide;
 
 /// A value for every pixel of a patch, row by row, padded with zeros to whole vectors.
 struct alignas(64) PatchSamples {
-  static constexpr int kPadded = 128;  ///< 11 * 11 pixels, and a multiple of 16 floats
+  static constexpr int kLanes = 16;  ///< floats in the widest vector of the usual processors
+  static constexpr int kPadded = (kPatchSize + kLanes - 1) / kLanes * kLanes;
   std::array<float, kPadded> values;
 };
 

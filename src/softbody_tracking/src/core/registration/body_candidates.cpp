@@ -3,11 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <random>
 
+#include "registration/pose_cost.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
@@ -15,44 +15,28 @@ namespace {
 
 // RANSAC trials for one plane: enough to draw three points of a plane with a third of all points.
 constexpr int kPlaneTrials = 150;
-// Planes that are tested: a table, a wall and the floor.
-constexpr int kMostPlanes = 3;
-// Half the thickness of a plane [m] at 1 m; it grows with the square of the distance, as stereo noise does.
-constexpr double kPlaneThickness = 0.008;
 // Share of the measured pixels that a plane must hold; smaller ones are no background.
 constexpr double kSmallestPlaneShare = 0.1;
-// Size of a plane, in body diameters, from which it is background; the body itself may be flat.
-constexpr double kPlaneBeyondBody = 1.3;
-// Width [px] of the gap without depth between an object and what it hides.
-constexpr int kUnmeasuredEdge = 2;
-// Largest depth steps inside a candidate, in body diameters. All are tried: parts of the body hide other
-// parts.
-constexpr double kSteps[] = {0.05, 0.1, 0.15};
-// Smallest such step [m]; below it noise would divide a small body.
-constexpr double kSmallestStep = 0.02;
-// A step must exceed the one before by this factor to give other candidates.
-constexpr double kNextStep = 1.01;
-// Distance of two centres, in body diameters, below which the second candidate is a repetition.
-constexpr double kSamePlace = 0.1;
-// Part of the diameter that one view of a body usually shows.
-constexpr double kLikelyShare = 0.8;
-// Size of a candidate in body diameters; the rest of the body may be hidden, or another object may touch it.
-constexpr double kSmallestShare = 0.3, kLargestShare = 1.6;
-// The thickness of planes does not fall below this factor at close range.
-constexpr double kThinnest = 0.5;
+// Largest depth step inside a part, in body diameters: parts of the body hide other parts.
+constexpr double kLargestStep = 0.1;
+// A part whose size differs by this factor is not the body: the rest of it may be hidden, or something
+// touches it.
+constexpr double kOtherSize = 2.0;
+
+/// Size of a part, divided by that of the body if this is as wide as high.
+double relativeSize(double spread_m, double diameter_m) { return spread_m / (M_SQRT1_2 * diameter_m); }
 
 /// The points x with normal . x = offset.
 struct Plane {
   Eigen::Vector3d normal;
   double offset = 0.0;
 
-  static double thickness(const Eigen::Vector3d& p) {
-    return kPlaneThickness * std::max(kThinnest, p.z() * p.z());
+  bool holds(const Eigen::Vector3d& p) const {
+    return std::abs(normal.dot(p) - offset) < kDoubt * depthSigma(p.z());
   }
-  bool holds(const Eigen::Vector3d& p) const { return std::abs(normal.dot(p) - offset) < thickness(p); }
   /// Whether a point lies on the plane or on the camera's side of it.
   bool reaches(const Eigen::Vector3d& p) const {
-    return (offset > 0.0 ? normal.dot(p) - offset : offset - normal.dot(p)) < thickness(p);
+    return (offset > 0.0 ? normal.dot(p) - offset : offset - normal.dot(p)) < kDoubt * depthSigma(p.z());
   }
 };
 
@@ -110,7 +94,7 @@ cv::Mat1b extent(const Cloud& cloud, const Plane& plane) {
   cv::Mat1b reached(cloud.index.size(), 0), grown;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     if (plane.reaches(cloud.points[i])) reached(cloud.pixels[i]) = 1;
-  cv::dilate(reached, grown, cv::Mat(), cv::Point(-1, -1), kUnmeasuredEdge);
+  cv::dilate(reached, grown, cv::Mat());
   grown.copyTo(reached, cloud.index < 0);
   return reached;
 }
@@ -133,13 +117,12 @@ void removePlanes(double diameter_m, Cloud* cloud) {
   for (std::size_t i = 0; i < cloud->points.size(); ++i)
     if (cloud->free[i]) open.push_back(static_cast<int>(i));
   std::mt19937 random(1);
-  for (int k = 0; k < kMostPlanes; ++k) {
-    const std::optional<Plane> plane = largestPlane(*cloud, open, &random);
-    if (!plane) return;
+  while (const std::optional<Plane> plane = largestPlane(*cloud, open, &random)) {
     const auto rest = std::stable_partition(open.begin(), open.end(),
                                             [&](int i) { return plane->holds(cloud->points[i]); });
     const std::vector<int> on_it(open.begin(), rest);
-    const bool background = spreadOf(largestPart(*cloud, *plane, on_it)) >= kPlaneBeyondBody * diameter_m;
+    const bool background =
+        relativeSize(spreadOf(largestPart(*cloud, *plane, on_it)), diameter_m) > kOtherSize;
     for (int i : on_it) cloud->free[i] = !background;
     open.erase(open.begin(), rest);
   }
@@ -190,45 +173,12 @@ DepthPart measuredPart(const Cloud& cloud, const std::vector<int>& points, doubl
   for (const Eigen::Vector3d& p : places) part.candidate.center += p / pixels;
   part.size_m = principalSize(places);
   part.spread_m = spreadOf(places);
-  const double share = part.spread_m / diameter_m;
-  part.fits = share >= kSmallestShare && share <= kLargestShare;
+  const double difference = std::abs(std::log(relativeSize(part.spread_m, diameter_m)));
+  part.fits = difference <= std::log(kOtherSize);
   // The body that a user wants to track is usually close: many pixels are better.
-  part.rating = 2.0 * std::abs(std::log(share / kLikelyShare)) - std::log(pixels);
+  part.rating = 2.0 * difference - std::log(pixels);
   for (int k : points) part.pixels.push_back(cloud.pixels[k].y * cloud.index.cols + cloud.pixels[k].x);
   return part;
-}
-
-/// Adds the connected parts.
-void addParts(const Cloud& cloud, double step_m, double diameter_m, std::vector<DepthPart>* parts) {
-  std::vector<bool> free = cloud.free;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!free[i]) continue;
-    const std::vector<int> points = takePart(cloud, static_cast<int>(i), step_m, &free);
-    if (static_cast<int>(points.size()) >= kFewestPixels)
-      parts->push_back(measuredPart(cloud, points, diameter_m));
-  }
-}
-
-/// Whether one part contains the other. Parts found with different depth steps are nested or disjoint.
-bool nested(const DepthPart& a, const DepthPart& b) {
-  const bool a_is_smaller = a.pixels.size() < b.pixels.size();
-  const std::vector<int>& smaller = (a_is_smaller ? a : b).pixels;
-  const std::vector<int>& larger = (a_is_smaller ? b : a).pixels;
-  return std::find(larger.begin(), larger.end(), smaller.front()) != larger.end();
-}
-
-/// One part of each separate object first, then the other parts; both sorted by rating.
-std::vector<DepthPart> onePerObjectFirst(std::vector<DepthPart> parts) {
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const DepthPart& a, const DepthPart& b) { return a.rating < b.rating; });
-  std::vector<DepthPart> firsts, others;
-  for (DepthPart& part : parts) {
-    const bool is_first = std::none_of(firsts.begin(), firsts.end(),
-                                       [&](const DepthPart& other) { return nested(part, other); });
-    (is_first ? firsts : others).push_back(std::move(part));
-  }
-  std::move(others.begin(), others.end(), std::back_inserter(firsts));
-  return firsts;
 }
 
 }  // namespace
@@ -242,31 +192,30 @@ double spreadOf(const std::vector<Eigen::Vector3d>& points) {
   return std::sqrt(6.0 * sum / static_cast<double>(points.size()));
 }
 
-std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const ColorModel& colors, double diameter_m) {
+std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const ColorModel& colors, double diameter_m,
+                                      double distance_scale_m) {
   Cloud cloud = makeCloud(frame, colors);
   removePlanes(diameter_m, &cloud);
+  // Smaller steps are noise.
+  const double step_m = std::max(distance_scale_m, kLargestStep * diameter_m);
   std::vector<DepthPart> parts;
-  double last_step_m = 0.0;
-  for (const double step : kSteps) {
-    const double step_m = std::max(kSmallestStep, step * diameter_m);
-    if (step_m > kNextStep * last_step_m) addParts(cloud, step_m, diameter_m, &parts);
-    last_step_m = step_m;
+  std::vector<bool> free = cloud.free;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (!free[i]) continue;
+    const std::vector<int> points = takePart(cloud, static_cast<int>(i), step_m, &free);
+    if (static_cast<int>(points.size()) >= kFewestPixels)
+      parts.push_back(measuredPart(cloud, points, diameter_m));
   }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const DepthPart& a, const DepthPart& b) { return a.rating < b.rating; });
   return parts;
 }
 
 std::vector<BodyCandidate> findBodyCandidates(const RgbdFrame& frame, const ColorModel& colors,
-                                              double diameter_m) {
-  std::vector<DepthPart> parts = findDepthParts(frame, colors, diameter_m);
-  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const DepthPart& part) { return !part.fits; }),
-              parts.end());
+                                              double diameter_m, double distance_scale_m) {
   std::vector<BodyCandidate> candidates;
-  for (const DepthPart& part : onePerObjectFirst(std::move(parts))) {
-    const bool is_new = std::none_of(candidates.begin(), candidates.end(), [&](const BodyCandidate& other) {
-      return (other.center - part.candidate.center).norm() < kSamePlace * diameter_m;
-    });
-    if (is_new) candidates.push_back(part.candidate);
-  }
+  for (const DepthPart& part : findDepthParts(frame, colors, diameter_m, distance_scale_m))
+    if (part.fits) candidates.push_back(part.candidate);
   return candidates;
 }
 

@@ -12,8 +12,6 @@
 namespace softbody {
 namespace {
 
-// Columns of the image: pixels of some millimetres, wide enough for edges that depth shows rounded.
-constexpr int kColumns = 320;
 // Smallest step of depth that is an edge, in distance scales and in thicknesses of the body.
 constexpr double kLeastStep = 0.25;
 
@@ -40,7 +38,7 @@ bool runsOn(const cv::Mat1f& depth, const cv::Point& pixel, const cv::Point& ste
 double shareWithoutEdge(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
                         double distance_scale_m) {
   static const cv::Point kSteps[4] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-  const RgbdFrame small = subsampled(frame, kColumns);
+  const RgbdFrame small = subsampled(frame, kLargeColumns);
   RasterImage image;
   rasterize(small.camera, transformed(mesh.vertices, pose), mesh.triangles, &image);
   const auto shows = [&](const cv::Point& pixel) { return image.triangle(pixel) >= 0; };

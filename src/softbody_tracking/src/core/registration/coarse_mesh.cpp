@@ -10,12 +10,7 @@ namespace {
 
 // Smallest share of the surface area that clustering may leave; less would not look like the body.
 constexpr double kSmallestArea = 0.25;
-// Vertices; a mesh with more is finer than a picture of 160 columns shows.
-constexpr Eigen::Index kManyVertices = 3000;
-// Cells along the diameter of the medium mesh: a cell is about two pixels of such a picture.
-constexpr double kMediumCells = 60.0;
-// Cells along the diameter of the coarse mesh, which is rendered more than a hundred times for each
-// candidate.
+// Cells along the diameter of the coarse mesh, which is rendered more than a hundred times for each place.
 constexpr double kCoarseCells = 25.0;
 
 TriangleMesh clusteredOnce(const TriangleMesh& mesh, double cell_m) {
@@ -74,9 +69,6 @@ SearchMeshes makeSearchMeshes(const TriangleMesh& rest_surface) {
       rest_surface.vertices.colwise().maxCoeff() - rest_surface.vertices.colwise().minCoeff();
   meshes.diameter_m = size.norm();
   meshes.coarse = clustered(rest_surface, meshes.diameter_m / kCoarseCells);
-  meshes.medium = rest_surface.vertices.rows() <= kManyVertices
-                      ? rest_surface
-                      : clustered(rest_surface, meshes.diameter_m / kMediumCells);
   return meshes;
 }
 

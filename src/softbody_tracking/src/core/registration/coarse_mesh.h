@@ -11,8 +11,7 @@ TriangleMesh clustered(const TriangleMesh& mesh, double cell_m);
 /// The rest surface at the resolutions that the searches for its pose render.
 struct SearchMeshes {
   TriangleMesh full;
-  TriangleMesh medium;      ///< for searchNearPose(); the full mesh if it has few vertices
-  TriangleMesh coarse;      ///< for searchAnywhere()
+  TriangleMesh coarse;
   double diameter_m = 0.0;  ///< diagonal of the bounding box
 };
 

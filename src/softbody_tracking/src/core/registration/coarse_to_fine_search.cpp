@@ -9,16 +9,8 @@
 namespace softbody {
 namespace {
 
-// First steps of step 2: a pose after ICP is off by up to that.
-constexpr PoseRefinement::Steps kCoarseSteps{0.1, 0.02};
-// First steps of step 3: the precision that step 2 leaves.
-constexpr PoseRefinement::Steps kFineSteps{0.02, 0.003};
-
-std::vector<PoseHypothesis> searched(PoseRefinement* refinement, const PoseRefinement::Steps& steps,
-                                     std::vector<PoseHypothesis> poses) {
-  for (PoseHypothesis& pose : poses) pose = refinement->patternSearch(pose.pose, steps);
-  return poses;
-}
+// Iterations of the ICP from each start; more of them make no other pose the best.
+constexpr int kIterations = 10;
 
 std::vector<PoseHypothesis> ranked(PoseCost* cost, double max_cost, std::vector<PoseHypothesis> poses) {
   std::vector<std::pair<double, PoseHypothesis>> rated;
@@ -38,18 +30,16 @@ void sortByCost(std::vector<PoseHypothesis>* poses) {
                    [](const PoseHypothesis& a, const PoseHypothesis& b) { return a.cost < b.cost; });
 }
 
-CoarseToFineSearch::CoarseToFineSearch(const RgbdFrame& frame, const TriangleMesh& full,
-                                       const TriangleMesh& coarse, const Alignment& alignment,
+CoarseToFineSearch::CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshes& meshes,
                                        const RegistrationConfig& config,
                                        const std::optional<Eigen::Isometry3d>& preferred)
-    : icp_iterations_(alignment.icp_iterations),
-      max_cost_(config.max_cost),
-      small_(subsampled(frame, alignment.columns)),
+    : max_cost_(config.max_cost),
+      small_(subsampled(frame, kSmallColumns)),
       medium_(subsampled(frame, kMediumColumns)),
       large_(subsampled(frame, kLargeColumns)),
-      alignment_(small_, coarse, config.distance_scale_m, preferred),
-      refinement_(medium_, coarse, config.distance_scale_m, preferred),
-      polishing_(large_, full, config.distance_scale_m, preferred) {}
+      alignment_(small_, meshes.coarse, config.distance_scale_m, preferred),
+      refinement_(medium_, meshes.coarse, config.distance_scale_m, preferred),
+      polishing_(large_, meshes.full, config.distance_scale_m, preferred) {}
 
 Eigen::Isometry3d CoarseToFineSearch::turned(const Eigen::Isometry3d& pose,
                                              const Eigen::Vector3d& turn) const {
@@ -60,7 +50,7 @@ std::vector<PoseHypothesis> CoarseToFineSearch::align(const std::vector<Eigen::I
   std::vector<PoseHypothesis> poses;
   poses.reserve(starts.size());
   for (const Eigen::Isometry3d& start : starts) {
-    const Eigen::Isometry3d pose = alignment_.icp(start, icp_iterations_);
+    const Eigen::Isometry3d pose = alignment_.icp(start, kIterations);
     poses.push_back({pose, alignment_.rankedCost(pose)});
   }
   sortByCost(&poses);
@@ -68,11 +58,15 @@ std::vector<PoseHypothesis> CoarseToFineSearch::align(const std::vector<Eigen::I
 }
 
 std::vector<PoseHypothesis> CoarseToFineSearch::refine(std::vector<PoseHypothesis> poses) {
-  return searched(&refinement_, kCoarseSteps, std::move(poses));
+  for (PoseHypothesis& pose : poses)
+    pose = refinement_.patternSearch(pose.pose, alignment_.scaleAt(pose.pose));
+  return poses;
 }
 
 std::vector<PoseHypothesis> CoarseToFineSearch::polish(std::vector<PoseHypothesis> poses) {
-  return searched(&polishing_, kFineSteps, std::move(poses));
+  for (PoseHypothesis& pose : poses)
+    pose = polishing_.patternSearch(pose.pose, refinement_.pixelAt(pose.pose));
+  return poses;
 }
 
 std::vector<PoseHypothesis> CoarseToFineSearch::rankRefined(std::vector<PoseHypothesis> poses) {

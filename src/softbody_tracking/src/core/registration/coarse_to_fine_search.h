@@ -3,14 +3,15 @@
 #include <optional>
 #include <vector>
 
+#include "registration/coarse_mesh.h"
 #include "registration/pose_refinement.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 
-/// Columns of the images of steps 2 and 3: enough for the outline's shape, few enough to render hundreds of
-/// times.
-constexpr int kMediumColumns = 160, kLargeColumns = 320;
+/// The best poses of a step that go on to the next one; a box has four that look alike. Also the places that
+/// are searched.
+constexpr std::size_t kKept = 4;
 
 void sortByCost(std::vector<PoseHypothesis>* poses);
 
@@ -19,15 +20,8 @@ void sortByCost(std::vector<PoseHypothesis>* poses);
 /// must outlive it.
 class CoarseToFineSearch {
  public:
-  /// Effort of the first step.
-  struct Alignment {
-    int columns;         ///< of the image
-    int icp_iterations;  ///< from each start
-  };
-
   /// @param preferred see PoseRefinement.
-  CoarseToFineSearch(const RgbdFrame& frame, const TriangleMesh& full, const TriangleMesh& coarse,
-                     const Alignment& alignment, const RegistrationConfig& config,
+  CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshes& meshes, const RegistrationConfig& config,
                      const std::optional<Eigen::Isometry3d>& preferred = std::nullopt);
   CoarseToFineSearch(const CoarseToFineSearch&) = delete;
   CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
@@ -53,7 +47,6 @@ class CoarseToFineSearch {
   const RgbdFrame& mediumFrame() const { return medium_; }
 
  private:
-  int icp_iterations_;
   double max_cost_;
   RgbdFrame small_, medium_, large_;
   PoseRefinement alignment_, refinement_, polishing_;

@@ -5,6 +5,10 @@
 
 namespace softbody {
 
+/// Poses that differ by more are different: angle [rad], and distance of their centres [diameters of the
+/// body].
+constexpr double kOtherTurn = 0.35, kOtherPlace = 0.2;
+
 /// A pose of the undeformed body that a search considers.
 struct PoseHypothesis {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< rest frame in the camera frame

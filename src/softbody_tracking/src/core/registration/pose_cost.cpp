@@ -10,28 +10,30 @@
 namespace softbody {
 namespace {
 
+// Standard deviation of depth at 1 m [m], of usual cameras.
+constexpr double kSigmaAtMetre = 0.0025;
 // Cost of a covered pixel without depth, 0..1: it neither supports nor contradicts a pose.
 constexpr double kUnmeasuredCost = 0.3;
-// Cost of a pixel with something nearer, 0..1. Below the 1 of free space: occlusion is possible, looking
-// through a body is not.
-constexpr double kNearerCost = 0.7;
-// Share of the covered pixels that must have depth; with less a pose cannot be judged.
-constexpr double kFewestMeasured = 0.25;
-// Weight of the outline, per covered pixel; without it a pose inside a larger object would be perfect.
-constexpr double kOutlineWeight = 0.5;
-// Depth difference, in distance scales, below which depth beyond the outline continues the surface.
-constexpr double kContinues = 0.5;
+// Cost of a pixel that another object may explain, 0..1: something nearer hides the body, or something beside
+// it continues its surface. Below the 1 of free space: no object lets the camera look through a body.
+constexpr double kOtherObject = 0.7;
+
+/// How badly a depth agrees, from 0 to 1 at a distance scale.
+double misfit(double measured, double predicted, double scale) {
+  const double ratio = (measured - predicted) / distanceScaleAt(predicted, scale);
+  return std::min(1.0, ratio * ratio);
+}
 
 double pixelCost(double measured, double predicted, double scale) {
   if (measured <= 0.0) return kUnmeasuredCost;
-  const double ratio = (measured - predicted) / distanceScaleAt(predicted, scale);
-  if (ratio < -1.0) return kNearerCost;
-  return std::min(1.0, ratio * ratio);
+  const double cost = misfit(measured, predicted, scale);
+  return measured < predicted ? std::min(kOtherObject, cost) : cost;
 }
 
 /// Pixels just outside the rendered outline.
 struct Outline {
-  int measured = 0, continuing = 0;  ///< with depth; and with depth that continues the surface
+  int measured = 0;         ///< with depth
+  double continuing = 0.0;  ///< sum of how well their depth continues the surface, 0..1 each
 };
 
 Outline outlineOf(const RgbdFrame& frame, const RasterImage& image, double scale) {
@@ -49,7 +51,7 @@ Outline outlineOf(const RgbdFrame& frame, const RasterImage& image, double scale
         const float z = frame.depth(beyond_v, beyond_u);
         if (z <= 0.0f) continue;
         ++outline.measured;
-        if (std::abs(z - image.depth(v, u)) < kContinues * distanceScaleAt(z, scale)) ++outline.continuing;
+        outline.continuing += 1.0 - misfit(z, image.depth(v, u), scale);
       }
     }
   }
@@ -58,22 +60,25 @@ Outline outlineOf(const RgbdFrame& frame, const RasterImage& image, double scale
 
 double renderedCost(const RgbdFrame& frame, const RasterImage& image, double scale) {
   double sum = 0.0;
-  int covered = 0, measured = 0;
+  int covered = 0;
   for (int v = image.region.y; v < image.region.br().y; ++v) {
     for (int u = image.region.x; u < image.region.br().x; ++u) {
       if (image.triangle(v, u) < 0) continue;
       ++covered;
-      measured += frame.depth(v, u) > 0.0f ? 1 : 0;
       sum += pixelCost(frame.depth(v, u), image.depth(v, u), scale);
     }
   }
-  if (measured <= kFewestMeasured * covered) return 1.0;
-  return (sum + kOutlineWeight * outlineOf(frame, image, scale).continuing) / covered;
+  if (covered == 0) return 1.0;
+  return (sum + kOtherObject * outlineOf(frame, image, scale).continuing) / covered;
 }
 
 }  // namespace
 
-double distanceScaleAt(double z, double scale) { return scale * std::max(1.0, z); }
+double depthSigma(double z) { return kSigmaAtMetre * z * std::max(1.0, z); }
+
+double distanceScaleAt(double z, double scale) {
+  return scale * std::max(1.0, depthSigma(z) / kSigmaAtMetre);
+}
 
 const RasterImage& PoseCost::render(const Points& vertices) {
   rasterize(frame_.camera, vertices, mesh_.triangles, &image_);
@@ -95,7 +100,7 @@ PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {
       const double measured = frame_.depth(v, u), difference = measured - image.depth(v, u);
       if (measured <= 0.0) continue;
       differences.push_back(std::abs(difference));
-      if (differences.back() < kContinues * distanceScaleAt(image.depth(v, u), scale_))
+      if (misfit(measured, image.depth(v, u), scale_) < 1.0)
         ++counts.agreeing;
       else
         ++(difference > 0.0 ? counts.farther : counts.nearer);

@@ -8,19 +8,29 @@
 
 namespace softbody {
 
-/// Depth is noisier far away: the distance scale grows with the distance beyond 1 m.
+/// Poses whose costs differ by at most this explain the depth equally well: noise changes a cost by as much.
+constexpr double kAlikeCost = 0.02;
+
+/// A difference of more standard deviations is no noise.
+constexpr double kDoubt = 3.0;
+
+/// Standard deviation of a depth [m]: the noise of a stereo camera grows with the square of the distance.
+/// Below 1 m the camera's calibration and rounding are left.
+double depthSigma(double z);
+
+/// The distance scale grows beyond 1 m as the noise of depth does.
 /// @param scale at up to 1 m [m].
 double distanceScaleAt(double z, double scale);
 
 /// Pixels that a posed mesh covers, counted by what the depth image says there.
 struct PoseAgreement {
   int covered = 0;
-  int agreeing = 0;           ///< depth differs by less than half a distance scale
+  int agreeing = 0;           ///< depth differs by less than a distance scale
   int nearer = 0;             ///< something before the mesh
   int farther = 0;            ///< the camera sees through the mesh
   double difference_m = 0.0;  ///< median of the depth's difference, without sign
   int outline = 0;            ///< pixels just outside that have depth
-  int continuing = 0;         ///< of these: depth continues the surface
+  double continuing = 0.0;    ///< sum of how well it continues the surface, 0..1 each
 };
 
 /// How badly a posed mesh explains a depth image. Frame and mesh must outlive it.
@@ -31,8 +41,8 @@ class PoseCost {
 
   /// Mean cost of the covered pixels, from 0 (perfect) to 1, plus a cost of the outline. A pixel costs the
   /// squared depth difference in distance scales, at most 1. A nearer occluder and missing depth cost less
-  /// than 1. Each pixel just outside the outline whose depth continues the surface adds 0.5 to the sum over
-  /// the covered pixels.
+  /// than 1. Each pixel just outside the outline whose depth continues the surface adds to the sum over the
+  /// covered pixels.
   double operator()(const Eigen::Isometry3d& pose);
 
   PoseAgreement agreement(const Eigen::Isometry3d& pose);

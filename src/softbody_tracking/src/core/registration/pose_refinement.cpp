@@ -9,19 +9,8 @@
 namespace softbody {
 namespace {
 
-// Cost of a turn of one radian away from the preferred pose; small, so that depth decides wherever it can.
-constexpr double kPreferredTurn = 0.05;
-// Largest cost of the distance from the preferred pose; bounded, so that a poor preference cannot draw the
-// body.
-constexpr double kPreferredPlace = 0.02;
-// Smallest gain of cost that counts; less is rounding.
-constexpr double kImprovement = 1e-6;
-// Smallest step of the pattern search [m]; below it depth decides nothing.
-constexpr double kSmallestShift = 2e-4;
-// First gate of the ICP, in distance scales; wide enough for a start that is a few centimetres off.
-constexpr double kFirstGate = 4.0;
-// Last iterations of the ICP that run with the narrow gate, so that it can converge.
-constexpr int kNarrowIterations = 5;
+// Smallest step of the pattern search [px]; below it the image decides nothing.
+constexpr double kPrecision = 0.1;
 
 /// Like the square, but below 1.
 double saturated(double ratio2) { return ratio2 / (1.0 + ratio2); }
@@ -64,18 +53,27 @@ PoseRefinement::PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh,
       mesh_(mesh),
       scale_(distance_scale_m),
       preferred_(preferred),
-      cost_(frame, mesh, distance_scale_m) {
+      cost_(frame, mesh, distance_scale_m),
+      diameter_m_((mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm()) {
   const AreaMoments moments = areaMoments(mesh);
   center_ = moments.center;
   axes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.spread).eigenvectors();
 }
 
+double PoseRefinement::pixelAt(const Eigen::Isometry3d& pose) const {
+  return (pose * center_).norm() / frame_.camera.fx;
+}
+
+double PoseRefinement::scaleAt(const Eigen::Isometry3d& pose) const {
+  return distanceScaleAt((pose * center_).z(), scale_);
+}
+
 double PoseRefinement::rankedCost(const Eigen::Isometry3d& pose) {
   if (!preferred_) return cost_(pose);
-  const double angle = Eigen::AngleAxisd(pose.linear().transpose() * preferred_->linear()).angle();
-  const Eigen::Vector3d center = pose * center_;
-  const double shift = (center - *preferred_ * center_).norm() / distanceScaleAt(center.z(), scale_);
-  return cost_(pose) + kPreferredTurn * angle * angle + kPreferredPlace * saturated(shift * shift);
+  const double turn =
+      Eigen::AngleAxisd(pose.linear().transpose() * preferred_->linear()).angle() / kOtherTurn;
+  // Bounded, so that a poor preference cannot draw the body; depth decides wherever it can.
+  return cost_(pose) + kAlikeCost * saturated(turn * turn);
 }
 
 Eigen::Isometry3d PoseRefinement::moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,
@@ -88,9 +86,9 @@ Eigen::Isometry3d PoseRefinement::moved(const Eigen::Isometry3d& pose, const Eig
 }
 
 Eigen::Isometry3d PoseRefinement::icp(Eigen::Isometry3d pose, int iterations) {
-  const double scale = distanceScaleAt((pose * center_).z(), scale_);
-  double gate = kFirstGate * scale;
-  const double narrowing = std::pow(1.0 / kFirstGate, 1.0 / std::max(1, iterations - kNarrowIterations));
+  const double scale = scaleAt(pose);
+  double gate = scale + kOtherPlace * diameter_m_;  // a start in the same place, and the misfit there
+  const double narrowing = std::pow(scale / gate, 2.0 / iterations);  // the second half converges
   for (int i = 0; i < iterations; ++i) {
     pose = rigidStep(refsTo(associations(pose, gate))) * pose;
     gate = std::max(scale, narrowing * gate);
@@ -100,35 +98,32 @@ Eigen::Isometry3d PoseRefinement::icp(Eigen::Isometry3d pose, int iterations) {
 
 /// The pose one step forwards or backwards along an axis, if it is better.
 /// @param axis 0..2: turn about a principal axis; 3..5: shift.
-std::optional<PoseHypothesis> PoseRefinement::betterNeighbor(const PoseHypothesis& best, const Steps& steps,
+std::optional<PoseHypothesis> PoseRefinement::betterNeighbor(const PoseHypothesis& best, double shift_m,
                                                              int axis) {
   for (double sign : {1.0, -1.0}) {
     Eigen::Vector3d turn = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero();
     if (axis < 3)
-      turn = sign * steps.turn_rad * (best.pose.linear() * axes_.col(axis));
+      turn = sign * shift_m / diameter_m_ * (best.pose.linear() * axes_.col(axis));
     else
-      shift[axis - 3] = sign * steps.shift_m;
+      shift[axis - 3] = sign * shift_m;
     const Eigen::Isometry3d pose = moved(best.pose, turn, shift);
     const double cost = rankedCost(pose);
-    if (cost < best.cost - kImprovement) return PoseHypothesis{pose, cost};
+    if (cost < best.cost) return PoseHypothesis{pose, cost};
   }
   return std::nullopt;
 }
 
-PoseHypothesis PoseRefinement::patternSearch(const Eigen::Isometry3d& start, Steps steps) {
+PoseHypothesis PoseRefinement::patternSearch(const Eigen::Isometry3d& start, double shift_m) {
   PoseHypothesis best{start, rankedCost(start)};
-  while (steps.shift_m > kSmallestShift) {
+  while (shift_m > kPrecision * pixelAt(best.pose)) {
     bool improved = false;
     for (int axis = 0; axis < 6; ++axis) {
-      const auto better = betterNeighbor(best, steps, axis);
+      const auto better = betterNeighbor(best, shift_m, axis);
       if (!better) continue;
       best = *better;
       improved = true;
     }
-    if (!improved) {
-      steps.turn_rad *= 0.5;
-      steps.shift_m *= 0.5;
-    }
+    if (!improved) shift_m *= 0.5;
   }
   return best;
 }

@@ -14,11 +14,6 @@ namespace softbody {
 /// along a surface; PoseCost also sees the outline. Frame and mesh must outlive it.
 class PoseRefinement {
  public:
-  /// First steps of the pattern search.
-  struct Steps {
-    double turn_rad, shift_m;
-  };
-
   /// @param preferred among poses with nearly equal cost, for example those of a torus turned about its axis,
   /// the nearest to this one wins.
   PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
@@ -35,18 +30,24 @@ class PoseRefinement {
   Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,
                           const Eigen::Vector3d& shift) const;
 
-  /// Projective point-to-plane ICP (Besl and McKay 1992; Chen and Medioni 1992). Its gate narrows from 4
-  /// distance scales to 1.
+  /// Projective point-to-plane ICP (Besl and McKay 1992; Chen and Medioni 1992). Its gate narrows to one
+  /// distance scale.
   Eigen::Isometry3d icp(Eigen::Isometry3d pose, int iterations);
 
   /// Pattern search along shifts and along turns about the body's principal axes. A symmetric body may turn
   /// freely about one of these; a search about other axes would stop in that valley. The steps are halved
-  /// down to the precision of depth.
-  /// @return the cost is rankedCost().
-  PoseHypothesis patternSearch(const Eigen::Isometry3d& start, Steps steps);
+  /// down to a part of a pixel.
+  /// @param shift_m first step; a turn moves the body's ends by half as much. @return the cost is
+  /// rankedCost().
+  PoseHypothesis patternSearch(const Eigen::Isometry3d& start, double shift_m);
+
+  /// Size of a pixel at the body [m].
+  double pixelAt(const Eigen::Isometry3d& pose) const;
+  /// Distance scale at the body [m].
+  double scaleAt(const Eigen::Isometry3d& pose) const;
 
  private:
-  std::optional<PoseHypothesis> betterNeighbor(const PoseHypothesis& best, const Steps& steps, int axis);
+  std::optional<PoseHypothesis> betterNeighbor(const PoseHypothesis& best, double shift_m, int axis);
   std::vector<Association> associations(const Eigen::Isometry3d& pose, double gate);
 
   const RgbdFrame& frame_;
@@ -54,6 +55,7 @@ class PoseRefinement {
   double scale_;
   std::optional<Eigen::Isometry3d> preferred_;
   PoseCost cost_;
+  double diameter_m_;
   Eigen::Vector3d center_;  ///< of the mesh's area
   Eigen::Matrix3d axes_;    ///< principal axes of the mesh's area, one a column
 };

@@ -7,38 +7,21 @@
 #include "registration/body_edges.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/search_starts.h"
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/rigid_fit.h"
 
 namespace softbody {
 namespace {
 
-// A small image and few iterations: every candidate has 144 starts.
-constexpr CoarseToFineSearch::Alignment kGlobalAlignment{80, 10};
-// Candidates that are searched; bounds the time in a cluttered scene.
-constexpr std::size_t kMostCandidates = 4;
-// Poses of each candidate that are refined; a box has four that look alike.
-constexpr std::size_t kRefinedGlobally = 4;
-// Refined poses of all candidates that are polished, besides the best of each candidate.
-constexpr std::size_t kPolished = 4;
-// Angle [rad] and distance [diameters] between two poses that count as different.
-constexpr double kOtherTurn = 0.35, kOtherPlace = 0.2;
-// Poses in one place are alike if their costs differ by at most this; depth noise changes the cost by as
-// much.
-constexpr double kAlikeCost = 0.02;
-// Two poses are in the same place if they share this part of the pixels that either covers.
-constexpr double kSharedPixels = 0.5;
-// Largest share of covered pixels with a foreign colour; with more, something else is there.
-constexpr double kLargestForeignShare = 0.5;
+bool inOnePlace(const SearchMeshes& meshes, const PoseHypothesis& a, const PoseHypothesis& b) {
+  const Eigen::Vector3d center = meshes.full.vertices.colwise().mean().transpose();
+  return (a.pose * center - b.pose * center).norm() <= kOtherPlace * meshes.diameter_m;
+}
 
 /// The first poses that differ from those before them.
 std::vector<PoseHypothesis> distinct(const SearchMeshes& meshes, const std::vector<PoseHypothesis>& poses,
                                      std::size_t most) {
-  const Eigen::Vector3d center = meshes.full.vertices.colwise().mean().transpose();
   const auto differs = [&](const PoseHypothesis& a, const PoseHypothesis& b) {
     const Eigen::Isometry3d between = a.pose.inverse() * b.pose;
-    return Eigen::AngleAxisd(between.linear()).angle() > kOtherTurn ||
-           (a.pose * center - b.pose * center).norm() > kOtherPlace * meshes.diameter_m;
+    return Eigen::AngleAxisd(between.linear()).angle() > kOtherTurn || !inOnePlace(meshes, a, b);
   };
   std::vector<PoseHypothesis> kept;
   for (const PoseHypothesis& pose : poses) {
@@ -52,9 +35,11 @@ std::vector<PoseHypothesis> distinct(const SearchMeshes& meshes, const std::vect
 /// The starts at each place where the body may be.
 std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame, const ColorModel& colors,
                                                           const SearchMeshes& meshes,
-                                                          const std::vector<Eigen::Isometry3d>& guesses) {
-  std::vector<BodyCandidate> candidates = findBodyCandidates(frame, colors, meshes.diameter_m);
-  candidates.resize(std::min(candidates.size(), kMostCandidates));
+                                                          const std::vector<Eigen::Isometry3d>& guesses,
+                                                          const RegistrationConfig& config) {
+  std::vector<BodyCandidate> candidates =
+      findBodyCandidates(frame, colors, meshes.diameter_m, config.distance_scale_m);
+  candidates.resize(std::min(candidates.size(), kKept));
   std::vector<std::vector<Eigen::Isometry3d>> result;
   if (!guesses.empty()) result.push_back(guesses);
   for (const BodyCandidate& candidate : candidates)
@@ -62,38 +47,12 @@ std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame
   return result;
 }
 
-/// Share of the pixels covered at a pose whose colour is not the body's.
-double foreignShare(const RgbdFrame& frame, const ColorModel& colors, const TriangleMesh& mesh,
-                    const Eigen::Isometry3d& pose) {
-  RasterImage image;
-  rasterize(frame.camera, transformed(mesh.vertices, pose), mesh.triangles, &image);
-  int covered = 0, foreign = 0;
-  for (int v = image.region.y; v < image.region.br().y; ++v) {
-    for (int u = image.region.x; u < image.region.br().x; ++u) {
-      if (image.triangle(v, u) < 0) continue;
-      ++covered;
-      foreign += colors.belongs(frame.color(v, u)) ? 0 : 1;
-    }
-  }
-  return covered == 0 ? 1.0 : static_cast<double>(foreign) / covered;
-}
-
-/// Whether the body at two poses covers mostly the same pixels.
-bool inSamePlace(const Pinhole& camera, const TriangleMesh& mesh, const Eigen::Isometry3d& a,
-                 const Eigen::Isometry3d& b) {
-  RasterImage at_a, at_b;
-  rasterize(camera, transformed(mesh.vertices, a), mesh.triangles, &at_a);
-  rasterize(camera, transformed(mesh.vertices, b), mesh.triangles, &at_b);
-  const cv::Mat1b covered_a = at_a.depth > 0.0f, covered_b = at_b.depth > 0.0f;
-  return cv::countNonZero(covered_a & covered_b) > kSharedPixels * cv::countNonZero(covered_a | covered_b);
-}
-
 /// Moves the poses that are alike with the first one to the front. @return the end of these.
-std::vector<PoseHypothesis>::iterator groupAlike(const Pinhole& camera, const TriangleMesh& mesh,
+std::vector<PoseHypothesis>::iterator groupAlike(const SearchMeshes& meshes,
                                                  std::vector<PoseHypothesis>* poses) {
   const PoseHypothesis best = poses->front();
   return std::stable_partition(poses->begin() + 1, poses->end(), [&](const PoseHypothesis& pose) {
-    return std::abs(pose.cost - best.cost) <= kAlikeCost && inSamePlace(camera, mesh, pose.pose, best.pose);
+    return std::abs(pose.cost - best.cost) <= kAlikeCost && inOnePlace(meshes, pose, best);
   });
 }
 
@@ -103,15 +62,15 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorMod
                                           const SearchMeshes& meshes,
                                           const std::vector<Eigen::Isometry3d>& guesses,
                                           const RegistrationConfig& config) {
-  CoarseToFineSearch search(frame, meshes.full, meshes.coarse, kGlobalAlignment, config);
+  CoarseToFineSearch search(frame, meshes, config);
   std::vector<PoseHypothesis> found, best_of_places;
-  for (const auto& starts : startsByPlace(search.mediumFrame(), colors, meshes, guesses)) {
+  for (const auto& starts : startsByPlace(search.mediumFrame(), colors, meshes, guesses, config)) {
     const std::vector<PoseHypothesis> here =
-        search.rankRefined(search.refine(distinct(meshes, search.align(starts), kRefinedGlobally)));
+        search.rankRefined(search.refine(distinct(meshes, search.align(starts), kKept)));
     best_of_places.push_back(here.front());
     found.insert(found.end(), here.begin(), here.end());
   }
-  found = distinct(meshes, search.rankRefined(std::move(found)), kPolished);
+  found = distinct(meshes, search.rankRefined(std::move(found)), kKept);
   // The best of every place is polished too: the coarse mesh may fit another object better than the body.
   found.insert(found.end(), best_of_places.begin(), best_of_places.end());
   found = distinct(meshes, found, found.size());
@@ -128,12 +87,11 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const ColorModel& colors, c
   const auto implausible = [&](const PoseHypothesis& pose) {
     return pose.cost > config.max_cost ||
            shareWithoutEdge(frame, meshes.full, pose.pose, config.distance_scale_m) >
-               kLargestShareWithoutEdge ||
-           foreignShare(frame, colors, meshes.full, pose.pose) > kLargestForeignShare;
+               kLargestShareWithoutEdge;
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
   for (bool first = true; !found.empty(); first = false) {
-    const auto others = groupAlike(frame.camera, meshes.medium, &found);
+    const auto others = groupAlike(meshes, &found);
     AlikePoses alike;
     for (auto pose = found.begin(); pose != others; ++pose) {
       alike.poses.push_back(pose->pose);

@@ -7,22 +7,14 @@
 #include "registration/search_starts.h"
 
 namespace softbody {
-namespace {
-
-// Few starts allow a larger image and more iterations than the search anywhere.
-constexpr CoarseToFineSearch::Alignment kAlignment{160, 15};
-// Aligned poses that are refined: ICP may slide, so the best one need not stay the best.
-constexpr std::size_t kRefined = 4;
-
-}  // namespace
 
 PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes,
                               const Eigen::Isometry3d& rough_pose, const RegistrationConfig& config) {
-  CoarseToFineSearch search(frame, meshes.full, meshes.medium, kAlignment, config, rough_pose);
+  CoarseToFineSearch search(frame, meshes, config, rough_pose);
   std::vector<Eigen::Isometry3d> starts;
   for (const Eigen::Vector3d& turn : smallTurns()) starts.push_back(search.turned(rough_pose, turn));
   std::vector<PoseHypothesis> poses = search.align(starts);
-  poses.resize(kRefined);
+  poses.resize(kKept);  // ICP may slide, so the best one need not stay the best;
   poses = search.refine(std::move(poses));
   sortByCost(&poses);
   const Eigen::Isometry3d pose = search.polish({poses.front()}).front().pose;

@@ -1,41 +1,54 @@
 #include "registration/search_starts.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+
+#include "registration/found_pose.h"
 
 namespace softbody {
 namespace {
 
-// Viewing directions and turns about each: 144 orientations, about 35 degrees apart.
-constexpr int kViews = 24, kTurns = 6;
-// Diameters by which the body's middle lies behind the middle of its visible side.
-constexpr double kBehind = 0.1;
+// Viewing directions, with turns about each that are as far apart: 144 orientations.
+constexpr int kViews = 18;
 
 /// Views from the directions of a Fibonacci sphere, each with turns about the viewing axis.
 std::vector<Eigen::Matrix3d> orientations() {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), z = Eigen::Vector3d::UnitZ();
   std::vector<Eigen::Matrix3d> result;
   const double golden_angle = M_PI * (3.0 - std::sqrt(5.0));
+  const int turns = static_cast<int>(std::lround(std::sqrt(M_PI * kViews)));
   for (int i = 0; i < kViews; ++i) {
     const double height = 1.0 - 2.0 * (i + 0.5) / kViews;
     const Eigen::Matrix3d view =
         (Eigen::AngleAxisd(golden_angle * i, z) * Eigen::AngleAxisd(std::acos(height), x)).toRotationMatrix();
-    for (int k = 0; k < kTurns; ++k) {
-      result.push_back(Eigen::AngleAxisd(2.0 * M_PI * k / kTurns, z) * view.transpose());
+    for (int k = 0; k < turns; ++k) {
+      result.push_back(Eigen::AngleAxisd(2.0 * M_PI * k / turns, z) * view.transpose());
     }
   }
   return result;
 }
 
+/// Mean of the side that a mesh shows in a direction, in the image. @param view from the camera, rest frame.
+Eigen::Vector3d shownCenter(const TriangleMesh& mesh, const Eigen::Vector3d& view) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  for (const auto& triangle : mesh.triangles.rowwise()) {
+    const Eigen::Vector3d a = mesh.vertices.row(triangle[0]), b = mesh.vertices.row(triangle[1]),
+                          c = mesh.vertices.row(triangle[2]);
+    const double size = std::max(0.0, -(b - a).cross(c - a).dot(view));
+    sum += size / 3.0 * (a + b + c);
+    weight += size;
+  }
+  return weight > 0.0 ? Eigen::Vector3d(sum / weight) : Eigen::Vector3d(mesh.vertices.colwise().mean());
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> smallTurns() {
-  // 0.2 rad are 11 degrees: a rough pose that is wrong by 15 degrees has a start near the true one.
-  constexpr std::array<double, 3> kTurnsRad{0.0, 0.2, -0.2};
   std::vector<Eigen::Vector3d> turns;
-  for (double x : kTurnsRad) {
-    for (double y : kTurnsRad) {
-      for (double z : kTurnsRad) turns.emplace_back(x, y, z);
+  for (double x : {0.0, kOtherTurn, -kOtherTurn}) {
+    for (double y : {0.0, kOtherTurn, -kOtherTurn}) {
+      for (double z : {0.0, kOtherTurn, -kOtherTurn}) turns.emplace_back(x, y, z);
     }
   }
   return turns;
@@ -43,14 +56,12 @@ std::vector<Eigen::Vector3d> smallTurns() {
 
 std::vector<Eigen::Isometry3d> allOrientations(const SearchMeshes& meshes,
                                                const Eigen::Vector3d& visible_center) {
-  const Points& vertices = meshes.full.vertices;
-  const Eigen::Vector3d middle = 0.5 * (vertices.colwise().maxCoeff() + vertices.colwise().minCoeff());
-  const Eigen::Vector3d behind = visible_center + kBehind * meshes.diameter_m * visible_center.normalized();
   std::vector<Eigen::Isometry3d> starts;
   for (const Eigen::Matrix3d& R : orientations()) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = R;
-    pose.translation() = behind - R * middle;
+    const Eigen::Vector3d view = R.transpose() * visible_center.normalized();
+    pose.translation() = visible_center - R * shownCenter(meshes.coarse, view);
     starts.push_back(pose);
   }
   return starts;

@@ -7,7 +7,7 @@
 
 namespace softbody {
 
-/// Rotation vectors [rad] that turn a rough pose by up to 0.2 rad about each axis; the first one is zero.
+/// Rotation vectors [rad] that turn a rough pose by kOtherTurn about each axis; the first one is zero.
 std::vector<Eigen::Vector3d> smallTurns();
 
 /// The body in every orientation, so that the camera sees it around a point. Some start is within about 35

@@ -17,14 +17,8 @@
 namespace softbody {
 namespace {
 
-// A scale fits much better if it leaves at most this share of the cost; two causes could explain less.
-constexpr double kMuchBetter = 0.5;
-// Smallest change of scale that a part's size shows: a pixel at each side of a hundred.
-constexpr double kSmallestChange = 0.03;
 // Factors between units: m, cm, mm and inch of a mesh; 0.1, 0.25 and 1 mm of depth.
 constexpr double kUnits[] = {0.001, 0.01, 0.0254, 0.1, 0.25, 4.0, 10.0, 1.0 / 0.0254, 100.0, 1000.0};
-// Units that are tried with a whole search.
-constexpr std::size_t kTriedUnits = 3;
 
 Eigen::Vector3d sidesOf(const Points& vertices) {
   Eigen::Vector3d sides = vertices.colwise().maxCoeff() - vertices.colwise().minCoeff();
@@ -42,7 +36,7 @@ void measureDepth(const RgbdFrame& frame, SearchReport* report) {
     report->farthest_m = std::max<double>(report->farthest_m, z);
   }
   if (measured > 0) report->nearest_m = nearest;
-  report->depth_share = frame.depth.empty() ? 0.0 : measured / static_cast<double>(frame.depth.total());
+  if (measured >= kFewestPixels) report->depth_share = measured / static_cast<double>(frame.depth.total());
 }
 
 /// A posed mesh in the image of the parts.
@@ -107,7 +101,7 @@ void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseH
   report->nearer = seen.nearer / covered;
   report->farther = seen.farther / covered;
   report->difference_m = seen.difference_m;
-  report->continuing = static_cast<double>(seen.continuing) / std::max(1, seen.outline);
+  report->continuing = seen.continuing / std::max(1, seen.outline);
   report->without_edge = shareWithoutEdge(frame, meshes.full, best.pose, distance_scale_m);
 }
 
@@ -123,7 +117,8 @@ double widestView(const RgbdFrame& image) {
 }
 
 /// The factors with which the body would have the size of a part of the image, the likeliest first.
-std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors, double diameter_m) {
+std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors, double diameter_m,
+                                double distance_scale_m) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const double widest_m = widestView(image);
   std::vector<std::pair<double, double>> units;  // difference in size, factor
@@ -131,14 +126,14 @@ std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors
     const double size_m = factor * diameter_m;
     if (size_m > widest_m) continue;
     double difference = std::numeric_limits<double>::max();
-    for (const DepthPart& part : findDepthParts(image, colors, size_m))
+    for (const DepthPart& part : findDepthParts(image, colors, size_m, distance_scale_m))
       if (part.fits) difference = std::min(difference, part.rating + std::log(part.candidate.pixels));
     if (difference < std::numeric_limits<double>::max()) units.emplace_back(difference, factor);
   }
   std::sort(units.begin(), units.end());
   std::vector<double> factors;
   for (const auto& unit : units)
-    if (factors.size() < kTriedUnits) factors.push_back(unit.second);
+    if (factors.size() < kKept) factors.push_back(unit.second);
   return factors;
 }
 
@@ -161,15 +156,18 @@ bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Is
 /// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
 /// wholly in view.
 std::optional<double> sizeRatio(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
-                                const PoseHypothesis& best) {
+                                const PoseHypothesis& best, const RegistrationConfig& config) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const RasterImage mesh = rendered(image, meshes.full, best.pose);
   const std::vector<Eigen::Vector3d> visible = visiblePoints(image, mesh);
-  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
+  const std::vector<DepthPart> parts =
+      findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
   const DepthPart* part = visible.empty() ? nullptr : partAt(parts, mesh);
   if (part == nullptr || part->at_border) return std::nullopt;
-  const double ratio = part->spread_m / spreadOf(visible);
-  return std::abs(std::log(ratio)) > kSmallestChange ? std::optional(ratio) : std::nullopt;
+  const double spread_m = spreadOf(visible), pixel_m = part->candidate.center.z() / image.camera.fx;
+  // A pixel at each side shows no difference.
+  if (std::abs(part->spread_m - spread_m) < 2.0 * pixel_m) return std::nullopt;
+  return part->spread_m / spread_m;
 }
 
 }  // namespace
@@ -187,7 +185,8 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
     measurePose(frame, meshes, *best, config.distance_scale_m, &report);
     mesh = rendered(image, meshes.full, best->pose);
   }
-  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
+  const std::vector<DepthPart> parts =
+      findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
   if (const DepthPart* part = partAt(parts, mesh)) {
     report.part_m = part->size_m;
     report.part_distance_m = part->candidate.center.norm();
@@ -201,16 +200,13 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
 std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& colors,
                                    const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,
                                    const RegistrationConfig& config) {
-  std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m);
+  std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m, config.distance_scale_m);
   if (best) {
-    const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best);
+    const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best, config);
     if (ratio) factors.push_back(*ratio);
   }
-  // A pose that only lacks edges has a low cost: what fits then is the mesh that has them.
-  const bool lacks_edges = best && best->cost <= config.max_cost;
-  double highest_cost = best && !lacks_edges ? kMuchBetter * best->cost : config.max_cost;
-  highest_cost = std::min(highest_cost, config.max_cost);
   std::optional<double> fitting;
+  double highest_cost = config.max_cost;
   for (const double factor : factors) {
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
     for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config)) {

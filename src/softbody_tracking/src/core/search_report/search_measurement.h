@@ -16,7 +16,7 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
 
 /// The factor by which the mesh would have to be scaled so that the body is found: the size of the part at
 /// the best pose divided by the size of the mesh there, or the factor between two units of length. Empty if
-/// no such mesh fits much better. Takes as long as a few searches.
+/// no such mesh would be found. Takes as long as a few searches.
 /// @param best pose of the search that failed; empty: no pose was tried.
 std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& colors,
                                    const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,

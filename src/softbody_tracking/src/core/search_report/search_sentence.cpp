@@ -8,12 +8,6 @@
 namespace softbody {
 namespace {
 
-// A share of the pixels below this is noise, no cause.
-constexpr double kNoise = 0.01;
-// Share of the outline at which the surface continues, above which something touches the body. Bodies that
-// stand free are below half of it.
-constexpr double kTouches = 0.2;
-
 constexpr char kPoseAdvice[] =
     "or give a rough pose: initial_pose in the object YAML, or pose_marker:=true in rviz";
 
@@ -71,9 +65,9 @@ std::string noCandidate(const SearchReport& report) {
 /// What the image shows instead of the body, and what to do.
 std::string disagreement(const SearchReport& report) {
   if (report.part_at_border) return "It reaches the border of the image: move it into the view";
-  if (report.hidden > kTouches)
+  if (report.hidden > report.largest_cost)
     return fmt::format("Something is before {} % of it: take it away", percent(report.hidden));
-  if (report.continuing > kTouches)
+  if (report.continuing > report.largest_without_edge)
     return fmt::format(
         "The surface goes on beyond {} % of the outline: it touches something, it is bent, or the mesh is "
         "too small. Tracking starts when it stands free near its rest shape",
@@ -104,7 +98,7 @@ std::string noEdge(const SearchReport& report) {
 std::string whyNotFound(const SearchReport& report) {
   if (report.found) return {};
   const auto why = [&] {
-    if (report.depth_share < kNoise) return noDepth(report);
+    if (report.depth_share == 0.0) return noDepth(report);
     if (report.fitting_scale) return otherScale(report);
     if (report.cost >= 1.0 || (!report.part_fits && report.cost > report.largest_cost))
       return noCandidate(report);
