@@ -6,6 +6,7 @@
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 namespace {
@@ -22,9 +23,8 @@ class DepthAssociationsTest : public ::testing::Test {
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                               int pixel_step = 1) {
-    DepthAssociator depth(config, edge_);
-    return depth.associate(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
-                           colors_, pixel_step);
+    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
+                          colors_, {config.weight, edge_, config.max_distance_m}, pixel_step);
   }
 
   /// To every pixel's depth.
@@ -36,10 +36,11 @@ class DepthAssociationsTest : public ::testing::Test {
 
   BoxBody box_ = makeBox();
   double edge_ = meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
+  const DepthWeight weight_ = {DepthConfig().weight, edge_, DepthConfig().max_distance_m};
   Points truth_;
   RgbdFrame frame_;
   PredictedSurface surface_;
-  ColorModel colors_;
+  RegionColors colors_;
 };
 
 TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
@@ -77,15 +78,14 @@ TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
 }
 
 TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
-  DepthAssociator depth(DepthConfig(), edge_);
   const RigidMotions still = {Eigen::Isometry3d::Identity()};
   SurfaceSamples samples = sampleSurface(surface_, 1500);
-  const DepthAssociations fresh = depth.associate(frame_, surface_.image(), samples, still, colors_);
+  const DepthAssociations fresh = associateDepth(frame_, surface_.image(), samples, still, colors_, weight_);
   const DepthAssociations few =
-      depth.associate(frame_, surface_.image(), sampleSurface(surface_, 100), still, colors_);
+      associateDepth(frame_, surface_.image(), sampleSurface(surface_, 100), still, colors_, weight_);
   EXPECT_LT(few.associations.size(), 200u);
   samples = sampleSurface(surface_, 1500, sampleSurface(surface_, 100));
-  const DepthAssociations again = depth.associate(frame_, surface_.image(), samples, still, colors_);
+  const DepthAssociations again = associateDepth(frame_, surface_.image(), samples, still, colors_, weight_);
   EXPECT_EQ(again.associations.size(), fresh.associations.size());
   EXPECT_EQ(again.visible_blocks, fresh.visible_blocks);
   EXPECT_EQ(rmsResidual(again.associations), rmsResidual(fresh.associations));
@@ -223,8 +223,8 @@ TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
       if (samples.grid(row, column) >= 0) samples.samples[samples.grid(row, column)].piece = column / 6 % 2;
   const RigidMotions motions = {Eigen::Isometry3d::Identity(),
                                 Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.006))};
-  DepthAssociator depth(DepthConfig(), edge_);
-  const DepthAssociations& found = depth.associate(frame_, surface_.image(), samples, motions, colors_);
+  const DepthAssociations found =
+      associateDepth(frame_, surface_.image(), samples, motions, colors_, weight_);
   ASSERT_GT(rmsResidual(found.associations), 0.002);
   const double noise = associate().noise.density;
   EXPECT_NEAR(found.noise.density, noise, 0.2 * noise);
@@ -243,8 +243,7 @@ TEST_F(DepthAssociationsTest, TheMotionOfOnePieceDoesNotOccludeAnother) {
   const auto occluded = [&](double farther_m) {
     const Eigen::Isometry3d moved(Eigen::Translation3d(0.0, 0.0, -farther_m));
     const RigidMotions motions = {Eigen::Isometry3d::Identity(), moved};
-    DepthAssociator depth(DepthConfig(), edge_);
-    return depth.associate(frame_, surface_.image(), samples, motions, colors_).occluded_blocks;
+    return associateDepth(frame_, surface_.image(), samples, motions, colors_, weight_).occluded_blocks;
   };
   const int finger = occluded(0.0);
   EXPECT_GT(finger, 5);
@@ -264,7 +263,7 @@ TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
 }
 
 TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
-  colors_.learnRegion(frame_, surface_.image());
+  colors_.learn(frame_, surface_.image());
   EXPECT_EQ(associate().occluded_blocks, 0);
   frame_.color.setTo(frame_.color(10, 10));  // the wall's
   const DepthAssociations found = associate();
@@ -322,7 +321,7 @@ TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
 TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
   constexpr double kHeight = 0.03, kRadiusPx = 90.0;
   const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
-  colors_.learnRegion(frame_, surface_.image());
+  colors_.learn(frame_, surface_.image());
   for (int v = 0; v < frame_.depth.rows; ++v) {
     for (int u = 0; u < frame_.depth.cols; ++u) {
       const double distance = (Eigen::Vector2d(u, v) - middle).norm();

@@ -38,11 +38,9 @@ class CreaseAssociationsTest : public ::testing::Test {
   std::vector<Association> associate(const Eigen::Vector3d& shift) { return associate(shifted(shift)); }
   std::vector<Association> associate(const Points& predicted) {
     surface_.render(frame_.camera, predicted);
-    CreaseAssociator creases({1.0}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
-    creases.sample(surface_);
-    std::vector<Association> found;
-    creases.associate(frame_, surface_, RigidMotions(1, Eigen::Isometry3d::Identity()), &found);
-    return found;
+    return associateCreases(frame_, surface_, sampleCreases(surface_),
+                            RigidMotions(1, Eigen::Isometry3d::Identity()),
+                            {1.0, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
   }
 
   /// Root mean square of what the associations still lack after the true motion [px].

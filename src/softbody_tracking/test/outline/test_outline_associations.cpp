@@ -59,9 +59,9 @@ class OutlineAssociationsTest : public ::testing::Test {
                                 const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                                 double weight = 1.0) {
     surface_.render(frame_.camera, predicted);
-    OutlineAssociator outline({weight}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
-    outline.sample(surface_);
-    return outline.associate(frame_, surface_.image(), RigidMotions(surface_.pieceCount(), motion), colors_);
+    return associateOutline(frame_, surface_.image(), sampleOutline(surface_),
+                            RigidMotions(surface_.pieceCount(), motion), colors_,
+                            {weight, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
   }
   std::vector<Association> associateShifted(double pixels) {
     return associate(shiftedBox(pixels)).associations;

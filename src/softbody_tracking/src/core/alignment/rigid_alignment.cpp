@@ -103,17 +103,17 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
 }
 
 RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
-                          const SurfaceSamples& samples, const ColorModel& colors,
+                          const SurfaceSamples& samples, const RegionColors& colors,
                           const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
-                          double usual_error_m, DepthAssociator* depth) {
+                          const DepthWeight& depth, double usual_error_m) {
   RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
   std::vector<Association> features;
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features);
   double scale_m = kFirstScale * usual_error_m;
   for (int i = 0; i < kIterations; ++i, scale_m *= kNarrowing) {
-    const DepthAssociations& seen =
-        depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);
+    const DepthAssociations seen =
+        associateDepth(frame, surface.image(), samples, motions, colors, depth, kPixelStep);
     const std::vector<Association> moved_features = moved(motions, features);
     std::vector<Association> moved_outline = moved(motions, outline);
     weighByResidual(kContourScale, &moved_outline, scale_m);

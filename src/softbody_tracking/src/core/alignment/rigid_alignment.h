@@ -28,11 +28,10 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
 /// The rigid motion of each piece that aligns the prediction with depth and features (point-to-plane ICP).
 /// Pieces with poor observability do not move.
 /// @param usual_error_m how far predictions were off in the last frames: as far off is no outlier.
-/// @param outline as rendered. @param samples of the surface as rendered. @param depth associates with these
-/// samples.
+/// @param outline as rendered. @param samples of the surface as rendered.
 RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
-                          const SurfaceSamples& samples, const ColorModel& colors,
+                          const SurfaceSamples& samples, const RegionColors& colors,
                           const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
-                          double usual_error_m, DepthAssociator* depth);
+                          const DepthWeight& depth, double usual_error_m);
 
 }  // namespace softbody

@@ -63,11 +63,11 @@ Observation FrameObserver::measure(const RgbdFrame& frame, const RigidMotions& m
   seen.matches = std::move(features.found.matches);
   seen.missed = std::move(features.found.missed);
   seen.expected = std::move(features.expected);
-  seen.depth = prediction_.associateDepth(frame, motions, colors_);
+  seen.depth = prediction_.depthOf(frame, motions, colors_);
   depth_noise_.update(seen.depth.noise);
   const double edge_m = prediction_.volumeEdge();
   downweightByNoise(depth_noise_.patchStdDev(edge_m) / edge_m, &seen.depth);
-  seen.outline = prediction_.associateOutline(frame, motions, colors_);
+  seen.outline = prediction_.contoursOf(frame, motions, colors_);
   weighByResidual(kContourScale, &seen.outline.associations);
   return restrictedToObservable(std::move(seen), prediction_.samples(),
                                 prediction_.surface().pieceVertices());

@@ -10,36 +10,30 @@ namespace {
 // Share of the last frame in the usual error of the prediction: motion changes within some frames.
 constexpr double kNewestShare = 0.5;
 
-/// Weight 0 if no target would use the outline: then it is not sampled.
-OutlineConfig usedOutline(const TrackerConfig& config) {
-  OutlineConfig outline = config.outline;
-  if (config.knn_targets || !config.use_depth) outline.weight = 0.0;
-  return outline;
-}
-
 }  // namespace
 
 RenderedPrediction::RenderedPrediction(const TrackerConfig& config, const TetTopology& volume,
                                        const MeshTopology& surface)
     : wanted_samples_(config.depth.max_targets),
-      volume_edge_m_(meanEdgeLength(volume.rest_vertices, volume.tets)),
-      surface_(volume, surface),
-      depth_(config.depth, volume_edge_m_),
-      outline_(usedOutline(config), volume_edge_m_),
-      creases_(usedOutline(config), volume_edge_m_) {}
+      depth_weight_{config.depth.weight, meanEdgeLength(volume.rest_vertices, volume.tets),
+                    config.depth.max_distance_m},
+      contour_weight_{config.knn_targets || !config.use_depth ? 0.0 : config.outline.weight,
+                      depth_weight_.edge_m},
+      surface_(volume, surface) {}
 
 void RenderedPrediction::render(const Pinhole& camera, const Points& volume_vertices) {
   surface_.render(camera, volume_vertices);
   samples_ = sampleSurface(surface_, wanted_samples_, std::move(samples_));
-  outline_.sample(surface_);
-  creases_.sample(surface_);
+  if (contour_weight_.per_edge <= 0.0) return;
+  outline_ = sampleOutline(surface_);
+  creases_ = sampleCreases(surface_);
 }
 
 RigidMotions RenderedPrediction::align(const RgbdFrame& frame, const ColorModel& colors,
-                                       const std::vector<FeatureMatch>& matches) {
+                                       const std::vector<FeatureMatch>& matches) const {
   const RigidMotions still(surface_.pieceCount(), Eigen::Isometry3d::Identity());
-  const std::vector<Association>& outline = associateOutline(frame, still, colors).associations;
-  return alignRigidly(frame, surface_, samples_, colors, matches, outline, usual_error_m_, &depth_);
+  return alignRigidly(frame, surface_, samples_, colors.region(), matches,
+                      contoursOf(frame, still, colors).associations, depth_weight_, usual_error_m_);
 }
 
 void RenderedPrediction::learnError(const Points& predicted) {
@@ -47,18 +41,19 @@ void RenderedPrediction::learnError(const Points& predicted) {
   usual_error_m_ += kNewestShare * (error_m - usual_error_m_);
 }
 
-const DepthAssociations& RenderedPrediction::associateDepth(const RgbdFrame& frame,
-                                                            const RigidMotions& motions,
-                                                            const ColorModel& colors) {
-  return depth_.associate(frame, surface_.image(), samples_, motions, colors);
+DepthAssociations RenderedPrediction::depthOf(const RgbdFrame& frame, const RigidMotions& motions,
+                                              const ColorModel& colors) const {
+  return associateDepth(frame, surface_.image(), samples_, motions, colors.region(), depth_weight_);
 }
 
-const OutlineAssociations& RenderedPrediction::associateOutline(const RgbdFrame& frame,
-                                                                const RigidMotions& motions,
-                                                                const ColorModel& colors) {
-  contours_ = outline_.associate(frame, surface_.image(), motions, colors.region());
-  creases_.associate(frame, surface_, motions, &contours_.associations);
-  return contours_;
+OutlineAssociations RenderedPrediction::contoursOf(const RgbdFrame& frame, const RigidMotions& motions,
+                                                   const ColorModel& colors) const {
+  OutlineAssociations contours =
+      associateOutline(frame, surface_.image(), outline_, motions, colors.region(), contour_weight_);
+  const std::vector<Association> creases =
+      associateCreases(frame, surface_, creases_, motions, contour_weight_);
+  contours.associations.insert(contours.associations.end(), creases.begin(), creases.end());
+  return contours;
 }
 
 }  // namespace softbody

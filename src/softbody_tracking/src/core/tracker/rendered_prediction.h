@@ -24,17 +24,17 @@ class RenderedPrediction {
 
   const PredictedSurface& surface() const { return surface_; }
   const SurfaceSamples& samples() const { return samples_; }
-  double volumeEdge() const { return volume_edge_m_; }  ///< mean length of the volume's edges [m]
+  double volumeEdge() const { return depth_weight_.edge_m; }  ///< mean length of the volume's edges [m]
 
   /// Aligns the rendered surface with depth, outline and these features, see alignRigidly().
   RigidMotions align(const RgbdFrame& frame, const ColorModel& colors,
-                     const std::vector<FeatureMatch>& matches);
-  /// Depth of the frame on the surface, which is moved by the motions. Valid until the next call or align().
-  const DepthAssociations& associateDepth(const RgbdFrame& frame, const RigidMotions& motions,
-                                          const ColorModel& colors);
-  /// The outline and the creases of the surface in the frame. Valid until the next call.
-  const OutlineAssociations& associateOutline(const RgbdFrame& frame, const RigidMotions& motions,
-                                              const ColorModel& colors);
+                     const std::vector<FeatureMatch>& matches) const;
+  /// Depth of the frame on the surface, which is moved by the motions.
+  DepthAssociations depthOf(const RgbdFrame& frame, const RigidMotions& motions,
+                            const ColorModel& colors) const;
+  /// The outline and the creases of the surface in the frame.
+  OutlineAssociations contoursOf(const RgbdFrame& frame, const RigidMotions& motions,
+                                 const ColorModel& colors) const;
 
   /// Moves the pieces without rendering again.
   void move(const RigidMotions& motions) { surface_.move(motions); }
@@ -46,14 +46,13 @@ class RenderedPrediction {
 
  private:
   int wanted_samples_;
-  double volume_edge_m_;
-  double usual_error_m_ = 0.0;  ///< largest error of a predicted vertex, mean of the last frames
+  DepthWeight depth_weight_;
+  ContourWeight contour_weight_;  ///< per_edge 0: contours are not sampled
+  double usual_error_m_ = 0.0;    ///< largest error of a predicted vertex, mean of the last frames
   PredictedSurface surface_;
   SurfaceSamples samples_;
-  DepthAssociator depth_;
-  OutlineAssociator outline_;
-  CreaseAssociator creases_;
-  OutlineAssociations contours_;
+  OutlineSamples outline_;
+  CreaseSamples creases_;
 };
 
 }  // namespace softbody
