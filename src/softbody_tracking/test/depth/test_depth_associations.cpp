@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 
 #include "depth/depth_associations.h"
@@ -16,9 +17,9 @@ class DepthAssociationsTest : public ::testing::Test {
   DepthAssociationsTest()
       : truth_(transformed(box_.volume.rest_vertices, boxPose())),
         frame_(renderFrame(box_, truth_, 1)),
-        surface_(box_.volume, box_.surface) {
-    surface_.render(frame_.camera, truth_);
-  }
+        surface_(model_, frame_.camera, truth_) {}
+
+  void predict(const Points& vertices) { surface_ = {model_, frame_.camera, vertices}; }
 
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
@@ -39,6 +40,7 @@ class DepthAssociationsTest : public ::testing::Test {
   const DepthWeight weight_ = {DepthConfig().weight, edge_, DepthConfig().max_distance_m};
   Points truth_;
   RgbdFrame frame_;
+  std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   PredictedSurface surface_;
   RegionColors colors_;
 };
@@ -56,8 +58,7 @@ TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
 }
 
 TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
-  surface_.render(frame_.camera,
-                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.004))));
+  predict(transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.004))));
   for (const Association& a : associate().associations) {
     EXPECT_LT(a.residual(), 0.0) << "the body lies behind its prediction, against the normals";
     EXPECT_NEAR(a.residual(), 0.004 * a.normal.z(), 0.0025);
@@ -65,8 +66,7 @@ TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
 }
 
 TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
-  surface_.render(frame_.camera,
-                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
+  predict(transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
   const DepthAssociations all = associate();
   for (const int step : {2, 3, 1000}) {
     const DepthAssociations some = associate({}, Eigen::Isometry3d::Identity(), step);
@@ -75,20 +75,6 @@ TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
     EXPECT_NEAR(rmsResidual(some.associations), rmsResidual(all.associations),
                 0.1 * rmsResidual(all.associations));
   }
-}
-
-TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
-  const RigidMotions still = {Eigen::Isometry3d::Identity()};
-  SurfaceSamples samples = sampleSurface(surface_, 1500);
-  const DepthAssociations fresh = associateDepth(frame_, surface_.image(), samples, still, colors_, weight_);
-  const DepthAssociations few =
-      associateDepth(frame_, surface_.image(), sampleSurface(surface_, 100), still, colors_, weight_);
-  EXPECT_LT(few.associations.size(), 200u);
-  samples = sampleSurface(surface_, 1500, sampleSurface(surface_, 100));
-  const DepthAssociations again = associateDepth(frame_, surface_.image(), samples, still, colors_, weight_);
-  EXPECT_EQ(again.associations.size(), fresh.associations.size());
-  EXPECT_EQ(again.visible_blocks, fresh.visible_blocks);
-  EXPECT_EQ(rmsResidual(again.associations), rmsResidual(fresh.associations));
 }
 
 /// A block at the edge of another side shows a ramp; its mean says little about the predicted side.
@@ -115,7 +101,7 @@ TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
     const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
     truth_ = transformed(box_.volume.rest_vertices, turned);
     frame_ = renderFrame(box_, truth_, 1);
-    surface_.render(frame_.camera, truth_);
+    predict(truth_);
     double weights = 0.0, area = 0.0;
     for (const Association& a : associate().associations) weights += a.weight * edge_ * edge_;
     for (const auto& triangle : box_.volume.surface.rowwise()) {
@@ -275,7 +261,7 @@ TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
 TEST_F(DepthAssociationsTest, MoveWithTheirSamples) {
   const Eigen::Isometry3d error =
       Eigen::Translation3d(0.003, -0.002, 0.004) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());
-  surface_.render(frame_.camera, transformed(truth_, error));
+  predict(transformed(truth_, error));
   for (const Association& a : associate({}, error.inverse()).associations) {
     EXPECT_LT(std::abs(a.residual()), 4e-4);
     EXPECT_LT((positionOf(a.place, truth_, box_.volume.tets) - a.predicted).norm(), 1e-6);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "fixtures/synthetic_scene.h"
@@ -15,8 +16,7 @@ namespace {
 /// A tilted box of one colour, with another brightness on each side, and some noise.
 class CreaseAssociationsTest : public ::testing::Test {
  protected:
-  CreaseAssociationsTest() : surface_(box_.volume, box_.surface), frame_(renderFrame(box_, truth(), 1)) {
-    surface_.render(frame_.camera, truth());
+  CreaseAssociationsTest() : frame_(renderFrame(box_, truth(), 1)), surface_(model_, frame_.camera, truth()) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0.0, 2.0);
     for (int v = 0; v < frame_.color.rows; ++v) {
@@ -37,7 +37,7 @@ class CreaseAssociationsTest : public ::testing::Test {
   }
   std::vector<Association> associate(const Eigen::Vector3d& shift) { return associate(shifted(shift)); }
   std::vector<Association> associate(const Points& predicted) {
-    surface_.render(frame_.camera, predicted);
+    surface_ = {model_, frame_.camera, predicted};
     return associateCreases(frame_, surface_, sampleCreases(surface_),
                             RigidMotions(1, Eigen::Isometry3d::Identity()),
                             {1.0, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
@@ -55,8 +55,9 @@ class CreaseAssociationsTest : public ::testing::Test {
   }
 
   BoxBody box_ = makeBox();
-  PredictedSurface surface_;
+  std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   RgbdFrame frame_;
+  PredictedSurface surface_;
 };
 
 TEST_F(CreaseAssociationsTest, FindTheCreasesToAPartOfAPixel) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
@@ -23,10 +24,7 @@ const cv::Rect kRightHalf(330, 0, 310, 480);
 /// A box seen from above, turned in the image so that its outline crosses the pixels everywhere.
 class OutlineAssociationsTest : public ::testing::Test {
  protected:
-  OutlineAssociationsTest() : surface_(box_.volume, box_.surface) {
-    show(kFlat);
-    learnColors();
-  }
+  OutlineAssociationsTest() { learnColors(); }
 
   static Eigen::Isometry3d poseAt(const Eigen::Vector3d& position) {
     return Eigen::Translation3d(position) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
@@ -50,7 +48,7 @@ class OutlineAssociationsTest : public ::testing::Test {
 
   /// From the frame as it is, with the prediction at its true position.
   void learnColors() {
-    surface_.render(frame_.camera, boxAt(kFlat));
+    surface_ = {model_, frame_.camera, boxAt(kFlat)};
     colors_.reset();
     colors_.learn(frame_, surface_.image());
   }
@@ -58,7 +56,7 @@ class OutlineAssociationsTest : public ::testing::Test {
   OutlineAssociations associate(const Points& predicted,
                                 const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                                 double weight = 1.0) {
-    surface_.render(frame_.camera, predicted);
+    surface_ = {model_, frame_.camera, predicted};
     return associateOutline(frame_, surface_.image(), sampleOutline(surface_),
                             RigidMotions(surface_.pieceCount(), motion), colors_,
                             {weight, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
@@ -101,8 +99,9 @@ class OutlineAssociationsTest : public ::testing::Test {
   }
 
   BoxBody box_ = makeBox();
-  PredictedSurface surface_;
-  RgbdFrame frame_;
+  std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  RgbdFrame frame_ = renderFrame(box_, boxAt(kFlat), 1);
+  PredictedSurface surface_{model_, frame_.camera, boxAt(kFlat)};
   RegionColors colors_;
 };
 
@@ -248,11 +247,11 @@ TEST_F(OutlineAssociationsTest, TheImagesBorderIsNoOutline) {
 
 TEST_F(OutlineAssociationsTest, TellThePieces) {
   box_ = cutBox(box_);
-  surface_ = PredictedSurface(box_.volume, box_.surface);
-  ASSERT_EQ(surface_.pieceCount(), 2u);
+  model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  ASSERT_EQ(model_->pieceCount(), 2u);
   constexpr double kShift = 6.0;  // [px] along x, of one piece
   Points predicted = boxAt(kFlat);
-  for (const int v : surface_.pieces()[1]) predicted(v, 0) += kShift * kPixel;
+  for (const int v : model_->pieces()[1]) predicted(v, 0) += kShift * kPixel;
   const std::vector<Association> found = associate(predicted).associations;
   std::vector<Association> of_piece[2];
   for (const Association& a : found) of_piece[a.piece].push_back(a);
@@ -267,10 +266,10 @@ TEST_F(OutlineAssociationsTest, ASteepSideIsNoEndOfTheBody) {
   for (Points* vertices : {&cube.volume.rest_vertices, &cube.surface.rest_vertices})
     *vertices *= Eigen::Vector3d(0.5, 1.0, 2.5).asDiagonal();
   box_ = cube;
-  surface_ = PredictedSurface(box_.volume, box_.surface);
+  model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   const Points truth = transformed(box_.volume.rest_vertices, boxPose());
   frame_ = renderFrame(box_, truth, 1);
-  surface_.render(frame_.camera, truth);
+  surface_ = {model_, frame_.camera, truth};
   colors_.reset();
   colors_.learn(frame_, surface_.image());
   const OutlineAssociations found = associate(truth);
@@ -296,8 +295,8 @@ TEST_F(OutlineAssociationsTest, WhatIsBeyondALimbIsNotTheLimb) {
   box_.volume.tets = both(trunk.volume.tets);
   box_.volume.surface = box_.surface.triangles = both(trunk.volume.surface);
   box_.surface.rest_vertices = vertices;
-  surface_ = PredictedSurface(box_.volume, box_.surface);
-  ASSERT_EQ(surface_.pieceCount(), 2u);
+  model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  ASSERT_EQ(model_->pieceCount(), 2u);
   Points moved = boxAt(kFlat);
   moved.bottomRows(count).rowwise() += Eigen::RowVector3d(0.06, 0.0, 0.0);
   frame_ = renderFrame(box_, moved, 1);

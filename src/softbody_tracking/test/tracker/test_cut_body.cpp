@@ -150,7 +150,7 @@ class CutObserver : public ::testing::Test {
   }
   Points parted(double gap) const {
     Points vertices = rest_;
-    for (const int v : observer_.surface().pieces()[1]) vertices(v, 0) += gap;
+    for (const int v : observer_.model().pieces()[1]) vertices(v, 0) += gap;
     return vertices;
   }
 
@@ -202,7 +202,7 @@ void findsAgain(FrameObserver* observer, const BoxBody& box, const Points& predi
   covered.depth(cv::Rect(middle - 20, 0, 640 - middle + 20, 480)).setTo(0.3f);
   for (int i = 0; i < 5; ++i) observer->observe(covered, predicted);
   Points truth = predicted;
-  for (const int v : observer->surface().pieces()[1]) truth(v, 0) += moved;
+  for (const int v : observer->model().pieces()[1]) truth(v, 0) += moved;
   const RgbdFrame back = frameOf(truth);
   int frames = 1;
   while (matchesOn({false, true}, observer->observe(back, predicted).matches) < 50 && frames < 20) ++frames;
@@ -216,7 +216,7 @@ TEST_F(CutObserver, FindsAPieceAgainThatMovedUnseen) { findsAgain(&observer_, bo
 /// The tolerance of recognition depends on the piece's own size.
 TEST_F(CutObserver, FindsAPieceAgainHoweverFarOffTheOtherIs) {
   Points far = rest_;
-  for (const int v : observer_.surface().pieces()[0]) far(v, 0) -= 2.0;
+  for (const int v : observer_.model().pieces()[0]) far(v, 0) -= 2.0;
   findsAgain(&observer_, box_, far, 0.08);
 }
 
@@ -260,7 +260,7 @@ TEST_F(CutObserver, MovesAPieceOnlyToWhereItsOwnFeaturesAre) {
   observer_.observe(frame, rest_);
   const Points found = observer_.surface().volumeVertices();
   for (int piece = 0; piece < 2; ++piece) {
-    for (const int v : observer_.surface().pieces()[piece])
+    for (const int v : observer_.model().pieces()[piece])
       ASSERT_LT((found.row(v) - truth.row(v)).norm(), 0.01) << "vertex " << v << " of piece " << piece;
   }
 }
@@ -285,7 +285,7 @@ TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
 
 TEST_F(CutObserver, NamesPiecesAsTheVisualMeshDoes) {
   const auto names = [&](const MeshTopology& surface) {
-    return FrameObserver({}, box_.volume, surface).surface().piecesOfSurface();
+    return SurfaceModel(box_.volume, surface).piecesOfSurface();
   };
   using Names = std::vector<std::set<std::uint32_t>>;
   EXPECT_EQ(names(box_.surface), (Names{{0}, {1}}));

@@ -69,10 +69,11 @@ void addSample(const PredictedSurface& surface, const cv::Point& a, const cv::Po
   const RasterImage& image = surface.image();
   const int triangle_a = image.triangle(a), triangle_b = image.triangle(b);
   if (triangle_a == triangle_b || triangle_a < 0 || triangle_b < 0) return;
-  if (!surface.isAtCrease(triangle_a) || !surface.isAtCrease(triangle_b)) return;
+  if (!surface.model().isAtCrease(triangle_a) || !surface.model().isAtCrease(triangle_b)) return;
   if (std::abs(image.depth(a) - image.depth(b)) > kSurfaceEnds) return;
   const Eigen::Vector3d n_a = surface.normal(triangle_a), n_b = surface.normal(triangle_b);
-  if (n_a.dot(n_b) > kSharp || surface.isAtCut(triangle_a) || surface.isAtCut(triangle_b)) return;
+  if (n_a.dot(n_b) > kSharp || surface.model().isAtCut(triangle_a) || surface.model().isAtCut(triangle_b))
+    return;
   const Eigen::Vector3d p_a = surface.camera().unproject(a.x, a.y, image.depth(a));
   const Eigen::Vector3d p_b = surface.camera().unproject(b.x, b.y, image.depth(b));
   const auto meet = meetingLine(surface.camera(), a, n_a, p_a, n_b, p_b);
@@ -136,7 +137,7 @@ bool collect(const RgbdFrame& frame, const PredictedSurface& surface, const Crea
 
 CreaseSamples sampleCreases(const PredictedSurface& surface) {
   CreaseSamples result;
-  if (!surface.hasCreases()) return result;
+  if (!surface.model().hasCreases()) return result;
   const auto [region, spacing] = contourGrid(surface.image());
   result.spacing_px = spacing;
   for (int v = region.y + spacing / 2; v < region.br().y; v += spacing) {

@@ -57,7 +57,7 @@ void addSample(const PredictedSurface& surface, const cv::Point& pixel, const cv
   const std::optional<OutlineEdge> edge = edgeAt(image.depth, pixel);
   if (!edge || edge->outward.dot(Eigen::Vector2d(across.x, across.y)) < std::sqrt(0.5)) return;
   const int triangle = image.triangle(pixel);
-  if (surface.isAtCut(triangle)) return;
+  if (surface.model().isAtCut(triangle)) return;
   const MaterialPoint place = surface.materialPoint(triangle, pixel);
   samples->push_back({pixel, edge->outward, edge->distance, place, surface.pieceOf(place),
                       surface.camera().unproject(pixel.x, pixel.y, image.depth(pixel))});

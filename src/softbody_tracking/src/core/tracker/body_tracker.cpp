@@ -51,7 +51,7 @@ struct BodyTracker::Implementation {
   bool hasTopologies(const TetTopology& volume, const MeshTopology& surface) const;
   void reset();
 
-  const TetTopology& model() const { return observer->surface().volume(); }
+  const TetTopology& model() const { return observer->model().volume(); }
   std::uint32_t knownFeatures() const { return static_cast<std::uint32_t>(observer->features().size()); }
   bool isAnswer(const MeshState* volume) const;
   Points predict(const RgbdFrame& frame, const MeshState* answer);
@@ -156,7 +156,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   result.features = trackedFeatures(seen, observer->features(), T_camera_fixed);
   result.targets = targetSetOf(frame, seen, associations, state == TrackingState::kLost ? nullptr : answer);
   result.targets.reset = answer == nullptr;
-  result.status = held.report(seen, observer->surface().piecesOfSurface(), std::move(result.status));
+  result.status = held.report(seen, observer->model().piecesOfSurface(), std::move(result.status));
   if (state == TrackingState::kTracking) learnFeatures(frame, seen, answer);
   result.status.features_total = knownFeatures();
   return result;
@@ -171,7 +171,7 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   } else {
     observer = std::make_unique<FrameObserver>(config, volume, surface);
   }
-  prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->surface().pieces());
+  prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->model().pieces());
   relocalizer.forgetMeshes();
   hold = std::make_unique<PositionPrior>(volume);
   measured.clear();
@@ -183,7 +183,7 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
 bool BodyTracker::Implementation::hasTopologies(const TetTopology& volume,
                                                 const MeshTopology& surface) const {
   if (observer == nullptr) return false;
-  const MeshTopology& known = observer->surface().topology();
+  const MeshTopology& known = observer->model().surface();
   return volume.revision == model().revision && sameMatrix(volume.rest_vertices, model().rest_vertices) &&
          sameMatrix(volume.tets, model().tets) && sameMatrix(surface.rest_vertices, known.rest_vertices) &&
          sameMatrix(surface.triangles, known.triangles);
@@ -275,7 +275,7 @@ TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const
   set.targets = targetsOf(associations, frame.T_fixed_camera);
   if (answer == nullptr) return set;
   const PredictedSurface& surface = observer->surface();
-  addHeldPieces(seen, surface.pieces(), answer->vertices,
+  addHeldPieces(seen, surface.model().pieces(), answer->vertices,
                 transformed(surface.volumeVertices(), frame.T_fixed_camera), *hold, &set.targets);
   return set;
 }

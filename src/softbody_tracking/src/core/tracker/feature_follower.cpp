@@ -93,9 +93,9 @@ FollowedFeatures FeatureFollower::alignAt(const Points& vertices, const Followed
   return features;
 }
 
-std::vector<PointPair> FeatureFollower::recognize(const FollowedBody& body, const PredictedSurface& surface,
+std::vector<PointPair> FeatureFollower::recognize(const FollowedBody& body, const SurfaceModel& model,
                                                   const Points& vertices) {
-  return recognizedFeatures(body.frame, body.known, keypointsOfImage(body), surface, vertices,
+  return recognizedFeatures(body.frame, body.known, keypointsOfImage(body), model, vertices,
                             features_.max_hamming_distance);
 }
 
@@ -171,7 +171,7 @@ FollowedFeatures FeatureFollower::searchPieces(const FollowedBody& body, const s
   const PredictedSurface& surface = prediction->surface();
   const Points before = surface.volumeVertices();
   const std::vector<Points> recognized =
-      recognizedPieces(recognize(body, surface, before), surface, due, kRenderAgain);
+      recognizedPieces(recognize(body, surface.model(), before), surface, due, kRenderAgain);
   std::vector<bool> moved;
   moved.reserve(recognized.size());
   for (const Points& piece : recognized) moved.push_back(piece.rows() > 0);
@@ -179,7 +179,8 @@ FollowedFeatures FeatureFollower::searchPieces(const FollowedBody& body, const s
   const std::vector<FeatureCount> counts_before =
       countByPiece(moved.size(), features.expected, features.found.matches);
   while (any(moved)) {
-    prediction->render(body.frame.camera, withMovedPieces(before, surface.pieces(), recognized, moved));
+    prediction->render(body.frame.camera,
+                       withMovedPieces(before, prediction->surface().model().pieces(), recognized, moved));
     FollowedFeatures there = matchAround(body, prediction);
     const std::vector<bool> confirmed =
         confirmedMoves(moved, counts_before, countByPiece(moved.size(), there.expected, there.found.matches));

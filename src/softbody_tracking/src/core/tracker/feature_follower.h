@@ -46,7 +46,7 @@ class FeatureFollower {
   FollowedFeatures alignAt(const Points& vertices, const FollowedBody& body, RenderedPrediction* prediction);
 
   /// Pairs features with keypoints of the whole image. @param vertices of the volume, as expected.
-  std::vector<PointPair> recognize(const FollowedBody& body, const PredictedSurface& surface,
+  std::vector<PointPair> recognize(const FollowedBody& body, const SurfaceModel& model,
                                    const Points& vertices);
 
   /// Grey image around the body in the last frame.

@@ -16,7 +16,7 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
       admission_(config.features) {}
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
-  map_.rebind(prediction_.surface().volume(), volume);
+  map_.rebind(prediction_.model().volume(), volume);
   prediction_ = RenderedPrediction(config_, volume, surface);
   follower_.forgetPieces();
   admission_.bodyEdited();
@@ -77,7 +77,7 @@ Observation FrameObserver::measure(const RgbdFrame& frame, const RigidMotions& m
 FollowedBody FrameObserver::followedBody(const RgbdFrame& frame) const {
   const bool any = std::find(tracked_before_.begin(), tracked_before_.end(), true) != tracked_before_.end();
   return {frame, map_.features(), colors_,
-          any ? tracked_before_ : std::vector<bool>(prediction_.surface().pieceCount(), true)};
+          any ? tracked_before_ : std::vector<bool>(model().pieceCount(), true)};
 }
 
 void FrameObserver::learnFeatures(const RgbdFrame& frame, const Observation& seen,
@@ -90,14 +90,13 @@ void FrameObserver::learnFeatures(const RgbdFrame& frame, const Observation& see
 
 std::optional<Eigen::Isometry3d> FrameObserver::recognizePose(const RgbdFrame& frame) {
   if (map_.features().empty()) return std::nullopt;
-  const PredictedSurface& surface = prediction_.surface();
-  const Points& rest = surface.volume().rest_vertices;
-  return recognizedMotion(follower_.recognize(followedBody(frame), surface, rest),
+  const Points& rest = model().volume().rest_vertices;
+  return recognizedMotion(follower_.recognize(followedBody(frame), model(), rest),
                           recognitionTolerance(rest));
 }
 
 double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) {
-  const Points vertices = transformed(prediction_.surface().volume().rest_vertices, pose);
+  const Points vertices = transformed(model().volume().rest_vertices, pose);
   const FollowedFeatures features = follower_.alignAt(vertices, followedBody(frame), &prediction_);
   const int expected = features.expected.count();
   if (expected < kFewestExpectedFeatures) return -1.0;

@@ -37,6 +37,7 @@ class FrameObserver {
   /// expected.
   double featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose);
 
+  const SurfaceModel& model() const { return prediction_.model(); }
   const PredictedSurface& surface() const { return prediction_.surface(); }
   const std::vector<MapFeature>& features() const { return map_.features(); }
   const ColorModel& colors() const { return colors_; }

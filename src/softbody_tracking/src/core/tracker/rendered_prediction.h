@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "alignment/rigid_alignment.h"
@@ -22,7 +24,8 @@ class RenderedPrediction {
   /// the prediction happens here; the other members refer to the last one.
   void render(const Pinhole& camera, const Points& volume_vertices);
 
-  const PredictedSurface& surface() const { return surface_; }
+  const SurfaceModel& model() const { return *model_; }
+  const PredictedSurface& surface() const { return *surface_; }
   const SurfaceSamples& samples() const { return samples_; }
   double volumeEdge() const { return depth_weight_.edge_m; }  ///< mean length of the volume's edges [m]
 
@@ -37,7 +40,7 @@ class RenderedPrediction {
                                  const ColorModel& colors) const;
 
   /// Moves the pieces without rendering again.
-  void move(const RigidMotions& motions) { surface_.move(motions); }
+  void move(const RigidMotions& motions) { surface_ = moved(*surface_, motions); }
 
   /// Learns how far predictions are off: later alignments expect such motions.
   /// @param predicted vertices of the volume, which then were aligned and moved.
@@ -49,7 +52,8 @@ class RenderedPrediction {
   DepthWeight depth_weight_;
   ContourWeight contour_weight_;  ///< per_edge 0: contours are not sampled
   double usual_error_m_ = 0.0;    ///< largest error of a predicted vertex, mean of the last frames
-  PredictedSurface surface_;
+  std::shared_ptr<const SurfaceModel> model_;
+  std::optional<PredictedSurface> surface_;  ///< after the first render()
   SurfaceSamples samples_;
   OutlineSamples outline_;
   CreaseSamples creases_;
