@@ -34,7 +34,7 @@ class FeatureMapTest : public ::testing::Test {
                 transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error)))};
     buildImage();
   }
-  void buildImage() { image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size())); }
+  void buildImage() { image_ = GrayPyramid(frame_.color, cv::Rect(cv::Point(), frame_.color.size())); }
 
   /// Keypoints of the whole image.
   std::vector<Keypoint> keypoints() {

@@ -145,8 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Gaps, PartedCutBody, ::testing::Values(0.05, 0.08));
 class CutObserver : public ::testing::Test {
  protected:
   CutObserver() : observer_({}, box_.volume, box_.surface) {
-    const Observation seen = observer_.observe(frame_, rest_);
-    observer_.learnFeatures(frame_, seen);
+    observer_.learnFeatures(frame_, observer_.observe(frame_, rest_));
   }
   Points parted(double gap) const {
     Points vertices = rest_;
@@ -161,13 +160,13 @@ class CutObserver : public ::testing::Test {
 };
 
 TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceWithPoorObservability) {
-  const Observation whole = observer_.observe(frame_, rest_);
+  const Observation whole = observer_.observe(frame_, rest_).seen;
   ASSERT_GT(whole.expected_features, 200);
   EXPECT_EQ(whole.matched_features, static_cast<int>(whole.matches.size()));
   const int middle = cvRound(frame_.camera.project(boxPose().translation()).x());
   frame_.depth(cv::Rect(middle - 20, 0, 640 - middle + 20, 480)).setTo(0.0f);
   for (int i = 0; i < 2; ++i) {
-    const Observation seen = observer_.observe(frame_, rest_);
+    const Observation seen = observer_.observe(frame_, rest_).seen;
     ASSERT_EQ(seen.observability[1], Observability::kPoor);
     EXPECT_LT(seen.expected_features, 0.7 * whole.expected_features);
     EXPECT_GT(seen.matched_features, 0.8 * seen.expected_features) << "found wherever expected";
@@ -187,7 +186,7 @@ TEST_F(CutObserver, SearchesWidelyForFeaturesOfTrackedPiecesOnly) {
     FrameObserver observer({}, box_.volume, box_.surface);
     observer.learnFeatures(frame_, observer.observe(frame_, rest_));
     observer.observe(before, rest_);
-    return matchesOn({false, true}, observer.observe(back, rest_).matches);
+    return matchesOn({false, true}, observer.observe(back, rest_).seen.matches);
   };
   EXPECT_GT(foundOnRight(frame_), 50);
   EXPECT_LT(foundOnRight(covered), 10) << "it was held";
@@ -204,11 +203,12 @@ void findsAgain(FrameObserver* observer, const BoxBody& box, const Points& predi
   Points truth = predicted;
   for (const int v : observer->model().pieces()[1]) truth(v, 0) += moved;
   const RgbdFrame back = frameOf(truth);
+  ObservedBody found = observer->observe(back, predicted);
   int frames = 1;
-  while (matchesOn({false, true}, observer->observe(back, predicted).matches) < 50 && frames < 20) ++frames;
+  for (; matchesOn({false, true}, found.seen.matches) < 50 && frames < 20; ++frames)
+    found = observer->observe(back, predicted);
   EXPECT_LE(frames, 10);
-  const Points found = observer->surface().volumeVertices();
-  EXPECT_LT((found - truth).rowwise().norm().maxCoeff(), 0.003);
+  EXPECT_LT((found.surface.volumeVertices() - truth).rowwise().norm().maxCoeff(), 0.003);
 }
 
 TEST_F(CutObserver, FindsAPieceAgainThatMovedUnseen) { findsAgain(&observer_, box_, rest_, 0.08); }
@@ -234,7 +234,7 @@ TEST_F(CutObserver, SearchesSeldomForAPieceWhoseFeaturesHaveLongBeenMissing) {
     observer.learnFeatures(frame_, observer.observe(frame_, rest_));
     for (int i = 0; i < dull_frames; ++i) observer.observe(dull, rest_);
     int frames = 1;
-    while (matchesOn({false, true}, observer.observe(back, rest_).matches) < 50 && frames < 20) ++frames;
+    while (matchesOn({false, true}, observer.observe(back, rest_).seen.matches) < 50 && frames < 20) ++frames;
     return frames;
   };
   EXPECT_EQ(framesToFind(0, right, 0.08), 1);
@@ -257,8 +257,7 @@ TEST_F(CutObserver, MovesAPieceOnlyToWhereItsOwnFeaturesAre) {
   frame.color(cv::Rect(0, 0, middle, 480)).setTo(cv::Vec3b(35, 90, 140));
   color.copyTo(frame.color(shown_at));
   depth.copyTo(frame.depth(shown_at));
-  observer_.observe(frame, rest_);
-  const Points found = observer_.surface().volumeVertices();
+  const Points found = observer_.observe(frame, rest_).surface.volumeVertices();
   for (int piece = 0; piece < 2; ++piece) {
     for (const int v : observer_.model().pieces()[piece])
       ASSERT_LT((found.row(v) - truth.row(v)).norm(), 0.01) << "vertex " << v << " of piece " << piece;
@@ -276,7 +275,7 @@ TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
     frame.color = plain;
     return FrameObserver(config, box_.volume, box_.surface)
         .observe(frame, beside)
-        .outline.associations.size();
+        .seen.outline.associations.size();
   };
   EXPECT_EQ(outlines(false, false), 0u);
   EXPECT_EQ(outlines(true, true), 0u);
