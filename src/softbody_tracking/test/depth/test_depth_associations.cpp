@@ -17,9 +17,9 @@ class DepthAssociationsTest : public ::testing::Test {
   DepthAssociationsTest()
       : truth_(transformed(box_.volume.rest_vertices, boxPose())),
         frame_(renderFrame(box_, truth_, 1)),
-        surface_(model_, frame_.camera, truth_) {}
+        surface_(model_, frame_.camera, truth_, &memory_) {}
 
-  void predict(const Points& vertices) { surface_ = {model_, frame_.camera, vertices}; }
+  void predict(const Points& vertices) { surface_ = {model_, frame_.camera, vertices, &memory_}; }
 
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
@@ -41,6 +41,7 @@ class DepthAssociationsTest : public ::testing::Test {
   Points truth_;
   RgbdFrame frame_;
   std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  RasterMemory memory_;
   PredictedSurface surface_;
   RegionColors colors_;
 };

@@ -31,7 +31,7 @@ class FeatureMapTest : public ::testing::Test {
   void show(const Points& truth, const Eigen::Vector3d& prediction_error = Eigen::Vector3d::Zero()) {
     frame_ = renderFrame(box_, truth, 1);
     surface_ = {model_, frame_.camera,
-                transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error)))};
+                transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))), &memory_};
     buildImage();
   }
   void buildImage() { image_ = GrayPyramid(frame_.color, cv::Rect(cv::Point(), frame_.color.size())); }
@@ -89,7 +89,9 @@ class FeatureMapTest : public ::testing::Test {
   FeatureConfig config_;
   std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   RgbdFrame frame_ = renderFrame(box_, transformed(box_.volume.rest_vertices, boxPose()), 1);
-  PredictedSurface surface_{model_, frame_.camera, transformed(box_.volume.rest_vertices, boxPose())};
+  RasterMemory memory_;
+  PredictedSurface surface_{model_, frame_.camera, transformed(box_.volume.rest_vertices, boxPose()),
+                            &memory_};
   ColorModel colors_;
   GrayPyramid image_;
   OrbExtractor orb_;

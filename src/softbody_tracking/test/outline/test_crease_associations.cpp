@@ -16,7 +16,8 @@ namespace {
 /// A tilted box of one colour, with another brightness on each side, and some noise.
 class CreaseAssociationsTest : public ::testing::Test {
  protected:
-  CreaseAssociationsTest() : frame_(renderFrame(box_, truth(), 1)), surface_(model_, frame_.camera, truth()) {
+  CreaseAssociationsTest()
+      : frame_(renderFrame(box_, truth(), 1)), surface_(model_, frame_.camera, truth(), &memory_) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0.0, 2.0);
     for (int v = 0; v < frame_.color.rows; ++v) {
@@ -37,7 +38,7 @@ class CreaseAssociationsTest : public ::testing::Test {
   }
   std::vector<Association> associate(const Eigen::Vector3d& shift) { return associate(shifted(shift)); }
   std::vector<Association> associate(const Points& predicted) {
-    surface_ = {model_, frame_.camera, predicted};
+    surface_ = {model_, frame_.camera, predicted, &memory_};
     return associateCreases(frame_, surface_, sampleCreases(surface_),
                             RigidMotions(1, Eigen::Isometry3d::Identity()),
                             {1.0, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
@@ -57,6 +58,7 @@ class CreaseAssociationsTest : public ::testing::Test {
   BoxBody box_ = makeBox();
   std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   RgbdFrame frame_;
+  RasterMemory memory_;
   PredictedSurface surface_;
 };
 

@@ -48,7 +48,7 @@ class OutlineAssociationsTest : public ::testing::Test {
 
   /// From the frame as it is, with the prediction at its true position.
   void learnColors() {
-    surface_ = {model_, frame_.camera, boxAt(kFlat)};
+    surface_ = {model_, frame_.camera, boxAt(kFlat), &memory_};
     colors_.reset();
     colors_.learn(frame_, surface_.image());
   }
@@ -56,7 +56,7 @@ class OutlineAssociationsTest : public ::testing::Test {
   OutlineAssociations associate(const Points& predicted,
                                 const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                                 double weight = 1.0) {
-    surface_ = {model_, frame_.camera, predicted};
+    surface_ = {model_, frame_.camera, predicted, &memory_};
     return associateOutline(frame_, surface_.image(), sampleOutline(surface_),
                             RigidMotions(surface_.pieceCount(), motion), colors_,
                             {weight, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
@@ -101,7 +101,8 @@ class OutlineAssociationsTest : public ::testing::Test {
   BoxBody box_ = makeBox();
   std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   RgbdFrame frame_ = renderFrame(box_, boxAt(kFlat), 1);
-  PredictedSurface surface_{model_, frame_.camera, boxAt(kFlat)};
+  RasterMemory memory_;
+  PredictedSurface surface_{model_, frame_.camera, boxAt(kFlat), &memory_};
   RegionColors colors_;
 };
 
@@ -269,7 +270,7 @@ TEST_F(OutlineAssociationsTest, ASteepSideIsNoEndOfTheBody) {
   model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   const Points truth = transformed(box_.volume.rest_vertices, boxPose());
   frame_ = renderFrame(box_, truth, 1);
-  surface_ = {model_, frame_.camera, truth};
+  surface_ = {model_, frame_.camera, truth, &memory_};
   colors_.reset();
   colors_.learn(frame_, surface_.image());
   const OutlineAssociations found = associate(truth);

@@ -36,9 +36,11 @@ TEST(InverseDistanceWeights, GuardsWhereThePapersFormulaDividesZeroByZero) {
 /// Features strewn over the box's top face, all found again after a rigid motion.
 struct MovedFeatures {
   BoxBody box = makeBox();
+  RasterMemory memory;
   PredictedSurface surface{std::make_shared<SurfaceModel>(box.volume, box.surface),
                            {640, 480, 615.0, 615.0, 320.0, 240.0},
-                           box.volume.rest_vertices};
+                           box.volume.rest_vertices,
+                           &memory};
   std::vector<MapFeature> features;
   std::vector<FeatureMatch> matches;
 

@@ -125,8 +125,9 @@ TEST_F(BoxOfFineVolume, GetsNoFeaturesInPatchesOfOthers) {
 TEST_F(TurnedBox, GetsNoMoreFeaturesThanItsVolumeAsksFor) {
   for (int i = 0; i < 12; ++i) show(front_);
   const Pinhole camera{640, 480, 615.0, 615.0, 320.0, 240.0};
+  RasterMemory memory;
   const View view = render(std::make_shared<SurfaceModel>(box_.volume, box_.surface), camera,
-                           transformed(box_.volume.rest_vertices, front_), ViewSettings(config_));
+                           transformed(box_.volume.rest_vertices, front_), ViewSettings(config_), &memory);
   EXPECT_NEAR(known(), 4 * shownVertices(view.samples, box_.volume), 4);
 }
 

@@ -20,11 +20,12 @@ class ViewTest : public ::testing::Test {
   Points at(const Eigen::Vector3d& shift) const {
     return transformed(box_.volume.rest_vertices, Eigen::Isometry3d(Eigen::Translation3d(shift) * boxPose()));
   }
-  View viewOf(const Points& vertices) const {
-    return render(model_, camera_, vertices, ViewSettings(TrackerConfig()));
+  View viewOf(const Points& vertices) {
+    return render(model_, camera_, vertices, ViewSettings(TrackerConfig()), &memory_);
   }
 
   BoxBody box_ = makeBox();
+  RasterMemory memory_;
   std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   const Pinhole camera_{640, 480, 615.0, 615.0, 320.0, 240.0};
 };
@@ -46,6 +47,16 @@ TEST_F(ViewTest, AnotherRenderingDoesNotChangeIt) {
   EXPECT_EQ(held.surface.volumeVertices(), vertices);
 }
 
+TEST_F(ViewTest, GivesItsMemoryBack) {
+  const Points vertices = at(Eigen::Vector3d::Zero());
+  const RasterImage* first = &viewOf(vertices).surface.image();
+  View held = viewOf(vertices);
+  EXPECT_EQ(&held.surface.image(), first);
+  const PredictedSurface copy = moved(held.surface, {Eigen::Isometry3d::Identity()});
+  held = viewOf(at({0.02, 0.0, 0.0}));
+  EXPECT_NE(&held.surface.image(), first) << "the copy has it";
+}
+
 TEST_F(ViewTest, MovingACopyDoesNotChangeIt) {
   const View held = viewOf(at(Eigen::Vector3d::Zero()));
   const cv::Point center = held.samples.samples.front().center;
@@ -64,7 +75,7 @@ TEST_F(ViewTest, HasContoursOnlyWhereTheyAreUsed) {
   EXPECT_TRUE(ViewSettings(config).contours);
   config.outline.weight = 0.0;
   EXPECT_FALSE(ViewSettings(config).contours);
-  const View view = render(model_, camera_, at(Eigen::Vector3d::Zero()), ViewSettings(config));
+  const View view = render(model_, camera_, at(Eigen::Vector3d::Zero()), ViewSettings(config), &memory_);
   EXPECT_FALSE(view.samples.samples.empty());
   EXPECT_TRUE(view.outline.samples.empty());
   EXPECT_TRUE(view.creases.samples.empty());

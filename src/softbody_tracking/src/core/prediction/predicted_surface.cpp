@@ -9,8 +9,8 @@ namespace softbody {
 namespace {
 
 std::shared_ptr<const RasterImage> rendered(const SurfaceModel& model, const Pinhole& camera,
-                                            const Points& vertices) {
-  auto image = std::make_shared<RasterImage>();
+                                            const Points& vertices, RasterMemory* memory) {
+  std::shared_ptr<RasterImage> image = memory->freeImage();
   rasterize(camera, vertices, model.surface().triangles, image.get(), model.faces());
   return image;
 }
@@ -18,12 +18,12 @@ std::shared_ptr<const RasterImage> rendered(const SurfaceModel& model, const Pin
 }  // namespace
 
 PredictedSurface::PredictedSurface(std::shared_ptr<const SurfaceModel> model, const Pinhole& camera,
-                                   const Points& volume_vertices)
+                                   const Points& volume_vertices, RasterMemory* memory)
     : model_(std::move(model)),
       camera_(camera),
       volume_vertices_(volume_vertices),
       vertices_(model_->surfaceVertices(volume_vertices)),
-      image_(rendered(*model_, camera, vertices_)) {}
+      image_(rendered(*model_, camera, vertices_, memory)) {}
 
 std::vector<Points> PredictedSurface::pieceVertices() const {
   std::vector<Points> result;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "prediction/raster_memory.h"
 #include "prediction/surface_model.h"
 #include "softbody_common/pinhole.h"
 #include "softbody_common/rasterizer.h"
@@ -21,7 +22,7 @@ class PredictedSurface {
  public:
   /// Moves the surface with the volume's vertices and renders it. @param volume_vertices camera frame [m].
   PredictedSurface(std::shared_ptr<const SurfaceModel> model, const Pinhole& camera,
-                   const Points& volume_vertices);
+                   const Points& volume_vertices, RasterMemory* memory);
 
   const SurfaceModel& model() const { return *model_; }
   const TetTopology& volume() const { return model_->volume(); }

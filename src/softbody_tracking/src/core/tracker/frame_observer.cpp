@@ -41,10 +41,11 @@ void FrameObserver::reset() {
 }
 
 ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predicted) {
-  View prediction = predictionOf(frame, predicted);
+  View prediction = render(model_, frame.camera, predicted, view_settings_, &memory_);
   learnFirstColors(frame, prediction.surface.image());
-  Guess guess = guesses_.best({model_, view_settings_, weights_, usual_error_.meters(), soughtIn(frame)},
-                              std::move(prediction));
+  Guess guess =
+      guesses_.best({model_, view_settings_, weights_, usual_error_.meters(), soughtIn(frame), &memory_},
+                    std::move(prediction));
   const double visible_vertices =
       shownVertices(guess.view.samples, model_->volume()) * guess.features.expected.unoccludedShare();
   std::vector<FeatureMatch>& matches = guess.features.found.matches;
@@ -63,10 +64,6 @@ ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predic
   for (FeatureMatch& match : seen.matches)
     match.association.predicted = motions[match.association.piece] * match.association.predicted;
   return {std::move(seen), std::move(surface), image};
-}
-
-View FrameObserver::predictionOf(const RgbdFrame& frame, const Points& vertices) const {
-  return render(model_, frame.camera, vertices, view_settings_);
 }
 
 void FrameObserver::learnFirstColors(const RgbdFrame& frame, const RasterImage& rendered) {
@@ -112,7 +109,9 @@ std::optional<Eigen::Isometry3d> FrameObserver::recognizePose(const RgbdFrame& f
 }
 
 double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) const {
-  const View view = predictionOf(frame, transformed(model_->volume().rest_vertices, pose));
+  RasterMemory memory;
+  const View view = render(model_, frame.camera, transformed(model_->volume().rest_vertices, pose),
+                           view_settings_, &memory);
   const SoughtFeatures sought = soughtIn(frame);
   const FoundFeatures features = finder_.findAll(sought, finder_.expect(sought, view.surface));
   const int expected = features.expected.count();

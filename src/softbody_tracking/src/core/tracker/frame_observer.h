@@ -55,7 +55,6 @@ class FrameObserver {
 
  private:
   SoughtFeatures soughtIn(const RgbdFrame& frame) const;
-  View predictionOf(const RgbdFrame& frame, const Points& vertices) const;
   void learnFirstColors(const RgbdFrame& frame, const RasterImage& rendered);
   Observation measure(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
                       FoundFeatures features);
@@ -64,6 +63,7 @@ class FrameObserver {
   std::shared_ptr<const SurfaceModel> model_;
   ViewSettings view_settings_;
   MeasurementWeights weights_;
+  RasterMemory memory_;
   DepthNoiseEstimator depth_noise_;
   UsualError usual_error_;
   FeatureMap map_;

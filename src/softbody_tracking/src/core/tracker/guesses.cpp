@@ -88,7 +88,7 @@ Guess Guesses::guessAt(const GuessedBody& body, View view) const {
 }
 
 Guess Guesses::guessAt(const GuessedBody& body, const Points& vertices) const {
-  return guessAt(body, render(body.model, body.sought.frame.camera, vertices, body.settings));
+  return guessAt(body, render(body.model, body.sought.frame.camera, vertices, body.settings, body.memory));
 }
 
 /// The guess where the features, or the depth without them, say that the body is.

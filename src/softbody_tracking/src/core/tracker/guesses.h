@@ -18,6 +18,7 @@ struct GuessedBody {
   const MeasurementWeights& weights;
   double usual_error_m;  ///< see alignRigidly()
   SoughtFeatures sought;
+  RasterMemory* memory;
 };
 
 /// A guess where the body is, and the features that the frame shows there, with outliers marked.

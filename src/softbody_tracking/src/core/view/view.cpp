@@ -9,8 +9,8 @@ ViewSettings::ViewSettings(const TrackerConfig& config)
       contours(!config.knn_targets && config.use_depth && config.outline.weight > 0.0) {}
 
 View render(std::shared_ptr<const SurfaceModel> model, const Pinhole& camera, const Points& volume_vertices,
-            const ViewSettings& settings) {
-  PredictedSurface surface(std::move(model), camera, volume_vertices);
+            const ViewSettings& settings, RasterMemory* memory) {
+  PredictedSurface surface(std::move(model), camera, volume_vertices, memory);
   SurfaceSamples samples = sampleSurface(surface, settings.wanted_samples);
   OutlineSamples outline;
   CreaseSamples creases;

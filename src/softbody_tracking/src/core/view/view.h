@@ -29,6 +29,6 @@ struct View {
 
 /// Renders the body's prediction; no other function does. @param volume_vertices camera frame [m].
 View render(std::shared_ptr<const SurfaceModel> model, const Pinhole& camera, const Points& volume_vertices,
-            const ViewSettings& settings);
+            const ViewSettings& settings, RasterMemory* memory);
 
 }  // namespace softbody
