@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 
 #include "depth/depth_associations.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
+#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 namespace {
@@ -15,16 +17,15 @@ class DepthAssociationsTest : public ::testing::Test {
   DepthAssociationsTest()
       : truth_(transformed(box_.volume.rest_vertices, boxPose())),
         frame_(renderFrame(box_, truth_, 1)),
-        surface_(box_.volume, box_.surface) {
-    surface_.render(frame_.camera, truth_);
-  }
+        surface_(model_, frame_.camera, truth_, &memory_) {}
+
+  void predict(const Points& vertices) { surface_ = {model_, frame_.camera, vertices, &memory_}; }
 
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                               int pixel_step = 1) {
-    DepthAssociator depth(config, edge_);
-    return depth.associate(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
-                           colors_, pixel_step);
+    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
+                          colors_, {config.weight, edge_, config.max_distance_m}, pixel_step);
   }
 
   /// To every pixel's depth.
@@ -36,10 +37,13 @@ class DepthAssociationsTest : public ::testing::Test {
 
   BoxBody box_ = makeBox();
   double edge_ = meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
+  const DepthWeight weight_ = {DepthConfig().weight, edge_, DepthConfig().max_distance_m};
   Points truth_;
   RgbdFrame frame_;
+  std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  RasterMemory memory_;
   PredictedSurface surface_;
-  ColorModel colors_;
+  RegionColors colors_;
 };
 
 TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
@@ -55,8 +59,7 @@ TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
 }
 
 TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
-  surface_.render(frame_.camera,
-                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.004))));
+  predict(transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.004))));
   for (const Association& a : associate().associations) {
     EXPECT_LT(a.residual(), 0.0) << "the body lies behind its prediction, against the normals";
     EXPECT_NEAR(a.residual(), 0.004 * a.normal.z(), 0.0025);
@@ -64,8 +67,7 @@ TEST_F(DepthAssociationsTest, MeasureAShiftAlongTheNormals) {
 }
 
 TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
-  surface_.render(frame_.camera,
-                  transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
+  predict(transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
   const DepthAssociations all = associate();
   for (const int step : {2, 3, 1000}) {
     const DepthAssociations some = associate({}, Eigen::Isometry3d::Identity(), step);
@@ -74,21 +76,6 @@ TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
     EXPECT_NEAR(rmsResidual(some.associations), rmsResidual(all.associations),
                 0.1 * rmsResidual(all.associations));
   }
-}
-
-TEST_F(DepthAssociationsTest, MemoryOfAnEarlierFrameSaysNothing) {
-  DepthAssociator depth(DepthConfig(), edge_);
-  const RigidMotions still = {Eigen::Isometry3d::Identity()};
-  SurfaceSamples samples = sampleSurface(surface_, 1500);
-  const DepthAssociations fresh = depth.associate(frame_, surface_.image(), samples, still, colors_);
-  const DepthAssociations few =
-      depth.associate(frame_, surface_.image(), sampleSurface(surface_, 100), still, colors_);
-  EXPECT_LT(few.associations.size(), 200u);
-  samples = sampleSurface(surface_, 1500, sampleSurface(surface_, 100));
-  const DepthAssociations again = depth.associate(frame_, surface_.image(), samples, still, colors_);
-  EXPECT_EQ(again.associations.size(), fresh.associations.size());
-  EXPECT_EQ(again.visible_blocks, fresh.visible_blocks);
-  EXPECT_EQ(rmsResidual(again.associations), rmsResidual(fresh.associations));
 }
 
 /// A block at the edge of another side shows a ramp; its mean says little about the predicted side.
@@ -115,7 +102,7 @@ TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
     const Eigen::Isometry3d turned = boxPose() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
     truth_ = transformed(box_.volume.rest_vertices, turned);
     frame_ = renderFrame(box_, truth_, 1);
-    surface_.render(frame_.camera, truth_);
+    predict(truth_);
     double weights = 0.0, area = 0.0;
     for (const Association& a : associate().associations) weights += a.weight * edge_ * edge_;
     for (const auto& triangle : box_.volume.surface.rowwise()) {
@@ -223,8 +210,8 @@ TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
       if (samples.grid(row, column) >= 0) samples.samples[samples.grid(row, column)].piece = column / 6 % 2;
   const RigidMotions motions = {Eigen::Isometry3d::Identity(),
                                 Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.006))};
-  DepthAssociator depth(DepthConfig(), edge_);
-  const DepthAssociations& found = depth.associate(frame_, surface_.image(), samples, motions, colors_);
+  const DepthAssociations found =
+      associateDepth(frame_, surface_.image(), samples, motions, colors_, weight_);
   ASSERT_GT(rmsResidual(found.associations), 0.002);
   const double noise = associate().noise.density;
   EXPECT_NEAR(found.noise.density, noise, 0.2 * noise);
@@ -243,8 +230,7 @@ TEST_F(DepthAssociationsTest, TheMotionOfOnePieceDoesNotOccludeAnother) {
   const auto occluded = [&](double farther_m) {
     const Eigen::Isometry3d moved(Eigen::Translation3d(0.0, 0.0, -farther_m));
     const RigidMotions motions = {Eigen::Isometry3d::Identity(), moved};
-    DepthAssociator depth(DepthConfig(), edge_);
-    return depth.associate(frame_, surface_.image(), samples, motions, colors_).occluded_blocks;
+    return associateDepth(frame_, surface_.image(), samples, motions, colors_, weight_).occluded_blocks;
   };
   const int finger = occluded(0.0);
   EXPECT_GT(finger, 5);
@@ -264,7 +250,7 @@ TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
 }
 
 TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
-  colors_.learnRegion(frame_, surface_.image(), 1.0);
+  colors_.learn(frame_, surface_.image(), 1.0);
   EXPECT_EQ(associate().occluded_blocks, 0);
   frame_.color.setTo(frame_.color(10, 10));  // the wall's
   const DepthAssociations found = associate();
@@ -276,7 +262,7 @@ TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
 TEST_F(DepthAssociationsTest, MoveWithTheirSamples) {
   const Eigen::Isometry3d error =
       Eigen::Translation3d(0.003, -0.002, 0.004) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());
-  surface_.render(frame_.camera, transformed(truth_, error));
+  predict(transformed(truth_, error));
   for (const Association& a : associate({}, error.inverse()).associations) {
     EXPECT_LT(std::abs(a.residual()), 4e-4);
     EXPECT_LT((positionOf(a.place, truth_, box_.volume.tets) - a.predicted).norm(), 1e-6);
@@ -322,7 +308,7 @@ TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
 TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
   constexpr double kHeight = 0.03, kRadiusPx = 90.0;
   const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
-  colors_.learnRegion(frame_, surface_.image(), 1.0);
+  colors_.learn(frame_, surface_.image(), 1.0);
   for (int v = 0; v < frame_.depth.rows; ++v) {
     for (int u = 0; u < frame_.depth.cols; ++u) {
       const double distance = (Eigen::Vector2d(u, v) - middle).norm();

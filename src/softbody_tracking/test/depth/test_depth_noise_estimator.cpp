@@ -31,8 +31,7 @@ DepthNoiseSample sampleOf(const cv::Size& grid, int block_px,
       block.difference = difference(column, row);
     }
   }
-  std::vector<double> memory;
-  return sampleDepthNoise(surface, blocks, kFocal, &memory);
+  return sampleDepthNoise(surface, blocks, kFocal);
 }
 
 /// @param sigma_m standard deviation of a block's mean.

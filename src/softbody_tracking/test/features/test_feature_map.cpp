@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -21,19 +22,19 @@ constexpr double kGap = 0.005;   // [m]
 /// A map bound to the box in its first pose.
 class FeatureMapTest : public ::testing::Test {
  protected:
-  FeatureMapTest() : surface_(box_.volume, box_.surface), map_(FeatureConfig()) {
-    show(transformed(box_.volume.rest_vertices, boxPose()));
+  FeatureMapTest() : map_(FeatureConfig()) {
+    buildImage();
     admit(chosen(map_), &map_);
   }
 
   /// Renders the box at the vertices, and the prediction there with an error.
   void show(const Points& truth, const Eigen::Vector3d& prediction_error = Eigen::Vector3d::Zero()) {
     frame_ = renderFrame(box_, truth, 1);
-    surface_.render(frame_.camera,
-                    transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))));
+    surface_ = {model_, frame_.camera,
+                transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))), &memory_};
     buildImage();
   }
-  void buildImage() { image_.build(frame_.color, cv::Rect(cv::Point(), frame_.color.size())); }
+  void buildImage() { image_ = GrayPyramid(frame_.color, cv::Rect(cv::Point(), frame_.color.size())); }
 
   /// Keypoints of the whole image.
   std::vector<Keypoint> keypoints() {
@@ -86,12 +87,15 @@ class FeatureMapTest : public ::testing::Test {
 
   BoxBody box_ = makeBox();
   FeatureConfig config_;
-  PredictedSurface surface_;
+  std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  RgbdFrame frame_ = renderFrame(box_, transformed(box_.volume.rest_vertices, boxPose()), 1);
+  RasterMemory memory_;
+  PredictedSurface surface_{model_, frame_.camera, transformed(box_.volume.rest_vertices, boxPose()),
+                            &memory_};
   ColorModel colors_;
   GrayPyramid image_;
   OrbExtractor orb_;
   FeatureMap map_;
-  RgbdFrame frame_;
 };
 
 TEST_F(FeatureMapTest, BindsFeaturesWhereTheirPixelsSeeTheBody) {

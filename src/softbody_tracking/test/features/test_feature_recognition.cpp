@@ -82,10 +82,8 @@ Descriptor descriptorOf(int bits) { return {(1ull << bits) - 1, 0, 0, 0}; }
 
 TEST(FeatureRecognition, PairsAKeypointWithTheFeatureMostLikeIt) {
   const BoxBody box = makeBox();
-  PredictedSurface surface(box.volume, box.surface);
   const Points vertices = transformed(box.volume.rest_vertices, boxPose());
   const RgbdFrame frame = renderFrame(box, vertices, 1);
-  surface.render(frame.camera, vertices);
   Keypoint keypoint;
   keypoint.pixel = {320.0f, 240.0f};
   std::vector<MapFeature> features(3);
@@ -93,7 +91,8 @@ TEST(FeatureRecognition, PairsAKeypointWithTheFeatureMostLikeIt) {
     features[f].place = {40 * f, Eigen::Vector4d::Constant(0.25)};
     features[f].descriptor = descriptorOf(f == 1 ? 2 : 5);
   }
-  const auto pairs = recognizedFeatures(frame, features, {keypoint}, surface, vertices, 64);
+  const auto pairs =
+      recognizedFeatures(frame, features, {keypoint}, SurfaceModel(box.volume, box.surface), vertices, 64);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].expected, positionOf(features[1].place, vertices, box.volume.tets));
 }

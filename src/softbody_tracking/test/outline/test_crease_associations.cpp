@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "fixtures/synthetic_scene.h"
@@ -15,8 +16,8 @@ namespace {
 /// A tilted box of one colour, with another brightness on each side, and some noise.
 class CreaseAssociationsTest : public ::testing::Test {
  protected:
-  CreaseAssociationsTest() : surface_(box_.volume, box_.surface), frame_(renderFrame(box_, truth(), 1)) {
-    surface_.render(frame_.camera, truth());
+  CreaseAssociationsTest()
+      : frame_(renderFrame(box_, truth(), 1)), surface_(model_, frame_.camera, truth(), &memory_) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0.0, 2.0);
     for (int v = 0; v < frame_.color.rows; ++v) {
@@ -37,12 +38,10 @@ class CreaseAssociationsTest : public ::testing::Test {
   }
   std::vector<Association> associate(const Eigen::Vector3d& shift) { return associate(shifted(shift)); }
   std::vector<Association> associate(const Points& predicted) {
-    surface_.render(frame_.camera, predicted);
-    CreaseAssociator creases({1.0}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
-    creases.sample(surface_);
-    std::vector<Association> found;
-    creases.associate(frame_, surface_, RigidMotions(1, Eigen::Isometry3d::Identity()), &found);
-    return found;
+    surface_ = {model_, frame_.camera, predicted, &memory_};
+    return associateCreases(frame_, surface_, sampleCreases(surface_),
+                            RigidMotions(1, Eigen::Isometry3d::Identity()),
+                            {1.0, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
   }
 
   /// Root mean square of what the associations still lack after the true motion [px].
@@ -57,8 +56,10 @@ class CreaseAssociationsTest : public ::testing::Test {
   }
 
   BoxBody box_ = makeBox();
-  PredictedSurface surface_;
+  std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   RgbdFrame frame_;
+  RasterMemory memory_;
+  PredictedSurface surface_;
 };
 
 TEST_F(CreaseAssociationsTest, FindTheCreasesToAPartOfAPixel) {

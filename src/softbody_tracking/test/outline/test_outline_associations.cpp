@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
@@ -23,10 +24,7 @@ const cv::Rect kRightHalf(330, 0, 310, 480);
 /// A box seen from above, turned in the image so that its outline crosses the pixels everywhere.
 class OutlineAssociationsTest : public ::testing::Test {
  protected:
-  OutlineAssociationsTest() : surface_(box_.volume, box_.surface) {
-    show(kFlat);
-    learnColors();
-  }
+  OutlineAssociationsTest() { learnColors(); }
 
   static Eigen::Isometry3d poseAt(const Eigen::Vector3d& position) {
     return Eigen::Translation3d(position) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
@@ -50,18 +48,18 @@ class OutlineAssociationsTest : public ::testing::Test {
 
   /// From the frame as it is, with the prediction at its true position.
   void learnColors() {
-    surface_.render(frame_.camera, boxAt(kFlat));
+    surface_ = {model_, frame_.camera, boxAt(kFlat), &memory_};
     colors_.reset();
-    colors_.learn(frame_, surface_.image());
+    colors_.learn(frame_, surface_.image(), 1.0);
   }
 
   OutlineAssociations associate(const Points& predicted,
                                 const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                                 double weight = 1.0) {
-    surface_.render(frame_.camera, predicted);
-    OutlineAssociator outline({weight}, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets));
-    outline.sample(surface_);
-    return outline.associate(frame_, surface_.image(), RigidMotions(surface_.pieceCount(), motion), colors_);
+    surface_ = {model_, frame_.camera, predicted, &memory_};
+    return associateOutline(frame_, surface_.image(), sampleOutline(surface_),
+                            RigidMotions(surface_.pieceCount(), motion), colors_,
+                            {weight, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
   }
   std::vector<Association> associateShifted(double pixels) {
     return associate(shiftedBox(pixels)).associations;
@@ -101,8 +99,10 @@ class OutlineAssociationsTest : public ::testing::Test {
   }
 
   BoxBody box_ = makeBox();
-  PredictedSurface surface_;
-  RgbdFrame frame_;
+  std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  RgbdFrame frame_ = renderFrame(box_, boxAt(kFlat), 1);
+  RasterMemory memory_;
+  PredictedSurface surface_{model_, frame_.camera, boxAt(kFlat), &memory_};
   RegionColors colors_;
 };
 
@@ -248,11 +248,11 @@ TEST_F(OutlineAssociationsTest, TheImagesBorderIsNoOutline) {
 
 TEST_F(OutlineAssociationsTest, TellThePieces) {
   box_ = cutBox(box_);
-  surface_ = PredictedSurface(box_.volume, box_.surface);
-  ASSERT_EQ(surface_.pieceCount(), 2u);
+  model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  ASSERT_EQ(model_->pieceCount(), 2u);
   constexpr double kShift = 6.0;  // [px] along x, of one piece
   Points predicted = boxAt(kFlat);
-  for (const int v : surface_.pieces()[1]) predicted(v, 0) += kShift * kPixel;
+  for (const int v : model_->pieces()[1]) predicted(v, 0) += kShift * kPixel;
   const std::vector<Association> found = associate(predicted).associations;
   std::vector<Association> of_piece[2];
   for (const Association& a : found) of_piece[a.piece].push_back(a);
@@ -267,12 +267,12 @@ TEST_F(OutlineAssociationsTest, ASteepSideIsNoEndOfTheBody) {
   for (Points* vertices : {&cube.volume.rest_vertices, &cube.surface.rest_vertices})
     *vertices *= Eigen::Vector3d(0.5, 1.0, 2.5).asDiagonal();
   box_ = cube;
-  surface_ = PredictedSurface(box_.volume, box_.surface);
+  model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   const Points truth = transformed(box_.volume.rest_vertices, boxPose());
   frame_ = renderFrame(box_, truth, 1);
-  surface_.render(frame_.camera, truth);
+  surface_ = {model_, frame_.camera, truth, &memory_};
   colors_.reset();
-  colors_.learn(frame_, surface_.image());
+  colors_.learn(frame_, surface_.image(), 1.0);
   const OutlineAssociations found = associate(truth);
   EXPECT_LT(found.disagreement, 0.04);
   EXPECT_LT(meanAbsoluteError(found.associations, 0.0), 0.7);
@@ -296,8 +296,8 @@ TEST_F(OutlineAssociationsTest, WhatIsBeyondALimbIsNotTheLimb) {
   box_.volume.tets = both(trunk.volume.tets);
   box_.volume.surface = box_.surface.triangles = both(trunk.volume.surface);
   box_.surface.rest_vertices = vertices;
-  surface_ = PredictedSurface(box_.volume, box_.surface);
-  ASSERT_EQ(surface_.pieceCount(), 2u);
+  model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
+  ASSERT_EQ(model_->pieceCount(), 2u);
   Points moved = boxAt(kFlat);
   moved.bottomRows(count).rowwise() += Eigen::RowVector3d(0.06, 0.0, 0.0);
   frame_ = renderFrame(box_, moved, 1);

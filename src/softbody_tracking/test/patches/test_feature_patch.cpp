@@ -22,11 +22,7 @@ cv::Mat3b texture() {
   return strong;
 }
 
-GrayPyramid pyramidOf(const cv::Mat3b& image) {
-  GrayPyramid pyramid;
-  pyramid.build(image, cv::Rect(cv::Point(), image.size()));
-  return pyramid;
-}
+GrayPyramid pyramidOf(const cv::Mat3b& image) { return {image, cv::Rect(cv::Point(), image.size())}; }
 
 /// The texture under an affine map about a pixel, with another brightness and contrast.
 cv::Mat3b warped(const cv::Matx22f& A, const cv::Point2f& from, const cv::Point2f& to) {

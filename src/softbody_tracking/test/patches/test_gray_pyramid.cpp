@@ -37,34 +37,35 @@ void expectPairs(const GrayPyramid& pyramid, const cv::Mat3b& image, const cv::R
   EXPECT_EQ(pyramid.toFrame({2, 1}, 2), first + cv::Point2f(8, 4));
 }
 
-/// Regions one after the other, so that memory of earlier ones is reused.
 TEST(GrayPyramid, PairsAreTheRegionsPixelsWithThoseBelow) {
   const cv::Mat3b image = randomImage({123, 77});
-  GrayPyramid pyramid;
   for (const cv::Rect& region :
        {cv::Rect(0, 0, 123, 77), cv::Rect(17, 9, 60, 31), cv::Rect(122, 76, 1, 1), cv::Rect(4, 8, 1, 1),
         cv::Rect(50, 2, 1, 40), cv::Rect(3, 70, 90, 1), cv::Rect(61, 33, 62, 44)}) {
-    pyramid.build(image, region);
-    expectPairs(pyramid, image, region);
+    expectPairs(GrayPyramid(image, region), image, region);
   }
 }
 
 TEST(GrayPyramid, FollowsTheImagesSize) {
-  GrayPyramid pyramid;
   for (const cv::Size& size : {cv::Size(40, 30), cv::Size(91, 63), cv::Size(1, 1), cv::Size(33, 50)}) {
     const cv::Mat3b image = randomImage(size);
-    pyramid.build(image, cv::Rect(cv::Point(), size));
-    expectPairs(pyramid, image, cv::Rect(cv::Point(), size));
+    const cv::Rect all(cv::Point(), size);
+    expectPairs(GrayPyramid(image, all), image, all);
   }
 }
 
 TEST(GrayPyramid, IsEmptyWhereTheRegionIs) {
-  const cv::Mat3b image = randomImage({64, 48});
-  GrayPyramid pyramid;
-  pyramid.build(image, cv::Rect(0, 0, 64, 48));
-  ASSERT_FALSE(pyramid.level(2).empty());
-  pyramid.build(image, cv::Rect());
+  const GrayPyramid pyramid(randomImage({64, 48}), cv::Rect());
   for (int l = 0; l < GrayPyramid::kLevels; ++l) EXPECT_TRUE(pyramid.level(l).empty());
+}
+
+/// Levels are made late, so a copy may make its own.
+TEST(GrayPyramid, CopiesAreEqual) {
+  const cv::Mat3b image = randomImage({64, 48});
+  const cv::Rect all(0, 0, 64, 48);
+  const GrayPyramid first(image, all), copy = first;
+  expectPairs(copy, image, all);
+  expectPairs(first, image, all);
 }
 
 }  // namespace

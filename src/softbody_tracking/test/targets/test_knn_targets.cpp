@@ -36,12 +36,15 @@ TEST(InverseDistanceWeights, GuardsWhereThePapersFormulaDividesZeroByZero) {
 /// Features strewn over the box's top face, all found again after a rigid motion.
 struct MovedFeatures {
   BoxBody box = makeBox();
-  PredictedSurface surface{box.volume, box.surface};
+  RasterMemory memory;
+  PredictedSurface surface{std::make_shared<SurfaceModel>(box.volume, box.surface),
+                           {640, 480, 615.0, 615.0, 320.0, 240.0},
+                           box.volume.rest_vertices,
+                           &memory};
   std::vector<MapFeature> features;
   std::vector<FeatureMatch> matches;
 
   explicit MovedFeatures(const Eigen::Isometry3d& motion) {
-    surface.render({640, 480, 615.0, 615.0, 320.0, 240.0}, box.volume.rest_vertices);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> x(-0.1, 0.1), y(-0.05, 0.05);
     for (int i = 0; i < 1000; ++i) {

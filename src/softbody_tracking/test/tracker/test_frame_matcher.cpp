@@ -32,9 +32,9 @@ class FramesOfBox : public ::testing::Test {
   Observation show(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& predicted) {
     truth_ = transformed(box_.volume.rest_vertices, pose);
     const RgbdFrame frame = renderFrame(box_, truth_, stamp_ += kFrameInterval);
-    Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, predicted));
-    observer_->learnFeatures(frame, seen);
-    return seen;
+    ObservedBody observed = observer_->observe(frame, transformed(box_.volume.rest_vertices, predicted));
+    observer_->learnFeatures(frame, observed);
+    return std::move(observed.seen);
   }
 
   /// Median distance of the inliers from their true places [m].

@@ -30,9 +30,9 @@ class TurnedBox : public ::testing::Test {
     RgbdFrame frame =
         renderFrame(box_, transformed(box_.volume.rest_vertices, pose), stamp_ += kFrameInterval);
     edit(&frame);
-    Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, predicted));
-    observer_->learnFeatures(frame, seen);
-    return seen;
+    ObservedBody observed = observer_->observe(frame, transformed(box_.volume.rest_vertices, predicted));
+    observer_->learnFeatures(frame, observed);
+    return std::move(observed.seen);
   }
 
   int known() const { return static_cast<int>(observer_->features().size()); }
@@ -68,11 +68,11 @@ TEST_F(TurnedBox, FeaturesKnowHowUncertainTheirPlacesAre) {
   const auto deviationAt = [](const Eigen::Vector3d& rest) { return 0.01 + 0.02 * rest.x(); };
   const RgbdFrame frame =
       renderFrame(box_, transformed(box_.volume.rest_vertices, front_), stamp_ += kFrameInterval);
-  const Observation seen = observer_->observe(frame, transformed(box_.volume.rest_vertices, front_));
+  const ObservedBody observed = observer_->observe(frame, transformed(box_.volume.rest_vertices, front_));
   std::vector<float> deviations;
   for (const auto& vertex : box_.volume.rest_vertices.rowwise())
     deviations.push_back(static_cast<float>(deviationAt(vertex.transpose())));
-  observer_->learnFeatures(frame, seen, deviations);
+  observer_->learnFeatures(frame, observed, deviations);
   ASSERT_GT(known(), 100);
   for (const MapFeature& feature : observer_->features())
     EXPECT_NEAR(std::sqrt(feature.place_variance), deviationAt(restPosition(feature)), 1e-6);
@@ -127,8 +127,11 @@ TEST_F(BoxOfFineVolume, GetsNoFeaturesInPatchesOfOthers) {
 
 TEST_F(TurnedBox, GetsNoMoreFeaturesThanItsVolumeAsksFor) {
   for (int i = 0; i < 12; ++i) show(front_);
-  const SurfaceSamples samples = sampleSurface(observer_->surface(), config_.depth.max_targets);
-  EXPECT_NEAR(known(), 4 * shownVertices(samples, box_.volume), 4);
+  const Pinhole camera{640, 480, 615.0, 615.0, 320.0, 240.0};
+  RasterMemory memory;
+  const View view = render(std::make_shared<SurfaceModel>(box_.volume, box_.surface), camera,
+                           transformed(box_.volume.rest_vertices, front_), ViewSettings(config_), &memory);
+  EXPECT_NEAR(known(), 4 * shownVertices(view.samples, box_.volume), 4);
 }
 
 TEST_F(BoxOfFineVolume, GetsAllThatShow) {

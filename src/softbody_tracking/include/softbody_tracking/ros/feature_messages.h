@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "softbody_tracking/tracker/body_tracker.h"
+#include "softbody_tracking/tracker/tracking_result.h"
 
 /// Tracked features as messages. The caller sets the headers.
 namespace softbody {

@@ -102,25 +102,26 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
   return (surface.movedVolume(motions) - surface.volumeVertices()).rowwise().norm().maxCoeff();
 }
 
-RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
-                          const SurfaceSamples& samples, const ColorModel& colors,
-                          const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
-                          double usual_error_m, DepthAssociator* depth) {
+RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const RegionColors& colors,
+                          const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights,
+                          double usual_error_m) {
+  const PredictedSurface& surface = view.surface;
   RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
+  const std::vector<Association> contours = contoursOf(frame, view, motions, colors, weights).associations;
   std::vector<Association> features;
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features);
   double scale_m = kFirstScale * usual_error_m;
   for (int i = 0; i < kIterations; ++i, scale_m *= kNarrowing) {
-    const DepthAssociations& seen =
-        depth->associate(frame, surface.image(), samples, motions, colors, kPixelStep);
+    const DepthAssociations seen = depthOf(frame, view, motions, colors, weights, kPixelStep);
     const std::vector<Association> moved_features = moved(motions, features);
-    std::vector<Association> moved_outline = moved(motions, outline);
-    weighByResidual(kContourScale, &moved_outline, scale_m);
+    std::vector<Association> moved_contours = moved(motions, contours);
+    weighByResidual(kContourScale, &moved_contours, scale_m);
     const AssociationsByPiece measured =
-        gather(seen.associations, moved_features, moved_outline, motions.size());
-    const RigidMotions next = steppedMotions(
-        motions, pieces, pieceObservability(samples, seen.associations, matches, pieces), measured, scale_m);
+        gather(seen.associations, moved_features, moved_contours, motions.size());
+    const RigidMotions next =
+        steppedMotions(motions, pieces, pieceObservability(view.samples, seen.associations, matches, pieces),
+                       measured, scale_m);
     const double step_m =
         (surface.movedVolume(next) - surface.movedVolume(motions)).rowwise().norm().maxCoeff();
     if (step_m > kLargestRigidStep) return motions;

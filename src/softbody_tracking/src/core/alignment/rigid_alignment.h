@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "depth/depth_associations.h"
 #include "features/feature_match.h"
-#include "prediction/predicted_surface.h"
+#include "view/view_measurements.h"
 
 namespace softbody {
 
@@ -25,14 +24,11 @@ constexpr double kContourScale = 1.5;
 /// Largest distance that the motions move a vertex of the prediction [m].
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions);
 
-/// The rigid motion of each piece that aligns the prediction with depth and features (point-to-plane ICP).
-/// Pieces with poor observability do not move.
+/// The rigid motion of each piece that aligns the view with depth, contours and features (point-to-plane
+/// ICP). Pieces with poor observability do not move.
 /// @param usual_error_m how far predictions were off in the last frames: as far off is no outlier.
-/// @param outline as rendered. @param samples of the surface as rendered. @param depth associates with these
-/// samples.
-RigidMotions alignRigidly(const RgbdFrame& frame, const PredictedSurface& surface,
-                          const SurfaceSamples& samples, const ColorModel& colors,
-                          const std::vector<FeatureMatch>& matches, const std::vector<Association>& outline,
-                          double usual_error_m, DepthAssociator* depth);
+RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const RegionColors& colors,
+                          const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights,
+                          double usual_error_m);
 
 }  // namespace softbody

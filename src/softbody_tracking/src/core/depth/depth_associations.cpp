@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "prediction/depth_evidence.h"
 #include "softbody_common/target_limits.h"
 #include "statistics/median.h"
 
@@ -43,12 +44,12 @@ struct BlockPixels {
 /// Around the sample, the predicted shape is the rendered one.
 BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterImage& image,
                      const cv::Point& rendered_center, int size, int step, const RegionColors& colors,
-                     const DepthEvidence& evidence, double max_distance) {
+                     double reach_m) {
   const cv::Point& center = block.center;
   const Offsets columns = offsetsInside(rendered_center.x, center.x, size, frame.depth.cols);
   const Offsets rows = offsetsInside(rendered_center.y, center.y, size, frame.depth.rows);
   const auto nearer_by = static_cast<float>(block.predicted) - image.depth(rendered_center);
-  const auto gate = static_cast<float>(max_distance);
+  const auto gate = static_cast<float>(reach_m);
   BlockPixels pixels;
   for (int j = rows.first; j < rows.end; j += step) {
     const float* rendered = image.depth[rendered_center.y + j] + rendered_center.x;
@@ -59,7 +60,7 @@ BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterIma
       ++pixels.measured;
       const float difference = depth[i] - rendered[i] - nearer_by;
       const bool body = std::abs(difference) <= gate &&
-                        colors.logOdds(color[i]) + evidence.logOdds(difference, block.predicted) > 0.0;
+                        colors.logOdds(color[i]) + DepthEvidence::logOdds(difference, block.predicted) > 0.0;
       if (!body) {
         ++(difference > kBehindSurface ? pixels.farther : pixels.nearer);
       } else {
@@ -94,8 +95,7 @@ void classify(const BlockPixels& pixels, const RgbdFrame& frame, Block* block) {
 
 /// Moves a sample by the rigid motion, and compares it with the frame's depth there.
 Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSample& sample, int size,
-              int step, const Eigen::Isometry3d& motion, const RegionColors& colors,
-              const DepthEvidence& evidence, double max_distance) {
+              int step, const Eigen::Isometry3d& motion, const RegionColors& colors, double reach_m) {
   Block block;
   block.position = motion * sample.position;
   block.normal = motion.linear() * sample.normal;
@@ -106,8 +106,7 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
   if (-slope < kMinSlope) return block;
   block.predicted = block.normal.dot(block.position) / slope;
-  classify(pixelsOf(block, frame, image, sample.center, size, step, colors, evidence, max_distance), frame,
-           &block);
+  classify(pixelsOf(block, frame, image, sample.center, size, step, colors, reach_m), frame, &block);
   return block;
 }
 
@@ -228,43 +227,43 @@ void downweightByNoise(double relative_noise, DepthAssociations* depth) {
   for (Association& association : depth->associations) association.weight *= scale;
 }
 
-const DepthAssociations& DepthAssociator::associate(const RgbdFrame& frame, const RasterImage& image,
-                                                    const SurfaceSamples& surface,
-                                                    const RigidMotions& motions, const ColorModel& colors,
-                                                    int pixel_step) {
+DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
+                                 const SurfaceSamples& surface, const RigidMotions& motions,
+                                 const RegionColors& colors, const DepthWeight& weight, int pixel_step) {
   const int step = std::min(pixel_step, surface.block_px);
-  blocks_.clear();
+  std::vector<Block> blocks;
+  blocks.reserve(surface.samples.size());
   for (const SurfaceSample& sample : surface.samples) {
-    blocks_.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.piece],
-                              colors.region(), evidence_, config_.max_distance_m));
+    blocks.push_back(
+        observe(frame, image, sample, surface.block_px, step, motions[sample.piece], colors, weight.reach_m));
   }
-  subtractMotionOfPieces(surface, &blocks_);
-  markProtrusions(surface, &blocks_);
-  growOccluders(surface.grid, &blocks_);
-  found_.noise = pixel_step == 1 ? sampleDepthNoise(surface, blocks_, frame.camera.fx, &second_differences_)
-                                 : DepthNoiseSample();
+  subtractMotionOfPieces(surface, &blocks);
+  markProtrusions(surface, &blocks);
+  growOccluders(surface.grid, &blocks);
+  DepthAssociations found;
+  if (pixel_step == 1) found.noise = sampleDepthNoise(surface, blocks, frame.camera.fx);
 
-  const double usual_variance = usualVariance(blocks_);
-  found_.associations.clear();
-  found_.visible_blocks = found_.occluded_blocks = found_.absent_blocks = 0;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const Block& block = blocks_[i];
+  const double usual_variance = usualVariance(blocks);
+  found.associations.reserve(blocks.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = blocks[i];
     if (block.kind == BlockKind::kUnmeasured) continue;
-    ++found_.visible_blocks;
-    found_.occluded_blocks += block.kind == BlockKind::kOccluded ? 1 : 0;
-    found_.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
+    ++found.visible_blocks;
+    found.occluded_blocks += block.kind == BlockKind::kOccluded ? 1 : 0;
+    found.absent_blocks += block.kind == BlockKind::kAbsent ? 1 : 0;
     if (block.kind != BlockKind::kAgrees) continue;
     const double cosine = -block.normal.dot(block.position.normalized());
     if (cosine <= 0.0) continue;
-    const double width = surface.block_px * block.position.z() / (frame.camera.fx * volume_edge_m_);
-    const double weight =
-        config_.weight * width * width / cosine;  // per area of the surface, not of the image
+    const double width = surface.block_px * block.position.z() / (frame.camera.fx * weight.edge_m);
+    // Per area of the surface, not of the image.
+    const double of_block = weight.per_area * width * width / cosine;
     // A block has few pixels: its variance is estimated halfway between its own and the usual one.
     const double precision = 2.0 * usual_variance / (usual_variance + block.variance);
-    found_.associations.push_back(associationOf(block, surface.samples[i], frame.camera, weight * precision));
+    found.associations.push_back(
+        associationOf(block, surface.samples[i], frame.camera, of_block * precision));
   }
-  weighByResidual(kDepthScale, &found_.associations);
-  return found_;
+  weighByResidual(kDepthScale, &found.associations);
+  return found;
 }
 
 }  // namespace softbody

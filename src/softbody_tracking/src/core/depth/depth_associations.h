@@ -4,11 +4,9 @@
 
 #include "depth/depth_noise_estimator.h"
 #include "prediction/association.h"
-#include "prediction/color_model.h"
-#include "prediction/depth_evidence.h"
+#include "prediction/region_colors.h"
 #include "prediction/surface_samples.h"
 #include "softbody_tracking/rgbd_frame.h"
-#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 
@@ -34,34 +32,24 @@ struct DepthBlock {
   Eigen::Vector3d normal;
 };
 
+/// How much depth counts.
+struct DepthWeight {
+  double per_area;  ///< of an area of one mean edge of the tets squared
+  double edge_m;    ///< mean edge of the tets
+  double reach_m;   ///< largest distance between prediction and measurement along the ray
+};
+
 /// Associates visible surface with depth along the same rays (projective data association, point to plane).
 /// Each block of pixels gives one association, with the mean of its depth differences, weighed by the inverse
 /// of their variance: at an edge, or where another side of the body is seen than predicted, the differences
 /// of one block vary. A block that is nearer than the prediction and continues an occluder without a step in
 /// depth belongs to the occluder.
-class DepthAssociator {
- public:
-  /// @param volume_edge_m mean edge of the tets; config.weight is the weight per square of it.
-  DepthAssociator(const DepthConfig& config, double volume_edge_m)
-      : config_(config), volume_edge_m_(volume_edge_m) {}
-
-  /// @param image the rendered surface that the samples were taken from.
-  /// @param motions of the body's pieces since then.
-  /// @param pixel_step 1: every pixel of a block counts; 2: every second pixel of every second row; and so
-  /// on.
-  /// @return a reference that is valid until the next call.
-  const DepthAssociations& associate(const RgbdFrame& frame, const RasterImage& image,
-                                     const SurfaceSamples& surface, const RigidMotions& motions,
-                                     const ColorModel& colors, int pixel_step = 1);
-
- private:
-  DepthConfig config_;
-  DepthEvidence evidence_;
-  double volume_edge_m_;
-  std::vector<DepthBlock> blocks_;
-  std::vector<double> second_differences_;
-  DepthAssociations found_;
-};
+/// @param image the rendered surface that the samples were taken from.
+/// @param motions of the body's pieces since then.
+/// @param pixel_step 1: every pixel of a block counts; 2: every second pixel of every second row; and so on.
+DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
+                                 const SurfaceSamples& surface, const RigidMotions& motions,
+                                 const RegionColors& colors, const DepthWeight& weight, int pixel_step = 1);
 
 /// Reduces the weights of depth targets if the noise is above usual, by the square of the ratio, down to a
 /// limit. Rigid alignment does not need this: its six parameters average over the whole body.

@@ -41,10 +41,10 @@ void addSecondDifferences(const SurfaceSamples& surface, const std::vector<Depth
 }  // namespace
 
 DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vector<DepthBlock>& blocks,
-                                  double focal_px, std::vector<double>* memory) {
+                                  double focal_px) {
   const int spacing = (kMinSpacing_px + surface.block_px - 1) / surface.block_px;  // in blocks
-  std::vector<double>& differences = *memory;
-  differences.clear();
+  std::vector<double> differences;
+  differences.reserve(2 * blocks.size());
   addSecondDifferences(surface, blocks, {spacing, 0}, &differences);
   addSecondDifferences(surface, blocks, {0, spacing}, &differences);
   // Of white noise, a second difference has six times the variance. The median resists outliers.

@@ -18,9 +18,8 @@ struct DepthNoiseSample {
 /// Measures the noise by the second differences of depth over three blocks in a row or column. An offset or a
 /// tilt of the prediction does not change them. A bend that the prediction lacks adds an error that grows
 /// with the square of the distance between the blocks.
-/// @param memory scratch memory, reused from call to call.
 DepthNoiseSample sampleDepthNoise(const SurfaceSamples& surface, const std::vector<DepthBlock>& blocks,
-                                  double focal_px, std::vector<double>* memory);
+                                  double focal_px);
 
 /// Estimates the noise of depth over many frames, because a frame that shows little of the body measures it
 /// badly. If the errors of the blocks are independent, the mean depth over a patch has a standard deviation

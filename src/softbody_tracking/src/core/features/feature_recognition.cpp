@@ -85,9 +85,8 @@ std::vector<const PointPair*> agreeing(const std::vector<PointPair>& pairs, cons
 }  // namespace
 
 std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vector<MapFeature>& features,
-                                          const std::vector<Keypoint>& keypoints,
-                                          const PredictedSurface& surface, const Points& vertices,
-                                          int max_hamming_distance) {
+                                          const std::vector<Keypoint>& keypoints, const SurfaceModel& model,
+                                          const Points& vertices, int max_hamming_distance) {
   std::vector<PointPair> pairs;
   const std::vector<const MapFeature*> owners = ownersOf(keypoints, features, max_hamming_distance);
   for (std::size_t k = 0; k < keypoints.size(); ++k) {
@@ -96,8 +95,8 @@ std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vec
     const double z = featureDepth(frame.depth, pixel);
     if (z <= 0.0) continue;
     const MaterialPoint& place = owners[k]->place;
-    pairs.push_back({positionOf(place, vertices, surface.volume().tets),
-                     frame.camera.unproject(pixel.x, pixel.y, z), surface.pieceOf(place)});
+    pairs.push_back({positionOf(place, vertices, model.volume().tets),
+                     frame.camera.unproject(pixel.x, pixel.y, z), model.pieceOf(place)});
   }
   return pairs;
 }
@@ -132,7 +131,7 @@ std::vector<Points> recognizedPieces(const std::vector<PointPair>& pairs, const 
   std::vector<Points> found(wanted.size());
   for (std::size_t piece = 0; piece < wanted.size(); ++piece) {
     if (!wanted[piece]) continue;
-    const std::vector<int>& vertices = surface.pieces()[piece];
+    const std::vector<int>& vertices = surface.model().pieces()[piece];
     const Points rest = surface.volume().rest_vertices(vertices, Eigen::all);
     const auto motion = recognizedMotion(of_piece[piece], recognitionTolerance(rest));
     if (!motion) continue;

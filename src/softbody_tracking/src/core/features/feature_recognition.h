@@ -18,9 +18,8 @@ struct PointPair {
 /// Pairs keypoints of the whole image with the known features that look most like them, one to one.
 /// @param vertices of the volume, as expected. @param max_hamming_distance between descriptors, of 256 bits.
 std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vector<MapFeature>& features,
-                                          const std::vector<Keypoint>& keypoints,
-                                          const PredictedSurface& surface, const Points& vertices,
-                                          int max_hamming_distance);
+                                          const std::vector<Keypoint>& keypoints, const SurfaceModel& model,
+                                          const Points& vertices, int max_hamming_distance);
 
 /// Largest error of a correct pair after a rigid motion [m]. It is not 0, because the piece is deformed and
 /// depth is noisy.

@@ -77,7 +77,7 @@ OrbExtractor::OrbExtractor()
                            kFastThreshold)) {}
 
 std::vector<cv::KeyPoint> OrbExtractor::detect(const cv::Mat3b& color, const cv::Mat1b& mask,
-                                               const cv::Rect& region) {
+                                               const cv::Rect& region) const {
   const cv::Rect wide = padded(region, color.size());
   if (isTooSmall(wide)) return {};
   std::vector<cv::KeyPoint> found;
@@ -87,7 +87,7 @@ std::vector<cv::KeyPoint> OrbExtractor::detect(const cv::Mat3b& color, const cv:
 }
 
 std::vector<Keypoint> OrbExtractor::describe(const cv::Mat3b& color, const cv::Rect& region,
-                                             std::vector<cv::KeyPoint> corners) {
+                                             std::vector<cv::KeyPoint> corners) const {
   const cv::Rect wide = padded(region, color.size());
   if (isTooSmall(wide) || corners.empty()) return {};
   shift(-wide.tl(), &corners);
@@ -103,7 +103,7 @@ std::vector<Keypoint> OrbExtractor::describe(const cv::Mat3b& color, const cv::R
 }
 
 std::vector<Keypoint> OrbExtractor::extract(const cv::Mat3b& color, const cv::Mat1b& mask,
-                                            const cv::Rect& region) {
+                                            const cv::Rect& region) const {
   return describe(color, region, detect(color, mask, region));
 }
 

@@ -26,14 +26,15 @@ class OrbExtractor {
 
   /// Keypoints, sorted by rank within their scale: responses of different scales are not comparable.
   /// @param mask of the image's size; no keypoint where it is 0.
-  std::vector<cv::KeyPoint> detect(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
+  std::vector<cv::KeyPoint> detect(const cv::Mat3b& color, const cv::Mat1b& mask,
+                                   const cv::Rect& region) const;
 
   /// Adds descriptors; the finest scale comes first. @param corners some results of detect() for this region.
   std::vector<Keypoint> describe(const cv::Mat3b& color, const cv::Rect& region,
-                                 std::vector<cv::KeyPoint> corners);
+                                 std::vector<cv::KeyPoint> corners) const;
 
   /// All results of detect() with descriptors.
-  std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region);
+  std::vector<Keypoint> extract(const cv::Mat3b& color, const cv::Mat1b& mask, const cv::Rect& region) const;
 
  private:
   cv::Ptr<cv::ORB> orb_;

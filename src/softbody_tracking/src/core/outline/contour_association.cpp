@@ -21,7 +21,7 @@ ContourGrid contourGrid(const RasterImage& image) {
 
 Association contourAssociation(const Pinhole& camera, const ContourSample& sample,
                                const Eigen::Vector3d& predicted, const ContourPosterior& end,
-                               const ContourWeight& weight) {
+                               const ContourWeight& weight, int spacing_px) {
   Association association;
   association.place = sample.place;
   association.piece = sample.piece;
@@ -33,8 +33,8 @@ Association contourAssociation(const Pinhole& camera, const ContourSample& sampl
   association.normal = association.measured.cross(along).normalized();
   const double pixel_m = predicted.z() / camera.fx;
   const double precision = kUnitDeviation * kUnitDeviation / (end.variance * pixel_m * pixel_m);
-  association.weight = std::min(weight.per_edge * precision * weight.spacing_px * pixel_m / weight.edge_m,
-                                kLargestTargetWeight);
+  association.weight =
+      std::min(weight.per_edge * precision * spacing_px * pixel_m / weight.edge_m, kLargestTargetWeight);
   return association;
 }
 

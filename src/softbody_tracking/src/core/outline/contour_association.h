@@ -33,15 +33,14 @@ constexpr double kSurfaceEnds = 0.02;
 
 /// How much contours count.
 struct ContourWeight {
-  double per_edge;    ///< of a contour that is one mean edge of the tets long and precise to 1 mm
-  double edge_m;      ///< mean edge of the tets
-  double spacing_px;  ///< between neighbouring samples
+  double per_edge;  ///< of a contour that is one mean edge of the tets long and precise to 1 mm
+  double edge_m;    ///< mean edge of the tets
 };
 
 /// Only the distance across the contour in the image counts. @param predicted position of the sample, camera
-/// frame [m]. @param end on the line across the sample.
+/// frame [m]. @param end on the line across the sample. @param spacing_px between neighbouring samples.
 Association contourAssociation(const Pinhole& camera, const ContourSample& sample,
                                const Eigen::Vector3d& predicted, const ContourPosterior& end,
-                               const ContourWeight& weight);
+                               const ContourWeight& weight, int spacing_px);
 
 }  // namespace softbody

@@ -56,32 +56,24 @@ struct SideColors {
   }
 };
 
-}  // namespace
-
-void CreaseAssociator::sample(const PredictedSurface& surface) {
-  samples_.clear();
-  if (config_.weight <= 0.0 || !surface.hasCreases()) return;
-  const auto [region, spacing] = contourGrid(surface.image());
-  spacing_px_ = spacing;
-  for (int v = region.y + spacing / 2; v < region.br().y; v += spacing) {
-    for (int u = region.x + 1; u < region.br().x; ++u) addSample(surface, {u - 1, v}, {u, v});
-  }
-  for (int v = region.y + 1; v < region.br().y; ++v) {
-    for (int u = region.x + spacing / 2; u < region.br().x; u += spacing)
-      addSample(surface, {u, v - 1}, {u, v});
-  }
-}
+/// The pixels on a line across a crease.
+struct CreaseLine {
+  std::vector<double> distances;       ///< from the predicted crease [px]
+  std::vector<Eigen::Array3d> colors;  ///< of the same pixels
+};
 
 /// Adds the crease between two neighbouring pixels, if there is one. A crease whose normal is nearer to the
 /// other direction of the pixel grid is sampled in that direction.
-void CreaseAssociator::addSample(const PredictedSurface& surface, const cv::Point& a, const cv::Point& b) {
+void addSample(const PredictedSurface& surface, const cv::Point& a, const cv::Point& b,
+               std::vector<CreaseSample>* samples) {
   const RasterImage& image = surface.image();
   const int triangle_a = image.triangle(a), triangle_b = image.triangle(b);
   if (triangle_a == triangle_b || triangle_a < 0 || triangle_b < 0) return;
-  if (!surface.isAtCrease(triangle_a) || !surface.isAtCrease(triangle_b)) return;
+  if (!surface.model().isAtCrease(triangle_a) || !surface.model().isAtCrease(triangle_b)) return;
   if (std::abs(image.depth(a) - image.depth(b)) > kSurfaceEnds) return;
   const Eigen::Vector3d n_a = surface.normal(triangle_a), n_b = surface.normal(triangle_b);
-  if (n_a.dot(n_b) > kSharp || surface.isAtCut(triangle_a) || surface.isAtCut(triangle_b)) return;
+  if (n_a.dot(n_b) > kSharp || surface.model().isAtCut(triangle_a) || surface.model().isAtCut(triangle_b))
+    return;
   const Eigen::Vector3d p_a = surface.camera().unproject(a.x, a.y, image.depth(a));
   const Eigen::Vector3d p_b = surface.camera().unproject(b.x, b.y, image.depth(b));
   const auto meet = meetingLine(surface.camera(), a, n_a, p_a, n_b, p_b);
@@ -89,7 +81,7 @@ void CreaseAssociator::addSample(const PredictedSurface& surface, const cv::Poin
   const Eigen::Vector2d step(b.x - a.x, b.y - a.y);
   const double sign = meet->across.dot(step) < 0.0 ? -1.0 : 1.0;
   if (sign * meet->across.dot(step) < std::sqrt(0.5) || std::abs(meet->distance) > 1.5) return;
-  Crease crease;
+  CreaseSample crease;
   crease.pixel = a;
   crease.outward = sign * meet->across;
   crease.to_edge = sign * meet->distance;
@@ -98,15 +90,15 @@ void CreaseAssociator::addSample(const PredictedSurface& surface, const cv::Poin
   crease.position = p_a;
   crease.before = n_a;
   crease.behind = n_b;
-  samples_.push_back(crease);
+  samples->push_back(crease);
 }
 
 /// The pixels on the line across a crease, as far as the prediction shows the two sides and depth agrees.
 /// @return false if the crease is covered, or not in the image.
-bool CreaseAssociator::collect(const RgbdFrame& frame, const PredictedSurface& surface, const Crease& crease,
-                               const Eigen::Vector3d& moved) {
-  distances_.clear();
-  colors_.clear();
+bool collect(const RgbdFrame& frame, const PredictedSurface& surface, const CreaseSample& crease,
+             const Eigen::Vector3d& moved, CreaseLine* line) {
+  line->distances.clear();
+  line->colors.clear();
   const RasterImage& image = surface.image();
   const Eigen::Vector2d start = frame.camera.project(moved), rendered_start(crease.pixel.x, crease.pixel.y);
   const cv::Rect inside(cv::Point(), image.depth.size());
@@ -133,24 +125,45 @@ bool CreaseAssociator::collect(const RgbdFrame& frame, const PredictedSurface& s
   for (int step = first; step <= last; ++step) {
     usable(step, &pixel);
     const double distance = (Eigen::Vector2d(pixel.x, pixel.y) - start).dot(crease.outward) - crease.to_edge;
-    if (!distances_.empty() && distance <= distances_.back()) continue;
+    if (!line->distances.empty() && distance <= line->distances.back()) continue;
     const cv::Vec3b& color = frame.color(pixel);
-    distances_.push_back(distance);
-    colors_.emplace_back(color[0], color[1], color[2]);
+    line->distances.push_back(distance);
+    line->colors.emplace_back(color[0], color[1], color[2]);
   }
   return true;
 }
 
-void CreaseAssociator::associate(const RgbdFrame& frame, const PredictedSurface& surface,
-                                 const RigidMotions& motions, std::vector<Association>* associations) {
-  const ContourWeight weight{config_.weight, volume_edge_m_, spacing_px_};
-  for (const Crease& crease : samples_) {
+}  // namespace
+
+CreaseSamples sampleCreases(const PredictedSurface& surface) {
+  CreaseSamples result;
+  if (!surface.model().hasCreases()) return result;
+  const auto [region, spacing] = contourGrid(surface.image());
+  result.spacing_px = spacing;
+  for (int v = region.y + spacing / 2; v < region.br().y; v += spacing) {
+    for (int u = region.x + 1; u < region.br().x; ++u)
+      addSample(surface, {u - 1, v}, {u, v}, &result.samples);
+  }
+  for (int v = region.y + 1; v < region.br().y; ++v) {
+    for (int u = region.x + spacing / 2; u < region.br().x; u += spacing)
+      addSample(surface, {u, v - 1}, {u, v}, &result.samples);
+  }
+  return result;
+}
+
+std::vector<Association> associateCreases(const RgbdFrame& frame, const PredictedSurface& surface,
+                                          const CreaseSamples& samples, const RigidMotions& motions,
+                                          const ContourWeight& weight) {
+  std::vector<Association> associations;
+  CreaseLine line;
+  std::vector<LinePixel> pixels;
+  for (const CreaseSample& crease : samples.samples) {
     const Eigen::Vector3d moved = motions[crease.piece] * crease.position;
-    if (!(moved.z() > 0.0) || !collect(frame, surface, crease, moved)) continue;
+    if (!(moved.z() > 0.0) || !collect(frame, surface, crease, moved, &line)) continue;
     SideColors before, behind;
-    for (std::size_t i = 0; i < distances_.size(); ++i) {
-      if (distances_[i] < -0.5 * kCreaseReach) before.add(colors_[i]);
-      if (distances_[i] > 0.5 * kCreaseReach) behind.add(colors_[i]);
+    for (std::size_t i = 0; i < line.distances.size(); ++i) {
+      if (line.distances[i] < -0.5 * kCreaseReach) before.add(line.colors[i]);
+      if (line.distances[i] > 0.5 * kCreaseReach) behind.add(line.colors[i]);
     }
     if (before.count < kFewestOfSide || behind.count < kFewestOfSide) continue;
     before.finish();
@@ -158,17 +171,18 @@ void CreaseAssociator::associate(const RgbdFrame& frame, const PredictedSurface&
     const Eigen::Array3d variance =
         kGreyNoise * kGreyNoise + kTextureLength * 0.5 * (before.squares + behind.squares);
     if (((before.mean - behind.mean).square() / variance).sum() < kContrast * kContrast) continue;
-    line_.clear();
-    for (std::size_t i = 0; i < distances_.size(); ++i) {
-      if (std::abs(distances_[i]) > kCreaseReach) continue;
-      const Eigen::Array3d to_before = colors_[i] - before.mean, to_behind = colors_[i] - behind.mean;
+    pixels.clear();
+    for (std::size_t i = 0; i < line.distances.size(); ++i) {
+      if (std::abs(line.distances[i]) > kCreaseReach) continue;
+      const Eigen::Array3d to_before = line.colors[i] - before.mean, to_behind = line.colors[i] - behind.mean;
       const double log_odds = ((to_behind.square() - to_before.square()) / (2.0 * variance)).sum();
-      line_.push_back({distances_[i], std::clamp(log_odds, -kPixelLimit, kPixelLimit)});
+      pixels.push_back({line.distances[i], std::clamp(log_odds, -kPixelLimit, kPixelLimit)});
     }
-    const ContourPosterior end = contourPosterior(line_);
+    const ContourPosterior end = contourPosterior(pixels);
     if (end.beyond || end.variance > kLargestCreaseDeviation * kLargestCreaseDeviation) continue;
-    associations->push_back(contourAssociation(frame.camera, crease, moved, end, weight));
+    associations.push_back(contourAssociation(frame.camera, crease, moved, end, weight, samples.spacing_px));
   }
+  return associations;
 }
 
 }  // namespace softbody

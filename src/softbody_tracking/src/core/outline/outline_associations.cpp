@@ -49,60 +49,60 @@ std::optional<OutlineEdge> edgeAt(const cv::Mat1f& rendered, const cv::Point& pi
   return OutlineEdge{outward, std::clamp(distance, 0.0, 1.0)};
 }
 
+/// Skips cuts, where two pieces touch and no outline shows. Also skips places whose normal is nearer to the
+/// other direction of the pixel grid: they are sampled in that direction.
+void addSample(const PredictedSurface& surface, const cv::Point& pixel, const cv::Point& across,
+               std::vector<ContourSample>* samples) {
+  const RasterImage& image = surface.image();
+  const std::optional<OutlineEdge> edge = edgeAt(image.depth, pixel);
+  if (!edge || edge->outward.dot(Eigen::Vector2d(across.x, across.y)) < std::sqrt(0.5)) return;
+  const int triangle = image.triangle(pixel);
+  if (surface.model().isAtCut(triangle)) return;
+  const MaterialPoint place = surface.materialPoint(triangle, pixel);
+  samples->push_back({pixel, edge->outward, edge->distance, place, surface.pieceOf(place),
+                      surface.camera().unproject(pixel.x, pixel.y, image.depth(pixel))});
+}
+
+void addEnds(const PredictedSurface& surface, const cv::Point& a, const cv::Point& b,
+             std::vector<ContourSample>* samples) {
+  const cv::Mat1f& rendered = surface.image().depth;
+  const float depth_a = rendered(a), depth_b = rendered(b);
+  if (endsAt(depth_a, depth_b)) addSample(surface, a, b - a, samples);
+  if (endsAt(depth_b, depth_a)) addSample(surface, b, a - b, samples);
+}
+
 }  // namespace
 
-void OutlineAssociator::sample(const PredictedSurface& surface) {
-  samples_.clear();
-  if (config_.weight <= 0.0) return;
+OutlineSamples sampleOutline(const PredictedSurface& surface) {
   const cv::Mat1f& rendered = surface.image().depth;
   const auto [region, spacing] = contourGrid(surface.image());
-  covered_px_ = std::max(1, cv::countNonZero(rendered(surface.image().region)));
-  spacing_px_ = spacing;
+  OutlineSamples result;
+  result.covered_px = std::max(1, cv::countNonZero(rendered(surface.image().region)));
+  result.spacing_px = spacing;
   // Rows of pixels cross the steep parts of the outline, columns cross the flat parts.
   for (int v = region.y + spacing / 2; v < region.br().y; v += spacing) {
     const float* row = rendered[v];
     for (int u = region.x; u <= region.br().x; ++u) {
-      if (isStep(row[u - 1], row[u])) addEnds(surface, {u - 1, v}, {u, v});
+      if (isStep(row[u - 1], row[u])) addEnds(surface, {u - 1, v}, {u, v}, &result.samples);
     }
   }
   for (int v = region.y; v <= region.br().y; ++v) {
     const float *above = rendered[v - 1], *row = rendered[v];
     for (int u = region.x + spacing / 2; u < region.br().x; u += spacing) {
-      if (isStep(above[u], row[u])) addEnds(surface, {u, v - 1}, {u, v});
+      if (isStep(above[u], row[u])) addEnds(surface, {u, v - 1}, {u, v}, &result.samples);
     }
   }
+  return result;
 }
 
-void OutlineAssociator::addEnds(const PredictedSurface& surface, const cv::Point& a, const cv::Point& b) {
-  const cv::Mat1f& rendered = surface.image().depth;
-  const float depth_a = rendered(a), depth_b = rendered(b);
-  if (endsAt(depth_a, depth_b)) addSample(surface, a, b - a);
-  if (endsAt(depth_b, depth_a)) addSample(surface, b, a - b);
-}
-
-/// Skips cuts, where two pieces touch and no outline shows. Also skips places whose normal is nearer to the
-/// other direction of the pixel grid: they are sampled in that direction.
-void OutlineAssociator::addSample(const PredictedSurface& surface, const cv::Point& pixel,
-                                  const cv::Point& across) {
-  const RasterImage& image = surface.image();
-  const std::optional<OutlineEdge> edge = edgeAt(image.depth, pixel);
-  if (!edge || edge->outward.dot(Eigen::Vector2d(across.x, across.y)) < std::sqrt(0.5)) return;
-  const int triangle = image.triangle(pixel);
-  if (surface.isAtCut(triangle)) return;
-  const MaterialPoint place = surface.materialPoint(triangle, pixel);
-  samples_.push_back({pixel, edge->outward, edge->distance, place, surface.pieceOf(place),
-                      surface.camera().unproject(pixel.x, pixel.y, image.depth(pixel))});
-}
-
-const OutlineAssociations& OutlineAssociator::associate(const RgbdFrame& frame, const RasterImage& image,
-                                                        const RigidMotions& motions,
-                                                        const RegionColors& colors) {
-  found_.associations.clear();
+OutlineAssociations associateOutline(const RgbdFrame& frame, const RasterImage& image,
+                                     const OutlineSamples& samples, const RigidMotions& motions,
+                                     const RegionColors& colors, const ContourWeight& weight) {
+  OutlineAssociations found;
   OutlineLine line(frame, image.depth, colors);
-  const ContourWeight weight{config_.weight, volume_edge_m_, static_cast<double>(spacing_px_)};
   double apart_px = 0.0;
   int shown = 0;
-  for (const ContourSample& sample : samples_) {
+  for (const ContourSample& sample : samples.samples) {
     const Eigen::Vector3d predicted = motions[sample.piece] * sample.position;
     if (!(predicted.z() > 0.0)) continue;
     const std::vector<LinePixel>& pixels = line.across(sample, predicted);
@@ -112,11 +112,12 @@ const OutlineAssociations& OutlineAssociator::associate(const RgbdFrame& frame, 
     ++shown;
     if (end.doubt > kContradiction) apart_px += end.beyond ? line.reach() : std::abs(end.mean);
     if (end.beyond || line.endsOtherPart(end.mean)) continue;
-    found_.associations.push_back(contourAssociation(frame.camera, sample, predicted, end, weight));
+    found.associations.push_back(
+        contourAssociation(frame.camera, sample, predicted, end, weight, samples.spacing_px));
   }
-  const double length_px = static_cast<double>(samples_.size()) * spacing_px_;
-  found_.disagreement = shown == 0 ? 0.0 : apart_px / shown * length_px / covered_px_;
-  return found_;
+  const double length_px = static_cast<double>(samples.samples.size()) * samples.spacing_px;
+  found.disagreement = shown == 0 ? 0.0 : apart_px / shown * length_px / samples.covered_px;
+  return found;
 }
 
 }  // namespace softbody

@@ -23,9 +23,9 @@ OutlineLine::OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, cons
   farther_by_.reserve(pixels_.capacity());
 }
 
-double OutlineLine::depthLogOdds(double measured, double predicted, double behind) const {
+double OutlineLine::depthLogOdds(double measured, double predicted, double behind) {
   const double log_odds = behind > 0.0 ? DepthEvidence::logOddsBefore(behind, measured, predicted)
-                                       : evidence_.logOdds(measured - predicted, predicted);
+                                       : DepthEvidence::logOdds(measured - predicted, predicted);
   return std::clamp(log_odds, -kDepthLimit, kDepthLimit);
 }
 

@@ -35,13 +35,12 @@ class OutlineLine {
  private:
   /// Log odds by depth alone. @param predicted of the body there [m]. @param behind depth of another part of
   /// the body that is predicted there, or 0.
-  double depthLogOdds(double measured, double predicted, double behind) const;
+  static double depthLogOdds(double measured, double predicted, double behind);
 
   const RgbdFrame& frame_;
   int reach_;
   const cv::Mat1f& rendered_;
   const RegionColors& colors_;
-  DepthEvidence evidence_;
   std::vector<LinePixel> pixels_;
   std::vector<double> farther_by_;  ///< of each pixel: measured minus predicted depth [m]; 0: not measured
 };

@@ -13,8 +13,9 @@ class GrayPyramid {
  public:
   static constexpr int kLevels = 3;  ///< full, half and quarter
 
-  /// Sets the frame. @param region is widened a little so that it halves evenly.
-  void build(const cv::Mat3b& color, const cv::Rect& region);
+  GrayPyramid() = default;  ///< of an empty region
+  /// @param region of the frame; it is widened a little so that it halves evenly.
+  GrayPyramid(const cv::Mat3b& color, const cv::Rect& region);
 
   /// The image at a level as RowPairs; empty for an empty region or a single row. A level is made when it is
   /// first used: most frames need only full resolution.
@@ -34,8 +35,7 @@ class GrayPyramid {
 
   cv::Point2f origin_;
   mutable std::array<Level, kLevels> levels_;
-  std::array<Level, kLevels> memory_;  ///< for a whole image, so that a frame allocates none
-  mutable int built_ = kLevels;        ///< levels of this frame
+  mutable int built_ = kLevels;  ///< number of levels that are made
 };
 
 }  // namespace softbody

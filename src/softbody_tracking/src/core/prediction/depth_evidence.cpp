@@ -33,10 +33,14 @@ double logOddsOf(double difference, double scale, double elsewhere) {
 
 }  // namespace
 
-DepthEvidence::DepthEvidence() : table_() {
+std::array<double, 2 * DepthEvidence::kHalf + 1> DepthEvidence::makeTable() {
+  std::array<double, 2 * kHalf + 1> table{};
   for (int i = 0; i <= 2 * kHalf; ++i)
-    table_[static_cast<std::size_t>(i)] = logOddsOf((i - kHalf) * kCell, 1.0, kAnywhere);
+    table[static_cast<std::size_t>(i)] = logOddsOf((i - kHalf) * kCell, 1.0, kAnywhere);
+  return table;
 }
+
+const std::array<double, 2 * DepthEvidence::kHalf + 1> DepthEvidence::kTable = makeTable();
 
 double DepthEvidence::logOddsBefore(double behind, double measured, double predicted) {
   const double scale = std::max(1.0, predicted);

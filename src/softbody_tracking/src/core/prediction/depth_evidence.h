@@ -12,14 +12,12 @@ constexpr double kBehindSurface = 0.01;
 /// anywhere within a metre, or touches the body like the table below it.
 class DepthEvidence {
  public:
-  DepthEvidence();
-
   /// Log odds of the body against everything else. @param difference measured minus predicted depth [m].
   /// @param predicted depth of the body [m]; beyond 1 m the deviation grows with the distance.
-  double logOdds(double difference, double predicted) const {
+  static double logOdds(double difference, double predicted) {
     const double scaled = predicted > 1.0 ? difference / predicted : difference;
     const auto cell = static_cast<int>(scaled / kCell + kZero);
-    return cell < 0 ? table_.front() : table_[static_cast<std::size_t>(cell < 2 * kHalf ? cell : 2 * kHalf)];
+    return cell < 0 ? kTable.front() : kTable[static_cast<std::size_t>(cell < 2 * kHalf ? cell : 2 * kHalf)];
   }
 
   /// The same where another part of the body is predicted behind. @param behind its depth [m].
@@ -32,7 +30,8 @@ class DepthEvidence {
   static constexpr int kHalf = 128;             // cells on each side
   static constexpr double kZero = kHalf + 0.5;  // the difference 0 is in the middle of cell kHalf
   static constexpr double kCell = 0.0005;       // [m]
-  std::array<double, 2 * kHalf + 1> table_;
+  static const std::array<double, 2 * kHalf + 1> kTable;
+  static std::array<double, 2 * kHalf + 1> makeTable();
 };
 
 }  // namespace softbody

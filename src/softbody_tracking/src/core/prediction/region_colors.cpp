@@ -57,7 +57,7 @@ void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, do
       const std::size_t color = bin(frame.color(v, u));
       const float predicted = rendered.depth(v, u), measured = frame.depth(v, u);
       const double odds = predicted > 0.0f && measured > 0.0f
-                              ? log_odds_[color] + evidence_.logOdds(measured - predicted, predicted)
+                              ? log_odds_[color] + DepthEvidence::logOdds(measured - predicted, predicted)
                               : 0.0;
       if (odds > 0.0 && isInside(rendered.depth, u, v)) {
         counts_of_body_[color] += 1.0f;

@@ -35,7 +35,6 @@ class RegionColors {
   }
   void blend(const std::vector<float>& counts, double elapsed_s, std::vector<float>* densities);
 
-  DepthEvidence evidence_;
   std::vector<float> body_, surroundings_;  ///< share of the pixels in each bin; empty before learn()
   std::vector<float> log_odds_, counts_of_body_, counts_around_;
 };

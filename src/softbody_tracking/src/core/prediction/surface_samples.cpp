@@ -14,15 +14,15 @@ int blockSize(const RasterImage& image, int wanted) {
 
 }  // namespace
 
-SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, SurfaceSamples memory) {
+SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted) {
   const RasterImage& image = surface.image();
   const cv::Rect& region = image.region;
-  SurfaceSamples result = std::move(memory);
-  result.samples.clear();
+  SurfaceSamples result;
   result.block_px = blockSize(image, wanted);
   const int size = result.block_px;
   result.grid.create((region.height + size - 1) / size, (region.width + size - 1) / size);
   result.grid.setTo(-1);
+  result.samples.reserve(result.grid.total());
   for (int row = 0; row < result.grid.rows; ++row) {
     for (int column = 0; column < result.grid.cols; ++column) {
       const cv::Point center(std::min(region.x + column * size + size / 2, region.br().x - 1),

@@ -22,9 +22,8 @@ struct SurfaceSamples {
   cv::Mat1i grid;  ///< index of a block's sample; -1: none
 };
 
-/// Samples the rendered surface. @param wanted approximate number. @param memory an earlier result, whose
-/// memory is used again.
-SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted, SurfaceSamples memory = {});
+/// Samples the rendered surface. @param wanted approximate number.
+SurfaceSamples sampleSurface(const PredictedSurface& surface, int wanted);
 
 /// Number of the volume's vertices with a sample in one of their tets.
 int shownVertices(const SurfaceSamples& samples, const TetTopology& volume);

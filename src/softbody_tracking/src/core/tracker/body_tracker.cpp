@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "alignment/measured_share.h"
+#include "alignment/rigid_alignment.h"
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
 #include "softbody_common/plausibility.h"
@@ -51,17 +52,17 @@ struct BodyTracker::Implementation {
   bool hasTopologies(const TetTopology& volume, const MeshTopology& surface) const;
   void reset();
 
-  const TetTopology& model() const { return observer->surface().volume(); }
+  const TetTopology& model() const { return observer->model().volume(); }
   std::uint32_t knownFeatures() const { return static_cast<std::uint32_t>(observer->features().size()); }
   bool isAnswer(const MeshState* volume) const;
   Points predict(const RgbdFrame& frame, const MeshState* answer);
-  std::vector<Association> associationsOf(const Observation& seen,
+  std::vector<Association> associationsOf(const ObservedBody& observed,
                                           const Eigen::Matrix3d& R_camera_fixed) const;
   TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations) const;
   TrackingStatus withSilence(TrackingStatus status) const;
-  TargetSet targetSetOf(const RgbdFrame& frame, const Observation& seen,
+  TargetSet targetSetOf(const RgbdFrame& frame, const ObservedBody& observed,
                         const std::vector<Association>& associations, const MeshState* answer) const;
-  void learnFeatures(const RgbdFrame& frame, const Observation& seen, const MeshState* answer);
+  void learnFeatures(const RgbdFrame& frame, const ObservedBody& observed, const MeshState* answer);
   TrackingResult waiting(const std::string& reason) const;
 
   TrackerConfig config;
@@ -141,11 +142,11 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   const MeshState* answer = !just_found && isAnswer(volume) ? volume : nullptr;
   if (answer != nullptr) last_answer = answer->observed;
   const Points predicted = transformed(predict(frame, answer), T_camera_fixed);
-  const Observation seen = observer->observe(frame, predicted);
-  relocalizer.setPose(frame.T_fixed_camera *
-                      fitRigid(model().rest_vertices, observer->surface().volumeVertices()));
-  const std::vector<Association> associations = associationsOf(seen, T_camera_fixed.linear());
-  measured = measuredShares(associations, observer->surface().pieceVertices(), frame.T_fixed_camera.linear());
+  const ObservedBody observed = observer->observe(frame, predicted);
+  const auto& [seen, surface, image] = observed;
+  relocalizer.setPose(frame.T_fixed_camera * fitRigid(model().rest_vertices, surface.volumeVertices()));
+  const std::vector<Association> associations = associationsOf(observed, T_camera_fixed.linear());
+  measured = measuredShares(associations, surface.pieceVertices(), frame.T_fixed_camera.linear());
 
   TrackingResult result;
   result.has_targets = true;
@@ -154,10 +155,11 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   relocalizer.noteLoss(state == TrackingState::kLost, stamp);
   if (state == TrackingState::kLost) prediction->reset();
   result.features = trackedFeatures(seen, observer->features(), T_camera_fixed);
-  result.targets = targetSetOf(frame, seen, associations, state == TrackingState::kLost ? nullptr : answer);
+  result.targets =
+      targetSetOf(frame, observed, associations, state == TrackingState::kLost ? nullptr : answer);
   result.targets.reset = answer == nullptr;
-  result.status = held.report(seen, observer->surface().piecesOfSurface(), stamp, std::move(result.status));
-  if (state == TrackingState::kTracking) learnFeatures(frame, seen, answer);
+  result.status = held.report(seen, surface.model().piecesOfSurface(), stamp, std::move(result.status));
+  if (state == TrackingState::kTracking) learnFeatures(frame, observed, answer);
   result.status.features_total = knownFeatures();
   return result;
 }
@@ -171,7 +173,7 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   } else {
     observer = std::make_unique<FrameObserver>(config, volume, surface);
   }
-  prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->surface().pieces());
+  prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->model().pieces());
   relocalizer.forgetMeshes();
   hold = std::make_unique<PositionPrior>(volume);
   measured.clear();
@@ -183,7 +185,7 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
 bool BodyTracker::Implementation::hasTopologies(const TetTopology& volume,
                                                 const MeshTopology& surface) const {
   if (observer == nullptr) return false;
-  const MeshTopology& known = observer->surface().topology();
+  const MeshTopology& known = observer->model().surface();
   return volume.revision == model().revision && sameMatrix(volume.rest_vertices, model().rest_vertices) &&
          sameMatrix(volume.tets, model().tets) && sameMatrix(surface.rest_vertices, known.rest_vertices) &&
          sameMatrix(surface.triangles, known.triangles);
@@ -216,9 +218,10 @@ Points BodyTracker::Implementation::predict(const RgbdFrame& frame, const MeshSt
 }
 
 std::vector<Association> BodyTracker::Implementation::associationsOf(
-    const Observation& seen, const Eigen::Matrix3d& R_camera_fixed) const {
+    const ObservedBody& observed, const Eigen::Matrix3d& R_camera_fixed) const {
+  const Observation& seen = observed.seen;
   if (config.knn_targets)
-    return knn.associations(observer->features(), seen.matches, observer->surface(), R_camera_fixed);
+    return knn.associations(observer->features(), seen.matches, observed.surface, R_camera_fixed);
   std::vector<Association> associations = inliers(seen.matches);
   if (config.use_depth) {
     associations.reserve(associations.size() + seen.depth.associations.size() +
@@ -266,7 +269,7 @@ TrackingStatus BodyTracker::Implementation::withSilence(TrackingStatus status) c
 
 /// @param answer state of the volume in which pieces without measurements are held; nullptr: no piece is
 /// held.
-TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const Observation& seen,
+TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const ObservedBody& observed,
                                                    const std::vector<Association>& associations,
                                                    const MeshState* answer) const {
   TargetSet set;
@@ -274,22 +277,22 @@ TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const
   set.body_pose = relocalizer.pose();
   set.targets = targetsOf(associations, frame.T_fixed_camera);
   if (answer == nullptr) return set;
-  const PredictedSurface& surface = observer->surface();
-  addHeldPieces(seen, surface.pieces(), answer->vertices,
+  const PredictedSurface& surface = observed.surface;
+  addHeldPieces(observed.seen, surface.model().pieces(), answer->vertices,
                 transformed(surface.volumeVertices(), frame.T_fixed_camera), *hold, &set.targets);
   return set;
 }
 
 /// @param answer state of the volume before the frame, or nullptr. The KNN weights are bound once, in the
 /// frame with the first features.
-void BodyTracker::Implementation::learnFeatures(const RgbdFrame& frame, const Observation& seen,
+void BodyTracker::Implementation::learnFeatures(const RgbdFrame& frame, const ObservedBody& observed,
                                                 const MeshState* answer) {
   const bool first = observer->features().empty();
   const std::vector<float> unknown;
-  observer->learnFeatures(frame, seen, answer != nullptr ? answer->standard_deviation : unknown);
+  observer->learnFeatures(frame, observed, answer != nullptr ? answer->standard_deviation : unknown);
   if (!first) return;
   knn.bind(observer->features(), model(),
-           transformed(observer->surface().volumeVertices(), frame.T_fixed_camera));
+           transformed(observed.surface.volumeVertices(), frame.T_fixed_camera));
 }
 
 }  // namespace softbody

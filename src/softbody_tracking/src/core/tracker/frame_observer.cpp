@@ -4,23 +4,30 @@
 #include <limits>
 #include <utility>
 
+#include "alignment/rigid_alignment.h"
 #include "features/feature_weights.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/time.h"
 
 namespace softbody {
+
 FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& volume,
                              const MeshTopology& surface)
     : config_(config),
-      prediction_(config, volume, surface),
+      model_(std::make_shared<SurfaceModel>(volume, surface)),
+      view_settings_(config),
+      weights_(config, volume),
       map_(config.features),
-      follower_(config),
+      finder_(config),
+      guesses_(config),
       admission_(config.features) {}
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
-  map_.rebind(prediction_.surface().volume(), volume);
-  prediction_ = RenderedPrediction(config_, volume, surface);
-  follower_.forgetPieces();
+  map_.rebind(model_->volume(), volume);
+  model_ = std::make_shared<SurfaceModel>(volume, surface);
+  weights_ = MeasurementWeights(config_, volume);
+  usual_error_ = {};
+  guesses_.forgetPieces();
   admission_.bodyEdited();
   tracked_before_.clear();
 }
@@ -30,80 +37,88 @@ void FrameObserver::reset() {
   map_.reset();
   colors_.reset();
   depth_noise_ = {};
-  follower_.reset();
+  usual_error_ = {};
+  guesses_.reset();
   admission_.reset();
   tracked_before_.clear();
-  prediction_.forgetError();
 }
 
-Observation FrameObserver::observe(const RgbdFrame& frame, const Points& predicted) {
+ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predicted) {
   elapsed_s_ = last_stamp_ ? seconds(frame.stamp - *last_stamp_) : std::numeric_limits<double>::infinity();
   last_stamp_ = frame.stamp;
-  prediction_.render(frame.camera, predicted);
-  if (!colors_.learned())
-    colors_.learn(frame.color, agreeingPixels(prediction_.surface().image().depth, frame.depth));
-  if (!colors_.region().learned()) colors_.learnRegion(frame, prediction_.surface().image(), elapsed_s_);
-  FollowedFeatures features = follower_.follow(followedBody(frame), &prediction_);
-  const double visible_vertices = shownVertices(prediction_.samples(), prediction_.surface().volume()) *
-                                  features.expected.unoccludedShare();
-  weighByAgreement(&features.found.matches);
-  weighByDensity(visible_vertices, &features.found.matches);
-  const RigidMotions motions = prediction_.align(frame, colors_, features.found.matches);
-  Observation seen = measure(frame, motions, std::move(features));
+  View prediction = render(model_, frame.camera, predicted, view_settings_, &memory_);
+  learnFirstColors(frame, prediction.surface.image());
+  Guess guess =
+      guesses_.best({model_, view_settings_, weights_, usual_error_.meters(), soughtIn(frame), &memory_},
+                    std::move(prediction));
+  const double visible_vertices =
+      shownVertices(guess.view.samples, model_->volume()) * guess.features.expected.unoccludedShare();
+  std::vector<FeatureMatch>& matches = guess.features.found.matches;
+  weighByAgreement(&matches);
+  weighByDensity(visible_vertices, &matches);
+  const RigidMotions motions =
+      alignRigidly(frame, guess.view, colors_.region(), matches, weights_, usual_error_.meters());
+  const GrayPyramid image = guess.features.image;
+  Observation seen = measure(frame, guess.view, motions, std::move(guess.features));
   seen.visible_vertices = visible_vertices;
   tracked_before_ = seen.atLeast(Observability::kPartial);
   map_.score(seen.expected, seen.matches, tracked_before_, elapsed_s_);
-  colors_.learnRegion(frame, prediction_.surface().image(), elapsed_s_);
-  prediction_.move(motions);
-  prediction_.learnError(predicted, elapsed_s_);
+  colors_.learnRegion(frame, guess.view.surface.image(), elapsed_s_);
+  PredictedSurface surface = moved(std::move(guess.view.surface), motions);
+  usual_error_.learn(predicted, surface.volumeVertices(), elapsed_s_);
   for (FeatureMatch& match : seen.matches)
     match.association.predicted = motions[match.association.piece] * match.association.predicted;
-  return seen;
+  return {std::move(seen), std::move(surface), image};
 }
 
-/// Depth and outline of the prediction after the motions, beside its features.
-Observation FrameObserver::measure(const RgbdFrame& frame, const RigidMotions& motions,
-                                   FollowedFeatures features) {
+void FrameObserver::learnFirstColors(const RgbdFrame& frame, const RasterImage& rendered) {
+  if (!colors_.learned()) colors_.learn(frame.color, agreeingPixels(rendered.depth, frame.depth));
+  if (!colors_.region().learned()) colors_.learnRegion(frame, rendered, elapsed_s_);
+}
+
+/// Depth and contours of the view after the motions, beside its features.
+Observation FrameObserver::measure(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
+                                   FoundFeatures features) {
   Observation seen;
   seen.matches = std::move(features.found.matches);
   seen.missed = std::move(features.found.missed);
   seen.expected = std::move(features.expected);
-  seen.depth = prediction_.associateDepth(frame, motions, colors_);
+  seen.depth = depthOf(frame, view, motions, colors_.region(), weights_);
   depth_noise_.update(seen.depth.noise, elapsed_s_);
-  const double edge_m = prediction_.volumeEdge();
+  const double edge_m = weights_.depth.edge_m;
   downweightByNoise(depth_noise_.patchStdDev(edge_m) / edge_m, &seen.depth);
-  seen.outline = prediction_.associateOutline(frame, motions, colors_);
+  seen.outline = contoursOf(frame, view, motions, colors_.region(), weights_);
   weighByResidual(kContourScale, &seen.outline.associations);
-  return restrictedToObservable(std::move(seen), prediction_.samples(),
-                                prediction_.surface().pieceVertices());
+  return restrictedToObservable(std::move(seen), view.samples, view.surface.pieceVertices());
 }
 
 /// Pieces that were held in the last frame are not expected in their places. Without any other, all are.
-FollowedBody FrameObserver::followedBody(const RgbdFrame& frame) const {
+SoughtFeatures FrameObserver::soughtIn(const RgbdFrame& frame) const {
   const bool any = std::find(tracked_before_.begin(), tracked_before_.end(), true) != tracked_before_.end();
   return {frame, map_.features(), colors_,
-          any ? tracked_before_ : std::vector<bool>(prediction_.surface().pieceCount(), true)};
+          any ? tracked_before_ : std::vector<bool>(model_->pieceCount(), true)};
 }
 
-void FrameObserver::learnFeatures(const RgbdFrame& frame, const Observation& seen,
+void FrameObserver::learnFeatures(const RgbdFrame& frame, const ObservedBody& observed,
                                   const std::vector<float>& deviations) {
   admission_.admit(
-      {frame, seen, prediction_.surface(), colors_, follower_.image(), deviations, prediction_.volumeEdge()},
+      {frame, observed.seen, observed.surface, colors_, observed.image, deviations, weights_.depth.edge_m},
       &map_);
   map_.retire();
 }
 
-std::optional<Eigen::Isometry3d> FrameObserver::recognizePose(const RgbdFrame& frame) {
+std::optional<Eigen::Isometry3d> FrameObserver::recognizePose(const RgbdFrame& frame) const {
   if (map_.features().empty()) return std::nullopt;
-  const PredictedSurface& surface = prediction_.surface();
-  const Points& rest = surface.volume().rest_vertices;
-  return recognizedMotion(follower_.recognize(followedBody(frame), surface, rest),
-                          recognitionTolerance(rest));
+  const Points& rest = model_->volume().rest_vertices;
+  return recognizedMotion(finder_.recognize(soughtIn(frame), *model_, rest), recognitionTolerance(rest));
 }
 
-double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) {
-  const Points vertices = transformed(prediction_.surface().volume().rest_vertices, pose);
-  const FollowedFeatures features = follower_.alignAt(vertices, followedBody(frame), &prediction_);
+double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) const {
+  RasterMemory memory;
+  const View view = render(model_, frame.camera, transformed(model_->volume().rest_vertices, pose),
+                           view_settings_, &memory);
+  const SoughtFeatures sought = soughtIn(frame);
+  const FoundFeatures features = finder_.findAll(sought, finder_.expect(sought, view.surface));
   const int expected = features.expected.count();
   if (expected < kFewestExpectedFeatures) return -1.0;
   return static_cast<double>(features.found.matches.size()) / expected;

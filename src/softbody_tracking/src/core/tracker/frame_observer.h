@@ -1,16 +1,26 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "features/feature_map.h"
 #include "prediction/color_model.h"
+#include "prediction/usual_error.h"
 #include "tracker/feature_admission.h"
-#include "tracker/feature_follower.h"
+#include "tracker/feature_finder.h"
+#include "tracker/guesses.h"
 #include "tracker/observation.h"
-#include "tracker/rendered_prediction.h"
+#include "view/view_measurements.h"
 
 namespace softbody {
+
+/// What a frame shows of the body.
+struct ObservedBody {
+  Observation seen;
+  PredictedSurface surface;  ///< the best guess, aligned rigidly with the frame
+  GrayPyramid image;         ///< grey image of the frame around it
+};
 
 /// Measures one body in each frame, starting from its predicted place: features, depth and outline. Keeps
 /// what it learns: the body's features and colours, and the noise of depth.
@@ -21,23 +31,22 @@ class FrameObserver {
   /// Continues with the edited body. What was learned is kept.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
 
-  /// @param predicted vertices of the volume, camera frame [m]. Afterwards surface() is the prediction,
-  /// aligned rigidly with the frame.
-  Observation observe(const RgbdFrame& frame, const Points& predicted);
+  /// @param predicted vertices of the volume, camera frame [m].
+  ObservedBody observe(const RgbdFrame& frame, const Points& predicted);
 
-  /// Learns new features from the frame last observed, and drops unreliable ones.
+  /// Learns new features from an observed frame, and drops unreliable ones.
   /// @param deviations of the volume's vertices [m]; empty: not estimated.
-  void learnFeatures(const RgbdFrame& frame, const Observation& seen,
+  void learnFeatures(const RgbdFrame& frame, const ObservedBody& observed,
                      const std::vector<float>& deviations = {});
 
   /// Pose of the undeformed body at which its features are recognised in the whole frame.
-  std::optional<Eigen::Isometry3d> recognizePose(const RgbdFrame& frame);
+  std::optional<Eigen::Isometry3d> recognizePose(const RgbdFrame& frame) const;
 
   /// Share of the expected features that the frame shows at a pose of the undeformed body; -1 if too few are
   /// expected.
-  double featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose);
+  double featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) const;
 
-  const PredictedSurface& surface() const { return prediction_.surface(); }
+  const SurfaceModel& model() const { return *model_; }
   const std::vector<MapFeature>& features() const { return map_.features(); }
   const ColorModel& colors() const { return colors_; }
 
@@ -45,17 +54,24 @@ class FrameObserver {
   void reset();
 
  private:
-  FollowedBody followedBody(const RgbdFrame& frame) const;
-  Observation measure(const RgbdFrame& frame, const RigidMotions& motions, FollowedFeatures features);
+  SoughtFeatures soughtIn(const RgbdFrame& frame) const;
+  void learnFirstColors(const RgbdFrame& frame, const RasterImage& rendered);
+  Observation measure(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
+                      FoundFeatures features);
 
   TrackerConfig config_;
   std::optional<Nanoseconds> last_stamp_;
   double elapsed_s_ = 0.0;  ///< from the frame before to the last one; infinite for the first
-  RenderedPrediction prediction_;
+  std::shared_ptr<const SurfaceModel> model_;
+  ViewSettings view_settings_;
+  MeasurementWeights weights_;
+  RasterMemory memory_;
   DepthNoiseEstimator depth_noise_;
+  UsualError usual_error_;
   FeatureMap map_;
   ColorModel colors_;
-  FeatureFollower follower_;
+  FeatureFinder finder_;
+  Guesses guesses_;
   FeatureAdmission admission_;
   std::vector<bool>
       tracked_before_;  ///< per piece: at least partial observability in the last frame; empty: all

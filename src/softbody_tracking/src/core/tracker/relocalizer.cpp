@@ -30,7 +30,7 @@ void Relocalizer::startNear(const Eigen::Isometry3d& rough_pose) {
 }
 
 Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer) {
-  if (first_frame_) takeInitialPose(frame, observer->surface().volume());
+  if (first_frame_) takeInitialPose(frame, observer->model().volume());
   if (lost_since_ && frame.stamp - *lost_since_ >= kLongestGap) {
     tracked_ = false;
     recovering_ = true;
@@ -83,8 +83,7 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   if (!rough) return std::nullopt;
   feature_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
-  const PoseHypothesis found =
-      searchNearPose(frame, meshesOf(observer->surface().topology()), *rough, config_);
+  const PoseHypothesis found = searchNearPose(frame, meshesOf(observer->model().surface()), *rough, config_);
   // Features distinguish poses that are alike in depth.
   if (found.cost > kDeformedCost || !confirms(observer->featureShare(frame, found.pose))) return std::nullopt;
   return FoundPose{found.pose, 1};
@@ -95,7 +94,7 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   if (!depth_search_.isDue(frame.stamp)) return std::nullopt;
   depth_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
-  const SearchMeshes& meshes = meshesOf(observer->surface().topology());
+  const SearchMeshes& meshes = meshesOf(observer->model().surface());
   const SearchOutcome outcome = searchByDepthNow(frame, meshes, observer);
   if (!outcome.found) report_ = explained(frame, meshes, *observer, outcome.best);
   return outcome.found;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "features/map_feature.h"
-#include "softbody_tracking/tracker/body_tracker.h"
+#include "softbody_tracking/tracker/tracking_result.h"
 #include "targets/position_prior.h"
 #include "tracker/observation.h"
 

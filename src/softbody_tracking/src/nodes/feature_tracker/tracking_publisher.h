@@ -8,7 +8,7 @@
 #include <string>
 
 #include "softbody_common/stage_timer.h"
-#include "softbody_tracking/tracker/body_tracker.h"
+#include "softbody_tracking/tracker/tracking_result.h"
 
 namespace softbody {
 

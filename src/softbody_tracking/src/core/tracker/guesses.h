@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tracker/backoff.h"
+#include "tracker/feature_finder.h"
+#include "tracker/frame_matcher.h"
+#include "tracker/piece_search.h"
+#include "view/view_measurements.h"
+
+namespace softbody {
+
+/// What all guesses of one frame have in common.
+struct GuessedBody {
+  std::shared_ptr<const SurfaceModel> model;
+  const ViewSettings& settings;
+  const MeasurementWeights& weights;
+  double usual_error_m;  ///< see alignRigidly()
+  SoughtFeatures sought;
+  RasterMemory* memory;
+};
+
+/// A guess where the body is, and the features that the frame shows there, with outliers marked.
+struct Guess {
+  View view;
+  FoundFeatures features;
+};
+
+/// Guesses where the body is in a frame. The first guess is the prediction. If most features are not found
+/// there, the second one is where the features and the depth around the prediction take it. If a piece is
+/// still missing, the next ones have it where it is recognised. Every guess is rendered once.
+/// It keeps from frame to frame when to search the whole image again.
+class Guesses {
+ public:
+  explicit Guesses(const TrackerConfig& config)
+      : between_frames_(config.features.between_frames), finder_(config), frame_matcher_(config.features) {}
+
+  /// The best guess. @param prediction the rendered prediction.
+  Guess best(const GuessedBody& body, View prediction);
+
+  /// To be called when the body has other pieces.
+  void forgetPieces() { piece_search_.reset(); }
+  void reset();
+
+ private:
+  Guess matchedWithLastFrame(const GuessedBody& body, View view);
+  Guess guessAt(const GuessedBody& body, View view) const;
+  Guess guessAt(const GuessedBody& body, const Points& vertices) const;
+  Guess aligned(const GuessedBody& body, Guess guess);
+  Guess withPiecesFound(const GuessedBody& body, const std::vector<bool>& due, Guess guess);
+
+  bool between_frames_;
+  FeatureFinder finder_;
+  FrameMatcher frame_matcher_;
+  Backoff wide_search_;
+  PieceSearch piece_search_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,29 @@
+#include "view/view_measurements.h"
+
+#include "outline/crease_associations.h"
+#include "softbody_common/tet_geometry.h"
+
+namespace softbody {
+
+MeasurementWeights::MeasurementWeights(const TrackerConfig& config, const TetTopology& volume)
+    : depth{config.depth.weight, meanEdgeLength(volume.rest_vertices, volume.tets),
+            config.depth.max_distance_m},
+      contour{config.outline.weight, depth.edge_m} {}
+
+DepthAssociations depthOf(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
+                          const RegionColors& colors, const MeasurementWeights& weights, int pixel_step) {
+  return associateDepth(frame, view.surface.image(), view.samples, motions, colors, weights.depth,
+                        pixel_step);
+}
+
+OutlineAssociations contoursOf(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
+                               const RegionColors& colors, const MeasurementWeights& weights) {
+  OutlineAssociations contours =
+      associateOutline(frame, view.surface.image(), view.outline, motions, colors, weights.contour);
+  const std::vector<Association> creases =
+      associateCreases(frame, view.surface, view.creases, motions, weights.contour);
+  contours.associations.insert(contours.associations.end(), creases.begin(), creases.end());
+  return contours;
+}
+
+}  // namespace softbody
