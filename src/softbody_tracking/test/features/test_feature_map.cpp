@@ -92,7 +92,7 @@ class FeatureMapTest : public ::testing::Test {
   RasterMemory memory_;
   PredictedSurface surface_{model_, frame_.camera, transformed(box_.volume.rest_vertices, boxPose()),
                             &memory_};
-  ColorModel colors_;
+  RegionColors colors_;
   GrayPyramid image_;
   OrbExtractor orb_;
   FeatureMap map_;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kDiameter = 0.2272;
 
 std::vector<BodyCandidate> candidatesIn(const RgbdFrame& frame, double diameter_m = kDiameter,
-                                        const ColorModel& colors = ColorModel()) {
+                                        const RegionColors& colors = RegionColors()) {
   return findBodyCandidates(frame, colors, diameter_m, RegistrationConfig().distance_scale_m);
 }
 
@@ -58,8 +58,8 @@ TEST(BodyCandidates, ContainNoPartOfATableThatAnArmDivides) {
 
 const cv::Vec3b kBodyColor(40, 60, 220), kTableColor(200, 190, 60);
 
-ColorModel bodyColors() {
-  ColorModel colors;
+RegionColors bodyColors() {
+  RegionColors colors;
   colors.learn(cv::Mat3b(100, 100, kBodyColor), cv::Mat1b(100, 100, 255));
   return colors;
 }

@@ -20,11 +20,11 @@ const SearchMeshes& boxMeshes() {
 std::optional<FoundPose> search(const RgbdFrame& frame, const FeatureShare& feature_share,
                                 const std::vector<Eigen::Isometry3d>& guesses = {},
                                 const SearchMeshes& meshes = boxMeshes()) {
-  return searchAnywhere(frame, ColorModel(), meshes, guesses, feature_share, RegistrationConfig()).found;
+  return searchAnywhere(frame, RegionColors(), meshes, guesses, feature_share, RegistrationConfig()).found;
 }
 
 std::vector<PoseHypothesis> boxPoses(const RgbdFrame& frame) {
-  return posesAnywhere(frame, ColorModel(), boxMeshes(), {}, RegistrationConfig());
+  return posesAnywhere(frame, RegionColors(), boxMeshes(), {}, RegistrationConfig());
 }
 
 Eigen::Isometry3d nearPose() { return Eigen::Translation3d(-0.1, 0.0, 0.0) * boxPose(); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "softbody_common/types.h"
@@ -22,6 +23,8 @@ struct TrackingResult {
   TargetSet targets;         ///< fixed frame
   std::vector<TrackedFeature> features;
   TrackingStatus status;
+  cv::Rect labelled;  ///< the part of the image that is labelled, around the body; may be empty [px]
+  cv::Mat1b labels;   ///< what each of its pixels shows, see softbody_common/images/pixel_labels.h
 };
 
 }  // namespace softbody

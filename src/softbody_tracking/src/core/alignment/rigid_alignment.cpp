@@ -102,18 +102,18 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
   return (surface.movedVolume(motions) - surface.volumeVertices()).rowwise().norm().maxCoeff();
 }
 
-RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const RegionColors& colors,
+RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const Labels& labels,
                           const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights,
                           double usual_error_m) {
   const PredictedSurface& surface = view.surface;
   RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
-  const std::vector<Association> contours = contoursOf(frame, view, motions, colors, weights).associations;
+  const std::vector<Association> contours = contoursOf(frame, view, motions, labels, weights).associations;
   std::vector<Association> features;
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features);
   double scale_m = kFirstScale * usual_error_m;
   for (int i = 0; i < kIterations; ++i, scale_m *= kNarrowing) {
-    const DepthAssociations seen = depthOf(frame, view, motions, colors, weights, kPixelStep);
+    const DepthAssociations seen = depthOf(frame, view, motions, labels, weights, kPixelStep);
     const std::vector<Association> moved_features = moved(motions, features);
     std::vector<Association> moved_contours = moved(motions, contours);
     weighByResidual(kContourScale, &moved_contours, scale_m);

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "prediction/depth_evidence.h"
 #include "softbody_common/target_limits.h"
 #include "statistics/median.h"
 
@@ -15,11 +13,6 @@ constexpr double kMinSlope =
     0.05;  // normal times ray at z = 1; below it the plane's depth is ill-conditioned
 constexpr double kSmallestVariance = 1e-6 / 12.0;  // [m^2] of depth in a block: cameras round to 1 mm
 constexpr double kDepthScale = 4.0;                // of the robust loss, in median residuals
-constexpr double kOccluderStep = 0.003;  // [m] an occluder's end is at least this far before the prediction
-constexpr double kOccluderContinuity =
-    0.008;                             // [m] largest depth step between neighbouring blocks of an occluder
-constexpr double kProtrusion = 0.01;   // [m] an object this far before the surface beside it occludes it,
-constexpr double kMaxSteepness = 1.0;  // if this times their distance is less: no body bends so steeply
 constexpr double kUsualRelativeNoise = 0.013;  // see downweightByNoise; with more noise a thin body shakes
 constexpr double kMinNoiseWeight = 1.0 / 6.0;  // smallest factor: only depth gives the body's distance
 
@@ -43,7 +36,7 @@ struct BlockPixels {
 
 /// Around the sample, the predicted shape is the rendered one.
 BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterImage& image,
-                     const cv::Point& rendered_center, int size, int step, const RegionColors& colors,
+                     const cv::Point& rendered_center, int size, int step, const Labels& labels,
                      double reach_m) {
   const cv::Point& center = block.center;
   const Offsets columns = offsetsInside(rendered_center.x, center.x, size, frame.depth.cols);
@@ -54,19 +47,19 @@ BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterIma
   for (int j = rows.first; j < rows.end; j += step) {
     const float* rendered = image.depth[rendered_center.y + j] + rendered_center.x;
     const float* depth = frame.depth[center.y + j] + center.x;
-    const cv::Vec3b* color = frame.color[center.y + j] + center.x;
     for (int i = columns.first; i < columns.end; i += step) {
       if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
+      const std::uint8_t label = labels.at(center + cv::Point(i, j));
+      if (label == labels::kUnknown) continue;
       ++pixels.measured;
       const float difference = depth[i] - rendered[i] - nearer_by;
-      const bool body = std::abs(difference) <= gate &&
-                        colors.logOdds(color[i]) + DepthEvidence::logOdds(difference, block.predicted) > 0.0;
-      if (!body) {
-        ++(difference > kBehindSurface ? pixels.farther : pixels.nearer);
-      } else {
+      if (label == labels::kBody && std::abs(difference) <= gate) {
         ++pixels.agreeing;
         pixels.sum += difference;
         pixels.squares += difference * difference;
+      } else {
+        ++(label == labels::kBackground || (label == labels::kBody && difference > 0.0f) ? pixels.farther
+                                                                                         : pixels.nearer);
       }
     }
   }
@@ -74,7 +67,7 @@ BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterIma
 }
 
 /// Classifies a block by the majority of its pixels.
-void classify(const BlockPixels& pixels, const RgbdFrame& frame, Block* block) {
+void classify(const BlockPixels& pixels, Block* block) {
   if (pixels.measured == 0) return;
   if (pixels.agreeing > 0) {
     const float mean = pixels.sum / static_cast<float>(pixels.agreeing);
@@ -85,7 +78,6 @@ void classify(const BlockPixels& pixels, const RgbdFrame& frame, Block* block) {
   block->kind = BlockKind::kUnmeasured;
   if (2 * pixels.nearer > pixels.measured) {
     block->kind = BlockKind::kOccluded;
-    block->difference = frame.depth(block->center) - block->predicted;
   } else if (2 * pixels.farther > pixels.measured) {
     block->kind = BlockKind::kAbsent;
   } else if (2 * pixels.agreeing > pixels.measured) {
@@ -95,7 +87,7 @@ void classify(const BlockPixels& pixels, const RgbdFrame& frame, Block* block) {
 
 /// Moves a sample by the rigid motion, and compares it with the frame's depth there.
 Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSample& sample, int size,
-              int step, const Eigen::Isometry3d& motion, const RegionColors& colors, double reach_m) {
+              int step, const Eigen::Isometry3d& motion, const Labels& labels, double reach_m) {
   Block block;
   block.position = motion * sample.position;
   block.normal = motion.linear() * sample.normal;
@@ -106,33 +98,8 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
   if (-slope < kMinSlope) return block;
   block.predicted = block.normal.dot(block.position) / slope;
-  classify(pixelsOf(block, frame, image, sample.center, size, step, colors, reach_m), frame, &block);
+  classify(pixelsOf(block, frame, image, sample.center, size, step, labels, reach_m), &block);
   return block;
-}
-
-double measuredDepth(const Block& block) { return block.predicted + block.difference; }
-
-/// Whether an occluder continues from one block to the next: without a step in depth, or with the same slope
-/// as from the block before. A blade seen from above is steep.
-bool continues(const Block* before, const Block& occluder, const Block& next) {
-  const double step = measuredDepth(next) - measuredDepth(occluder);
-  if (std::abs(step) < kOccluderContinuity) return true;
-  if (before == nullptr || before->kind != BlockKind::kOccluded) return false;
-  const double last_step = measuredDepth(occluder) - measuredDepth(*before);
-  return std::abs(step - last_step) < kOccluderContinuity;
-}
-
-/// Compares each block with its piece. What a whole piece does is no occluder's doing.
-void subtractMotionOfPieces(const SurfaceSamples& surface, std::vector<Block>* blocks) {
-  std::map<std::uint32_t, std::vector<double>> differences;
-  for (std::size_t b = 0; b < blocks->size(); ++b) {
-    if ((*blocks)[b].kind == BlockKind::kAgrees)
-      differences[surface.samples[b].piece].push_back((*blocks)[b].difference);
-  }
-  std::map<std::uint32_t, double> of_piece;
-  for (auto& [piece, values] : differences) of_piece[piece] = median(&values);
-  for (std::size_t b = 0; b < blocks->size(); ++b)
-    (*blocks)[b].excess = (*blocks)[b].difference - of_piece[surface.samples[b].piece];
 }
 
 /// Variance that depth differences usually have within a block [m^2]: the median.
@@ -141,69 +108,6 @@ double usualVariance(const std::vector<Block>& blocks) {
   for (const Block& block : blocks)
     if (block.kind == BlockKind::kAgrees) variances.push_back(block.variance);
   return median(&variances);
-}
-
-/// Whether a block lies before the surface that another block of the same smooth surface shows.
-bool protrudesFrom(const Block& block, const Block& other) {
-  return other.kind == BlockKind::kAgrees && std::abs(other.excess) < kOccluderStep &&
-         block.difference <
-             other.difference -
-                 std::max(kProtrusion, kMaxSteepness * (block.position - other.position).norm()) &&
-         std::abs(block.predicted - other.predicted) < kOccluderContinuity;
-}
-
-/// Marks blocks that protrude from the surface by a step as occluded, whatever their colour: a tool's handle
-/// may be within the depth gate. Blocks at the border of an object show both, so the second neighbours count
-/// too.
-void markProtrusions(const SurfaceSamples& surface, std::vector<Block>* blocks) {
-  const cv::Mat1i& grid = surface.grid;
-  const cv::Rect inside(cv::Point(), grid.size());
-  std::vector<int> protruding;
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.cols; ++column) {
-      const int b = grid(row, column);
-      if (b < 0 || (*blocks)[b].kind != BlockKind::kAgrees || (*blocks)[b].excess > -kProtrusion) continue;
-      for (const cv::Point& way : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1),
-                                   cv::Point(2, 0), cv::Point(-2, 0), cv::Point(0, 2), cv::Point(0, -2)}) {
-        const cv::Point place = cv::Point(column, row) + way;
-        const int other = inside.contains(place) ? grid(place) : -1;
-        if (other < 0 || surface.samples[other].piece != surface.samples[b].piece) continue;
-        if (!protrudesFrom((*blocks)[b], (*blocks)[other])) continue;
-        protruding.push_back(b);
-        break;
-      }
-    }
-  }
-  for (const int b : protruding) (*blocks)[b].kind = BlockKind::kOccluded;
-}
-
-/// Marks the rest of a hand, of which one end has been recognised as an occluder.
-void growOccluders(const cv::Mat1i& grid, std::vector<Block>* blocks) {
-  std::vector<cv::Point> open;
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.cols; ++column) {
-      const int b = grid(row, column);
-      if (b >= 0 && (*blocks)[b].kind == BlockKind::kOccluded) open.emplace_back(column, row);
-    }
-  }
-  const cv::Rect inside(cv::Point(), grid.size());
-  while (!open.empty()) {
-    const cv::Point place = open.back();
-    open.pop_back();
-    const Block& occluder = (*blocks)[grid(place)];
-    for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
-      const cv::Point next = place + step;
-      if (!inside.contains(next) || grid(next) < 0) continue;
-      Block& block = (*blocks)[grid(next)];
-      const cv::Point back = place - step;
-      const Block* before = inside.contains(back) && grid(back) >= 0 ? &(*blocks)[grid(back)] : nullptr;
-      const bool same_occluder = block.kind == BlockKind::kAgrees && block.excess < -kOccluderStep &&
-                                 continues(before, occluder, block);
-      if (!same_occluder) continue;
-      block.kind = BlockKind::kOccluded;
-      open.push_back(next);
-    }
-  }
 }
 
 Association associationOf(const Block& block, const SurfaceSample& sample, const Pinhole& camera,
@@ -229,17 +133,14 @@ void downweightByNoise(double relative_noise, DepthAssociations* depth) {
 
 DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
                                  const SurfaceSamples& surface, const RigidMotions& motions,
-                                 const RegionColors& colors, const DepthWeight& weight, int pixel_step) {
+                                 const Labels& labels, const DepthWeight& weight, int pixel_step) {
   const int step = std::min(pixel_step, surface.block_px);
   std::vector<Block> blocks;
   blocks.reserve(surface.samples.size());
   for (const SurfaceSample& sample : surface.samples) {
     blocks.push_back(
-        observe(frame, image, sample, surface.block_px, step, motions[sample.piece], colors, weight.reach_m));
+        observe(frame, image, sample, surface.block_px, step, motions[sample.piece], labels, weight.reach_m));
   }
-  subtractMotionOfPieces(surface, &blocks);
-  markProtrusions(surface, &blocks);
-  growOccluders(surface.grid, &blocks);
   DepthAssociations found;
   if (pixel_step == 1) found.noise = sampleDepthNoise(surface, blocks, frame.camera.fx);
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "depth/depth_noise_estimator.h"
+#include "labels/labels.h"
 #include "prediction/association.h"
-#include "prediction/region_colors.h"
 #include "prediction/surface_samples.h"
 #include "softbody_tracking/rgbd_frame.h"
 
@@ -27,7 +27,6 @@ struct DepthBlock {
   double predicted = 0.0;    ///< depth of the moved sample's plane at the center [m]
   double difference = 0.0;   ///< mean of measured minus predicted depth over the agreeing pixels [m]
   double variance = 0.0;     ///< of these differences [m^2]
-  double excess = 0.0;       ///< difference minus the median of the piece's agreeing blocks [m]
   Eigen::Vector3d position;  ///< of the moved sample, camera frame [m]
   Eigen::Vector3d normal;
 };
@@ -42,14 +41,13 @@ struct DepthWeight {
 /// Associates visible surface with depth along the same rays (projective data association, point to plane).
 /// Each block of pixels gives one association, with the mean of its depth differences, weighed by the inverse
 /// of their variance: at an edge, or where another side of the body is seen than predicted, the differences
-/// of one block vary. A block that is nearer than the prediction and continues an occluder without a step in
-/// depth belongs to the occluder.
+/// of one block vary.
 /// @param image the rendered surface that the samples were taken from.
 /// @param motions of the body's pieces since then.
 /// @param pixel_step 1: every pixel of a block counts; 2: every second pixel of every second row; and so on.
 DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& image,
                                  const SurfaceSamples& surface, const RigidMotions& motions,
-                                 const RegionColors& colors, const DepthWeight& weight, int pixel_step = 1);
+                                 const Labels& labels, const DepthWeight& weight, int pixel_step = 1);
 
 /// Reduces the weights of depth targets if the noise is above usual, by the square of the ratio, down to a
 /// limit. Rigid alignment does not need this: its six parameters average over the whole body.

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kMinSpacing_px =
     4;  // [px] between blocks: a stereo camera gives neighbouring pixels equal errors
-constexpr double kMedianPerSigma = 0.6745;  // median of |x| for a standard normal x
 
 bool agree(const DepthBlock& a, const DepthBlock& b, const DepthBlock& c) {
   constexpr auto kAgrees = DepthBlock::Kind::kAgrees;

@@ -2,19 +2,12 @@
 
 #include <algorithm>
 
-#include "prediction/depth_evidence.h"
-
 namespace softbody {
 namespace {
 
 // A feature further behind the rendered surface than this is hidden by the body itself [m]; the tolerance
 // covers the error of interpolation between the visual mesh and the tets.
 constexpr double kVisibleTolerance = 0.01;
-// Distance [px] of the four pixels around a feature that must show the occluder too: single pixels are noise.
-constexpr int kOccluderReachPx = 3;
-// How many of these four.
-constexpr int kOccluderPixels = 3;
-
 cv::Point2f toPoint2f(const Eigen::Vector2d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y())};
 }
@@ -30,28 +23,6 @@ bool predictedVisible(const PredictedSurface& surface, const Eigen::Vector3d& po
   return rendered > 0.0f && position.z() - rendered < kVisibleTolerance;
 }
 
-/// Whether an occluder covers a feature: something nearer than the body can be, or something of a foreign
-/// colour that is not behind the feature.
-bool isOccluded(const RgbdFrame& frame, const ColorModel& colors, const cv::Point2f& pixel, double z,
-                double reach) {
-  const cv::Rect image(cv::Point(), frame.color.size());
-  const cv::Point center = toPixel(pixel);
-  const auto nearest = static_cast<float>(z - reach), farthest = static_cast<float>(z + kBehindSurface);
-  const auto isForeign = [&](const cv::Point& place) {
-    if (!image.contains(place)) return false;
-    if (!frame.covered.empty() && frame.covered(place) != 0) return true;
-    const float depth = frame.depth(place);
-    return depth > 0.0f && (depth < nearest || (depth < farthest && !colors.belongs(frame.color(place))));
-  };
-  if (!isForeign(center)) return false;
-  int foreign = 0;
-  for (const cv::Point& offset : {cv::Point(kOccluderReachPx, 0), cv::Point(-kOccluderReachPx, 0),
-                                  cv::Point(0, kOccluderReachPx), cv::Point(0, -kOccluderReachPx)}) {
-    foreign += isForeign(center + offset) ? 1 : 0;
-  }
-  return foreign >= kOccluderPixels;
-}
-
 }  // namespace
 
 int ExpectedFeatures::countOn(const std::vector<bool>& pieces) const {
@@ -64,8 +35,8 @@ double ExpectedFeatures::unoccludedShare() const {
   return all == 0 ? 1.0 : static_cast<double>(count()) / all;
 }
 
-ExpectedFeatures expectFeatures(const std::vector<MapFeature>& features, const RgbdFrame& frame,
-                                const ColorModel& colors, double reach_m, const PredictedSurface& surface) {
+ExpectedFeatures expectFeatures(const std::vector<MapFeature>& features, const Labels& labels,
+                                const PredictedSurface& surface) {
   ExpectedFeatures result;
   for (std::size_t f = 0; f < features.size(); ++f) {
     ExpectedFeature expected;
@@ -73,7 +44,7 @@ ExpectedFeatures expectFeatures(const std::vector<MapFeature>& features, const R
     expected.position = surface.position(features[f].place);
     expected.piece = surface.pieceOf(features[f].place);
     if (!predictedVisible(surface, expected.position, &expected.pixel)) continue;
-    if (isOccluded(frame, colors, expected.pixel, expected.position.z(), reach_m)) {
+    if (labels.at(toPixel(expected.pixel)) == labels::kOccluder) {
       ++result.occluded;
       continue;
     }

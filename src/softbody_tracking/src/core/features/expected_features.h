@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "features/map_feature.h"
-#include "prediction/color_model.h"
+#include "labels/labels.h"
 #include "prediction/predicted_surface.h"
-#include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
 
@@ -35,9 +34,9 @@ struct ExpectedFeatures {
 };
 
 /// Which features the rendered prediction shows, and where.
-/// @param reach_m a pixel nearer than predicted by more than this shows an occluder, whatever its colour.
-ExpectedFeatures expectFeatures(const std::vector<MapFeature>& features, const RgbdFrame& frame,
-                                const ColorModel& colors, double reach_m, const PredictedSurface& surface);
+/// @param labels of the frame, for the same prediction.
+ExpectedFeatures expectFeatures(const std::vector<MapFeature>& features, const Labels& labels,
+                                const PredictedSurface& surface);
 
 /// The same features, with the pixels to which the motions of the pieces move them. The predicted positions
 /// do not change.

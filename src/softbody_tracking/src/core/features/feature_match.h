@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prediction/association.h"
+#include "prediction/predicted_surface.h"
 
 namespace softbody {
 
@@ -22,6 +23,12 @@ inline int matchesOn(const std::vector<bool>& pieces, const std::vector<FeatureM
   return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const FeatureMatch& match) {
     return pieces[match.association.piece];
   }));
+}
+
+/// Moves the predicted positions with their pieces.
+inline void movePredictions(const RigidMotions& motions, std::vector<FeatureMatch>* matches) {
+  for (FeatureMatch& match : *matches)
+    match.association.predicted = motions[match.association.piece] * match.association.predicted;
 }
 
 }  // namespace softbody

@@ -7,6 +7,7 @@
 #include "features/feature_match.h"
 #include "features/orb_extractor.h"
 #include "patches/gray_pyramid.h"
+#include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {

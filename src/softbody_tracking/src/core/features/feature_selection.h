@@ -4,6 +4,7 @@
 
 #include "features/feature_matching.h"
 #include "features/map_feature.h"
+#include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
 

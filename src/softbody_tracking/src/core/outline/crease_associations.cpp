@@ -19,7 +19,6 @@ constexpr double kTextureLength =
     8.0;                             // [px] neighbouring pixels of a texture are alike over about this length
 constexpr double kPixelLimit = 8.0;  // largest log odds of a pixel: any pixel may be wrong
 constexpr double kLargestCreaseDeviation = 2.0;  // [px] with more, the crease is nearly anywhere
-constexpr double kDepthAgrees = 0.02;            // [m] with more, something else is there
 
 /// The line in the image where the planes of two sides meet: signed distance from a pixel, and the direction
 /// across.
@@ -95,14 +94,13 @@ void addSample(const PredictedSurface& surface, const cv::Point& a, const cv::Po
 
 /// The pixels on the line across a crease, as far as the prediction shows the two sides and depth agrees.
 /// @return false if the crease is covered, or not in the image.
-bool collect(const RgbdFrame& frame, const PredictedSurface& surface, const CreaseSample& crease,
-             const Eigen::Vector3d& moved, CreaseLine* line) {
+bool collect(const RgbdFrame& frame, const PredictedSurface& surface, const Labels& labels,
+             const CreaseSample& crease, const Eigen::Vector3d& moved, CreaseLine* line) {
   line->distances.clear();
   line->colors.clear();
   const RasterImage& image = surface.image();
   const Eigen::Vector2d start = frame.camera.project(moved), rendered_start(crease.pixel.x, crease.pixel.y);
   const cv::Rect inside(cv::Point(), image.depth.size());
-  const double farther_by = moved.z() - crease.position.z();
   const auto usable = [&](int step, cv::Point* pixel) {
     *pixel = {cvRound(start.x() + step * crease.outward.x()), cvRound(start.y() + step * crease.outward.y())};
     const cv::Point rendered(cvRound(rendered_start.x() + step * crease.outward.x()),
@@ -112,10 +110,8 @@ bool collect(const RgbdFrame& frame, const PredictedSurface& surface, const Crea
     if (triangle < 0) return false;
     const Eigen::Vector3d normal = surface.normal(triangle);
     if (normal.dot(step <= 0 ? crease.before : crease.behind) < kSameSide && std::abs(step) > 1) return false;
-    const float measured = frame.depth(*pixel);
-    if (!frame.covered.empty() && frame.covered(*pixel) != 0) return false;
-    return measured <= 0.0f ||
-           std::abs(measured - image.depth(rendered) - farther_by) < kDepthAgrees * std::max(1.0, moved.z());
+    const std::uint8_t label = labels.at(*pixel);
+    return label == labels::kBody || label == labels::kUnknown;
   };
   cv::Point pixel;
   int first = 0, last = 0;
@@ -153,13 +149,13 @@ CreaseSamples sampleCreases(const PredictedSurface& surface) {
 
 std::vector<Association> associateCreases(const RgbdFrame& frame, const PredictedSurface& surface,
                                           const CreaseSamples& samples, const RigidMotions& motions,
-                                          const ContourWeight& weight) {
+                                          const Labels& labels, const ContourWeight& weight) {
   std::vector<Association> associations;
   CreaseLine line;
   std::vector<LinePixel> pixels;
   for (const CreaseSample& crease : samples.samples) {
     const Eigen::Vector3d moved = motions[crease.piece] * crease.position;
-    if (!(moved.z() > 0.0) || !collect(frame, surface, crease, moved, &line)) continue;
+    if (!(moved.z() > 0.0) || !collect(frame, surface, labels, crease, moved, &line)) continue;
     SideColors before, behind;
     for (std::size_t i = 0; i < line.distances.size(); ++i) {
       if (line.distances[i] < -0.5 * kCreaseReach) before.add(line.colors[i]);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "labels/labels.h"
 #include "outline/contour_association.h"
 #include "prediction/predicted_surface.h"
 #include "softbody_tracking/rgbd_frame.h"
@@ -27,6 +28,6 @@ CreaseSamples sampleCreases(const PredictedSurface& surface);
 /// @return only the creases that the frame shows.
 std::vector<Association> associateCreases(const RgbdFrame& frame, const PredictedSurface& surface,
                                           const CreaseSamples& samples, const RigidMotions& motions,
-                                          const ContourWeight& weight);
+                                          const Labels& labels, const ContourWeight& weight);
 
 }  // namespace softbody

@@ -97,9 +97,9 @@ OutlineSamples sampleOutline(const PredictedSurface& surface) {
 
 OutlineAssociations associateOutline(const RgbdFrame& frame, const RasterImage& image,
                                      const OutlineSamples& samples, const RigidMotions& motions,
-                                     const RegionColors& colors, const ContourWeight& weight) {
+                                     const Labels& labels, const ContourWeight& weight) {
   OutlineAssociations found;
-  OutlineLine line(frame, image.depth, colors);
+  OutlineLine line(frame, image.depth, labels);
   double apart_px = 0.0;
   int shown = 0;
   for (const ContourSample& sample : samples.samples) {

@@ -33,6 +33,6 @@ struct OutlineAssociations {
 /// @param motions of the body's pieces since then.
 OutlineAssociations associateOutline(const RgbdFrame& frame, const RasterImage& image,
                                      const OutlineSamples& samples, const RigidMotions& motions,
-                                     const RegionColors& colors, const ContourWeight& weight);
+                                     const Labels& labels, const ContourWeight& weight);
 
 }  // namespace softbody

@@ -3,30 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "labels/depth_evidence.h"
+
 namespace softbody {
 namespace {
 
 // How far the end of the body is searched, each way [rad]: 16 px of an image with 640 x 480 pixels.
 constexpr double kReach = 0.026;
-// Largest log odds of one pixel, by colour and by depth: any pixel may be wrong. Depth is ragged at edges.
-constexpr double kColorLimit = 3.0, kDepthLimit = 1.5;
+// Largest log odds of one pixel by depth: any pixel may be wrong, and depth is ragged at edges.
+constexpr double kDepthLimit = 1.5;
 // Pixels beside the predicted outline that something nearer must not cover.
 constexpr double kUncovered = 3.0;
 // Where the depth of an end is read [px inside it]; nearer to it, depth mixes body and background.
 constexpr double kInside = 4.0, kRagged = 1.0;
 
-}  // namespace
-
-OutlineLine::OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors)
-    : frame_(frame), reach_(cvRound(kReach * frame.camera.fx)), rendered_(rendered), colors_(colors) {
-  pixels_.reserve(static_cast<std::size_t>(2 * reach_ + 1));
-  farther_by_.reserve(pixels_.capacity());
+/// Log odds of a part of the body against another part behind it.
+double logOddsBefore(double behind, double measured, double predicted) {
+  return std::clamp(DepthEvidence::logOddsBefore(behind, measured, predicted), -kDepthLimit, kDepthLimit);
 }
 
-double OutlineLine::depthLogOdds(double measured, double predicted, double behind) {
-  const double log_odds = behind > 0.0 ? DepthEvidence::logOddsBefore(behind, measured, predicted)
-                                       : DepthEvidence::logOdds(measured - predicted, predicted);
-  return std::clamp(log_odds, -kDepthLimit, kDepthLimit);
+}  // namespace
+
+OutlineLine::OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const Labels& labels)
+    : frame_(frame), reach_(cvRound(kReach * frame.camera.fx)), rendered_(rendered), labels_(labels) {
+  pixels_.reserve(static_cast<std::size_t>(2 * reach_ + 1));
+  farther_by_.reserve(pixels_.capacity());
 }
 
 bool OutlineLine::endsOtherPart(double end) const {
@@ -61,15 +62,13 @@ const std::vector<LinePixel>& OutlineLine::across(const ContourSample& sample, c
     body = step <= 0 ? predicted : moved.z();
     if (begins || (!pixels_.empty() && distance <= pixels_.back().distance)) continue;
     const double measured = frame_.depth(pixel);
-    LinePixel result{distance, 0.0};
-    const bool covered = (measured > 0.0 && DepthEvidence::isNearer(measured - body, body)) ||
-                         (!frame_.covered.empty() && frame_.covered(pixel) != 0);
+    const bool covered = labels_.at(pixel) == labels::kOccluder;
     if (covered && std::abs(distance) < kUncovered) return pixels_.clear(), pixels_;
-    if (!covered) {
-      result.log_odds = std::clamp(colors_.logOdds(frame_.color(pixel)), -kColorLimit, kColorLimit);
-      if (measured > 0.0) result.log_odds += depthLogOdds(measured, body, step > 0 ? predicted : 0.0);
-    }
-    pixels_.push_back(result);
+    const bool before_other_part = step > 0 && predicted > 0.0 && measured > 0.0;
+    const double log_odds = covered             ? 0.0
+                            : before_other_part ? logOddsBefore(predicted, measured, body)
+                                                : labels_.logOddsAt(pixel);
+    pixels_.push_back({distance, log_odds});
     farther_by_.push_back(measured > 0.0 ? measured - body : 0.0);
   }
   return pixels_;

@@ -3,11 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "labels/labels.h"
 #include "outline/contour_association.h"
 #include "outline/contour_posterior.h"
-#include "prediction/depth_evidence.h"
 #include "prediction/predicted_surface.h"
-#include "prediction/region_colors.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
@@ -16,7 +15,7 @@ namespace softbody {
 class OutlineLine {
  public:
   /// @param rendered depth of the prediction, from which the sample was taken.
-  OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors);
+  OutlineLine(const RgbdFrame& frame, const cv::Mat1f& rendered, const Labels& labels);
 
   /// @param moved the sample's present position, camera frame [m]. @return distances refer to the predicted
   /// outline beside the moved sample. Empty if the line leaves the image, or if something nearer hides where
@@ -33,14 +32,10 @@ class OutlineLine {
   bool endsOtherPart(double end) const;
 
  private:
-  /// Log odds by depth alone. @param predicted of the body there [m]. @param behind depth of another part of
-  /// the body that is predicted there, or 0.
-  static double depthLogOdds(double measured, double predicted, double behind);
-
   const RgbdFrame& frame_;
   int reach_;
   const cv::Mat1f& rendered_;
-  const RegionColors& colors_;
+  const Labels& labels_;
   std::vector<LinePixel> pixels_;
   std::vector<double> farther_by_;  ///< of each pixel: measured minus predicted depth [m]; 0: not measured
 };

@@ -47,7 +47,7 @@ struct Cloud {
   std::vector<bool> free;  ///< neither background nor of a foreign colour
 };
 
-Cloud makeCloud(const RgbdFrame& frame, const ColorModel& colors) {
+Cloud makeCloud(const RgbdFrame& frame, const RegionColors& colors) {
   Cloud cloud;
   cloud.index = cv::Mat1i(frame.depth.size(), -1);
   for (int v = 0; v < frame.depth.rows; ++v) {
@@ -192,7 +192,7 @@ double spreadOf(const std::vector<Eigen::Vector3d>& points) {
   return std::sqrt(6.0 * sum / static_cast<double>(points.size()));
 }
 
-std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const ColorModel& colors, double diameter_m,
+std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const RegionColors& colors, double diameter_m,
                                       double distance_scale_m) {
   Cloud cloud = makeCloud(frame, colors);
   removePlanes(diameter_m, &cloud);
@@ -211,7 +211,7 @@ std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const ColorModel& 
   return parts;
 }
 
-std::vector<BodyCandidate> findBodyCandidates(const RgbdFrame& frame, const ColorModel& colors,
+std::vector<BodyCandidate> findBodyCandidates(const RgbdFrame& frame, const RegionColors& colors,
                                               double diameter_m, double distance_scale_m) {
   std::vector<BodyCandidate> candidates;
   for (const DepthPart& part : findDepthParts(frame, colors, diameter_m, distance_scale_m))

@@ -33,7 +33,7 @@ std::vector<PoseHypothesis> distinct(const SearchMeshes& meshes, const std::vect
 }
 
 /// The starts at each place where the body may be.
-std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame, const ColorModel& colors,
+std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame, const RegionColors& colors,
                                                           const SearchMeshes& meshes,
                                                           const std::vector<Eigen::Isometry3d>& guesses,
                                                           const RegistrationConfig& config) {
@@ -58,7 +58,7 @@ std::vector<PoseHypothesis>::iterator groupAlike(const SearchMeshes& meshes,
 
 }  // namespace
 
-std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorModel& colors,
+std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionColors& colors,
                                           const SearchMeshes& meshes,
                                           const std::vector<Eigen::Isometry3d>& guesses,
                                           const RegistrationConfig& config) {
@@ -78,7 +78,7 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorMod
   return distinct(meshes, found, found.size());
 }
 
-SearchOutcome searchAnywhere(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                              const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
                              const RegistrationConfig& config) {
   std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "prediction/color_model.h"
+#include "labels/region_colors.h"
 #include "registration/coarse_mesh.h"
 #include "registration/feature_confirmation.h"
 #include "registration/found_pose.h"
@@ -17,7 +17,7 @@ namespace softbody {
 /// @param colors if learned, only pixels of the body's colours are candidates. @param guesses further starts.
 /// @return poses that differ by more than 20 degrees or a fifth of the body's size, at least one for each
 /// candidate; the ones with the most depth support come first. Empty without candidates.
-std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorModel& colors,
+std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionColors& colors,
                                           const SearchMeshes& meshes,
                                           const std::vector<Eigen::Isometry3d>& guesses,
                                           const RegistrationConfig& config);
@@ -26,7 +26,7 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const ColorMod
 /// If features contradict a place, or cannot decide, the next place is tried; there the features must confirm
 /// the pose.
 /// @param guesses poses to try as well.
-SearchOutcome searchAnywhere(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                              const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
                              const RegistrationConfig& config);
 

@@ -117,7 +117,7 @@ double widestView(const RgbdFrame& image) {
 }
 
 /// The factors with which the body would have the size of a part of the image, the likeliest first.
-std::vector<double> likelyUnits(const RgbdFrame& frame, const ColorModel& colors, double diameter_m,
+std::vector<double> likelyUnits(const RgbdFrame& frame, const RegionColors& colors, double diameter_m,
                                 double distance_scale_m) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const double widest_m = widestView(image);
@@ -155,7 +155,7 @@ bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Is
 
 /// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
 /// wholly in view.
-std::optional<double> sizeRatio(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                                 const PoseHypothesis& best, const RegistrationConfig& config) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const RasterImage mesh = rendered(image, meshes.full, best.pose);
@@ -172,7 +172,7 @@ std::optional<double> sizeRatio(const RgbdFrame& frame, const ColorModel& colors
 
 }  // namespace
 
-SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                            const std::optional<PoseHypothesis>& best, const RegistrationConfig& config) {
   SearchReport report;
   report.body_m = sidesOf(meshes.full.vertices);
@@ -197,7 +197,7 @@ SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, con
   return report;
 }
 
-std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& colors,
+std::optional<double> fittingScale(const RgbdFrame& frame, const RegionColors& colors,
                                    const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,
                                    const RegistrationConfig& config) {
   std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m, config.distance_scale_m);

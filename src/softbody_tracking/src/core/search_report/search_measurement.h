@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "prediction/color_model.h"
+#include "labels/region_colors.h"
 #include "registration/coarse_mesh.h"
 #include "registration/found_pose.h"
 #include "softbody_tracking/search_report/search_report.h"
@@ -11,14 +11,14 @@ namespace softbody {
 
 /// Measures a search. @param best its best pose; empty: no pose was tried. `fitting_scale` stays empty, and
 /// `found` false.
-SearchReport measureSearch(const RgbdFrame& frame, const ColorModel& colors, const SearchMeshes& meshes,
+SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                            const std::optional<PoseHypothesis>& best, const RegistrationConfig& config);
 
 /// The factor by which the mesh would have to be scaled so that the body is found: the size of the part at
 /// the best pose divided by the size of the mesh there, or the factor between two units of length. Empty if
 /// no such mesh would be found. Takes as long as a few searches.
 /// @param best pose of the search that failed; empty: no pose was tried.
-std::optional<double> fittingScale(const RgbdFrame& frame, const ColorModel& colors,
+std::optional<double> fittingScale(const RgbdFrame& frame, const RegionColors& colors,
                                    const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,
                                    const RegistrationConfig& config);
 

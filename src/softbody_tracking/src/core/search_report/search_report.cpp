@@ -11,7 +11,7 @@ SearchReport searchForBody(const RgbdFrame& frame, const TriangleMesh& rest_surf
                            const std::optional<Eigen::Isometry3d>& initial_pose,
                            const RegistrationConfig& config) {
   const SearchMeshes meshes = makeSearchMeshes(rest_surface);
-  const ColorModel colors;
+  const RegionColors colors;
   std::vector<Eigen::Isometry3d> guesses;
   SearchOutcome outcome;
   if (initial_pose) {

@@ -6,6 +6,9 @@
 
 namespace softbody {
 
+/// Median of the absolute values of a standard normal distribution.
+constexpr double kMedianPerSigma = 0.6745;
+
 /// Of two middle values the larger; 0 for none. Reorders the values.
 inline double median(std::vector<double>* values) {
   if (values->empty()) return 0.0;

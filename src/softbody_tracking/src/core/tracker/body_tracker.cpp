@@ -143,7 +143,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   if (answer != nullptr) last_answer = answer->observed;
   const Points predicted = transformed(predict(frame, answer), T_camera_fixed);
   const ObservedBody observed = observer->observe(frame, predicted);
-  const auto& [seen, surface, image] = observed;
+  const auto& [seen, surface, image, labels] = observed;
   relocalizer.setPose(frame.T_fixed_camera * fitRigid(model().rest_vertices, surface.volumeVertices()));
   const std::vector<Association> associations = associationsOf(observed, T_camera_fixed.linear());
   measured = measuredShares(associations, surface.pieceVertices(), frame.T_fixed_camera.linear());
@@ -161,6 +161,8 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   result.status = held.report(seen, surface.model().piecesOfSurface(), stamp, std::move(result.status));
   if (state == TrackingState::kTracking) learnFeatures(frame, observed, answer);
   result.status.features_total = knownFeatures();
+  result.labels = labels.label;
+  result.labelled = labels.region;
   return result;
 }
 

@@ -28,10 +28,11 @@ cv::Rect searchRegion(const PredictedSurface& surface, const cv::Size& size, int
 
 }  // namespace
 
-FoundFeatures FeatureFinder::expect(const SoughtFeatures& sought, const PredictedSurface& surface) const {
+FoundFeatures FeatureFinder::expect(const SoughtFeatures& sought, const PredictedSurface& surface,
+                                    const Labels& labels) const {
   const cv::Mat3b& color = sought.frame.color;
   FoundFeatures features;
-  features.expected = expectFeatures(sought.known, sought.frame, sought.colors, reach_m_, surface);
+  features.expected = expectFeatures(sought.known, labels, surface);
   features.image = GrayPyramid(color, searchRegion(surface, color.size(), features_.search_radius_px));
   return features;
 }

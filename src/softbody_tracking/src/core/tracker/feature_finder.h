@@ -5,8 +5,8 @@
 #include "features/feature_matching.h"
 #include "features/feature_recognition.h"
 #include "features/orb_extractor.h"
+#include "labels/region_colors.h"
 #include "patches/gray_pyramid.h"
-#include "prediction/color_model.h"
 #include "prediction/predicted_surface.h"
 
 namespace softbody {
@@ -15,7 +15,7 @@ namespace softbody {
 struct SoughtFeatures {
   const RgbdFrame& frame;
   const std::vector<MapFeature>& known;
-  const ColorModel& colors;
+  const RegionColors& colors;
   /// For each piece: true if its features are expected at their predicted places; false for a piece that is
   /// held.
   std::vector<bool> followed;
@@ -31,11 +31,11 @@ struct FoundFeatures {
 /// Finds known features in a frame. It keeps nothing from one call to the next.
 class FeatureFinder {
  public:
-  explicit FeatureFinder(const TrackerConfig& config)
-      : features_(config.features), reach_m_(config.depth.max_distance_m) {}
+  explicit FeatureFinder(const TrackerConfig& config) : features_(config.features) {}
 
   /// The features that the frame should show. None is looked for yet.
-  FoundFeatures expect(const SoughtFeatures& sought, const PredictedSurface& surface) const;
+  FoundFeatures expect(const SoughtFeatures& sought, const PredictedSurface& surface,
+                       const Labels& labels) const;
 
   /// Finds all by aligning their patches around the expected pixels. Outliers are not marked.
   FoundFeatures findAll(const SoughtFeatures& sought, FoundFeatures expected) const;
@@ -62,7 +62,6 @@ class FeatureFinder {
 
  private:
   FeatureConfig features_;
-  double reach_m_;  ///< see expectFeatures()
   OrbExtractor orb_;
 };
 

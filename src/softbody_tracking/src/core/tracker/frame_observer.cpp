@@ -36,6 +36,7 @@ void FrameObserver::reset() {
   last_stamp_.reset();
   map_.reset();
   colors_.reset();
+  last_labels_ = {};
   depth_noise_ = {};
   usual_error_ = {};
   guesses_.reset();
@@ -47,47 +48,42 @@ ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predic
   elapsed_s_ = last_stamp_ ? seconds(frame.stamp - *last_stamp_) : std::numeric_limits<double>::infinity();
   last_stamp_ = frame.stamp;
   View prediction = render(model_, frame.camera, predicted, view_settings_, &memory_);
-  learnFirstColors(frame, prediction.surface.image());
-  Guess guess =
-      guesses_.best({model_, view_settings_, weights_, usual_error_.meters(), soughtIn(frame), &memory_},
-                    std::move(prediction));
+  const GuessedBody body{model_,          view_settings_, weights_, usual_error_.meters(),
+                         soughtIn(frame), last_labels_,   &memory_};
+  // The first labels know no colours.
+  if (!colors_.learned())
+    colors_.learn(frame, prediction.surface.image(), labelsOf(body, prediction), elapsed_s_);
+  Guess best = guesses_.best(body, std::move(prediction));
   const double visible_vertices =
-      shownVertices(guess.view.samples, model_->volume()) * guess.features.expected.unoccludedShare();
-  std::vector<FeatureMatch>& matches = guess.features.found.matches;
-  weighByAgreement(&matches);
-  weighByDensity(visible_vertices, &matches);
-  const RigidMotions motions =
-      alignRigidly(frame, guess.view, colors_.region(), matches, weights_, usual_error_.meters());
+      shownVertices(best.view.samples, model_->volume()) * best.features.expected.unoccludedShare();
+  weighByAgreement(&best.features.found.matches);
+  weighByDensity(visible_vertices, &best.features.found.matches);
+  auto [guess, motions] = Guesses::aligned(body, std::move(best));
   const GrayPyramid image = guess.features.image;
-  Observation seen = measure(frame, guess.view, motions, std::move(guess.features));
+  Observation seen = measure(frame, guess.view, guess.labels, motions, std::move(guess.features));
   seen.visible_vertices = visible_vertices;
   tracked_before_ = seen.atLeast(Observability::kPartial);
   map_.score(seen.expected, seen.matches, tracked_before_, elapsed_s_);
-  colors_.learnRegion(frame, guess.view.surface.image(), elapsed_s_);
+  colors_.learn(frame, guess.view.surface.image(), guess.labels, elapsed_s_);
+  last_labels_ = guess.labels.memory;
   PredictedSurface surface = moved(std::move(guess.view.surface), motions);
   usual_error_.learn(predicted, surface.volumeVertices(), elapsed_s_);
-  for (FeatureMatch& match : seen.matches)
-    match.association.predicted = motions[match.association.piece] * match.association.predicted;
-  return {std::move(seen), std::move(surface), image};
-}
-
-void FrameObserver::learnFirstColors(const RgbdFrame& frame, const RasterImage& rendered) {
-  if (!colors_.learned()) colors_.learn(frame.color, agreeingPixels(rendered.depth, frame.depth));
-  if (!colors_.region().learned()) colors_.learnRegion(frame, rendered, elapsed_s_);
+  movePredictions(motions, &seen.matches);
+  return {std::move(seen), std::move(surface), image, std::move(guess.labels)};
 }
 
 /// Depth and contours of the view after the motions, beside its features.
-Observation FrameObserver::measure(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
-                                   FoundFeatures features) {
+Observation FrameObserver::measure(const RgbdFrame& frame, const View& view, const Labels& labels,
+                                   const RigidMotions& motions, FoundFeatures features) {
   Observation seen;
   seen.matches = std::move(features.found.matches);
   seen.missed = std::move(features.found.missed);
   seen.expected = std::move(features.expected);
-  seen.depth = depthOf(frame, view, motions, colors_.region(), weights_);
+  seen.depth = depthOf(frame, view, motions, labels, weights_);
   depth_noise_.update(seen.depth.noise, elapsed_s_);
   const double edge_m = weights_.depth.edge_m;
   downweightByNoise(depth_noise_.patchStdDev(edge_m) / edge_m, &seen.depth);
-  seen.outline = contoursOf(frame, view, motions, colors_.region(), weights_);
+  seen.outline = contoursOf(frame, view, motions, labels, weights_);
   weighByResidual(kContourScale, &seen.outline.associations);
   return restrictedToObservable(std::move(seen), view.samples, view.surface.pieceVertices());
 }
@@ -118,7 +114,10 @@ double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry
   const View view = render(model_, frame.camera, transformed(model_->volume().rest_vertices, pose),
                            view_settings_, &memory);
   const SoughtFeatures sought = soughtIn(frame);
-  const FoundFeatures features = finder_.findAll(sought, finder_.expect(sought, view.surface));
+  const LabelMemory none;
+  const Labels labels =
+      labelsOf({model_, view_settings_, weights_, usual_error_.meters(), sought, none, &memory}, view);
+  const FoundFeatures features = finder_.findAll(sought, finder_.expect(sought, view.surface, labels));
   const int expected = features.expected.count();
   if (expected < kFewestExpectedFeatures) return -1.0;
   return static_cast<double>(features.found.matches.size()) / expected;

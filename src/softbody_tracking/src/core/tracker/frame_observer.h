@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "features/feature_map.h"
-#include "prediction/color_model.h"
+#include "labels/region_colors.h"
 #include "prediction/usual_error.h"
 #include "tracker/feature_admission.h"
 #include "tracker/feature_finder.h"
@@ -20,6 +20,7 @@ struct ObservedBody {
   Observation seen;
   PredictedSurface surface;  ///< the best guess, aligned rigidly with the frame
   GrayPyramid image;         ///< grey image of the frame around it
+  Labels labels;             ///< of the frame around it
 };
 
 /// Measures one body in each frame, starting from its predicted place: features, depth and outline. Keeps
@@ -48,16 +49,15 @@ class FrameObserver {
 
   const SurfaceModel& model() const { return *model_; }
   const std::vector<MapFeature>& features() const { return map_.features(); }
-  const ColorModel& colors() const { return colors_; }
+  const RegionColors& colors() const { return colors_; }
 
   /// Forgets what was learned.
   void reset();
 
  private:
   SoughtFeatures soughtIn(const RgbdFrame& frame) const;
-  void learnFirstColors(const RgbdFrame& frame, const RasterImage& rendered);
-  Observation measure(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
-                      FoundFeatures features);
+  Observation measure(const RgbdFrame& frame, const View& view, const Labels& labels,
+                      const RigidMotions& motions, FoundFeatures features);
 
   TrackerConfig config_;
   std::optional<Nanoseconds> last_stamp_;
@@ -66,10 +66,11 @@ class FrameObserver {
   ViewSettings view_settings_;
   MeasurementWeights weights_;
   RasterMemory memory_;
+  LabelMemory last_labels_;
   DepthNoiseEstimator depth_noise_;
   UsualError usual_error_;
   FeatureMap map_;
-  ColorModel colors_;
+  RegionColors colors_;
   FeatureFinder finder_;
   Guesses guesses_;
   FeatureAdmission admission_;

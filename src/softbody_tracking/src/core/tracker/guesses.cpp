@@ -17,10 +17,9 @@ bool any(const std::vector<bool>& pieces) {
   return std::find(pieces.begin(), pieces.end(), true) != pieces.end();
 }
 
-RigidMotions alignedMotions(const GuessedBody& body, const View& view,
+RigidMotions alignedMotions(const GuessedBody& body, const View& view, const Labels& labels,
                             const std::vector<FeatureMatch>& matches) {
-  return alignRigidly(body.sought.frame, view, body.sought.colors.region(), matches, body.weights,
-                      body.usual_error_m);
+  return alignRigidly(body.sought.frame, view, labels, matches, body.weights, body.usual_error_m);
 }
 
 std::vector<FeatureCount> countsOf(const GuessedBody& body, const FoundFeatures& features) {
@@ -47,6 +46,11 @@ std::vector<bool> confirmedMoves(const std::vector<bool>& moved, const std::vect
 
 }  // namespace
 
+Labels labelsOf(const GuessedBody& body, const View& view) {
+  return labelsOf(body.sought.frame, view.surface, view.samples, body.sought.colors, body.last_labels,
+                  body.weights.depth.reach_m, body.usual_error_m);
+}
+
 void Guesses::reset() {
   wide_search_.reset();
   piece_search_.reset();
@@ -59,7 +63,7 @@ Guess Guesses::best(const GuessedBody& body, View prediction) {
   Guess best = guessAt(body, std::move(prediction));
   if (matchesOn(followed, best.features.found.matches) <
       kEnoughFound * best.features.expected.countOn(followed))
-    best = aligned(body, std::move(best));
+    best = movedGuess(body, std::move(best));
   if (!countOn(followed, best.features.expected, best.features.found.matches).isMissing())
     wide_search_.reset();
   const std::vector<bool> due =
@@ -67,25 +71,40 @@ Guess Guesses::best(const GuessedBody& body, View prediction) {
   return any(due) ? withPiecesFound(body, due, std::move(best)) : best;
 }
 
+AlignedGuess Guesses::aligned(const GuessedBody& body, Guess guess) {
+  std::vector<FeatureMatch>& matches = guess.features.found.matches;
+  RigidMotions motions = alignedMotions(body, guess.view, guess.labels, matches);
+  if (largestMotion(guess.view.surface, motions) > kOtherGuess) {
+    movePredictions(motions, &matches);
+    guess.view = render(body.model, body.sought.frame.camera, guess.view.surface.movedVolume(motions),
+                        body.settings, body.memory);
+    guess.labels = labelsOf(body, guess.view);
+    motions = alignedMotions(body, guess.view, guess.labels, matches);
+  }
+  return {std::move(guess), std::move(motions)};
+}
+
 /// The prediction says only which features can be seen.
 Guess Guesses::matchedWithLastFrame(const GuessedBody& body, View view) {
-  FoundFeatures features = finder_.expect(body.sought, view.surface);
+  Labels labels = labelsOf(body, view);
+  FoundFeatures features = finder_.expect(body.sought, view.surface, labels);
   features.found = frame_matcher_.match(body.sought.known, features.expected,
                                         finder_.keypointsOfImage(body.sought), body.sought.frame);
-  return {std::move(view), std::move(features)};
+  return {std::move(view), std::move(labels), std::move(features)};
 }
 
 /// Looks for the features around their expected pixels. If scouts show that the view is far off, the others
 /// are looked for where the scouts' rigid motion takes them.
 Guess Guesses::guessAt(const GuessedBody& body, View view) const {
-  FoundFeatures features = finder_.findScouts(body.sought, finder_.expect(body.sought, view.surface));
+  Labels labels = labelsOf(body, view);
+  FoundFeatures features = finder_.findScouts(body.sought, finder_.expect(body.sought, view.surface, labels));
   if (FeatureFinder::areFarOff(body.sought, features)) {
-    const RigidMotions motions = alignedMotions(body, view, features.found.matches);
+    const RigidMotions motions = alignedMotions(body, view, labels, features.found.matches);
     features = finder_.findAfter(body.sought, motions, std::move(features));
   } else {
     features = finder_.findOthers(body.sought, std::move(features));
   }
-  return {std::move(view), std::move(features)};
+  return {std::move(view), std::move(labels), std::move(features)};
 }
 
 Guess Guesses::guessAt(const GuessedBody& body, const Points& vertices) const {
@@ -93,13 +112,13 @@ Guess Guesses::guessAt(const GuessedBody& body, const Points& vertices) const {
 }
 
 /// The guess where the features, or the depth without them, say that the body is.
-Guess Guesses::aligned(const GuessedBody& body, Guess guess) {
+Guess Guesses::movedGuess(const GuessedBody& body, Guess guess) {
   const PredictedSurface& surface = guess.view.surface;
   if (wide_search_.isDue(body.sought.frame.stamp)) {
     guess.features = finder_.addFromAfar(body.sought, surface, std::move(guess.features));
     wide_search_.failed();
   }
-  const RigidMotions motions = alignedMotions(body, guess.view, guess.features.found.matches);
+  const RigidMotions motions = alignedMotions(body, guess.view, guess.labels, guess.features.found.matches);
   if (largestMotion(surface, motions) <= kOtherGuess) return guess;
   return guessAt(body, surface.movedVolume(motions));
 }

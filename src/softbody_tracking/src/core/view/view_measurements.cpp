@@ -11,17 +11,17 @@ MeasurementWeights::MeasurementWeights(const TrackerConfig& config, const TetTop
       contour{config.outline.weight, depth.edge_m} {}
 
 DepthAssociations depthOf(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
-                          const RegionColors& colors, const MeasurementWeights& weights, int pixel_step) {
-  return associateDepth(frame, view.surface.image(), view.samples, motions, colors, weights.depth,
+                          const Labels& labels, const MeasurementWeights& weights, int pixel_step) {
+  return associateDepth(frame, view.surface.image(), view.samples, motions, labels, weights.depth,
                         pixel_step);
 }
 
 OutlineAssociations contoursOf(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
-                               const RegionColors& colors, const MeasurementWeights& weights) {
+                               const Labels& labels, const MeasurementWeights& weights) {
   OutlineAssociations contours =
-      associateOutline(frame, view.surface.image(), view.outline, motions, colors, weights.contour);
+      associateOutline(frame, view.surface.image(), view.outline, motions, labels, weights.contour);
   const std::vector<Association> creases =
-      associateCreases(frame, view.surface, view.creases, motions, weights.contour);
+      associateCreases(frame, view.surface, view.creases, motions, labels, weights.contour);
   contours.associations.insert(contours.associations.end(), creases.begin(), creases.end());
   return contours;
 }

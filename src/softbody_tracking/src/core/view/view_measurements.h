@@ -16,11 +16,11 @@ struct MeasurementWeights {
 
 /// The depth of a frame on a view whose pieces are moved, see associateDepth().
 DepthAssociations depthOf(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
-                          const RegionColors& colors, const MeasurementWeights& weights, int pixel_step = 1);
+                          const Labels& labels, const MeasurementWeights& weights, int pixel_step = 1);
 
 /// The contours of a view in a frame: its outline and its creases, see associateOutline() and
 /// associateCreases(). None if the view has no samples of them.
 OutlineAssociations contoursOf(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
-                               const RegionColors& colors, const MeasurementWeights& weights);
+                               const Labels& labels, const MeasurementWeights& weights);
 
 }  // namespace softbody

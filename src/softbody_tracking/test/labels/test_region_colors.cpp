@@ -1,4 +1,4 @@
-#include "prediction/region_colors.h"
+#include "labels/region_colors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "prediction/region_colors.h"
+#include "labels/region_colors.h"
 
 #include <cmath>
 #include <numeric>
@@ -8,16 +8,12 @@
 namespace softbody {
 namespace {
 
-// Width [px] of the surroundings around the body.
-constexpr int kAround = 24;
 // Distance [px] from the outline at which a pixel shows the body alone.
 constexpr int kInside = 3;
 // Every second pixel of every second row is enough for a histogram.
 constexpr int kStep = 2;
 // Pixels on each side, below which nothing is learned: a few pixels may show anything.
 constexpr float kFewest = 100.0f;
-// Density of a colour that was never seen: it speaks for neither side.
-constexpr float kUnseen = 1e-3f;
 
 /// Whether the body is rendered at a pixel and around it.
 bool isInside(const cv::Mat1f& rendered, int u, int v) {
@@ -43,26 +39,21 @@ void RegionColors::blend(const std::vector<float>& counts, double elapsed_s, std
     (*densities)[i] += rate * (counts[i] / sum - (*densities)[i]);
 }
 
-void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, double elapsed_s) {
+void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, const Labels& labels,
+                         double elapsed_s) {
   counts_of_body_.assign(kBins, 0.0f);
   counts_around_.assign(kBins, 0.0f);
-  const cv::Rect& covered = rendered.region;
-  const cv::Rect region =
-      cv::Rect(covered.x - kAround, covered.y - kAround, covered.width + 2 * kAround,
-               covered.height + 2 * kAround) &
-      cv::Rect(kInside, kInside, frame.color.cols - 2 * kInside, frame.color.rows - 2 * kInside);
+  const cv::Rect region = labels.region & cv::Rect(kInside, kInside, frame.color.cols - 2 * kInside,
+                                                   frame.color.rows - 2 * kInside);
   float on_body = 0.0f, around = 0.0f;
   for (int v = region.y; v < region.br().y; v += kStep) {
     for (int u = region.x; u < region.br().x; u += kStep) {
       const std::size_t color = bin(frame.color(v, u));
-      const float predicted = rendered.depth(v, u), measured = frame.depth(v, u);
-      const double odds = predicted > 0.0f && measured > 0.0f
-                              ? log_odds_[color] + DepthEvidence::logOdds(measured - predicted, predicted)
-                              : 0.0;
-      if (odds > 0.0 && isInside(rendered.depth, u, v)) {
+      const std::uint8_t label = labels.at({u, v});
+      if (label == labels::kBody && isInside(rendered.depth, u, v)) {
         counts_of_body_[color] += 1.0f;
         on_body += 1.0f;
-      } else if (odds < 0.0 || rendered.triangle(v, u) < 0) {
+      } else if (label == labels::kBackground || label == labels::kOccluder || rendered.triangle(v, u) < 0) {
         counts_around_[color] += 1.0f;
         around += 1.0f;
       }
@@ -73,6 +64,13 @@ void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, do
   blend(counts_around_, elapsed_s, &surroundings_);
   for (std::size_t i = 0; i < log_odds_.size(); ++i)
     log_odds_[i] = std::log((body_[i] + kUnseen) / (surroundings_[i] + kUnseen));
+}
+
+cv::Mat1b RegionColors::mask(const cv::Mat3b& color, const cv::Rect& region) const {
+  cv::Mat1b result(color.size(), 0);
+  for (int v = region.y; v < region.br().y; ++v)
+    for (int u = region.x; u < region.br().x; ++u) result(v, u) = belongs(color(v, u)) ? 255 : 0;
+  return result;
 }
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "prediction/depth_evidence.h"
+#include "labels/depth_evidence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,6 @@ constexpr double kTouchingShare = 0.3, kTouchingDeviation = 0.03;
 constexpr double kAnywhere = 1.0;
 // Share of pixels whose depth is wrong: filled holes, and edges.
 constexpr double kWrongShare = 0.05;
-// Nearer than the body by more deviations than this is something before it.
-constexpr double kNearer = 2.0;
 
 double gauss(double x, double deviation) {
   const double ratio = x / deviation;
@@ -47,8 +45,13 @@ double DepthEvidence::logOddsBefore(double behind, double measured, double predi
   return logOddsOf(measured - predicted, scale, gauss(measured - behind, scale * kDeviation));
 }
 
-bool DepthEvidence::isNearer(double difference, double predicted) {
-  return difference < -kNearer * kDeviation * std::max(1.0, predicted);
+/// An occluder lies anywhere before the body, and more often near to it.
+double DepthEvidence::logOddsBeforeBody(double difference, double deviation) {
+  const double body = (1.0 - kWrongShare) * gauss(difference, deviation) + kWrongShare * kAnywhere;
+  const double is_before = 0.5 * std::erfc(difference / (deviation * std::sqrt(2.0)));
+  const double occluder =
+      is_before * std::exp(std::min(0.0, difference) / kTouchingDeviation) / kTouchingDeviation;
+  return std::log(body / (occluder + kWrongShare * kWrongShare * kAnywhere));
 }
 
 }  // namespace softbody

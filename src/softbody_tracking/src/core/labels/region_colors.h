@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "prediction/depth_evidence.h"
+#include "labels/labels.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_tracking/rgbd_frame.h"
 
@@ -16,19 +16,26 @@ class RegionColors {
  public:
   RegionColors();
 
-  /// Learns from a frame. The body is where it is rendered and where depth and earlier colours speak for it:
-  /// a hand where the body is predicted stays part of the surroundings, like what is beside the body.
+  /// Learns from the labelled part of a frame. A hand before the body is part of the surroundings, like what
+  /// is beside the body.
   /// @param elapsed_s since the frame before.
-  void learn(const RgbdFrame& frame, const RasterImage& rendered, double elapsed_s);
+  void learn(const RgbdFrame& frame, const RasterImage& rendered, const Labels& labels, double elapsed_s);
 
   bool learned() const { return !body_.empty(); }
   /// Log odds that a pixel of this colour (blue, green, red) shows the body; 0 before learn().
   double logOdds(const cv::Vec3b& color) const { return log_odds_[bin(color)]; }
 
+  /// Whether a colour occurs on the body; every colour does before learn().
+  bool belongs(const cv::Vec3b& color) const { return !learned() || body_[bin(color)] >= kUnseen; }
+  /// Mask of the image's size: 255 inside the region at pixels whose colours belong to the body, else 0.
+  cv::Mat1b mask(const cv::Mat3b& color, const cv::Rect& region) const;
+
   /// Forgets what was learned.
   void reset();
 
  private:
+  /// Density of a colour that was never seen: it speaks for neither side.
+  static constexpr float kUnseen = 1e-3f;
   static constexpr int kBins = 16 * 16 * 16;  ///< bin() keeps the upper 4 bits of each channel
   static std::size_t bin(const cv::Vec3b& color) {
     return static_cast<std::size_t>((color[0] >> 4) << 8 | (color[1] >> 4) << 4 | color[2] >> 4);

@@ -1,4 +1,4 @@
-#include "prediction/depth_evidence.h"
+#include "labels/depth_evidence.h"
 
 #include <gtest/gtest.h>
 

@@ -23,8 +23,9 @@ class DepthEvidence {
   /// The same where another part of the body is predicted behind. @param behind its depth [m].
   static double logOddsBefore(double behind, double measured, double predicted);
 
-  /// Whether something is nearer than the body can be.
-  static bool isNearer(double difference, double predicted);
+  /// The same for a surface that is the body or something before it, which touches it or not.
+  /// @param deviation of the body's depth around the prediction [m].
+  static double logOddsBeforeBody(double difference, double deviation);
 
  private:
   static constexpr int kHalf = 128;             // cells on each side

@@ -1,0 +1,44 @@
+#include "labels/labeling.h"
+
+#include "labels/occluders.h"
+#include "labels/pixel_labels.h"
+
+namespace softbody {
+namespace {
+
+// Width of the labelled margin around the prediction [rad]: 24 px of an image with 640 x 480 pixels. Nothing
+// moves farther in a frame.
+constexpr double kMargin = 0.026;
+
+/// @param action gets the pixels of each cell, and the cell.
+template <typename Action>
+void forEachCell(const cv::Size& image, LabelCells* cells, Action action) {
+  for (cv::Point place(0, 0); place.y < cells->grid.height; ++place.y)
+    for (place.x = 0; place.x < cells->grid.width; ++place.x)
+      action(cells->pixels(place) & cv::Rect({}, image), &cells->at(place));
+}
+
+}  // namespace
+
+Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const SurfaceSamples& samples,
+                const RegionColors& colors, const LabelMemory& last, double reach_m, double error_m) {
+  Labels labels;
+  if (samples.samples.empty()) return labels;
+  const cv::Size image = frame.depth.size();
+  const int margin_px = cvRound(kMargin * frame.camera.fx);
+  LabelCells cells = makeCells(surface.image().region, samples, margin_px);
+  labels.region = cv::Rect(cells.origin, cells.grid * cells.size_px) & cv::Rect({}, image);
+  labels.label.create(labels.region.size());
+  labels.log_odds.create(labels.region.size());
+  const PixelLabeler pixels(frame, surface.image().depth, colors, reach_m);
+  forEachCell(image, &cells,
+              [&](const cv::Rect& area, LabelCell* cell) { pixels.label(area, cell, &labels); });
+  tellOccluders(samples, {last, frame.camera.fx, error_m, margin_px}, &cells);
+  forEachCell(image, &cells, [&](const cv::Rect& area, LabelCell* cell) {
+    if (cell->shows_front && cell->body < 0.5f) labelAsOccluder(area, &labels);
+  });
+  labels.memory = memoryOf(cells);
+  return labels;
+}
+
+}  // namespace softbody

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "labels/label_memory.h"
+#include "softbody_common/images/pixel_labels.h"
+
+namespace softbody {
+
+/// What the pixels around the predicted body show. Labels belong to the image: if the prediction moves a
+/// little, they stay.
+struct Labels {
+  cv::Rect region;     ///< the labelled part of the image [px]
+  cv::Mat1b label;     ///< of each pixel of the region, see pixel_labels.h
+  cv::Mat1f log_odds;  ///< of the body against everything else, for each pixel of the region
+  LabelMemory memory;  ///< for the next frame
+
+  /// labels::kUnknown outside of the region.
+  std::uint8_t at(const cv::Point& pixel) const {
+    return region.contains(pixel) ? label(pixel - region.tl()) : labels::kUnknown;
+  }
+  /// 0 outside of the region.
+  float logOddsAt(const cv::Point& pixel) const {
+    return region.contains(pixel) ? log_odds(pixel - region.tl()) : 0.0f;
+  }
+};
+
+}  // namespace softbody

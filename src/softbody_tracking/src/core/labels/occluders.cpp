@@ -1,0 +1,119 @@
+#include "labels/occluders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "labels/depth_evidence.h"
+#include "statistics/median.h"
+
+namespace softbody {
+namespace {
+
+// Log odds of the body where it is predicted, before anything is measured.
+constexpr double kPredicted = 2.0;
+// Smallest standard deviation of the depth of a cell around the prediction [m]: shape and noise.
+constexpr double kSmallestDeviation = 0.002;
+// Smallest standard deviation of the predicted outline [rad]: 4 px of an image with 640 x 480 pixels.
+constexpr double kOutlineDeviation = 0.0065;
+// Step of depth between neighbouring cells, relative to the prediction, that is usual on one surface [m].
+constexpr double kUsualStep = 0.003;
+// Iterations; then the probabilities hardly change.
+constexpr int kIterations = 8;
+
+/// Differences of the cells' depth without the median of their piece: what a whole piece does is no
+/// occluder's doing.
+class Excess {
+ public:
+  Excess(const SurfaceSamples& samples, const LabelCells& cells) : samples_(samples) {
+    std::map<std::uint32_t, std::vector<double>> differences;
+    for (const LabelCell& cell : cells.cells)
+      if (cell.shows_front && cell.onSurface() && cell.body > 0.5f)
+        differences[pieceOf(cell)].push_back(cell.difference);
+    for (auto& [piece, values] : differences) medians_[piece] = median(&values);
+    std::vector<double> deviations;
+    for (const LabelCell& cell : cells.cells)
+      if (cell.shows_front && cell.onSurface() && cell.body > 0.5f) deviations.push_back(std::abs(of(cell)));
+    deviation_ = std::hypot(kSmallestDeviation, median(&deviations) / kMedianPerSigma);
+  }
+
+  double of(const LabelCell& cell) const {
+    const auto found = medians_.find(pieceOf(cell));
+    return cell.difference - (found == medians_.end() ? 0.0 : found->second);
+  }
+  double deviation() const { return deviation_; }  ///< standard deviation on the body [m]
+
+ private:
+  std::uint32_t pieceOf(const LabelCell& cell) const {
+    return samples_.samples[static_cast<std::size_t>(cell.sample)].piece;
+  }
+
+  const SurfaceSamples& samples_;
+  std::map<std::uint32_t, double> medians_;
+  double deviation_ = 0.0;
+};
+
+/// Log odds of a cell by itself. Beside the predicted outline the body is less likely, and its depth less
+/// certain: the surface may go on at any slope up to 45 degrees.
+double ownLogOdds(const LabelCell& cell, const Excess& excess, const LabelPrior& prior, int size_px) {
+  const double per_px = cell.predicted / prior.focal_px;
+  const double beside_m = cell.distance * size_px * per_px;
+  const double outside = beside_m / (prior.error_m + kOutlineDeviation * cell.predicted);
+  return kPredicted - 0.5 * outside * outside + cell.color_odds +
+         DepthEvidence::logOddsBeforeBody(excess.of(cell), std::hypot(excess.deviation(), beside_m));
+}
+
+/// How strongly neighbouring cells are alike.
+double coupling(double step_m) {
+  const double ratio = step_m / kUsualStep;
+  return std::exp(-0.5 * ratio * ratio);
+}
+
+/// The cells as a field: sums of log odds, and the couplings to the right and downwards.
+struct Field {
+  std::vector<double> own, right, down, mean;
+};
+
+Field makeField(const SurfaceSamples& samples, const LabelPrior& prior, const LabelCells& cells) {
+  const Excess excess(samples, cells);
+  const std::size_t count = cells.cells.size(), width = static_cast<std::size_t>(cells.grid.width);
+  Field field{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
+              std::vector<double>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const LabelCell& cell = cells.cells[i];
+    if (!cell.shows_front) continue;
+    const cv::Point place(static_cast<int>(i % width), static_cast<int>(i / width));
+    const cv::Rect pixels = cells.pixels(place);
+    field.own[i] = ownLogOdds(cell, excess, prior, cells.size_px) +
+                   prior.last.logOdds((pixels.tl() + pixels.br()) / 2, cell.measured(), prior.reach_px);
+    const auto alike = [&](std::size_t j) {
+      return cells.cells[j].shows_front ? coupling(excess.of(cell) - excess.of(cells.cells[j])) : 0.0;
+    };
+    if ((i + 1) % width != 0) field.right[i] = alike(i + 1);
+    if (i + width < count) field.down[i] = alike(i + width);
+  }
+  return field;
+}
+
+}  // namespace
+
+void tellOccluders(const SurfaceSamples& samples, const LabelPrior& prior, LabelCells* cells) {
+  Field field = makeField(samples, prior, *cells);
+  const std::size_t count = field.own.size(), width = static_cast<std::size_t>(cells->grid.width);
+  std::vector<double> log_odds = field.own;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    for (std::size_t i = 0; i < count; ++i) field.mean[i] = std::tanh(0.5 * log_odds[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!cells->cells[i].shows_front) continue;
+      double sum = field.own[i] + field.right[i] * (i + 1 < count ? field.mean[i + 1] : 0.0) +
+                   field.down[i] * (i + width < count ? field.mean[i + width] : 0.0);
+      if (i > 0) sum += field.right[i - 1] * field.mean[i - 1];
+      if (i >= width) sum += field.down[i - width] * field.mean[i - width];
+      log_odds[i] = sum;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    cells->cells[i].body = static_cast<float>(0.5 + 0.5 * std::tanh(0.5 * log_odds[i]));
+}
+
+}  // namespace softbody

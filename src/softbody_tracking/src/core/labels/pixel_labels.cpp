@@ -1,0 +1,73 @@
+#include "labels/pixel_labels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "labels/depth_evidence.h"
+
+namespace softbody {
+namespace {
+
+// Largest log odds of one pixel, by colour and by depth: any pixel may be wrong. Depth is ragged at edges.
+constexpr double kColorLimit = 3.0, kDepthLimit = 1.5;
+
+double clamped(double log_odds, double limit) { return std::clamp(log_odds, -limit, limit); }
+
+}  // namespace
+
+/// Of the pixels of a cell.
+struct PixelLabeler::Sums {
+  int measured = 0, body = 0, front = 0;       ///< front: not behind the body
+  float difference = 0.0f, color_odds = 0.0f;  ///< of the pixels in front
+};
+
+void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const {
+  Sums sums, ignored;
+  for (int v = pixels.y; v < pixels.br().y; ++v) {
+    for (int u = pixels.x; u < pixels.br().x; ++u) {
+      const float rendered = rendered_(v, u);
+      const bool counts = rendered > 0.0f || !cell->onSurface();
+      labelOne({u, v}, rendered > 0.0f ? rendered : cell->predicted, labels, counts ? &sums : &ignored);
+    }
+  }
+  cell->shows_front = sums.front > 0 && 2 * sums.front >= sums.measured;
+  if (!cell->shows_front) return;
+  cell->difference = sums.difference / static_cast<float>(sums.front);
+  cell->color_odds = sums.color_odds / static_cast<float>(sums.front);
+  cell->body = 2 * sums.body >= sums.front ? 1.0f : 0.0f;
+}
+
+void PixelLabeler::labelOne(const cv::Point& pixel, float predicted, Labels* labels, Sums* sums) const {
+  const cv::Point place = pixel - labels->region.tl();
+  std::uint8_t& label = labels->label(place);
+  float& log_odds = labels->log_odds(place);
+  const double of_color = clamped(colors_.logOdds(frame_.color(pixel)), kColorLimit);
+  const float measured = frame_.depth(pixel), difference = measured - predicted;
+  log_odds = static_cast<float>(of_color);
+  label = labels::kUnknown;
+  if (!frame_.covered.empty() && frame_.covered(pixel) != 0) {
+    label = labels::kOccluder;
+  } else if (measured > 0.0f) {
+    log_odds += static_cast<float>(clamped(DepthEvidence::logOdds(difference, predicted), kDepthLimit));
+    const bool body = std::abs(difference) <= reach_m_ && log_odds > 0.0f;
+    const bool front = body || difference <= kBehindSurface;
+    label = body ? labels::kBody : front ? labels::kOccluder : labels::kBackground;
+    ++sums->measured;
+    if (!front) return;
+    ++sums->front;
+    sums->body += body ? 1 : 0;
+    sums->difference += difference;
+    sums->color_odds += static_cast<float>(of_color);
+  }
+}
+
+void labelAsOccluder(const cv::Rect& pixels, Labels* labels) {
+  for (int v = pixels.y; v < pixels.br().y; ++v) {
+    for (int u = pixels.x; u < pixels.br().x; ++u) {
+      std::uint8_t& label = labels->label(cv::Point(u, v) - labels->region.tl());
+      if (label != labels::kBackground) label = labels::kOccluder;
+    }
+  }
+}
+
+}  // namespace softbody

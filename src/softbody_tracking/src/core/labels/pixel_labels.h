@@ -1,0 +1,35 @@
+#pragma once
+
+#include "labels/label_cells.h"
+#include "labels/labels.h"
+#include "labels/region_colors.h"
+#include "softbody_tracking/rgbd_frame.h"
+
+namespace softbody {
+
+/// Labels each pixel on its own, by its depth beside the prediction and by its colour.
+class PixelLabeler {
+ public:
+  /// @param rendered depth of the prediction. @param reach_m the body is not farther from it than this.
+  PixelLabeler(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors, double reach_m)
+      : frame_(frame), rendered_(rendered), colors_(colors), reach_m_(static_cast<float>(reach_m)) {}
+
+  /// Labels the pixels of a cell, and sums up in the cell what they show. On the surface only those count on
+  /// which the body is rendered.
+  void label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const;
+
+ private:
+  struct Sums;
+  /// @param predicted depth of the body there [m].
+  void labelOne(const cv::Point& pixel, float predicted, Labels* labels, Sums* sums) const;
+
+  const RgbdFrame& frame_;
+  const cv::Mat1f& rendered_;
+  const RegionColors& colors_;
+  float reach_m_;
+};
+
+/// No pixel of a cell shows the body if the cell shows an occluder.
+void labelAsOccluder(const cv::Rect& pixels, Labels* labels);
+
+}  // namespace softbody
