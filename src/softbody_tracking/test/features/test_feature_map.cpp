@@ -22,19 +22,16 @@ constexpr double kGap = 0.005;   // [m]
 /// A map bound to the box in its first pose.
 class FeatureMapTest : public ::testing::Test {
  protected:
-  FeatureMapTest() : map_(FeatureConfig()) {
-    buildImage();
-    admit(chosen(map_), &map_);
-  }
+  FeatureMapTest() { admit(chosen(map_), &map_); }
 
   /// Renders the box at the vertices, and the prediction there with an error.
   void show(const Points& truth, const Eigen::Vector3d& prediction_error = Eigen::Vector3d::Zero()) {
     frame_ = renderFrame(box_, truth, 1);
     surface_ = {model_, frame_.camera,
                 transformed(truth, Eigen::Isometry3d(Eigen::Translation3d(prediction_error))), &memory_};
-    buildImage();
+    image_ = wholeImage();
   }
-  void buildImage() { image_ = GrayPyramid(frame_.color, cv::Rect(cv::Point(), frame_.color.size())); }
+  GrayPyramid wholeImage() const { return {frame_.color, cv::Rect(cv::Point(), frame_.color.size())}; }
 
   /// Keypoints of the whole image.
   std::vector<Keypoint> keypoints() {
@@ -93,9 +90,9 @@ class FeatureMapTest : public ::testing::Test {
   PredictedSurface surface_{model_, frame_.camera, transformed(box_.volume.rest_vertices, boxPose()),
                             &memory_};
   RegionColors colors_;
-  GrayPyramid image_;
+  GrayPyramid image_ = wholeImage();
   OrbExtractor orb_;
-  FeatureMap map_;
+  FeatureMap map_{FeatureConfig()};
 };
 
 TEST_F(FeatureMapTest, BindsFeaturesWhereTheirPixelsSeeTheBody) {
@@ -162,7 +159,7 @@ TEST_F(FeatureMapTest, CoveredFeaturesAreNotExpected) {
   const cv::Rect covered(0, 0, surface_.image().region.x + surface_.image().region.width / 2, 480);
   frame_.depth(covered).setTo(0.3f);
   frame_.color(covered).setTo(cv::Vec3b(90, 90, 90));
-  buildImage();
+  image_ = wholeImage();
   for (int i = 0; i < 60; ++i) {
     const Found found = align();
     left = found.expected.count();
@@ -180,7 +177,7 @@ TEST_F(FeatureMapTest, FeaturesUnderAKnownToolAreNotExpected) {
   const cv::Rect tool(0, 0, surface_.image().region.x + surface_.image().region.width / 2, 480);
   frame_.depth(tool).setTo(0.0f);
   frame_.color(tool).setTo(cv::Vec3b(90, 90, 90));
-  buildImage();
+  image_ = wholeImage();
   EXPECT_EQ(align().expected.count(), expected) << "nothing says what a hole in the depth image is";
   frame_.covered = cv::Mat1b(frame_.depth.size(), 0);
   frame_.covered(tool).setTo(255);
@@ -232,7 +229,7 @@ TEST_F(FeatureMapTest, AdmitsNothingTwiceAndDropsWhatIsNeverFoundAgain) {
   admit(chosen(map_, free, found.expected), &map_, found.expected.count());
   EXPECT_LT(map_.features().size(), bound + bound / 5) << "the surface was covered with features already";
   frame_.color.setTo(cv::Vec3b(90, 90, 90));
-  buildImage();
+  image_ = wholeImage();
   for (int i = 0; i < 400; ++i) EXPECT_TRUE(align().all.matches.empty());
   map_.retire();
   EXPECT_TRUE(map_.features().empty());

@@ -26,7 +26,7 @@ class RegionColors {
   double logOdds(const cv::Vec3b& color) const { return log_odds_[bin(color)]; }
 
   /// Whether a colour occurs on the body; every colour does before learn().
-  bool belongs(const cv::Vec3b& color) const { return !learned() || body_[bin(color)] >= kUnseen; }
+  bool belongs(const cv::Vec3b& color) const { return !learned() || body_[bin(color)] >= kRare; }
   /// Mask of the image's size: 255 inside the region at pixels whose colours belong to the body, else 0.
   cv::Mat1b mask(const cv::Mat3b& color, const cv::Rect& region) const;
 
@@ -36,6 +36,8 @@ class RegionColors {
  private:
   /// Density of a colour that was never seen: it speaks for neither side.
   static constexpr float kUnseen = 1e-3f;
+  /// Density of a colour of the body at least.
+  static constexpr float kRare = 1e-4f;
   static constexpr int kBins = 16 * 16 * 16;  ///< bin() keeps the upper 4 bits of each channel
   static std::size_t bin(const cv::Vec3b& color) {
     return static_cast<std::size_t>((color[0] >> 4) << 8 | (color[1] >> 4) << 4 | color[2] >> 4);

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "alignment/usual_error.h"
 #include "features/feature_map.h"
 #include "labels/region_colors.h"
-#include "prediction/usual_error.h"
 #include "tracker/feature_admission.h"
 #include "tracker/feature_finder.h"
 #include "tracker/guesses.h"
