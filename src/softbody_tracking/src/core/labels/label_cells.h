@@ -17,6 +17,8 @@ struct LabelCell {
   float color_odds = 0.0f;  ///< mean log odds of the body by colour, of the same pixels
   float body = 0.0f;        ///< probability that these pixels show the body, not an occluder
 
+  float shift = 0.0f;  ///< by which the whole piece is farther than predicted [m]
+
   bool onSurface() const { return distance == 0; }
   float measured() const { return predicted + difference; }  ///< mean depth [m]
 };

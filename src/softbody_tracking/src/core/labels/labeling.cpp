@@ -35,7 +35,7 @@ Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const S
               [&](const cv::Rect& area, LabelCell* cell) { pixels.label(area, cell, &labels); });
   tellOccluders(samples, {last, frame.camera.fx, error_m, margin_px}, &cells);
   forEachCell(image, &cells, [&](const cv::Rect& area, LabelCell* cell) {
-    if (cell->shows_front && cell->body < 0.5f) labelAsOccluder(area, &labels);
+    if (cell->shows_front && cell->body < 0.5f) pixels.labelOccluder(area, *cell, &labels);
   });
   labels.memory = memoryOf(cells);
   return labels;

@@ -74,8 +74,7 @@ struct Field {
   std::vector<double> own, right, down, mean;
 };
 
-Field makeField(const SurfaceSamples& samples, const LabelPrior& prior, const LabelCells& cells) {
-  const Excess excess(samples, cells);
+Field makeField(const Excess& excess, const LabelPrior& prior, const LabelCells& cells) {
   const std::size_t count = cells.cells.size(), width = static_cast<std::size_t>(cells.grid.width);
   Field field{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
               std::vector<double>(count)};
@@ -98,7 +97,8 @@ Field makeField(const SurfaceSamples& samples, const LabelPrior& prior, const La
 }  // namespace
 
 void tellOccluders(const SurfaceSamples& samples, const LabelPrior& prior, LabelCells* cells) {
-  Field field = makeField(samples, prior, *cells);
+  const Excess excess(samples, *cells);
+  Field field = makeField(excess, prior, *cells);
   const std::size_t count = field.own.size(), width = static_cast<std::size_t>(cells->grid.width);
   std::vector<double> log_odds = field.own;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -112,8 +112,11 @@ void tellOccluders(const SurfaceSamples& samples, const LabelPrior& prior, Label
       log_odds[i] = sum;
     }
   }
-  for (std::size_t i = 0; i < count; ++i)
-    cells->cells[i].body = static_cast<float>(0.5 + 0.5 * std::tanh(0.5 * log_odds[i]));
+  for (std::size_t i = 0; i < count; ++i) {
+    LabelCell& cell = cells->cells[i];
+    if (cell.shows_front) cell.shift = cell.difference - static_cast<float>(excess.of(cell));
+    cell.body = static_cast<float>(0.5 + 0.5 * std::tanh(0.5 * log_odds[i]));
+  }
 }
 
 }  // namespace softbody

@@ -61,11 +61,14 @@ void PixelLabeler::labelOne(const cv::Point& pixel, float predicted, Labels* lab
   }
 }
 
-void labelAsOccluder(const cv::Rect& pixels, Labels* labels) {
+void PixelLabeler::labelOccluder(const cv::Rect& pixels, const LabelCell& cell, Labels* labels) const {
+  const float between = 0.5f * (cell.shift + cell.difference);
   for (int v = pixels.y; v < pixels.br().y; ++v) {
     for (int u = pixels.x; u < pixels.br().x; ++u) {
       std::uint8_t& label = labels->label(cv::Point(u, v) - labels->region.tl());
-      if (label != labels::kBackground) label = labels::kOccluder;
+      const bool body =
+          label == labels::kBody && rendered_(v, u) > 0.0f && frame_.depth(v, u) - rendered_(v, u) > between;
+      if (label != labels::kBackground && !body) label = labels::kOccluder;
     }
   }
 }

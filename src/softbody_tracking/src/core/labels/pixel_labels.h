@@ -18,6 +18,10 @@ class PixelLabeler {
   /// which the body is rendered.
   void label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const;
 
+  /// Labels the pixels of a cell that shows an occluder. Only those still show the body that are nearer to
+  /// its predicted depth than to the cell's.
+  void labelOccluder(const cv::Rect& pixels, const LabelCell& cell, Labels* labels) const;
+
  private:
   struct Sums;
   /// @param predicted depth of the body there [m].
@@ -28,8 +32,5 @@ class PixelLabeler {
   const RegionColors& colors_;
   float reach_m_;
 };
-
-/// No pixel of a cell shows the body if the cell shows an occluder.
-void labelAsOccluder(const cv::Rect& pixels, Labels* labels);
 
 }  // namespace softbody
