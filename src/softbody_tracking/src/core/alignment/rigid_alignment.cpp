@@ -18,8 +18,6 @@ constexpr double kHeldShare = 0.15;
 // First scale of the robust loss, in usual errors of the prediction, and its factor from one iteration to the
 // next: a motion that was not predicted is no outlier (graduated non-convexity, Blake and Zisserman 1987).
 constexpr double kFirstScale = 2.0, kNarrowing = 0.5;
-// Largest motion of a vertex in one step [m]; more comes from wrong associations.
-constexpr double kLargestRigidStep = 0.1;
 
 /// Associations by the piece that they measure.
 using AssociationsByPiece = std::vector<AssociationRefs>;
@@ -124,7 +122,6 @@ RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const Labels
                        measured, scale_m);
     const double step_m =
         (surface.movedVolume(next) - surface.movedVolume(motions)).rowwise().norm().maxCoeff();
-    if (step_m > kLargestRigidStep) return motions;
     motions = next;
     if (step_m < kConvergence) break;
   }

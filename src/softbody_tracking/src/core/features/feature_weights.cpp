@@ -11,8 +11,6 @@ namespace {
 constexpr double kSmallestShare = 0.01;
 // At this many times the median unexplained share a match has half the weight.
 constexpr double kUnusual = 2.0;
-// Largest sum of the matches' weights for each visible vertex, in weights of one match.
-constexpr double kPerVertex = 2.5;
 
 }  // namespace
 
@@ -29,14 +27,6 @@ void weighByAgreement(std::vector<FeatureMatch>* matches) {
     const double ratio = match.unexplained / (kUnusual * usual);
     match.association.weight /= 1.0 + ratio * ratio;
   }
-}
-
-void weighByDensity(double vertices, std::vector<FeatureMatch>* matches) {
-  const auto inliers = static_cast<double>(std::count_if(
-      matches->begin(), matches->end(), [](const FeatureMatch& match) { return match.inlier; }));
-  if (inliers == 0.0 || vertices == 0.0) return;
-  const double scale = std::min(kPerVertex * vertices / inliers, 1.0);
-  for (FeatureMatch& match : *matches) match.association.weight *= scale;
 }
 
 }  // namespace softbody

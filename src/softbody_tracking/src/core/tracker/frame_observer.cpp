@@ -57,7 +57,6 @@ ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predic
   const double visible_vertices =
       shownVertices(best.view.samples, model_->volume()) * best.features.expected.unoccludedShare();
   weighByAgreement(&best.features.found.matches);
-  weighByDensity(visible_vertices, &best.features.found.matches);
   auto [guess, motions] = Guesses::aligned(body, std::move(best));
   const GrayPyramid image = guess.features.image;
   Observation seen = measure(frame, guess.view, guess.labels, motions, std::move(guess.features));
