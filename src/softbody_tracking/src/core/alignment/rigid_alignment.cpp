@@ -15,9 +15,6 @@ constexpr int kPixelStep = 2;
 constexpr double kConvergence = 3e-4;
 // Weight that holds a piece with partial observability back, as a share of the weight of its measurements.
 constexpr double kHeldShare = 0.15;
-// First scale of the robust loss, in usual errors of the prediction, and its factor from one iteration to the
-// next: a motion that was not predicted is no outlier (graduated non-convexity, Blake and Zisserman 1987).
-constexpr double kFirstScale = 2.0, kNarrowing = 0.5;
 
 /// Associations by the piece that they measure.
 using AssociationsByPiece = std::vector<AssociationRefs>;
@@ -59,7 +56,7 @@ AssociationsByPiece gather(const std::vector<Association>& depth, const std::vec
 /// One ICP step of every piece that is observable.
 RigidMotions steppedMotions(const RigidMotions& motions, const std::vector<Points>& pieces,
                             const std::vector<Observability>& observability,
-                            const AssociationsByPiece& measured, double least_scale_m) {
+                            const AssociationsByPiece& measured) {
   RigidMotions result = motions;
   for (std::size_t piece = 0; piece < motions.size(); ++piece) {
     if (observability[piece] == Observability::kPoor) continue;
@@ -67,7 +64,7 @@ RigidMotions steppedMotions(const RigidMotions& motions, const std::vector<Point
     std::vector<Association> held;
     if (observability[piece] == Observability::kPartial)
       held = heldBack(pieces[piece], motions[piece], measured[piece]);
-    result[piece] = rigidStep(measured[piece], held, least_scale_m) * motions[piece];
+    result[piece] = rigidStep(measured[piece], held) * motions[piece];
   }
   return result;
 }
@@ -101,25 +98,22 @@ double largestMotion(const PredictedSurface& surface, const RigidMotions& motion
 }
 
 RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const Labels& labels,
-                          const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights,
-                          double usual_error_m) {
+                          const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights) {
   const PredictedSurface& surface = view.surface;
   RigidMotions motions(surface.pieceCount(), Eigen::Isometry3d::Identity());
   const std::vector<Points> pieces = surface.pieceVertices();
   const std::vector<Association> contours = contoursOf(frame, view, motions, labels, weights).associations;
   std::vector<Association> features;
   addInliers(matches, 1 + matches.size() / kEnoughFeatures, &features);
-  double scale_m = kFirstScale * usual_error_m;
-  for (int i = 0; i < kIterations; ++i, scale_m *= kNarrowing) {
+  for (int i = 0; i < kIterations; ++i) {
     const DepthAssociations seen = depthOf(frame, view, motions, labels, weights, kPixelStep);
     const std::vector<Association> moved_features = moved(motions, features);
     std::vector<Association> moved_contours = moved(motions, contours);
-    weighByResidual(kContourScale, &moved_contours, scale_m);
+    weighByResidual(kRobustScale, &moved_contours);
     const AssociationsByPiece measured =
         gather(seen.associations, moved_features, moved_contours, motions.size());
-    const RigidMotions next =
-        steppedMotions(motions, pieces, pieceObservability(view.samples, seen.associations, matches, pieces),
-                       measured, scale_m);
+    const RigidMotions next = steppedMotions(
+        motions, pieces, pieceObservability(view.samples, seen.associations, matches, pieces), measured);
     const double step_m =
         (surface.movedVolume(next) - surface.movedVolume(motions)).rowwise().norm().maxCoeff();
     motions = next;

@@ -18,17 +18,12 @@ std::vector<Association> inliers(const std::vector<FeatureMatch>& matches);
 std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& motion,
                                   const AssociationRefs& measured);
 
-/// Scale of the outline's robust loss, in median residuals. A line may find another edge beside the contour.
-constexpr double kContourScale = 4.0;
-
 /// Largest distance that the motions move a vertex of the prediction [m].
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions);
 
 /// The rigid motion of each piece that aligns the view with depth, contours and features (point-to-plane
 /// ICP). Pieces with poor observability do not move.
-/// @param usual_error_m how far predictions were off in the last frames: as far off is no outlier.
 RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const Labels& labels,
-                          const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights,
-                          double usual_error_m);
+                          const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights);
 
 }  // namespace softbody

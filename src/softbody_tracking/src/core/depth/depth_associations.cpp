@@ -12,7 +12,6 @@ namespace {
 constexpr double kMinSlope =
     0.05;  // normal times ray at z = 1; below it the plane's depth is ill-conditioned
 constexpr double kSmallestVariance = 1e-6 / 12.0;  // [m^2] of depth in a block: cameras round to 1 mm
-constexpr double kDepthScale = 4.0;                // of the robust loss, in median residuals
 constexpr double kUsualRelativeNoise = 0.013;  // see downweightByNoise; with more noise a thin body shakes
 constexpr double kMinNoiseWeight = 1.0 / 6.0;  // smallest factor: only depth gives the body's distance
 
@@ -163,7 +162,7 @@ DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& imag
     found.associations.push_back(
         associationOf(block, surface.samples[i], frame.camera, of_block * precision));
   }
-  weighByResidual(kDepthScale, &found.associations);
+  weighByResidual(kRobustScale, &found.associations);
   return found;
 }
 

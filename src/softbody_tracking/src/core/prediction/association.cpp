@@ -55,14 +55,13 @@ AssociationRefs refsTo(const std::vector<Association>& associations) {
   return refs;
 }
 
-Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held,
-                            double least_scale_m) {
+Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held) {
   if (associations.empty()) return Eigen::Isometry3d::Identity();
   MotionEquations equations;
   for (const Association* a : associations) equations.center += a->predicted;
   equations.center /= static_cast<double>(associations.size());
 
-  const double scale = std::max({kSmallestScale, least_scale_m, 2.0 * medianResidual(associations)});
+  const double scale = std::max(kSmallestScale, 2.0 * medianResidual(associations));
   for (const Association* a : associations) {
     const double ratio = a->residual() / scale;
     equations.add(*a, a->weight / (1.0 + ratio * ratio));
@@ -82,9 +81,9 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
   return T;
 }
 
-void weighByResidual(double scale, std::vector<Association>* associations, double least_scale_m) {
+void weighByResidual(double scale, std::vector<Association>* associations) {
   const double usual = std::max(kSmallestMedian, medianResidual(refsTo(*associations)));
-  const double length = std::max(least_scale_m, scale * usual);
+  const double length = scale * usual;
   for (Association& association : *associations) {
     const double ratio = association.residual() / length;
     association.weight /= 1.0 + ratio * ratio;

@@ -44,15 +44,15 @@ inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
 /// The small rigid motion from predictions to measurements: one Gauss-Newton step with Cauchy weights
 /// (point-to-plane with a normal, point-to-point without; Chen and Medioni 1992).
 /// @param held further associations with full weight; they do not change the scale of the Cauchy weights.
-/// @param least_scale_m of the Cauchy weights, at least 3 mm; residuals far below it are no outliers.
 /// @return identity if the associations do not determine a motion.
-Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held = {},
-                            double least_scale_m = 0.0);
+Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vector<Association>& held = {});
+
+/// Scale of the robust loss of depth and contours, in median residuals.
+constexpr double kRobustScale = 4.0;
 
 /// Robust loss (Cauchy): reduces the weights of associations whose residuals are large beside the others'.
 /// @param scale in median residuals, which are at least 1 mm: there the weight is halved.
-/// @param least_scale_m residuals far below it are no outliers.
-void weighByResidual(double scale, std::vector<Association>* associations, double least_scale_m = 0.0);
+void weighByResidual(double scale, std::vector<Association>* associations);
 
 /// Root mean square of the residuals [m]; 0 for none.
 double rmsResidual(const std::vector<Association>& associations);

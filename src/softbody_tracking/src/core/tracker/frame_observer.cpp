@@ -83,7 +83,7 @@ Observation FrameObserver::measure(const RgbdFrame& frame, const View& view, con
   const double edge_m = weights_.depth.edge_m;
   downweightByNoise(depth_noise_.patchStdDev(edge_m) / edge_m, &seen.depth);
   seen.outline = contoursOf(frame, view, motions, labels, weights_);
-  weighByResidual(kContourScale, &seen.outline.associations);
+  weighByResidual(kRobustScale, &seen.outline.associations);
   return restrictedToObservable(std::move(seen), view.samples, view.surface.pieceVertices());
 }
 

@@ -19,7 +19,7 @@ bool any(const std::vector<bool>& pieces) {
 
 RigidMotions alignedMotions(const GuessedBody& body, const View& view, const Labels& labels,
                             const std::vector<FeatureMatch>& matches) {
-  return alignRigidly(body.sought.frame, view, labels, matches, body.weights, body.usual_error_m);
+  return alignRigidly(body.sought.frame, view, labels, matches, body.weights);
 }
 
 std::vector<FeatureCount> countsOf(const GuessedBody& body, const FoundFeatures& features) {

@@ -17,7 +17,7 @@ struct GuessedBody {
   std::shared_ptr<const SurfaceModel> model;
   const ViewSettings& settings;
   const MeasurementWeights& weights;
-  double usual_error_m;  ///< see alignRigidly()
+  double usual_error_m;  ///< of the prediction
   SoughtFeatures sought;
   const LabelMemory& last_labels;  ///< of the last frame; empty: none
   RasterMemory* memory;
