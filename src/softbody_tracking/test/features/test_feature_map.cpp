@@ -10,7 +10,7 @@
 #include "features/feature_matching.h"
 #include "features/feature_outliers.h"
 #include "features/feature_selection.h"
-#include "fixtures/first_labels.h"
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 
@@ -64,7 +64,7 @@ class FeatureMapTest : public ::testing::Test {
   }
 
   ExpectedFeatures expect(const FeatureMap& map) const {
-    return expectFeatures(map.features(), firstLabels(frame_, surface_), surface_);
+    return expectFeatures(map.features(), labelsAt(frame_, surface_), surface_);
   }
   FeatureMatcher matcher() const { return {config_, map_.features(), frame_, image_}; }
 

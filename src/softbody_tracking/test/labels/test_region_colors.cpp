@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "fixtures/first_labels.h"
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 
 namespace softbody {
@@ -42,7 +42,7 @@ class RegionColorsTest : public ::testing::Test {
                                                   frame_.camera, vertices, &memory_);
   }
   void learn(double elapsed_s = kFrameInterval_s) {
-    colors_.learn(frame_, surface_->image(), firstLabels(frame_, *surface_, colors_), elapsed_s);
+    colors_.learn(frame_, surface_->image(), labelsAt(frame_, *surface_, colors_), elapsed_s);
   }
   /// Number of frames until a colour speaks for the body, at most 100.
   int framesUntilBody(const cv::Vec3b& color) {
@@ -151,6 +151,28 @@ TEST_F(RegionColorsTest, ResetForgets) {
   colors_.reset();
   EXPECT_FALSE(colors_.learned());
   for (const cv::Vec3b& color : {kSkin, kWall}) EXPECT_EQ(colors_.logOdds(color), 0.0);
+}
+
+/// A few pixels in a thousand are enough. What is only beside or before the body does not belong to it.
+TEST_F(RegionColorsTest, RareColorsBelongAndForeignOnesDoNot) {
+  const cv::Vec3b button(20, 20, 20);
+  frame_.color(cv::Rect(300, 200, 6, 6)) = button;
+  frame_.color(cv::Rect(230, 180, 40, 40)) = kGlove;
+  frame_.depth(cv::Rect(230, 180, 40, 40)) = kNear - 0.05f;
+  for (const cv::Vec3b& color : {kWall, kGlove, button}) EXPECT_TRUE(colors_.belongs(color)) << "not learned";
+  learn();
+  for (const cv::Vec3b& color : {kSkin, button}) EXPECT_TRUE(colors_.belongs(color)) << color;
+  for (const cv::Vec3b& color : {kWall, kGlove, kNeverSeen}) EXPECT_FALSE(colors_.belongs(color)) << color;
+}
+
+TEST_F(RegionColorsTest, TheMaskLooksOnlyAtTheRegion) {
+  const cv::Rect region(150, 140, 120, 60);  // partly on the body
+  EXPECT_EQ(cv::countNonZero(colors_.mask(frame_.color, region)), region.area()) << "not learned";
+  learn();
+  cv::Mat1b mask = colors_.mask(frame_.color, region);
+  EXPECT_EQ(cv::countNonZero(mask), (region & body_).area());
+  EXPECT_EQ(cv::countNonZero(mask(region & body_)), (region & body_).area());
+  EXPECT_EQ(cv::countNonZero(colors_.mask(frame_.color, {})), 0);
 }
 
 /// A body at the border of the image, or one that fills it, breaks nothing.

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "fixtures/first_labels.h"
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
@@ -60,8 +60,7 @@ class OutlineAssociationsTest : public ::testing::Test {
                                 double weight = 1.0) {
     surface_ = {model_, frame_.camera, predicted, &memory_};
     return associateOutline(frame_, surface_.image(), sampleOutline(surface_),
-                            RigidMotions(surface_.pieceCount(), motion),
-                            firstLabels(frame_, surface_, colors_),
+                            RigidMotions(surface_.pieceCount(), motion), labelsAt(frame_, surface_, colors_),
                             {weight, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
   }
   std::vector<Association> associateShifted(double pixels) {

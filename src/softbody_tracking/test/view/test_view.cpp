@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fixtures/first_labels.h"
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "view/view_measurements.h"
@@ -89,7 +89,7 @@ TEST_F(ViewTest, IsMeasuredWhereItWasMoved) {
   const View view = viewOf(at(Eigen::Vector3d::Zero()));
   RegionColors colors;
   learnColorsOf(frame, viewOf(at(shift)).surface, &colors);
-  const Labels labels = firstLabels(frame, view.surface, colors);
+  const Labels labels = labelsAt(frame, view.surface, colors);
   const MeasurementWeights weights(TrackerConfig(), box_.volume);
   const auto residual = [&](const Eigen::Vector3d& by) {
     const RigidMotions motions = {Eigen::Isometry3d(Eigen::Translation3d(by))};
