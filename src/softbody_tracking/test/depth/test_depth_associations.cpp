@@ -4,6 +4,7 @@
 #include <random>
 
 #include "depth/depth_associations.h"
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
@@ -21,11 +22,12 @@ class DepthAssociationsTest : public ::testing::Test {
 
   void predict(const Points& vertices) { surface_ = {model_, frame_.camera, vertices, &memory_}; }
 
+  Labels labels() const { return labelsAt(frame_, surface_, colors_, last_labels_); }
   DepthAssociations associate(const DepthConfig& config = DepthConfig(),
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                               int pixel_step = 1) {
     return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
-                          colors_, {config.weight, edge_, config.max_distance_m}, pixel_step);
+                          labels(), {config.weight, edge_, config.max_distance_m}, pixel_step);
   }
 
   /// To every pixel's depth.
@@ -44,6 +46,7 @@ class DepthAssociationsTest : public ::testing::Test {
   RasterMemory memory_;
   PredictedSurface surface_;
   RegionColors colors_;
+  LabelMemory last_labels_;
 };
 
 TEST_F(DepthAssociationsTest, AgreeWhereThePredictionIsTrue) {
@@ -211,7 +214,7 @@ TEST_F(DepthAssociationsTest, AStepBetweenPiecesIsNoNoise) {
   const RigidMotions motions = {Eigen::Isometry3d::Identity(),
                                 Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.006))};
   const DepthAssociations found =
-      associateDepth(frame_, surface_.image(), samples, motions, colors_, weight_);
+      associateDepth(frame_, surface_.image(), samples, motions, labels(), weight_);
   ASSERT_GT(rmsResidual(found.associations), 0.002);
   const double noise = associate().noise.density;
   EXPECT_NEAR(found.noise.density, noise, 0.2 * noise);
@@ -230,7 +233,7 @@ TEST_F(DepthAssociationsTest, TheMotionOfOnePieceDoesNotOccludeAnother) {
   const auto occluded = [&](double farther_m) {
     const Eigen::Isometry3d moved(Eigen::Translation3d(0.0, 0.0, -farther_m));
     const RigidMotions motions = {Eigen::Isometry3d::Identity(), moved};
-    return associateDepth(frame_, surface_.image(), samples, motions, colors_, weight_).occluded_blocks;
+    return associateDepth(frame_, surface_.image(), samples, motions, labels(), weight_).occluded_blocks;
   };
   const int finger = occluded(0.0);
   EXPECT_GT(finger, 5);
@@ -250,7 +253,7 @@ TEST_F(DepthAssociationsTest, TellOccludersFromAnAbsentBody) {
 }
 
 TEST_F(DepthAssociationsTest, ForeignColorsAreOccluders) {
-  colors_.learn(frame_, surface_.image(), 1.0);
+  learnColorsOf(frame_, surface_, &colors_);
   EXPECT_EQ(associate().occluded_blocks, 0);
   frame_.color.setTo(frame_.color(10, 10));  // the wall's
   const DepthAssociations found = associate();
@@ -305,15 +308,19 @@ TEST_F(DepthAssociationsTest, WhatStandsBeforeTheSurfaceByAStepIsNoPartOfIt) {
   }
 }
 
+/// It grows in three frames.
 TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
   constexpr double kHeight = 0.03, kRadiusPx = 90.0;
   const Eigen::Vector2d middle = frame_.camera.project(boxPose().translation());
-  colors_.learn(frame_, surface_.image(), 1.0);
-  for (int v = 0; v < frame_.depth.rows; ++v) {
-    for (int u = 0; u < frame_.depth.cols; ++u) {
-      const double distance = (Eigen::Vector2d(u, v) - middle).norm();
-      if (surface_.image().triangle(v, u) < 0 || distance > kRadiusPx) continue;
-      frame_.depth(v, u) -= static_cast<float>(kHeight * 0.5 * (1.0 + std::cos(M_PI * distance / kRadiusPx)));
+  learnColorsOf(frame_, surface_, &colors_);
+  for (int frame = 0; frame < 3; ++frame) {
+    last_labels_ = labels().memory;
+    for (int v = 0; v < frame_.depth.rows; ++v) {
+      for (int u = 0; u < frame_.depth.cols; ++u) {
+        const double away = (Eigen::Vector2d(u, v) - middle).norm() / kRadiusPx;
+        if (surface_.image().triangle(v, u) < 0 || away > 1.0) continue;
+        frame_.depth(v, u) -= static_cast<float>(kHeight / 3.0 * 0.5 * (1.0 + std::cos(M_PI * away)));
+      }
     }
   }
   for (const int targets : {1500, 300, 100, 50}) {

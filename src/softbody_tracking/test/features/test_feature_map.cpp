@@ -10,14 +10,14 @@
 #include "features/feature_matching.h"
 #include "features/feature_outliers.h"
 #include "features/feature_selection.h"
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {
 namespace {
 
-constexpr double kReach = 0.04;  // [m]
-constexpr double kGap = 0.005;   // [m]
+constexpr double kGap = 0.005;  // [m]
 
 /// A map bound to the box in its first pose.
 class FeatureMapTest : public ::testing::Test {
@@ -64,7 +64,7 @@ class FeatureMapTest : public ::testing::Test {
   }
 
   ExpectedFeatures expect(const FeatureMap& map) const {
-    return expectFeatures(map.features(), frame_, colors_, kReach, surface_);
+    return expectFeatures(map.features(), labelsAt(frame_, surface_), surface_);
   }
   FeatureMatcher matcher() const { return {config_, map_.features(), frame_, image_}; }
 
@@ -89,7 +89,6 @@ class FeatureMapTest : public ::testing::Test {
   RasterMemory memory_;
   PredictedSurface surface_{model_, frame_.camera, transformed(box_.volume.rest_vertices, boxPose()),
                             &memory_};
-  RegionColors colors_;
   GrayPyramid image_ = wholeImage();
   OrbExtractor orb_;
   FeatureMap map_{FeatureConfig()};

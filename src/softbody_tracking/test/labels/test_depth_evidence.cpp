@@ -26,9 +26,20 @@ TEST(DepthEvidence, ToleratesMoreFarAway) {
   const DepthEvidence evidence;
   EXPECT_GT(evidence.logOdds(0.02, 2.0), evidence.logOdds(0.02, 0.5));
   EXPECT_NEAR(evidence.logOdds(0.04, 2.0), evidence.logOdds(0.02, 1.0), 1e-9);
-  EXPECT_TRUE(DepthEvidence::isNearer(-0.03, 1.0));
-  EXPECT_FALSE(DepthEvidence::isNearer(-0.03, 2.0));
-  EXPECT_FALSE(DepthEvidence::isNearer(0.03, 1.0));
+}
+
+/// What is nearer than the body usually is stands before it; what is farther does not.
+TEST(DepthEvidence, TellsTheBodyFromWhatIsBeforeIt) {
+  EXPECT_GT(DepthEvidence::logOddsBeforeBody(0.0, 0.003), 1.0);
+  EXPECT_LT(DepthEvidence::logOddsBeforeBody(-0.015, 0.003), -2.0);
+  EXPECT_GT(DepthEvidence::logOddsBeforeBody(0.005, 0.003), 1.0);
+  EXPECT_GT(DepthEvidence::logOddsBeforeBody(-0.015, 0.012), DepthEvidence::logOddsBeforeBody(-0.015, 0.003))
+      << "the less certain the prediction, the less a difference says";
+  for (double difference = 0.0; difference > -0.01; difference -= 0.001) {
+    EXPECT_GE(DepthEvidence::logOddsBeforeBody(difference, 0.003),
+              DepthEvidence::logOddsBeforeBody(difference - 0.001, 0.003))
+        << difference;
+  }
 }
 
 /// Depth of the part behind speaks for that part.

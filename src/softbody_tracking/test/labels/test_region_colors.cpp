@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
+#include "fixtures/labels_at.h"
+#include "fixtures/synthetic_scene.h"
+
 namespace softbody {
 namespace {
 
@@ -15,33 +20,48 @@ class RegionColorsTest : public ::testing::Test {
   RegionColorsTest() { show({200, 150, 200, 120}); }
 
   void show(const cv::Rect& body) {
+    frame_.camera = {640, 480, 615.0, 615.0, 320.0, 240.0};
     frame_.color = cv::Mat3b(480, 640, kWall);
     frame_.depth = cv::Mat1f(480, 640, 1.2f);
-    rendered_.depth = cv::Mat1f(480, 640, 0.0f);
-    rendered_.triangle = cv::Mat1i(480, 640, -1);
     frame_.color(body) = kSkin;
     frame_.depth(body) = kNear;
-    rendered_.depth(body) = kNear;
-    rendered_.triangle(body) = 0;
-    rendered_.region = body;
+    predict(body);
+  }
+  /// A thin box before the camera that covers these pixels.
+  void predict(const cv::Rect& body) {
+    BoxBody box = makeBox();
+    const auto corner = [&](const cv::Point& pixel) {
+      return frame_.camera.unproject(pixel.x - 0.5, pixel.y - 0.5, kNear);
+    };
+    const Eigen::Vector3d size(0.2, 0.1, 0.04), first = corner(body.tl()), last = corner(body.br());
+    const Eigen::Vector3d scale = (last - first + 0.001 * Eigen::Vector3d::UnitZ()).cwiseQuotient(size);
+    Points vertices = box.volume.rest_vertices.rowwise() + 0.5 * size.transpose();
+    vertices = (vertices * scale.asDiagonal()).rowwise() + first.transpose();
+    body_ = body;
+    surface_ = std::make_unique<PredictedSurface>(std::make_shared<SurfaceModel>(box.volume, box.surface),
+                                                  frame_.camera, vertices, &memory_);
+  }
+  void learn(double elapsed_s = kFrameInterval_s) {
+    colors_.learn(frame_, surface_->image(), labelsAt(frame_, *surface_, colors_), elapsed_s);
   }
   /// Number of frames until a colour speaks for the body, at most 100.
   int framesUntilBody(const cv::Vec3b& color) {
     int frames = 0;
-    for (; frames < 100 && colors_.logOdds(color) < 1.0; ++frames)
-      colors_.learn(frame_, rendered_, kFrameInterval_s);
+    for (; frames < 100 && colors_.logOdds(color) < 1.0; ++frames) learn();
     return frames;
   }
 
   RgbdFrame frame_;
-  RasterImage rendered_;
+  cv::Rect body_;  ///< where it is predicted
+  RasterMemory memory_;
+  std::unique_ptr<PredictedSurface> surface_;
   RegionColors colors_;
 };
 
 TEST_F(RegionColorsTest, TellTheBodyFromItsSurroundings) {
   for (const cv::Vec3b& color : {kSkin, kWall}) EXPECT_EQ(colors_.logOdds(color), 0.0) << "nothing is known";
   EXPECT_FALSE(colors_.learned());
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   EXPECT_TRUE(colors_.learned());
   EXPECT_GT(colors_.logOdds(kSkin), 2.0);
   EXPECT_LT(colors_.logOdds(kWall), -2.0);
@@ -50,7 +70,7 @@ TEST_F(RegionColorsTest, TellTheBodyFromItsSurroundings) {
 
 TEST_F(RegionColorsTest, AColorOfBothSidesSaysNothing) {
   frame_.color.setTo(kSkin);
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   EXPECT_NEAR(colors_.logOdds(kSkin), 0.0, 1e-6);
 }
 
@@ -58,19 +78,19 @@ TEST_F(RegionColorsTest, AColorOfBothSidesSaysNothing) {
 TEST_F(RegionColorsTest, TheSidesAreComparedByShares) {
   frame_.color(cv::Rect(200, 150, 50, 120)) = kWall;  // a quarter of the body
   frame_.color(cv::Rect(0, 0, 640, 152)) = kSkin;     // less than a half of the surroundings
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   EXPECT_GT(colors_.logOdds(kSkin), 0.0);
   EXPECT_LT(colors_.logOdds(kWall), 0.0);
 }
 
 TEST_F(RegionColorsTest, FollowTheLight) {
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   const cv::Vec3b dark(kSkin[0] / 2, kSkin[1] / 2, kSkin[2] / 2);
-  frame_.color(rendered_.region) = dark;
+  frame_.color(body_) = dark;
   EXPECT_NEAR(colors_.logOdds(dark), 0.0, 1e-6);
   EXPECT_LT(framesUntilBody(dark), 10);
   const double before = colors_.logOdds(kSkin);
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   EXPECT_LT(colors_.logOdds(kSkin), before) << "what was learned in the old light fades";
 }
 
@@ -80,9 +100,9 @@ TEST_F(RegionColorsTest, FollowTheLightInTheSameTimeAtAnyRate) {
   for (const int rate : {15, 30, 60}) {
     colors_.reset();
     show({200, 150, 200, 120});
-    colors_.learn(frame_, rendered_, kFrameInterval_s);
-    frame_.color(rendered_.region) = kGlove;
-    for (int i = 0; i < 2 * rate / 5; ++i) colors_.learn(frame_, rendered_, 1.0 / rate);
+    learn();
+    frame_.color(body_) = kGlove;
+    for (int i = 0; i < 2 * rate / 5; ++i) learn(1.0 / rate);
     odds.push_back(colors_.logOdds(kSkin));
   }
   EXPECT_NEAR(odds[0], odds[1], 0.15);
@@ -93,7 +113,7 @@ TEST_F(RegionColorsTest, WhatCoversTheBodyIsNotLearned) {
   const cv::Rect glove(180, 180, 80, 60);
   frame_.color(glove) = kGlove;
   frame_.depth(glove) = kNear - 0.05f;
-  for (int i = 0; i < 20; ++i) colors_.learn(frame_, rendered_, kFrameInterval_s);
+  for (int i = 0; i < 20; ++i) learn();
   EXPECT_LE(colors_.logOdds(kGlove), 0.0);
   EXPECT_GT(colors_.logOdds(kSkin), 2.0);
 }
@@ -102,40 +122,57 @@ TEST_F(RegionColorsTest, WhatCoversTheBodyIsNotLearned) {
 TEST_F(RegionColorsTest, AHandAtTheDepthOfTheBodyIsNotLearned) {
   const cv::Rect beside(405, 180, 15, 60), over(340, 180, 60, 60);
   frame_.color(beside) = kGlove;
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   ASSERT_LT(colors_.logOdds(kGlove), 0.0);
-  show(rendered_.region);
+  show(body_);
   frame_.color(over) = kGlove;
-  for (int i = 0; i < 60; ++i) colors_.learn(frame_, rendered_, kFrameInterval_s);
+  for (int i = 0; i < 60; ++i) learn();
   EXPECT_LT(colors_.logOdds(kGlove), -1.0);
   EXPECT_GT(colors_.logOdds(kSkin), 2.0);
 }
 
 /// A prediction that is wrong by some pixels still learns the right colours: depth tells the sides apart.
 TEST_F(RegionColorsTest, LearnBesideAnInexactPrediction) {
-  const cv::Rect predicted = rendered_.region + cv::Point(8, 0);
-  rendered_.depth.setTo(0.0f);
-  rendered_.depth(predicted) = kNear;
-  rendered_.triangle.setTo(-1);
-  rendered_.triangle(predicted) = 0;
-  rendered_.region = predicted;
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  predict(body_ + cv::Point(8, 0));
+  learn();
   EXPECT_GT(colors_.logOdds(kSkin), 1.0);
   EXPECT_LT(colors_.logOdds(kWall), -2.0);
 }
 
 TEST_F(RegionColorsTest, AFewPixelsTeachNothing) {
   show({300, 200, 10, 10});
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   EXPECT_FALSE(colors_.learned());
   EXPECT_EQ(colors_.logOdds(kSkin), 0.0);
 }
 
 TEST_F(RegionColorsTest, ResetForgets) {
-  colors_.learn(frame_, rendered_, kFrameInterval_s);
+  learn();
   colors_.reset();
   EXPECT_FALSE(colors_.learned());
   for (const cv::Vec3b& color : {kSkin, kWall}) EXPECT_EQ(colors_.logOdds(color), 0.0);
+}
+
+/// A few pixels in a thousand are enough. What is only beside or before the body does not belong to it.
+TEST_F(RegionColorsTest, RareColorsBelongAndForeignOnesDoNot) {
+  const cv::Vec3b button(20, 20, 20);
+  frame_.color(cv::Rect(300, 200, 6, 6)) = button;
+  frame_.color(cv::Rect(230, 180, 40, 40)) = kGlove;
+  frame_.depth(cv::Rect(230, 180, 40, 40)) = kNear - 0.05f;
+  for (const cv::Vec3b& color : {kWall, kGlove, button}) EXPECT_TRUE(colors_.belongs(color)) << "not learned";
+  learn();
+  for (const cv::Vec3b& color : {kSkin, button}) EXPECT_TRUE(colors_.belongs(color)) << color;
+  for (const cv::Vec3b& color : {kWall, kGlove, kNeverSeen}) EXPECT_FALSE(colors_.belongs(color)) << color;
+}
+
+TEST_F(RegionColorsTest, TheMaskLooksOnlyAtTheRegion) {
+  const cv::Rect region(150, 140, 120, 60);  // partly on the body
+  EXPECT_EQ(cv::countNonZero(colors_.mask(frame_.color, region)), region.area()) << "not learned";
+  learn();
+  cv::Mat1b mask = colors_.mask(frame_.color, region);
+  EXPECT_EQ(cv::countNonZero(mask), (region & body_).area());
+  EXPECT_EQ(cv::countNonZero(mask(region & body_)), (region & body_).area());
+  EXPECT_EQ(cv::countNonZero(colors_.mask(frame_.color, {})), 0);
 }
 
 /// A body at the border of the image, or one that fills it, breaks nothing.
@@ -143,7 +180,7 @@ TEST_F(RegionColorsTest, AnyRegionIsAllowed) {
   for (const cv::Rect& body : {cv::Rect(0, 0, 640, 480), cv::Rect(0, 0, 40, 480), cv::Rect(600, 440, 40, 40),
                                cv::Rect(0, 0, 0, 0)}) {
     show(body);
-    colors_.learn(frame_, rendered_, kFrameInterval_s);
+    learn();
   }
   EXPECT_GE(colors_.logOdds(kSkin), 0.0);
 }

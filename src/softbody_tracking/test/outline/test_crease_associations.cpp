@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
@@ -40,7 +41,7 @@ class CreaseAssociationsTest : public ::testing::Test {
   std::vector<Association> associate(const Points& predicted) {
     surface_ = {model_, frame_.camera, predicted, &memory_};
     return associateCreases(frame_, surface_, sampleCreases(surface_),
-                            RigidMotions(1, Eigen::Isometry3d::Identity()),
+                            RigidMotions(1, Eigen::Isometry3d::Identity()), labelsAt(frame_, surface_),
                             {1.0, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
   }
 

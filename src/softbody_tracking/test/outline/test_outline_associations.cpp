@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
@@ -47,10 +48,11 @@ class OutlineAssociationsTest : public ::testing::Test {
   }
 
   /// From the frame as it is, with the prediction at its true position.
-  void learnColors() {
-    surface_ = {model_, frame_.camera, boxAt(kFlat), &memory_};
+  void learnColors() { learnColors(boxAt(kFlat)); }
+  void learnColors(const Points& vertices) {
+    surface_ = {model_, frame_.camera, vertices, &memory_};
     colors_.reset();
-    colors_.learn(frame_, surface_.image(), 1.0);
+    learnColorsOf(frame_, surface_, &colors_);
   }
 
   OutlineAssociations associate(const Points& predicted,
@@ -58,7 +60,7 @@ class OutlineAssociationsTest : public ::testing::Test {
                                 double weight = 1.0) {
     surface_ = {model_, frame_.camera, predicted, &memory_};
     return associateOutline(frame_, surface_.image(), sampleOutline(surface_),
-                            RigidMotions(surface_.pieceCount(), motion), colors_,
+                            RigidMotions(surface_.pieceCount(), motion), labelsAt(frame_, surface_, colors_),
                             {weight, meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets)});
   }
   std::vector<Association> associateShifted(double pixels) {
@@ -263,16 +265,13 @@ TEST_F(OutlineAssociationsTest, TellThePieces) {
 
 /// A side that is seen at a grazing angle: its depth grows by more than a step from pixel to pixel.
 TEST_F(OutlineAssociationsTest, ASteepSideIsNoEndOfTheBody) {
-  BoxBody cube = makeBox(6, 6, 6);
-  for (Points* vertices : {&cube.volume.rest_vertices, &cube.surface.rest_vertices})
+  box_ = makeBox(6, 6, 6);
+  for (Points* vertices : {&box_.volume.rest_vertices, &box_.surface.rest_vertices})
     *vertices *= Eigen::Vector3d(0.5, 1.0, 2.5).asDiagonal();
-  box_ = cube;
   model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   const Points truth = transformed(box_.volume.rest_vertices, boxPose());
   frame_ = renderFrame(box_, truth, 1);
-  surface_ = {model_, frame_.camera, truth, &memory_};
-  colors_.reset();
-  colors_.learn(frame_, surface_.image(), 1.0);
+  learnColors(truth);
   const OutlineAssociations found = associate(truth);
   EXPECT_LT(found.disagreement, 0.04);
   EXPECT_LT(meanAbsoluteError(found.associations, 0.0), 0.7);

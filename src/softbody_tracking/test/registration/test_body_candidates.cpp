@@ -58,9 +58,20 @@ TEST(BodyCandidates, ContainNoPartOfATableThatAnArmDivides) {
 
 const cv::Vec3b kBodyColor(40, 60, 220), kTableColor(200, 190, 60);
 
+/// As of a frame that shows the body on the left half of the table.
 RegionColors bodyColors() {
+  RgbdFrame frame;
+  frame.color = cv::Mat3b(100, 100, kTableColor);
+  frame.color.colRange(0, 50).setTo(kBodyColor);
+  Labels labels;
+  labels.region = cv::Rect(0, 0, 100, 100);
+  labels.label = cv::Mat1b(100, 100, labels::kBackground);
+  labels.label.colRange(0, 50).setTo(labels::kBody);
+  RasterImage rendered;
+  rendered.depth = cv::Mat1f(100, 100, 1.0f);
+  rendered.triangle = cv::Mat1i(100, 100, 0);
   RegionColors colors;
-  colors.learn(cv::Mat3b(100, 100, kBodyColor), cv::Mat1b(100, 100, 255));
+  colors.learn(frame, rendered, labels, 1.0);
   return colors;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "view/view_measurements.h"
@@ -87,12 +88,13 @@ TEST_F(ViewTest, IsMeasuredWhereItWasMoved) {
   const RgbdFrame frame = renderFrame(box_, at(shift), 1);
   const View view = viewOf(at(Eigen::Vector3d::Zero()));
   RegionColors colors;
-  colors.learn(frame, viewOf(at(shift)).surface.image(), 1.0);
+  learnColorsOf(frame, viewOf(at(shift)).surface, &colors);
+  const Labels labels = labelsAt(frame, view.surface, colors);
   const MeasurementWeights weights(TrackerConfig(), box_.volume);
   const auto residual = [&](const Eigen::Vector3d& by) {
     const RigidMotions motions = {Eigen::Isometry3d(Eigen::Translation3d(by))};
-    const double depth = rmsResidual(depthOf(frame, view, motions, colors, weights).associations);
-    const double contour = rmsResidual(contoursOf(frame, view, motions, colors, weights).associations);
+    const double depth = rmsResidual(depthOf(frame, view, motions, labels, weights).associations);
+    const double contour = rmsResidual(contoursOf(frame, view, motions, labels, weights).associations);
     return std::max(depth, contour);
   };
   EXPECT_LT(residual(shift), 0.5 * residual(Eigen::Vector3d::Zero()));

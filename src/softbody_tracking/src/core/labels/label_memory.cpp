@@ -22,19 +22,20 @@ float kernel(float squared) { return squared < 1.0f ? (1.0f - squared) * (1.0f -
 
 double LabelMemory::logOdds(const cv::Point& center, float depth_m, int reach_px) const {
   if (depth.empty()) return 0.0;
-  const int column = (center.x - origin.x) / size_px, row = (center.y - origin.y) / size_px;
+  const cv::Point own(cvFloor(static_cast<double>(center.x - origin.x) / size_px),
+                      cvFloor(static_cast<double>(center.y - origin.y) / size_px));
   const int reach = std::max(1, reach_px / size_px), step = std::max(1, reach / kLooks);
+  const cv::Rect all({}, depth.size());
   float on_body = kUnsure, on_occluder = kUnsure;
-  for (int j = std::max(0, row - kLooks * step); j <= std::min(depth.rows - 1, row + kLooks * step);
-       j += step) {
-    for (int i = std::max(0, column - kLooks * step); i <= std::min(depth.cols - 1, column + kLooks * step);
-         i += step) {
-      if (depth(j, i) <= 0.0f) continue;
-      const float farther = (depth(j, i) - depth_m) / kSameSurface;
-      const auto cells = static_cast<float>((i - column) * (i - column) + (j - row) * (j - row));
+  for (int j = -kLooks * step; j <= kLooks * step; j += step) {
+    for (int i = -kLooks * step; i <= kLooks * step; i += step) {
+      const cv::Point place = own + cv::Point(i, j);
+      if (!all.contains(place) || depth(place) <= 0.0f) continue;
+      const float farther = (depth(place) - depth_m) / kSameSurface;
+      const auto cells = static_cast<float>(i * i + j * j);
       const float weight = kernel(farther * farther) * kernel(cells / static_cast<float>(reach * reach));
-      on_body += weight * body(j, i);
-      on_occluder += weight * (1.0f - body(j, i));
+      on_body += weight * body(place);
+      on_occluder += weight * (1.0f - body(place));
     }
   }
   return std::log(on_body / on_occluder);
