@@ -58,7 +58,7 @@ def track(name, recording, config, *more):
 
 def measure(name, recording, config, *against, more=()):
     """Tracks a recording, with more arguments for `replay`; the report of `evaluate`."""
-    result = track(name, recording, config, *more)
+    result = track(name, recording, config, "--labels", *more)
     text = tool("evaluate", result, *against, "--json", "--report", OUTPUT / name)
     (OUTPUT / f"{name}.json").write_text(text)
     return json.loads(text)

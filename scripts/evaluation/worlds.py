@@ -74,7 +74,7 @@ def texture_run(scene, texture):
     recording = OUTPUT / f"{name}.bag"
     tool("virtual_camera", "--scene", scene, "--texture", texture, "--labels", "--output", recording)
     config, allowed = config_of(scene, name)
-    result = track(name, recording, config, *allowed)
+    result = track(name, recording, config, "--labels", *allowed)
     text = tool("evaluate", result, "--truth", recording, "--json")
     (OUTPUT / f"{name}.json").write_text(text)
     recording.unlink()

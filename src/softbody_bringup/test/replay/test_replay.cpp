@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/pipeline/pipeline.h"
@@ -35,7 +36,7 @@ class ReplayTest : public ::testing::Test {
     Pipeline pipeline(model, PipelineConfig());
     CameraIngest ingest{CameraIngestConfig()};
     const rosbag::Bag input(kBag, rosbag::bagmode::Read);
-    ResultBag result(output, "/softbody", false);
+    ResultBag result(output, "/softbody");
     std::vector<FrameOutput> frames;
     const auto use = [&](const RgbdFrame& frame, const std_msgs::Header& header, double) {
       if (frames.empty()) result.writeTopologies(pipeline, header.stamp);
@@ -93,7 +94,7 @@ TEST_F(ReplayTest, EveryStageIsInitializedOnce) {
 TEST_F(ReplayTest, LeavesAnEarlierResultAloneWhenItDoesNotFinish) {
   const fs::path output = folder_ / "result.bag";
   std::ofstream(output) << "an earlier result";
-  { const ResultBag unfinished(output, "/softbody", false); }
+  { const ResultBag unfinished(output, "/softbody"); }
   EXPECT_EQ(bytes(output), "an earlier result");
   expectNothingIncomplete();
 }
@@ -130,6 +131,35 @@ TEST_F(ReplayTest, OneOddStampCostsItsOwnFrame) {
     EXPECT_EQ(summary.states, 44) << stamp;
     EXPECT_EQ(summary.read.unpaired.outliers + summary.read.unpaired.unstamped, 2) << stamp;
   }
+}
+
+/// Stamps of the label images in a result.
+std::vector<ros::Time> stampsOfLabels(const fs::path& path) {
+  const rosbag::Bag bag(path);
+  std::vector<ros::Time> stamps;
+  for (const rosbag::MessageInstance& message :
+       rosbag::View(bag, rosbag::TopicQuery("/softbody/feature_tracker/labels"))) {
+    const auto image = message.instantiate<sensor_msgs::Image>();
+    EXPECT_EQ(image->encoding, "8UC1");
+    EXPECT_EQ(image->header.frame_id, "camera_color_optical_frame");
+    EXPECT_EQ(image->header.stamp, message.getTime());
+    stamps.push_back(image->header.stamp);
+  }
+  return stamps;
+}
+
+TEST_F(ReplayTest, WritesALabelImageForEachFrameWhenAsked) {
+  ReplayOptions options;
+  options.input = kBag;
+  options.object = kObject;
+  options.output = folder_ / "result.bag";
+  const auto quiet = [](const auto&) {};
+  softbody::replay(options, quiet, quiet);
+  EXPECT_TRUE(stampsOfLabels(options.output).empty());
+  options.labels = true;
+  softbody::replay(options, quiet, quiet);
+  const std::vector<ros::Time> stamps = stampsOfLabels(options.output);
+  EXPECT_EQ(std::set<ros::Time>(stamps.begin(), stamps.end()).size(), 45u);
 }
 
 TEST_F(ReplayTest, ARecordingThatLoopsLosesNoFrame) {

@@ -1,7 +1,12 @@
 #include "softbody_tracking/ros/feature_messages.h"
 
+#include <sensor_msgs/image_encodings.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "softbody_common/images/pixel_labels.h"
 #include "softbody_common/ros/conversions.h"
 
 namespace softbody {
@@ -47,6 +52,17 @@ visualization_msgs::Marker makeFeatureMarker(const std::vector<TrackedFeature>& 
     marker.points.push_back(pointMessage(feature.position));
   }
   return marker;
+}
+
+sensor_msgs::Image makeLabelImage(const TrackingResult& result, const cv::Size& size) {
+  sensor_msgs::Image image;
+  image.encoding = sensor_msgs::image_encodings::TYPE_8UC1;
+  image.width = image.step = static_cast<std::uint32_t>(size.width);
+  image.height = static_cast<std::uint32_t>(size.height);
+  image.data.assign(std::size_t{image.step} * image.height, labels::kUnknown);
+  cv::Mat1b pixels(size.height, size.width, image.data.data());
+  if (!result.labelled.empty()) result.labels.copyTo(pixels(result.labelled));
+  return image;
 }
 
 }  // namespace softbody

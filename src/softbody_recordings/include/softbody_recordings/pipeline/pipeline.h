@@ -17,6 +17,7 @@ namespace softbody {
 /// The output of the graph's nodes for one frame.
 struct FrameOutput {
   TrackingResult tracking;
+  cv::Size image;  ///< size of the frame [px]
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
   std::optional<MeshState> volume;  ///< in the fixed frame, as the surface; empty until the body is found
   std::optional<MeshState> surface;

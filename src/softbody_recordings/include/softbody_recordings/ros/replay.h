@@ -19,6 +19,7 @@ struct ReplayOptions {
   std::string simd;                           ///< of the simulator; empty: from the parameters
   FileScope scope = FileScope::kOwnFolder;    ///< of the files that the YAMLs name
   bool timing = false;                        ///< also write wall-clock times of the stages
+  bool labels = false;                        ///< also write what each pixel shows
 };
 
 /// The outcome of a replay.

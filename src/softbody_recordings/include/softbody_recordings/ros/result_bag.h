@@ -10,15 +10,21 @@
 
 namespace softbody {
 
+/// What is written only on demand.
+struct ResultBagExtras {
+  bool timing = false;  ///< wall-clock times of the stages
+  bool labels = false;  ///< label images
+};
+
 /// Writes the messages of the graph into a bag (lz4). The record time is the header stamp, so the same input
 /// gives the same bytes. The file appears when finish() is called; until then an earlier file stays
 /// unchanged.
 class ResultBag {
  public:
   /// @param topic_namespace of the output topics, e.g. "/softbody"; the frames follow it.
-  /// @param with_timing also write stage times.
   /// @throw std::runtime_error if the file cannot be written.
-  ResultBag(const std::filesystem::path& output, std::string topic_namespace, bool with_timing);
+  ResultBag(const std::filesystem::path& output, std::string topic_namespace,
+            const ResultBagExtras& extras = {});
 
   /// Writes both topologies, latched. Call it before the first state of a revision, and again every second.
   /// Their stamp stays that of the revision's first frame.
@@ -43,7 +49,7 @@ class ResultBag {
 
   std::string namespace_, body_frame_, output_frame_;
   Points blade_;
-  bool with_timing_;
+  ResultBagExtras extras_;
   ros::Time revision_stamp_;  ///< of the first frame with these topologies
   std::uint32_t revision_ = 0;
   AtomicBag bag_;

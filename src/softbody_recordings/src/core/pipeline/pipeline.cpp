@@ -44,6 +44,7 @@ void Pipeline::startPass() {
 
 FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts) {
   FrameOutput output;
+  output.image = frame.depth.size();
   output.T_fixed_camera = frame.T_fixed_camera;
   if (std::exchange(pass_, frame.pass) != frame.pass) startPass();
   waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());

@@ -87,7 +87,7 @@ class Replay {
                       options.output_frame.empty() ? config.output_frame : options.output_frame),
         pipeline_(model, config.pipeline, tool),
         journal_(loadJournal(options)),
-        output_(options.output, options.topic_namespace, options.timing) {
+        output_(options.output, options.topic_namespace, {options.timing, options.labels}) {
     for (const std::string& warning : camera_poses_.warnings()) warn_(warning);
     output_.setOutputFrame(camera_poses_.outputFrame());
     if (tool) output_.setBlade(tool->blade);

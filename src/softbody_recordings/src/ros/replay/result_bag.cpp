@@ -15,10 +15,11 @@
 
 namespace softbody {
 
-ResultBag::ResultBag(const std::filesystem::path& output, std::string topic_namespace, bool with_timing)
+ResultBag::ResultBag(const std::filesystem::path& output, std::string topic_namespace,
+                     const ResultBagExtras& extras)
     : namespace_(std::move(topic_namespace)),
       body_frame_(frameInNamespace(namespace_, "softbody")),
-      with_timing_(with_timing),
+      extras_(extras),
       bag_(output) {}
 
 template <typename Message>
@@ -75,6 +76,7 @@ void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& hea
   if (frame.tracking.has_targets) {
     write(topic(topics::kFeatures), makeFeatureCloud(frame.tracking.features), header);
     write(topic(topics::kFeaturesMarker), makeFeatureMarker(frame.tracking.features), header);
+    if (extras_.labels) write(topic(topics::kLabels), makeLabelImage(frame.tracking, frame.image), header);
     write(topic(topics::kTargets), toMessage(frame.tracking.targets), fixed);
     writeTransform(frame.T_fixed_camera.inverse() * frame.tracking.targets.body_pose, body_frame_, header);
   }
@@ -84,7 +86,7 @@ void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& hea
   for (const Cut& cut : frame.cuts) write(topic(topics::kCut), toMessage(cut), rest);
   if (frame.volume) write(topic(topics::kVolumeState), toMessage(*frame.volume), fixed);
   if (frame.surface) write(topic(topics::kSurfaceState), toMessage(*frame.surface), fixed);
-  if (with_timing_) write(topic(topics::kTiming), timingMessage("replay", frame.times), header);
+  if (extras_.timing) write(topic(topics::kTiming), timingMessage("replay", frame.times), header);
 }
 
 }  // namespace softbody

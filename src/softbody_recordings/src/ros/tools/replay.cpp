@@ -42,6 +42,8 @@ void declare(CLI::App* app, ReplayOptions* options) {
       ->check(CLI::IsMember({"auto", "sse4", "avx2", "avx512"}));
   app->add_flag("--timing", options->timing,
                 "also write wall-clock times of the stages; the output then differs between runs");
+  app->add_flag("--labels", options->labels,
+                "also write the label of each pixel: background, body or occluder");
   addAllowOutside(app, &options->scope);
   app->callback([options] { requireOtherFile(options->input, options->output); });
 }

@@ -156,6 +156,7 @@ void FeatureTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame
     return;
   }
   publisher_.publishFeatures(header, result.features);
+  publisher_.publishLabels(header, result, frame.depth.size());
   publisher_.publishTargets(output_frame_.fixedHeader(header), result.targets);
   publisher_.publishBodyPose(header, frame.T_fixed_camera.inverse() * result.targets.body_pose);
 }

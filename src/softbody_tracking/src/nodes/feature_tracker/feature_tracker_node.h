@@ -24,7 +24,8 @@
 
 namespace softbody {
 
-/// Rectified images and the simulator's last state in; targets, features, status and the body's tf out.
+/// Rectified images and the simulator's last state in; targets, features, labels, status and the body's tf
+/// out.
 class FeatureTrackerNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.

@@ -1,5 +1,6 @@
 #include "nodes/feature_tracker/tracking_publisher.h"
 
+#include <sensor_msgs/Image.h>
 #include <softbody_msgs/StageTiming.h>
 #include <softbody_msgs/Targets.h>
 #include <softbody_msgs/TrackingStatus.h>
@@ -18,6 +19,7 @@ TrackingPublisher::TrackingPublisher(ros::NodeHandle handle, std::string body_fr
     : body_frame_(std::move(body_frame)) {
   features_ = handle.advertise<sensor_msgs::PointCloud2>(topics::kFeatures, 1);
   features_marker_ = handle.advertise<visualization_msgs::Marker>(topics::kFeaturesMarker, 1);
+  labels_ = handle.advertise<sensor_msgs::Image>(topics::kLabels, 1);
   targets_ = handle.advertise<softbody_msgs::Targets>(topics::kTargets, 1);
   status_ = handle.advertise<softbody_msgs::TrackingStatus>(topics::kStatus, 1, true);
   timing_ = handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);
@@ -42,6 +44,14 @@ void TrackingPublisher::publishFeatures(const std_msgs::Header& camera_header,
     marker->header = camera_header;
     features_marker_.publish(marker);
   }
+}
+
+void TrackingPublisher::publishLabels(const std_msgs::Header& camera_header, const TrackingResult& result,
+                                      const cv::Size& size) const {
+  if (labels_.getNumSubscribers() == 0) return;
+  const auto image = boost::make_shared<sensor_msgs::Image>(makeLabelImage(result, size));
+  image->header = camera_header;
+  labels_.publish(image);
 }
 
 void TrackingPublisher::publishTargets(const std_msgs::Header& fixed_header, const TargetSet& targets) const {

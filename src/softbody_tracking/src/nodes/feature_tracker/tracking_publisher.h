@@ -22,6 +22,9 @@ class TrackingPublisher {
   /// Features, in the camera's frame. Nothing is computed without a subscriber.
   void publishFeatures(const std_msgs::Header& camera_header,
                        const std::vector<TrackedFeature>& features) const;
+  /// What each pixel shows. Nothing is computed without a subscriber. @param size of the frame [px].
+  void publishLabels(const std_msgs::Header& camera_header, const TrackingResult& result,
+                     const cv::Size& size) const;
   /// @param fixed_header with the frame of the targets' positions.
   void publishTargets(const std_msgs::Header& fixed_header, const TargetSet& targets) const;
   void publishBodyPose(const std_msgs::Header& camera_header, const Eigen::Isometry3d& T_camera_body);
@@ -29,7 +32,7 @@ class TrackingPublisher {
 
  private:
   std::string body_frame_;
-  ros::Publisher features_, features_marker_, targets_, status_, timing_;
+  ros::Publisher features_, features_marker_, labels_, targets_, status_, timing_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
 };
 
