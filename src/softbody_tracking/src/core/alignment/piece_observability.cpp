@@ -8,6 +8,10 @@
 namespace softbody {
 namespace {
 
+// Blocks of depth that suffice, whatever part of the piece is occluded.
+constexpr int kEnough = 150;
+// Share of a piece's visible blocks that must agree; a rim beside the blade is less.
+constexpr double kLeastShown = 0.3;
 // Largest error of a vertex, in errors of one block of depth, for good and for partial observability.
 constexpr double kGoodError = 1.0, kPartialError = 2.0;
 // Share of the visible blocks that must agree before new features are learned.
@@ -54,7 +58,10 @@ double largestError(const Evidence& evidence, const Points& points) {
 }
 
 Observability observabilityOf(const Evidence& evidence, const Points& points) {
-  const bool judgeable = evidence.features >= kFewestAssociations || evidence.agreeing >= kFewestAssociations;
+  if (evidence.agreeing >= kEnough) return Observability::kGood;
+  const bool judgeable =
+      evidence.features >= kFewestAssociations ||
+      (evidence.agreeing >= kFewestAssociations && evidence.agreeing >= kLeastShown * evidence.blocks);
   const double error = judgeable ? largestError(evidence, points) : kPartialError;
   if (error >= kPartialError) return Observability::kPoor;
   return error >= kGoodError ? Observability::kPartial : Observability::kGood;

@@ -8,6 +8,9 @@ namespace softbody {
 /// What is farther than the predicted surface by more than this [m] is behind it; above noise and slope.
 constexpr double kBehindSurface = 0.01;
 
+/// Step of depth between neighbouring pixels or cells at which a surface ends [m]; far above noise.
+constexpr double kSurfaceEnds = 0.02;
+
 /// How much the depth of a pixel speaks for the body, where the body is predicted. What is not the body is
 /// anywhere within a metre, or touches the body like the table below it.
 class DepthEvidence {

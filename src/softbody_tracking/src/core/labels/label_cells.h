@@ -19,7 +19,11 @@ struct LabelCell {
 
   float shift = 0.0f;  ///< by which the whole piece is farther than predicted [m]
 
+  bool beside_occluder = false;  ///< a cell around it shows an occluder
+  bool joined = false;           ///< an occluder's cell that belongs to an occluder before the body
+
   bool onSurface() const { return distance == 0; }
+  bool showsOccluder() const { return shows_front && body < 0.5f; }
   float measured() const { return predicted + difference; }  ///< mean depth [m]
 };
 

@@ -1,14 +1,17 @@
 #include "labels/labeling.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include "labels/occluders.h"
 #include "labels/pixel_labels.h"
 
 namespace softbody {
 namespace {
 
-// Width of the labelled margin around the prediction [rad]: 24 px of an image with 640 x 480 pixels. Nothing
-// moves farther in a frame.
-constexpr double kMargin = 0.026;
+// Width of the labelled margin around the prediction [rad]: 24 px of an image with 640 x 480 pixels.
+constexpr double kMargin = 0.039;
+// Side of the square around a pixel whose mean decides [px]: single pixels are noise.
+constexpr int kAround = 5;
 
 /// @param action gets the pixels of each cell, and the cell.
 template <typename Action>
@@ -33,10 +36,11 @@ Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const S
   const PixelLabeler pixels(frame, surface.image().depth, colors, reach_m);
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.label(area, cell, &labels); });
-  tellOccluders(samples, {last, frame.camera.fx, error_m, margin_px}, &cells);
-  forEachCell(image, &cells, [&](const cv::Rect& area, LabelCell* cell) {
-    if (cell->shows_front && cell->body < 0.5f) pixels.labelOccluder(area, *cell, &labels);
-  });
+  tellOccluders(samples, {last, frame.camera.fx, error_m, cvRound(kReach * frame.camera.fx)}, &cells);
+  cv::Mat1f mean_odds;
+  cv::blur(labels.log_odds, mean_odds, {kAround, kAround});
+  forEachCell(image, &cells,
+              [&](const cv::Rect& area, LabelCell* cell) { pixels.decide(area, *cell, mean_odds, &labels); });
   labels.memory = memoryOf(cells);
   return labels;
 }

@@ -8,6 +8,9 @@
 
 namespace softbody {
 
+/// How far from its prediction anything is looked for in the image [rad]: 16 px with 640 x 480 pixels.
+constexpr double kReach = 0.026;
+
 /// What the pixels around the predicted body show. Labels belong to the image: if the prediction moves a
 /// little, they stay.
 struct Labels {

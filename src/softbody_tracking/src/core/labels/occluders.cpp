@@ -14,8 +14,6 @@ namespace {
 constexpr double kPredicted = 2.0;
 // Smallest standard deviation of the surface around the prediction, along its normal [m]: shape and noise.
 constexpr double kSmallestDeviation = 0.0017;
-// Smallest distance along the normal per distance along the ray: steeper sides are hardly seen.
-constexpr double kSteepest = 0.05;
 // Smallest standard deviation of the predicted outline [rad]: 4 px of an image with 640 x 480 pixels.
 constexpr double kOutlineDeviation = 0.0065;
 // Step of depth between neighbouring cells, relative to the prediction, that is usual on one surface [m].
@@ -35,8 +33,7 @@ class Excess {
     for (auto& [piece, values] : differences) medians_[piece] = median(&values);
     std::vector<double> deviations;
     for (const LabelCell& cell : cells.cells)
-      if (cell.shows_front && cell.onSurface() && cell.body > 0.5f)
-        deviations.push_back(std::abs(of(cell)) * facing(cell));
+      if (cell.shows_front && cell.onSurface() && cell.body > 0.5f) deviations.push_back(std::abs(of(cell)));
     deviation_ = std::hypot(kSmallestDeviation, median(&deviations) / kMedianPerSigma);
   }
 
@@ -44,18 +41,11 @@ class Excess {
     const auto found = medians_.find(pieceOf(cell));
     return cell.difference - (found == medians_.end() ? 0.0 : found->second);
   }
-  /// Standard deviation on the body [m]. It is the same everywhere along the normal, so depth is less certain
-  /// on a steep side.
-  double deviation(const LabelCell& cell) const { return deviation_ / facing(cell); }
+  double deviation() const { return deviation_; }  ///< standard deviation on the body [m]
 
  private:
   const SurfaceSample& sampleOf(const LabelCell& cell) const {
     return samples_.samples[static_cast<std::size_t>(cell.sample)];
-  }
-  /// Distance along the normal per distance along the ray.
-  double facing(const LabelCell& cell) const {
-    const SurfaceSample& sample = sampleOf(cell);
-    return std::max(kSteepest, -sample.normal.dot(sample.position) / sample.position.z());
   }
   std::uint32_t pieceOf(const LabelCell& cell) const { return sampleOf(cell).piece; }
 
@@ -71,7 +61,7 @@ double ownLogOdds(const LabelCell& cell, const Excess& excess, const LabelPrior&
   const double beside_m = cell.distance * size_px * per_px;
   const double outside = beside_m / (prior.error_m + kOutlineDeviation * cell.predicted);
   return kPredicted - 0.5 * outside * outside + cell.color_odds +
-         DepthEvidence::logOddsBeforeBody(excess.of(cell), std::hypot(excess.deviation(cell), beside_m));
+         DepthEvidence::logOddsBeforeBody(excess.of(cell), std::hypot(excess.deviation(), beside_m));
 }
 
 /// How strongly neighbouring cells are alike.
@@ -105,6 +95,42 @@ Field makeField(const Excess& excess, const LabelPrior& prior, const LabelCells&
   return field;
 }
 
+void markNeighbors(LabelCells* cells) {
+  for (cv::Point place(0, 0); place.y < cells->grid.height; ++place.y) {
+    for (place.x = 0; place.x < cells->grid.width; ++place.x) {
+      if (!cells->at(place).showsOccluder()) continue;
+      const cv::Rect around = cv::Rect(place - cv::Point(1, 1), cv::Size(3, 3)) & cv::Rect({}, cells->grid);
+      for (int row = around.y; row < around.br().y; ++row)
+        for (int column = around.x; column < around.br().x; ++column)
+          cells->at({column, row}).beside_occluder = true;
+    }
+  }
+}
+
+/// Joins the occluders' cells, without a step in depth between them, to those before the body. Beside the
+/// body something nearer may as well be the table.
+void joinOccluders(LabelCells* cells) {
+  std::vector<cv::Point> reached;
+  for (cv::Point place(0, 0); place.y < cells->grid.height; ++place.y) {
+    for (place.x = 0; place.x < cells->grid.width; ++place.x) {
+      LabelCell& cell = cells->at(place);
+      cell.joined = cell.onSurface() && cell.showsOccluder();
+      if (cell.joined) reached.push_back(place);
+    }
+  }
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const float depth = cells->at(reached[i]).measured();
+    for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+      const cv::Point place = reached[i] + step;
+      if (!cells->contains(place)) continue;
+      LabelCell& next = cells->at(place);
+      if (next.joined || !next.showsOccluder() || std::abs(next.measured() - depth) > kSurfaceEnds) continue;
+      next.joined = true;
+      reached.push_back(place);
+    }
+  }
+}
+
 }  // namespace
 
 void tellOccluders(const SurfaceSamples& samples, const LabelPrior& prior, LabelCells* cells) {
@@ -128,6 +154,8 @@ void tellOccluders(const SurfaceSamples& samples, const LabelPrior& prior, Label
     if (cell.shows_front) cell.shift = cell.difference - static_cast<float>(excess.of(cell));
     cell.body = static_cast<float>(0.5 + 0.5 * std::tanh(0.5 * log_odds[i]));
   }
+  markNeighbors(cells);
+  joinOccluders(cells);
 }
 
 }  // namespace softbody

@@ -61,16 +61,38 @@ void PixelLabeler::labelOne(const cv::Point& pixel, float predicted, Labels* lab
   }
 }
 
-void PixelLabeler::labelOccluder(const cv::Rect& pixels, const LabelCell& cell, Labels* labels) const {
-  const float between = 0.5f * (cell.shift + cell.difference);
+void PixelLabeler::decide(const cv::Rect& pixels, const LabelCell& cell, const cv::Mat1f& mean_odds,
+                          Labels* labels) const {
   for (int v = pixels.y; v < pixels.br().y; ++v) {
     for (int u = pixels.x; u < pixels.br().x; ++u) {
-      std::uint8_t& label = labels->label(cv::Point(u, v) - labels->region.tl());
-      const bool body =
-          label == labels::kBody && rendered_(v, u) > 0.0f && frame_.depth(v, u) - rendered_(v, u) > between;
-      if (label != labels::kBackground && !body) label = labels::kOccluder;
+      if (!frame_.covered.empty() && frame_.covered(v, u) != 0) continue;
+      const cv::Point place = cv::Point(u, v) - labels->region.tl();
+      std::uint8_t& label = labels->label(place);
+      const float measured = frame_.depth(v, u), rendered = rendered_(v, u);
+      if (measured <= 0.0f)
+        label = unmeasuredLabel(cell, rendered > 0.0f, labels->log_odds(place));
+      else if (label != labels::kBackground)
+        label = frontLabel(cell, measured, rendered, label == labels::kBody, mean_odds(place));
     }
   }
+}
+
+std::uint8_t PixelLabeler::unmeasuredLabel(const LabelCell& cell, bool on_body, float log_odds) {
+  if (!on_body) return log_odds > 0.0f ? labels::kUnknown : labels::kBackground;
+  return cell.shows_front && !cell.showsOccluder() ? labels::kBody : labels::kUnknown;
+}
+
+std::uint8_t PixelLabeler::frontLabel(const LabelCell& cell, float measured, float rendered, bool body_alone,
+                                      float mean_odds) const {
+  const float difference = measured - (rendered > 0.0f ? rendered : cell.predicted);
+  if (!cell.showsOccluder()) {
+    const bool body =
+        cell.beside_occluder ? body_alone : std::abs(difference) <= reach_m_ && mean_odds > 0.0f;
+    return body ? labels::kBody : labels::kOccluder;
+  }
+  const bool nearer_to_body = difference > 0.5f * (cell.shift + cell.difference);
+  if (body_alone && rendered > 0.0f && nearer_to_body) return labels::kBody;
+  return cell.joined ? labels::kOccluder : labels::kBackground;
 }
 
 }  // namespace softbody

@@ -18,14 +18,21 @@ class PixelLabeler {
   /// which the body is rendered.
   void label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const;
 
-  /// Labels the pixels of a cell that shows an occluder. Only those still show the body that are nearer to
-  /// its predicted depth than to the cell's.
-  void labelOccluder(const cv::Rect& pixels, const LabelCell& cell, Labels* labels) const;
+  /// Labels the pixels of a cell again, knowing what it shows. In an occluder's cell only those still show
+  /// the body that are nearer to its predicted depth than to the cell's. In another one the pixels around
+  /// decide: a foreign colour alone does not make an occluder.
+  /// @param mean_odds log odds of the body, each the mean of the pixels around.
+  void decide(const cv::Rect& pixels, const LabelCell& cell, const cv::Mat1f& mean_odds,
+              Labels* labels) const;
 
  private:
   struct Sums;
   /// @param predicted depth of the body there [m].
   void labelOne(const cv::Point& pixel, float predicted, Labels* labels, Sums* sums) const;
+
+  static std::uint8_t unmeasuredLabel(const LabelCell& cell, bool on_body, float log_odds);
+  std::uint8_t frontLabel(const LabelCell& cell, float measured, float rendered, bool body_alone,
+                          float mean_odds) const;
 
   const RgbdFrame& frame_;
   const cv::Mat1f& rendered_;

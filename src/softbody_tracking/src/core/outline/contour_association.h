@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
+#include "labels/depth_evidence.h"
 #include "outline/contour_posterior.h"
 #include "prediction/association.h"
 #include "softbody_common/pinhole.h"
@@ -27,9 +28,6 @@ struct ContourGrid {
   int spacing_px;   ///< between neighbouring samples
 };
 ContourGrid contourGrid(const RasterImage& image);
-
-/// Step of the rendered depth between neighbouring pixels at which a surface ends [m]; far above noise.
-constexpr double kSurfaceEnds = 0.02;
 
 /// How much contours count.
 struct ContourWeight {

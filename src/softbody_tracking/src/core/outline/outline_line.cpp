@@ -8,8 +8,6 @@
 namespace softbody {
 namespace {
 
-// How far the end of the body is searched, each way [rad]: 16 px of an image with 640 x 480 pixels.
-constexpr double kReach = 0.026;
 // Largest log odds of one pixel by depth: any pixel may be wrong, and depth is ragged at edges.
 constexpr double kDepthLimit = 1.5;
 // Pixels beside the predicted outline that something nearer must not cover.
