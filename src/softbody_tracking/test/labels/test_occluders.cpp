@@ -66,15 +66,19 @@ TEST(Occluders, AreNotTheBodyThatMovedAsAWhole) {
     surface.setDifference(kAll, farther);
     surface.tell();
     EXPECT_GT(surface.range(kAll).first, 0.9f) << farther;
+    surface.setDifference(kBeforeCells, farther - 0.015f);
+    surface.tell();
+    EXPECT_LT(surface.range(kBeforeCells).second, 0.1f) << farther;
   }
 }
 
+/// The smaller of two pieces.
 TEST(Occluders, AreNotAPieceThatMoved) {
   FlatSurface surface;
-  for (cv::Point place(7, 0); place.x < kGrid.width; ++place.x)
+  for (cv::Point place(10, 0); place.x < kGrid.width; ++place.x)
     for (place.y = 0; place.y < kGrid.height; ++place.y)
       surface.samples.samples[static_cast<std::size_t>(surface.cells.at(place).sample)].piece = 1;
-  surface.setDifference({7, 0, 7, 11}, -0.015f);
+  surface.setDifference({10, 0, 4, 11}, -0.015f);
   surface.tell();
   EXPECT_GT(surface.range(kAll).first, 0.9f);
 }

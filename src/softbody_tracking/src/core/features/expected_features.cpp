@@ -8,6 +8,7 @@ namespace {
 // A feature further behind the rendered surface than this is hidden by the body itself [m]; the tolerance
 // covers the error of interpolation between the visual mesh and the tets.
 constexpr double kVisibleTolerance = 0.01;
+
 cv::Point2f toPoint2f(const Eigen::Vector2d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y())};
 }

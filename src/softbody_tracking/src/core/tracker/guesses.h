@@ -36,13 +36,13 @@ struct AlignedGuess {
   RigidMotions motions;
 };
 
+/// Labels of a frame for one of its views.
+Labels labelsOf(const GuessedBody& body, const View& view);
+
 /// Guesses where the body is in a frame. The first guess is the prediction. If most features are not found
 /// there, the second one is where the features and the depth around the prediction take it. If a piece is
 /// still missing, the next ones have it where it is recognised. Every guess is rendered once.
 /// It keeps from frame to frame when to search the whole image again.
-/// Labels of a frame for one of its views.
-Labels labelsOf(const GuessedBody& body, const View& view);
-
 class Guesses {
  public:
   explicit Guesses(const TrackerConfig& config)
