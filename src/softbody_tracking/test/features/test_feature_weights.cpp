@@ -39,26 +39,6 @@ TEST(FeatureWeights, AreRelativeToTheFramesUsualFit) {
   for (std::size_t m = 0; m < weights.size(); ++m) EXPECT_NEAR(weights[m], same[m], 1e-12);
 }
 
-/// Weight of one match. @param inliers besides them, a tenth of all matches are outliers.
-double weightAmong(int vertices, int inliers) {
-  std::vector<FeatureMatch> matches(static_cast<std::size_t>(inliers + inliers / 9 + 1));
-  for (std::size_t m = static_cast<std::size_t>(inliers); m < matches.size(); ++m) matches[m].inlier = false;
-  weighByDensity(vertices, &matches);
-  return matches[0].association.weight;
-}
-
-TEST(FeatureWeights, OfManyMatchesHaveTheSameSum) {
-  // The same sum for each visible vertex, whatever the resolution of the volume.
-  for (const int matches : {250, 400, 1000}) {
-    EXPECT_NEAR(matches * weightAmong(100, matches), 250.0 * weightAmong(100, 250), 1e-9) << matches;
-    EXPECT_NEAR(weightAmong(50, matches / 2), weightAmong(100, matches), 1e-9) << matches;
-  }
-  EXPECT_EQ(weightAmong(100, 2), 1.0) << "few do not replace many";
-  EXPECT_EQ(weightAmong(0, 10), 1.0) << "nothing shows";
-  std::vector<FeatureMatch> none;
-  EXPECT_NO_THROW(weighByDensity(100, &none));
-}
-
 TEST(FeatureWeights, AreWholeWherePatchesFitExactly) {
   EXPECT_TRUE(weightsOf({}).empty());
   EXPECT_EQ(weightsOf({0.0, 0.0, 0.0}), std::vector<double>(3, 1.0));

@@ -9,6 +9,8 @@
 namespace softbody {
 namespace {
 
+// Largest motion of a feature between prediction and frame [m]: 3 m/s at 30 Hz. More is a wrong match.
+constexpr double kLargestMotion = 0.1;
 // Cells [px] for the search of neighbours: a few patches wide.
 constexpr int kNeighborhoodPx = 40;
 // Matches of a piece, below which its motion cannot be estimated.
@@ -25,8 +27,8 @@ constexpr double kPieceReachPx = 40.0;
 constexpr double kSmallestSpread = 1e-4;
 // A match may disagree by this many times the neighbours' median disagreement, ...
 constexpr double kLargestSpread = 3.0;
-// ... but across the ray always by this [px], the precision of a match.
-constexpr double kPrecisePx = 1.5;
+// ... but across the ray always by the first [px], the precision of a match, and never by the second.
+constexpr double kPrecisePx = 1.5, kWrongPx = 4.0;
 // Matches that move alike, from which they count as a limb; wrong matches in one place are fewer.
 constexpr int kFewestTogether = 20;
 // Nearest matches of a limb's match. At least half of them must move with the limb.
@@ -192,7 +194,8 @@ class PieceOutliers {
       const LinearMotion around = motions_.around(grid_, pixel, whole_);
       bool all = true;
       for (int m : cell) {
-        const double across = std::max(kLargestSpread * around.spread, kPrecisePx * pixelSize(m));
+        const double across =
+            std::clamp(kLargestSpread * around.spread, kPrecisePx * pixelSize(m), kWrongPx * pixelSize(m));
         if (agrees(m, around, across))
           kept.push_back(m);
         else
@@ -221,7 +224,7 @@ class PieceOutliers {
     std::vector<int> limb;
     grid_.around(pixel.x, pixel.y, [&](int m) {
       const double off = motions_.disagreement(m, around) / pixelSize(m);
-      if (matches_[m].inlier && off >= kPrecisePx) limb.push_back(m);
+      if (matches_[m].inlier && off >= kPrecisePx && off < kWrongPx) limb.push_back(m);
     });
     if (limb.size() < std::size_t{kFewestTogether}) return;
     const LinearMotion shifted = motions_.shifted(limb, around);
@@ -267,7 +270,7 @@ void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<
   std::vector<std::vector<int>> pieces;
   for (std::size_t m = 0; m < matches->size(); ++m) {
     FeatureMatch& match = (*matches)[m];
-    match.inlier = true;
+    match.inlier = motions.of(static_cast<int>(m)).norm() < kLargestMotion;
     if (match.association.piece >= pieces.size()) pieces.resize(match.association.piece + 1);
     pieces[match.association.piece].push_back(static_cast<int>(m));
   }

@@ -18,6 +18,8 @@ constexpr double kSmallestDeviation = 0.0017;
 constexpr double kOutlineDeviation = 0.0065;
 // Step of depth between neighbouring cells, relative to the prediction, that is usual on one surface [m].
 constexpr double kUsualStep = 0.003;
+// Smallest distance along the normal per distance along the ray: steeper sides are hardly seen.
+constexpr double kSteepest = 0.05;
 // Iterations; then the probabilities hardly change.
 constexpr int kIterations = 8;
 
@@ -33,7 +35,8 @@ class Excess {
     for (auto& [piece, values] : differences) medians_[piece] = median(&values);
     std::vector<double> deviations;
     for (const LabelCell& cell : cells.cells)
-      if (cell.shows_front && cell.onSurface() && cell.body > 0.5f) deviations.push_back(std::abs(of(cell)));
+      if (cell.shows_front && cell.onSurface() && cell.body > 0.5f)
+        deviations.push_back(std::abs(of(cell)) * facing(cell));
     deviation_ = std::hypot(kSmallestDeviation, median(&deviations) / kMedianPerSigma);
   }
 
@@ -41,11 +44,18 @@ class Excess {
     const auto found = medians_.find(pieceOf(cell));
     return cell.difference - (found == medians_.end() ? 0.0 : found->second);
   }
-  double deviation() const { return deviation_; }  ///< standard deviation on the body [m]
+  /// Standard deviation on the body [m]. It is the same everywhere along the normal, so depth is less certain
+  /// on a steep side.
+  double deviation(const LabelCell& cell) const { return deviation_ / facing(cell); }
 
  private:
   const SurfaceSample& sampleOf(const LabelCell& cell) const {
     return samples_.samples[static_cast<std::size_t>(cell.sample)];
+  }
+  /// Distance along the normal per distance along the ray.
+  double facing(const LabelCell& cell) const {
+    const SurfaceSample& sample = sampleOf(cell);
+    return std::max(kSteepest, -sample.normal.dot(sample.position) / sample.position.z());
   }
   std::uint32_t pieceOf(const LabelCell& cell) const { return sampleOf(cell).piece; }
 
@@ -61,7 +71,7 @@ double ownLogOdds(const LabelCell& cell, const Excess& excess, const LabelPrior&
   const double beside_m = cell.distance * size_px * per_px;
   const double outside = beside_m / (prior.error_m + kOutlineDeviation * cell.predicted);
   return kPredicted - 0.5 * outside * outside + cell.color_odds +
-         DepthEvidence::logOddsBeforeBody(excess.of(cell), std::hypot(excess.deviation(), beside_m));
+         DepthEvidence::logOddsBeforeBody(excess.of(cell), std::hypot(excess.deviation(cell), beside_m));
 }
 
 /// How strongly neighbouring cells are alike.
