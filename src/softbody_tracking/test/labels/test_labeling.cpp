@@ -135,7 +135,7 @@ TEST(Labeling, AForeignColorAtTheBodysDepthIsAnOccluder) {
   LabelledBox box;
   const cv::Rect pixels = middleOf(box);
   box.frame().color(pixels) = box.frame().color(0, 0);
-  EXPECT_GT(occluderShare(box.label(kStill), pixels), 0.95);
+  EXPECT_EQ(occluderShare(box.label(kStill), innerOf(box)), 1.0);
   box.frame().color(pixels) = kHandColor;
   EXPECT_LT(occluderShare(box.label(kStill), pixels), 0.05);
 }
@@ -171,7 +171,11 @@ TEST(Labeling, NothingIsKnownWhereNothingIsMeasuredOrPredicted) {
   const cv::Rect pixels = middleOf(box);
   box.frame().depth(pixels) = 0.0f;
   const Labels labels = box.label(kStill);
-  EXPECT_EQ(LabelledBox::share(labels, pixels, labels::kUnknown), 1.0);
+  EXPECT_EQ(LabelledBox::share(labels, innerOf(box), labels::kUnknown), 1.0);
+  EXPECT_EQ(LabelledBox::share(labels, pixels, labels::kUnknown) +
+                LabelledBox::share(labels, pixels, labels::kBody),
+            1.0)
+      << "few missing pixels are as those around";
   EXPECT_GT(labels.logOddsAt((pixels.tl() + pixels.br()) / 2), 0.5f) << "by colour";
   EXPECT_EQ(labels.at({0, 0}), labels::kUnknown);
   EXPECT_EQ(labels.at({-1, 700}), labels::kUnknown);

@@ -21,6 +21,15 @@ void forEachCell(const cv::Size& image, LabelCells* cells, Action action) {
       action(cells->pixels(place) & cv::Rect({}, image), &cells->at(place));
 }
 
+/// Means over the pixels around, of those on which the body is rendered.
+cv::Mat1f meanOnBody(const cv::Mat1f& log_odds, const cv::Mat1f& rendered) {
+  cv::Mat1f on_body, share, mean;
+  cv::threshold(rendered, on_body, 0.0, 1.0, cv::THRESH_BINARY);
+  cv::blur(on_body, share, {kAround, kAround});
+  cv::blur(log_odds.mul(on_body), mean, {kAround, kAround});
+  return mean / share;
+}
+
 }  // namespace
 
 Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const SurfaceSamples& samples,
@@ -37,8 +46,7 @@ Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const S
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.label(area, cell, &labels); });
   tellOccluders(samples, {last, frame.camera.fx, error_m, cvRound(kReach * frame.camera.fx)}, &cells);
-  cv::Mat1f mean_odds;
-  cv::blur(labels.log_odds, mean_odds, {kAround, kAround});
+  const cv::Mat1f mean_odds = meanOnBody(labels.log_odds, surface.image().depth(labels.region));
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.decide(area, *cell, mean_odds, &labels); });
   labels.memory = memoryOf(cells);

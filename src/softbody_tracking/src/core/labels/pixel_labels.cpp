@@ -86,8 +86,8 @@ std::uint8_t PixelLabeler::frontLabel(const LabelCell& cell, float measured, flo
                                       float mean_odds) const {
   const float difference = measured - (rendered > 0.0f ? rendered : cell.predicted);
   if (!cell.showsOccluder()) {
-    const bool body =
-        cell.beside_occluder ? body_alone : std::abs(difference) <= reach_m_ && mean_odds > 0.0f;
+    const bool alone = cell.beside_occluder || rendered <= 0.0f;
+    const bool body = alone ? body_alone : std::abs(difference) <= reach_m_ && mean_odds > 0.0f;
     return body ? labels::kBody : labels::kOccluder;
   }
   const bool nearer_to_body = difference > 0.5f * (cell.shift + cell.difference);

@@ -21,7 +21,7 @@ class PixelLabeler {
   /// Labels the pixels of a cell again, knowing what it shows. In an occluder's cell only those still show
   /// the body that are nearer to its predicted depth than to the cell's. In another one the pixels around
   /// decide: a foreign colour alone does not make an occluder.
-  /// @param mean_odds log odds of the body, each the mean of the pixels around.
+  /// @param mean_odds log odds of the body, each the mean of the pixels around on which it is rendered.
   void decide(const cv::Rect& pixels, const LabelCell& cell, const cv::Mat1f& mean_odds,
               Labels* labels) const;
 

@@ -155,8 +155,9 @@ bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Is
 
 /// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
 /// wholly in view.
-std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
-                                const PoseHypothesis& best, const RegistrationConfig& config) {
+std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colors,
+                                const SearchMeshes& meshes, const PoseHypothesis& best,
+                                const RegistrationConfig& config) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const RasterImage mesh = rendered(image, meshes.full, best.pose);
   const std::vector<Eigen::Vector3d> visible = visiblePoints(image, mesh);
