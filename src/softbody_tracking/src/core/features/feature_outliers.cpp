@@ -27,7 +27,8 @@ constexpr double kPieceReachPx = 40.0;
 constexpr double kSmallestSpread = 1e-4;
 // A match may disagree by this many times the neighbours' median disagreement, ...
 constexpr double kLargestSpread = 3.0;
-// ... but across the ray always by the first [px], the precision of a match, and never by the second.
+// ... but across the ray always by the first [px], the precision of a match. A limb moves by less than the
+// second.
 constexpr double kPrecisePx = 1.5, kWrongPx = 4.0;
 // Matches that move alike, from which they count as a limb; wrong matches in one place are fewer.
 constexpr int kFewestTogether = 20;
@@ -194,8 +195,7 @@ class PieceOutliers {
       const LinearMotion around = motions_.around(grid_, pixel, whole_);
       bool all = true;
       for (int m : cell) {
-        const double across =
-            std::clamp(kLargestSpread * around.spread, kPrecisePx * pixelSize(m), kWrongPx * pixelSize(m));
+        const double across = std::max(kLargestSpread * around.spread, kPrecisePx * pixelSize(m));
         if (agrees(m, around, across))
           kept.push_back(m);
         else
