@@ -5,7 +5,8 @@
 
 namespace softbody {
 
-/// How far predictions were off in the last frames. The next alignment expects such motions.
+/// How far predictions were off in the last frames. The labels beside the predicted outline
+/// expect such errors.
 class UsualError {
  public:
   /// Largest error of a vertex [m]; 0 before learn().

@@ -14,8 +14,8 @@ namespace softbody {
 struct DepthAssociations {
   std::vector<Association> associations;
   int visible_blocks = 0;   ///< blocks of pixels with a prediction and a measurement
-  int occluded_blocks = 0;  ///< blocks that show something nearer or of another colour
-  int absent_blocks = 0;    ///< blocks that show something farther: the body is not there
+  int occluded_blocks = 0;  ///< blocks that show an occluder
+  int absent_blocks = 0;    ///< blocks that show the background: the body is not there
   DepthNoiseSample noise;   ///< empty if pixels were skipped (pixel_step above 1)
 };
 

@@ -11,8 +11,8 @@ struct LabelCells;
 struct LabelMemory {
   int size_px = 1;   ///< side of a cell
   cv::Point origin;  ///< first pixel of the first cell [px]
-  cv::Mat1f
-      depth;       ///< mean measured depth of each cell [m]; 0: background, or nothing measured. May be empty
+  /// Mean measured depth of each cell [m]; 0: background, or nothing measured. May be empty.
+  cv::Mat1f depth;
   cv::Mat1f body;  ///< probability of each cell that it shows the body
 
   /// Log odds that a cell shows the body, by the cells of the last frame that are near in space. 0 if there

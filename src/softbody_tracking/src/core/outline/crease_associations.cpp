@@ -92,7 +92,8 @@ void addSample(const PredictedSurface& surface, const cv::Point& a, const cv::Po
   samples->push_back(crease);
 }
 
-/// The pixels on the line across a crease, as far as the prediction shows the two sides and depth agrees.
+/// The pixels on the line across a crease, as far as the prediction shows the two sides, and the
+/// frame neither an occluder nor the background.
 /// @return false if the crease is covered, or not in the image.
 bool collect(const RgbdFrame& frame, const PredictedSurface& surface, const Labels& labels,
              const CreaseSample& crease, const Eigen::Vector3d& moved, CreaseLine* line) {

@@ -74,8 +74,8 @@ class FrameObserver {
   FeatureFinder finder_;
   Guesses guesses_;
   FeatureAdmission admission_;
-  std::vector<bool>
-      tracked_before_;  ///< per piece: at least partial observability in the last frame; empty: all
+  /// Per piece: at least partial observability in the last frame; empty: all.
+  std::vector<bool> tracked_before_;
 };
 
 }  // namespace softbody
