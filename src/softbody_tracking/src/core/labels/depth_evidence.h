@@ -11,6 +11,9 @@ constexpr double kBehindSurface = 0.01;
 /// Step of depth between neighbouring pixels or cells at which a surface ends [m]; far above noise.
 constexpr double kSurfaceEnds = 0.02;
 
+/// Largest log odds of one pixel by depth: any pixel may be wrong, and depth is ragged at edges.
+constexpr double kDepthLimit = 1.5;
+
 /// How much the depth of a pixel speaks for the body, where the body is predicted. What is not the body is
 /// anywhere within a metre, or touches the body like the table below it.
 class DepthEvidence {

@@ -8,8 +8,8 @@
 namespace softbody {
 namespace {
 
-// Largest log odds of one pixel, by colour and by depth: any pixel may be wrong. Depth is ragged at edges.
-constexpr double kColorLimit = 3.0, kDepthLimit = 1.5;
+// Largest log odds of one pixel by colour: any pixel may be wrong.
+constexpr double kColorLimit = 3.0;
 
 double clamped(double log_odds, double limit) { return std::clamp(log_odds, -limit, limit); }
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-#include "labels/depth_evidence.h"
 #include "outline/contour_posterior.h"
 #include "prediction/association.h"
 #include "softbody_common/pinhole.h"

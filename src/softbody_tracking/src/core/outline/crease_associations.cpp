@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "labels/depth_evidence.h"
+
 namespace softbody {
 namespace {
 

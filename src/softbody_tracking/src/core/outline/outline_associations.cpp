@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "labels/depth_evidence.h"
+
 namespace softbody {
 namespace {
 

@@ -8,8 +8,6 @@
 namespace softbody {
 namespace {
 
-// Largest log odds of one pixel by depth: any pixel may be wrong, and depth is ragged at edges.
-constexpr double kDepthLimit = 1.5;
 // Pixels beside the predicted outline that something nearer must not cover.
 constexpr double kUncovered = 3.0;
 // Where the depth of an end is read [px inside it]; nearer to it, depth mixes body and background.
