@@ -108,14 +108,13 @@ std::optional<Eigen::Isometry3d> FrameObserver::recognizePose(const RgbdFrame& f
   return recognizedMotion(finder_.recognize(soughtIn(frame), *model_, rest), recognitionTolerance(rest));
 }
 
-double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) const {
-  RasterMemory memory;
+double FrameObserver::featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) {
   const View view = render(model_, frame.camera, transformed(model_->volume().rest_vertices, pose),
-                           view_settings_, &memory);
+                           view_settings_, &memory_);
   const SoughtFeatures sought = soughtIn(frame);
   const LabelMemory none;
   const Labels labels =
-      labelsOf({model_, view_settings_, weights_, usual_error_.meters(), sought, none, &memory}, view);
+      labelsOf({model_, view_settings_, weights_, usual_error_.meters(), sought, none, &memory_}, view);
   const FoundFeatures features = finder_.findAll(sought, finder_.expect(sought, view.surface, labels));
   const int expected = features.expected.count();
   if (expected < kFewestExpectedFeatures) return -1.0;

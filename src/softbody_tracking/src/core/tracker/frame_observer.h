@@ -45,7 +45,7 @@ class FrameObserver {
 
   /// Share of the expected features that the frame shows at a pose of the undeformed body; -1 if too few are
   /// expected.
-  double featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose) const;
+  double featureShare(const RgbdFrame& frame, const Eigen::Isometry3d& pose);
 
   const SurfaceModel& model() const { return *model_; }
   const std::vector<MapFeature>& features() const { return map_.features(); }
