@@ -45,7 +45,8 @@ Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const S
   const PixelLabeler pixels(frame, surface.image().depth, colors, reach_m);
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.label(area, cell, &labels); });
-  tellOccluders(samples, {last, frame.camera.fx, error_m, cvRound(kReach * frame.camera.fx)}, &cells);
+  tellOccluders(samples, {last, frame.camera.fx, reach_m, error_m, cvRound(kReach * frame.camera.fx)},
+                &cells);
   const cv::Mat1f mean_odds = meanOnBody(labels.log_odds, surface.image().depth(labels.region));
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.decide(area, *cell, mean_odds, &labels); });

@@ -23,6 +23,12 @@ struct Labels {
   std::uint8_t at(const cv::Point& pixel) const {
     return region.contains(pixel) ? label(pixel - region.tl()) : labels::kUnknown;
   }
+  /// 255 at pixels that show the body, else 0. @param image size.
+  cv::Mat1b maskOfBody(const cv::Size& image) const {
+    cv::Mat1b mask(image, static_cast<std::uint8_t>(0));
+    if (!region.empty()) mask(region).setTo(255, label == labels::kBody);
+    return mask;
+  }
   /// 0 outside of the region.
   float logOddsAt(const cv::Point& pixel) const {
     return region.contains(pixel) ? log_odds(pixel - region.tl()) : 0.0f;

@@ -64,14 +64,16 @@ class Excess {
   double deviation_ = 0.0;
 };
 
-/// Log odds of a cell by itself. Beside the predicted outline the body is less likely, and its depth less
-/// certain: the surface may go on at any slope up to 45 degrees.
+/// Log odds of a cell by itself. What is nearer than the body can be is as surely an occluder as at this
+/// distance. Beside the predicted outline the body is less likely, and its depth less certain: the surface
+/// may go on at any slope up to 45 degrees.
 double ownLogOdds(const LabelCell& cell, const Excess& excess, const LabelPrior& prior, int size_px) {
   const double per_px = cell.predicted / prior.focal_px;
   const double beside_m = cell.distance * size_px * per_px;
   const double outside = beside_m / (prior.error_m + kOutlineDeviation * cell.predicted);
   return kPredicted - 0.5 * outside * outside + cell.color_odds +
-         DepthEvidence::logOddsBeforeBody(excess.of(cell), std::hypot(excess.deviation(cell), beside_m));
+         DepthEvidence::logOddsBeforeBody(std::max(excess.of(cell), -prior.reach_m),
+                                          std::hypot(excess.deviation(cell), beside_m));
 }
 
 /// How strongly neighbouring cells are alike.

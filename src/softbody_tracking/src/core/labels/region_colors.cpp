@@ -53,7 +53,7 @@ void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, co
       if (label == labels::kBody && isInside(rendered.depth, u, v)) {
         counts_of_body_[color] += 1.0f;
         on_body += 1.0f;
-      } else if (label == labels::kBackground || label == labels::kOccluder || rendered.triangle(v, u) < 0) {
+      } else if (label != labels::kBody && (label != labels::kUnknown || rendered.triangle(v, u) < 0)) {
         counts_around_[color] += 1.0f;
         around += 1.0f;
       }

@@ -135,7 +135,10 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
   if (outcome == Relocalizer::Outcome::kNotFound) return waiting(whyNotFound(relocalizer.report()));
   const bool just_found = outcome == Relocalizer::Outcome::kFound;
-  if (just_found) prediction->reset();
+  if (just_found) {
+    prediction->reset();
+    observer->foundAgain();
+  }
 
   const auto scope = timer->stage("Feature-Point Tracking", just_found);
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();

@@ -53,7 +53,7 @@ cv::Rect FeatureAdmission::nextTile(const cv::Rect& covered) {
 
 /// Admits features in the first view, or else in the next tile.
 void FeatureAdmission::admitIn(const LearnedFrame& from, int room, FeatureMap* map) {
-  const auto& [frame, seen, surface, colors, image, deviations, volume_edge_m] = from;
+  const auto& [frame, seen, surface, labels, image, deviations, volume_edge_m] = from;
   KnownPlaces known;
   known.first_view = map->features().empty();
   for (const ExpectedFeature& expected : seen.expected.visible)
@@ -62,7 +62,8 @@ void FeatureAdmission::admitIn(const LearnedFrame& from, int room, FeatureMap* m
   const int wanted = known.first_view ? room : std::min(room, enough);
   const cv::Rect& covered = surface.image().region;
   const cv::Rect region = known.first_view ? covered : nextTile(covered);
-  const cv::Mat1b free = withoutKnownFeatures(colors.mask(frame.color, region), {seen.matches, seen.missed});
+  const cv::Mat1b free =
+      withoutKnownFeatures(labels.maskOfBody(frame.color.size()), {seen.matches, seen.missed});
   const std::vector<cv::KeyPoint> corners =
       chooseCorners(frame, orb_.detect(frame.color, free, region), surface, seen.learnable, known, wanted,
                     config_.between_frames ? 0.0 : kGap * volume_edge_m);

@@ -2,7 +2,7 @@
 
 #include "features/feature_map.h"
 #include "features/orb_extractor.h"
-#include "labels/region_colors.h"
+#include "labels/labels.h"
 #include "patches/gray_pyramid.h"
 #include "prediction/predicted_surface.h"
 #include "tracker/backoff.h"
@@ -15,7 +15,7 @@ struct LearnedFrame {
   const RgbdFrame& frame;
   const Observation& seen;
   const PredictedSurface& surface;  ///< aligned with the frame
-  const RegionColors& colors;
+  const Labels& labels;             ///< of the frame
   const GrayPyramid& image;
   const std::vector<float>& deviations;  ///< of the volume's vertices [m]; empty: not estimated
   double volume_edge_m;                  ///< mean length of the volume's edges

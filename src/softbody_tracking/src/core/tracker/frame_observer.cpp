@@ -32,16 +32,20 @@ void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology&
   tracked_before_.clear();
 }
 
+void FrameObserver::foundAgain() {
+  last_labels_ = {};
+  usual_error_ = {};
+  tracked_before_.clear();
+}
+
 void FrameObserver::reset() {
+  foundAgain();
   last_stamp_.reset();
   map_.reset();
   colors_.reset();
-  last_labels_ = {};
   depth_noise_ = {};
-  usual_error_ = {};
   guesses_.reset();
   admission_.reset();
-  tracked_before_.clear();
 }
 
 ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predicted) {
@@ -96,9 +100,9 @@ SoughtFeatures FrameObserver::soughtIn(const RgbdFrame& frame) const {
 
 void FrameObserver::learnFeatures(const RgbdFrame& frame, const ObservedBody& observed,
                                   const std::vector<float>& deviations) {
-  admission_.admit(
-      {frame, observed.seen, observed.surface, colors_, observed.image, deviations, weights_.depth.edge_m},
-      &map_);
+  admission_.admit({frame, observed.seen, observed.surface, observed.labels, observed.image, deviations,
+                    weights_.depth.edge_m},
+                   &map_);
   map_.retire();
 }
 

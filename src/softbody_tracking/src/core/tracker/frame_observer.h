@@ -51,6 +51,9 @@ class FrameObserver {
   const std::vector<MapFeature>& features() const { return map_.features(); }
   const RegionColors& colors() const { return colors_; }
 
+  /// To be called when the body was found again somewhere: the last frame says nothing about the next one.
+  void foundAgain();
+
   /// Forgets what was learned.
   void reset();
 
