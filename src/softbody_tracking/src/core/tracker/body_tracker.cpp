@@ -54,6 +54,7 @@ struct BodyTracker::Implementation {
 
   const TetTopology& model() const { return observer->model().volume(); }
   std::uint32_t knownFeatures() const { return static_cast<std::uint32_t>(observer->features().size()); }
+  void forgetMotion();
   bool isAnswer(const MeshState* volume) const;
   Points predict(const RgbdFrame& frame, const MeshState* answer);
   std::vector<Association> associationsOf(const ObservedBody& observed,
@@ -135,10 +136,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
   if (outcome == Relocalizer::Outcome::kNotFound) return waiting(whyNotFound(relocalizer.report()));
   const bool just_found = outcome == Relocalizer::Outcome::kFound;
-  if (just_found) {
-    prediction->reset();
-    observer->foundAgain();
-  }
+  if (just_found) forgetMotion();
 
   const auto scope = timer->stage("Feature-Point Tracking", just_found);
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
@@ -204,6 +202,12 @@ void BodyTracker::Implementation::reset() {
   measured.clear();
   held.reset();
   knn.reset();
+}
+
+/// The body did not move to where it is found: the frames before say nothing about the next one.
+void BodyTracker::Implementation::forgetMotion() {
+  prediction->reset();
+  observer->foundAgain();
 }
 
 /// Whether a state of the volume answers targets that were sent since the body was found. A state far from
