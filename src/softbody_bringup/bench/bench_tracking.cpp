@@ -121,18 +121,25 @@ struct Times {
   std::vector<double> first, track, whole, region;  ///< [ms]; the first frame is separate
 };
 
-/// One pass over the recording. @return the number of features in the tracker's map at the end.
-std::uint32_t pass(const Recording& recording, Times* times) {
+struct PassResult {
+  std::uint32_t features = 0;  ///< in the tracker's map at the end
+  bool tracked = true;         ///< the body is found in every frame
+};
+
+/// One pass over the recording.
+PassResult pass(const Recording& recording, Times* times) {
   BodyTracker tracker(TrackerConfig{});
   tracker.setTopologies(recording.volume, recording.surface);
   PlainMatching matching(recording.frames[0], recording.regions[0]);
-  std::uint32_t features = 0;
+  PassResult result;
   for (int i = 0; i < kFrames; ++i) {
     const RgbdFrame& frame = recording.frames[i];
     const MeshState* before = recording.before[i] ? &*recording.before[i] : nullptr;
     StageTimer timer;
-    const double track =
-        millisecondsOf([&] { features = tracker.track(frame, before, &timer).status.features_total; });
+    TrackingResult tracked;
+    const double track = millisecondsOf([&] { tracked = tracker.track(frame, before, &timer); });
+    result.features = tracked.status.features_total;
+    result.tracked = result.tracked && tracked.status.state == TrackingState::kTracking;
     if (i == 0) {
       times->first.push_back(track);
       continue;
@@ -143,21 +150,25 @@ std::uint32_t pass(const Recording& recording, Times* times) {
     times->region.push_back(
         millisecondsOf([&] { benchmark::DoNotOptimize(matching.match(frame, recording.regions[i])); }));
   }
-  return features;
+  return result;
 }
 
 void trackFrames(benchmark::State& state) {
   const Recording& recording = recordingOf(state);
   Times times;
-  std::uint32_t features = 0;
+  PassResult result;
   for (auto _ : state) {
-    features = pass(recording, &times);
+    result = pass(recording, &times);
+    if (!result.tracked) {
+      state.SkipWithError("the body is not found in every frame");
+      return;
+    }
     state.SetIterationTime(1e-3 * median(times.track));
   }
   const bool doll = state.range(0) != 0;
   const std::string body = doll ? "doll" : "sponge";
   const double track = median(times.track);
-  state.counters["features"] = features;
+  state.counters["features"] = result.features;
   state.counters["ORB and brute force, whole image [ms]"] = median(times.whole);
   state.counters["ORB and brute force, region [ms]"] = median(times.region);
   state.counters["summary/tracking/" + body + "/first_frame_ms"] = median(times.first);

@@ -38,6 +38,12 @@ TEST(ShareWithoutEdge, SeesThatTheBodyIsLarger) {
   EXPECT_GT(shareWithoutEdge(boxOnTable(), smaller, pose, kScale), kLargestShareWithoutEdge);
 }
 
+/// A bent body's outline is some millimetres beside that of the mesh.
+TEST(ShareWithoutEdge, IsSmallThoughTheOutlineIsALittleInside) {
+  const Points shrunk = kMesh.vertices * Eigen::Vector3d(0.97, 0.97, 1.0).asDiagonal();
+  EXPECT_LT(shareWithoutEdge(boxOnTable(), {shrunk, kMesh.triangles}, onTable(), kScale), 0.05);
+}
+
 /// A body that is thinner than the distance scale still has edges.
 TEST(ShareWithoutEdge, WorksForAThinBody) {
   Points thin = kMesh.vertices;

@@ -24,13 +24,21 @@ double thicknessOf(const Points& vertices) {
   return (along.colwise().maxCoeff() - along.colwise().minCoeff()).minCoeff();
 }
 
-/// Whether depth runs straight on across an outline. On a plane the inverse depth is linear in the pixel.
+/// Whether depth runs straight on across an outline. On a plane the inverse depth is linear in the pixel. An
+/// edge counts within the smallest step of the outline: a bent body's outline is not exactly the mesh's.
 /// @param pixel the last one inside. @param step from inside to outside. @param least_step_m at 1 m.
-bool runsOn(const cv::Mat1f& depth, const cv::Point& pixel, const cv::Point& step, double least_step_m) {
-  const double inner = depth(pixel - 3 * step), edge = depth(pixel - step), beyond = depth(pixel + 2 * step);
+bool runsOn(const RgbdFrame& frame, const cv::Point& pixel, const cv::Point& step, double least_step_m) {
+  const cv::Mat1f& depth = frame.depth;
+  const double inner = depth(pixel - 3 * step), edge = depth(pixel - step);
   if (inner <= 0.0 || edge <= 0.0) return false;
-  const double expected = 1.0 / (1.0 / edge + 1.5 * (1.0 / edge - 1.0 / inner));
-  return std::abs(beyond - expected) < distanceScaleAt(beyond, least_step_m);
+  const cv::Rect image({}, depth.size());
+  const int reach = std::max(2, cvRound(distanceScaleAt(edge, least_step_m) * frame.camera.fx / edge));
+  for (int k = 2; k <= reach && image.contains(pixel + k * step); ++k) {
+    const double beyond = depth(pixel + k * step);
+    const double expected = 1.0 / (1.0 / edge + 0.5 * (k + 1) * (1.0 / edge - 1.0 / inner));
+    if (beyond > 0.0 && std::abs(beyond - expected) >= distanceScaleAt(beyond, least_step_m)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -53,7 +61,7 @@ double shareWithoutEdge(const RgbdFrame& frame, const TriangleMesh& mesh, const 
         if (!shows(pixel) || !shows(pixel - 3 * step) || shows(pixel + step) || shows(beyond)) continue;
         if (small.depth(beyond) <= 0.0f) continue;
         ++outline;
-        without += runsOn(small.depth, pixel, step, least_step_m) ? 1 : 0;
+        without += runsOn(small, pixel, step, least_step_m) ? 1 : 0;
       }
     }
   }
