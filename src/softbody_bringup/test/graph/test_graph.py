@@ -17,10 +17,10 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "
 from recorder import Recorder  # pylint: disable=wrong-import-position
 
 OPTICAL_FRAME = "camera_color_optical_frame"
-BACKGROUND, BODY = 0, 1  # labels of pixels
+BACKGROUND, BODY = 1, 3  # labels of pixels
 NODES = ["camera_ingest", "feature_tracker", "simulator", "surface"]
 FRAME_OUTPUTS = ["rgb/image_rect_color", "rgb/camera_info", "depth/image_rect", "points", "features",
-                 "features/marker", "feature_tracker/labels", "targets", "status", "volume/state",
+                 "features/marker", "labels", "targets", "status", "volume/state",
                  "surface/state", "surface/marker"]
 
 
@@ -31,7 +31,7 @@ class Graph(unittest.TestCase):
             camera__color__image_raw=Image, softbody__rgb__image_rect_color=Image,
             softbody__rgb__camera_info=CameraInfo, softbody__depth__image_rect=Image, softbody__points=PointCloud2,
             softbody__features=PointCloud2, softbody__features__marker=Marker,
-            softbody__feature_tracker__labels=Image, softbody__targets=Targets,
+            softbody__labels=Image, softbody__targets=Targets,
             softbody__status=TrackingStatus, softbody__volume__topology=TetTopology,
             softbody__volume__state=MeshState, softbody__surface__topology=MeshTopology,
             softbody__surface__state=MeshState, softbody__surface__marker=Marker, softbody__timing=StageTiming)
@@ -85,8 +85,8 @@ class Graph(unittest.TestCase):
 
     def test_labels_are_those_of_the_whole_image(self):
         label, image = (self.recorder.wait_for(f"softbody/{name}")[-1]
-                        for name in ("feature_tracker/labels", "rgb/image_rect_color"))
-        self.assertEqual((label.encoding, label.width, label.height), ("8UC1", image.width, image.height))
+                        for name in ("labels", "rgb/image_rect_color"))
+        self.assertEqual((label.encoding, label.width, label.height), ("mono8", image.width, image.height))
         self.assertIn(BODY, label.data)
         self.assertIn(BACKGROUND, label.data)
 

@@ -137,10 +137,9 @@ TEST_F(ReplayTest, OneOddStampCostsItsOwnFrame) {
 std::vector<ros::Time> stampsOfLabels(const fs::path& path) {
   const rosbag::Bag bag(path);
   std::vector<ros::Time> stamps;
-  for (const rosbag::MessageInstance& message :
-       rosbag::View(bag, rosbag::TopicQuery("/softbody/feature_tracker/labels"))) {
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/softbody/labels"))) {
     const auto image = message.instantiate<sensor_msgs::Image>();
-    EXPECT_EQ(image->encoding, "8UC1");
+    EXPECT_EQ(image->encoding, "mono8");
     EXPECT_EQ(image->header.frame_id, "camera_color_optical_frame");
     EXPECT_EQ(image->header.stamp, message.getTime());
     stamps.push_back(image->header.stamp);

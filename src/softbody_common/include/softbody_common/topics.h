@@ -17,7 +17,7 @@ constexpr char kPoints[] = "points";
 constexpr char kPointsMarker[] = "points/marker";
 
 constexpr char kMask[] = "mask";
-constexpr char kLabels[] = "feature_tracker/labels";
+constexpr char kLabels[] = "labels";
 constexpr char kFeatures[] = "features";
 constexpr char kFeaturesMarker[] = "features/marker";
 constexpr char kTargets[] = "targets";

@@ -23,9 +23,9 @@ class LabelImages {
   sensor_msgs::ImageConstPtr next() {
     if (at_ == view_.end()) return nullptr;
     sensor_msgs::ImageConstPtr image = recordedImage(*at_++, bag_);
-    if (image->encoding == sensor_msgs::image_encodings::TYPE_8UC1) return image;
-    throw std::invalid_argument(fmt::format("{}: the images on {} are {} instead of 8UC1", bag_.getFileName(),
-                                            topic_, image->encoding));
+    if (image->encoding == sensor_msgs::image_encodings::MONO8) return image;
+    throw std::invalid_argument(fmt::format("{}: the images on {} are {} instead of mono8",
+                                            bag_.getFileName(), topic_, image->encoding));
   }
 
  private:

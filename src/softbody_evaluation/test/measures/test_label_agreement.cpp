@@ -24,7 +24,8 @@ TEST(LabelAgreement, OfTheTruthItselfIsOne) {
   EXPECT_EQ(report.pixels, 2u * kRegion);
   EXPECT_EQ(report.right, 1.0);
   EXPECT_EQ(report.unknown, 0.0);
-  for (const auto& share : report.of_class) EXPECT_EQ(share, 1.0);
+  for (const std::uint8_t label : {labels::kBackground, labels::kOccluder, labels::kBody})
+    EXPECT_EQ(report.of_class[label], 1.0);
 }
 
 TEST(LabelAgreement, CountsWrongAndUnknownPixelsByTheirTrueLabel) {
@@ -44,9 +45,9 @@ TEST(LabelAgreement, CountsWrongAndUnknownPixelsByTheirTrueLabel) {
 
 TEST(LabelAgreement, AFrameWithoutABodyDoesNotCount) {
   LabelAgreement agreement;
-  agreement.add(cv::Mat1b::zeros(120, 160), trueLabels());
+  agreement.add(cv::Mat1b(120, 160, labels::kBackground), trueLabels());
   EXPECT_FALSE(agreement.report());
-  cv::Mat1b alone = cv::Mat1b::zeros(120, 160);
+  cv::Mat1b alone = cv::Mat1b(120, 160, labels::kBackground);
   alone(0, 0) = labels::kBody;  // the region ends at the edge of the image
   agreement.add(alone, alone);
   EXPECT_EQ(agreement.report().value().pixels, 25u * 25u);

@@ -30,7 +30,7 @@ std::string resultWithLabels(const std::string& name, const std::string& truth,
   for (const rosbag::MessageInstance& m : rosbag::View(in, rosbag::TopicQuery("/ground_truth/labels"))) {
     sensor_msgs::Image image = *m.instantiate<sensor_msgs::Image>();
     change(&image);
-    if (frame++ % 2 == 0) out.write("/softbody/feature_tracker/labels", m.getTime(), image);
+    if (frame++ % 2 == 0) out.write("/softbody/labels", m.getTime(), image);
   }
   out.close();
   return path;
@@ -45,7 +45,7 @@ TEST(Evaluator, ComparesLabelsWithTheTrueOnes) {
   EXPECT_EQ(right.labels->frames, kFrames / 2u);
   EXPECT_EQ(right.labels->right, 1.0);
   options.result = resultWithLabels("one_class.bag", options.truth, [](sensor_msgs::Image* image) {
-    for (std::uint8_t& label : image->data) label = label == 2 ? 1 : label;
+    for (std::uint8_t& label : image->data) label = label == 2 ? 3 : label;
   });
   const Report body_only = evaluate(options);
   const nlohmann::json labels = toJson(body_only)["labels"];
@@ -53,7 +53,7 @@ TEST(Evaluator, ComparesLabelsWithTheTrueOnes) {
   EXPECT_EQ(labels["background"], 1.0);
   EXPECT_EQ(labels["occluder"], 0.0);
   EXPECT_LT(labels["right"], 1.0);
-  EXPECT_NE(toText(body_only).find(", body 100.00 %, occluder 0.00 %; 10 frames"), std::string::npos)
+  EXPECT_NE(toText(body_only).find(", occluder 0.00 %, body 100.00 %; 10 frames"), std::string::npos)
       << toText(body_only);
 }
 
@@ -71,17 +71,15 @@ TEST(Evaluator, HasNoLabelsWithoutThoseOfBothBags) {
 TEST(Evaluator, RefusesLabelsOfAnotherEncodingOrSize) {
   EvaluatorOptions options;
   options.truth = labelledRecording();
-  options.result = resultWithLabels("mono.bag", options.truth,
-                                    [](sensor_msgs::Image* image) { image->encoding = "mono8"; });
-  EXPECT_NE(failure(options).find("/softbody/feature_tracker/labels are mono8 instead of 8UC1"),
-            std::string::npos)
+  options.result = resultWithLabels("other.bag", options.truth,
+                                    [](sensor_msgs::Image* image) { image->encoding = "8UC1"; });
+  EXPECT_NE(failure(options).find("/softbody/labels are 8UC1 instead of mono8"), std::string::npos)
       << failure(options);
   options.result = resultWithLabels("small.bag", options.truth, [](sensor_msgs::Image* image) {
     image->height /= 2;
     image->data.resize(image->data.size() / 2);
   });
-  EXPECT_NE(failure(options).find("/softbody/feature_tracker/labels: label images of 160x120 and 160x60"),
-            std::string::npos)
+  EXPECT_NE(failure(options).find("/softbody/labels: label images of 160x120 and 160x60"), std::string::npos)
       << failure(options);
 }
 

@@ -56,7 +56,7 @@ visualization_msgs::Marker makeFeatureMarker(const std::vector<TrackedFeature>& 
 
 sensor_msgs::Image makeLabelImage(const TrackingResult& result, const cv::Size& size) {
   sensor_msgs::Image image;
-  image.encoding = sensor_msgs::image_encodings::TYPE_8UC1;
+  image.encoding = sensor_msgs::image_encodings::MONO8;
   image.width = image.step = static_cast<std::uint32_t>(size.width);
   image.height = static_cast<std::uint32_t>(size.height);
   image.data.assign(std::size_t{image.step} * image.height, labels::kUnknown);

@@ -12,12 +12,12 @@ TEST(FeatureMessages, LabelsAreAsLargeAsTheImageAndUnknownOutsideOfTheirPart) {
   result.labels = cv::Mat1b(2, 3, labels::kBody);
   result.labels(0, 2) = labels::kOccluder;
   const sensor_msgs::Image image = makeLabelImage(result, {6, 4});
-  EXPECT_EQ(image.encoding, "8UC1");
+  EXPECT_EQ(image.encoding, "mono8");
   EXPECT_EQ(image.step, 6u);
-  EXPECT_EQ(image.data, (std::vector<std::uint8_t>{3, 3, 3, 3, 3, 3,  //
-                                                   3, 3, 1, 1, 2, 3,  //
-                                                   3, 3, 1, 1, 1, 3,  //
-                                                   3, 3, 3, 3, 3, 3}));
+  EXPECT_EQ(image.data, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0,  //
+                                                   0, 0, 3, 3, 2, 0,  //
+                                                   0, 0, 3, 3, 3, 0,  //
+                                                   0, 0, 0, 0, 0, 0}));
 }
 
 TEST(FeatureMessages, WithoutALabelledPartAllPixelsAreUnknown) {

@@ -59,7 +59,7 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
   messages.depth =
       cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_16UC1, capture.depth_mm).toImageMsg();
   messages.labels =
-      cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_8UC1, capture.labels).toImageMsg();
+      cv_bridge::CvImage(header, sensor_msgs::image_encodings::MONO8, capture.labels).toImageMsg();
   messages.info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(camera));
   messages.info->header = header;
   messages.truth = boost::make_shared<softbody_msgs::MeshState>(toMessage(capture.truth));

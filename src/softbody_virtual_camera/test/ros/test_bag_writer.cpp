@@ -14,6 +14,7 @@
 #include <opencv2/core/utility.hpp>
 #include <sstream>
 
+#include "softbody_common/images/pixel_labels.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 
@@ -108,8 +109,8 @@ TEST(BagWriter, WritesLabelsWhenAskedWithTheStampOfTheImages) {
   for (std::size_t i = 0; i < images.size(); ++i) {
     EXPECT_EQ(images[i]->header.stamp, stamps[i]);
     EXPECT_EQ(images[i]->header.frame_id, "camera_color_optical_frame");
-    EXPECT_EQ(images[i]->encoding, "8UC1");
-    EXPECT_EQ(std::count(images[i]->data.begin(), images[i]->data.end(), 1) > 100, true);
+    EXPECT_EQ(images[i]->encoding, "mono8");
+    EXPECT_EQ(std::count(images[i]->data.begin(), images[i]->data.end(), labels::kBody) > 100, true);
   }
 }
 

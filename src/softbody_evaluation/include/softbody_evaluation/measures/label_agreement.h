@@ -9,11 +9,12 @@ namespace softbody::evaluation {
 
 /// Of the pixels around the body: which of them have the true label. An unknown pixel is not right.
 struct LabelReport {
-  std::size_t frames = 0;                         ///< with labels in the result, and a visible body
-  std::size_t pixels = 0;                         ///< of all regions
-  double right = 0.0;                             ///< share of them, 0..1
-  double unknown = 0.0;                           ///< likewise
-  std::array<std::optional<double>, 3> of_class;  ///< share of right pixels by the true label; none: no pixel
+  std::size_t frames = 0;  ///< with labels in the result, and a visible body
+  std::size_t pixels = 0;  ///< of all regions
+  double right = 0.0;      ///< share of them, 0..1
+  double unknown = 0.0;    ///< likewise
+  std::array<std::optional<double>, 4>
+      of_class;  ///< share of right pixels by the true label; none: no pixel, or unknown
 };
 
 /// Counts over many frames.
@@ -29,7 +30,7 @@ class LabelAgreement {
 
  private:
   std::size_t frames_ = 0;
-  std::array<std::array<std::size_t, 4>, 3> counts_ = {};  ///< pixels by true label and label
+  std::array<std::array<std::size_t, 4>, 4> counts_ = {};  ///< pixels by true label and label
 };
 
 }  // namespace softbody::evaluation

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -31,8 +30,9 @@ void LabelAgreement::add(const cv::Mat1b& truth, const cv::Mat1b& found) {
   const cv::Rect region = around & cv::Rect({}, truth.size());
   for (int v = region.y; v < region.br().y; ++v) {
     for (int u = region.x; u < region.br().x; ++u) {
-      const std::size_t expected = truth(v, u);
-      if (expected < counts_.size()) ++counts_[expected][std::min(found(v, u), labels::kUnknown)];
+      const std::size_t expected = truth(v, u), label = found(v, u);
+      if (expected != labels::kUnknown && expected < counts_.size())
+        ++counts_[expected][label < counts_.size() ? label : labels::kUnknown];
     }
   }
 }
@@ -42,7 +42,7 @@ std::optional<LabelReport> LabelAgreement::report() const {
   LabelReport report;
   report.frames = frames_;
   std::size_t right = 0, unknown = 0;
-  for (std::size_t label = 0; label < counts_.size(); ++label) {
+  for (std::size_t label = labels::kBackground; label < counts_.size(); ++label) {
     std::size_t pixels = 0;
     for (const std::size_t count : counts_[label]) pixels += count;
     if (pixels > 0) report.of_class[label] = shareOf(counts_[label][label], pixels);

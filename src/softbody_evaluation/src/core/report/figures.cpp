@@ -79,7 +79,7 @@ void addTool(const PoseErrorReport& tool, std::vector<Figure>* figures) {
 
 void addLabels(const LabelReport& report, std::vector<Figure>* figures) {
   figures->push_back({"labels right", "%", 100.0 * report.right});
-  for (std::size_t i = 0; i < report.of_class.size(); ++i) {
+  for (std::size_t i = labels::kBackground; i < report.of_class.size(); ++i) {
     if (report.of_class[i])
       figures->push_back(
           {fmt::format("labels right, {}", labels::kNames[i]), "%", 100.0 * *report.of_class[i]});

@@ -137,7 +137,7 @@ json toJson(const LabelReport& report) {
                    {"pixels", report.pixels},
                    {"right", report.right},
                    {"unknown", report.unknown}};
-  for (std::size_t i = 0; i < report.of_class.size(); ++i) {
+  for (std::size_t i = labels::kBackground; i < report.of_class.size(); ++i) {
     json& share = document[labels::kNames[i]];  // null: no such pixel
     if (report.of_class[i]) share = *report.of_class[i];
   }

@@ -85,7 +85,7 @@ std::string absenceLine(const Absence& absence) {
 std::string labelLine(const LabelReport& report) {
   std::string text = fmt::format("labels: {:.2f} % of {} pixels right, {:.2f} % unknown",
                                  100.0 * report.right, report.pixels, 100.0 * report.unknown);
-  for (std::size_t i = 0; i < report.of_class.size(); ++i) {
+  for (std::size_t i = labels::kBackground; i < report.of_class.size(); ++i) {
     if (report.of_class[i])
       text += fmt::format(", {} {:.2f} %", labels::kNames[i], 100.0 * *report.of_class[i]);
   }

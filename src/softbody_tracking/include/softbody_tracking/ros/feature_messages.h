@@ -18,7 +18,7 @@ sensor_msgs::PointCloud2 makeFeatureCloud(const std::vector<TrackedFeature>& fea
 /// Feature vectors: a LINE_LIST from each feature's reference position to its present position.
 visualization_msgs::Marker makeFeatureMarker(const std::vector<TrackedFeature>& features);
 
-/// What each pixel shows: 8UC1, see softbody_common/images/pixel_labels.h; kUnknown outside of the labelled
+/// What each pixel shows: mono8, see softbody_common/images/pixel_labels.h; kUnknown outside of the labelled
 /// part. @param size of the frame [px].
 sensor_msgs::Image makeLabelImage(const TrackingResult& result, const cv::Size& size);
 

@@ -33,7 +33,7 @@ constexpr char kTruthCutTopic[] = "ground_truth/cut";
 struct CaptureMessages {
   sensor_msgs::ImagePtr color, depth;  ///< rgb8; 16UC1 [mm], registered to colour
   sensor_msgs::CameraInfoPtr info;     ///< of both images
-  sensor_msgs::ImagePtr labels;        ///< 8UC1, as in pixel_labels.h
+  sensor_msgs::ImagePtr labels;        ///< mono8, as in pixel_labels.h
   softbody_msgs::MeshStatePtr truth;   ///< in the optical frame, or in the world if the camera moves
   /// optical frame -> ground_truth_softbody, gripper and its fingers; with a moving camera also
   /// world -> camera_link
