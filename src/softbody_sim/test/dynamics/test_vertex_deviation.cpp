@@ -5,10 +5,36 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/load_estimator.h"
+#include "elasticity/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
 
 namespace softbody {
 namespace {
+
+/// A body whose loads are estimated from one frame.
+class EstimatedBody {
+ public:
+  explicit EstimatedBody(const TetTopology& topology)
+      : topology_(topology), masses_(Eigen::VectorXd::Constant(topology.rest_vertices.rows(), 1e-4)) {}
+
+  std::vector<float> deviations(const std::vector<Target>& targets, const Points& vertices) {
+    LoadEstimate loads{Points::Zero(vertices.rows(), 3)};
+    Points balancing = Points::Zero(vertices.rows(), 3);
+    elasticity_.addTo(vertices, &balancing);
+    const auto posterior = estimator_.update(targets, {}, vertices, balancing, 1.0 / 30.0, &loads);
+    std::vector<float> result;
+    vertexDeviations(targets, topology_.tets, vertices, posterior.value(), &result);
+    return result;
+  }
+
+ private:
+  const TetTopology topology_;
+  const Eigen::VectorXd masses_;
+  const TetMaterials materials_ = tetMaterials(topology_, Material(), 0.7, std::nullopt);
+  const FemElasticity elasticity_{topology_, Elasticity::kCorotated, materials_.elastic};
+  LoadEstimator estimator_{topology_, materials_, masses_, {0.1, 4000.0, 0.001}};
+};
 
 class VertexDeviationTest : public ::testing::Test {
  protected:
@@ -23,9 +49,7 @@ class VertexDeviationTest : public ::testing::Test {
     return targets;
   }
   std::vector<float> deviations(const std::vector<Target>& targets, const Points& vertices) {
-    std::vector<float> result;
-    deviation_.compute(targets, vertices, &result);
-    return result;
+    return body_.deviations(targets, vertices);
   }
   static double meanOf(const std::vector<float>& values) {
     double sum = 0.0;
@@ -39,7 +63,7 @@ class VertexDeviationTest : public ::testing::Test {
 
   const TetTopology topology_ = testing::sponge();
   const Points& rest_ = topology_.rest_vertices;
-  VertexDeviation deviation_{topology_};
+  EstimatedBody body_{topology_};
 };
 
 TEST_F(VertexDeviationTest, IsLargestWithoutTargets) {
@@ -59,7 +83,7 @@ TEST_F(VertexDeviationTest, GrowsWithTheDistanceFromTheMeasuredEnd) {
     smallest[plane] = std::min(smallest[plane], found[static_cast<std::size_t>(v)]);
     largest[plane] = std::max(largest[plane], found[static_cast<std::size_t>(v)]);
   }
-  EXPECT_EQ(smallest[0], largest[1]) << "measured";
+  EXPECT_LT(largest[1], 0.2f * smallest[10]) << "measured";
   for (std::size_t plane = 2; plane < 11; ++plane) {
     EXPECT_GT(smallest[plane], smallest[plane - 1]);
     EXPECT_GT(largest[plane], largest[plane - 1]);
@@ -94,7 +118,7 @@ TEST_F(VertexDeviationTest, ADirectionIsLessThanAPlace) {
                            all = deviations(targetsAtOneEnd(rest_), rest_), none = deviations({}, rest_);
   for (std::size_t v = 0; v < all.size(); ++v) {
     EXPECT_GT(in_plane[v], all[v]);
-    EXPECT_LT(in_plane[v], none[v]);
+    EXPECT_LE(in_plane[v], none[v]);
   }
   // Three directions together are a place.
   std::vector<Target> three;
@@ -116,15 +140,14 @@ TEST_F(VertexDeviationTest, PriorsMeasureNothing) {
 
 TEST_F(VertexDeviationTest, PiecesAreMeasuredOnTheirOwn) {
   const TetTopology both = testing::twoBoxes({2, 1, 1}, {0.1, 0.05, 0.05});
-  VertexDeviation deviation(both);
+  EstimatedBody body(both);
   std::vector<Target> targets = testing::vertexTargets(both, both.rest_vertices);
   const auto count = static_cast<std::size_t>(both.rest_vertices.rows());
   targets.erase(std::remove_if(targets.begin(), targets.end(),
                                [](const Target& target) { return target.position.x() > 0.2; }),
                 targets.end());
-  std::vector<float> found, none;
-  deviation.compute(targets, both.rest_vertices, &found);
-  deviation.compute({}, both.rest_vertices, &none);
+  const std::vector<float> none = body.deviations({}, both.rest_vertices),
+                           found = body.deviations(targets, both.rest_vertices);
   for (std::size_t v = 0; v < count; ++v) {
     if (v < count / 2)
       EXPECT_LT(found[v], none[v]);

@@ -128,7 +128,7 @@ void TargetEnergy::addHessian(const Points& x, BlockTetMatrix* matrix) const {
     const Eigen::Matrix3d curvature = curvatureAt(spring, x);
     if (curvature.isZero(0.0)) continue;
     const auto add = [&](int tet, const Eigen::Vector4d& barycentric) {
-      Eigen::MatrixXd block(12, 12);
+      Eigen::Matrix<double, 12, 12> block;
       for (Eigen::Index a = 0; a < 4; ++a) {
         for (Eigen::Index b = 0; b < 4; ++b)
           block.block<3, 3>(3 * a, 3 * b) = barycentric[a] * barycentric[b] * curvature;

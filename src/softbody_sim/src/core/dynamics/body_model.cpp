@@ -94,8 +94,8 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
       solver(makeSolver(topology, materials.elastic, config)),
       constrained_step(makeStep(topology, materials, config, edge_length, target_stiffness, solver.get())),
       vertex_confidence(topology.rest_vertices, topology.tets),
-      vertex_deviation(topology),
-      load_estimator(topology, masses, config.load_fade_s),
+      load_estimator(topology, materials, masses,
+                     {config.load_fade_s, target_stiffness, config.target_accuracy_m}),
       occluded_piece_damping(topology) {}
 
 }  // namespace softbody

@@ -5,7 +5,6 @@
 #include "dynamics/load_estimator.h"
 #include "dynamics/occluded_piece_damping.h"
 #include "dynamics/vertex_confidence.h"
-#include "dynamics/vertex_deviation.h"
 #include "elasticity/tet_materials.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/constrained_step.h"
@@ -29,7 +28,6 @@ struct BodyModel {
   const std::unique_ptr<StepSolver> solver;
   ConstrainedStep constrained_step;
   VertexConfidence vertex_confidence;
-  VertexDeviation vertex_deviation;
   LoadEstimator load_estimator;
   OccludedPieceDamping occluded_piece_damping;
 };

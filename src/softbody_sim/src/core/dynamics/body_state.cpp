@@ -28,7 +28,8 @@ std::vector<float> transferred(const std::vector<MaterialPoint>& origins, const 
 void placeAtRest(const Points& rest_vertices, const Eigen::Isometry3d& pose, Nanoseconds stamp,
                  BodyState* body) {
   body->mesh.vertices = transformed(rest_vertices, pose);
-  body->velocity = body->loads = Points::Zero(rest_vertices.rows(), 3);
+  body->velocity = Points::Zero(rest_vertices.rows(), 3);
+  body->loads = {body->velocity};
   body->stamp = stamp;
   body->placed = true;
   body->contact = {};  // the obstacles did not move from their earlier poses to these
@@ -41,7 +42,7 @@ void transferToEdit(const TetEdit& edit, const Tets& tets, BodyState* body) {
   mesh.standard_deviation = transferred(edit.vertex_origins, tets, mesh.standard_deviation);
   body->mesh.vertices = applyBinding(edit.vertex_origins, body->mesh.vertices, tets);
   body->velocity = applyBinding(edit.vertex_origins, body->velocity, tets);
-  body->loads = applyBinding(edit.vertex_origins, body->loads, tets);
+  body->loads = {applyBinding(edit.vertex_origins, body->loads.per_mass, tets), {}, true};
 }
 
 }  // namespace softbody

@@ -4,6 +4,7 @@
 
 #include "constraints/contact_detection.h"
 #include "cutting/volume/tet_edit.h"
+#include "dynamics/load_estimate.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/time_step/step_report.h"
@@ -15,7 +16,7 @@ struct BodyState {
   bool placed = false;
   Nanoseconds stamp = 0;
   Points velocity;  ///< #V by 3 [m/s]
-  Points loads;     ///< #V by 3, estimated external loads per mass [m/s^2]
+  LoadEstimate loads;
   MeshState mesh;
   StepReport report;
   Reactions reactions;

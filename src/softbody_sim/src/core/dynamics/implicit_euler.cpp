@@ -54,7 +54,7 @@ double ImplicitEuler::startStep(BodyModel* model, const std::vector<Target>& tar
   }
   // The start includes gravity but not the estimated loads: the body's stiffness balances those.
   solution_ = free_.prediction + free_.inertia.cwiseInverse().asDiagonal() * free_.loads;
-  if (moves) free_.loads += model->masses.asDiagonal() * body->loads;
+  if (moves) free_.loads += model->masses.asDiagonal() * body->loads.per_mass;
   return h;
 }
 

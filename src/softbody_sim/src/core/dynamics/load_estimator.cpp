@@ -2,46 +2,62 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <utility>
 
+#include "dynamics/load_field.h"
 #include "softbody_common/tet_geometry.h"
-#include "tets/tet_matrix.h"
-#include "tets/tet_shape.h"
 
 namespace softbody {
 namespace {
 
-// Length over which loads are spread, in edges of a cube with the body's volume. Hands press on a part of a
-// side; shorter, loads would follow noise.
-constexpr double kSpread = 0.5;
+// Modes of a body: sections, limbs and their parts. More take longer and change little.
+constexpr Eigen::Index kModes = 80;
 
-/// M + l^2 L, with the Laplacian weighted by density.
-TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& masses) {
-  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
-  const double length = kSpread * std::cbrt(volumes.sum()), density = masses.sum() / volumes.sum();
-  TetMatrix matrix(topology.tets, topology.rest_vertices.rows());
-  matrix.addToDiagonal(masses);
-  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
-    const Eigen::Matrix<double, 4, 3> gradients =
-        shapeGradients(edgesOf(topology.rest_vertices, topology.tets.row(t)).inverse());
-    matrix.addToTet(static_cast<int>(t),
-                    length * length * density * volumes[t] * gradients * gradients.transpose());
-  }
-  return matrix;
+std::vector<Eigen::VectorXi> verticesOf(const Tets& tets) {
+  std::vector<Eigen::VectorXi> groups;
+  for (const auto& tet : tets.rowwise()) groups.emplace_back(tet.transpose());
+  return groups;
+}
+
+Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& positive) {
+  return positive.llt().solve(Eigen::MatrixXd::Identity(positive.rows(), positive.rows()));
 }
 
 }  // namespace
 
-LoadEstimator::LoadEstimator(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s)
-    : masses_(masses),
+/// Of the loads along the modes.
+struct LoadEstimator::Prior {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd precision;  ///< inverse of the covariance
+};
+
+/// For the amplitudes of the motions from the present shape.
+struct LoadEstimator::Equations {
+  Eigen::MatrixXd hessian;    ///< of springs and prior [N/m]
+  Eigen::VectorXd pull;       ///< minus the gradient
+  Eigen::VectorXd balancing;  ///< forces along the modes that hold the body in its present shape
+};
+
+LoadEstimator::LoadEstimator(const TetTopology& topology, const TetMaterials& materials,
+                             const Eigen::VectorXd& masses, const Options& options)
+    : topology_(topology),
+      materials_(materials),
+      masses_(masses),
+      options_(options),
       pieces_(verticesOfPieces(topology.tets, masses.size())),
       piece_of_vertex_(static_cast<std::size_t>(masses.size())),
-      fade_s_(fade_s),
-      smoother_(TetMatrix(topology.tets, masses.size()).lower()),
-      held_(pieces_.size()) {
+      noise_(options.target_stiffness * options.target_accuracy_m * options.target_accuracy_m) {
   for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
     for (int v : pieces_[piece]) piece_of_vertex_[static_cast<std::size_t>(v)] = piece;
   }
-  if (fade_s_ > 0.0) smoother_.factorize(screenedPoisson(topology, masses).lower());
+}
+
+void LoadEstimator::makeModes() {
+  modes_ = deformationModes(topology_, materials_.elastic, masses_, kModes);
+  unknown_ = covarianceOfUnknownLoads(topology_, materials_, masses_, modes_);
+  unknown_precision_ = inverseOf(unknown_);
+  turned_ = std::make_unique<TurnedModes>(topology_);
+  curvature_ = std::make_unique<BlockTetMatrix>(verticesOf(topology_.tets), masses_.size());
 }
 
 /// Removes the loads that would accelerate the piece as a rigid body.
@@ -72,23 +88,90 @@ void LoadEstimator::balance(const Points& vertices, Points* loads) const {
   for (const std::vector<int>& piece : pieces_) balancePiece(piece, vertices, loads);
 }
 
-void LoadEstimator::leaveOutHeldPieces(const std::vector<Pin>& pins) {
-  held_.assign(held_.size(), false);
-  for (const Pin& pin : pins) held_[piece_of_vertex_[static_cast<std::size_t>(pin.vertex)]] = true;
-  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
-    if (!held_[piece]) continue;
-    for (int v : pieces_[piece]) unexplained_.row(v).setZero();
+/// The springs of the targets that measure pieces without pins.
+void LoadEstimator::setSprings(const std::vector<Target>& targets, const std::vector<Pin>& pins) {
+  std::vector<bool> held(pieces_.size(), false);
+  for (const Pin& pin : pins) held[piece_of_vertex_[static_cast<std::size_t>(pin.vertex)]] = true;
+  measuring_.clear();
+  for (const Target& target : targets) {
+    const int vertex = topology_.tets(target.place.tet, 0);
+    if (target.kind != TargetKind::kPrior && !held[piece_of_vertex_[static_cast<std::size_t>(vertex)]])
+      measuring_.push_back(target);
   }
+  springs_.set(measuring_, topology_.tets, options_.target_stiffness);
 }
 
-void LoadEstimator::update(const Points& springs, const std::vector<Pin>& pins, const Points& vertices,
-                           double elapsed_s, Points* loads) {
-  if (fade_s_ <= 0.0) return;
-  unexplained_ = springs;
-  leaveOutHeldPieces(pins);
-  smoother_.solve(unexplained_, &spread_);
-  *loads = std::exp(-elapsed_s / fade_s_) * *loads + spread_;
-  balance(vertices, loads);
+/// The prior of the loads along the modes.
+LoadEstimator::Prior LoadEstimator::priorOf(const LoadEstimate& estimate, const Eigen::VectorXd& loads,
+                                            double elapsed_s) const {
+  const double keep = std::exp(-elapsed_s / options_.fade_s);
+  Eigen::MatrixXd covariance = unknown_;
+  if (estimate.covariance.rows() == unknown_.rows())
+    covariance += keep * keep * (estimate.covariance - unknown_);
+  return {keep * loads, inverseOf(covariance)};
+}
+
+/// Energies are in units of J, and probabilities exp(-energy / noise).
+LoadEstimator::Equations LoadEstimator::equationsAt(const Points& vertices, const Points& balancing,
+                                                    const Motions& motions, double elapsed_s,
+                                                    const LoadEstimate& estimate) {
+  const Eigen::Index modes = modes_.stiffness.size();
+  const auto along = [&](const Points& forces) {
+    return Eigen::VectorXd(motions.transpose() * Eigen::VectorXd(forces.reshaped<Eigen::RowMajor>()));
+  };
+  Points pushed = Points::Zero(vertices.rows(), 3);
+  springs_.addTo(vertices, &pushed);
+  curvature_->setZero();
+  springs_.addHessian(vertices, curvature_.get());
+  Equations equations{motions.transpose() * (curvature_->lower().selfadjointView<Eigen::Lower>() * motions),
+                      -along(pushed), along(balancing).tail(modes)};
+  const Prior prior =
+      priorOf(estimate, along(masses_.asDiagonal() * estimate.per_mass).tail(modes), elapsed_s);
+  const auto stiffness = modes_.stiffness.asDiagonal();
+  equations.hessian.bottomRightCorner(modes, modes) += noise_ * (stiffness * prior.precision * stiffness);
+  equations.hessian.diagonal().head(turned_->rigidCount()).array() += looseness();
+  equations.pull.tail(modes) -= noise_ * (stiffness * (prior.precision * (equations.balancing - prior.mean)));
+  return equations;
+}
+
+/// Curvature of the energy by a rigid motion of a piece, where nothing is measured [N/m].
+double LoadEstimator::looseness() const {
+  return noise_ / (ShapePosterior::kUnknown_m * ShapePosterior::kUnknown_m);
+}
+
+/// The mean square of the loads in units of those of which nothing is known, over the part that the
+/// measurements determine (MacKay 1992, Bayesian interpolation, eq. 4.9), and one mode of usual loads beside
+/// it.
+double LoadEstimator::evidence(const Eigen::VectorXd& loads, const Eigen::MatrixXd& covariance) const {
+  const double determined =
+      static_cast<double>(loads.size()) - unknown_precision_.cwiseProduct(covariance).sum();
+  return (loads.dot(unknown_precision_ * loads) + 1.0) / (determined + 1.0);
+}
+
+std::optional<ShapePosterior> LoadEstimator::update(const std::vector<Target>& targets,
+                                                    const std::vector<Pin>& pins, const Points& vertices,
+                                                    const Points& balancing, double elapsed_s,
+                                                    LoadEstimate* estimate) {
+  if (options_.fade_s <= 0.0 || std::exchange(estimate->edited, false)) return std::nullopt;
+  if (!turned_) makeModes();
+  setSprings(targets, pins);
+  ShapePosterior posterior;
+  turned_->at(vertices, modes_.shapes, &posterior.motions);
+  Equations equations = equationsAt(vertices, balancing, posterior.motions, elapsed_s, *estimate);
+  const Eigen::Index modes = modes_.stiffness.size();
+  const auto stiffness = modes_.stiffness.asDiagonal();
+  const Eigen::MatrixXd inverse = inverseOf(equations.hessian);
+  const Eigen::VectorXd loads = equations.balancing + stiffness * (inverse * equations.pull).tail(modes);
+  estimate->covariance = noise_ * (stiffness * inverse.bottomRightCorner(modes, modes) * stiffness);
+  const Eigen::VectorXd per_mass = posterior.motions.rightCols(modes) * loads;
+  estimate->per_mass = per_mass.reshaped<Eigen::RowMajor>(vertices.rows(), 3);
+  balance(vertices, &estimate->per_mass);
+  // The model errs, like its prior, in proportion to the loads; a piece that nothing measures may be
+  // anywhere.
+  const double scale = evidence(loads, estimate->covariance);
+  equations.hessian.diagonal().head(turned_->rigidCount()).array() += (scale - 1.0) * looseness();
+  posterior.covariance = scale * noise_ * inverseOf(equations.hessian);
+  return posterior;
 }
 
 }  // namespace softbody

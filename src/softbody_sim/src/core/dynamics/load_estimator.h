@@ -1,50 +1,90 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
-#include "linear_solvers/positive_definite_solver.h"
+#include "constraints/target_energy.h"
+#include "dynamics/deformation_modes.h"
+#include "dynamics/load_estimate.h"
+#include "dynamics/turned_modes.h"
+#include "elasticity/tet_materials.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
+#include "tets/block_tet_matrix.h"
 
 namespace softbody {
 
-/// Estimates the unknown external loads on an observed body. The springs of the targets carry the forces that
-/// the known loads do not explain. The springs act only where the camera sees the body, but hands and
-/// grippers act anywhere. So the spring forces are smoothed over the body, f <- M (M + l^2 L)^-1 f, with the
-/// Laplacian L of the tets and the body's size l (a screened Poisson equation, which keeps the total force).
-/// The results of all frames are added until the springs carry no force. This is the integral action of a
-/// controller, and a gradient step towards the smallest forces that explain the observations. On each
-/// connected piece the estimate has no net force or torque: only the springs move a piece rigidly, so an
-/// occluded body stays in place.
+/// Estimates the unknown external loads on an observed body that is in balance under them, and where the body
+/// may be: the most probable loads f along the modes of
 ///
-/// A piece that a pin holds gets no new loads. There the springs also carry the force of the pin, and no load
-/// removes the force with which a pin contradicts the camera: the sum would grow to many times the conflict.
+///   1/2 (f - a f')^T C^-1 (f - a f') + sum of weight / (2 accuracy^2) (target - S x(f))^2
+///
+/// The prior is the last estimate f'. It fades, a = exp(-dt / fade), and its covariance C grows to that of
+/// loads of which nothing is known (a Kalman filter of an Ornstein-Uhlenbeck process). The low modes move the
+/// body most, so they explain first what is seen: they bend, twist and stretch whole sections, also where
+/// nothing is seen. The body moves linearly around its present shape. Where the body may be follows from the
+/// inverse Hessian of this energy, for loads that are as large as those that are found.
+///
+/// On each connected piece the loads have no net force or torque: only the springs of the targets move a
+/// piece rigidly, so an occluded body stays in place. A piece that a pin holds gets no new loads: there the
+/// springs also carry the force with which the pin contradicts the camera.
 class LoadEstimator {
  public:
-  /// @param masses lumped, #V [kg]. @param fade_s time in which loads fall to 1/e; 0: loads are not
-  /// estimated.
-  LoadEstimator(const TetTopology& topology, const Eigen::VectorXd& masses, double fade_s);
+  struct Options {
+    double fade_s = 0.0;  ///< time in which what is known of loads falls to 1/e; 0: there are no loads
+    double target_stiffness = 0.0;   ///< of a target of weight 1 [N/m]
+    double target_accuracy_m = 0.0;  ///< its standard deviation
+  };
 
-  /// Allocates on the first call only. @param springs forces of the springs on the vertices, #V by 3 [N].
-  /// @param pins of this step. @param vertices #V by 3 [m].
-  /// @param loads previous estimate, then the new one, per mass, #V by 3 [m/s^2].
-  void update(const Points& springs, const std::vector<Pin>& pins, const Points& vertices, double elapsed_s,
-              Points* loads);
+  /// @param topology, @param materials outlive this. @param masses lumped, #V [kg].
+  LoadEstimator(const TetTopology& topology, const TetMaterials& materials, const Eigen::VectorXd& masses,
+                const Options& options);
+
+  /// @param targets that acted in the step. @param pins likewise. @param vertices after it, #V by 3 [m].
+  /// @param balancing forces that hold the body in that shape: of elasticity, without gravity, #V by 3 [N].
+  /// @param elapsed_s since the last estimate. @param estimate the last one, then the new one.
+  /// @return nothing if loads are not estimated, and in the first step after an edit: a blade edits in every
+  /// frame, and modes take longer.
+  std::optional<ShapePosterior> update(const std::vector<Target>& targets, const std::vector<Pin>& pins,
+                                       const Points& vertices, const Points& balancing, double elapsed_s,
+                                       LoadEstimate* estimate);
 
   /// Removes net force and torque from each piece, for loads from before a cut.
   void balance(const Points& vertices, Points* loads) const;
 
  private:
-  void leaveOutHeldPieces(const std::vector<Pin>& pins);
+  using Motions = TurnedModes::Motions;
+  struct Prior;
+  struct Equations;
+
+  void makeModes();
+  Prior priorOf(const LoadEstimate& estimate, const Eigen::VectorXd& loads, double elapsed_s) const;
+  Equations equationsAt(const Points& vertices, const Points& balancing, const Motions& motions,
+                        double elapsed_s, const LoadEstimate& estimate);
+  double looseness() const;
+  double evidence(const Eigen::VectorXd& loads, const Eigen::MatrixXd& covariance) const;
+  void setSprings(const std::vector<Target>& targets, const std::vector<Pin>& pins);
   void balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const;
 
-  Eigen::VectorXd masses_;
-  std::vector<std::vector<int>> pieces_;      ///< vertices of each piece
-  std::vector<std::size_t> piece_of_vertex_;  ///< #V
-  double fade_s_;
-  PositiveDefiniteSolver smoother_;
-  Points unexplained_, spread_;
-  std::vector<bool> held_;  ///< per piece: whether a pin holds it
+  const TetTopology& topology_;
+  const TetMaterials& materials_;
+  const Eigen::VectorXd masses_;
+  const Options options_;
+  const std::vector<std::vector<int>> pieces_;  ///< vertices of each piece
+  std::vector<std::size_t> piece_of_vertex_;    ///< #V
+  const double noise_;  ///< energy of a target of weight 1 at its standard deviation [J]
+
+  /// What the first update() makes.
+  DeformationModes modes_;
+  Eigen::MatrixXd unknown_;            ///< covariance of loads of which nothing is known
+  Eigen::MatrixXd unknown_precision_;  ///< its inverse
+  std::unique_ptr<TurnedModes> turned_;
+  std::unique_ptr<BlockTetMatrix> curvature_;  ///< of the springs
+
+  std::vector<Target> measuring_;  ///< targets without those that measure nothing
+  TargetEnergy springs_;           ///< of these
 };
 
 }  // namespace softbody

@@ -16,6 +16,7 @@
 #include "dynamics/direct_deformation.h"
 #include "dynamics/implicit_euler.h"
 #include "dynamics/target_validation.h"
+#include "dynamics/vertex_deviation.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/time.h"
 #include "softbody_common/timeline.h"
@@ -43,9 +44,8 @@ struct Simulator::Implementation {
   void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
   void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings);
-  /// Confidence and standard deviation after a step with these targets.
-  void judgeVertices(const TargetSet& targets);
-  void estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
+  /// Loads, confidence and standard deviation after a step with these targets.
+  void estimate(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
 
   const TetTopology uncut;
   Material material;
@@ -57,10 +57,8 @@ struct Simulator::Implementation {
   BodyState body;
   BodyState next;  ///< of a step that may still fail
 
-  // Buffers, so that steps allocate nothing.
   ImplicitEuler integrator;
-  TargetEnergy springs;
-  Points spring_forces;
+  Points balancing;  ///< forces that hold the body in its shape
 };
 
 Simulator::Implementation::Implementation(const TetTopology& topology, const Material& material_in,
@@ -128,19 +126,17 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
   next.stamp = next.stamp - stamp > Timeline::kLeap ? stamp : std::max(next.stamp, stamp);
 }
 
-void Simulator::Implementation::judgeVertices(const TargetSet& targets) {
+void Simulator::Implementation::estimate(const TargetSet& targets, const std::vector<Pin>& pins,
+                                         double elapsed_s) {
+  const Points& vertices = next.mesh.vertices;
+  balancing.noalias() = -model->masses * config.gravity.transpose();
+  model->solver->addElasticity(vertices, &balancing);
+  const auto posterior =
+      model->load_estimator.update(targets.targets, pins, vertices, balancing, elapsed_s, &next.loads);
+  if (posterior)
+    vertexDeviations(targets.targets, model->topology.tets, vertices, *posterior,
+                     &next.mesh.standard_deviation);
   model->vertex_confidence.compute(targets.targets, &next.mesh.confidence);
-  model->vertex_deviation.compute(targets.targets, next.mesh.vertices, &next.mesh.standard_deviation);
-}
-
-/// The forces of the targets' springs show which loads are still unknown.
-void Simulator::Implementation::estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins,
-                                              double elapsed_s) {
-  springs.set(targets.targets, model->topology.tets, model->target_stiffness);
-  spring_forces.setZero(next.loads.rows(), 3);
-  springs.addTo(next.mesh.vertices, &spring_forces);
-  spring_forces *= -1.0;
-  model->load_estimator.update(spring_forces, pins, next.mesh.vertices, elapsed_s, &next.loads);
 }
 
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
@@ -177,9 +173,7 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp);
   s.advance(targets, stamp, surroundings);
-  if (s.config.simulate && stamp > s.body.stamp)
-    s.estimateLoads(targets, surroundings.pins, seconds(stamp - s.body.stamp));
-  s.judgeVertices(targets);
+  s.estimate(targets, surroundings.pins, std::max(0.0, seconds(stamp - s.body.stamp)));
   if (!targets.targets.empty()) s.next.mesh.observed = stamp;
   std::swap(s.body, s.next);
 }
@@ -213,7 +207,7 @@ void Simulator::settle(const TargetSet& given, const Surroundings& surroundings)
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, s.body.stamp);
   s.integrator.settle(s.model.get(), targets.targets, surroundings, &s.next);
-  s.judgeVertices(targets);
+  s.estimate(targets, surroundings.pins, 0.0);
   std::swap(s.body, s.next);
 }
 
@@ -237,7 +231,7 @@ void Simulator::setMaterial(const Material& material) {
   s.makeModel(TetTopology(s.model->topology));
   s.body.contact.contacts.clear();  // a depth gives another pressure now
   s.integrator = ImplicitEuler(s.config, material.damping);
-  if (s.body.placed) s.model->load_estimator.balance(s.body.mesh.vertices, &s.body.loads);
+  if (s.body.placed) s.model->load_estimator.balance(s.body.mesh.vertices, &s.body.loads.per_mass);
 }
 
 std::unique_ptr<Simulator> Simulator::copyOfPresent() const { return copyWith(implementation_->config); }
@@ -271,7 +265,7 @@ void Simulator::reset() {
 
 void Simulator::Implementation::setEdited(EditedVolume edited, BodyState next_body) {
   setTopology(edited.topology());
-  if (next_body.placed) model->load_estimator.balance(next_body.mesh.vertices, &next_body.loads);
+  if (next_body.placed) model->load_estimator.balance(next_body.mesh.vertices, &next_body.loads.per_mass);
   next_body.mesh.revision = edited.topology().revision;
   volume = std::move(edited);
   body = std::move(next_body);

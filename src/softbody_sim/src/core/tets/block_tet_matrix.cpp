@@ -59,7 +59,7 @@ void BlockTetMatrix::addToDiagonal(const Eigen::VectorXd& diagonal) {
     lower_.valuePtr()[lower_.outerIndexPtr()[i]] += diagonal[i / 3];  // a column starts with its diagonal
 }
 
-void BlockTetMatrix::addToGroup(std::size_t group, const Eigen::MatrixXd& block) {
+void BlockTetMatrix::addToGroup(std::size_t group, const Eigen::Ref<const Eigen::MatrixXd>& block) {
   for (const Slot& slot : slots_[group]) {
     for (int c = 0; c < 3; ++c) {
       const int first = slot.a == slot.b ? c : 0;

@@ -18,7 +18,7 @@ class BlockTetMatrix {
   /// Adds a value per vertex to the diagonal entries of its three coordinates. @param diagonal #V.
   void addToDiagonal(const Eigen::VectorXd& diagonal);
   /// Adds a symmetric block over the coordinates of a group's vertices.
-  void addToGroup(std::size_t group, const Eigen::MatrixXd& block);
+  void addToGroup(std::size_t group, const Eigen::Ref<const Eigen::MatrixXd>& block);
 
   /// Lower triangle, compressed.
   const Eigen::SparseMatrix<double>& lower() const { return lower_; }
