@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "dynamics/load_estimator.h"
 #include "dynamics/occluded_piece_damping.h"
 #include "dynamics/vertex_confidence.h"
 #include "elasticity/tet_materials.h"
+#include "estimation/load_estimator.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/constrained_step.h"
 #include "time_step/free_motion.h"

@@ -4,7 +4,7 @@
 
 #include "constraints/contact_detection.h"
 #include "cutting/volume/tet_edit.h"
-#include "dynamics/load_estimate.h"
+#include "estimation/load_estimate.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/time_step/step_report.h"

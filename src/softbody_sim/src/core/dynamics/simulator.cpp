@@ -16,7 +16,7 @@
 #include "dynamics/direct_deformation.h"
 #include "dynamics/implicit_euler.h"
 #include "dynamics/target_validation.h"
-#include "dynamics/vertex_deviation.h"
+#include "estimation/vertex_deviation.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/time.h"
 #include "softbody_common/timeline.h"

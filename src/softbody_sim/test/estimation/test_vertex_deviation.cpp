@@ -1,12 +1,12 @@
-#include "dynamics/vertex_deviation.h"
+#include "estimation/vertex_deviation.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/load_estimator.h"
 #include "elasticity/fem_elasticity.h"
+#include "estimation/load_estimator.h"
 #include "fixtures/test_meshes.h"
 
 namespace softbody {

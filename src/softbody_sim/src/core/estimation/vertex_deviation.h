@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/load_estimate.h"
+#include "estimation/load_estimate.h"
 #include "softbody_common/types.h"
 
 namespace softbody {

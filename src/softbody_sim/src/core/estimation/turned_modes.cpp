@@ -1,4 +1,4 @@
-#include "dynamics/turned_modes.h"
+#include "estimation/turned_modes.h"
 
 #include <Eigen/Dense>
 #include <cmath>

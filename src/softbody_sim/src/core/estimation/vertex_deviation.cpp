@@ -1,4 +1,4 @@
-#include "dynamics/vertex_deviation.h"
+#include "estimation/vertex_deviation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dynamics/load_estimator.h"
+#include "estimation/load_estimator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "dynamics/load_estimator.h"
+#include "estimation/load_estimator.h"
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <utility>
 
-#include "dynamics/load_field.h"
+#include "estimation/load_field.h"
 #include "softbody_common/tet_geometry.h"
 
 namespace softbody {

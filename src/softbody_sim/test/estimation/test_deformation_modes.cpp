@@ -1,4 +1,4 @@
-#include "dynamics/deformation_modes.h"
+#include "estimation/deformation_modes.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "constraints/target_energy.h"
-#include "dynamics/deformation_modes.h"
-#include "dynamics/load_estimate.h"
-#include "dynamics/turned_modes.h"
 #include "elasticity/tet_materials.h"
+#include "estimation/deformation_modes.h"
+#include "estimation/load_estimate.h"
+#include "estimation/turned_modes.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "tets/block_tet_matrix.h"

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/deformation_modes.h"
 #include "elasticity/tet_materials.h"
+#include "estimation/deformation_modes.h"
 #include "softbody_common/types.h"
 
 namespace softbody {

@@ -1,4 +1,4 @@
-#include "dynamics/load_field.h"
+#include "estimation/load_field.h"
 
 #include <cmath>
 
