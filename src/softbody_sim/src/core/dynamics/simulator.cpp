@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "dynamics/direct_deformation.h"
 #include "dynamics/implicit_euler.h"
 #include "dynamics/target_validation.h"
+#include "forces/force_estimator.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/time.h"
 #include "softbody_common/timeline.h"
@@ -45,6 +47,7 @@ struct Simulator::Implementation {
   void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings);
   /// Confidence and standard deviation after a step with these targets.
   void judgeVertices(const TargetSet& targets);
+  ForceEstimator& forceEstimator();
   void estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
 
   const TetTopology uncut;
@@ -53,7 +56,8 @@ struct Simulator::Implementation {
   const double edge_length;  ///< mean, of the uncut body [m]
 
   EditedVolume volume;
-  std::unique_ptr<BodyModel> model;  ///< for the volume's topology
+  std::unique_ptr<BodyModel> model;                 ///< for the volume's topology
+  std::unique_ptr<ForceEstimator> force_estimator;  ///< of the model; empty until it is needed
   BodyState body;
   BodyState next;  ///< of a step that may still fail
 
@@ -88,6 +92,7 @@ void Simulator::Implementation::setTopology(const TetTopology& topology) {
 void Simulator::Implementation::makeModel(const TetTopology& topology) {
   const TetTopology before = model ? std::move(model->topology) : topology;
   model.reset();
+  force_estimator.reset();
   try {
     model = std::make_unique<BodyModel>(topology, material, config, edge_length);
   } catch (...) {
@@ -131,6 +136,15 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
 void Simulator::Implementation::judgeVertices(const TargetSet& targets) {
   model->vertex_confidence.compute(targets.targets, &next.mesh.confidence);
   model->vertex_deviation.compute(targets.targets, next.mesh.vertices, &next.mesh.standard_deviation);
+}
+
+ForceEstimator& Simulator::Implementation::forceEstimator() {
+  if (!force_estimator) {
+    force_estimator = std::make_unique<ForceEstimator>(
+        model->topology, config.elasticity, model->materials.elastic, model->masses,
+        model->materials.mean_youngs_modulus_pa * edge_length * edge_length);
+  }
+  return *force_estimator;
 }
 
 /// The forces of the targets' springs show which loads are still unknown.
@@ -336,6 +350,29 @@ std::vector<ContactPatch> Simulator::contactPatches() const {
   const Implementation& s = *implementation_;
   return patchesOf(s.model->constrained_step.contactForces(s.body.contact, s.body.mesh.vertices),
                    s.model->topology.tets);
+}
+
+ForceEstimate Simulator::externalForces(const TargetSet& given, const Surroundings& surroundings) {
+  Implementation& s = *implementation_;
+  if (!s.body.placed) throw std::invalid_argument("the body is not placed yet");
+  TargetSet storage;
+  const TargetSet& targets = s.toCurrentRevision(given, &storage);
+  s.requireUsable(targets, surroundings);
+  std::vector<Target> measuring;
+  std::copy_if(targets.targets.begin(), targets.targets.end(), std::back_inserter(measuring),
+               [](const Target& target) { return target.kind != TargetKind::kPrior; });
+  TargetEnergy measured, contacts;
+  measured.set(measuring, s.model->topology.tets,
+               1.0 / (s.config.target_accuracy_m * s.config.target_accuracy_m));
+  s.model->constrained_step.setContactSprings(s.body.contact.contacts, &contacts);
+  std::vector<double> pin_stiffness;
+  for (const Pin& pin : surroundings.pins)
+    pin_stiffness.push_back(s.model->constrained_step.stiffnessOf(pin));
+  Points loads = s.model->masses * s.config.gravity.transpose();
+  if (surroundings.loads.size() > 0) loads += surroundings.loads;
+  return inKnownUnit(s.forceEstimator().estimate(
+                         {s.body.mesh.vertices, measured, contacts, surroundings.pins, pin_stiffness, loads}),
+                     s.material);
 }
 
 double Simulator::elasticEnergy() const {
