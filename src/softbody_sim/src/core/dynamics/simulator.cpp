@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -15,22 +14,14 @@
 #include "dynamics/body_model.h"
 #include "dynamics/body_state.h"
 #include "dynamics/direct_deformation.h"
+#include "dynamics/external_forces.h"
 #include "dynamics/implicit_euler.h"
 #include "dynamics/target_validation.h"
-#include "forces/force_estimator.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/time.h"
 #include "softbody_common/timeline.h"
 
 namespace softbody {
-namespace {
-
-bool sameTets(const TetTopology& a, const TetTopology& b) {
-  return a.tets.rows() == b.tets.rows() && a.rest_vertices.rows() == b.rest_vertices.rows() &&
-         a.tets == b.tets && a.rest_vertices == b.rest_vertices;
-}
-
-}  // namespace
 
 struct Simulator::Implementation {
   Implementation(const TetTopology& topology, const Material& material_in, const SimulatorConfig& config_in);
@@ -47,7 +38,6 @@ struct Simulator::Implementation {
   void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings);
   /// Confidence and standard deviation after a step with these targets.
   void judgeVertices(const TargetSet& targets);
-  ForceEstimator& forceEstimator();
   void estimateLoads(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
 
   const TetTopology uncut;
@@ -56,8 +46,7 @@ struct Simulator::Implementation {
   const double edge_length;  ///< mean, of the uncut body [m]
 
   EditedVolume volume;
-  std::unique_ptr<BodyModel> model;                 ///< for the volume's topology
-  std::unique_ptr<ForceEstimator> force_estimator;  ///< of the model; empty until it is needed
+  std::unique_ptr<BodyModel> model;  ///< for the volume's topology
   BodyState body;
   BodyState next;  ///< of a step that may still fail
 
@@ -80,7 +69,7 @@ Simulator::Implementation::Implementation(const TetTopology& topology, const Mat
 }
 
 void Simulator::Implementation::setTopology(const TetTopology& topology) {
-  if (model && sameTets(model->topology, topology))
+  if (model && model->hasTets(topology))
     model->topology.revision = topology.revision;
   else
     makeModel(topology);
@@ -92,7 +81,6 @@ void Simulator::Implementation::setTopology(const TetTopology& topology) {
 void Simulator::Implementation::makeModel(const TetTopology& topology) {
   const TetTopology before = model ? std::move(model->topology) : topology;
   model.reset();
-  force_estimator.reset();
   try {
     model = std::make_unique<BodyModel>(topology, material, config, edge_length);
   } catch (...) {
@@ -136,15 +124,6 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
 void Simulator::Implementation::judgeVertices(const TargetSet& targets) {
   model->vertex_confidence.compute(targets.targets, &next.mesh.confidence);
   model->vertex_deviation.compute(targets.targets, next.mesh.vertices, &next.mesh.standard_deviation);
-}
-
-ForceEstimator& Simulator::Implementation::forceEstimator() {
-  if (!force_estimator) {
-    force_estimator = std::make_unique<ForceEstimator>(
-        model->topology, config.elasticity, model->materials.elastic, model->masses,
-        model->materials.mean_youngs_modulus_pa * edge_length * edge_length);
-  }
-  return *force_estimator;
 }
 
 /// The forces of the targets' springs show which loads are still unknown.
@@ -358,21 +337,7 @@ ForceEstimate Simulator::externalForces(const TargetSet& given, const Surroundin
   TargetSet storage;
   const TargetSet& targets = s.toCurrentRevision(given, &storage);
   s.requireUsable(targets, surroundings);
-  std::vector<Target> measuring;
-  std::copy_if(targets.targets.begin(), targets.targets.end(), std::back_inserter(measuring),
-               [](const Target& target) { return target.kind != TargetKind::kPrior; });
-  TargetEnergy measured, contacts;
-  measured.set(measuring, s.model->topology.tets,
-               1.0 / (s.config.target_accuracy_m * s.config.target_accuracy_m));
-  s.model->constrained_step.setContactSprings(s.body.contact.contacts, &contacts);
-  std::vector<double> pin_stiffness;
-  for (const Pin& pin : surroundings.pins)
-    pin_stiffness.push_back(s.model->constrained_step.stiffnessOf(pin));
-  Points loads = s.model->masses * s.config.gravity.transpose();
-  if (surroundings.loads.size() > 0) loads += surroundings.loads;
-  return inKnownUnit(s.forceEstimator().estimate(
-                         {s.body.mesh.vertices, measured, contacts, surroundings.pins, pin_stiffness, loads}),
-                     s.material);
+  return softbody::externalForces(targets.targets, surroundings, s.body, s.material, s.config, s.model.get());
 }
 
 double Simulator::elasticEnergy() const {

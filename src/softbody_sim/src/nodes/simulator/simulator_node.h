@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
+#include "nodes/forces/force_publisher.h"
 #include "nodes/prediction/prediction_service.h"
-#include "nodes/simulator/force_publisher.h"
 #include "nodes/simulator/gripper_input.h"
 #include "nodes/simulator/simulator_diagnostics.h"
 #include "nodes/simulator/simulator_options.h"

@@ -1,4 +1,4 @@
-#include "nodes/simulator/force_publisher.h"
+#include "nodes/forces/force_publisher.h"
 
 #include <softbody_msgs/Forces.h>
 #include <visualization_msgs/MarkerArray.h>
