@@ -14,9 +14,6 @@ namespace {
 // Time of the masses [s]: a force that the estimate leaves unbalanced moves the body by this time's square.
 constexpr double kLongTime = 0.3;
 
-// Times that the body is linearised: first around the noisy shape of the step, then around a smooth one.
-constexpr int kLinearizations = 2;
-
 // More places take longer, and noise does not let smaller ones be told apart.
 constexpr std::size_t kMostPlaces = 100;
 
@@ -47,6 +44,11 @@ ForceEstimator::ForceEstimator(const TetTopology& topology, Elasticity elasticit
 }
 
 ForceEstimator::~ForceEstimator() = default;
+
+Points ForceEstimator::LinearBody::moveUnder(const Eigen::VectorXd& forces) const {
+  const Eigen::VectorXd move = still + compliance * forces;
+  return move.reshaped<Eigen::RowMajor>(move.size() / 3, 3);
+}
 
 /// Factors the stiffness. @return the forces that are not in balance, #V by 3 [N].
 Points ForceEstimator::linearize(const ObservedBalance& balance, const Points& x) {
@@ -103,28 +105,22 @@ ForceEvidence ForceEstimator::evidence(const ObservedBalance& balance, const Poi
   return result;
 }
 
-/// @param x start, then the shape in balance with the forces.
-SparseForces ForceEstimator::findForces(const ObservedBalance& balance, Points* x) {
-  const Eigen::VectorXd unbalanced = flat(linearize(balance, *x));
-  const Eigen::VectorXd still = factor_->solve(unbalanced);
+ForceEstimator::LinearBody ForceEstimator::linearBody(const ObservedBalance& balance, const Points& x) {
+  const Eigen::VectorXd unbalanced = flat(linearize(balance, x));
   const Eigen::MatrixXd unit_forces = forcesOnPlaces(balance.pins);
-  const Eigen::MatrixXd compliance = factor_->solve(unit_forces);
-  SparseForces forces = sparseForces(evidence(balance, *x, still, compliance), scale_n_);
-  Eigen::VectorXd on_places = Eigen::VectorXd::Zero(compliance.cols());
-  for (std::size_t k = 0; k < forces.places.size(); ++k) {
-    for (Eigen::Index place = 0; place < forces.where[k].size(); ++place)
-      on_places.segment<3>(3 * place) +=
-          forces.where[k][place] * forces.mean.segment<3>(3 * static_cast<Eigen::Index>(k));
-  }
-  const Eigen::VectorXd move = still + compliance * on_places;
-  *x += Points(move.reshaped<Eigen::RowMajor>(move.size() / 3, 3));
-  return forces;
+  LinearBody body{factor_->solve(unbalanced), factor_->solve(unit_forces), {}};
+  body.evidence = evidence(balance, x, body.still, body.compliance);
+  return body;
 }
 
+/// The body is linearised around the noisy shape of the step, and then around a smooth one.
 ForceEstimate ForceEstimator::estimate(const ObservedBalance& balance) {
   Points x = balance.vertices;
-  for (int round = 1; round < kLinearizations; ++round) findForces(balance, &x);
-  const SparseForces forces = findForces(balance, &x);
+  const LinearBody first = linearBody(balance, x);
+  x += first.moveUnder(smoothForces(first.evidence, scale_n_));
+  const LinearBody body = linearBody(balance, x);
+  const SparseForces forces = sparseForces(body.evidence, scale_n_);
+  x += body.moveUnder(forces.onPlaces(places_.count()));
   ForceEstimate result = patchesOf(forces, places_, x);
   for (std::size_t k = 0; k < balance.pins.size(); ++k) {
     const Pin& pin = balance.pins[k];

@@ -44,13 +44,22 @@ class ForceEstimator {
 
  private:
   struct Factor;
+  /// Around a shape.
+  struct LinearBody {
+    /// #V by 3 [m]. @param forces three a place.
+    Points moveUnder(const Eigen::VectorXd& forces) const;
+
+    Eigen::VectorXd still;       ///< d without forces
+    Eigen::MatrixXd compliance;  ///< d by unit forces
+    ForceEvidence evidence;
+  };
 
   Points linearize(const ObservedBalance& balance, const Points& x);
   Eigen::MatrixXd forcesOnPlaces(const std::vector<Pin>& pins) const;
   ForceEvidence evidence(const ObservedBalance& balance, const Points& x, const Eigen::VectorXd& still,
                          const Eigen::MatrixXd& compliance);
 
-  SparseForces findForces(const ObservedBalance& balance, Points* x);
+  LinearBody linearBody(const ObservedBalance& balance, const Points& x);
 
   const FemElasticity elasticity_;
   const Eigen::VectorXd slow_masses_;  ///< M / T^2 [N/m]

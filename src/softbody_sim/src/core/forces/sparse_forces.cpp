@@ -3,12 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace softbody {
 namespace {
-
-// Rounds of the fixed-point iteration; each lowers the variance of a place without a force.
-constexpr int kRounds = 12;
 
 // A place whose variance is this share of the largest has no force.
 constexpr double kNothing = 1e-4;
@@ -26,8 +24,13 @@ std::vector<int> rowsOf(const std::vector<int>& places) {
 
 /// The forces on some places, for normal priors.
 struct Posterior {
+  Eigen::MatrixXd covariance() const { return root.transpose() * root; }
+  Eigen::Matrix3d covarianceOf(Eigen::Index force) const {
+    return root.middleCols<3>(3 * force).transpose() * root.middleCols<3>(3 * force);
+  }
+
   Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
+  Eigen::MatrixXd root;  ///< root^T root is the covariance
   double log_evidence = 0.0;
 };
 
@@ -40,9 +43,10 @@ Posterior posteriorOf(const ForceEvidence& evidence, const std::vector<int>& pla
   precision.diagonal().array() += 1.0;
   const Eigen::VectorXd pull = D * Eigen::VectorXd(evidence.h(rows)) / excess;
   const Eigen::LLT<Eigen::MatrixXd> factor(precision);
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(pull.size(), pull.size()));
+  Eigen::MatrixXd root = deviations.asDiagonal();
+  factor.matrixL().solveInPlace(root);
   const Eigen::VectorXd mean = factor.solve(pull);
-  return {D * mean, D * inverse * D,
+  return {D * mean, std::move(root),
           0.5 * pull.dot(mean) - Eigen::MatrixXd(factor.matrixL()).diagonal().array().log().sum()};
 }
 
@@ -55,8 +59,9 @@ class Search {
     update();
   }
 
-  void findVariances() {
-    for (int round = 0; round < kRounds && !places_.empty(); ++round) {
+  /// Fixed-point iteration: each round lowers the variance of a place without a force.
+  void findVariances(int rounds) {
+    for (int round = 0; round < rounds && !places_.empty(); ++round) {
       improveVariances();
       const double least = std::sqrt(kNothing) * deviations_.maxCoeff();
       for (std::size_t k = places_.size(); k-- > 0;) {
@@ -72,7 +77,7 @@ class Search {
       Eigen::VectorXd certainty(places_.size());
       for (Eigen::Index k = 0; k < certainty.size(); ++k) {
         const Eigen::Vector3d force = posterior_.mean.segment<3>(3 * k);
-        certainty[k] = force.dot(posterior_.covariance.block<3, 3>(3 * k, 3 * k).ldlt().solve(force));
+        certainty[k] = force.dot(posterior_.covarianceOf(k).ldlt().solve(force));
       }
       Eigen::Index least = 0;
       if (certainty.minCoeff(&least) > kNotNoise) return;
@@ -84,8 +89,16 @@ class Search {
     }
   }
 
+  /// The mean, three a place.
+  Eigen::VectorXd onPlaces() const {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(evidence_.h.size());
+    const std::vector<int> rows = rowsOf(places_);
+    forces(rows) = posterior_.mean;
+    return forces;
+  }
+
   SparseForces result() const {
-    SparseForces forces{places_, posterior_.mean, posterior_.covariance, {}};
+    SparseForces forces{places_, posterior_.mean, posterior_.covariance(), {}};
     for (std::size_t k = 0; k < places_.size(); ++k) addOtherPlaces(k, &forces);
     return forces;
   }
@@ -102,7 +115,7 @@ class Search {
   void improveVariances() {
     for (Eigen::Index k = 0; k < deviations_.size(); k += 3) {
       const double prior = deviations_[k] * deviations_[k],
-                   known = 3.0 - posterior_.covariance.diagonal().segment<3>(k).sum() / prior;
+                   known = 3.0 - posterior_.root.middleCols<3>(k).squaredNorm() / prior;
       const double variance = posterior_.mean.segment<3>(k).squaredNorm() / std::max(known, 1e-12);
       deviations_.segment<3>(k).setConstant(std::sqrt(variance));
     }
@@ -115,8 +128,8 @@ class Search {
     const double chi_square = evidence_.chi_square - 2.0 * f.dot(Eigen::VectorXd(evidence_.h(rows))) +
                               f.dot(evidence_.G(rows, rows) * f);
     const Eigen::ArrayXd priors = deviations_.array().square();
-    const double known =
-        static_cast<double>(f.size()) - (posterior_.covariance.diagonal().array() / priors).sum();
+    const double known = static_cast<double>(f.size()) -
+                         (posterior_.root.colwise().squaredNorm().transpose().array() / priors).sum();
     excess_ = std::max(1.0, chi_square / std::max(1.0, evidence_.count - known));
   }
 
@@ -140,10 +153,10 @@ class Search {
       const Posterior& other = others[static_cast<std::size_t>(place)];
       if (weights[place] == 0.0) continue;
       mean += weights[place] * other.mean;
-      square += weights[place] * (other.covariance + other.mean * other.mean.transpose());
+      square += weights[place] * (other.covariance() + other.mean * other.mean.transpose());
     }
     forces->mean += mean - posterior_.mean;
-    forces->covariance += square - mean * mean.transpose() - posterior_.covariance;
+    forces->covariance += square - mean * mean.transpose() - posterior_.covariance();
     forces->where.push_back(weights);
   }
 
@@ -156,11 +169,26 @@ class Search {
 
 }  // namespace
 
+Eigen::VectorXd SparseForces::onPlaces(std::size_t place_count) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(place_count));
+  for (std::size_t k = 0; k < where.size(); ++k) {
+    for (Eigen::Index place = 0; place < where[k].size(); ++place)
+      forces.segment<3>(3 * place) += where[k][place] * mean.segment<3>(3 * static_cast<Eigen::Index>(k));
+  }
+  return forces;
+}
+
 SparseForces sparseForces(const ForceEvidence& evidence, double scale_n) {
   Search search(evidence, scale_n);
-  search.findVariances();
+  search.findVariances(12);
   search.removeNoise();
   return search.result();
+}
+
+Eigen::VectorXd smoothForces(const ForceEvidence& evidence, double scale_n) {
+  Search search(evidence, scale_n);
+  search.findVariances(3);
+  return search.onPlaces();
 }
 
 }  // namespace softbody

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace softbody {
@@ -14,6 +15,9 @@ struct ForceEvidence {
 };
 
 struct SparseForces {
+  /// The mean on all places that each force may have, three a place.
+  Eigen::VectorXd onPlaces(std::size_t place_count) const;
+
   std::vector<int> places;             ///< the most probable place of each force
   Eigen::VectorXd mean;                ///< three a force [N]
   Eigen::MatrixXd covariance;          ///< [N^2]
@@ -26,5 +30,8 @@ struct SparseForces {
 /// Where the measurements differ from the body by more than their variances say, all variances grow likewise.
 /// @param scale_n size of a large force [N], from which the search starts.
 SparseForces sparseForces(const ForceEvidence& evidence, double scale_n);
+
+/// Forces that explain the measurements and are not yet sparse, for a first shape. @return three a place [N].
+Eigen::VectorXd smoothForces(const ForceEvidence& evidence, double scale_n);
 
 }  // namespace softbody
