@@ -10,8 +10,8 @@ import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
-from softbody_msgs.msg import MeshState, MeshTopology, StageTiming, Targets, TetTopology, TrackingStatus
-from visualization_msgs.msg import Marker
+from softbody_msgs.msg import Forces, MeshState, MeshTopology, StageTiming, Targets, TetTopology, TrackingStatus
+from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 from recorder import Recorder  # pylint: disable=wrong-import-position
@@ -89,6 +89,18 @@ class Graph(unittest.TestCase):
         self.assertEqual((label.encoding, label.width, label.height), ("mono8", image.width, image.height))
         self.assertIn(BODY, label.data)
         self.assertIn(BACKGROUND, label.data)
+
+    def test_forces_on_the_body_come_while_somebody_listens(self):
+        recorder = Recorder(softbody__forces=Forces, softbody__forces__marker=MarkerArray)
+        bent = recorder.wait(lambda seen: next((m for m in seen["softbody/forces"] if m.patches), None),
+                             "forces on the body")
+        self.assertEqual((bent.header.frame_id, bent.wrench_frame), (OPTICAL_FRAME, "camera_link"))
+        self.assertFalse(bent.in_newtons)  # the sponge's stiffness is a guess
+        arrows = recorder.wait(lambda seen: next((m.markers for m in seen["softbody/forces/marker"]
+                                                  if m.markers[0].header.stamp == bent.header.stamp), None), "arrows")
+        self.assertEqual(len(arrows), 1 + len(bent.patches))
+        for subscriber in recorder.subscribers:
+            subscriber.unregister()
 
     def test_every_node_tells_its_stage_times(self):
         for name in NODES:

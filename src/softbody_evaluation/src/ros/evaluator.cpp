@@ -15,6 +15,7 @@
 #include "softbody_evaluation/report/report_folder.h"
 #include "softbody_evaluation/report/report_json.h"
 #include "softbody_evaluation/report/report_text.h"
+#include "softbody_evaluation/ros/force_reader.h"
 #include "softbody_evaluation/ros/frame_change.h"
 #include "softbody_evaluation/ros/label_reader.h"
 #include "softbody_evaluation/ros/recording_reader.h"
@@ -26,6 +27,7 @@ namespace softbody::evaluation {
 namespace {
 
 constexpr char kToolPose[] = "/tool/pose", kTrueToolPose[] = "/ground_truth/tool/pose";
+constexpr char kTrueForces[] = "/ground_truth/forces";
 
 /// A report with its pictures.
 struct Measured {
@@ -144,6 +146,8 @@ Measured measure(const EvaluatorOptions& options) {
     addTool(options, recording, &report);
     report.labels = compareLabels(options.result, options.result_namespace + "/" + topics::kLabels,
                                   options.truth, std::string("/") + virtual_camera::kTruthLabelsTopic);
+    report.forces = compareForces(options.result, options.result_namespace + "/" + topics::kForces,
+                                  options.truth, kTrueForces);
   }
   if (report.frames.answered == 0) {
     throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame in {}", options.result,

@@ -113,6 +113,14 @@ TEST_F(ObjectModelTest, DISABLED_ToyTetsAreAcceptedAndTheWarningSaysHowFarItStic
       << model.warnings.back();
 }
 
+TEST_F(ObjectModelTest, AMeasuredStiffnessHasAStandardDeviation) {
+  describe(test::torus(0.1, 0.03, 12, 6));
+  const ObjectDescription description = loadObjectDescription(
+      yaml("object:\n  visual_mesh: visual.obj\n  material: {youngs_modulus_std: 1500}\n"));
+  EXPECT_EQ(description.material.youngs_modulus_std_pa, 1500.0);
+  EXPECT_TRUE(description.warnings.empty());
+}
+
 TEST_F(ObjectModelTest, DescriptionIsReadWithPathsRelativeToItsFile) {
   describe(test::torus(0.1, 0.03, 12, 6));
   const ObjectDescription description = loadObjectDescription(
@@ -122,6 +130,7 @@ TEST_F(ObjectModelTest, DescriptionIsReadWithPathsRelativeToItsFile) {
   EXPECT_EQ(description.visual_mesh, folder_.file("visual.obj"));
   EXPECT_EQ(description.unit_m, 0.0254);
   EXPECT_EQ(description.material.poisson_ratio, 0.4);
+  EXPECT_FALSE(description.material.youngs_modulus_std_pa);
   ASSERT_TRUE(description.initial_pose);
   EXPECT_TRUE(
       (*description.initial_pose * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1, 3, 3), 1e-12));
@@ -167,6 +176,8 @@ TEST_F(ObjectModelTest, BrokenDescriptionsAreRefusedWithLineKeyValueAndRange) {
       {begin + "  material:\n    density_kg_m3: heavy\n",
        ":4: object/material/density_kg_m3 is 'heavy'; allowed"},
       {begin + "  material: {youngs_modulus_pa: .nan}\n", ":3: object/material/youngs_modulus_pa"},
+      {begin + "  material: {youngs_modulus_std: 0}\n",
+       ":3: object/material/youngs_modulus_std is '0'; allowed: a number from 0.001 to 1000000000000"},
       {begin + "  materials: 3\n", ":3: object/materials must be a list of maps"},
       {begin + "  materials: [{density_kg_m3: 0}]\n", ":3: object/materials/0/density_kg_m3 is '0'; allowed"},
       {begin + "  materials: [{min: [0, 0, 1], max: [1, 1, 0]}]\n",

@@ -9,6 +9,7 @@
 #include "softbody_evaluation/measures/calibration.h"
 #include "softbody_evaluation/measures/cut_surface.h"
 #include "softbody_evaluation/measures/depth_residual.h"
+#include "softbody_evaluation/measures/force_agreement.h"
 #include "softbody_evaluation/measures/label_agreement.h"
 #include "softbody_evaluation/measures/pose_error.h"
 #include "softbody_evaluation/measures/silhouette.h"
@@ -51,6 +52,7 @@ struct Report {
   std::optional<JitterReport> jitter;            ///< while the truth is still
   std::optional<PoseErrorReport> tool;           ///< if the truth has a tool
   std::optional<LabelReport> labels;             ///< if result and truth have label images
+  std::optional<ForceReport> forces;             ///< if result and truth have forces in newtons
   std::optional<SilhouetteReport> silhouette;    ///< if there is a recording
   std::map<StageName, Summary> stages;           ///< [ms], if the result has timing
   std::optional<ResidualReport> residual;        ///< over all frames

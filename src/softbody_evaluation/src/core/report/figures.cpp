@@ -86,6 +86,14 @@ void addLabels(const LabelReport& report, std::vector<Figure>* figures) {
   }
 }
 
+void addForces(const ForceReport& report, std::vector<Figure>* figures) {
+  figures->push_back({"force error, mean", "N", report.force_n.mean});
+  figures->push_back({"force error, p95", "N", report.force_n.p95});
+  figures->push_back({"forces within 10 % or 0.1 N", "%", 100.0 * report.right});
+  addLengths("place of the force", report.place_m, figures);
+  figures->push_back({"forces within their 90 % bound", "%", 100.0 * report.within});
+}
+
 void addVolume(const VolumeReport& volume, std::vector<Figure>* figures) {
   figures->push_back({"volume change, mean", "%", 100.0 * volume.change.mean});
   figures->push_back({"volume change, largest", "%", 100.0 * volume.change.largest});
@@ -113,6 +121,7 @@ std::vector<Figure> figures(const Report& report) {
   if (report.jitter) all.push_back({"jitter while still, RMS", "mm", 1e3 * report.jitter->per_vertex.rms});
   if (report.tool) addTool(*report.tool, &all);
   if (report.labels) addLabels(*report.labels, &all);
+  if (report.forces) addForces(*report.forces, &all);
   if (report.silhouette) {
     const std::string name =
         report.silhouette->against_truth ? "silhouette IoU" : "silhouette IoU against depth";

@@ -144,6 +144,11 @@ json toJson(const LabelReport& report) {
   return document;
 }
 
+json toJson(const ForceReport& report) {
+  return {{"frames", report.frames}, {"mean_n", report.force_n.mean},          {"p95_n", report.force_n.p95},
+          {"right", report.right},   {"place", inMillimetres(report.place_m)}, {"within_90", report.within}};
+}
+
 json toJson(const SilhouetteReport& report) {
   return {{"against", report.against_truth ? "truth" : "depth"},
           {"frames", report.frames},
@@ -197,6 +202,7 @@ json toJson(const Report& report) {
   }
   if (report.tool) document["tool"] = toJson(*report.tool);
   if (report.labels) document["labels"] = toJson(*report.labels);
+  if (report.forces) document["forces"] = toJson(*report.forces);
   if (report.silhouette) document["silhouette"] = toJson(*report.silhouette);
   if (!report.stages.empty()) document["stages"] = toJson(report.stages);
   if (report.residual) {

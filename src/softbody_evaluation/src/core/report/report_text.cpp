@@ -113,6 +113,13 @@ std::string optionalLines(const Report& report) {
                         mm(report.tool->position.p95), kDegrees * report.tool->rotation.mean);
   }
   if (report.labels) text += labelLine(*report.labels);
+  if (report.forces) {
+    text += fmt::format(
+        "largest force: {:.3f} N mean error, {:.1f} % of {} frames within 10 % or 0.1 N, {:.1f} mm from its "
+        "place (median); {:.1f} % of all forces within the 90 % bound\n",
+        report.forces->force_n.mean, 100.0 * report.forces->right, report.forces->frames,
+        mm(report.forces->place_m.median), 100.0 * report.forces->within);
+  }
   if (report.silhouette) {
     text += fmt::format("silhouette IoU against {}: {:.4f} mean, {:.4f} worst of {} frames\n",
                         report.silhouette->against_truth ? "truth" : "measured depth",

@@ -21,6 +21,7 @@ struct FrameOutput {
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
   std::optional<MeshState> volume;  ///< in the fixed frame, as the surface; empty until the body is found
   std::optional<MeshState> surface;
+  std::optional<ForceEstimate> forces;  ///< in the fixed frame; empty if not wanted
   std::optional<ToolObservation> tool;
   std::vector<Cut> cuts;              ///< of this frame; the states have the revision after these cuts
   std::vector<std::string> warnings;  ///< reasons why a cut was not made
@@ -32,6 +33,7 @@ struct PipelineConfig {
   SimulatorConfig simulator;
   CuttingConfig cutting;
   ToolTrackerConfig tool_tracker;
+  bool forces = false;  ///< also estimate the external forces
 };
 
 /// Trackers, simulator and surface in sequence, without ROS. Each frame uses exactly the previous frame's
@@ -63,7 +65,7 @@ class Pipeline {
  private:
   CuttableSurface makeSurface();
   void startPass();
-  void simulate(const TargetSet& targets, Nanoseconds stamp);
+  void simulate(const TargetSet& targets, Nanoseconds stamp, FrameOutput* output);
   void makeWaitingCuts(FrameOutput* output);
   std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;
   void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
@@ -73,6 +75,7 @@ class Pipeline {
   const TetTopology uncut_volume_;
   const MeshTopology uncut_surface_;
   const CuttingConfig cutting_;
+  const bool forces_;
   StageTimer timer_;
   BodyTracker tracker_;
   Simulator simulator_;

@@ -20,6 +20,7 @@ struct ReplayOptions {
   FileScope scope = FileScope::kOwnFolder;    ///< of the files that the YAMLs name
   bool timing = false;                        ///< also write wall-clock times of the stages
   bool labels = false;                        ///< also write what each pixel shows
+  bool forces = false;                        ///< also write the external forces
 };
 
 /// The outcome of a replay.

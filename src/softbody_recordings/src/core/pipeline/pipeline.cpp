@@ -22,6 +22,7 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
     : uncut_volume_(model.volume),
       uncut_surface_(model.visual),
       cutting_(config.cutting),
+      forces_(config.forces),
       tracker_(config.tracker),
       simulator_(makeSimulator(model, config.simulator, &timer_)),
       surface_(makeSurface()) {
@@ -55,7 +56,7 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   output.tracking =
       tracker_.track(tool_mask_.withoutBlade(frame), simulated ? &simulator_.state() : nullptr, &timer_);
   if (output.tracking.has_targets) {
-    simulate(output.tracking.targets, frame.stamp);
+    simulate(output.tracking.targets, frame.stamp, &output);
     makeWaitingCuts(&output);
     if (blade) followBlade(*blade, frame.stamp, &output);
     tear(&output);
@@ -72,9 +73,14 @@ std::optional<ToolObservation> Pipeline::processUnplaced(RgbdFrame frame) {
   return tool_tracker_ ? tool_tracker_->track(frame, nullptr) : std::nullopt;
 }
 
-void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp) {
-  const auto scope = timer_.stage("Soft-body Simulation");
-  simulator_.step(targets, stamp);
+void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, FrameOutput* output) {
+  {
+    const auto scope = timer_.stage("Soft-body Simulation");
+    simulator_.step(targets, stamp);
+  }
+  if (!forces_) return;
+  const auto scope = timer_.stage("Forces");
+  output->forces = simulator_.externalForces(targets);
 }
 
 void Pipeline::makeWaitingCuts(FrameOutput* output) {

@@ -10,6 +10,7 @@
 #include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/topics.h"
+#include "softbody_sim/ros/force_messages.h"
 #include "softbody_tracking/ros/feature_messages.h"
 #include "softbody_tracking/ros/tool_messages.h"
 
@@ -85,6 +86,7 @@ void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& hea
   rest.frame_id = body_frame_;
   for (const Cut& cut : frame.cuts) write(topic(topics::kCut), toMessage(cut), rest);
   if (frame.volume) write(topic(topics::kVolumeState), toMessage(*frame.volume), fixed);
+  if (frame.forces) write(topic(topics::kForces), toMessage(*frame.forces, fixed.frame_id), fixed);
   if (frame.surface) write(topic(topics::kSurfaceState), toMessage(*frame.surface), fixed);
   if (extras_.timing) write(topic(topics::kTiming), timingMessage("replay", frame.times), header);
 }

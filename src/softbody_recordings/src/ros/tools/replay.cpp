@@ -44,6 +44,7 @@ void declare(CLI::App* app, ReplayOptions* options) {
                 "also write wall-clock times of the stages; the output then differs between runs");
   app->add_flag("--labels", options->labels,
                 "also write the label of each pixel: background, body or occluder");
+  app->add_flag("--forces", options->forces, "also write the external forces on the body; takes longer");
   addAllowOutside(app, &options->scope);
   app->callback([options] { requireOtherFile(options->input, options->output); });
 }

@@ -9,6 +9,7 @@
 #include "softbody_sim/constraints/contact_patch.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/dynamics/simulator_config.h"
+#include "softbody_sim/forces/force_estimate.h"
 #include "softbody_sim/object/material.h"
 #include "softbody_sim/time_step/step_report.h"
 
@@ -110,6 +111,11 @@ class Simulator {
   const Reactions& reactions() const;
   /// Where the body touched the obstacles in the last step.
   std::vector<ContactPatch> contactPatches() const;
+
+  /// The forces that explain the present shape, and those on the pins without the springs of the targets. The
+  /// body is taken to be in balance: slow. Costs more than a step. @param targets, @param surroundings of the
+  /// last step. @throw as step does, if the body is not placed too.
+  ForceEstimate externalForces(const TargetSet& targets, const Surroundings& surroundings = {});
 
   /// Elastic energy of the present state [J].
   double elasticEnergy() const;

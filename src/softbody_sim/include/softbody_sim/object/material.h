@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace softbody {
@@ -20,6 +21,8 @@ struct Material {
   double density_kg_m3 = 30.0;
   double damping = 0.1;                      ///< fraction of the velocity lost per 1/30 s, 0..1
   std::vector<MaterialRegion> regions = {};  ///< of other materials; the last that contains a tet counts
+  /// Standard deviation of Young's modulus, if it was measured: then forces are known in newtons.
+  std::optional<double> youngs_modulus_std_pa = {};
 };
 
 /// The values that a material may have, both ends included.
@@ -30,6 +33,8 @@ constexpr MaterialRange kYoungsModulusRange{1.0, 1e12};  // [Pa]
 constexpr MaterialRange kPoissonRatioRange{0.0, 0.495};
 constexpr MaterialRange kDensityRange{0.1, 30000.0};  // [kg/m^3]
 constexpr MaterialRange kDampingRange{0.0, 1.0};
+
+constexpr MaterialRange kYoungsModulusStdRange{1e-3, 1e12};  // [Pa]
 
 /// @throw std::invalid_argument with key, value and range if a value is out of its range, also of a region.
 void requireUsable(const Material& material);

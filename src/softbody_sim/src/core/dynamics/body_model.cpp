@@ -96,6 +96,21 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
       vertex_confidence(topology.rest_vertices, topology.tets),
       load_estimator(topology, materials, masses,
                      {config.load_fade_s, target_stiffness, config.target_accuracy_m}),
-      occluded_piece_damping(topology) {}
+      occluded_piece_damping(topology),
+      edge_length_(edge_length) {}
+
+bool BodyModel::hasTets(const TetTopology& other) const {
+  return topology.tets.rows() == other.tets.rows() &&
+         topology.rest_vertices.rows() == other.rest_vertices.rows() && topology.tets == other.tets &&
+         topology.rest_vertices == other.rest_vertices;
+}
+
+ForceEstimator& BodyModel::forceEstimator(Elasticity elasticity) {
+  const double scale_n = materials.mean_youngs_modulus_pa * edge_length_ * edge_length_;
+  if (!force_estimator_)
+    force_estimator_ =
+        std::make_unique<ForceEstimator>(topology, elasticity, materials.elastic, masses, scale_n);
+  return *force_estimator_;
+}
 
 }  // namespace softbody

@@ -6,6 +6,7 @@
 #include "dynamics/vertex_confidence.h"
 #include "elasticity/tet_materials.h"
 #include "estimation/load_estimator.h"
+#include "forces/force_estimator.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/constrained_step.h"
 #include "time_step/free_motion.h"
@@ -20,6 +21,11 @@ struct BodyModel {
   BodyModel(TetTopology topology_in, const Material& material, const SimulatorConfig& config,
             double edge_length);
 
+  /// Whether the topology is that of the model, up to its revision.
+  bool hasTets(const TetTopology& other) const;
+  /// Made when it is needed.
+  ForceEstimator& forceEstimator(Elasticity elasticity);
+
   TetTopology topology;
   const TetMaterials materials;
   const Eigen::VectorXd masses;  ///< lumped [kg]
@@ -30,6 +36,10 @@ struct BodyModel {
   VertexConfidence vertex_confidence;
   LoadEstimator load_estimator;
   OccludedPieceDamping occluded_piece_damping;
+
+ private:
+  const double edge_length_;
+  std::unique_ptr<ForceEstimator> force_estimator_;
 };
 
 }  // namespace softbody

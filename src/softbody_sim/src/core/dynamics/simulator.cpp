@@ -14,6 +14,7 @@
 #include "dynamics/body_model.h"
 #include "dynamics/body_state.h"
 #include "dynamics/direct_deformation.h"
+#include "dynamics/external_forces.h"
 #include "dynamics/implicit_euler.h"
 #include "dynamics/target_validation.h"
 #include "estimation/vertex_deviation.h"
@@ -22,14 +23,6 @@
 #include "softbody_common/timeline.h"
 
 namespace softbody {
-namespace {
-
-bool sameTets(const TetTopology& a, const TetTopology& b) {
-  return a.tets.rows() == b.tets.rows() && a.rest_vertices.rows() == b.rest_vertices.rows() &&
-         a.tets == b.tets && a.rest_vertices == b.rest_vertices;
-}
-
-}  // namespace
 
 struct Simulator::Implementation {
   Implementation(const TetTopology& topology, const Material& material_in, const SimulatorConfig& config_in);
@@ -74,7 +67,7 @@ Simulator::Implementation::Implementation(const TetTopology& topology, const Mat
 }
 
 void Simulator::Implementation::setTopology(const TetTopology& topology) {
-  if (model && sameTets(model->topology, topology))
+  if (model && model->hasTets(topology))
     model->topology.revision = topology.revision;
   else
     makeModel(topology);
@@ -330,6 +323,15 @@ std::vector<ContactPatch> Simulator::contactPatches() const {
   const Implementation& s = *implementation_;
   return patchesOf(s.model->constrained_step.contactForces(s.body.contact, s.body.mesh.vertices),
                    s.model->topology.tets);
+}
+
+ForceEstimate Simulator::externalForces(const TargetSet& given, const Surroundings& surroundings) {
+  Implementation& s = *implementation_;
+  if (!s.body.placed) throw std::invalid_argument("the body is not placed yet");
+  TargetSet storage;
+  const TargetSet& targets = s.toCurrentRevision(given, &storage);
+  s.requireUsable(targets, surroundings);
+  return softbody::externalForces(targets.targets, surroundings, s.body, s.material, s.config, s.model.get());
 }
 
 double Simulator::elasticEnergy() const {

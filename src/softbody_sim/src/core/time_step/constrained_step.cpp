@@ -168,6 +168,11 @@ void ConstrainedStep::setSprings(const std::vector<Target>& targets) {
   contact_.addSprings(contacts_, &potential_.targets);
 }
 
+void ConstrainedStep::setContactSprings(const std::vector<Contact>& contacts, TargetEnergy* springs) {
+  springs->set(no_targets_, topology_->tets, options_.target_stiffness);
+  contact_.addSprings(contacts, springs);
+}
+
 /// A pin carries all forces on its vertex. Targets are measurements, not forces.
 void ConstrainedStep::findPinForces(const Problem& problem, const Points& x) {
   const std::vector<Pin>& pins = problem.surroundings.pins;

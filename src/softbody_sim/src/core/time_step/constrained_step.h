@@ -42,6 +42,10 @@ class ConstrainedStep {
                       const Surroundings& surroundings, const Points& before, const ContactState& state,
                       Points* x);
 
+  /// [N/m]
+  double stiffnessOf(const Pin& pin) const;
+  /// Replaces all springs by those of contacts.
+  void setContactSprings(const std::vector<Contact>& contacts, TargetEnergy* springs);
   /// @param state of the contacts at the vertices x [m].
   std::vector<PointForce> contactForces(const ContactState& state, const Points& x) {
     return contact_.pointForces(state, x);
@@ -51,7 +55,6 @@ class ConstrainedStep {
   struct Problem;
 
   void setPotential(const Problem& problem);
-  double stiffnessOf(const Pin& pin) const;
   void addPins(const std::vector<Pin>& pins);
   void chooseStart(const Problem& problem, Points* x);
   double energyAt(const Points& x, const Problem& problem);

@@ -17,6 +17,8 @@ class ReactionPublisher {
  public:
   ReactionPublisher(ros::NodeHandle node, const std::string& name);
 
+  bool isListenedTo() const { return publisher_.getNumSubscribers() > 0; }
+
   /// Publishes a wrench in a frame, about the frame's origin: what a sensor there would measure.
   /// @param frame_pose in the targets' frame. @param about_origin wrench about the origin of the targets'
   /// frame.

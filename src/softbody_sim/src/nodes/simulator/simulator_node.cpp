@@ -40,6 +40,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       surroundings_(node, options.obstacles, options.pins),
       stamps_(node.resolveName(topics::kTargets), StampGate::Repeats::kAccepted),
       publisher_(node, options.body_frame),
+      forces_(node, options.wrench_frame),
       diagnostics_(node, private_node, &simulator_, &surroundings_),
       surroundings_input_(node, private_node, &simulator_, &surroundings_),
       targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }),
@@ -249,7 +250,14 @@ bool SimulatorNode::onSetMaterial(softbody_msgs::SetMaterial::Request& request,
 
 void SimulatorNode::publishState(const std_msgs::Header& header) {
   publisher_.publishState(simulator_.state(), header);
-  surroundings_.publishReactions(simulator_.reactions(), header.stamp);
+  Reactions reactions = simulator_.reactions();
+  try {
+    const auto scope = timer_.stage("Forces");
+    forces_.publish(last_.set, header, surroundings_, &simulator_, &reactions);
+  } catch (const std::exception& error) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "external forces are not known: " << error.what());
+  }
+  surroundings_.publishReactions(reactions, header.stamp);
   publisher_.publishTiming(timer_.take(), header);
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "nodes/forces/force_publisher.h"
 #include "nodes/prediction/prediction_service.h"
 #include "nodes/simulator/gripper_input.h"
 #include "nodes/simulator/simulator_diagnostics.h"
@@ -25,8 +26,8 @@ namespace softbody {
 
 /// Subscribes to targets, cuts and pins; takes pins and obstacles by service; follows a gripper; predicts;
 /// publishes states of the volumetric model. If the targets stop, for example because the camera stalls, it
-/// continues at its own rate. Parameters: ~object, ~body_frame, ~obstacles, ~gripper_..., ~free_run_rate_hz,
-/// ~stall_timeout_s and those of SimulatorConfig.
+/// continues at its own rate. Parameters: ~object, ~body_frame, ~obstacles, ~gripper_..., ~wrench_frame,
+/// ~free_run_rate_hz, ~stall_timeout_s and those of SimulatorConfig.
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -72,6 +73,7 @@ class SimulatorNode {
   LastTargets last_;
   Timeline clock_;  ///< of the steps without targets
   VolumePublisher publisher_;
+  ForcePublisher forces_;
   SimulatorDiagnostics diagnostics_;
   // Last, so that callbacks end before the members that they use.
   SurroundingsInput surroundings_input_;

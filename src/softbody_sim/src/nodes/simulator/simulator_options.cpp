@@ -28,6 +28,7 @@ SimulatorOptions readSimulatorOptions(const ros::NodeHandle& private_node) {
   options.pins.accuracy_m = parameters.number("pin_accuracy_m", options.pins.accuracy_m, 0.0, 1.0);
   options.pins.conflict_m = conflictLimit(options.pins.accuracy_m, options.simulator.target_accuracy_m);
   options.pins.frame_timeout_s = parameters.number("frame_timeout_s", options.pins.frame_timeout_s, 0.0, 1e3);
+  options.wrench_frame = parameters.text("wrench_frame", "");
   std::vector<std::string> unknown;
   options.obstacles = readObstacles(parameters, &unknown);
   options.gripper = readGripper(parameters, &options.obstacles);

@@ -23,6 +23,7 @@ struct SimulatorOptions {
   double stall_timeout_s = 1.0;    ///< time without targets after which the simulation goes on by itself
   std::vector<ObstacleDescription> obstacles;
   PinOptions pins;
+  std::string wrench_frame;          ///< of the net external wrench; empty: the frame of the targets
   std::optional<PinRegion> gripper;  ///< the space between the fingers; the fingers are obstacles
 };
 

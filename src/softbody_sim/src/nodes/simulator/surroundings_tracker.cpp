@@ -222,6 +222,11 @@ void SurroundingsTracker::judge(double conflict_m, HeldPin* pin) const {
     pin->conflict.end(fmt::format("pin '{}' and the camera agree again", name));
 }
 
+bool SurroundingsTracker::hasListenedPins() const {
+  return std::any_of(pins_.begin(), pins_.end(),
+                     [](const auto& entry) { return entry.second.reaction.isListenedTo(); });
+}
+
 void SurroundingsTracker::publishReactions(const Reactions& reactions, const ros::Time& stamp) {
   step_stamp_ = stamp;
   if (reactions.obstacles.size() != surroundings_.all.obstacles.size() ||

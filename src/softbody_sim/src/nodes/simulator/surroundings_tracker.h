@@ -86,6 +86,9 @@ class SurroundingsTracker {
   /// Finds pins that the targets of the last surroundingsAt() contradict. @param vertices after the step [m].
   void findConflicts(const std::vector<Target>& targets, const Tets& tets, const Points& vertices);
 
+  /// Whether somebody listens to the reaction of a pin.
+  bool hasListenedPins() const;
+
   /// Publishes the reactions of a step under the last surroundingsAt(). Each is in the frame that its pin or
   /// obstacle follows (default: the targets' frame), about that frame's origin.
   void publishReactions(const Reactions& reactions, const ros::Time& stamp);

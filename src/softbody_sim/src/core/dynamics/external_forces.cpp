@@ -1,0 +1,28 @@
+#include "dynamics/external_forces.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace softbody {
+
+ForceEstimate externalForces(const std::vector<Target>& targets, const Surroundings& surroundings,
+                             const BodyState& body, const Material& material, const SimulatorConfig& config,
+                             BodyModel* model) {
+  std::vector<Target> measuring;
+  std::copy_if(targets.begin(), targets.end(), std::back_inserter(measuring),
+               [](const Target& target) { return target.kind != TargetKind::kPrior; });
+  TargetEnergy measured, contacts;
+  const double variance = config.target_accuracy_m * config.target_accuracy_m;
+  measured.set(measuring, model->topology.tets, 1.0 / variance);
+  model->constrained_step.setContactSprings(body.contact.contacts, &contacts);
+  std::vector<double> pin_stiffness;
+  for (const Pin& pin : surroundings.pins) pin_stiffness.push_back(model->constrained_step.stiffnessOf(pin));
+  Points loads = model->masses * config.gravity.transpose();
+  if (surroundings.loads.size() > 0) loads += surroundings.loads;
+  return inKnownUnit(
+      model->forceEstimator(config.elasticity)
+          .estimate({body.mesh.vertices, measured, contacts, surroundings.pins, pin_stiffness, loads}),
+      material);
+}
+
+}  // namespace softbody

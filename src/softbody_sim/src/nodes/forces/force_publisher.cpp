@@ -1,0 +1,64 @@
+#include "nodes/forces/force_publisher.h"
+
+#include <softbody_msgs/Forces.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "softbody_common/topics.h"
+#include "softbody_sim/ros/force_messages.h"
+
+namespace softbody {
+namespace {
+
+// An estimate takes as long as several steps.
+constexpr double kPeriod_s = 0.2;
+
+}  // namespace
+
+ForcePublisher::ForcePublisher(ros::NodeHandle node, std::string wrench_frame)
+    : wrench_frame_(std::move(wrench_frame)),
+      forces_(node.advertise<softbody_msgs::Forces>(topics::kForces, 1)),
+      markers_(node.advertise<visualization_msgs::MarkerArray>(topics::kForcesMarker, 1)) {}
+
+bool ForcePublisher::isListenedTo() const {
+  return forces_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0;
+}
+
+/// Without targets nothing is measured, and no spring disturbs the pins.
+void ForcePublisher::publish(const TargetSet& targets, const std_msgs::Header& header,
+                             const SurroundingsTracker& surroundings, Simulator* simulator,
+                             Reactions* reactions) {
+  if (targets.targets.empty() || (!isListenedTo() && !surroundings.hasListenedPins())) return;
+  const double since_s = (header.stamp - estimated_).toSec();
+  if (since_s < 0.0 || since_s >= kPeriod_s || pins_.size() != reactions->pins.size()) {
+    estimated_ = header.stamp;
+    ForceEstimate estimate = simulator->externalForces(targets, surroundings.lastSurroundings().all);
+    pins_ = estimate.pins;
+    if (isListenedTo()) send(std::move(estimate), header, surroundings);
+  }
+  if (pins_.size() == reactions->pins.size()) reactions->pins = pins_;
+}
+
+void ForcePublisher::send(ForceEstimate estimate, const std_msgs::Header& header,
+                          const SurroundingsTracker& surroundings) {
+  std::string frame = header.frame_id;
+  if (!wrench_frame_.empty()) {
+    const auto poses = surroundings.posesOf({wrench_frame_});
+    if (poses.empty()) {
+      ROS_WARN_STREAM_THROTTLE(5.0, "the net wrench is in '" << frame << "', because tf does not know '"
+                                                             << wrench_frame_ << "' (wrench_frame)");
+    } else {
+      frame = wrench_frame_;
+      estimate = withWrenchIn(std::move(estimate), poses.begin()->second);
+    }
+  }
+  const auto message = boost::make_shared<softbody_msgs::Forces>(toMessage(estimate, frame));
+  message->header = header;
+  if (markers_.getNumSubscribers() > 0)
+    markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(makeForceMarkers(*message)));
+  forces_.publish(message);
+}
+
+}  // namespace softbody

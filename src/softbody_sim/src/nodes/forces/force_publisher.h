@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "nodes/simulator/surroundings_tracker.h"
+#include "softbody_sim/dynamics/simulator.h"
+
+namespace softbody {
+
+/// Estimates the external forces a few times a second while somebody listens to them, or to what the pins
+/// carry, and publishes them with arrows for rviz.
+class ForcePublisher {
+ public:
+  /// @param wrench_frame of the net wrench; empty: the frame of the targets.
+  ForcePublisher(ros::NodeHandle node, std::string wrench_frame);
+
+  /// @param targets, @param header of the last step. @param reactions of the step; those of the pins become
+  /// those of the body without the targets' springs. @throw as Simulator::externalForces().
+  void publish(const TargetSet& targets, const std_msgs::Header& header,
+               const SurroundingsTracker& surroundings, Simulator* simulator, Reactions* reactions);
+
+ private:
+  bool isListenedTo() const;
+  void send(ForceEstimate estimate, const std_msgs::Header& header, const SurroundingsTracker& surroundings);
+
+  const std::string wrench_frame_;
+  ros::Publisher forces_, markers_;
+  ros::Time estimated_;       ///< stamp of the last estimate
+  std::vector<Wrench> pins_;  ///< of the last estimate
+};
+
+}  // namespace softbody
