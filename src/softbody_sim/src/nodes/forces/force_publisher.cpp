@@ -15,7 +15,7 @@ namespace {
 
 // An estimate takes as long as several steps: at least this time is between two, and a multiple of their own.
 constexpr double kPeriod_s = 0.2;
-constexpr double kRest = 4.0;
+constexpr double kRest = 5.0;
 
 }  // namespace
 
