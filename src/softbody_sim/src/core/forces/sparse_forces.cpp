@@ -92,8 +92,8 @@ class Search {
   /// The mean, three a place.
   Eigen::VectorXd onPlaces() const {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(evidence_.h.size());
-    const std::vector<int> rows = rowsOf(places_);
-    forces(rows) = posterior_.mean;
+    for (std::size_t k = 0; k < places_.size(); ++k)
+      forces.segment<3>(3 * places_[k]) = posterior_.mean.segment<3>(3 * static_cast<Eigen::Index>(k));
     return forces;
   }
 

@@ -3,6 +3,7 @@
 #include <softbody_msgs/Forces.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <utility>
 
@@ -12,8 +13,9 @@
 namespace softbody {
 namespace {
 
-// An estimate takes as long as several steps.
+// An estimate takes as long as several steps: at least this time is between two, and a multiple of their own.
 constexpr double kPeriod_s = 0.2;
+constexpr double kRest = 5.0;
 
 }  // namespace
 
@@ -32,9 +34,12 @@ void ForcePublisher::publish(const TargetSet& targets, const std_msgs::Header& h
                              Reactions* reactions) {
   if (targets.targets.empty() || (!isListenedTo() && !surroundings.hasListenedPins())) return;
   const double since_s = (header.stamp - estimated_).toSec();
-  if (since_s < 0.0 || since_s >= kPeriod_s || pins_.size() != reactions->pins.size()) {
+  if (since_s < 0.0 || since_s >= std::max(kPeriod_s, kRest * taken_s_) ||
+      pins_.size() != reactions->pins.size()) {
     estimated_ = header.stamp;
+    const ros::WallTime start = ros::WallTime::now();
     ForceEstimate estimate = simulator->externalForces(targets, surroundings.lastSurroundings().all);
+    taken_s_ = (ros::WallTime::now() - start).toSec();
     pins_ = estimate.pins;
     if (isListenedTo()) send(std::move(estimate), header, surroundings);
   }

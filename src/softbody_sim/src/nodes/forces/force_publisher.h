@@ -29,6 +29,7 @@ class ForcePublisher {
   const std::string wrench_frame_;
   ros::Publisher forces_, markers_;
   ros::Time estimated_;       ///< stamp of the last estimate
+  double taken_s_ = 0.0;      ///< by the last estimate
   std::vector<Wrench> pins_;  ///< of the last estimate
 };
 
