@@ -9,6 +9,7 @@
 
 #include "alignment/measured_share.h"
 #include "alignment/rigid_alignment.h"
+#include "labels/local_mismatch.h"
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
 #include "softbody_common/plausibility.h"
@@ -20,7 +21,6 @@
 #include "targets/knn_targets.h"
 #include "targets/position_prior.h"
 #include "tracker/frame_observer.h"
-#include "tracker/local_mismatch.h"
 #include "tracker/relocalizer.h"
 #include "tracker/tracking_status.h"
 #include "tracker/tracking_targets.h"
@@ -264,11 +264,11 @@ TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) c
 TrackingStatus BodyTracker::Implementation::judge(const ObservedBody& observed,
                                                   const std::vector<Association>& associations,
                                                   const MeshState* answer) const {
+  const auto& [seen, surface, image, labels] = observed;
   const std::vector<float> unknown;
-  TrackingStatus status = statusOf(observed.seen, associations,
-                                   localMismatch(observed, observer->usualError(),
-                                                 answer != nullptr ? answer->standard_deviation : unknown),
-                                   imageScale(observed));
+  const auto mismatch = localMismatch(labels, surface, observer->usualError(), seen.outline.deviation_px,
+                                      answer != nullptr ? answer->standard_deviation : unknown);
+  TrackingStatus status = statusOf(seen, associations, mismatch, imageScale(labels, surface));
   if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
     const std::string other = status.reason;
     status.reason = alikeReason(relocalizer.alike());

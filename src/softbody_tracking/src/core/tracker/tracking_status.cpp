@@ -28,8 +28,9 @@ constexpr double kWorstInlierRatio = 0.2;
 std::string causeOf(const OutlineAssociations& outline, double image_scale) {
   if (2.0 * std::abs(outline.excess) < outline.disagreement || !(image_scale > 0.0))
     return "check mesh, scale and pose";
-  return fmt::format("the image shows a body about {:.1f} times {}: check mesh and scale",
-                     std::max(image_scale, 1.0 / image_scale), image_scale > 1.0 ? "larger" : "smaller");
+  if (outline.excess > 0.0) return "the image shows a larger body: check mesh and scale";
+  return fmt::format("the image shows a body about {:.1f} times smaller: check mesh and scale",
+                     1.0 / image_scale);
 }
 
 /// Reason for a degraded state; empty if the frame shows the body well.

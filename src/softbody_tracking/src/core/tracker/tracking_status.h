@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "labels/local_mismatch.h"
 #include "softbody_common/types.h"
-#include "tracker/local_mismatch.h"
 #include "tracker/observation.h"
 
 namespace softbody {

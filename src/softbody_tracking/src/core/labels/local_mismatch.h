@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tracker/frame_observer.h"
+#include "labels/labels.h"
+#include "prediction/predicted_surface.h"
 
 namespace softbody {
 
@@ -16,12 +17,15 @@ struct LocalMismatch {
 
 /// The widest patch whose width exceeds what the tracker expects there: the prediction's usual error, the
 /// deviation of the outline in this frame and that of the state, all one standard deviation.
+/// None in a frame without an outline: what its labels are worth is then not measured.
 /// @param usual_error_m of predictions in the last frames.
+/// @param outline_px deviation of the outline in this frame [px]; 0: not measured.
 /// @param deviations of the volume's vertices [m]; empty: not estimated.
-std::optional<LocalMismatch> localMismatch(const ObservedBody& observed, double usual_error_m,
+std::optional<LocalMismatch> localMismatch(const Labels& labels, const PredictedSurface& surface,
+                                           double usual_error_m, double outline_px,
                                            const std::vector<float>& deviations);
 
 /// Size of the body in the image over that of the prediction, by their areas.
-double imageScale(const ObservedBody& observed);
+double imageScale(const Labels& labels, const PredictedSurface& surface);
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "tracker/local_mismatch.h"
+#include "labels/local_mismatch.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -44,11 +44,10 @@ std::string sideOf(const cv::Point& pixel, const cv::Rect& body) {
 
 }  // namespace
 
-std::optional<LocalMismatch> localMismatch(const ObservedBody& observed, double usual_error_m,
+std::optional<LocalMismatch> localMismatch(const Labels& labels, const PredictedSurface& surface,
+                                           double usual_error_m, double outline_px,
                                            const std::vector<float>& deviations) {
-  const PredictedSurface& surface = observed.surface;
-  const Labels& labels = observed.labels;
-  if (labels.region.empty()) return std::nullopt;
+  if (labels.region.empty() || outline_px <= 0.0) return std::nullopt;
   const cv::Mat1f& rendered = surface.image().depth;
   const cv::Mat1f depth_px = depthOfEmpty(labels, rendered);
   std::optional<LocalMismatch> widest;
@@ -57,8 +56,8 @@ std::optional<LocalMismatch> localMismatch(const ObservedBody& observed, double 
       if (depth_px(v, u) <= 0.0f) continue;
       const cv::Point pixel = labels.region.tl() + cv::Point(u, v);
       const double pixel_m = rendered(pixel) / surface.camera().fx;
-      const double width_m = 2.0 * depth_px(v, u) * pixel_m;
-      const double expected_m = std::hypot(usual_error_m, observed.seen.outline.deviation_px * pixel_m);
+      const double width_m = (2.0 * depth_px(v, u) - 1.0) * pixel_m;
+      const double expected_m = std::hypot(usual_error_m, outline_px * pixel_m);
       if (width_m <= kSignificant * expected_m || (widest && width_m <= widest->width_m)) continue;
       if (width_m <= kSignificant * std::hypot(expected_m, deviationAt(surface, pixel, deviations))) continue;
       widest = {width_m, sideOf(pixel, surface.image().region)};
@@ -67,11 +66,11 @@ std::optional<LocalMismatch> localMismatch(const ObservedBody& observed, double 
   return widest;
 }
 
-double imageScale(const ObservedBody& observed) {
-  const RasterImage& image = observed.surface.image();
-  if (observed.labels.region.empty()) return 1.0;
+double imageScale(const Labels& labels, const PredictedSurface& surface) {
+  const RasterImage& image = surface.image();
+  if (labels.region.empty()) return 1.0;
   const int covered = cv::countNonZero(image.depth(image.region));
-  const int shown = cv::countNonZero(observed.labels.label == labels::kBody);
+  const int shown = cv::countNonZero(labels.label == labels::kBody);
   return covered > 0 ? std::sqrt(static_cast<double>(shown) / covered) : 1.0;
 }
 
