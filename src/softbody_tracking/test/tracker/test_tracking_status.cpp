@@ -28,15 +28,23 @@ TEST(StatusOf, OutlinesThatDifferDegradeIt) {
   EXPECT_EQ(statusOf(displaced, {}).reason, "");
 }
 
-/// Lines across the outline end before a body that has slid along itself by a quarter of its length.
-TEST(StatusOf, WhereSomethingFartherIsSeenDegradesIt) {
-  Observation slid = wellSeen();
-  slid.outline.disagreement = 0.1;
-  slid.depth.absent_blocks = 30;
-  EXPECT_EQ(statusOf(slid, {}).state, TrackingState::kTracking) << "as at the edges of a moving body";
-  slid.depth.absent_blocks = 150;
-  EXPECT_EQ(statusOf(slid, {}).state, TrackingState::kDegraded);
-  EXPECT_NE(statusOf(slid, {}).reason.find("25 % of the body"), std::string::npos);
+TEST(StatusOf, APatchWithoutTheBodyDegradesIt) {
+  const TrackingStatus status = statusOf(wellSeen(), {}, LocalMismatch{0.023, "left"});
+  EXPECT_EQ(status.state, TrackingState::kDegraded);
+  EXPECT_NE(status.reason.find("the left part of the body in the image is at least 23 mm off"),
+            std::string::npos)
+      << status.reason;
+}
+
+TEST(StatusOf, AnOutlineSmallerAllAroundNamesTheScale) {
+  Observation seen = wellSeen();
+  seen.outline.disagreement = 0.3;
+  seen.outline.excess = -0.28;
+  EXPECT_NE(statusOf(seen, {}, std::nullopt, 0.77).reason.find("a body about 1.3 times smaller"),
+            std::string::npos);
+  seen.outline.excess = 0.05;
+  EXPECT_NE(statusOf(seen, {}, std::nullopt, 0.77).reason.find("check mesh, scale and pose"),
+            std::string::npos);
 }
 
 TEST(StatusOf, GivesTheReasonForDegradedTracking) {

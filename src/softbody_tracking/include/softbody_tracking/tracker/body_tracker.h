@@ -55,6 +55,11 @@ class BodyTracker {
   /// @throw std::logic_error unless ready().
   void restart(const Eigen::Isometry3d& rough_pose);
 
+  /// Forgets everything but the models, and tracks from this pose without a search: the status alone says
+  /// whether the body is there. @param pose rest frame in the fixed frame.
+  /// @throw std::logic_error unless ready().
+  void placeAt(const Eigen::Isometry3d& pose);
+
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "labels/depth_evidence.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -102,8 +103,8 @@ OutlineAssociations associateOutline(const RgbdFrame& frame, const RasterImage& 
                                      const Labels& labels, const ContourWeight& weight) {
   OutlineAssociations found;
   OutlineLine line(frame, image.depth, labels);
-  double apart_px = 0.0;
-  int shown = 0;
+  double apart_px = 0.0, outside_px = 0.0;
+  std::vector<double> deviations;
   for (const ContourSample& sample : samples.samples) {
     const Eigen::Vector3d predicted = motions[sample.piece] * sample.position;
     if (!(predicted.z() > 0.0)) continue;
@@ -111,14 +112,22 @@ OutlineAssociations associateOutline(const RgbdFrame& frame, const RasterImage& 
     if (pixels.size() < kFewestPixels) continue;
     const ContourPosterior end = contourPosterior(pixels);
     if (end.variance > kLargestDeviation * kLargestDeviation) continue;
-    ++shown;
-    if (end.doubt > kContradiction) apart_px += end.beyond ? line.reach() : std::abs(end.mean);
+    deviations.push_back(std::sqrt(end.variance));
+    if (end.doubt > kContradiction) {
+      const double off_px = end.beyond ? std::copysign(line.reach(), end.mean) : end.mean;
+      apart_px += std::abs(off_px);
+      outside_px += off_px;
+    }
     if (end.beyond || line.endsOtherPart(end.mean)) continue;
     found.associations.push_back(
         contourAssociation(frame.camera, sample, predicted, end, weight, samples.spacing_px));
   }
   const double length_px = static_cast<double>(samples.samples.size()) * samples.spacing_px;
-  found.disagreement = shown == 0 ? 0.0 : apart_px / shown * length_px / samples.covered_px;
+  if (deviations.empty()) return found;
+  const double area_per_px = length_px / static_cast<double>(deviations.size()) / samples.covered_px;
+  found.disagreement = apart_px * area_per_px;
+  found.excess = outside_px * area_per_px;
+  found.deviation_px = median(&deviations);
   return found;
 }
 

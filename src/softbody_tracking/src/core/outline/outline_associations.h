@@ -24,6 +24,9 @@ struct OutlineAssociations {
   /// contradict the prediction count: one that knows little says nothing against it. Where the outline is
   /// hidden, it is assumed to be as elsewhere.
   double disagreement = 0.0;
+  /// The same, positive where the image's outline is outside of the predicted one, negative inside.
+  double excess = 0.0;
+  double deviation_px = 0.0;  ///< usual standard deviation of the measured outline [px]; 0: not measured
 };
 
 /// Associates the predicted outline with the body's outline in the frame, along the outline's normal in the

@@ -9,6 +9,7 @@
 
 #include "alignment/measured_share.h"
 #include "alignment/rigid_alignment.h"
+#include "labels/local_mismatch.h"
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
 #include "softbody_common/plausibility.h"
@@ -59,7 +60,8 @@ struct BodyTracker::Implementation {
   Points predict(const RgbdFrame& frame, const MeshState* answer);
   std::vector<Association> associationsOf(const ObservedBody& observed,
                                           const Eigen::Matrix3d& R_camera_fixed) const;
-  TrackingStatus judge(const Observation& seen, const std::vector<Association>& associations) const;
+  TrackingStatus judge(const ObservedBody& observed, const std::vector<Association>& associations,
+                       const MeshState* answer) const;
   TrackingStatus withSilence(TrackingStatus status) const;
   TargetSet targetSetOf(const RgbdFrame& frame, const ObservedBody& observed,
                         const std::vector<Association>& associations, const MeshState* answer) const;
@@ -121,6 +123,11 @@ void BodyTracker::restart(const Eigen::Isometry3d& rough_pose) {
   implementation_->relocalizer.startNear(rough_pose);
 }
 
+void BodyTracker::placeAt(const Eigen::Isometry3d& pose) {
+  restart(pose);
+  implementation_->relocalizer.placeAt(pose);
+}
+
 TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
   requireCameraSize(frame);
   return implementation_->track(frame, volume, timer);
@@ -151,7 +158,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
 
   TrackingResult result;
   result.has_targets = true;
-  result.status = judge(seen, associations);
+  result.status = judge(observed, associations, answer);
   const TrackingState state = result.status.state;
   relocalizer.noteLoss(state == TrackingState::kLost, stamp);
   if (state == TrackingState::kLost) prediction->reset();
@@ -254,9 +261,14 @@ TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) c
   return result;
 }
 
-TrackingStatus BodyTracker::Implementation::judge(const Observation& seen,
-                                                  const std::vector<Association>& associations) const {
-  TrackingStatus status = statusOf(seen, associations);
+TrackingStatus BodyTracker::Implementation::judge(const ObservedBody& observed,
+                                                  const std::vector<Association>& associations,
+                                                  const MeshState* answer) const {
+  const auto& [seen, surface, image, labels] = observed;
+  const std::vector<float> unknown;
+  const auto mismatch = localMismatch(labels, surface, observer->usualError(), seen.outline.deviation_px,
+                                      answer != nullptr ? answer->standard_deviation : unknown);
+  TrackingStatus status = statusOf(seen, associations, mismatch, imageScale(labels, surface));
   if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
     const std::string other = status.reason;
     status.reason = alikeReason(relocalizer.alike());

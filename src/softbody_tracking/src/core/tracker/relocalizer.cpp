@@ -16,7 +16,7 @@ constexpr double kDeformedCost = 0.5;
 
 void Relocalizer::reset() {
   first_frame_ = true;
-  tracked_ = recovering_ = false;
+  tracked_ = recovering_ = placed_ = false;
   given_.reset();
   lost_since_.reset();
   for (Backoff* search : {&depth_search_, &feature_search_, &scale_search_}) search->reset();
@@ -29,8 +29,18 @@ void Relocalizer::startNear(const Eigen::Isometry3d& rough_pose) {
   given_ = pose_ = rough_pose;
 }
 
+void Relocalizer::placeAt(const Eigen::Isometry3d& pose) {
+  startNear(pose);
+  placed_ = true;
+}
+
 Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer) {
   if (first_frame_) takeInitialPose(frame, observer->model().volume());
+  if (placed_) {
+    placed_ = false;
+    startTracking(frame, {frame.T_fixed_camera.inverse() * pose_, 1});
+    return Outcome::kFound;
+  }
   if (lost_since_ && frame.stamp - *lost_since_ >= kLongestGap) {
     tracked_ = false;
     recovering_ = true;

@@ -33,6 +33,8 @@ class Relocalizer {
   /// After reset(): searches near this pose instead of the object file's. @param rough_pose in the fixed
   /// frame.
   void startNear(const Eigen::Isometry3d& rough_pose);
+  /// After reset(): the body is there in the next frame, without a search. @param pose in the fixed frame.
+  void placeAt(const Eigen::Isometry3d& pose);
   /// Call it when the body's models change.
   void forgetMeshes() { meshes_.reset(); }
 
@@ -70,6 +72,7 @@ class Relocalizer {
   std::unique_ptr<SearchMeshes>
       meshes_;               ///< made at the first search, so that a frame after a cut does not wait for it
   bool first_frame_ = true;  ///< no frame since the last reset
+  bool placed_ = false;      ///< by placeAt(), and no frame since then
   bool tracked_ = false;
   bool recovering_ = false;
   int alike_ = 1;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "alignment/piece_observability.h"
@@ -14,35 +15,39 @@ namespace {
 
 // Share of the visible surface that must agree in depth; with less, most of the body is not measured.
 constexpr double kDegradedShare = 0.3;
-// Largest area that the image contradicts, as a share of the body's. Right meshes stay below 0.15, thin and
-// fast ones too; wrong ones are above 0.27.
+// Largest area between the outlines of image and mesh, as a share of the body's. Right meshes stay below
+// 0.15, thin and fast ones too; wrong ones are above 0.27.
 constexpr double kLargestDisagreement = 0.18;
 // Share of the expected features that must be found; with fewer, something covers them or the light changed.
 constexpr double kFewestTracked = 0.05;
 // Smallest share of inliers among the matches.
 constexpr double kWorstInlierRatio = 0.2;
 
-/// Share of the body's area that the image contradicts: between the outlines near the prediction, and where
-/// something farther is seen than the body. Lines across the outline end before a body that is far from its
-/// prediction.
-double disagreement(const Observation& seen) {
-  const int visible = seen.depth.visible_blocks;
-  const double absent = visible > 0 ? static_cast<double>(seen.depth.absent_blocks) / visible : 0.0;
-  return seen.outline.disagreement + absent;
+/// What an outline that is smaller or larger all around says about the mesh. Outlines that differ both ways
+/// are those of another shape or pose.
+std::string causeOf(const OutlineAssociations& outline, double image_scale) {
+  if (2.0 * std::abs(outline.excess) < outline.disagreement || !(image_scale > 0.0))
+    return "check mesh, scale and pose";
+  if (outline.excess > 0.0) return "the image shows a larger body: check mesh and scale";
+  return fmt::format("the image shows a body about {:.1f} times smaller: check mesh and scale",
+                     1.0 / image_scale);
 }
 
 /// Reason for a degraded state; empty if the frame shows the body well.
-std::string whyDegraded(const Observation& seen, int kept) {
+std::string whyDegraded(const Observation& seen, int kept, const std::optional<LocalMismatch>& mismatch,
+                        double image_scale) {
   const auto explained = static_cast<double>(seen.agreeing_blocks);
   if (explained < kDegradedShare * seen.depth.visible_blocks) {
     return seen.depth.occluded_blocks > seen.depth.absent_blocks ? "most of the body is occluded"
                                                                  : "most of the body is not where predicted";
   }
-  const double differs = disagreement(seen);
-  if (differs > kLargestDisagreement) {
-    return fmt::format(
-        "the outlines of image and mesh differ by {:.0f} % of the body's area: check mesh, scale and pose",
-        100.0 * differs);
+  if (seen.outline.disagreement > kLargestDisagreement) {
+    return fmt::format("the outlines of image and mesh differ by {:.0f} % of the body's area: {}",
+                       100.0 * seen.outline.disagreement, causeOf(seen.outline, image_scale));
+  }
+  if (mismatch) {
+    return fmt::format("the {} part of the body in the image is at least {:.0f} mm off its prediction: {}",
+                       mismatch->side, 1000.0 * mismatch->width_m, causeOf(seen.outline, image_scale));
   }
   if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestTracked * seen.expected_features)
     return "hardly any of the expected features are found";
@@ -63,7 +68,8 @@ void append(const std::string& text, std::string* reason) {
 
 }  // namespace
 
-TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations) {
+TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations,
+                        const std::optional<LocalMismatch>& mismatch, double image_scale) {
   TrackingStatus status;
   const auto kept = static_cast<int>(std::count_if(seen.matches.begin(), seen.matches.end(),
                                                    [](const FeatureMatch& match) { return match.inlier; }));
@@ -76,7 +82,7 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
                                                    : "neither depth nor features agree with the prediction";
     return status;
   }
-  status.reason = whyDegraded(seen, kept);
+  status.reason = whyDegraded(seen, kept, mismatch, image_scale);
   status.state = status.reason.empty() ? TrackingState::kTracking : TrackingState::kDegraded;
   return status;
 }
