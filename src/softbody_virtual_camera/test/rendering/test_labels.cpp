@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include <cmath>
+#include <map>
 
 #include "fixtures/scene_fixtures.h"
 #include "softbody_common/images/pixel_labels.h"
