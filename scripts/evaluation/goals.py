@@ -95,6 +95,20 @@ def cut_goals(values):
     ]
 
 
+def bound_goals(values):
+    found = [get(report, "calibration") for (kind, _), report in values.reports.items()
+             if kind == "scene" and get(report, "calibration")]
+    shares = {which: [100.0 * calibration[f"within_90_{which}"] for calibration in found
+                      if calibration[f"within_90_{which}"] is not None] for which in ("visible", "hidden")}
+    return [
+        *((f"{which} vertices within their 90 % bound, {name} of all scenes", goal, "%", choose(shares[which], default=None))
+          for which in ("visible", "hidden")
+          for name, goal, choose in (("fewest", ">= 85", min), ("most", "<= 95", max))),
+        ("90 % bound divided by the error, median, largest of all scenes", "<= 3", "times",
+         worst(calibration["median_ratio"] for calibration in found)),
+    ]
+
+
 def toy_goals(values):
     return [
         ("recorded toy: frames called TRACKING", ">= 95", "%", values.toy_tracking("toys")),
@@ -107,7 +121,8 @@ def toy_goals(values):
 def goals(reports):
     """(figure, goal, unit, value): reached if the value is at most, or for a goal with >= at least, the goal."""
     values = Values(reports)
-    return [*accuracy_goals(values), *robustness_goals(values), *cut_goals(values), *toy_goals(values)]
+    return [*accuracy_goals(values), *robustness_goals(values), *cut_goals(values), *bound_goals(values),
+            *toy_goals(values)]
 
 
 def followed(report):

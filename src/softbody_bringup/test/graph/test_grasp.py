@@ -24,6 +24,13 @@ def array(points):
     return np.array([[p.x, p.y, p.z] for p in points])
 
 
+def after(seen, stamp):
+    """The first surface after a stamp whose truth has come."""
+    truths = {truth.header.stamp for truth in seen["ground_truth/surface/state"]}
+    return next((state for state in seen["softbody/surface/state"]
+                 if state.header.stamp > stamp and state.header.stamp in truths), None)
+
+
 class Grasp(unittest.TestCase):
     def test_what_is_gripped_is_held_until_it_is_let_go(self):
         recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
@@ -33,8 +40,7 @@ class Grasp(unittest.TestCase):
         closed = rospy.Time.now()
         recorder.wait(lambda seen: not seen["gripper/closed"][-1].data, "a gripper that opens")
         opened = rospy.Time.now()
-        last = recorder.wait(lambda seen: next((s for s in seen["softbody/surface/state"]
-                                                if s.header.stamp > opened + DELAY), None), "a state after it")
+        last = recorder.wait(lambda seen: after(seen, opened + DELAY), "a state after it, and its truth")
         with recorder.changed:
             seen = {name: list(messages) for name, messages in recorder.messages.items()}
 

@@ -19,6 +19,20 @@ std::vector<Eigen::VectorXi> verticesOf(const Tets& tets) {
   return groups;
 }
 
+/// The product of a symmetric matrix and others; rows stay in the cache. @param lower its lower triangle.
+TurnedModes::Motions timesSymmetric(const Eigen::SparseMatrix<double>& lower,
+                                    const TurnedModes::Motions& motions) {
+  TurnedModes::Motions product = TurnedModes::Motions::Zero(motions.rows(), motions.cols());
+  for (Eigen::Index column = 0; column < lower.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, column); entry; ++entry) {
+      if (entry.value() == 0.0) continue;  // most vertices are not measured
+      product.row(entry.row()) += entry.value() * motions.row(column);
+      if (entry.row() != column) product.row(column) += entry.value() * motions.row(entry.row());
+    }
+  }
+  return product;
+}
+
 Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& positive) {
   return positive.llt().solve(Eigen::MatrixXd::Identity(positive.rows(), positive.rows()));
 }
@@ -33,7 +47,7 @@ struct LoadEstimator::Prior {
 
 /// For the amplitudes of the motions from the present shape.
 struct LoadEstimator::Equations {
-  Eigen::MatrixXd hessian;    ///< of springs and prior [N/m]
+  Eigen::MatrixXd hessian;    ///< of springs and prior, lower triangle [N/m]
   Eigen::VectorXd pull;       ///< minus the gradient
   Eigen::VectorXd balancing;  ///< forces along the modes that hold the body in its present shape
 };
@@ -123,8 +137,10 @@ LoadEstimator::Equations LoadEstimator::equationsAt(const Points& vertices, cons
   springs_.addTo(vertices, &pushed);
   curvature_->setZero();
   springs_.addHessian(vertices, curvature_.get());
-  Equations equations{motions.transpose() * (curvature_->lower().selfadjointView<Eigen::Lower>() * motions),
-                      -along(pushed), along(balancing).tail(modes)};
+  const Motions curved = timesSymmetric(curvature_->lower(), motions);
+  Equations equations{Eigen::MatrixXd::Zero(motions.cols(), motions.cols()), -along(pushed),
+                      along(balancing).tail(modes)};
+  equations.hessian.triangularView<Eigen::Lower>() = motions.transpose() * curved;
   const Prior prior =
       priorOf(estimate, along(masses_.asDiagonal() * estimate.per_mass).tail(modes), elapsed_s);
   const auto stiffness = modes_.stiffness.asDiagonal();

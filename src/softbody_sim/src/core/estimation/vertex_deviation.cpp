@@ -1,5 +1,6 @@
 #include "estimation/vertex_deviation.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -48,11 +49,11 @@ void vertexDeviations(const std::vector<Target>& targets, const Tets& tets, cons
                       const ShapePosterior& posterior, std::vector<float>* deviations) {
   constexpr double kDirections = 3.0;
   const Misfit misfit = misfitOf(targets, tets, vertices);
-  const auto& motions = posterior.motions;
-  const Eigen::MatrixXd spread = motions * posterior.covariance;
+  const Eigen::LLT<Eigen::MatrixXd> root(posterior.covariance);
+  const Eigen::MatrixXd spread = posterior.motions * root.matrixL();
   deviations->resize(static_cast<std::size_t>(vertices.rows()));
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const double of_loads = spread.middleRows(3 * v, 3).cwiseProduct(motions.middleRows(3 * v, 3)).sum();
+    const double of_loads = spread.middleRows(3 * v, 3).squaredNorm();
     const double variance =
         of_loads + misfit.around.row(v).squaredNorm() + kDirections * misfit.mean_square_m2;
     (*deviations)[static_cast<std::size_t>(v)] =
