@@ -23,11 +23,21 @@ struct PixelLabeler::Sums {
 
 void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const {
   Sums sums, ignored;
+  const cv::Point first = labels->region.tl();
   for (int v = pixels.y; v < pixels.br().y; ++v) {
+    const float *rendered = rendered_[v], *measured = frame_.depth[v];
+    const cv::Vec3b* color = frame_.color[v];
+    const std::uint8_t* covered = frame_.covered.empty() ? nullptr : frame_.covered[v];
+    std::uint8_t* label = labels->label[v - first.y];
+    float* log_odds = labels->log_odds[v - first.y];
     for (int u = pixels.x; u < pixels.br().x; ++u) {
-      const float rendered = rendered_(v, u);
-      const bool counts = rendered > 0.0f || !cell->onSurface();
-      labelOne({u, v}, rendered > 0.0f ? rendered : cell->predicted, labels, counts ? &sums : &ignored);
+      const bool counts = rendered[u] > 0.0f || !cell->onSurface();
+      const float predicted = rendered[u] > 0.0f ? rendered[u] : cell->predicted;
+      log_odds[u - first.x] = static_cast<float>(clamped(colors_.logOdds(color[u]), kColorLimit));
+      label[u - first.x] =
+          covered != nullptr && covered[u] != 0
+              ? labels::kOccluder
+              : labelOf(measured[u], predicted, &log_odds[u - first.x], counts ? &sums : &ignored);
     }
   }
   cell->shows_front = sums.front > 0 && 2 * sums.front >= sums.measured;
@@ -37,28 +47,18 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
   cell->body = 2 * sums.body >= sums.front ? 1.0f : 0.0f;
 }
 
-void PixelLabeler::labelOne(const cv::Point& pixel, float predicted, Labels* labels, Sums* sums) const {
-  const cv::Point place = pixel - labels->region.tl();
-  std::uint8_t& label = labels->label(place);
-  float& log_odds = labels->log_odds(place);
-  const double of_color = clamped(colors_.logOdds(frame_.color(pixel)), kColorLimit);
-  const float measured = frame_.depth(pixel), difference = measured - predicted;
-  log_odds = static_cast<float>(of_color);
-  label = labels::kUnknown;
-  if (!frame_.covered.empty() && frame_.covered(pixel) != 0) {
-    label = labels::kOccluder;
-  } else if (measured > 0.0f) {
-    log_odds += static_cast<float>(clamped(DepthEvidence::logOdds(difference, predicted), kDepthLimit));
-    const bool body = std::abs(difference) <= reach_m_ && log_odds > 0.0f;
-    const bool front = body || difference <= kBehindSurface;
-    label = body ? labels::kBody : front ? labels::kOccluder : labels::kBackground;
-    ++sums->measured;
-    if (!front) return;
-    ++sums->front;
-    sums->body += body ? 1 : 0;
-    sums->difference += difference;
-    sums->color_odds += static_cast<float>(of_color);
-  }
+std::uint8_t PixelLabeler::labelOf(float measured, float predicted, float* log_odds, Sums* sums) const {
+  if (!(measured > 0.0f)) return labels::kUnknown;
+  const float of_color = *log_odds, difference = measured - predicted;
+  *log_odds += static_cast<float>(clamped(DepthEvidence::logOdds(difference, predicted), kDepthLimit));
+  const bool body = std::abs(difference) <= reach_m_ && *log_odds > 0.0f;
+  ++sums->measured;
+  if (!body && difference > kBehindSurface) return labels::kBackground;
+  ++sums->front;
+  sums->body += body ? 1 : 0;
+  sums->difference += difference;
+  sums->color_odds += of_color;
+  return body ? labels::kBody : labels::kOccluder;
 }
 
 void PixelLabeler::decide(const cv::Rect& pixels, const LabelCell& cell, const cv::Mat1f& mean_odds,

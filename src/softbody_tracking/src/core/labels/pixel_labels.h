@@ -27,8 +27,9 @@ class PixelLabeler {
 
  private:
   struct Sums;
-  /// @param predicted depth of the body there [m].
-  void labelOne(const cv::Point& pixel, float predicted, Labels* labels, Sums* sums) const;
+  /// Label by depth and colour. @param predicted depth of the body there [m]. @param log_odds by colour, then
+  /// by both.
+  std::uint8_t labelOf(float measured, float predicted, float* log_odds, Sums* sums) const;
 
   static std::uint8_t unmeasuredLabel(const LabelCell& cell, bool on_body, float log_odds);
   std::uint8_t frontLabel(const LabelCell& cell, float measured, float rendered, bool body_alone,
