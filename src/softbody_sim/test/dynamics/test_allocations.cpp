@@ -115,10 +115,11 @@ class StepAllocations : public ::testing::TestWithParam<bool> {
       const long stepped = allocations - before;
       simulator.stepUnobserved(targets, frame * kFrame + kFrame / 2, surroundings);
       const long made = allocations - before;
-      if (frame == 0)
+      if (frame == 0) {
         EXPECT_GT(stepped, 0) << "the count does not count";
-      else if (frame > 1)
+      } else if (frame > 1) {
         EXPECT_EQ(made, 0) << "frame " << frame;
+      }
       for (const Wrench& reaction : simulator.reactions().obstacles) EXPECT_GT(reaction.force.norm(), 0.0);
       targets.reset = false;
       next(&targets.targets);

@@ -27,6 +27,13 @@ class Block {
     simulator_.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
   }
   void step() { simulator_.step({}, ++frame_ * kFrame, ground_); }
+  /// A step under targets at all vertices, at their present places.
+  void observe() {
+    TargetSet targets;
+    targets.targets = testing::vertexTargets(topology_, simulator_.state().vertices);
+    simulator_.step(targets, ++frame_ * kFrame, ground_);
+  }
+  double force() const { return -simulator_.reactions().obstacles.at(0).force.z(); }
   void lift(double height_m) {
     Points x = simulator_.state().vertices;
     x.col(2).array() += height_m;
@@ -191,6 +198,15 @@ TEST(NodeDefaults, APieceThatNothingHoldsIsNamed) {
   const int last = static_cast<int>(topology.rest_vertices.rows()) - 1;
   held.pins.push_back({last, topology.rest_vertices.row(last)});
   EXPECT_NO_THROW(simulator.settle({}, held));
+}
+
+/// What is known to hold the body is no unknown load: the ground carries the weight, seen or not.
+TEST(NodeDefaults, TheGroundCarriesABodyThatIsSeen) {
+  Block block(2.0e4, 300.0, 0.5, 0.0);
+  for (int frame = 0; frame < kFramesPerSecond; ++frame) block.step();
+  EXPECT_NEAR(block.force(), block.weight(), 0.02 * block.weight());
+  for (int frame = 0; frame < kFramesPerSecond; ++frame) block.observe();
+  EXPECT_NEAR(block.force(), block.weight(), 0.05 * block.weight());
 }
 
 }  // namespace

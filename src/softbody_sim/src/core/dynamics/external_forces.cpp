@@ -5,6 +5,26 @@
 
 namespace softbody {
 
+namespace {
+
+Points knownLoads(const Surroundings& surroundings, const SimulatorConfig& config, const BodyModel& model) {
+  Points loads = model.masses * config.gravity.transpose();
+  if (surroundings.loads.size() > 0) loads += surroundings.loads;
+  return loads;
+}
+
+}  // namespace
+
+Points unexplainedForces(const Surroundings& surroundings, const BodyState& body,
+                         const SimulatorConfig& config, BodyModel* model) {
+  Points forces = -knownLoads(surroundings, config, *model);
+  model->solver->addElasticity(body.mesh.vertices, &forces);
+  TargetEnergy contacts;
+  model->constrained_step.setContactSprings(body.contact.contacts, &contacts);
+  contacts.addTo(body.mesh.vertices, &forces);
+  return forces;
+}
+
 ForceEstimate externalForces(const std::vector<Target>& targets, const Surroundings& surroundings,
                              const BodyState& body, const Material& material, const SimulatorConfig& config,
                              BodyModel* model) {
@@ -17,8 +37,7 @@ ForceEstimate externalForces(const std::vector<Target>& targets, const Surroundi
   model->constrained_step.setContactSprings(body.contact.contacts, &contacts);
   std::vector<double> pin_stiffness;
   for (const Pin& pin : surroundings.pins) pin_stiffness.push_back(model->constrained_step.stiffnessOf(pin));
-  Points loads = model->masses * config.gravity.transpose();
-  if (surroundings.loads.size() > 0) loads += surroundings.loads;
+  const Points loads = knownLoads(surroundings, config, *model);
   return inKnownUnit(
       model->forceEstimator(config.elasticity)
           .estimate({body.mesh.vertices, measured, contacts, surroundings.pins, pin_stiffness, loads}),

@@ -38,7 +38,7 @@ struct Simulator::Implementation {
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
   void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings);
   /// Loads, confidence and standard deviation after a step with these targets.
-  void estimate(const TargetSet& targets, const std::vector<Pin>& pins, double elapsed_s);
+  void estimate(const TargetSet& targets, const Surroundings& surroundings, double elapsed_s);
 
   const TetTopology uncut;
   Material material;
@@ -51,7 +51,6 @@ struct Simulator::Implementation {
   BodyState next;  ///< of a step that may still fail
 
   ImplicitEuler integrator;
-  Points balancing;  ///< forces that hold the body in its shape
 };
 
 Simulator::Implementation::Implementation(const TetTopology& topology, const Material& material_in,
@@ -119,17 +118,20 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
   next.stamp = next.stamp - stamp > Timeline::kLeap ? stamp : std::max(next.stamp, stamp);
 }
 
-void Simulator::Implementation::estimate(const TargetSet& targets, const std::vector<Pin>& pins,
+/// Without elapsed time the targets are those of an earlier estimate, or nothing moves: the loads stay.
+void Simulator::Implementation::estimate(const TargetSet& targets, const Surroundings& surroundings,
                                          double elapsed_s) {
+  model->vertex_confidence.compute(targets.targets, &next.mesh.confidence);
+  if (config.load_fade_s <= 0.0) return;
   const Points& vertices = next.mesh.vertices;
-  balancing.noalias() = -model->masses * config.gravity.transpose();
-  model->solver->addElasticity(vertices, &balancing);
-  const auto posterior =
-      model->load_estimator.update(targets.targets, pins, vertices, balancing, elapsed_s, &next.loads);
+  LoadEstimate loads = next.loads;
+  const auto posterior = model->load_estimator.update(
+      targets.targets, surroundings.pins, vertices,
+      unexplainedForces(surroundings, next, config, model.get()), elapsed_s, &loads);
+  if (elapsed_s > 0.0) next.loads = std::move(loads);
   if (posterior)
     vertexDeviations(targets.targets, model->topology.tets, vertices, *posterior,
                      &next.mesh.standard_deviation);
-  model->vertex_confidence.compute(targets.targets, &next.mesh.confidence);
 }
 
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
@@ -166,7 +168,7 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp);
   s.advance(targets, stamp, surroundings);
-  s.estimate(targets, surroundings.pins, std::max(0.0, seconds(stamp - s.body.stamp)));
+  s.estimate(targets, surroundings, std::max(0.0, seconds(stamp - s.body.stamp)));
   if (!targets.targets.empty()) s.next.mesh.observed = stamp;
   std::swap(s.body, s.next);
 }
@@ -200,7 +202,7 @@ void Simulator::settle(const TargetSet& given, const Surroundings& surroundings)
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, s.body.stamp);
   s.integrator.settle(s.model.get(), targets.targets, surroundings, &s.next);
-  s.estimate(targets, surroundings.pins, 0.0);
+  s.estimate(targets, surroundings, 0.0);
   std::swap(s.body, s.next);
 }
 

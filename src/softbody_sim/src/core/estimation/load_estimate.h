@@ -8,9 +8,9 @@ namespace softbody {
 
 /// What is known of the external loads on an observed body.
 struct LoadEstimate {
-  Points per_mass;             ///< #V by 3 [m/s^2]
-  Eigen::MatrixXd covariance;  ///< along the modes; empty: that of loads of which nothing is known
-  bool edited = false;         ///< the body was cut after the last estimate
+  Points per_mass;                  ///< #V by 3 [m/s^2]
+  Eigen::MatrixXd covariance = {};  ///< along the modes; empty: that of loads of which nothing is known
+  bool edited = false;              ///< the body was cut after the last estimate
 };
 
 /// Where a body may be, after the targets of a step: x + motions a, with amplitudes a of a covariance.

@@ -168,7 +168,7 @@ std::optional<ShapePosterior> LoadEstimator::update(const std::vector<Target>& t
                                                     const std::vector<Pin>& pins, const Points& vertices,
                                                     const Points& balancing, double elapsed_s,
                                                     LoadEstimate* estimate) {
-  if (options_.fade_s <= 0.0 || std::exchange(estimate->edited, false)) return std::nullopt;
+  if (std::exchange(estimate->edited, false)) return std::nullopt;
   if (!turned_) makeModes();
   setSprings(targets, pins);
   ShapePosterior posterior;

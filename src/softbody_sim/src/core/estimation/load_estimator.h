@@ -33,7 +33,7 @@ namespace softbody {
 class LoadEstimator {
  public:
   struct Options {
-    double fade_s = 0.0;  ///< time in which what is known of loads falls to 1/e; 0: there are no loads
+    double fade_s = 0.0;             ///< time in which what is known of loads falls to 1/e; above 0
     double target_stiffness = 0.0;   ///< of a target of weight 1 [N/m]
     double target_accuracy_m = 0.0;  ///< its standard deviation
   };
@@ -43,10 +43,10 @@ class LoadEstimator {
                 const Options& options);
 
   /// @param targets that acted in the step. @param pins likewise. @param vertices after it, #V by 3 [m].
-  /// @param balancing forces that hold the body in that shape: of elasticity, without gravity, #V by 3 [N].
+  /// @param balancing unexplained forces that hold the body in that shape, without gravity, contacts and
+  /// known loads, #V by 3 [N].
   /// @param elapsed_s since the last estimate. @param estimate the last one, then the new one.
-  /// @return nothing if loads are not estimated, and in the first step after an edit: a blade edits in every
-  /// frame, and modes take longer.
+  /// @return nothing in the first step after an edit: a blade edits in every frame, and modes take longer.
   std::optional<ShapePosterior> update(const std::vector<Target>& targets, const std::vector<Pin>& pins,
                                        const Points& vertices, const Points& balancing, double elapsed_s,
                                        LoadEstimate* estimate);

@@ -71,7 +71,7 @@ Points ForceEstimator::linearize(const ObservedBalance& balance, const Points& x
   return -gradient;
 }
 
-/// The matrix P. A pin carries all forces on its vertex, so there is none to be found.
+/// The matrix P. Pinned vertices have no column: the pin carries all forces there.
 Eigen::MatrixXd ForceEstimator::forcesOnPlaces(const std::vector<Pin>& pins) const {
   const auto count = static_cast<Eigen::Index>(places_.count());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * slow_masses_.size(), 3 * count);
