@@ -164,6 +164,22 @@ TEST(Forces, APinnedBodyReadsItsWeight) {
   }
 }
 
+/// Some places of a force are then less probable than others by more than a number can hold.
+TEST(Forces, AStronglyBentBodyHasFiniteForces) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    Beam beam(Beam::End::kFree, {6, 3, 1});
+    std::mt19937 random(seed);
+    const Points bend = 20.0 * randomPoints(3, 0.1, &random);
+    const Eigen::ArrayXd x = beam.rest().col(0).array() - 0.1, y = beam.rest().col(1).array() - 0.05;
+    Points shape = beam.rest();
+    for (int c = 0; c < 3; ++c)
+      shape.col(c).array() += bend(0, c) * x * x + bend(1, c) * x * y + bend(2, c) * y * y;
+    const ForceEstimate estimate = beam.observe(shape, 1e-4, 1e-4, &random);
+    EXPECT_FALSE(estimate.patches.empty());
+    EXPECT_TRUE(estimate.wrench.allFinite() && estimate.wrench_covariance.allFinite());
+  }
+}
+
 TEST(Forces, TheCovarianceCoversTheError) {
   constexpr double k90Percent = 6.25;  // of the squared lengths of three standard normal numbers
   std::mt19937 random(3);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace softbody {
@@ -137,15 +138,18 @@ class Search {
   void addOtherPlaces(std::size_t k, SparseForces* forces) const {
     const Eigen::Index count = evidence_.h.size() / 3;
     std::vector<Posterior> others(static_cast<std::size_t>(count));
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(count);
+    Eigen::VectorXd log_evidence = Eigen::VectorXd::Constant(count, -std::numeric_limits<double>::infinity());
     for (int place = 0; place < count; ++place) {
       std::vector<int> places = places_;
       places[k] = place;
       if (std::count(places.begin(), places.end(), place) > 1) continue;
       Posterior& other = others[static_cast<std::size_t>(place)];
       other = posteriorOf(evidence_, places, deviations_, excess_);
-      weights[place] = std::exp(other.log_evidence - posterior_.log_evidence);
+      log_evidence[place] = other.log_evidence;
     }
+    Eigen::VectorXd weights(count);
+    for (Eigen::Index place = 0; place < count; ++place)
+      weights[place] = std::exp(log_evidence[place] - log_evidence.maxCoeff());
     weights /= weights.sum();
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(posterior_.mean.size());
     Eigen::MatrixXd square = Eigen::MatrixXd::Zero(mean.size(), mean.size());
