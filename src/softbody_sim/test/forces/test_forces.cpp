@@ -164,6 +164,18 @@ TEST(Forces, APinnedBodyReadsItsWeight) {
   }
 }
 
+/// The tracker holds a hidden body in its place with priors.
+TEST(Forces, APinnedBodyThatIsNotMeasuredReadsItsWeight) {
+  Beam beam(Beam::End::kHeld);
+  TargetSet hidden;
+  hidden.targets = vertexTargets(beam.simulator().topology(), beam.rest());
+  for (Target& target : hidden.targets) target.kind = TargetKind::kPrior;
+  beam.simulator().step({}, kFrame, beam.surroundings());
+  const ForceEstimate estimate = beam.simulator().externalForces(hidden, beam.surroundings());
+  EXPECT_TRUE(estimate.patches.empty());
+  EXPECT_NEAR(sumOf(estimate.pins).z(), -beam.weight(), 0.03);
+}
+
 /// Some places of a force are then less probable than others by more than a number can hold.
 TEST(Forces, AStronglyBentBodyHasFiniteForces) {
   for (unsigned seed = 0; seed < 4; ++seed) {

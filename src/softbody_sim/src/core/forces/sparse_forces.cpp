@@ -66,7 +66,7 @@ class Search {
       improveVariances();
       const double least = std::sqrt(kNothing) * deviations_.maxCoeff();
       for (std::size_t k = places_.size(); k-- > 0;) {
-        if (deviations_[3 * static_cast<Eigen::Index>(k)] < least) remove(k);
+        if (deviations_[3 * static_cast<Eigen::Index>(k)] <= least) remove(k);
       }
       update();
     }
