@@ -18,11 +18,12 @@ class EstimatedBody {
   explicit EstimatedBody(const TetTopology& topology)
       : topology_(topology), masses_(Eigen::VectorXd::Constant(topology.rest_vertices.rows(), 1e-4)) {}
 
-  std::vector<float> deviations(const std::vector<Target>& targets, const Points& vertices) {
+  std::vector<float> deviations(const std::vector<Target>& targets, const Points& vertices,
+                                const std::vector<Pin>& pins = {}) {
     LoadEstimate loads{Points::Zero(vertices.rows(), 3)};
     Points balancing = Points::Zero(vertices.rows(), 3);
     elasticity_.addTo(vertices, &balancing);
-    const auto posterior = estimator_.update(targets, {}, vertices, balancing, 1.0 / 30.0, &loads);
+    const auto posterior = estimator_.update(targets, pins, vertices, balancing, 1.0 / 30.0, &loads);
     std::vector<float> result;
     vertexDeviations(targets, topology_.tets, vertices, posterior.value(), &result);
     return result;
@@ -136,6 +137,18 @@ TEST_F(VertexDeviationTest, PriorsMeasureNothing) {
   std::vector<Target> priors = testing::vertexTargets(topology_, rest_);
   for (Target& target : priors) target.kind = TargetKind::kPrior;
   EXPECT_EQ(deviations(priors, rest_), deviations({}, rest_));
+}
+
+/// Targets tell where a pinned piece is, though not which loads act on it.
+TEST_F(VertexDeviationTest, APinnedPieceIsMeasuredToo) {
+  const std::vector<Target> targets = testing::vertexTargets(topology_, rest_);
+  const std::vector<float> none = body_.deviations({}, rest_, {Pin{0}}),
+                           free = body_.deviations(targets, rest_),
+                           pinned = body_.deviations(targets, rest_, {Pin{0}});
+  for (std::size_t v = 0; v < none.size(); ++v) {
+    EXPECT_LT(pinned[v], 0.2f * none[v]);
+    EXPECT_GE(pinned[v], free[v]) << "of its loads nothing is known";
+  }
 }
 
 TEST_F(VertexDeviationTest, PiecesAreMeasuredOnTheirOwn) {

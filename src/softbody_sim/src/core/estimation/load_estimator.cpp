@@ -102,17 +102,31 @@ void LoadEstimator::balance(const Points& vertices, Points* loads) const {
   for (const std::vector<int>& piece : pieces_) balancePiece(piece, vertices, loads);
 }
 
-/// The springs of the targets that measure pieces without pins.
+/// The springs of the targets that measure pieces without pins, and of the others.
 void LoadEstimator::setSprings(const std::vector<Target>& targets, const std::vector<Pin>& pins) {
   std::vector<bool> held(pieces_.size(), false);
   for (const Pin& pin : pins) held[piece_of_vertex_[static_cast<std::size_t>(pin.vertex)]] = true;
   measuring_.clear();
+  measuring_held_.clear();
   for (const Target& target : targets) {
+    if (target.kind == TargetKind::kPrior) continue;
     const int vertex = topology_.tets(target.place.tet, 0);
-    if (target.kind != TargetKind::kPrior && !held[piece_of_vertex_[static_cast<std::size_t>(vertex)]])
-      measuring_.push_back(target);
+    (held[piece_of_vertex_[static_cast<std::size_t>(vertex)]] ? measuring_held_ : measuring_)
+        .push_back(target);
   }
   springs_.set(measuring_, topology_.tets, options_.target_stiffness);
+  springs_on_held_.set(measuring_held_, topology_.tets, options_.target_stiffness);
+}
+
+/// The Hessian of springs for the amplitudes of motions, lower triangle [N/m].
+Eigen::MatrixXd LoadEstimator::curvature(const TargetEnergy& springs, const Points& vertices,
+                                         const Motions& motions) {
+  curvature_->setZero();
+  springs.addHessian(vertices, curvature_.get());
+  const Motions curved = timesSymmetric(curvature_->lower(), motions);
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(motions.cols(), motions.cols());
+  hessian.triangularView<Eigen::Lower>() = motions.transpose() * curved;
+  return hessian;
 }
 
 /// The prior of the loads along the modes.
@@ -135,12 +149,7 @@ LoadEstimator::Equations LoadEstimator::equationsAt(const Points& vertices, cons
   };
   Points pushed = Points::Zero(vertices.rows(), 3);
   springs_.addTo(vertices, &pushed);
-  curvature_->setZero();
-  springs_.addHessian(vertices, curvature_.get());
-  const Motions curved = timesSymmetric(curvature_->lower(), motions);
-  Equations equations{Eigen::MatrixXd::Zero(motions.cols(), motions.cols()), -along(pushed),
-                      along(balancing).tail(modes)};
-  equations.hessian.triangularView<Eigen::Lower>() = motions.transpose() * curved;
+  Equations equations{curvature(springs_, vertices, motions), -along(pushed), along(balancing).tail(modes)};
   const Prior prior =
       priorOf(estimate, along(masses_.asDiagonal() * estimate.per_mass).tail(modes), elapsed_s);
   const auto stiffness = modes_.stiffness.asDiagonal();
@@ -182,6 +191,8 @@ std::optional<ShapePosterior> LoadEstimator::update(const std::vector<Target>& t
   const Eigen::VectorXd per_mass = posterior.motions.rightCols(modes) * loads;
   estimate->per_mass = per_mass.reshaped<Eigen::RowMajor>(vertices.rows(), 3);
   balance(vertices, &estimate->per_mass);
+  if (!measuring_held_.empty())  // they say nothing of the loads, but where the piece is
+    equations.hessian += curvature(springs_on_held_, vertices, posterior.motions);
   // The model errs, like its prior, in proportion to the loads; a piece that nothing measures may be
   // anywhere.
   const double scale = evidence(loads, estimate->covariance);

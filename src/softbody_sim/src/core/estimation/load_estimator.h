@@ -65,6 +65,7 @@ class LoadEstimator {
                         double elapsed_s, const LoadEstimate& estimate);
   double looseness() const;
   double evidence(const Eigen::VectorXd& loads, const Eigen::MatrixXd& covariance) const;
+  Eigen::MatrixXd curvature(const TargetEnergy& springs, const Points& vertices, const Motions& motions);
   void setSprings(const std::vector<Target>& targets, const std::vector<Pin>& pins);
   void balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const;
 
@@ -83,8 +84,8 @@ class LoadEstimator {
   std::unique_ptr<TurnedModes> turned_;
   std::unique_ptr<BlockTetMatrix> curvature_;  ///< of the springs
 
-  std::vector<Target> measuring_;  ///< targets without those that measure nothing
-  TargetEnergy springs_;           ///< of these
+  std::vector<Target> measuring_, measuring_held_;  ///< targets of pieces without and with pins
+  TargetEnergy springs_, springs_on_held_;          ///< of these
 };
 
 }  // namespace softbody
