@@ -16,6 +16,7 @@ from softbody_msgs.msg import MeshState, PinRegion, Target, Targets, TetTopology
 from softbody_msgs.srv import Pin, Release, SetMaterial, SetObstacle
 
 sys.path += [os.path.join(os.path.dirname(os.path.abspath(__file__)), folder) for folder in ("", "../shared")]
+from force_cases import ForceCases  # pylint: disable=wrong-import-position
 from gripper_cases import GripperCases  # pylint: disable=wrong-import-position
 from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
 
@@ -33,7 +34,7 @@ def vector(v):
     return np.array([v.x, v.y, v.z])
 
 
-class Surroundings(GripperCases, unittest.TestCase):
+class Surroundings(ForceCases, GripperCases, unittest.TestCase):
     stamp = None  # of the last frame; steps are faster than time, and the next test goes on from there
 
     @classmethod

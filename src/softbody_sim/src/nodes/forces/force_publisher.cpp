@@ -7,6 +7,7 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/topics.h"
 #include "softbody_sim/ros/force_messages.h"
 
@@ -19,8 +20,8 @@ constexpr double kRest = 5.0;
 
 }  // namespace
 
-ForcePublisher::ForcePublisher(ros::NodeHandle node, std::string wrench_frame)
-    : wrench_frame_(std::move(wrench_frame)),
+ForcePublisher::ForcePublisher(ros::NodeHandle node, const std::string& wrench_frame)
+    : wrench_frame_(frameName(wrench_frame, "parameter wrench_frame")),
       forces_(node.advertise<softbody_msgs::Forces>(topics::kForces, 1)),
       markers_(node.advertise<visualization_msgs::MarkerArray>(topics::kForcesMarker, 1)) {}
 
@@ -50,13 +51,13 @@ void ForcePublisher::send(ForceEstimate estimate, const std_msgs::Header& header
                           const SurroundingsTracker& surroundings) {
   std::string frame = header.frame_id;
   if (!wrench_frame_.empty()) {
-    const auto poses = surroundings.posesOf({wrench_frame_});
-    if (poses.empty()) {
+    const auto pose = surroundings.poseOf(wrench_frame_, header.stamp);
+    if (pose) {
+      frame = wrench_frame_;
+      estimate = withWrenchIn(std::move(estimate), *pose);
+    } else {
       ROS_WARN_STREAM_THROTTLE(5.0, "the net wrench is in '" << frame << "', because tf does not know '"
                                                              << wrench_frame_ << "' (wrench_frame)");
-    } else {
-      frame = wrench_frame_;
-      estimate = withWrenchIn(std::move(estimate), poses.begin()->second);
     }
   }
   const auto message = boost::make_shared<softbody_msgs::Forces>(toMessage(estimate, frame));

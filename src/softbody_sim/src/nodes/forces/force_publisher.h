@@ -15,7 +15,7 @@ namespace softbody {
 class ForcePublisher {
  public:
   /// @param wrench_frame of the net wrench; empty: the frame of the targets.
-  ForcePublisher(ros::NodeHandle node, std::string wrench_frame);
+  ForcePublisher(ros::NodeHandle node, const std::string& wrench_frame);
 
   /// @param targets, @param header of the last step. @param reactions of the step; those of the pins become
   /// those of the body without the targets' springs. @throw as Simulator::externalForces().

@@ -192,10 +192,17 @@ std::map<std::string, Eigen::Isometry3d> SurroundingsTracker::posesOf(
     const std::set<std::string>& frames) const {
   std::map<std::string, Eigen::Isometry3d> poses;
   for (const std::string& frame : frames) {
-    const auto found = poses_.find(frame, frame_, step_stamp_);
-    if (found) poses.emplace(frame, found->pose);
+    const auto pose = poseOf(frame, step_stamp_);
+    if (pose) poses.emplace(frame, *pose);
   }
   return poses;
+}
+
+std::optional<Eigen::Isometry3d> SurroundingsTracker::poseOf(const std::string& frame,
+                                                             const ros::Time& stamp) const {
+  const auto found = poses_.find(frame, frame_, stamp);
+  if (!found) return std::nullopt;
+  return found->pose;
 }
 
 void SurroundingsTracker::findConflicts(const std::vector<Target>& targets, const Tets& tets,

@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -82,6 +83,8 @@ class SurroundingsTracker {
   double pinAccuracy_m() const { return options_.accuracy_m; }
   /// Poses of the frames that tf knows, at the last step.
   std::map<std::string, Eigen::Isometry3d> posesOf(const std::set<std::string>& frames) const;
+  /// Of a frame at a stamp; nothing if tf does not know the frame.
+  std::optional<Eigen::Isometry3d> poseOf(const std::string& frame, const ros::Time& stamp) const;
 
   /// Finds pins that the targets of the last surroundingsAt() contradict. @param vertices after the step [m].
   void findConflicts(const std::vector<Target>& targets, const Tets& tets, const Points& vertices);

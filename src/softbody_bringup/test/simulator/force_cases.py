@@ -1,0 +1,63 @@
+"""Test cases of the external forces on a body that is seen, for the test of the surroundings."""
+import numpy as np
+import rospy
+from geometry_msgs.msg import Point32
+from recorder import Recorder
+from softbody_msgs.msg import Forces
+from softbody_msgs.srv import Pin
+from visualization_msgs.msg import MarkerArray
+
+
+def vector(v):
+    return np.array([v.x, v.y, v.z])
+
+
+class ForceCases:
+    def hear_forces(self, **types):
+        heard = Recorder(softbody__forces=Forces, softbody__forces__marker=MarkerArray, **types)
+        self.addCleanup(lambda: [subscriber.unregister() for subscriber in heard.subscribers])
+        return heard
+
+    def bent(self):
+        """Targets of a body whose right half is lifted."""
+        targets = self.at_rest()
+        for target in targets:
+            target.position.z += 0.3 * max(0.0, target.position.x)
+        return targets
+
+    def hold(self, name, low, high, frame):
+        request = Pin._request_class(name=name, min=Point32(low, -1.0, -1.0), max=Point32(high, 1.0, 1.0))
+        request.header.frame_id = frame
+        answer = self.pin(request)
+        self.addCleanup(self.release, name=name)
+        self.assertTrue(answer.success, answer.message)
+        return answer.vertices
+
+    def forces_of_a_frame(self, heard, targets, move=lambda: None):
+        """Frames until one has forces. @return them."""
+        for _ in range(100):
+            move()
+            self.step(targets=targets)
+            self.reaction("ground")  # comes after the forces, which only some frames have
+            rospy.sleep(0.03)
+            for message in heard.messages["softbody/forces"]:
+                if message.header.stamp == self.stamp:
+                    return message
+        return self.fail("no forces in 100 frames")
+
+    def test_the_wrench_is_in_a_frame_that_moves(self):
+        heard = self.hear_forces()
+        self.hold("hold", -1.0, self.rest[:, 0].min() + 0.03, "world")
+
+        def move():
+            self.places["finger"] = np.add(self.places["finger"], [20.0, 0.0, 0.0])
+        for _ in range(3):
+            forces = self.forces_of_a_frame(heard, self.bent(), move)
+        self.assertEqual((forces.header.frame_id, forces.wrench_frame), ("world", "finger"))
+        self.assertTrue(forces.patches)
+        total = sum(vector(patch.force) for patch in forces.patches)
+        torque = sum(np.cross(vector(patch.place) - self.places["finger"], vector(patch.force))
+                     for patch in forces.patches)
+        np.testing.assert_allclose(vector(forces.wrench.force), total, atol=1e-9)
+        # Its places are means, near enough for a frame that moved by 20 m since the last step.
+        np.testing.assert_allclose(vector(forces.wrench.torque), torque, atol=2.0 * np.linalg.norm(total))
