@@ -1,11 +1,13 @@
 """Test cases of the external forces on a body that is seen, for the test of the surroundings."""
 import numpy as np
 import rospy
-from geometry_msgs.msg import Point32
+from geometry_msgs.msg import Point32, WrenchStamped
 from recorder import Recorder
 from softbody_msgs.msg import Forces
 from softbody_msgs.srv import Pin
-from visualization_msgs.msg import MarkerArray
+from visualization_msgs.msg import Marker, MarkerArray
+
+FAR = [0.0, 0.0, 5.0]
 
 
 def vector(v):
@@ -61,3 +63,34 @@ class ForceCases:
         np.testing.assert_allclose(vector(forces.wrench.force), total, atol=1e-9)
         # Its places are means, near enough for a frame that moved by 20 m since the last step.
         np.testing.assert_allclose(vector(forces.wrench.torque), torque, atol=2.0 * np.linalg.norm(total))
+
+    def test_a_new_pin_does_not_read_what_another_one_carried(self):
+        heard = self.hear_forces(softbody__reaction__left=WrenchStamped, softbody__reaction__right=WrenchStamped)
+
+        def reaction(name):
+            """The first one that is heard."""
+            while not heard.messages[f"softbody/reaction/{name}"]:
+                self.step(targets=seen)
+            return heard.messages[f"softbody/reaction/{name}"][-1].wrench.force.z
+
+        end, seen = self.rest[:, 0].max() - 0.03, self.at_rest()
+        count = self.hold("left", -1.0, -end, "hand")
+        reaction("left")
+        self.places["hand"] = np.add(FAR, [0.0, 0.0, 0.004])
+        self.forces_of_a_frame(heard, seen)
+        self.forces_of_a_frame(heard, seen)
+        carried = reaction("left")
+        self.release(name="left")
+        self.assertEqual(self.hold("right", end, 1.0, "world"), count)
+        self.assertLess(abs(reaction("right")), 0.3 * abs(carried))
+
+    def test_arrows_go_when_nothing_is_measured(self):
+        heard = self.hear_forces()
+        self.forces_of_a_frame(heard, self.bent())
+        stamp = self.stamp
+        heard.wait(lambda seen: next((m for m in seen["softbody/forces/marker"]
+                                      if m.markers[0].header.stamp == stamp and len(m.markers) > 1), None), "arrows")
+        self.step()
+        last = heard.wait(lambda seen: next((m for m in seen["softbody/forces/marker"]
+                                             if m.markers[0].header.stamp == self.stamp), None), "no arrows")
+        self.assertEqual([marker.action for marker in last.markers], [Marker.DELETEALL])

@@ -29,22 +29,36 @@ bool ForcePublisher::isListenedTo() const {
   return forces_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0;
 }
 
-/// Without targets nothing is measured, and no spring disturbs the pins.
 void ForcePublisher::publish(const TargetSet& targets, const std_msgs::Header& header,
                              const SurroundingsTracker& surroundings, Simulator* simulator,
                              Reactions* reactions) {
-  if (targets.targets.empty() || (!isListenedTo() && !surroundings.hasListenedPins())) return;
+  if (targets.targets.empty()) return forget(header);
+  if (!isListenedTo() && !surroundings.hasListenedPins()) return;
+  const Surroundings& around = surroundings.lastSurroundings().all;
+  std::vector<int> held;
+  for (const Pin& pin : around.pins) held.push_back(pin.vertex);
   const double since_s = (header.stamp - estimated_).toSec();
-  if (since_s < 0.0 || since_s >= std::max(kPeriod_s, kRest * taken_s_) ||
-      pins_.size() != reactions->pins.size()) {
+  if (since_s < 0.0 || since_s >= std::max(kPeriod_s, kRest * taken_s_) || held != held_) {
     estimated_ = header.stamp;
+    held_ = std::move(held);
+    pins_.clear();
     const ros::WallTime start = ros::WallTime::now();
-    ForceEstimate estimate = simulator->externalForces(targets, surroundings.lastSurroundings().all);
+    ForceEstimate estimate = simulator->externalForces(targets, around);
     taken_s_ = (ros::WallTime::now() - start).toSec();
     pins_ = estimate.pins;
     if (isListenedTo()) send(std::move(estimate), header, surroundings);
   }
   if (pins_.size() == reactions->pins.size()) reactions->pins = pins_;
+}
+
+/// Without targets nothing is measured, and no spring disturbs the pins.
+void ForcePublisher::forget(const std_msgs::Header& header) {
+  held_.clear();
+  pins_.clear();
+  if (!std::exchange(shows_arrows_, false)) return;
+  softbody_msgs::Forces none;
+  none.header = header;
+  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(makeForceMarkers(none)));
 }
 
 void ForcePublisher::send(ForceEstimate estimate, const std_msgs::Header& header,
@@ -62,7 +76,8 @@ void ForcePublisher::send(ForceEstimate estimate, const std_msgs::Header& header
   }
   const auto message = boost::make_shared<softbody_msgs::Forces>(toMessage(estimate, frame));
   message->header = header;
-  if (markers_.getNumSubscribers() > 0)
+  shows_arrows_ = markers_.getNumSubscribers() > 0;
+  if (shows_arrows_)
     markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(makeForceMarkers(*message)));
   forces_.publish(message);
 }

@@ -24,13 +24,16 @@ class ForcePublisher {
 
  private:
   bool isListenedTo() const;
+  void forget(const std_msgs::Header& header);
   void send(ForceEstimate estimate, const std_msgs::Header& header, const SurroundingsTracker& surroundings);
 
   const std::string wrench_frame_;
   ros::Publisher forces_, markers_;
   ros::Time estimated_;       ///< stamp of the last estimate
   double taken_s_ = 0.0;      ///< by the last estimate
-  std::vector<Wrench> pins_;  ///< of the last estimate
+  std::vector<int> held_;     ///< vertices of its pins
+  std::vector<Wrench> pins_;  ///< what they carry
+  bool shows_arrows_ = false;
 };
 
 }  // namespace softbody
