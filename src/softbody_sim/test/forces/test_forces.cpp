@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
@@ -174,6 +175,21 @@ TEST(Forces, APinnedBodyThatIsNotMeasuredReadsItsWeight) {
   const ForceEstimate estimate = beam.simulator().externalForces(hidden, beam.surroundings());
   EXPECT_TRUE(estimate.patches.empty());
   EXPECT_NEAR(sumOf(estimate.pins).z(), -beam.weight(), 0.03);
+}
+
+/// Every second vertex is pinned, so that the loaded one is alone in its place.
+TEST(Forces, APlaceThatIsPartlyPinnedHasItsWholeForce) {
+  const Eigen::Vector3d cell(0.2 / 14, 0.1 / 7, 0.02), load(0.0, 0.0, -2.0);
+  Beam beam(Beam::End::kFree, {14, 7, 2});
+  for (int v = 0; v < beam.rest().rows(); ++v) {
+    const Eigen::Vector3d rest = beam.rest().row(v);
+    if (std::lround(rest.cwiseQuotient(cell).sum()) % 2 == 0)
+      beam.surroundings().pins.push_back({v, rest, 0.0});
+  }
+  std::mt19937 random(1);
+  const Points shape = beam.loaded(beam.above(5 * cell.x(), 4 * cell.y()), load);
+  const ForceEstimate estimate = beam.observe(shape, 0.0, 2e-4, &random);
+  EXPECT_LT((estimate.wrench.head<3>() - load).norm(), 0.05 * load.norm()) << estimate.wrench.transpose();
 }
 
 /// Some places of a force are then less probable than others by more than a number can hold.

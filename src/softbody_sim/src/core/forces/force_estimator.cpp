@@ -71,17 +71,22 @@ Points ForceEstimator::linearize(const ObservedBalance& balance, const Points& x
   return -gradient;
 }
 
-/// The matrix P. Pinned vertices have no column: the pin carries all forces there.
+/// The matrix P. A pin carries all forces on its vertex, so the other vertices of the place share them.
 Eigen::MatrixXd ForceEstimator::forcesOnPlaces(const std::vector<Pin>& pins) const {
+  std::vector<double> shares = places_.shares;
+  for (const Pin& pin : pins) shares[static_cast<std::size_t>(pin.vertex)] = 0.0;
   const auto count = static_cast<Eigen::Index>(places_.count());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * slow_masses_.size(), 3 * count);
   for (Eigen::Index place = 0; place < count; ++place) {
+    double free = 0.0;
+    for (int v : places_.vertices[static_cast<std::size_t>(place)])
+      free += shares[static_cast<std::size_t>(v)];
+    if (free == 0.0) continue;
     for (int v : places_.vertices[static_cast<std::size_t>(place)]) {
       for (int c = 0; c < 3; ++c)
-        result(3 * v + c, 3 * place + c) = places_.shares[static_cast<std::size_t>(v)];
+        result(3 * v + c, 3 * place + c) = shares[static_cast<std::size_t>(v)] / free;
     }
   }
-  for (const Pin& pin : pins) result.middleRows<3>(3 * pin.vertex).setZero();
   return result;
 }
 
