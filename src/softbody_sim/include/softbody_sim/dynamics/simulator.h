@@ -89,7 +89,8 @@ class Simulator {
   /// keep targets through many edits, convert them after each edit.
   TargetSet toCurrentRevision(TargetSet targets) const;
 
-  /// Changes the material. Shape, motion and cuts stay. The time is that of the first construction.
+  /// Changes the material. Shape, motion and cuts stay, estimated loads are forgotten. The time is that of
+  /// the first construction.
   /// @throw std::invalid_argument if a value is out of its range; nothing has changed.
   void setMaterial(const Material& material);
 

@@ -226,7 +226,7 @@ void Simulator::setMaterial(const Material& material) {
   s.makeModel(TetTopology(s.model->topology));
   s.body.contact.contacts.clear();  // a depth gives another pressure now
   s.integrator = ImplicitEuler(s.config, material.damping);
-  if (s.body.placed) s.model->load_estimator.balance(s.body.mesh.vertices, &s.body.loads.per_mass);
+  if (s.body.placed) s.body.loads = {Points::Zero(s.body.mesh.vertices.rows(), 3)};
 }
 
 std::unique_ptr<Simulator> Simulator::copyOfPresent() const { return copyWith(implementation_->config); }
