@@ -34,6 +34,8 @@ TEST(StatusOf, APatchWithoutTheBodyDegradesIt) {
   EXPECT_NE(status.reason.find("the left part of the body in the image is at least 23 mm off"),
             std::string::npos)
       << status.reason;
+  EXPECT_NE(status.reason.find("check mesh, scale and pose"), std::string::npos)
+      << "the outline says nothing of the size: " << status.reason;
 }
 
 TEST(StatusOf, AnOutlineSmallerAllAroundNamesTheScale) {

@@ -68,11 +68,11 @@ std::optional<LocalMismatch> localMismatch(const Labels& labels, const Predicted
 }
 
 double imageScale(const Labels& labels, const PredictedSurface& surface) {
-  const RasterImage& image = surface.image();
   if (labels.region.empty()) return 1.0;
-  const int covered = cv::countNonZero(image.depth(image.region));
-  const int shown = cv::countNonZero(labels.label == labels::kBody);
-  return covered > 0 ? std::sqrt(static_cast<double>(shown) / covered) : 1.0;
+  const cv::Mat1b body = labels.label == labels::kBody;
+  const cv::Mat1b decided = body | (labels.label == labels::kBackground);
+  const int covered = cv::countNonZero(decided & (surface.image().depth(labels.region) > 0.0f));
+  return covered > 0 ? std::sqrt(static_cast<double>(cv::countNonZero(body)) / covered) : 1.0;
 }
 
 }  // namespace softbody

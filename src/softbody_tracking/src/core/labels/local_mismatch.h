@@ -25,7 +25,8 @@ std::optional<LocalMismatch> localMismatch(const Labels& labels, const Predicted
                                            double usual_error_m, double outline_px,
                                            const std::vector<float>& deviations);
 
-/// Size of the body in the image over that of the prediction, by their areas.
+/// Size of the body in the image over that of the prediction, by their areas. What is hidden or unknown does
+/// not count.
 double imageScale(const Labels& labels, const PredictedSurface& surface);
 
 }  // namespace softbody

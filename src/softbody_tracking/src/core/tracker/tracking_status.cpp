@@ -26,7 +26,7 @@ constexpr double kWorstInlierRatio = 0.2;
 /// What an outline that is smaller or larger all around says about the mesh. Outlines that differ both ways
 /// are those of another shape or pose.
 std::string causeOf(const OutlineAssociations& outline, double image_scale) {
-  if (2.0 * std::abs(outline.excess) < outline.disagreement || !(image_scale > 0.0))
+  if (2.0 * std::abs(outline.excess) <= outline.disagreement || !(image_scale > 0.0))
     return "check mesh, scale and pose";
   if (outline.excess > 0.0) return "the image shows a larger body: check mesh and scale";
   return fmt::format("the image shows a body about {:.1f} times smaller: check mesh and scale",
