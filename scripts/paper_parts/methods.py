@@ -5,8 +5,8 @@ from evaluation.runs import ROOT
 
 OURS = "ours"
 PAPER_FILE = ROOT / "config/paper.yaml"
-PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "volume_smoothing": 0.0, "load_fade_s": 0.0}
-LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0}
+PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "volume_smoothing": 0.0, "load_fade_s": 0.0, "memory_s": 0.0}
+LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0, "memory_s": 0.0}
 TIMED = {"sponge": "bend", "doll": "doll_bend"}
 CUT_THROUGH = ("cut", "doll_cut")
 SCENES = ("bend", "push", "doll_bend", "doll_push")
@@ -55,7 +55,7 @@ def timed_kinds():
 
 def parts():
     """The parts of our method, one added after the other; the last row is ours."""
-    no_loads = {"load_fade_s": 0.0}
+    no_loads = {"load_fade_s": 0.0, "memory_s": 0.0}
     return {"ORB between frames as material points, plain projective dynamics":
             parameters({**FEATURES_ALONE, "feature_matching": "frames"}, PLAIN),
             "+ patches and the prediction instead of ORB": parameters(FEATURES_ALONE, PLAIN),

@@ -121,7 +121,7 @@ std::string compared(const std::string& name) {
   plain.lbfgs_history = 0;
   plain.strain_smoothing = 0.0;
   fem.solver = SolverKind::kFem;
-  fem.load_fade_s = plain.load_fade_s = 0.0;
+  fem.load_fade_s = plain.load_fade_s = fem.memory_s = plain.memory_s = 0.0;
   Material rigid;
   rigid.poisson_ratio = 0.0;  // without a volume term, the energy is that of as-rigid-as-possible tets
   const auto row = [&](const std::string& words, const Method& method) {

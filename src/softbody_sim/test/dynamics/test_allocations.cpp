@@ -78,7 +78,7 @@ class StepAllocations : public ::testing::TestWithParam<bool> {
 
   SimulatorConfig config() const {
     SimulatorConfig config;
-    config.load_fade_s = 0.0;
+    config.load_fade_s = config.memory_s = 0.0;
     config.single_precision = GetParam();
     return config;
   }

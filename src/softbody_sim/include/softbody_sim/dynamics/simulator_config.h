@@ -31,6 +31,7 @@ struct SimulatorConfig {
   double target_stiffness = 10.0;  ///< of a target of weight 1, in units of E * mean edge length
   double target_accuracy_m = 0.001;  ///< standard deviation of a target of weight 1; weighs it against pins
   double load_fade_s = 0.1;  ///< time in which what is known of loads falls to 1/e; 0: they are not estimated
+  double memory_s = 0.5;     ///< time over which measurements of a body at rest are averaged; 0: they are not
   double max_time_step_s = 0.1;  ///< longer gaps between frames are simulated as a step of this length
   /// [m/s^2], in the frame of the targets. Zero: the rest shape already contains the effect of gravity.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();

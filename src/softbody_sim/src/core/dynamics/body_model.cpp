@@ -96,6 +96,7 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
       vertex_confidence(topology.rest_vertices, topology.tets),
       load_estimator(topology, materials, masses,
                      {config.load_fade_s, target_stiffness, config.target_accuracy_m}),
+      shape_memory(topology.tets, config.memory_s),
       occluded_piece_damping(topology),
       edge_length_(edge_length) {}
 

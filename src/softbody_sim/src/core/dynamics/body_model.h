@@ -6,6 +6,7 @@
 #include "dynamics/vertex_confidence.h"
 #include "elasticity/tet_materials.h"
 #include "estimation/load_estimator.h"
+#include "estimation/shape_memory.h"
 #include "forces/force_estimator.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/constrained_step.h"
@@ -35,6 +36,7 @@ struct BodyModel {
   ConstrainedStep constrained_step;
   VertexConfidence vertex_confidence;
   LoadEstimator load_estimator;
+  const ShapeMemory shape_memory;
   OccludedPieceDamping occluded_piece_damping;
 
  private:

@@ -30,6 +30,7 @@ void placeAtRest(const Points& rest_vertices, const Eigen::Isometry3d& pose, Nan
   body->mesh.vertices = transformed(rest_vertices, pose);
   body->velocity = Points::Zero(rest_vertices.rows(), 3);
   body->loads = {body->velocity};
+  body->memory = {};
   body->stamp = stamp;
   body->placed = true;
   body->contact = {};  // the obstacles did not move from their earlier poses to these
@@ -38,6 +39,7 @@ void placeAtRest(const Points& rest_vertices, const Eigen::Isometry3d& pose, Nan
 void transferToEdit(const TetEdit& edit, const Tets& tets, BodyState* body) {
   MeshState& mesh = body->mesh;
   body->contact.contacts.clear();  // they name points of the surface before
+  body->memory = {};
   mesh.confidence = transferred(edit.vertex_origins, tets, mesh.confidence);
   mesh.standard_deviation = transferred(edit.vertex_origins, tets, mesh.standard_deviation);
   body->mesh.vertices = applyBinding(edit.vertex_origins, body->mesh.vertices, tets);

@@ -5,6 +5,7 @@
 #include "constraints/contact_detection.h"
 #include "cutting/volume/tet_edit.h"
 #include "estimation/load_estimate.h"
+#include "estimation/shape_memory.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/time_step/step_report.h"
@@ -17,6 +18,7 @@ struct BodyState {
   Nanoseconds stamp = 0;
   Points velocity;  ///< #V by 3 [m/s]
   LoadEstimate loads;
+  RememberedShape memory;
   MeshState mesh;
   StepReport report;
   Reactions reactions;

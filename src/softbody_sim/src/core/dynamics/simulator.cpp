@@ -36,9 +36,9 @@ struct Simulator::Implementation {
   const TargetSet& toCurrentRevision(const TargetSet& targets, TargetSet* storage) const;
   void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
   void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
-  void advance(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings);
+  void advance(const std::vector<Target>& targets, Nanoseconds stamp, const Surroundings& surroundings);
   /// Loads, confidence and standard deviation after a step with these targets.
-  void estimate(const TargetSet& targets, const Surroundings& surroundings, double elapsed_s);
+  void estimate(const std::vector<Target>& targets, const Surroundings& surroundings, double elapsed_s);
 
   const TetTopology uncut;
   Material material;
@@ -105,13 +105,13 @@ void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds
   placeAtRest(model->topology.rest_vertices, pose, stamp, &next);
 }
 
-void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds stamp,
+void Simulator::Implementation::advance(const std::vector<Target>& targets, Nanoseconds stamp,
                                         const Surroundings& surroundings) {
   if (config.simulate) {
     const double elapsed_s = std::max(0.0, seconds(stamp - next.stamp));
-    integrator.step(model.get(), targets.targets, elapsed_s, surroundings, &next);
+    integrator.step(model.get(), targets, elapsed_s, surroundings, &next);
   } else {
-    moveToTargets(targets.targets, model->topology, &next.mesh.vertices);
+    moveToTargets(targets, model->topology, &next.mesh.vertices);
     next.report = {0, true};
   }
   // A step without images may be ahead of the next image, but not by much.
@@ -119,19 +119,18 @@ void Simulator::Implementation::advance(const TargetSet& targets, Nanoseconds st
 }
 
 /// Without elapsed time the targets are those of an earlier estimate, or nothing moves: the loads stay.
-void Simulator::Implementation::estimate(const TargetSet& targets, const Surroundings& surroundings,
+void Simulator::Implementation::estimate(const std::vector<Target>& targets, const Surroundings& surroundings,
                                          double elapsed_s) {
-  model->vertex_confidence.compute(targets.targets, &next.mesh.confidence);
+  model->vertex_confidence.compute(targets, &next.mesh.confidence);
   if (config.load_fade_s <= 0.0) return;
   const Points& vertices = next.mesh.vertices;
   LoadEstimate loads = next.loads;
   const auto posterior = model->load_estimator.update(
-      targets.targets, surroundings.pins, vertices,
-      unexplainedForces(surroundings, next, config, model.get()), elapsed_s, &loads);
+      targets, surroundings.pins, vertices, unexplainedForces(surroundings, next, config, model.get()),
+      elapsed_s, &loads);
   if (elapsed_s > 0.0) next.loads = std::move(loads);
   if (posterior)
-    vertexDeviations(targets.targets, model->topology.tets, vertices, *posterior,
-                     &next.mesh.standard_deviation);
+    vertexDeviations(targets, model->topology.tets, vertices, *posterior, &next.mesh.standard_deviation);
 }
 
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
@@ -167,8 +166,12 @@ void Simulator::step(const TargetSet& given, Nanoseconds stamp, const Surroundin
   requireWithinReach(targets, s.model->topology, targets.reset ? kNotPlaced : s.body.mesh.vertices);
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, stamp);
-  s.advance(targets, stamp, surroundings);
-  s.estimate(targets, surroundings, std::max(0.0, seconds(stamp - s.body.stamp)));
+  std::vector<Target> storage_of_means;
+  const std::vector<Target>& means =
+      s.model->shape_memory.recall(targets.targets, s.next.mesh.vertices, seconds(stamp - s.next.stamp),
+                                   &s.next.memory, &storage_of_means);
+  s.advance(means, stamp, surroundings);
+  s.estimate(means, surroundings, std::max(0.0, seconds(stamp - s.body.stamp)));
   if (!targets.targets.empty()) s.next.mesh.observed = stamp;
   std::swap(s.body, s.next);
 }
@@ -189,7 +192,7 @@ void Simulator::stepUnobserved(const TargetSet& given, Nanoseconds stamp, const 
   s.requireUsable(earlier, surroundings);
   if (!s.body.placed) throw std::invalid_argument("the body is not placed yet");
   s.next = s.body;
-  s.advance(earlier, stamp, surroundings);
+  s.advance(earlier.targets, stamp, surroundings);
   fadeUnobserved(seconds(s.next.stamp - s.body.stamp), &s.next.mesh);
   std::swap(s.body, s.next);
 }
@@ -202,7 +205,7 @@ void Simulator::settle(const TargetSet& given, const Surroundings& surroundings)
   s.next = s.body;
   if (targets.reset) s.place(targets.body_pose, s.body.stamp);
   s.integrator.settle(s.model.get(), targets.targets, surroundings, &s.next);
-  s.estimate(targets, surroundings, 0.0);
+  s.estimate(targets.targets, surroundings, 0.0);
   std::swap(s.body, s.next);
 }
 

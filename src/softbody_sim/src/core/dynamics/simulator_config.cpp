@@ -55,6 +55,7 @@ SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   config.target_stiffness = parameters.number("target_stiffness", config.target_stiffness, 1e-6, 1e6);
   config.target_accuracy_m = parameters.number("target_accuracy_m", config.target_accuracy_m, 1e-6, 1.0);
   config.load_fade_s = parameters.number("load_fade_s", config.load_fade_s, 0.0, 1e3);
+  config.memory_s = parameters.number("memory_s", config.memory_s, 0.0, 1e3);
   config.contact_stiffness = parameters.number("contact_stiffness", config.contact_stiffness, 1e-3, 1e4);
   config.self_contact = parameters.flag("self_contact", config.self_contact);
   config.self_friction = parameters.number("self_friction", config.self_friction, 0.0, 10.0);

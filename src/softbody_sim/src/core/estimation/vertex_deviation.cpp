@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/target_residual.h"
+
 namespace softbody {
 namespace {
 
@@ -12,15 +14,6 @@ struct Misfit {
   Points around;                ///< per vertex: weighted mean of the residuals [m]
   double mean_square_m2 = 0.0;  ///< of all residuals, in one direction
 };
-
-Eigen::Vector3d residualOf(const Target& target, const Tets& tets, const Points& vertices) {
-  Eigen::Vector3d residual = target.position;
-  for (int k = 0; k < 4; ++k)
-    residual -= target.place.barycentric[k] * vertices.row(tets(target.place.tet, k)).transpose();
-  if (target.normal.isZero()) return residual;
-  const Eigen::Vector3d normal = target.normal.normalized();
-  return normal.dot(residual) * normal;
-}
 
 Misfit misfitOf(const std::vector<Target>& targets, const Tets& tets, const Points& vertices) {
   Misfit misfit{Points::Zero(vertices.rows(), 3)};
