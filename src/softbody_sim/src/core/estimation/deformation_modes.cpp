@@ -17,17 +17,18 @@ constexpr int kIterations = 2;
 // Degree of the polynomials of the start: the lowest modes of a compact body are like these.
 constexpr int kDegree = 4;
 
+constexpr Eigen::Index kRigid = 6;  // modes of a piece
+
 /// Three displacements for each monomial of a piece's rest coordinates: 3 #V by columns.
-Eigen::MatrixXd smoothDisplacements(const Points& rest, const std::vector<int>& piece) {
+Eigen::MatrixXd smoothDisplacements(const Points& rest) {
   std::vector<Eigen::Vector3i> powers;
   for (int sum = 0; sum <= kDegree; ++sum)
     for (int i = 0; i <= sum; ++i)
       for (int j = 0; i + j <= sum; ++j) powers.emplace_back(i, j, sum - i - j);
-  const Points places = rest(piece, Eigen::all);
-  const Eigen::RowVector3d low = places.colwise().minCoeff(), high = places.colwise().maxCoeff();
+  const Eigen::RowVector3d low = rest.colwise().minCoeff(), high = rest.colwise().maxCoeff();
   Eigen::MatrixXd result =
       Eigen::MatrixXd::Zero(3 * rest.rows(), 3 * static_cast<Eigen::Index>(powers.size()));
-  for (const int v : piece) {
+  for (Eigen::Index v = 0; v < rest.rows(); ++v) {
     const Eigen::Array3d at = ((2.0 * rest.row(v) - low - high).array() / (high - low).array()).transpose();
     for (std::size_t k = 0; k < powers.size(); ++k) {
       const double value = at.pow(powers[k].cast<double>().array()).prod();
@@ -57,42 +58,69 @@ DeformationModes lowest(Eigen::Index count, const DeformationModes& modes) {
   return {modes.shapes.leftCols(count), modes.stiffness.head(count)};
 }
 
-void append(const Eigen::MatrixXd& shapes, const Eigen::VectorXd& stiffness, DeformationModes* modes) {
-  const Eigen::Index before = modes->stiffness.size();
-  modes->shapes.conservativeResize(Eigen::NoChange, before + stiffness.size());
-  modes->shapes.rightCols(stiffness.size()) = shapes;
-  modes->stiffness.conservativeResize(before + stiffness.size());
-  modes->stiffness.tail(stiffness.size()) = stiffness;
+/// Those of one piece, without rigid ones. @param K lower triangle.
+DeformationModes modesOfPiece(const Points& rest, const Eigen::SparseMatrix<double>& K,
+                              const Eigen::VectorXd& mass, Eigen::Index count) {
+  DeformationModes modes = lowest(kRigid + count + count / 4, lowestIn(smoothDisplacements(rest), K, mass));
+  if (modes.stiffness.size() <= kRigid) return {Eigen::MatrixXd(mass.size(), 0), Eigen::VectorXd(0)};
+  Eigen::SparseMatrix<double> shifted = K;  // so that rigid modes can be solved for
+  shifted.diagonal() += modes.stiffness[kRigid] * mass;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(shifted);
+  for (int i = 0; i < kIterations; ++i)
+    modes = lowestIn(solver.solve(mass.asDiagonal() * modes.shapes), K, mass);
+  modes = lowest(kRigid + count, modes);
+  const Eigen::Index found = modes.stiffness.size() - kRigid;
+  return {modes.shapes.rightCols(found), modes.stiffness.tail(found)};
+}
+
+/// The part of a matrix that belongs to a piece, which is coupled with no other. @param lower triangle.
+Eigen::SparseMatrix<double> partOf(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& piece) {
+  std::vector<int> local(static_cast<std::size_t>(lower.rows() / 3), -1);
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    local[static_cast<std::size_t>(piece[i])] = static_cast<int>(i);
+  const auto at = [&](Eigen::Index row) {
+    return 3 * local[static_cast<std::size_t>(row / 3)] + static_cast<int>(row % 3);
+  };
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const int v : piece) {
+    for (Eigen::Index column = 3 * v; column < 3 * v + 3; ++column) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, column); entry; ++entry)
+        entries.emplace_back(std::max(at(entry.row()), at(column)), std::min(at(entry.row()), at(column)),
+                             entry.value());
+    }
+  }
+  const auto size = 3 * static_cast<Eigen::Index>(piece.size());
+  Eigen::SparseMatrix<double> part(size, size);
+  part.setFromTriplets(entries.begin(), entries.end());
+  return part;
+}
+
+void append(const DeformationModes& modes, const std::vector<int>& piece, DeformationModes* all) {
+  const Eigen::Index before = all->stiffness.size(), count = modes.stiffness.size();
+  all->stiffness.conservativeResize(before + count);
+  all->stiffness.tail(count) = modes.stiffness;
+  all->shapes.conservativeResize(Eigen::NoChange, before + count);
+  all->shapes.rightCols(count).setZero();
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    all->shapes.block(3 * piece[i], before, 3, count) =
+        modes.shapes.middleRows(3 * static_cast<Eigen::Index>(i), 3);
 }
 
 }  // namespace
 
 DeformationModes deformationModes(const TetTopology& topology, const ElasticMaterials& materials,
                                   const Eigen::VectorXd& masses, Eigen::Index count) {
-  constexpr Eigen::Index kRigid = 6;
   const FemElasticity elasticity(topology, Elasticity::kCorotated, materials);
   BlockTetMatrix matrix(elasticity.groups(), masses.size());
   elasticity.addHessian(topology.rest_vertices, &matrix);
-  const Eigen::SparseMatrix<double>& K = matrix.lower();
-  const Eigen::VectorXd mass = masses.transpose().replicate(3, 1).reshaped();
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-  DeformationModes all{Eigen::MatrixXd(mass.size(), 0), Eigen::VectorXd(0)};
+  DeformationModes all{Eigen::MatrixXd(3 * masses.size(), 0), Eigen::VectorXd(0)};
   for (const std::vector<int>& piece : verticesOfPieces(topology.tets, masses.size())) {
     const Eigen::Index share =
         std::max<Eigen::Index>(kRigid, count * static_cast<Eigen::Index>(piece.size()) / masses.size());
-    DeformationModes modes = lowest(kRigid + share + share / 4,
-                                    lowestIn(smoothDisplacements(topology.rest_vertices, piece), K, mass));
-    if (modes.stiffness.size() <= kRigid) continue;
-    if (solver.rows() == 0) {  // with a shift, so that rigid modes can be solved for
-      Eigen::SparseMatrix<double> shifted = K;
-      shifted.diagonal() += modes.stiffness[kRigid] * mass;
-      solver.compute(shifted);
-    }
-    for (int i = 0; i < kIterations; ++i)
-      modes = lowestIn(solver.solve(mass.asDiagonal() * modes.shapes), K, mass);
-    modes = lowest(kRigid + share, modes);
-    append(modes.shapes.rightCols(modes.shapes.cols() - kRigid),
-           modes.stiffness.tail(modes.stiffness.size() - kRigid), &all);
+    const Eigen::VectorXd mass = masses(piece).transpose().replicate(3, 1).reshaped();
+    append(
+        modesOfPiece(topology.rest_vertices(piece, Eigen::all), partOf(matrix.lower(), piece), mass, share),
+        piece, &all);
   }
   return all;
 }

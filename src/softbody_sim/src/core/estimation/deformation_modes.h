@@ -11,7 +11,7 @@ namespace softbody {
 /// bend, twist and stretch whole sections, and then parts of them.
 struct DeformationModes {
   Eigen::MatrixXd shapes;     ///< 3 #V by #modes, x y z of each vertex; orthonormal by mass [1/sqrt(kg)]
-  Eigen::VectorXd stiffness;  ///< w^2 of each mode, ascending [1/s^2]
+  Eigen::VectorXd stiffness;  ///< w^2 of each mode [1/s^2]; ascending for each piece, one after the other
 };
 
 /// @param masses lumped, #V [kg]. @param count at most; small bodies have fewer.
