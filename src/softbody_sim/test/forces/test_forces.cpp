@@ -153,6 +153,25 @@ TEST(Forces, AFreeBodyIsPulledAtBothEnds) {
   EXPECT_LT(estimate.wrench.head<3>().norm(), 0.01 * pull.norm());
 }
 
+/// Forces that may be on several places have no mean that is in balance: it would carry the body away.
+TEST(Forces, OfAFreeBodyAreOnItAndHaveNoTorque) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    Beam beam(Beam::End::kFree);
+    std::mt19937 random(seed);
+    const Eigen::ArrayXd x = beam.rest().col(0).array() - 0.1;
+    Points shape = beam.rest();
+    shape.col(2).array() += 2.0 * x * x;
+    const ForceEstimate estimate = beam.observe(shape, 0.001, 0.001, &random);
+    ASSERT_FALSE(estimate.patches.empty());
+    double sum = 0.0;
+    for (const ForcePatch& patch : estimate.patches) {
+      EXPECT_LT((shape.rowwise() - patch.place.transpose()).rowwise().norm().minCoeff(), 0.025);
+      sum += patch.force.norm();
+    }
+    EXPECT_LT(estimate.wrench.tail<3>().norm(), 0.005 * sum);
+  }
+}
+
 /// The springs of the camera pull at the pins with the noise of the targets: 0.4 N.
 TEST(Forces, APinnedBodyReadsItsWeight) {
   std::mt19937 random(2);

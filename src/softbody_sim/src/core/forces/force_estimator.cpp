@@ -125,8 +125,9 @@ ForceEstimate ForceEstimator::estimate(const ObservedBalance& balance) {
   x += first.moveUnder(smoothForces(first.evidence, scale_n_));
   const LinearBody body = linearBody(balance, x);
   const SparseForces forces = sparseForces(body.evidence, scale_n_);
+  // Mean forces over several places are in no balance: under them, a free body would leave its place.
+  ForceEstimate result = patchesOf(forces, places_, balance.vertices);
   x += body.moveUnder(forces.onPlaces(places_.count()));
-  ForceEstimate result = patchesOf(forces, places_, x);
   for (std::size_t k = 0; k < balance.pins.size(); ++k) {
     const Pin& pin = balance.pins[k];
     const Eigen::Vector3d stretch = x.row(pin.vertex).transpose() - pin.position;
