@@ -42,6 +42,11 @@ struct KnnConfig {
   bool local_rotation = true;  ///< rotate the offset from feature to vertex with the body
 };
 
+/// When the body counts as tracked.
+struct StatusConfig {
+  double tolerance_m = 0.009;  ///< largest distance of a patch of the body from where the frames show it
+};
+
 struct TrackerConfig {
   bool knn_targets = false;  ///< target_mode: knn instead of material
   bool use_depth = true;
@@ -50,6 +55,7 @@ struct TrackerConfig {
   DepthConfig depth;
   OutlineConfig outline;
   KnnConfig knn;
+  StatusConfig status;
 };
 
 /// Reads and checks all tracker parameters. @throw std::invalid_argument like Parameters.

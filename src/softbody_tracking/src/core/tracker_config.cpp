@@ -11,6 +11,14 @@ namespace {
 // Fewest max_features for target_mode knn; with fewer, most vertices would have no feature within the radius.
 constexpr int kFewestKnnFeatures = 50;
 
+KnnConfig readKnnConfig(Parameters& parameters) {
+  KnnConfig knn;
+  knn.max_neighbors = parameters.integer("max_neighbors", knn.max_neighbors, 1, 1000);
+  knn.radius_m = parameters.number("neighbor_radius_m", knn.radius_m, 1e-4, 10.0);
+  knn.local_rotation = parameters.flag("neighbor_local_rotation", knn.local_rotation);
+  return knn;
+}
+
 }  // namespace
 
 TrackerConfig readTrackerConfig(Parameters& parameters) {
@@ -43,14 +51,13 @@ TrackerConfig readTrackerConfig(Parameters& parameters) {
   config.outline.weight =
       parameters.number("outline_weight", config.outline.weight, 0.0, kLargestTargetWeight);
 
+  config.status.tolerance_m = parameters.number("status_tolerance_m", config.status.tolerance_m, 1e-4, 1.0);
+
   if (config.knn_targets && features.max_features < kFewestKnnFeatures) {
     throw std::invalid_argument("parameter max_features must be at least " +
                                 std::to_string(kFewestKnnFeatures) + " for target_mode knn");
   }
-  KnnConfig& knn = config.knn;
-  knn.max_neighbors = parameters.integer("max_neighbors", knn.max_neighbors, 1, 1000);
-  knn.radius_m = parameters.number("neighbor_radius_m", knn.radius_m, 1e-4, 10.0);
-  knn.local_rotation = parameters.flag("neighbor_local_rotation", knn.local_rotation);
+  config.knn = readKnnConfig(parameters);
   return config;
 }
 

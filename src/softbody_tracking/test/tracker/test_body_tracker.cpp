@@ -115,14 +115,15 @@ TEST(BodyTracker, WrongDepthDoesNotCarryTheBodyAway) {
   }
 }
 
-TEST(BodyTracker, SaysThatItsFeaturesAreCovered) {
+/// Depth and outline suffice: that features are not found is no error.
+TEST(BodyTracker, TracksWhereItsFeaturesAreCovered) {
   TrackedBox tracked;
   const Points rest = posedBox(tracked.box());
   tracked.show(rest);
   const TrackingResult result =
       tracked.show(rest, [](RgbdFrame* frame) { frame->color.setTo(cv::Vec3b(35, 90, 140)); });
-  EXPECT_EQ(result.status.state, TrackingState::kDegraded);
-  EXPECT_FALSE(result.status.reason.empty());
+  EXPECT_EQ(result.status.state, TrackingState::kTracking) << result.status.reason;
+  EXPECT_LT(tracked.worstTarget(result, rest, TargetKind::kDepth), 0.005);
 }
 
 TEST(BodyTracker, FollowsAJumpOfMoreThanTheSearchWindow) {

@@ -17,72 +17,71 @@ Observation wellSeen(int matched = 100, int outliers = 5) {
   return seen;
 }
 
-/// A wrong mesh may agree in depth, for example inside a table.
-TEST(StatusOf, OutlinesThatDifferDegradeIt) {
-  Observation displaced = wellSeen();
-  displaced.outline.disagreement = 0.3;
-  EXPECT_EQ(statusOf(displaced, {}).state, TrackingState::kDegraded);
-  EXPECT_NE(statusOf(displaced, {}).reason.find("30 % of the body"), std::string::npos);
-  displaced.outline.disagreement = 0.1;
-  EXPECT_EQ(statusOf(displaced, {}).state, TrackingState::kTracking) << "as noise and a fast motion do";
-  EXPECT_EQ(statusOf(displaced, {}).reason, "");
+constexpr double kTolerance = 0.01;
+
+TrackingStatus statusWith(const Observation& seen, const Disagreement& disagreement = {},
+                          double image_scale = 1.0) {
+  return statusOf(seen, {}, disagreement, kTolerance, image_scale);
 }
 
-TEST(StatusOf, APatchWithoutTheBodyDegradesIt) {
-  const TrackingStatus status = statusOf(wellSeen(), {}, LocalMismatch{0.023, "left"});
-  EXPECT_EQ(status.state, TrackingState::kDegraded);
-  EXPECT_NE(status.reason.find("the left part of the body in the image is at least 23 mm off"),
-            std::string::npos)
-      << status.reason;
-  EXPECT_NE(status.reason.find("check mesh, scale and pose"), std::string::npos)
-      << "the outline says nothing of the size: " << status.reason;
+TEST(StatusOf, NamesWhatDisagreesBeyondTheTolerance) {
+  for (const auto& [kind, words] :
+       {std::pair(Disagreement::Kind::kBackground, "the background at the left part of the body, 23 mm wide"),
+        std::pair(Disagreement::Kind::kBehind, "the left part of the body 23 mm behind its prediction"),
+        std::pair(Disagreement::Kind::kBeyond, "23 mm beyond the left side of its prediction")}) {
+    const TrackingStatus status = statusWith(wellSeen(), {kind, 0.023, "left"});
+    EXPECT_EQ(status.state, TrackingState::kDegraded);
+    EXPECT_NE(status.reason.find(words), std::string::npos) << status.reason;
+    EXPECT_NE(status.reason.find("check mesh, scale and pose"), std::string::npos)
+        << "the outline says nothing of the size: " << status.reason;
+    const TrackingStatus tracked = statusWith(wellSeen(), {kind, 0.9 * kTolerance, "left"});
+    EXPECT_EQ(tracked.state, TrackingState::kTracking);
+    EXPECT_EQ(tracked.reason, "");
+  }
 }
 
 TEST(StatusOf, AnOutlineSmallerAllAroundNamesTheScale) {
+  const Disagreement wide{Disagreement::Kind::kBackground, 0.02, "left"};
   Observation seen = wellSeen();
   seen.outline.disagreement = 0.3;
   seen.outline.excess = -0.28;
-  EXPECT_NE(statusOf(seen, {}, std::nullopt, 0.77).reason.find("a body about 1.3 times smaller"),
-            std::string::npos);
+  EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("a body about 1.3 times smaller"), std::string::npos);
   seen.outline.excess = 0.05;
-  EXPECT_NE(statusOf(seen, {}, std::nullopt, 0.77).reason.find("check mesh, scale and pose"),
-            std::string::npos);
+  EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("check mesh, scale and pose"), std::string::npos);
 }
 
-TEST(StatusOf, GivesTheReasonForDegradedTracking) {
-  EXPECT_EQ(statusOf(wellSeen(), {}).state, TrackingState::kTracking);
-  EXPECT_NEAR(statusOf(wellSeen(), {}).inlier_ratio, 0.95, 1e-9);
-  const auto degraded = [](const Observation& seen) { return statusOf(seen, {}).reason; };
-  Observation covered = wellSeen();
+/// What is hidden, and features that are not found, say nothing against the rest.
+TEST(StatusOf, ABodyThatIsMostlyOccludedIsTracked) {
+  Observation covered = wellSeen(2, 0);
   covered.agreeing_blocks = 100;
   covered.depth.occluded_blocks = 900;
-  EXPECT_EQ(degraded(covered), "most of the body is occluded");
-  covered.depth.occluded_blocks = 0;
-  covered.depth.absent_blocks = 900;
-  EXPECT_EQ(degraded(covered), "most of the body is not where predicted");
-  Observation unknown = wellSeen(2, 0);
-  unknown.expected_features = 100;
-  EXPECT_EQ(degraded(unknown), "hardly any of the expected features are found");
-  EXPECT_EQ(degraded(wellSeen(100, 90)), "most feature matches disagree with their neighbours");
+  covered.expected_features = 100;
+  EXPECT_EQ(statusWith(covered).state, TrackingState::kTracking) << statusWith(covered).reason;
+}
+
+TEST(StatusOf, PiecesThatAreAllHeldAreNotTracked) {
+  Observation seen = wellSeen();
+  seen.observability = {Observability::kPoor, Observability::kPoor};
+  EXPECT_EQ(statusWith(seen).state, TrackingState::kDegraded);
+  seen.observability[0] = Observability::kPartial;
+  EXPECT_EQ(statusWith(seen).state, TrackingState::kTracking);
 }
 
 /// Features on a piece with poor observability are no inliers; they do not affect the others.
 TEST(StatusOf, CountsTheFeaturesOfTrackedPieces) {
+  EXPECT_NEAR(statusWith(wellSeen()).inlier_ratio, 0.95, 1e-9);
   Observation seen = wellSeen(100, 90);
   seen.matched_features = 10;
-  seen.expected_features = 12;
-  const TrackingStatus status = statusOf(seen, {});
-  EXPECT_EQ(status.state, TrackingState::kTracking) << status.reason;
-  EXPECT_EQ(status.features_tracked, 10u);
-  EXPECT_EQ(status.inlier_ratio, 1.0);
+  EXPECT_EQ(statusWith(seen).features_tracked, 10u);
+  EXPECT_EQ(statusWith(seen).inlier_ratio, 1.0);
 }
 
 TEST(StatusOf, IsLostWhereNothingAgrees) {
   Observation seen = wellSeen(5, 0);
   seen.agreeing_blocks = 3;
-  EXPECT_EQ(statusOf(seen, {}).state, TrackingState::kLost);
+  EXPECT_EQ(statusWith(seen).state, TrackingState::kLost);
   seen.depth.visible_blocks = 0;
-  EXPECT_NE(statusOf(seen, {}).reason.find("out of view"), std::string::npos);
+  EXPECT_NE(statusWith(seen).reason.find("out of view"), std::string::npos);
 }
 
 constexpr Nanoseconds kFrameInterval = 33'333'333;

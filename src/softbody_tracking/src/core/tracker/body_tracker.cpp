@@ -9,7 +9,6 @@
 
 #include "alignment/measured_share.h"
 #include "alignment/rigid_alignment.h"
-#include "labels/local_mismatch.h"
 #include "prediction/rigid_prediction.h"
 #include "prediction/topology_check.h"
 #include "softbody_common/plausibility.h"
@@ -18,6 +17,7 @@
 #include "softbody_common/time.h"
 #include "softbody_common/tracking_state.h"
 #include "softbody_tracking/search_report/search_sentence.h"
+#include "status/disagreement.h"
 #include "targets/knn_targets.h"
 #include "targets/position_prior.h"
 #include "tracker/frame_observer.h"
@@ -60,8 +60,8 @@ struct BodyTracker::Implementation {
   Points predict(const RgbdFrame& frame, const MeshState* answer);
   std::vector<Association> associationsOf(const ObservedBody& observed,
                                           const Eigen::Matrix3d& R_camera_fixed) const;
-  TrackingStatus judge(const ObservedBody& observed, const std::vector<Association>& associations,
-                       const MeshState* answer) const;
+  TrackingStatus judge(const RgbdFrame& frame, const ObservedBody& observed,
+                       const std::vector<Association>& associations, const MeshState* answer);
   TrackingStatus withSilence(TrackingStatus status) const;
   TargetSet targetSetOf(const RgbdFrame& frame, const ObservedBody& observed,
                         const std::vector<Association>& associations, const MeshState* answer) const;
@@ -75,6 +75,7 @@ struct BodyTracker::Implementation {
   std::unique_ptr<RigidPrediction> prediction;
   std::unique_ptr<PositionPrior> hold;
   HeldPieces held;
+  MeanDisagreement disagreement;
   std::vector<MotionShare> measured;  ///< share of each piece's motion in the last frame; empty: all
   Nanoseconds stamp = 0;              ///< of the present frame
   Nanoseconds last_answer = 0;        ///< stamp of the last state that was an answer
@@ -158,7 +159,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
 
   TrackingResult result;
   result.has_targets = true;
-  result.status = judge(observed, associations, answer);
+  result.status = judge(frame, observed, associations, answer);
   const TrackingState state = result.status.state;
   relocalizer.noteLoss(state == TrackingState::kLost, stamp);
   if (state == TrackingState::kLost) prediction->reset();
@@ -208,11 +209,13 @@ void BodyTracker::Implementation::reset() {
   last_answer = 0;
   measured.clear();
   held.reset();
+  disagreement.reset();
   knn.reset();
 }
 
 /// The body did not move to where it is found: the frames before say nothing about the next one.
 void BodyTracker::Implementation::forgetMotion() {
+  disagreement.reset();
   prediction->reset();
   observer->foundAgain();
 }
@@ -261,14 +264,17 @@ TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) c
   return result;
 }
 
-TrackingStatus BodyTracker::Implementation::judge(const ObservedBody& observed,
+/// @param answer state of the volume before the frame, or nullptr.
+TrackingStatus BodyTracker::Implementation::judge(const RgbdFrame& frame, const ObservedBody& observed,
                                                   const std::vector<Association>& associations,
-                                                  const MeshState* answer) const {
+                                                  const MeshState* answer) {
   const auto& [seen, surface, image, labels] = observed;
   const std::vector<float> unknown;
-  const auto mismatch = localMismatch(labels, surface, observer->usualError(), seen.outline.deviation_px,
-                                      answer != nullptr ? answer->standard_deviation : unknown);
-  TrackingStatus status = statusOf(seen, associations, mismatch, imageScale(labels, surface));
+  const ComparedBody compared{labels, surface, frame.depth, seen.outline.deviation_px,
+                              answer != nullptr ? answer->standard_deviation : unknown};
+  const double tolerance_m = config.status.tolerance_m;
+  const Disagreement& mean = disagreement.add(largestDisagreement(compared), stamp);
+  TrackingStatus status = statusOf(seen, associations, mean, tolerance_m, imageScale(labels, surface));
   if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
     const std::string other = status.reason;
     status.reason = alikeReason(relocalizer.alike());

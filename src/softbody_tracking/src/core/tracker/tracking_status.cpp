@@ -13,16 +13,6 @@
 namespace softbody {
 namespace {
 
-// Share of the visible surface that must agree in depth; with less, most of the body is not measured.
-constexpr double kDegradedShare = 0.3;
-// Largest area between the outlines of image and mesh, as a share of the body's. Right meshes stay below
-// 0.15, thin and fast ones too; wrong ones are above 0.27.
-constexpr double kLargestDisagreement = 0.18;
-// Share of the expected features that must be found; with fewer, something covers them or the light changed.
-constexpr double kFewestTracked = 0.05;
-// Smallest share of inliers among the matches.
-constexpr double kWorstInlierRatio = 0.2;
-
 /// What an outline that is smaller or larger all around says about the mesh. Outlines that differ both ways
 /// are those of another shape or pose.
 std::string causeOf(const OutlineAssociations& outline, double image_scale) {
@@ -33,27 +23,27 @@ std::string causeOf(const OutlineAssociations& outline, double image_scale) {
                      1.0 / image_scale);
 }
 
-/// Reason for a degraded state; empty if the frame shows the body well.
-std::string whyDegraded(const Observation& seen, int kept, const std::optional<LocalMismatch>& mismatch,
-                        double image_scale) {
-  const auto explained = static_cast<double>(seen.agreeing_blocks);
-  if (explained < kDegradedShare * seen.depth.visible_blocks) {
-    return seen.depth.occluded_blocks > seen.depth.absent_blocks ? "most of the body is occluded"
-                                                                 : "most of the body is not where predicted";
+/// What disagrees.
+std::string sentenceFor(const Disagreement& disagreement, const std::string& cause) {
+  const double error_mm = 1000.0 * disagreement.error_m;
+  switch (disagreement.kind) {
+    case Disagreement::Kind::kBackground:
+      return fmt::format("the image shows the background at the {} part of the body, {:.0f} mm wide: {}",
+                         disagreement.side, error_mm, cause);
+    case Disagreement::Kind::kBehind:
+      return fmt::format("depth shows the {} part of the body {:.0f} mm behind its prediction: {}",
+                         disagreement.side, error_mm, cause);
+    case Disagreement::Kind::kBeyond:
+      break;
   }
-  if (seen.outline.disagreement > kLargestDisagreement) {
-    return fmt::format("the outlines of image and mesh differ by {:.0f} % of the body's area: {}",
-                       100.0 * seen.outline.disagreement, causeOf(seen.outline, image_scale));
-  }
-  if (mismatch) {
-    return fmt::format("the {} part of the body in the image is at least {:.0f} mm off its prediction: {}",
-                       mismatch->side, 1000.0 * mismatch->width_m, causeOf(seen.outline, image_scale));
-  }
-  if (seen.expected_features >= kFewestExpectedFeatures && kept < kFewestTracked * seen.expected_features)
-    return "hardly any of the expected features are found";
-  if (seen.matched_features >= kFewestExpectedFeatures && kept < kWorstInlierRatio * seen.matched_features)
-    return "most feature matches disagree with their neighbours";
-  return {};
+  return fmt::format("the image shows the body {:.0f} mm beyond the {} side of its prediction: {}", error_mm,
+                     disagreement.side, cause);
+}
+
+/// Whether no piece is followed.
+bool isHeld(const std::vector<Observability>& pieces) {
+  const auto isPoor = [](Observability piece) { return piece == Observability::kPoor; };
+  return !pieces.empty() && std::all_of(pieces.begin(), pieces.end(), isPoor);
 }
 
 std::string piecesText(const std::set<std::uint32_t>& numbers, std::size_t count) {
@@ -69,7 +59,7 @@ void append(const std::string& text, std::string* reason) {
 }  // namespace
 
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations,
-                        const std::optional<LocalMismatch>& mismatch, double image_scale) {
+                        const Disagreement& disagreement, double tolerance_m, double image_scale) {
   TrackingStatus status;
   const auto kept = static_cast<int>(std::count_if(seen.matches.begin(), seen.matches.end(),
                                                    [](const FeatureMatch& match) { return match.inlier; }));
@@ -82,7 +72,10 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
                                                    : "neither depth nor features agree with the prediction";
     return status;
   }
-  status.reason = whyDegraded(seen, kept, mismatch, image_scale);
+  if (disagreement.error_m > tolerance_m)
+    status.reason = sentenceFor(disagreement, causeOf(seen.outline, image_scale));
+  else if (isHeld(seen.observability))
+    status.reason = "too little shows of every piece: all are held where they were";
   status.state = status.reason.empty() ? TrackingState::kTracking : TrackingState::kDegraded;
   return status;
 }

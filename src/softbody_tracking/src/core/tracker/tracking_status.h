@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "labels/local_mismatch.h"
 #include "softbody_common/types.h"
+#include "status/disagreement.h"
 #include "tracker/observation.h"
 
 namespace softbody {
 
-/// How well a frame shows the body where it was predicted. @param associations only those that become
-/// targets. @param mismatch a patch that the image contradicts. @param image_scale see imageScale().
+/// How well the last frames show the body where it was predicted.
+/// @param associations only those that become targets. @param disagreement mean of the last frames.
+/// @param tolerance_m largest disagreement of a tracked body. @param image_scale see imageScale().
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations,
-                        const std::optional<LocalMismatch>& mismatch = std::nullopt,
-                        double image_scale = 1.0);
+                        const Disagreement& disagreement, double tolerance_m, double image_scale = 1.0);
 
 /// Reports pieces of a cut body that were not measured for some time and are held in their places. A piece
 /// in view degrades the tracking. A piece out of view, or too small to be tracked, does not: its place is

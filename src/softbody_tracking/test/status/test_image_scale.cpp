@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/labelled_box.h"
-#include "labels/local_mismatch.h"
+#include "status/disagreement.h"
 
 namespace softbody {
 namespace {
