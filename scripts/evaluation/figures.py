@@ -12,6 +12,7 @@ OWN_COLOUR = ("touch", "squeeze")
 TEXTURED = tuple(body + scene for body in ("", "doll_") for scene in (*NOISE_FREE, "far", "fast", "table"))
 TEXTURES = ("weak", "plain")
 FALSE_AFTER_S = 1.0
+WRONG_MM = 15.0  # a vertex this far off is not tracked
 STARTS = 20  # rough poses of each plain scene
 MOVING = ("still", "bend", "push", "twist")
 # Scenes with faults. Several seeds of wrong matches, because the error differs by a third between them.
@@ -108,9 +109,16 @@ def visible_while_tracking(report):
 
 
 def false_tracking(report):
-    """Frames called TRACKING after the first second, of a result with a wrong object; None: refused at the start."""
-    states = [state for time, state in report["states_by_time"] if time >= FALSE_AFTER_S]
-    return states.count("tracking") if states else None
+    """Frames called TRACKING after the first second, of a result with a wrong object."""
+    return [state for time, state in report["states_by_time"] if time >= FALSE_AFTER_S].count("tracking")
+
+
+def wrong_after_start(report):
+    """Frames called TRACKING after the first second with a visible vertex far off, of a body placed wrongly."""
+    rows = zip(report["vertex_error"]["frame_times_s"], report["frame_states"],
+               report["vertex_error"]["frame_visible_max_mm"])
+    return sum(time >= FALSE_AFTER_S and state == "tracking" and largest is not None and largest > WRONG_MM
+               for time, state, largest in rows)
 
 
 def time_until_normal(report, unhidden, after_s):
@@ -159,6 +167,9 @@ def summary_line(reports):
             continue
         if kind == "starts":
             words.append(f"{name}, {STARTS} starts: {number(report['max_mm'])} mm apart")
+            continue
+        if kind == "placed":
+            words.append(f"{name}: {wrong_after_start(report)} frames tracking and wrong")
             continue
         if kind == "wrong":
             words.append(f"{name}: {number(false_tracking(report), 0)} frames tracking")

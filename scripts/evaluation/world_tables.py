@@ -66,12 +66,20 @@ def wrong_objects(reports):
     rows = []
     for what, report in of_kind(reports, "wrong").items():
         late = [state for time, state in report["states_by_time"] if time >= FALSE_AFTER_S]
-        rows.append([what, late[0], f"{false_tracking(report)} of {len(late)}"] if late
-                    else [what, "refused at the start", "-"])
-    return section("Wrong objects",
-                   "The scene `bend`, tracked with the model of another object, which is not in the images. It gets the "
-                   "rough pose of the true object. The tracker should not call this TRACKING.",
-                   ["object", "state after 1 s", "frames called TRACKING after 1 s"], rows)
+        rows.append([what, late[0], f"{false_tracking(report)} of {len(late)}", "-"])
+    for what, report in of_kind(reports, "placed").items():
+        error = report["vertex_error"]
+        late = [(state, largest) for time, state, largest in
+                zip(error["frame_times_s"], report["frame_states"], error["frame_visible_max_mm"])
+                if time >= FALSE_AFTER_S]
+        rows.append([what, late[0][0], f"{sum(state == 'tracking' for state, _ in late)} of {len(late)}",
+                     number(max(largest for _, largest in late if largest is not None))])
+    return section("Wrong objects and poses",
+                   "The scene `bend`. The tracker is told where the body is, and does not search (`replay --placed`): "
+                   "first with the model of another object at the place of the true one, then with the true object at a "
+                   "wrong pose. The tracker should not call this TRACKING, unless the pose is right again.",
+                   ["object or pose", "state after 1 s", "frames called TRACKING after 1 s",
+                    "largest error of a visible vertex after 1 s [mm]"], rows)
 
 
 def plot_calibration(reports, path):

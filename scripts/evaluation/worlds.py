@@ -12,6 +12,7 @@ from evaluation.runs import (DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure
 PLAIN_CAMERA = {"still": ("--duration", "10")}
 START_M, START_RAD = 0.001, math.radians(0.5)  # from the middle, so starts are within 2 mm and 1 degree of each other
 WRONG_S = "2"
+WRONG_M, WRONG_RAD, WRONG_POSES = 0.02, math.radians(20.0), 4
 
 
 def bags(command, *files):
@@ -92,23 +93,42 @@ def scaled_object(config, factor, name):
     return scaled
 
 
-def wrong_object_runs():
-    """The scene bend with an object that is not there; {("wrong", what): the states}."""
+def wrong_object_runs(recording):
+    """An object that is not there, at the place of the true one; {("wrong", what): the states}."""
     sponge, doll = ROOT / "config/sponge.yaml", ROOT / "config/doll.yaml"
-    recording = OUTPUT / "wrong.bag"
-    tool("virtual_camera", "--scene", "bend", "--duration", WRONG_S, "--output", recording)
     cases = {"the object 1.3 times as large": scaled_object(sponge, 1.3, "wrong_1_3"),
              "the object 1.15 times as large": scaled_object(sponge, 1.15, "wrong_1_15"),
              "another object of the same length": with_pose(doll, "wrong_doll", pose_of(sponge))}
+    return {("wrong", what): {"states_by_time": bags("states", track(f"wrong_{number}", recording, config,
+                                                                     "--allow-outside", "--placed"))}
+            for number, (what, config) in enumerate(cases.items(), 1)}
+
+
+def wrong_poses(pose, seed=1):
+    """(words, pose off by 20 mm or 20 degrees in some direction)."""
+    drawn = random.Random(seed)
+    for number in range(1, WRONG_POSES + 1):
+        moved = [p + WRONG_M * part for p, part in zip(pose[:3], direction(drawn))]
+        yield f"20 mm off, direction {number}", [*moved, *pose[3:]]
+        yield f"20 degrees off, axis {number}", [*pose[:3], *turned_by(pose[3:], direction(drawn), WRONG_RAD)]
+
+
+def wrong_pose_runs(recording):
+    """The right object at a wrong pose; {("placed", what): report}."""
+    sponge = ROOT / "config/sponge.yaml"
     reports = {}
-    for number, (what, config) in enumerate(cases.items(), 1):
-        try:
-            states = bags("states", track(f"wrong_{number}", recording, config, "--allow-outside"))
-        except ToolFailed as failure:
-            if "the body was not found" not in str(failure):
-                raise
-            states = []
-        reports[("wrong", what)] = {"states_by_time": states}
+    for number, (what, pose) in enumerate(wrong_poses(pose_of(sponge)), 1):
+        config = with_pose(sponge, f"placed_{number}", pose)
+        result = track(f"placed_{number}", recording, config, "--allow-outside", "--placed")
+        reports[("placed", what)] = json.loads(tool("evaluate", result, "--truth", recording, "--json"))
+    return reports
+
+
+def wrong_runs():
+    """The scene bend with wrong objects and poses, which the tracker is told and does not search."""
+    recording = OUTPUT / "wrong.bag"
+    tool("virtual_camera", "--scene", "bend", "--duration", WRONG_S, "--output", recording)
+    reports = {**wrong_object_runs(recording), **wrong_pose_runs(recording)}
     recording.unlink()
     return reports
 
@@ -120,4 +140,4 @@ def world_runs(scenes):
     work += [(f"{scene}, {texture}", lambda scene=scene, texture=texture: texture_run(scene, texture))
              for texture in TEXTURES for scene in TEXTURED
              if scene in scenes and not (texture == "plain" and scene in PLAIN)]
-    return work + ([("wrong objects", wrong_object_runs)] if "bend" in scenes else [])
+    return work + ([("wrong objects and poses", wrong_runs)] if "bend" in scenes else [])

@@ -34,6 +34,7 @@ struct PipelineConfig {
   CuttingConfig cutting;
   ToolTrackerConfig tool_tracker;
   bool forces = false;  ///< also estimate the external forces
+  bool placed = false;  ///< the body's initial pose is taken as it is, without a search
 };
 
 /// Trackers, simulator and surface in sequence, without ROS. Each frame uses exactly the previous frame's
@@ -41,6 +42,7 @@ struct PipelineConfig {
 class Pipeline {
  public:
   /// @param tool to track; its blade cuts. Empty: no tool.
+  /// @throw std::invalid_argument if the body is to be placed, and has no initial pose.
   Pipeline(const ObjectModel& model, const PipelineConfig& config,
            const std::optional<ToolDescription>& tool = std::nullopt);
 
@@ -76,6 +78,7 @@ class Pipeline {
   const MeshTopology uncut_surface_;
   const CuttingConfig cutting_;
   const bool forces_;
+  bool to_be_placed_;
   StageTimer timer_;
   BodyTracker tracker_;
   Simulator simulator_;

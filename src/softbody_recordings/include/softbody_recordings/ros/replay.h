@@ -21,6 +21,7 @@ struct ReplayOptions {
   bool timing = false;                        ///< also write wall-clock times of the stages
   bool labels = false;                        ///< also write what each pixel shows
   bool forces = false;                        ///< also write the external forces
+  bool placed = false;                        ///< take the initial pose as it is, without a search
 };
 
 /// The outcome of a replay.

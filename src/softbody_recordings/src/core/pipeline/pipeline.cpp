@@ -23,9 +23,12 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
       uncut_surface_(model.visual),
       cutting_(config.cutting),
       forces_(config.forces),
+      to_be_placed_(config.placed),
       tracker_(config.tracker),
       simulator_(makeSimulator(model, config.simulator, &timer_)),
       surface_(makeSurface()) {
+  if (to_be_placed_ && !uncut_volume_.has_initial_pose)
+    throw std::invalid_argument("the object has no initial_pose at which it can be placed");
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
   const auto scope = timer_.stage("Tracker Preparation", true);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
@@ -49,6 +52,8 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   output.T_fixed_camera = frame.T_fixed_camera;
   if (std::exchange(pass_, frame.pass) != frame.pass) startPass();
   waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());
+  if (std::exchange(to_be_placed_, false))
+    tracker_.placeAt(frame.T_fixed_camera * uncut_volume_.initial_pose);
   const bool simulated = simulator_.placed();
   if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
   const std::optional<Points> blade = seenBlade(frame, output);

@@ -45,6 +45,9 @@ void declare(CLI::App* app, ReplayOptions* options) {
   app->add_flag("--labels", options->labels,
                 "also write the label of each pixel: background, body or occluder");
   app->add_flag("--forces", options->forces, "also write the external forces on the body; takes longer");
+  app->add_flag("--placed", options->placed,
+                "take the object's initial_pose as it is, without a search: shows how the tracker judges a "
+                "pose or mesh");
   addAllowOutside(app, &options->scope);
   app->callback([options] { requireOtherFile(options->input, options->output); });
 }
