@@ -27,7 +27,6 @@ namespace softbody::evaluation {
 namespace {
 
 constexpr char kToolPose[] = "/tool/pose", kTrueToolPose[] = "/ground_truth/tool/pose";
-constexpr char kTrueForces[] = "/ground_truth/forces";
 
 /// A report with its pictures.
 struct Measured {
@@ -147,7 +146,7 @@ Measured measure(const EvaluatorOptions& options) {
     report.labels = compareLabels(options.result, options.result_namespace + "/" + topics::kLabels,
                                   options.truth, std::string("/") + virtual_camera::kTruthLabelsTopic);
     report.forces = compareForces(options.result, options.result_namespace + "/" + topics::kForces,
-                                  options.truth, kTrueForces);
+                                  options.truth, std::string("/") + virtual_camera::kTruthForcesTopic);
   }
   if (report.frames.answered == 0) {
     throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame in {}", options.result,

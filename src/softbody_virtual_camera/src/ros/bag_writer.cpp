@@ -35,6 +35,7 @@ void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, AtomicB
   bag->write(absolute(topics::kCameraDepth), stamp, messages.depth);
   bag->write(absolute(kTruthStateTopic), stamp, messages.truth);
   if (messages.gripper_closed) bag->write(absolute(kGripperTopic), stamp, messages.gripper_closed);
+  if (messages.forces) bag->write(absolute(kTruthForcesTopic), stamp, messages.forces);
   if (messages.tool) bag->write(absolute(kTruthToolPoseTopic), stamp, messages.tool);
 }
 

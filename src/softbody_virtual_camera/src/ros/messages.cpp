@@ -5,6 +5,7 @@
 
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/geometry_messages.h"
 #include "softbody_virtual_camera/ros/messages.h"
 
 namespace softbody::virtual_camera {
@@ -39,6 +40,28 @@ void addGripper(const GripperState& gripper, const std_msgs::Header& header, Cap
   messages->gripper_closed->data = static_cast<unsigned char>(gripper.closed);
 }
 
+softbody_msgs::ForcesPtr forcesMessage(const std::vector<SurfaceForce>& forces,
+                                       const std_msgs::Header& header) {
+  auto message = boost::make_shared<softbody_msgs::Forces>();
+  message->header = header;
+  message->in_newtons = true;
+  message->wrench_frame = header.frame_id;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
+  for (const SurfaceForce& force : forces) {
+    softbody_msgs::PatchForce patch;
+    patch.name = force.name;
+    patch.place = pointMessage(force.place);
+    patch.normal = vectorMessage(force.normal);
+    patch.force = vectorMessage(force.force);
+    message->patches.push_back(patch);
+    sum += force.force;
+    torque += force.place.cross(force.force);
+  }
+  message->wrench.force = vectorMessage(sum);
+  message->wrench.torque = vectorMessage(torque);
+  return message;
+}
+
 std_msgs::Header headerOf(const ros::Time& stamp, const char* frame_id) {
   std_msgs::Header header;
   header.stamp = stamp;
@@ -71,6 +94,7 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
     messages.transforms.transforms.push_back(transformMessage(
         headerOf(stamp, kWorldFrame), kCameraFrame, *capture.T_world_camera * opticalFrame().inverse()));
   }
+  if (capture.forces) messages.forces = forcesMessage(*capture.forces, messages.truth->header);
   if (capture.gripper) addGripper(*capture.gripper, header, &messages);
   if (capture.T_camera_tool) {
     messages.tool = boost::make_shared<geometry_msgs::PoseStamped>();
@@ -90,6 +114,7 @@ void setStamp(const ros::Time& stamp, CaptureMessages* messages) {
   for (geometry_msgs::TransformStamped& transform : messages->transforms.transforms) {
     transform.header.stamp = stamp;
   }
+  if (messages->forces) messages->forces->header.stamp = stamp;
   if (messages->tool) messages->tool->header.stamp = stamp;
 }
 

@@ -66,6 +66,8 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
   truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(name(kTruthTopologyTopic), 1, true);
   truth_labels_ = node.advertise<sensor_msgs::Image>(name(kTruthLabelsTopic), kQueue);
   truth_state_ = node.advertise<softbody_msgs::MeshState>(name(kTruthStateTopic), kQueue);
+  if (camera_->scene().state(0.0).forces)
+    truth_forces_ = node.advertise<softbody_msgs::Forces>(name(kTruthForcesTopic), kQueue);
   if (camera_->scene().state(0.0).T_camera_tool) {
     truth_tool_ = node.advertise<geometry_msgs::PoseStamped>(name(kTruthToolPoseTopic), kQueue);
     truth_cut_ = node.advertise<softbody_msgs::Cut>(name(kTruthCutTopic), kQueue);
@@ -119,6 +121,7 @@ void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time
   }
   tf_.publish(messages.transforms);
   if (messages.gripper_closed) gripper_.publish(messages.gripper_closed);
+  if (messages.forces) truth_forces_.publish(messages.forces);
   if (messages.tool) truth_tool_.publish(messages.tool);
   color_info_.publish(messages.info);
   depth_info_.publish(messages.info);

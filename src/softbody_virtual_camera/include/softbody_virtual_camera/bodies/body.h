@@ -8,10 +8,17 @@
 
 namespace softbody::virtual_camera {
 
+/// Of an elastic body, at small strains.
+struct Elasticity {
+  double youngs_modulus_pa = 2.0e4;
+  double poisson_ratio = 0.2;  ///< below 0.5
+};
+
 /// A soft body at rest. Its vertices are those of the file, in the same order.
 struct Body {
   TriangleMesh rest;
   UvTexture skin;  ///< triangles without an image have the solid texture
+  Elasticity elasticity = {};
 };
 
 /// The body's topology at revision 0.

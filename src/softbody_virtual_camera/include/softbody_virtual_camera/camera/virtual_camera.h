@@ -30,6 +30,7 @@ struct Capture {
   Eigen::Isometry3d T_camera_body;
   std::optional<Eigen::Isometry3d> T_camera_tool;
   std::optional<GripperState> gripper;
+  std::optional<std::vector<SurfaceForce>> forces;  ///< in the frame of the truth
   std::optional<Eigen::Isometry3d> T_world_camera;  ///< only with a moving camera
 };
 

@@ -4,6 +4,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <softbody_msgs/Cut.h>
+#include <softbody_msgs/Forces.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 #include <std_msgs/Bool.h>
@@ -27,6 +28,7 @@ constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
 constexpr char kTruthLabelsTopic[] = "ground_truth/labels";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
+constexpr char kTruthForcesTopic[] = "ground_truth/forces";  ///< only in scenes that know them
 constexpr char kTruthCutTopic[] = "ground_truth/cut";
 
 /// The messages of one frame, all with the same stamp.
@@ -39,6 +41,7 @@ struct CaptureMessages {
   /// world -> camera_link
   tf2_msgs::TFMessage transforms;
   geometry_msgs::PoseStampedPtr tool;  ///< of the tool in the optical frame; null without a tool
+  softbody_msgs::ForcesPtr forces;     ///< in the frame of the truth; null if the scene does not know them
   std_msgs::BoolPtr gripper_closed;    ///< null without a gripper
 };
 

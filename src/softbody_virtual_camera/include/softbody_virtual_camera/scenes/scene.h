@@ -43,6 +43,17 @@ struct GripperState {
 GripperState transformed(const Eigen::Isometry3d& T, GripperState gripper);
 GripperState scaled(GripperState gripper, double factor);
 
+/// The external force on a part of the body's surface, in the colour optical frame.
+struct SurfaceForce {
+  std::string name;        ///< of what presses there
+  Eigen::Vector3d place;   ///< mean, weighted by the sizes of the forces [m]
+  Eigen::Vector3d normal;  ///< out of the body; unit
+  Eigen::Vector3d force;   ///< on the body [N]
+};
+
+/// The forces after a change of the camera's frame.
+std::vector<SurfaceForce> transformed(const Eigen::Isometry3d& T, std::vector<SurfaceForce> forces);
+
 /// The poses of all things at one time.
 struct SceneState {
   Eigen::Isometry3d T_camera_body = Eigen::Isometry3d::Identity();  ///< the body's frame in the optical frame
@@ -50,6 +61,8 @@ struct SceneState {
   std::uint32_t revision = 0;    ///< of the body's topology
   std::optional<Eigen::Isometry3d> T_camera_tool = std::nullopt;
   std::optional<GripperState> gripper = std::nullopt;
+  /// All on the body, besides its weight; none: not known.
+  std::optional<std::vector<SurfaceForce>> forces = std::nullopt;
   Lights lights = {};
   double brightness = 1.0;  ///< factor of the colour image: the lamp's power
   std::optional<Eigen::Isometry3d> T_world_camera = std::nullopt;  ///< only with a moving camera

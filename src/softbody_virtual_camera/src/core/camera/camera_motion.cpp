@@ -47,6 +47,7 @@ Scene orbited(const Scene& scene) {
     for (Points& vertices : now.vertices) vertices = transformed(T_camera_start, vertices);
     now.T_camera_body = T_camera_start * now.T_camera_body;
     if (now.T_camera_tool) now.T_camera_tool = T_camera_start * *now.T_camera_tool;
+    if (now.forces) now.forces = transformed(T_camera_start, *now.forces);
     if (now.gripper) now.gripper = transformed(T_camera_start, *now.gripper);
     for (Eigen::Vector3d* to_light : {&now.lights.to_main, &now.lights.to_fill})
       *to_light = T_camera_start.linear() * *to_light;

@@ -28,8 +28,11 @@ VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* war
   const std::string shipped = setup.config_folder + "/" + objectOf(setup.scene) + ".obj";
   const std::string& file = setup.body.empty() ? shipped : setup.body;
   Warnings ignored;
-  const Body body = readBody(file, setup.body.empty() ? 1.0 : metresPer(setup.unit),
-                             warnings ? warnings : &ignored, setup.scope);
+  Body body = readBody(file, setup.body.empty() ? 1.0 : metresPer(setup.unit), warnings ? warnings : &ignored,
+                       setup.scope);
+  const Material material =
+      loadObjectDescription(setup.config_folder + "/" + objectOf(setup.scene) + ".yaml").material;
+  body.elasticity = {material.youngs_modulus_pa, material.poisson_ratio};
   const std::string tool = setup.tool.empty() ? setup.config_folder + "/knife.yaml" : setup.tool;
   const Scene scene = makeScene(setup.scene, body, setup.seed, tool, setup.texture);
   const Scene shown = setup.hands ? scene : withoutHands(scene);

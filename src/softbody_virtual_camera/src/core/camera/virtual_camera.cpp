@@ -105,6 +105,9 @@ Capture VirtualCamera::capture(int frame, double t) {
   capture.T_camera_body = state.T_camera_body;
   capture.T_camera_tool = state.T_camera_tool;
   capture.gripper = state.gripper;
+  capture.forces = state.forces;
+  if (state.forces && state.T_world_camera)
+    capture.forces = transformed(*state.T_world_camera, *state.forces);
   capture.T_world_camera = state.T_world_camera;
   return capture;
 }

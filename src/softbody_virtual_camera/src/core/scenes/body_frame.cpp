@@ -21,6 +21,15 @@ Eigen::Isometry3d ownPose(const BodyFrame& frame, const Eigen::Isometry3d& T_cam
   return T;
 }
 
+/// Of a body with the same elasticity.
+std::vector<SurfaceForce> scaled(std::vector<SurfaceForce> forces, double factor) {
+  for (SurfaceForce& force : forces) {
+    force.place *= factor;
+    force.force *= factor * factor;
+  }
+  return forces;
+}
+
 }  // namespace
 
 BodyFrame frameOf(const Points& rest) {
@@ -66,6 +75,7 @@ Scene toBodyFrame(const BodyFrame& frame, const Scene& played, const TriangleMes
     now.T_camera_body = ownPose(frame, now.T_camera_body);
     for (Points& vertices : now.vertices) vertices *= frame.scale;
     if (now.T_camera_tool) now.T_camera_tool->translation() *= frame.scale;
+    if (now.forces) now.forces = scaled(*now.forces, frame.scale);
     if (now.gripper) now.gripper = scaled(*now.gripper, frame.scale);
     return now;
   };

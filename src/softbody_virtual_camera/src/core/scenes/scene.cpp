@@ -11,6 +11,7 @@
 #include "scenes/grasp.h"
 #include "scenes/plays.h"
 #include "scenes/plays_with_hands.h"
+#include "scenes/solid_plays.h"
 #include "scenes/tear_scene.h"
 #include "softbody_virtual_camera/textures/contrast.h"
 
@@ -30,12 +31,16 @@ using CutMaker = Scene (*)(const Stage& stage, const Tool& tool);
 
 const std::map<std::string, Setting>& plays() {
   static const std::map<std::string, Setting> settings = {
-      {"still", {stillPlay}},     {"bend", {bendPlay}},       {"twist", {twistPlay}},
-      {"push", {pushPlay}},       {"pull", {pullPlay}},       {"shake", {shakePlay}},
-      {"rigid", {rigidPlay}},     {"fast", {fastPlay}},       {"roll", {rollPlay}},
-      {"dim", {dimPlay}},         {"far", {farPlay, {0.9}}},  {"leave", {leavePlay}},
-      {"press", {pressPlay}},     {"occlude", {occludePlay}}, {"touch", {touchPlay}},
-      {"squeeze", {squeezePlay}}, {"grasp", {graspPlay}},     {"table", {tablePlay, {kNear_m, true}}}};
+      {"still", {stillPlay}},    {"bend", {bendPlay}},
+      {"twist", {twistPlay}},    {"push", {pushPlay}},
+      {"pull", {pullPlay}},      {"shake", {shakePlay}},
+      {"rigid", {rigidPlay}},    {"fast", {fastPlay}},
+      {"roll", {rollPlay}},      {"dim", {dimPlay}},
+      {"far", {farPlay, {0.9}}}, {"leave", {leavePlay}},
+      {"press", {pressPlay}},    {"occlude", {occludePlay}},
+      {"touch", {touchPlay}},    {"squeeze", {squeezePlay}},
+      {"grasp", {graspPlay}},    {"table", {tablePlay, {kNear_m, true}}},
+      {"grip", {gripPlay}},      {"stamp", {stampPlay, {kNear_m, true}}}};
   return settings;
 }
 
@@ -62,6 +67,15 @@ GripperState scaled(GripperState gripper, double factor) {
   gripper.T_camera_gripper.translation() *= factor;
   for (Eigen::Isometry3d& finger : gripper.T_camera_fingers) finger.translation() *= factor;
   return gripper;
+}
+
+std::vector<SurfaceForce> transformed(const Eigen::Isometry3d& T, std::vector<SurfaceForce> forces) {
+  for (SurfaceForce& force : forces) {
+    force.place = T * force.place;
+    force.normal = T.linear() * force.normal;
+    force.force = T.linear() * force.force;
+  }
+  return forces;
 }
 
 Scene withoutHands(Scene scene) {
@@ -97,8 +111,8 @@ Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, c
   }
   const BodyFrame frame = frameOf(body.rest.vertices);
   const Stage stage =
-      makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin}, seed,
-                contrastOf(texture), play != plays().end() ? play->second.place : Place());
+      makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin, body.elasticity},
+                seed, contrastOf(texture), play != plays().end() ? play->second.place : Place());
   Scene scene = play != plays().end() ? perform(stage, play->second.play(stage))
                                       : cut->second(stage, scaled(readTool(tool_file), 1.0 / frame.scale));
   scene.name = name;

@@ -65,6 +65,7 @@ Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Plac
   stage.actors = {{body.rest, withContrast(cellTexture(hash(seed, 1)), contrast)},
                   {table, place.on_table ? withShadow(wood, body.rest, to_light) : wood, 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
+  stage.elasticity = body.elasticity;
   stage.actors[0].skin = withContrast(body.skin, contrast);
   for (const std::size_t around : {1u, 2u})
     stage.actors[around].still = stage.actors[around].background = true;
@@ -94,7 +95,7 @@ Scene perform(const Stage& stage, const Play& play) {
   const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);
   scene.state = [=, rest = stage.actors.at(0).rest.vertices](double time) {
     const double t = play.repeats ? std::fmod(time, play.duration_s) : time;
-    Points body = rest;
+    Points body = play.shape ? play.shape(t) : rest;
     if (play.deformation) {
       for (Eigen::Index i = 0; i < rest.rows(); ++i) body.row(i) = play.deformation(rest.row(i), t);
     }
@@ -104,6 +105,7 @@ Scene perform(const Stage& stage, const Play& play) {
     if (play.brightness) state.brightness = play.brightness(t);
     state.T_camera_body = play.T_camera_body ? play.T_camera_body(t) : stage.T_camera_body;
     state.vertices = {transformed(state.T_camera_body, body), table, wall};
+    if (play.forces) state.forces = transformed(state.T_camera_body, play.forces(t));
     for (const Prop& prop : play.props) {
       state.vertices.push_back(prop.vertices(t));
     }

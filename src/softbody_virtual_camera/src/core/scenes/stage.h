@@ -14,6 +14,7 @@ struct Stage {
   Eigen::Isometry3d T_camera_world, T_camera_body;  ///< the body's frame at the start
   std::vector<Actor> actors;                        ///< body, table, wall
   Lights lights;
+  Elasticity elasticity;  ///< of the body
 };
 constexpr double kNear_m = 0.5;  ///< usual distance between camera and body
 /// @param contrast of the body's texture; a body of one colour has a second light, to show its shape.
@@ -37,7 +38,9 @@ struct Play {
   double duration_s = 5.0;
   bool repeats = true;
   std::function<Eigen::Vector3d(const Eigen::Vector3d& rest, double t)> deformation;  ///< empty: rigid
-  std::function<Eigen::Isometry3d(double t)> T_camera_body;  ///< empty: the body does not move
+  std::function<Points(double t)> shape;                      ///< of all vertices, instead of a deformation
+  std::function<std::vector<SurfaceForce>(double t)> forces;  ///< in the body's frame
+  std::function<Eigen::Isometry3d(double t)> T_camera_body;   ///< empty: the body does not move
   std::vector<Prop> props;
   std::function<GripperState(double t)> gripper;  ///< empty: none
   std::function<double(double t)> brightness;     ///< of the colour image; empty: 1
