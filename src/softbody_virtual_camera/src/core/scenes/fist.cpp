@@ -14,21 +14,20 @@ struct Box {
   Eigen::Vector3d low, high;
 };
 
-/// The bounding box of the vertices up to a depth from the end.
-Box boxOf(const Points& body, double outward, double end, double from, double to) {
+/// The bounding box of the end that the fist encloses.
+Box heldBox(const Points& body, double outward, double end) {
   Box box{Eigen::Vector3d::Constant(1e9), Eigen::Vector3d::Constant(-1e9)};
   for (Eigen::Index i = 0; i < body.rows(); ++i) {
-    const double depth = end - outward * body(i, 0);
-    if (depth < from || depth > to) continue;
+    if (outward * body(i, 0) < end - kFistLength) continue;
     box.low = box.low.cwiseMin(body.row(i).transpose());
     box.high = box.high.cwiseMax(body.row(i).transpose());
   }
   return box;
 }
 
-/// A finger and the palm opposite it, closed around a section.
-void addRing(const Box& section, double x, std::vector<TriangleMesh>* parts) {
-  const Eigen::Vector3d low = section.low.array() - kThick, high = section.high.array() + kThick;
+/// A finger and the palm opposite it, closed around the end.
+void addRing(const Box& held, double x, std::vector<TriangleMesh>* parts) {
+  const Eigen::Vector3d low = held.low.array() - kThick, high = held.high.array() + kThick;
   const Eigen::Vector3d corners[] = {
       {x, low.y(), low.z()}, {x, low.y(), high.z()}, {x, high.y(), high.z()}, {x, high.y(), low.z()}};
   for (int k = 0; k < 4; ++k) parts->push_back(capsule(corners[k], corners[(k + 1) % 4], kThick));
@@ -45,13 +44,9 @@ void addHeel(const Box& held, double x, std::vector<TriangleMesh>* parts) {
 TriangleMesh makeFist(const Points& body, double outward) {
   constexpr int kFingers = 4;
   const double end = (outward * body.col(0)).maxCoeff(), spacing = (kFistLength - kThick) / (kFingers - 1);
+  const Box held = heldBox(body, outward, end);
   std::vector<TriangleMesh> parts;
-  for (int finger = 0; finger < kFingers; ++finger) {
-    const double depth = finger * spacing;
-    addRing(boxOf(body, outward, end, depth - 1.5 * kThick, depth + 1.5 * kThick), outward * (end - depth),
-            &parts);
-  }
-  const Box held = boxOf(body, outward, end, 0.0, kFistLength);
+  for (int finger = 0; finger < kFingers; ++finger) addRing(held, outward * (end - finger * spacing), &parts);
   const double heel = end + kThick;
   addHeel(held, outward * heel, &parts);
   const Eigen::Vector3d middle = 0.5 * (held.low + held.high), along = outward * Eigen::Vector3d::UnitX();

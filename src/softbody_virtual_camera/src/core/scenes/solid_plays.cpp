@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "scenes/fist.h"
-#include "softbody_common/tet_geometry.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"
 #include "solid/held_solid.h"
@@ -16,6 +15,7 @@
 namespace softbody::virtual_camera {
 namespace {
 
+constexpr double kCircle = 2.0 * 3.14159265358979323846;  // [rad]
 constexpr double kCell_m = 0.01;
 constexpr double kFarAway_m = 0.45;
 
@@ -116,10 +116,14 @@ enum StampRow { kStampPlace, kStampForce, kTablePlace, kTableForce, kStampHeight
 /// How far the nodes have moved, and the rows above, by the square root of the share of the largest force: so
 /// that the first touch of a round body has no vertical tangent.
 KeyStates pressedStates(const HexSolid& solid, const TriangleMesh& body, const PressedSolid::Stamp& stamp,
-                        double largest_n) {
+                        const Elasticity& elasticity) {
+  constexpr double kShortened = 0.008;  // what the largest force would do to a column under the stamp [m]
   constexpr int kIntervals = 10;
   PressedSolid pressed(solid, body, stamp);
   const Points& rest = solid.grid().nodes;
+  const double height = pressed.shape().stamp_m - rest.col(2).minCoeff();
+  const double largest_n =
+      elasticity.youngs_modulus_pa * 0.5 * kCircle * stamp.radius_m * stamp.radius_m * kShortened / height;
   std::vector<Points> keys;
   const auto add = [&](const PressedShape& shape) {
     Points key(rest.rows() + kStampRows, 3);
@@ -141,7 +145,7 @@ TriangleMesh stampMesh(double radius) {
   constexpr double kThickness = 0.02, kRod = 0.008, kRodLength = 0.35;  // [m]
   TriangleMesh disc{Points(2 * kCorners + 2, 3), Triangles(4 * kCorners, 3)};
   for (int k = 0; k < kCorners; ++k) {
-    const double angle = 2.0 * 3.14159265358979323846 * k / kCorners;
+    const double angle = kCircle * k / kCorners;
     const int next = (k + 1) % kCorners;
     disc.vertices.row(k) << radius * std::cos(angle), radius * std::sin(angle), 0.0;
     disc.vertices.row(kCorners + k) = disc.vertices.row(k) + kThickness * Eigen::RowVector3d::UnitZ();
@@ -182,14 +186,11 @@ Play gripPlay(const Stage& stage) {
 }
 
 Play stampPlay(const Stage& stage) {
-  constexpr double kShare = 0.1;  // of the force that would halve the body, at its mean section
   const TriangleMesh& rest = stage.actors.at(0).rest;
   const PressedSolid::Stamp stamp{Eigen::Vector2d(0.02, 0.0), 0.03};
-  const double length = 2.0 * rest.vertices.col(0).cwiseAbs().maxCoeff();
-  const double largest_n =
-      kShare * stage.elasticity.youngs_modulus_pa * enclosedVolume(rest.vertices, rest.triangles) / length;
   const auto body = std::make_shared<const EmbeddedBody>(stage);
-  const auto states = std::make_shared<const KeyStates>(pressedStates(body->solid(), rest, stamp, largest_n));
+  const auto states =
+      std::make_shared<const KeyStates>(pressedStates(body->solid(), rest, stamp, stage.elasticity));
   const Eigen::Index nodes = body->restNodes().rows();
   const auto rootShare = [](double t) { return plateau(t, {1.4, 0.9, 0.5}); };
   const auto row = [=](double t, StampRow which) -> Eigen::Vector3d {
