@@ -49,10 +49,10 @@ class EmbeddedBody {
 /// The way of both fists. It keeps the middle of the body in place, but for the lift.
 class FistMotion {
  public:
-  static constexpr double kBegin = 1.4, kEnd = 5.9;  // while they hold the body [s]
+  static constexpr double kBegin = 1.3, kEnd = 5.4;  // while they hold the body [s]
 
   explicit FistMotion(const Points& rest) {
-    constexpr double kSharpest = 8.0, kStrain = 0.4;  // [1/m]; at most, at the surface
+    constexpr double kSharpest = 11.0, kStrain = 0.5;  // [1/m]; at most, at the surface
     const double half_length = rest.col(0).cwiseAbs().maxCoeff();
     inner_ = half_length - kFistLength;
     largest_bend_ = 2.0 * inner_ * std::min(kSharpest, kStrain / rest.col(2).cwiseAbs().maxCoeff());
@@ -60,14 +60,14 @@ class FistMotion {
 
   /// @param outward 1: at positive x; -1: at negative x. @return from the rest pose, in the body's frame.
   Eigen::Isometry3d fist(double t, double outward) const {
-    constexpr double kLift = 0.03, kTwist = 0.9, kStretch = 0.2;  // [m], [rad], share of the free length
-    const double bend = largest_bend_ * plateau(t, {1.8, 0.8, 0.2}), half = 0.5 * bend;
-    const double twist = kTwist * plateau(t, {2.9, 0.8, 0.1}),
-                 stretch = kStretch * plateau(t, {4.2, 0.6, 0.1});
+    constexpr double kLift = 0.03, kTwist = 1.4, kStretch = 0.25;  // [m], [rad], share of the free length
+    const double bend = largest_bend_ * plateau(t, {1.5, 0.7, 0.5}), half = 0.5 * bend;
+    const double twist = kTwist * plateau(t, {2.5, 0.7, 0.4}),
+                 stretch = kStretch * plateau(t, {3.7, 0.6, 0.3});
     const double length = inner_ * (1.0 + stretch);
     const double along = half < 1e-6 ? length : length * std::sin(half) / half;
     const double rise = half < 1e-6 ? 0.0 : length * (1.0 - std::cos(half)) / half;
-    const Eigen::Vector3d place(outward * along, 0.0, kLift * plateau(t, {kBegin, 0.6, 3.3}) + rise);
+    const Eigen::Vector3d place(outward * along, 0.0, kLift * plateau(t, {kBegin, 0.5, 3.1}) + rise);
     return Eigen::Translation3d(place) * Eigen::AngleAxisd(-outward * half, Eigen::Vector3d::UnitY()) *
            Eigen::AngleAxisd(0.5 * outward * twist, Eigen::Vector3d::UnitX()) *
            Eigen::Translation3d(-outward * inner_, 0.0, 0.0);
@@ -170,13 +170,13 @@ Play gripPlay(const Stage& stage) {
   const auto between = std::make_shared<const KeyStates>(heldBetween(body->solid(), motion));
   Play play;
   play.name = "grip";
-  play.duration_s = 7.0;
+  play.duration_s = 6.5;
   play.shape = [=](double t) -> Points {
     return body->surface(motion.blended(body->restNodes(), t) - body->restNodes() + between->at(t));
   };
   for (const double outward : {-1.0, 1.0}) {
     const auto pose = [=, T_camera_body = stage.T_camera_body](double t) -> Eigen::Isometry3d {
-      const double away = kFarAway_m * (1.0 - plateau(t, {0.5, 0.8, 4.7}));
+      const double away = kFarAway_m * (1.0 - plateau(t, {0.5, 0.7, 4.3}));
       return T_camera_body * motion.fist(t, outward) * Eigen::Translation3d(outward * away, 0.0, 0.0);
     };
     play.props.push_back(
