@@ -4,6 +4,7 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
 #include <softbody_msgs/Cut.h>
+#include <softbody_msgs/Forces.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 
@@ -112,6 +113,33 @@ TEST(BagWriter, WritesLabelsWhenAskedWithTheStampOfTheImages) {
     EXPECT_EQ(images[i]->encoding, "mono8");
     EXPECT_EQ(std::count(images[i]->data.begin(), images[i]->data.end(), labels::kBody) > 100, true);
   }
+}
+
+TEST(BagWriter, WritesTheForcesThatASceneKnows) {
+  CameraSetup setup;
+  setup.scene = "stamp";
+  setup.config_folder = CONFIG_DIR;
+  setup.width = 80;
+  setup.height = 60;
+  VirtualCamera camera = makeCamera(setup);
+  const std::string path = testing::TempDir() + "forces.bag";
+  writeBag(&camera, {path, 3, 0.4}, [](int) {});  // at 0, 2.5 and 5 s
+  rosbag::Bag bag(path);
+  std::vector<softbody_msgs::ForcesConstPtr> found;
+  for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/ground_truth/forces")))
+    found.push_back(m.instantiate<softbody_msgs::Forces>());
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_TRUE(found[0]->patches.empty());
+  EXPECT_TRUE(found[2]->patches.empty());
+  ASSERT_EQ(found[1]->patches.size(), 2u);
+  EXPECT_TRUE(found[1]->in_newtons);
+  EXPECT_EQ(found[1]->header.frame_id, "camera_color_optical_frame");
+  EXPECT_EQ(found[1]->patches[0].name, "stamp");
+  EXPECT_EQ(found[1]->patches[1].name, "table");
+  EXPECT_GT(found[1]->patches[0].force.y, 3.0);  // down
+  EXPECT_NEAR(found[1]->wrench.force.y, 0.0, 1e-4);
+  rosbag::Bag other(write("no_forces.bag", 1));
+  EXPECT_EQ(rosbag::View(other, rosbag::TopicQuery("/ground_truth/forces")).size(), 0u);
 }
 
 TEST(BagWriter, WritesWideImagesAtSixtyHertz) {

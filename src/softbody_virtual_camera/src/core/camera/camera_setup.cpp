@@ -22,17 +22,21 @@ std::map<std::string, bool*> switches(NoiseOptions* noise) {
           {"holes", &noise->depth.holes}};
 }
 
+/// The user's body, or the shipped one with its material.
+Body bodyOf(const CameraSetup& setup, Warnings* warnings) {
+  if (!setup.body.empty()) return readBody(setup.body, metresPer(setup.unit), warnings, setup.scope);
+  const std::string shipped = setup.config_folder + "/" + objectOf(setup.scene);
+  Body body = readBody(shipped + ".obj", 1.0, warnings, setup.scope);
+  const Material material = loadObjectDescription(shipped + ".yaml").material;
+  body.elasticity = {material.youngs_modulus_pa, material.poisson_ratio};
+  return body;
+}
+
 }  // namespace
 
 VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* warnings) {
-  const std::string shipped = setup.config_folder + "/" + objectOf(setup.scene) + ".obj";
-  const std::string& file = setup.body.empty() ? shipped : setup.body;
   Warnings ignored;
-  Body body = readBody(file, setup.body.empty() ? 1.0 : metresPer(setup.unit), warnings ? warnings : &ignored,
-                       setup.scope);
-  const Material material =
-      loadObjectDescription(setup.config_folder + "/" + objectOf(setup.scene) + ".yaml").material;
-  body.elasticity = {material.youngs_modulus_pa, material.poisson_ratio};
+  const Body body = bodyOf(setup, warnings ? warnings : &ignored);
   const std::string tool = setup.tool.empty() ? setup.config_folder + "/knife.yaml" : setup.tool;
   const Scene scene = makeScene(setup.scene, body, setup.seed, tool, setup.texture);
   const Scene shown = setup.hands ? scene : withoutHands(scene);

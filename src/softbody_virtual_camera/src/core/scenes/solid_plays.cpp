@@ -119,7 +119,7 @@ KeyStates pressedStates(const HexSolid& solid, const TriangleMesh& body, const P
                         const Elasticity& elasticity) {
   constexpr double kShortened = 0.008;  // what the largest force would do to a column under the stamp [m]
   constexpr int kIntervals = 10;
-  PressedSolid pressed(solid, body, stamp);
+  PressedSolid pressed(solid, body, stamp, elasticity.youngs_modulus_pa);
   const Points& rest = solid.grid().nodes;
   const double height = pressed.shape().stamp_m - rest.col(2).minCoeff();
   const double largest_n =

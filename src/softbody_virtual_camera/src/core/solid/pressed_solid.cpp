@@ -6,10 +6,10 @@
 namespace softbody::virtual_camera {
 namespace {
 
-constexpr double kStiffness = 6e7;      // of the planes [Pa/m]
-constexpr double kFirstDepth = 0.2e-3;  // so that both planes hold the body from the first step on [m]
-constexpr double kSpacing = 3e-3;       // of samples [m]
-constexpr int kPasses = 2;              // of a step, so that what leaves a plane does not stick to it
+constexpr double kPlaneStiffness = 1e4;  // over Young's modulus [1/m]
+constexpr double kFirstDepth = 0.2e-3;   // so that both planes hold the body from the first step on [m]
+constexpr double kSpacing = 3e-3;        // of samples [m]
+constexpr int kPasses = 2;               // of a step, so that what leaves a plane does not stick to it
 
 void addSamples(const Eigen::Matrix3d& corners, const CellGrid& grid, double spacing_m,
                 std::vector<SurfaceSample>* samples) {
@@ -39,8 +39,11 @@ std::vector<SurfaceSample> samplesOf(const TriangleMesh& body, const CellGrid& g
   return samples;
 }
 
-PressedSolid::PressedSolid(const HexSolid& solid, const TriangleMesh& body, const Stamp& stamp)
-    : solid_(solid), table_m_(body.vertices.col(2).minCoeff()) {
+PressedSolid::PressedSolid(const HexSolid& solid, const TriangleMesh& body, const Stamp& stamp,
+                           double youngs_modulus_pa)
+    : solid_(solid),
+      plane_stiffness_(kPlaneStiffness * youngs_modulus_pa),
+      table_m_(body.vertices.col(2).minCoeff()) {
   constexpr double kNearTable = 0.015;  // what may come down to it [m]
   double top = table_m_;
   for (const SurfaceSample& sample : samplesOf(body, solid.grid(), kSpacing)) {
@@ -67,7 +70,7 @@ double PressedSolid::depthOf(const Contact& contact, const Eigen::VectorXd& unkn
 }
 
 Eigen::Vector3d PressedSolid::forceOn(const Contact& contact, const Eigen::VectorXd& unknowns) const {
-  const double stiffness = kStiffness * contact.sample.area_m2;
+  const double stiffness = plane_stiffness_ * contact.sample.area_m2;
   const double depth = std::max(0.0, depthOf(contact, unknowns));
   Eigen::Vector3d force(0.0, 0.0, (contact.on_stamp ? -1.0 : 1.0) * stiffness * depth);
   if (contact.sticks) force.head<2>() = stiffness * (*contact.sticks - placeOf(contact, unknowns).head<2>());
@@ -77,7 +80,7 @@ Eigen::Vector3d PressedSolid::forceOn(const Contact& contact, const Eigen::Vecto
 double PressedSolid::value(const Eigen::VectorXd& unknowns) const {
   double sum = solid_.energy(unknowns) + force_n_ * unknowns[unknowns.size() - 1];
   for (const Contact& contact : contacts_)
-    sum += 0.5 * forceOn(contact, unknowns).squaredNorm() / (kStiffness * contact.sample.area_m2);
+    sum += 0.5 * forceOn(contact, unknowns).squaredNorm() / (plane_stiffness_ * contact.sample.area_m2);
   return sum;
 }
 
@@ -101,7 +104,7 @@ Triplets PressedSolid::curvature(const Eigen::VectorXd& unknowns, bool positive)
   const int stamp = static_cast<int>(unknowns.size()) - 1;
   triplets.emplace_back(stamp, stamp, 0.0);
   for (const Contact& contact : contacts_) {
-    const double stiffness = kStiffness * contact.sample.area_m2;
+    const double stiffness = plane_stiffness_ * contact.sample.area_m2;
     const auto& [nodes, weights] = contact.sample.place;
     const bool touches = depthOf(contact, unknowns) > 0.0;
     for (int axis = 0; axis < 3; ++axis) {

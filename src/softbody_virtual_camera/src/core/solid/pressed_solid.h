@@ -28,8 +28,8 @@ struct PressedShape {
 };
 
 /// A body that lies on a table and is pressed by a flat, round stamp. Both are rigid planes with a penalty:
-/// at 3 kPa the body sinks in by 0.05 mm. The weight is part of the rest shape. What touches a plane sticks
-/// to it.
+/// under a pressure of a tenth of Young's modulus the body sinks in by 0.01 mm. The weight is part of the
+/// rest shape. What touches a plane sticks to it.
 class PressedSolid : public Objective {
  public:
   struct Stamp {
@@ -38,7 +38,7 @@ class PressedSolid : public Objective {
   };
 
   /// @param body at rest; the table is under its lowest point.
-  PressedSolid(const HexSolid& solid, const TriangleMesh& body, const Stamp& stamp);
+  PressedSolid(const HexSolid& solid, const TriangleMesh& body, const Stamp& stamp, double youngs_modulus_pa);
 
   /// The next shape in balance, from the last one on. @param force_n of the stamp, downwards; above 0.
   /// @throw std::runtime_error if no balance is found.
@@ -65,6 +65,7 @@ class PressedSolid : public Objective {
   ContactForce sumOf(bool on_stamp, const Eigen::VectorXd& unknowns) const;
 
   const HexSolid& solid_;
+  const double plane_stiffness_;  ///< [Pa/m]
   double table_m_ = 0.0, force_n_ = 0.0;
   std::vector<Contact> contacts_;
   PressedShape shape_;
