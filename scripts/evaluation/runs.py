@@ -28,6 +28,8 @@ MORE_FAULTS = {"bend": {
 FINE_CAGE = "300"  # vertices; the shipped sponge has the paper's 132
 # Scenes in which a hand hides the body. Their normal error is that without the hand.
 HIDDEN = ("occlude", "doll_occlude", "touch", "doll_touch", "squeeze", "doll_squeeze")
+# Scenes with known forces. The tracker is told how well the stiffness is known, so that it says them in newtons.
+PRESSED, STIFFNESS_STD_PA = ("stamp", "doll_stamp"), 200
 FAR, FARTHER_M = ("far", "doll_far"), 0.4
 PARAMETERS = {FEW_FEATURES: "feature_tracker: {max_features: 50}\n"}
 
@@ -70,13 +72,18 @@ def object_of(scene):
     return max(shipped, key=lambda path: len(path.stem), default=ROOT / "config/sponge.yaml")
 
 
+def changed(config, name, pattern, text):
+    """The object with another text: a file in evaluation/. `replay` needs --allow-outside for it."""
+    meshes = re.sub(r"(_mesh: *)(\S+)", lambda found: f"{found[1]}{config.parent / found[2]}", config.read_text())
+    other = OUTPUT / f"{name}.yaml"
+    other.write_text(re.sub(pattern, text, meshes))
+    return other
+
+
 def with_pose(config, name, pose):
-    """The object with another rough pose: a file in evaluation/. `replay` needs --allow-outside for it."""
-    text = re.sub(r"(_mesh: *)(\S+)", lambda found: f"{found[1]}{config.parent / found[2]}", config.read_text())
+    """The object with another rough pose."""
     numbers = ", ".join(f"{number:.9f}" for number in pose)
-    posed = OUTPUT / f"{name}.yaml"
-    posed.write_text(re.sub(r"initial_pose:.*", f"initial_pose: [{numbers}]", text))
-    return posed
+    return changed(config, name, r"initial_pose:.*", f"initial_pose: [{numbers}]")
 
 
 def pose_of(config):
@@ -87,6 +94,9 @@ def pose_of(config):
 def config_of(scene, name):
     """The object YAML for a scene, and arguments of `replay` for it."""
     config = object_of(scene)
+    if scene in PRESSED:
+        return (changed(config, name, r"material: *{", f"material: {{youngs_modulus_std: {STIFFNESS_STD_PA}, "),
+                ("--allow-outside", "--forces"))
     if scene not in FAR:
         return config, ()
     pose = pose_of(config)

@@ -82,6 +82,23 @@ def long_runs(reports):
                     "jitter while still [mm RMS]"], rows)
 
 
+def forces(reports):
+    rows = []
+    for name, report in of_kind(reports, "scene").items():
+        found = report.get("forces")
+        if found is None:
+            continue
+        rows.append([name, number(found["frames"], 0), number(found["mean_n"]), number(found["p95_n"]),
+                     percent(found["right"]), number(get(found, "place", "mean_mm")),
+                     number(get(found, "place", "p95_mm")), percent(found["within_90"])])
+    return section("Forces",
+                   "The force of the stamp that `replay --forces` finds, compared with the true one, in frames with a "
+                   "force of at least 0.1 N. The object says that Young's modulus is known within 1 %. `-`: no force "
+                   "was found. The last column is of all forces: that of the stamp, and that of the table.",
+                   ["scene", "frames", "error, mean [N]", "p95 [N]", "within 10 % or 0.1 N [%]",
+                    "place, mean error [mm]", "p95 [mm]", "within their 90 % bound [%]"], rows)
+
+
 def absences(reports):
     rows = []
     for name, report in of_kind(reports, "scene").items():

@@ -126,6 +126,29 @@ def honest_goals(reports):
            "frames", wrong_after_start(report)) for what, report in of_kind(reports, "placed").items())]
 
 
+def solid_goals(reports):
+    """Of scenes whose truth is an elastic body."""
+    goals = []
+    for words, body in (("", ""), ("soft toy, ", "doll_")):
+        grip, stamp = reports.get(("scene", f"{body}grip")), reports.get(("scene", f"{body}stamp"))
+        right, within = (None if share is None else 100.0 * share
+                         for share in (get(stamp, "forces", key) for key in ("right", "within_90")))
+        goals += [
+            (f"{words}grip: mean error of hidden vertices", "<= 1.2", "mm",
+             get(grip, "vertex_error", "hidden", "mean_mm")),
+            (f"{words}grip: error of all vertices, p95", "<= 3.5", "mm", get(grip, "vertex_error", "all", "p95_mm")),
+            (f"{words}grip: frames called TRACKING with a visible vertex more than {WRONG_MM:.0f} mm off", "<= 0",
+             "frames", wrong_while_tracking([grip])),
+            (f"{words}stamp: mean error of visible vertices", "<= 0.35", "mm",
+             get(stamp, "vertex_error", "visible", "mean_mm")),
+            (f"{words}stamp: mean error of hidden vertices", "<= 0.6", "mm",
+             get(stamp, "vertex_error", "hidden", "mean_mm")),
+            (f"{words}stamp: frames whose force is within 10 % or 0.1 N", ">= 95", "%", right),
+            (f"{words}stamp: place of the force, p95", "<= 10", "mm", get(stamp, "forces", "place", "p95_mm")),
+            *((f"{words}stamp: forces within their 90 % bound", goal, "%", within) for goal in (">= 85", "<= 95"))]
+    return goals
+
+
 def world_goals(reports):
     return [*plain_goals(reports), *hand_goals(reports), *own_colour_goals(reports), *texture_goals(reports),
-            *label_goals(reports), *camera_goals(reports), *doll_goals(reports), *honest_goals(reports)]
+            *label_goals(reports), *camera_goals(reports), *doll_goals(reports), *solid_goals(reports), *honest_goals(reports)]

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "scenes/body_profile.h"
-#include "scenes/hand.h"
+#include "hands/body_profile.h"
+#include "hands/hand.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 
 namespace softbody::virtual_camera {

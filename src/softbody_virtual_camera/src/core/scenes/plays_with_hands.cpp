@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "scenes/hand.h"
+#include "hands/hand.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/deformations.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"

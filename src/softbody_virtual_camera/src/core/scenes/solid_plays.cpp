@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "scenes/fist.h"
+#include "hands/fist.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"
 #include "solid/held_solid.h"

@@ -77,6 +77,30 @@ std::array<double, 8> sharesInside(const Columns& columns, const Index3& cell) {
 
 Index3 corner(int number) { return {number / 4, number / 2 % 2, number % 2}; }
 
+/// Numbers the corners of the cells, along x first.
+void addNodes(const std::vector<Index3>& cells, const Eigen::Vector3d& low, CellGrid* grid) {
+  std::map<std::array<int, 3>, int> numbers;
+  const auto at = [](const Index3& cell, int number) {
+    const Index3 node = cell + corner(number);
+    return std::array{node.x(), node.y(), node.z()};
+  };
+  for (const Index3& cell : cells) {
+    for (int c = 0; c < 8; ++c) numbers.emplace(at(cell, c), 0);
+  }
+  grid->nodes.resize(static_cast<Eigen::Index>(numbers.size()), 3);
+  int next = 0;
+  for (auto& [node, number] : numbers) {
+    number = next++;
+    const Eigen::Vector3d steps(node[0], node[1], node[2]);
+    grid->nodes.row(number) = (low + steps.cwiseProduct(grid->cell_size)).transpose();
+  }
+  for (const Index3& cell : cells) {
+    std::array<int, 8> corners{};
+    for (int c = 0; c < 8; ++c) corners[static_cast<std::size_t>(c)] = numbers.at(at(cell, c));
+    grid->cells.push_back(corners);
+  }
+}
+
 }  // namespace
 
 Eigen::Vector3d Embedding::in(const Points& all) const {
@@ -118,7 +142,6 @@ CellGrid fillWithCells(const TriangleMesh& body, double size_m) {
   CellGrid grid;
   grid.cell_size = extent.cwiseQuotient(count.cast<double>());
   const Columns columns(body, low, grid.cell_size / kSamples, kSamples * count);
-  std::map<std::array<int, 3>, int> numbers;  // of the nodes, along x first
   std::vector<Index3> kept;
   for (int i = 0; i < count.x(); ++i) {
     for (int j = 0; j < count.y(); ++j) {
@@ -128,28 +151,10 @@ CellGrid fillWithCells(const TriangleMesh& body, double size_m) {
         for (double& volume : volumes) volume = std::max(volume, kLeastShare) * grid.cell_size.prod() / 8.0;
         grid.volumes.push_back(volumes);
         kept.emplace_back(i, j, k);
-        for (int c = 0; c < 8; ++c) {
-          const Index3 node = kept.back() + corner(c);
-          numbers.emplace(std::array{node.x(), node.y(), node.z()}, 0);
-        }
       }
     }
   }
-  grid.nodes.resize(static_cast<Eigen::Index>(numbers.size()), 3);
-  int next = 0;
-  for (auto& [node, number] : numbers) {
-    number = next++;
-    grid.nodes.row(number) =
-        (low + Eigen::Vector3d(node[0], node[1], node[2]).cwiseProduct(grid.cell_size)).transpose();
-  }
-  for (const Index3& cell : kept) {
-    std::array<int, 8> corners{};
-    for (int c = 0; c < 8; ++c) {
-      const Index3 node = cell + corner(c);
-      corners[static_cast<std::size_t>(c)] = numbers.at({node.x(), node.y(), node.z()});
-    }
-    grid.cells.push_back(corners);
-  }
+  addNodes(kept, low, &grid);
   return grid;
 }
 

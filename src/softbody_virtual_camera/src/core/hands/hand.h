@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "scenes/body_profile.h"
+#include "hands/body_profile.h"
 
 /// A hand that holds one end of a body. All points are in the body's frame [m].
 namespace softbody::virtual_camera {

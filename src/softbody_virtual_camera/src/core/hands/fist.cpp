@@ -1,4 +1,4 @@
-#include "scenes/fist.h"
+#include "hands/fist.h"
 
 #include <Eigen/Dense>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "scenes/body_profile.h"
+#include "hands/body_profile.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scenes/hand.h"
+#include "hands/hand.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
