@@ -151,4 +151,5 @@ def solid_goals(reports):
 
 def world_goals(reports):
     return [*plain_goals(reports), *hand_goals(reports), *own_colour_goals(reports), *texture_goals(reports),
-            *label_goals(reports), *camera_goals(reports), *doll_goals(reports), *solid_goals(reports), *honest_goals(reports)]
+            *label_goals(reports), *camera_goals(reports), *doll_goals(reports), *solid_goals(reports),
+            *honest_goals(reports)]
