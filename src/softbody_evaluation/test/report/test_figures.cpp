@@ -23,6 +23,14 @@ Report reportWith(double error_m) {
   return report;
 }
 
+TEST(Figures, AForceThatIsNeverFoundHasNoPlace) {
+  Report report = reportWith(0.001);
+  report.forces = ForceReport{3, summarize(std::vector<float>{2.0f}), 0.0, {}, 0.0};
+  for (const Figure& figure : figures(report))
+    EXPECT_EQ(figure.name.find("place of the force"), std::string::npos)
+        << figure.name << " " << figure.value;
+}
+
 TEST(Compare, PutsTheSameFiguresSideBySide) {
   Report first = reportWith(0.001), second = reportWith(0.003);
   second.stages[{"replay", "registration", false}] = summarize(std::vector<float>{2.0f, 4.0f});

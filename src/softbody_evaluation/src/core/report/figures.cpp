@@ -90,7 +90,7 @@ void addForces(const ForceReport& report, std::vector<Figure>* figures) {
   figures->push_back({"force error, mean", "N", report.force_n.mean});
   figures->push_back({"force error, p95", "N", report.force_n.p95});
   figures->push_back({"forces within 10 % or 0.1 N", "%", 100.0 * report.right});
-  addLengths("place of the force", report.place_m, figures);
+  if (report.place_m.count > 0) addLengths("place of the force", report.place_m, figures);
   figures->push_back({"forces within their 90 % bound", "%", 100.0 * report.within});
 }
 

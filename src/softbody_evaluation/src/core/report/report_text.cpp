@@ -92,6 +92,16 @@ std::string labelLine(const LabelReport& report) {
   return text + fmt::format("; {} frames\n", report.frames);
 }
 
+std::string forceLine(const ForceReport& report) {
+  const std::string place = report.place_m.count == 0
+                                ? "never found"
+                                : fmt::format("{:.1f} mm from its place (median)", mm(report.place_m.median));
+  return fmt::format(
+      "largest force: {:.3f} N mean error, {:.1f} % of {} frames within 10 % or 0.1 N, {}; {:.1f} % of all "
+      "forces within the 90 % bound\n",
+      report.force_n.mean, 100.0 * report.right, report.frames, place, 100.0 * report.within);
+}
+
 std::string optionalLines(const Report& report) {
   std::string text = cutLines(report);
   if (report.calibration) {
@@ -113,13 +123,7 @@ std::string optionalLines(const Report& report) {
                         mm(report.tool->position.p95), kDegrees * report.tool->rotation.mean);
   }
   if (report.labels) text += labelLine(*report.labels);
-  if (report.forces) {
-    text += fmt::format(
-        "largest force: {:.3f} N mean error, {:.1f} % of {} frames within 10 % or 0.1 N, {:.1f} mm from its "
-        "place (median); {:.1f} % of all forces within the 90 % bound\n",
-        report.forces->force_n.mean, 100.0 * report.forces->right, report.forces->frames,
-        mm(report.forces->place_m.median), 100.0 * report.forces->within);
-  }
+  if (report.forces) text += forceLine(*report.forces);
   if (report.silhouette) {
     text += fmt::format("silhouette IoU against {}: {:.4f} mean, {:.4f} worst of {} frames\n",
                         report.silhouette->against_truth ? "truth" : "measured depth",
