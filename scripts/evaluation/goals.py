@@ -92,6 +92,18 @@ def cut_goals(values):
         ("cut: angle between the cut surface and the true one", "<= 2.0", "deg",
          values.scene("cut", "cut_surface", "tilt_deg")),
         ("cut: mean error of the worse piece", "<= 2.5", "mm", worst(pieces)),
+        *(goal for scene in ("tear", "doll_tear") for goal in tear_goals(values, scene)),
+    ]
+
+
+def tear_goals(values, scene):
+    delay = values.scene(scene, "pieces", "delay_s")
+    right = values.scene(scene, "pieces", "frames_right")
+    return [
+        (f"{scene}: time between the tear and the true one", "<= 0.15", "s", None if delay is None else abs(delay)),
+        (f"{scene}: largest distance between the torn surface and the true one", "<= 3.0", "mm",
+         worst(values.scene(scene, "cut_surface", way, "max_mm") for way in ("distance", "missed"))),
+        (f"{scene}: frames with the right number of pieces", ">= 95", "%", None if right is None else 100.0 * right),
     ]
 
 

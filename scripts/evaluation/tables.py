@@ -126,7 +126,7 @@ def cuts(reports):
             continue
         error = report["vertex_error"]
         rows.append([name, f"{pieces['result_pieces']} of {pieces['true_pieces']}", percent(pieces["frames_right"]),
-                     percent(pieces["vertices_right"]),
+                     percent(pieces["vertices_right"]), number(pieces["delay_s"]),
                      ", ".join(number(piece["mean_mm"]) for piece in error["pieces"]) or "-",
                      number(error["near_cut"]["mean_mm"]), number(cut["distance"]["mean_mm"]),
                      number(worst([cut["distance"]["max_mm"], cut["missed"]["max_mm"]])), number(cut["tilt_deg"]),
@@ -135,7 +135,7 @@ def cuts(reports):
                      number(get(tool, "position", "mean_mm")), number(get(tool, "rotation_deg", "mean"))])
     return section("Cuts", "Errors of the pieces, of the vertices near the cut, and of the cut surface in the rest "
                            "shape [mm].",
-                   ["scene", "pieces at the end", "frames with the right number [%]", "vertices in the right piece [%]",
+                   ["scene", "pieces at the end", "frames with the right number [%]", "vertices in the right piece [%]", "late by [s]",
                     "mean error by piece", "near the cut", "cut surface, mean", "at most", "tilt [deg]",
                     "volume changed by cuts [%]", "tool poses", "tool position [mm]", "tool angle [deg]"], rows)
 

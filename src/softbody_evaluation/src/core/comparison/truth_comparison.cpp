@@ -87,7 +87,9 @@ std::optional<JitterReport> jitterWhereStill(const SurfaceRecord& result, const 
 /// Sums over the frames after the first cut of either surface.
 class PiecesSums {
  public:
-  void add(const PieceMatch& pieces) {
+  void add(double time_s, const PieceMatch& pieces) {
+    if (report_.frames == 0 || pieces.true_pieces != report_.true_pieces) true_since_s_ = time_s;
+    if (report_.frames == 0 || pieces.result_pieces != report_.result_pieces) result_since_s_ = time_s;
     ++report_.frames;
     report_.frames_right += pieces.result_pieces == pieces.true_pieces;
     report_.vertices_right += pieces.vertices_right;
@@ -100,11 +102,13 @@ class PiecesSums {
     PiecesReport means = report_;
     means.frames_right /= static_cast<double>(means.frames);
     means.vertices_right /= static_cast<double>(means.frames);
+    if (means.result_pieces == means.true_pieces) means.delay_s = result_since_s_ - true_since_s_;
     return means;
   }
 
  private:
   PiecesReport report_;
+  double true_since_s_ = 0.0, result_since_s_ = 0.0;  ///< the numbers of pieces are the present ones
 };
 
 /// The occlusions of the truth's frames, without errors.
@@ -231,7 +235,8 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
     shown.mean_error = errors.back().mean();
     shown.covered_errors = errors.back().covered;
     if (answer->second.revision > 0 || expected.revision > 0)
-      pieces.add(pairs.of(stamp, answer->second, expected).pieces);
+      pieces.add(seconds(stamp - truth.states.begin()->first),
+                 pairs.of(stamp, answer->second, expected).pieces);
   }
   report->frames.expected = truth.states.size();
   report->frames.answered = errors.size();

@@ -118,11 +118,14 @@ json toJsonArray(const Items& items) {
 }
 
 json toJson(const PiecesReport& report) {
-  return {{"frames", report.frames},
-          {"frames_right", report.frames_right},
-          {"vertices_right", report.vertices_right},
-          {"result_pieces", report.result_pieces},
-          {"true_pieces", report.true_pieces}};
+  json document = {{"frames", report.frames},
+                   {"frames_right", report.frames_right},
+                   {"vertices_right", report.vertices_right},
+                   {"result_pieces", report.result_pieces},
+                   {"true_pieces", report.true_pieces},
+                   {"delay_s", nullptr}};
+  if (report.delay_s) document["delay_s"] = *report.delay_s;
+  return document;
 }
 
 json toJson(const PoseErrorReport& report) {

@@ -56,6 +56,8 @@ std::string cutLines(const Report& report) {
         "in the right piece\n",
         report.pieces->result_pieces, report.pieces->true_pieces, 100.0 * report.pieces->frames_right,
         report.pieces->frames, 100.0 * report.pieces->vertices_right);
+    if (report.pieces->delay_s)
+      text += fmt::format("the last of them came {:.3f} s after the truth\n", *report.pieces->delay_s);
   }
   if (report.cut_surface && report.cut_surface->distance.count == 0) {
     text += "cut surface: the result has none\n";
