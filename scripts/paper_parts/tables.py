@@ -104,9 +104,9 @@ def tearing(report):
              f"{number(get(surface, 'distance', 'mean_mm'))} / {number(get(surface, 'distance', 'max_mm'))}",
              number(surface["tilt_deg"]), number(get(report, "vertex_error", "visible", "mean_mm"))]]
     return section("Tearing", "Scene `tear` of the virtual camera, with config/tear.yaml: the sponge is pulled at both "
-                              "ends until it is 1.5 times as long in one section, and tears there. The body tears only "
-                              "after five states beyond the limit, so it tears later than the truth. The section is "
-                              "stretched almost as far beside the tear, so the place is less certain than that of a cut.",
+                              "ends until it is 1.5 times as long in one section, and tears there. The body "
+                              "tears when the stretch is beyond the limit by five standard deviations, so it tears later "
+                              "than the truth. The tracked features on both sides say where.",
                    ["true time [s]", "tears [s]", "pieces, true / found", "frames with the right number [%]",
                     "distance from the true surface, mean / max [mm]", "tilt [degrees]",
                     "error of visible vertices [mm]"], rows)

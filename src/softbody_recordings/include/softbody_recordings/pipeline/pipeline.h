@@ -71,7 +71,7 @@ class Pipeline {
   void makeWaitingCuts(FrameOutput* output);
   std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;
   void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
-  void tear(FrameOutput* output);
+  void tear(const TargetSet& targets, FrameOutput* output);
   void adopt(const Cut& cut, FrameOutput* output);
 
   const TetTopology uncut_volume_;

@@ -64,7 +64,7 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
     simulate(output.tracking.targets, frame.stamp, &output);
     makeWaitingCuts(&output);
     if (blade) followBlade(*blade, frame.stamp, &output);
-    tear(&output);
+    tear(output.tracking.targets, &output);
     const auto scope = timer_.stage("Resolution Enhancement");
     output.volume = simulator_.state();
     output.surface = surface_.surface().apply(simulator_.state());
@@ -121,10 +121,10 @@ void Pipeline::followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* 
   if (own) adopt(*own, output);
 }
 
-void Pipeline::tear(FrameOutput* output) {
+void Pipeline::tear(const TargetSet& targets, FrameOutput* output) {
   std::optional<Cut> torn;
   try {
-    torn = surface_.tear(simulator_.state());
+    torn = surface_.tear(simulator_.state(), targets);
   } catch (const std::exception& error) {
     output->warnings.push_back(fmt::format("the body cannot tear: {}", error.what()));
   }

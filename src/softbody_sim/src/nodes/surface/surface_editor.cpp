@@ -23,6 +23,7 @@ SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame
       on_edit_(std::move(on_edit)),
       cuts_(node, body_frame),
       blade_(node, [this](const Points& polygon, const ros::Time& stamp) { onBlade(polygon, stamp); }) {
+  if (config.tear_strain > 0.0) targets_.emplace(node);
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SurfaceEditor::onRecordedCut, this,
                                    ros::TransportHints().tcpNoDelay());
 }
@@ -44,7 +45,7 @@ void SurfaceEditor::resetInputs() {
 
 void SurfaceEditor::onState(const MeshState& state, const std_msgs::Header& header) {
   state_ = state;
-  state_stamp_ = header.stamp;
+  state_header_ = header;
   confirm(state.revision);
   makeRecordedCuts();
   blade_.onState(header);
@@ -69,10 +70,10 @@ void SurfaceEditor::onBlade(const Points& polygon, const ros::Time& stamp) {
 void SurfaceEditor::tear() {
   if (!body_ || !state_) return;
   try {
-    const std::optional<Cut> cut = body_->tear(*state_);
+    const std::optional<Cut> cut = body_->tear(*state_, targets_ ? targets_->of(state_header_) : TargetSet());
     if (!cut) return;
     ROS_INFO("the body tears: revision %u", cut->revision);
-    publish(*cut, state_stamp_);
+    publish(*cut, state_header_.stamp);
   } catch (const std::exception& error) {
     ROS_WARN_STREAM_THROTTLE(5.0, "the body cannot tear: " << error.what());
   }
@@ -109,7 +110,7 @@ bool SurfaceEditor::onVolumeTopology(std::uint32_t revision) {
 bool SurfaceEditor::rollBack(std::uint32_t volume_revision) {
   const std::uint32_t revision = body_->volume().revision;
   if (!body_->rollBack(volume_revision)) return false;
-  cuts_.publishEdits(*body_, state_stamp_, false);
+  cuts_.publishEdits(*body_, state_header_.stamp, false);
   ROS_ERROR(
       "the simulator stays at revision %u and does not make the cut of revision %u: the surface takes it "
       "back",
@@ -209,7 +210,7 @@ bool SurfaceEditor::isReady(std::string* reason) const {
 bool SurfaceEditor::apply(const Cut& cut, std::string* reason) {
   if (!body_->apply(cut, stateOrRest(), reason)) return false;
   reason->clear();
-  publish(cut, state_ ? state_stamp_ : ros::Time());
+  publish(cut, state_ ? state_header_.stamp : ros::Time());
   return true;
 }
 

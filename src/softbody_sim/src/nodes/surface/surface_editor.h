@@ -10,6 +10,7 @@
 
 #include "nodes/surface/blade_input.h"
 #include "nodes/surface/cut_publisher.h"
+#include "nodes/surface/targets_input.h"
 #include "softbody_common/ros/cut_messages.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 
@@ -66,11 +67,12 @@ class SurfaceEditor {
   std::function<void()> on_edit_;
   std::optional<CuttableSurface> body_;
   std::optional<MeshState> state_;  ///< the last one
-  ros::Time state_stamp_;
+  std_msgs::Header state_header_;
   CutPublisher cuts_;
   std::deque<softbody_msgs::CutConstPtr> recorded_cuts_;  ///< they wait for a pending edit
   // Last, so that callbacks end before the members that they use.
   BladeInput blade_;
+  std::optional<TargetsInput> targets_;  ///< only if the body can tear
   ros::Subscriber cut_subscriber_;
 };
 

@@ -57,8 +57,9 @@ class CuttableSurface {
 
   /// Tears overstretched material; to be called with every state. @return the cut that was made, if any. A
   /// tear is a separate stroke. It never leaves a piece smaller than 1 % of the body. @param volume its
-  /// state. If its revision differs, nothing tears.
-  std::optional<Cut> tear(const MeshState& volume);
+  /// state. If its revision differs, nothing tears. @param targets that led to this state: they say where the
+  /// body tears. Those of another revision are not used.
+  std::optional<Cut> tear(const MeshState& volume, const TargetSet& targets = {});
 
   /// A cut as a separate stroke, for apply(). The patch is rounded as it is published.
   Cut separateCut(const TriangleMesh& patch) const;

@@ -155,12 +155,14 @@ std::optional<Cut> CuttableSurface::follow(const Points& blade, const MeshState&
   return cut;
 }
 
-std::optional<Cut> CuttableSurface::tear(const MeshState& volume) {
+std::optional<Cut> CuttableSurface::tear(const MeshState& volume, const TargetSet& targets) {
   Implementation& s = *implementation_;
   const TetTopology& topology = this->volume();
   if (volume.revision != topology.revision || volume.vertices.rows() != topology.rest_vertices.rows())
     return std::nullopt;
-  const std::optional<CutPatch> patch = s.tears.follow(topology, volume.vertices);
+  static const std::vector<Target> kNone;
+  const bool usable = targets.revision == topology.revision;
+  const std::optional<CutPatch> patch = s.tears.follow(topology, volume, usable ? targets.targets : kNone);
   if (!patch) return std::nullopt;
   const std::vector<double> before = volumesOf(surface().topology());
   const double least = kLeastTorn * std::accumulate(before.begin(), before.end(), 0.0);

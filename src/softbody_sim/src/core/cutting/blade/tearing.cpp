@@ -1,66 +1,70 @@
 #include "cutting/blade/tearing.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
 
+#include "cutting/blade/tear_plane.h"
+#include "cutting/blade/tear_reach.h"
 #include "cutting/patch/plane_section.h"
 #include "softbody_common/tet_geometry.h"
-#include "tets/tet_shape.h"
 
 namespace softbody {
 namespace {
 
-/// Consecutive states beyond the limit: one wrong measurement or the vibration after a cut does not tear.
-constexpr int kStates = 5;
 // A tear that has begun runs on where the strain is above this share of the limit: at its tip the stress is
 // larger.
 constexpr double kRuns = 0.5;
 constexpr double kFurther = 1.1;   // factor over the stretch of a patch that was not cut
 constexpr double kOverhang = 0.1;  // over the mean edge length
 
-/// Of F^T F = V diag(stretch^2) V^T, F the deformation gradient.
-Eigen::Matrix3d rightCauchyGreen(const TetTopology& volume, const Points& vertices, int tet) {
-  const Eigen::RowVector4i corners = volume.tets.row(tet);
-  const Eigen::Matrix3d F = edgesOf(vertices, corners) * edgesOf(volume.rest_vertices, corners).inverse();
-  return F.transpose() * F;
+/// As planeSection() does, a vertex on the plane counts as above it.
+bool crosses(const TetTopology& volume, const RestPlane& plane, int tet) {
+  int above = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector3d corner = volume.rest_vertices.row(volume.tets(tet, k));
+    above += plane.normal.dot(corner - plane.point) >= 0.0 ? 1 : 0;
+  }
+  return above > 0 && above < 4;
+}
+
+/// The most surely stretched tet of the zone on the plane; -1: none.
+int startOf(const TetTopology& volume, const std::vector<TetStretch>& stretches, const TearZone& zone,
+            const RestPlane& plane) {
+  int start = -1;
+  for (int t = 0; t < volume.tets.rows(); ++t) {
+    if (!zone.tets[static_cast<std::size_t>(t)] || !crosses(volume, plane, t)) continue;
+    if (start < 0 || stretches[t].least() > stretches[start].least()) start = t;
+  }
+  return start;
 }
 
 }  // namespace
 
-PrincipalStretch principalStretch(const TetTopology& volume, const Points& vertices, int tet) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(rightCauchyGreen(volume, vertices, tet));
-  return {std::sqrt(std::max(0.0, solver.eigenvalues()[2])), solver.eigenvectors().col(2)};
-}
-
-std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const Points& vertices) {
+std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const MeshState& state,
+                                          const std::vector<Target>& targets) {
   if (strain_ <= 0.0) return std::nullopt;
   const auto count = static_cast<std::size_t>(volume.tets.rows());
-  if (revision_ != volume.revision || states_beyond_.size() != count) {
-    states_beyond_.assign(count, 0);
-    asked_at_.assign(count, 0.0);
-  }
+  if (revision_ != volume.revision || asked_at_.size() != count) asked_at_.assign(count, 0.0);
   revision_ = volume.revision;
+  const std::vector<TetStretch> stretches = tetStretches(volume, state);
   int first = -1;
-  PrincipalStretch most;
-  std::vector<bool> torn(count, false);
   for (std::size_t t = 0; t < count; ++t) {
-    const PrincipalStretch now = principalStretch(volume, vertices, static_cast<int>(t));
-    const bool beyond = now.stretch > 1.0 + strain_;
-    torn[t] = now.stretch > 1.0 + kRuns * strain_;
-    states_beyond_[t] = beyond ? states_beyond_[t] + 1 : 0;
+    const bool beyond = stretches[t].least() > 1.0 + strain_;
     if (!beyond) asked_at_[t] = 0.0;
-    const bool asks = states_beyond_[t] >= kStates && now.stretch > kFurther * asked_at_[t];
-    if (!asks || (first >= 0 && now.stretch <= most.stretch)) continue;
-    first = static_cast<int>(t);
-    most = now;
+    if (!beyond || stretches[t].stretch <= kFurther * asked_at_[t]) continue;
+    if (first < 0 || stretches[t].least() > stretches[first].least()) first = static_cast<int>(t);
   }
   if (first < 0) return std::nullopt;
-  states_beyond_.assign(count, 0);
-  asked_at_[static_cast<std::size_t>(first)] = most.stretch;
-  const MaterialPoint middle{first, Eigen::Vector4d::Constant(0.25)};
-  return planeSection(volume, positionOf(middle, volume.rest_vertices, volume.tets), most.direction, first,
-                      torn, kOverhang * meanEdgeLength(volume.rest_vertices, volume.tets));
+  asked_at_[static_cast<std::size_t>(first)] = stretches[first].stretch;
+  const TearZone zone = tearZone(volume, stretches, first, kRuns * strain_);
+  const std::vector<TearMark> marks = tearMarks(volume, state.vertices, targets, strain_, zone);
+  const RestPlane plane = tearPlane(zone, marks);
+  const int start = startOf(volume, stretches, zone, plane);
+  if (start < 0) return std::nullopt;
+  std::vector<bool> torn;
+  for (const double stretch : stretchAcross(volume, stretches, plane, marks))
+    torn.push_back(stretch > 1.0 + kRuns * strain_);
+  return planeSection(volume, plane.point, plane.normal, start, torn,
+                      kOverhang * meanEdgeLength(volume.rest_vertices, volume.tets));
 }
 
 }  // namespace softbody
