@@ -104,9 +104,9 @@ def tearing(report):
              f"{number(get(surface, 'distance', 'mean_mm'))} / {number(get(surface, 'distance', 'max_mm'))}",
              number(surface["tilt_deg"]), number(get(report, "vertex_error", "visible", "mean_mm"))]]
     return section("Tearing", "Scene `tear` of the virtual camera, with config/tear.yaml: the sponge is pulled at both "
-                              "ends until it is 1.5 times as long in one section, and tears there. The body "
-                              "tears when the stretch is beyond the limit by five standard deviations, so it tears later "
-                              "than the truth. The tracked features on both sides say where.",
+                              "ends until it is 1.5 times as long in one section, and tears there. The body tears when "
+                              "its stretch is surely beyond the limit, or when the features on both sides have parted: "
+                              "later than the truth. The features also say where.",
                    ["true time [s]", "tears [s]", "pieces, true / found", "frames with the right number [%]",
                     "distance from the true surface, mean / max [mm]", "tilt [degrees]",
                     "error of visible vertices [mm]"], rows)

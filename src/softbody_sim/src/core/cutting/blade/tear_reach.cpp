@@ -12,14 +12,13 @@ namespace {
 constexpr std::size_t kFewest = 6;  // marks of a side, which make a rigid motion sure
 
 /// The rigid motion of the marks on one side.
-struct SideMotion {
+struct RigidSide {
   Eigen::Isometry3d motion;
   double height_m = 0.0;        ///< mean, over the plane
   double mean_square_m2 = 0.0;  ///< misfit
 };
 
-std::optional<SideMotion> sideMotion(const std::vector<TearMark>& marks, double side,
-                                     const RestPlane& plane) {
+std::optional<RigidSide> rigidSide(const std::vector<TearMark>& marks, double side, const RestPlane& plane) {
   std::vector<const TearMark*> on_side;
   for (const TearMark& mark : marks)
     if (mark.side == side) on_side.push_back(&mark);
@@ -30,8 +29,8 @@ std::optional<SideMotion> sideMotion(const std::vector<TearMark>& marks, double 
     measured.row(i) = on_side[static_cast<std::size_t>(i)]->measured;
   }
   const Eigen::Isometry3d motion = fitRigid(rest, measured);
-  return SideMotion{motion, plane.normal.dot(rest.colwise().mean().transpose() - plane.point),
-                    (transformed(rest, motion) - measured).rowwise().squaredNorm().mean()};
+  return RigidSide{motion, plane.normal.dot(rest.colwise().mean().transpose() - plane.point),
+                   (transformed(rest, motion) - measured).rowwise().squaredNorm().mean()};
 }
 
 }  // namespace
@@ -41,7 +40,7 @@ std::vector<double> stretchAcross(const TetTopology& volume, const std::vector<T
   std::vector<double> across;
   across.reserve(stretches.size());
   for (const TetStretch& own : stretches) across.push_back(own.stretch);
-  const auto above = sideMotion(marks, 1.0, plane), below = sideMotion(marks, -1.0, plane);
+  const auto above = rigidSide(marks, 1.0, plane), below = rigidSide(marks, -1.0, plane);
   if (!above || !below || above->height_m <= below->height_m) return across;
   const double length = above->height_m - below->height_m;
   const double variance = (above->mean_square_m2 + below->mean_square_m2) / (length * length);

@@ -51,8 +51,10 @@ TearZone tearZone(const TetTopology& volume, const std::vector<TetStretch>& stre
   // A little beside the middle, so that the plane meets no vertices of a regular mesh.
   const Eigen::Vector3d normal = solver.eigenvectors().col(2);
   zone.plane = {middle / weights + 1e-3 * zone.place_m * normal, normal};
-  // The mean sin^2 of the angles to the mean direction, and the noise of a direction; never exactly 0.
-  zone.tilt_rad = std::sqrt(std::max(1e-6, 1.0 - solver.eigenvalues()[2] + turns / weights));
+  // Standard error of the mean direction: by the angles to it, and by the noise of a direction; never 0.
+  const double spread = 1.0 - solver.eigenvalues()[2] + turns / weights;
+  const auto tets = static_cast<double>(std::count(zone.tets.begin(), zone.tets.end(), true));
+  zone.tilt_rad = std::sqrt(std::max(1e-6, spread / tets));
   return zone;
 }
 

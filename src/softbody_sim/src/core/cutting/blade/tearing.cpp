@@ -4,6 +4,7 @@
 
 #include "cutting/blade/tear_plane.h"
 #include "cutting/blade/tear_reach.h"
+#include "cutting/blade/tear_sides.h"
 #include "cutting/patch/plane_section.h"
 #include "softbody_common/tet_geometry.h"
 
@@ -37,6 +38,16 @@ int startOf(const TetTopology& volume, const std::vector<TetStretch>& stretches,
   return start;
 }
 
+/// Whether the tracked features alone say that the two sides of the plane have parted.
+bool parted(const std::vector<TearMark>& marks, const RestPlane& plane) {
+  constexpr double kSure = 5.0;  // standard deviations
+  const auto motions = sideMotions(marks);
+  if (!motions) return false;
+  const Eigen::Vector3d middle = 0.5 * (motions->above.rest + motions->below.rest);
+  const double height = plane.normal.dot(middle - plane.point);
+  return motions->partingAt(middle - height * plane.normal) > kSure;
+}
+
 }  // namespace
 
 std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const MeshState& state,
@@ -48,16 +59,18 @@ std::optional<CutPatch> TearWatch::follow(const TetTopology& volume, const MeshS
   const std::vector<TetStretch> stretches = tetStretches(volume, state);
   int first = -1;
   for (std::size_t t = 0; t < count; ++t) {
-    const bool beyond = stretches[t].least() > 1.0 + strain_;
+    const bool beyond = stretches[t].stretch > 1.0 + strain_;
     if (!beyond) asked_at_[t] = 0.0;
     if (!beyond || stretches[t].stretch <= kFurther * asked_at_[t]) continue;
     if (first < 0 || stretches[t].least() > stretches[first].least()) first = static_cast<int>(t);
   }
   if (first < 0) return std::nullopt;
-  asked_at_[static_cast<std::size_t>(first)] = stretches[first].stretch;
   const TearZone zone = tearZone(volume, stretches, first, kRuns * strain_);
-  const std::vector<TearMark> marks = tearMarks(volume, state.vertices, targets, strain_, zone);
+  std::vector<TearMark> marks = tearMarks(volume, state.vertices, targets, strain_, zone);
+  takeSides(zone, &marks);
   const RestPlane plane = tearPlane(zone, marks);
+  if (stretches[first].least() <= 1.0 + strain_ && !parted(marks, plane)) return std::nullopt;
+  asked_at_[static_cast<std::size_t>(first)] = stretches[first].stretch;
   const int start = startOf(volume, stretches, zone, plane);
   if (start < 0) return std::nullopt;
   std::vector<bool> torn;
