@@ -93,6 +93,22 @@ TEST_F(DisagreementTest, WhatShowsBeyondMustBeSignificant) {
   EXPECT_LT(largest(small, deviations(0.02f)).error_m, found.error_m);
 }
 
+TEST_F(DisagreementTest, TheBoundIsThatOfHalfOfTheShownPlaces) {
+  const TetTopology volume = makeBox().volume;
+  std::vector<Association> shown(5);
+  for (Association& association : shown) association.place = {0, {0.25, 0.25, 0.25, 0.25}};
+  EXPECT_EQ(medianBound(shown, volume, {}), 0.0);
+  const double bound_m = medianBound(shown, volume, deviations(0.01f));
+  EXPECT_NEAR(bound_m, 0.0144, 0.0001);
+  // Of the distances in space with this deviation 90 % are within.
+  std::mt19937 generator(3);
+  std::normal_distribution<double> each(0.0, 0.01 / std::sqrt(3.0));
+  int within = 0;
+  for (int i = 0; i < 20000; ++i)
+    within += std::hypot(each(generator), each(generator), each(generator)) <= bound_m ? 1 : 0;
+  EXPECT_NEAR(within / 20000.0, 0.9, 0.01);
+}
+
 TEST(MeanDisagreement, OneFrameIsNotEnough) {
   MeanDisagreement mean;
   Nanoseconds stamp = 0;

@@ -21,7 +21,7 @@ constexpr double kTolerance = 0.01;
 
 TrackingStatus statusWith(const Observation& seen, const Disagreement& disagreement = {},
                           double image_scale = 1.0) {
-  return statusOf(seen, {}, disagreement, kTolerance, image_scale);
+  return statusOf(seen, {}, {disagreement, 0.0, image_scale}, kTolerance);
 }
 
 TEST(StatusOf, NamesWhatDisagreesBeyondTheTolerance) {
@@ -48,6 +48,14 @@ TEST(StatusOf, AnOutlineSmallerAllAroundNamesTheScale) {
   EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("a body about 1.3 times smaller"), std::string::npos);
   seen.outline.excess = 0.05;
   EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("check mesh, scale and pose"), std::string::npos);
+}
+
+/// A mesh that was bent to the shape of another body agrees with the image, but its state is not certain.
+TEST(StatusOf, AnUncertainStateIsNotTracked) {
+  const auto status = [](double bound_m) { return statusOf(wellSeen(), {}, {{}, bound_m}, kTolerance); };
+  EXPECT_EQ(status(0.9 * kTolerance).state, TrackingState::kTracking);
+  EXPECT_EQ(status(0.012).state, TrackingState::kDegraded);
+  EXPECT_NE(status(0.012).reason.find("may be 12 mm off"), std::string::npos) << status(0.012).reason;
 }
 
 /// What is hidden, and features that are not found, say nothing against the rest.

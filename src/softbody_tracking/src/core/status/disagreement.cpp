@@ -6,7 +6,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "prediction/memory.h"
+#include "prediction/place_deviation.h"
 #include "softbody_common/time.h"
+#include "statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 // Standard deviations from which what shows beyond the outline contradicts the prediction.
 constexpr double kSignificant = 5.0;
 
+// 90 % of the distances in space are at most so many standard deviations, which count all three directions.
+constexpr double kBound90 = 1.44354;
 // Every second pixel of every second row is compared: depth is smooth.
 constexpr int kStep = 2;
 // Side of a patch [such pixels]: wide beside the error of an outline.
@@ -50,18 +54,6 @@ Widest widestOf(const cv::Mat1b& patches) {
   cv::minMaxLoc(depthInside(patches), nullptr, &inside_px, nullptr, &widest.center);
   widest.width_px = std::max(0.0, 2.0 * inside_px - 1.0);
   return widest;
-}
-
-/// Largest deviation of the vertices around the surface at a pixel [m].
-double deviationAt(const ComparedBody& body, const cv::Point& pixel) {
-  const TetTopology& volume = body.surface.volume();
-  if (body.deviations.size() != static_cast<std::size_t>(volume.rest_vertices.rows())) return 0.0;
-  const int tet = body.surface.materialPoint(body.surface.image().triangle(pixel), pixel).tet;
-  if (tet < 0) return 0.0;
-  float largest = 0.0f;
-  for (int corner = 0; corner < 4; ++corner)
-    largest = std::max(largest, body.deviations[static_cast<std::size_t>(volume.tets(tet, corner))]);
-  return largest;
 }
 
 /// The widest patch of background on the rendered body.
@@ -102,7 +94,9 @@ Disagreement beyond(const ComparedBody& body) {
   const cv::Point beside = nearestRendered(rendered, region, pixel);
   const double pixel_m = rendered(beside) / body.surface.camera().fx;
   const double width_m = widest.width_px * pixel_m;
-  const double expected_m = std::hypot(body.outline_px * pixel_m, deviationAt(body, beside));
+  const MaterialPoint place = body.surface.materialPoint(body.surface.image().triangle(beside), beside);
+  const double expected_m =
+      std::hypot(body.outline_px * pixel_m, deviationAt(place, body.surface.volume(), body.deviations));
   if (width_m <= kSignificant * expected_m) return {};
   return {Disagreement::Kind::kBeyond, width_m, sideOf(pixel, body.surface.image().region)};
 }
@@ -169,6 +163,16 @@ const Disagreement& MeanDisagreement::add(const Disagreement& newest, Nanosecond
   if (newest.error_m >= error_m) mean_ = newest;
   mean_.error_m = error_m;
   return mean_;
+}
+
+double medianBound(const std::vector<Association>& shown, const TetTopology& volume,
+                   const std::vector<float>& deviations) {
+  if (deviations.empty()) return 0.0;
+  std::vector<double> at;
+  at.reserve(shown.size());
+  for (const Association& association : shown)
+    at.push_back(deviationAt(association.place, volume, deviations));
+  return kBound90 * median(&at);
 }
 
 double imageScale(const Labels& labels, const PredictedSurface& surface) {

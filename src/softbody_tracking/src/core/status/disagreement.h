@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "labels/labels.h"
+#include "prediction/association.h"
 #include "prediction/predicted_surface.h"
 #include "softbody_common/types.h"
 
@@ -50,6 +51,12 @@ class MeanDisagreement {
   Disagreement mean_;
   std::optional<Nanoseconds> stamp_;  ///< of the last frame
 };
+
+/// Half of the places that the frame shows are within this distance of their true positions with 90 %
+/// probability, or their distances are unknown [m]; 0 if no deviations are estimated.
+/// @param shown measurements of the frame. @param deviations of the volume's vertices [m].
+double medianBound(const std::vector<Association>& shown, const TetTopology& volume,
+                   const std::vector<float>& deviations);
 
 /// Size of the body in the image over that of the prediction, by their areas. What is hidden or unknown does
 /// not count.

@@ -270,11 +270,11 @@ TrackingStatus BodyTracker::Implementation::judge(const RgbdFrame& frame, const 
                                                   const MeshState* answer) {
   const auto& [seen, surface, image, labels] = observed;
   const std::vector<float> unknown;
-  const ComparedBody compared{labels, surface, frame.depth, seen.outline.deviation_px,
-                              answer != nullptr ? answer->standard_deviation : unknown};
-  const double tolerance_m = config.status.tolerance_m;
-  const Disagreement& mean = disagreement.add(largestDisagreement(compared), stamp);
-  TrackingStatus status = statusOf(seen, associations, mean, tolerance_m, imageScale(labels, surface));
+  const std::vector<float>& deviations = answer != nullptr ? answer->standard_deviation : unknown;
+  const ComparedBody compared{labels, surface, frame.depth, seen.outline.deviation_px, deviations};
+  const ShownError error{disagreement.add(largestDisagreement(compared), stamp),
+                         medianBound(associations, model(), deviations), imageScale(labels, surface)};
+  TrackingStatus status = statusOf(seen, associations, error, config.status.tolerance_m);
   if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
     const std::string other = status.reason;
     status.reason = alikeReason(relocalizer.alike());

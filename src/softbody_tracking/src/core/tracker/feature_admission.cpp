@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "features/feature_selection.h"
+#include "prediction/place_deviation.h"
 
 namespace softbody {
 namespace {
@@ -19,15 +20,6 @@ constexpr double kGap = 0.35;
 constexpr int kEnoughOfVertex = 4;
 // ... but recognition needs at least these, however coarse the volume is.
 constexpr int kEnoughToRecognize = 300;
-
-/// Interpolated from the corners of a place's tet. @param deviations of the volume's vertices [m].
-double deviationAt(const MaterialPoint& place, const TetTopology& volume,
-                   const std::vector<float>& deviations) {
-  double deviation = 0.0;
-  for (int k = 0; k < 4; ++k)
-    deviation += place.barycentric[k] * deviations[static_cast<std::size_t>(volume.tets(place.tet, k))];
-  return deviation;
-}
 
 }  // namespace
 

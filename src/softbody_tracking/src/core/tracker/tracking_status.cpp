@@ -59,7 +59,7 @@ void append(const std::string& text, std::string* reason) {
 }  // namespace
 
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations,
-                        const Disagreement& disagreement, double tolerance_m, double image_scale) {
+                        const ShownError& error, double tolerance_m) {
   TrackingStatus status;
   const auto kept = static_cast<int>(std::count_if(seen.matches.begin(), seen.matches.end(),
                                                    [](const FeatureMatch& match) { return match.inlier; }));
@@ -72,8 +72,12 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
                                                    : "neither depth nor features agree with the prediction";
     return status;
   }
-  if (disagreement.error_m > tolerance_m)
-    status.reason = sentenceFor(disagreement, causeOf(seen.outline, image_scale));
+  const std::string cause = causeOf(seen.outline, error.image_scale);
+  if (error.disagreement.error_m > tolerance_m)
+    status.reason = sentenceFor(error.disagreement, cause);
+  else if (error.bound_m > tolerance_m)
+    status.reason = fmt::format("half of the visible body may be {:.0f} mm off or more: {}",
+                                1000.0 * error.bound_m, cause);
   else if (isHeld(seen.observability))
     status.reason = "too little shows of every piece: all are held where they were";
   status.state = status.reason.empty() ? TrackingState::kTracking : TrackingState::kDegraded;

@@ -11,11 +11,17 @@
 
 namespace softbody {
 
+/// How far a body may be from its prediction.
+struct ShownError {
+  Disagreement disagreement;  ///< mean of the last frames
+  double bound_m = 0.0;       ///< see medianBound()
+  double image_scale = 1.0;   ///< see imageScale()
+};
+
 /// How well the last frames show the body where it was predicted.
-/// @param associations only those that become targets. @param disagreement mean of the last frames.
-/// @param tolerance_m largest disagreement of a tracked body. @param image_scale see imageScale().
+/// @param associations only those that become targets. @param tolerance_m largest error of a tracked body.
 TrackingStatus statusOf(const Observation& seen, const std::vector<Association>& associations,
-                        const Disagreement& disagreement, double tolerance_m, double image_scale = 1.0);
+                        const ShownError& error, double tolerance_m);
 
 /// Reports pieces of a cut body that were not measured for some time and are held in their places. A piece
 /// in view degrades the tracking. A piece out of view, or too small to be tracked, does not: its place is
