@@ -202,8 +202,7 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
   std::vector<std::string> warnings;
   GraphConfig config = readGraphConfig(options.parameters, &warnings);
   warnAll(warn, "", warnings);
-  config.pipeline.forces = options.forces;
-  config.pipeline.placed = options.placed;
+  config.pipeline.forces = options.forces, config.pipeline.placed = options.placed;
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
   const ObjectModel model = loadModel(options.object, options.scope, warn);
   const rosbag::Bag input = openBag(options.input);
