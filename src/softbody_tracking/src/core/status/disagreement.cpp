@@ -15,7 +15,6 @@ namespace {
 
 // Standard deviations from which what shows beyond the outline contradicts the prediction.
 constexpr double kSignificant = 5.0;
-
 // 90 % of the distances in space are at most so many standard deviations, which count all three directions.
 constexpr double kBound90 = 1.44354;
 // Every second pixel of every second row is compared: depth is smooth.
@@ -90,8 +89,10 @@ Disagreement beyond(const ComparedBody& body) {
   cv::Mat1b patches;
   cv::bitwise_and(body.labels.label == labels::kBody, rendered(region) <= 0.0f, patches);
   const Widest widest = widestOf(patches);
+  if (widest.width_px <= kSignificant * body.outline_px) return {};
   const cv::Point pixel = region.tl() + widest.center;
   const cv::Point beside = nearestRendered(rendered, region, pixel);
+  if (rendered(beside) <= 0.0f) return {};
   const double pixel_m = rendered(beside) / body.surface.camera().fx;
   const double width_m = widest.width_px * pixel_m;
   const MaterialPoint place = body.surface.materialPoint(body.surface.image().triangle(beside), beside);
