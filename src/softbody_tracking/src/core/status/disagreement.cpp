@@ -57,10 +57,12 @@ Widest widestOf(const cv::Mat1b& patches) {
 
 /// The widest patch of background on the rendered body.
 Disagreement background(const ComparedBody& body) {
-  const cv::Rect& region = body.labels.region;
   const cv::Mat1f& rendered = body.surface.image().depth;
+  const cv::Rect region = body.labels.region & body.surface.image().region;
+  if (region.empty()) return {};
+  const cv::Mat1b label = body.labels.label(region - body.labels.region.tl());
   cv::Mat1b patches;
-  cv::bitwise_and(body.labels.label == labels::kBackground, rendered(region) > 0.0f, patches);
+  cv::bitwise_and(label == labels::kBackground, rendered(region) > 0.0f, patches);
   const Widest widest = widestOf(patches);
   const cv::Point pixel = region.tl() + widest.center;
   return {Disagreement::Kind::kBackground, widest.width_px * rendered(pixel) / body.surface.camera().fx,
@@ -104,26 +106,33 @@ Disagreement beyond(const ComparedBody& body) {
 
 /// Sums over patches of the surface, around each second pixel of the rendering.
 struct PatchSums {
+  cv::Point origin;    ///< pixel of the first one
   cv::Mat1f behind_m;  ///< of measured depth behind the surface, along its normal [m]
   cv::Mat1f count;     ///< of pixels
 };
 
+/// Cosine between the rendered surface's normal and the line of sight, by the depth of the pixels around.
+float cosineAt(const cv::Mat1f& rendered, const cv::Point& pixel, float focal_px) {
+  const float* row = rendered[pixel.y] + pixel.x;
+  const auto step = static_cast<std::ptrdiff_t>(rendered.step1());
+  const float slope = focal_px / (2.0f * row[0]);
+  const float right = slope * (row[1] - row[-1]), down = slope * (row[step] - row[-step]);
+  return 1.0f / std::sqrt(1.0f + right * right + down * down);
+}
+
 PatchSums patchSums(const ComparedBody& body) {
-  const cv::Rect& region = body.surface.image().region;
+  const cv::Mat1f& rendered = body.surface.image().depth;
+  const cv::Rect region = body.surface.image().region & cv::Rect({1, 1}, rendered.size() - cv::Size(2, 2));
   const cv::Size size((region.width + kStep - 1) / kStep, (region.height + kStep - 1) / kStep);
-  PatchSums sums{cv::Mat1f(size, 0.0f), cv::Mat1f(size, 0.0f)};
-  int triangle = -1;
-  float cosine = 0.0f;
+  PatchSums sums{region.tl(), cv::Mat1f(size, 0.0f), cv::Mat1f(size, 0.0f)};
+  const auto focal_px = static_cast<float>(body.surface.camera().fx);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
       const cv::Point pixel = region.tl() + kStep * cv::Point(u, v);
-      const float rendered = body.surface.image().depth(pixel), measured = body.depth(pixel);
-      if (rendered <= 0.0f || measured <= 0.0f || body.labels.at(pixel) != labels::kBody) continue;
-      if (const int shown = body.surface.image().triangle(pixel); shown != triangle) {
-        triangle = shown;
-        cosine = static_cast<float>(std::abs(body.surface.normal(triangle).z()));
-      }
-      sums.behind_m(v, u) = cosine * std::clamp(measured - rendered, -kFarthest, kFarthest);
+      const float predicted = rendered(pixel), measured = body.depth(pixel);
+      if (predicted <= 0.0f || measured <= 0.0f || body.labels.at(pixel) != labels::kBody) continue;
+      sums.behind_m(v, u) =
+          cosineAt(rendered, pixel, focal_px) * std::clamp(measured - predicted, -kFarthest, kFarthest);
       sums.count(v, u) = 1.0f;
     }
   }
@@ -135,8 +144,6 @@ PatchSums patchSums(const ComparedBody& body) {
 /// The patch of depth that is farthest behind the surface, on average. At least half of a patch shows the
 /// body.
 Disagreement behind(const ComparedBody& body) {
-  const cv::Rect& region = body.surface.image().region;
-  if (region.empty()) return {};
   const PatchSums sums = patchSums(body);
   cv::Mat1f means;
   cv::divide(sums.behind_m, sums.count, means);
@@ -144,13 +151,14 @@ Disagreement behind(const ComparedBody& body) {
   double largest = 0.0;
   cv::Point place;
   cv::minMaxLoc(means, nullptr, &largest, nullptr, &place);
-  return {Disagreement::Kind::kBehind, largest, sideOf(region.tl() + kStep * place, region)};
+  return {Disagreement::Kind::kBehind, largest,
+          sideOf(sums.origin + kStep * place, body.surface.image().region)};
 }
 
 }  // namespace
 
 Disagreement largestDisagreement(const ComparedBody& body) {
-  if (body.labels.region.empty()) return {};
+  if (body.labels.region.empty() || body.surface.image().region.empty()) return {};
   Disagreement largest = background(body);
   for (const Disagreement& other : {behind(body), beyond(body)})
     if (other.error_m > largest.error_m) largest = other;
