@@ -76,8 +76,8 @@ def wrong_objects(reports):
                      number(max(largest for _, largest in late if largest is not None))])
     return section("Wrong objects and poses",
                    "The scene `bend`. The tracker is told where the body is, and does not search (`replay --placed`): "
-                   "first with the model of another object at the place of the true one, then with the true object at a "
-                   "wrong pose. The tracker should not call this TRACKING, unless the pose is right again.",
+                   "first with the model of another object at the place of the true one, then with the true object "
+                   "at a wrong pose. The tracker should not call this TRACKING, unless the pose is right again.",
                    ["object or pose", "state after 1 s", "frames called TRACKING after 1 s",
                     "largest error of a visible vertex after 1 s [mm]"], rows)
 

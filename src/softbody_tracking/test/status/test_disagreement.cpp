@@ -47,7 +47,7 @@ TEST_F(DisagreementTest, NothingDisagreesWithTheTruth) {
   }
 }
 
-/// A body beside its prediction is off by the width of what shows between them.
+/// A body beside its prediction is off by the width of what shows between them; widths are some percent off.
 TEST_F(DisagreementTest, IsAtMostTheErrorAndNearlyAll) {
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> angle(-M_PI, M_PI);
@@ -56,7 +56,7 @@ TEST_F(DisagreementTest, IsAtMostTheErrorAndNearlyAll) {
       const double direction = angle(generator);
       const Eigen::Vector3d by(off_m * std::cos(direction), off_m * std::sin(direction), 0.0);
       const Disagreement found = largest(seenAs(shifted(by)));
-      EXPECT_LT(found.error_m, off_m + 4.0 * kPixel) << by.transpose();
+      EXPECT_LT(found.error_m, 1.15 * off_m + 2.0 * kPixel) << by.transpose();
       EXPECT_GT(found.error_m, 0.5 * off_m) << by.transpose();
     }
   }
