@@ -10,9 +10,9 @@ namespace softbody {
 struct SurfaceSample {
   cv::Point center;  ///< [px]
   MaterialPoint place;
-  std::uint32_t piece = 0;   ///< the piece of the body
-  Eigen::Vector3d position;  ///< camera frame [m]
-  Eigen::Vector3d normal;    ///< unit, outward
+  std::uint32_t piece = 0;                             ///< the piece of the body
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< camera frame [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, outward
 };
 
 /// The visible surface in blocks of pixels on a regular grid.
