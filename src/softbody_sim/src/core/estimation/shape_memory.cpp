@@ -10,11 +10,17 @@
 namespace softbody {
 namespace {
 
+// A motion goes on for about so long [s]: a swing is slow at its turning points.
+constexpr double kMotion_s = 0.1;
+// How long the smallest variance holds, in times of the memory: while the body moves all the time, it rises.
+constexpr double kHold = 10.0;
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 void forget(Eigen::Index vertices, RememberedShape* memory) {
   memory->frames = Eigen::VectorXd::Zero(vertices);
   memory->noise.setZero(vertices, 2);
+  memory->motion.setZero(vertices);
+  memory->variance.setConstant(vertices, std::numeric_limits<double>::infinity());
   memory->innovations.setZero(vertices, 3);
   memory->measured.fill(Points::Constant(vertices, 3, kNotMeasured));
 }
@@ -58,14 +64,15 @@ Sums sumsOf(const Points& innovations, const Points& measured, const RememberedS
   return sums;
 }
 
-/// What is left of a memory of so many frames. @param noise mean square of a frame's places.
-double framesLeft(double frames, const Eigen::Matrix<double, 1, kColumns>& sums, double noise) {
-  if (frames <= 0.0 || !(noise > 0.0)) return 0.0;
+/// Process noise over the noise of a frame, as this frame's innovations show it. @param frames of the memory.
+/// @param noise mean square of a frame's places.
+double motionOf(const Eigen::Matrix<double, 1, kColumns>& sums, double frames, double noise) {
+  if (frames <= 0.0 || sums[kCount] <= 0.0) return 0.0;
   const double moved = std::max(0.0, sums[kNow] / sums[kCount] / noise - 1.0 - 1.0 / frames);
-  const double left = frames / (1.0 + frames * moved);
-  if (sums[kProduct] <= 0.0) return left;
-  const double correlation = sums[kProduct] / std::sqrt(sums[kNow] * sums[kBefore]);
-  return std::min(left, std::max(0.0, 1.0 / correlation - 1.0));
+  if (sums[kProduct] <= 0.0) return moved;
+  // A gain of the autocorrelation.
+  const double correlation = std::min(1.0, sums[kProduct] / std::sqrt(sums[kNow] * sums[kBefore]));
+  return std::max(moved, 1.0 / std::max(1e-9, 1.0 / correlation - 1.0) - 1.0 / frames);
 }
 
 double framesAt(const MaterialPoint& place, const Tets& tets, const Eigen::VectorXd& frames) {
@@ -104,17 +111,23 @@ ShapeMemory::Innovations ShapeMemory::innovationsOf(const std::vector<Target>& t
   return innovations;
 }
 
-void ShapeMemory::adapt(const Innovations& innovations, const Points& vertices, double keep,
+void ShapeMemory::adapt(const Innovations& innovations, const Points& vertices, double elapsed_s,
                         RememberedShape* memory) const {
+  const double keep = std::exp(-elapsed_s / memory_s_), motion_keep = std::exp(-elapsed_s / kMotion_s);
   const Points measured = vertices + innovations.around;
   Sums sums = sumsOf(innovations.around, measured, *memory);
   sumAround(tets_, &sums);
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     auto noise = memory->noise.row(v);
     noise = keep * noise + sums.row(v).segment<2>(kDifference);
+    double& variance = memory->variance[v];
+    if (noise[1] > 0.0)
+      variance = std::min(variance / std::pow(keep, 1.0 / kHold), noise[0] / (20.0 * noise[1]));
     double& frames = memory->frames[v];
-    if (innovations.is_measured[v] > 0.0)
-      frames = framesLeft(frames, sums.row(v), noise[0] / (20.0 * noise[1]));
+    double& motion = memory->motion[v];
+    const bool is_known = variance > 0.0 && std::isfinite(variance);
+    motion = std::max(motion_keep * motion, is_known ? motionOf(sums.row(v), frames, variance) : 0.0);
+    if (innovations.is_measured[v] > 0.0) frames = is_known ? frames / (1.0 + frames * motion) : 0.0;
   }
   memory->innovations = innovations.around.array().isFinite().select(innovations.around, 0.0);
   std::rotate(memory->measured.begin(), memory->measured.end() - 1, memory->measured.end());
@@ -128,7 +141,7 @@ const std::vector<Target>& ShapeMemory::recall(const std::vector<Target>& target
   if (memory->frames.size() != vertices.rows()) forget(vertices.rows(), memory);
   const double keep = std::exp(-elapsed_s / memory_s_);
   const Innovations innovations = innovationsOf(targets, vertices);
-  adapt(innovations, vertices, keep, memory);
+  adapt(innovations, vertices, elapsed_s, memory);
   *means = targets;
   for (Target& target : *means) {
     if (target.kind == TargetKind::kPrior) continue;

@@ -14,7 +14,9 @@ struct RememberedShape {
   Points innovations;              ///< #V by 3: of the last frame [m]
   std::array<Points, 3> measured;  ///< #V by 3: places in the last three frames, the last one first [m]
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>
-      noise;  ///< #V by 2: fading sum of squares of third differences [m^2], and of their number
+      noise;               ///< #V by 2: fading sum of squares of third differences [m^2], and of their number
+  Eigen::VectorXd motion;  ///< #V: process noise over the noise of a frame
+  Eigen::VectorXd variance;  ///< #V: mean square of a measured place, the smallest of the last seconds [m^2]
 };
 
 /// Averages measurements over time where the body rests, and lets go of them where it moves: a Kalman filter
@@ -22,11 +24,13 @@ struct RememberedShape {
 /// measures around a vertex relative to the last shape. With a memory of m frames and measurements of
 /// variance R,
 ///
-///   m <- min(m / (1 + m q / R), 1 / rho - 1) + 1,      q = |r|^2 / 3 - R (1 + 1 / m), at least 0
+///   m <- m / (1 + m q / R) + 1,     q = max(|r|^2 / 3 - R (1 + 1 / m), R / (1 / rho - 1) - R / m, 0)
 ///
-/// R comes from third differences of the measured places over time: a motion of constant acceleration drops
-/// out. rho is the autocorrelation of the innovations from frame to frame; those of an optimal filter are
-/// white (Mehra 1970, On the identification of variances and adaptive Kalman filtering). Innovations and
+/// A q fades in 0.1 s: motions go on. R comes from third differences of the measured places over time: a
+/// motion of constant acceleration drops out. What is left of faster ones only adds to it, so R is the
+/// smallest value of the last seconds (minimum statistics; Martin 2001, Noise power spectral density
+/// estimation). rho is the autocorrelation of the innovations from frame to frame; those of an optimal filter
+/// are white (Mehra 1970, On the identification of variances and adaptive Kalman filtering). Innovations and
 /// their squares are means over the tets around a vertex.
 class ShapeMemory {
  public:
@@ -45,7 +49,7 @@ class ShapeMemory {
   struct Innovations;
 
   Innovations innovationsOf(const std::vector<Target>& targets, const Points& vertices) const;
-  void adapt(const Innovations& innovations, const Points& vertices, double keep,
+  void adapt(const Innovations& innovations, const Points& vertices, double elapsed_s,
              RememberedShape* memory) const;
 
   const Tets tets_;
