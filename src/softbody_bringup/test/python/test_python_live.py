@@ -209,8 +209,10 @@ class PythonLive(unittest.TestCase):
         nobody.close()
 
     def example(self, name, *arguments):
-        return subprocess.run(["python3", f"{EXAMPLES}/{name}", *map(str, arguments)], stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, timeout=120, check=True).stdout
+        run = subprocess.run(["python3", f"{EXAMPLES}/{name}", *map(str, arguments)], stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, text=True, timeout=120)
+        self.assertEqual(run.returncode, 0, run.stdout)
+        return run.stdout
 
     def test_example_distance(self):
         """100 mm above the top of the body, in the direction in which its vertices lie on a plane."""
