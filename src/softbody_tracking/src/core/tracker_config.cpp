@@ -11,6 +11,18 @@ namespace {
 // Fewest max_features for target_mode knn; with fewer, most vertices would have no feature within the radius.
 constexpr int kFewestKnnFeatures = 50;
 
+RegistrationConfig readRegistrationConfig(Parameters& parameters) {
+  RegistrationConfig registration;
+  registration.distance_scale_m =
+      parameters.number("registration_distance_scale_m", registration.distance_scale_m, 0.001, 1.0);
+  registration.max_cost = parameters.number("registration_max_cost", registration.max_cost, 0.01, 0.9);
+  registration.anywhere = parameters.choice("search", "given", {"given", "anywhere"}) == "anywhere";
+  registration.pose_std_m = parameters.number("initial_pose_std_m", registration.pose_std_m, 0.001, 10.0);
+  registration.pose_std_deg =
+      parameters.number("initial_pose_std_deg", registration.pose_std_deg, 0.1, 180.0);
+  return registration;
+}
+
 KnnConfig readKnnConfig(Parameters& parameters) {
   KnnConfig knn;
   knn.max_neighbors = parameters.integer("max_neighbors", knn.max_neighbors, 1, 1000);
@@ -26,10 +38,7 @@ TrackerConfig readTrackerConfig(Parameters& parameters) {
   config.knn_targets = parameters.choice("target_mode", "material", {"material", "knn"}) == "knn";
   config.use_depth = parameters.flag("depth_targets", config.use_depth);
 
-  RegistrationConfig& registration = config.registration;
-  registration.distance_scale_m =
-      parameters.number("registration_distance_scale_m", registration.distance_scale_m, 0.001, 1.0);
-  registration.max_cost = parameters.number("registration_max_cost", registration.max_cost, 0.01, 0.9);
+  config.registration = readRegistrationConfig(parameters);
 
   FeatureConfig& features = config.features;
   features.between_frames =

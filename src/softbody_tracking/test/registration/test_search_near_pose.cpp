@@ -11,7 +11,7 @@ namespace softbody {
 namespace {
 
 PoseHypothesis searchNear(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& rough) {
-  return searchNearPose(frame, {mesh, mesh}, rough, RegistrationConfig());
+  return searchNearPose(frame, {mesh, mesh}, roughPose(rough, RegistrationConfig()), RegistrationConfig());
 }
 
 TEST(SearchNearPose, FindsTheBoxFromRoughPoses) {
@@ -42,7 +42,8 @@ TEST(SearchNearPose, WorksWithACoarseMesh) {
   const RgbdFrame frame = renderFrame(box, transformed(mesh.vertices, truth), 1);
   const Eigen::Isometry3d rough = Eigen::Translation3d(0.01, -0.015, 0.01) * truth *
                                   Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 2, -1).normalized());
-  const PoseHypothesis found = searchNearPose(frame, {mesh, coarse}, rough, RegistrationConfig());
+  const PoseHypothesis found =
+      searchNearPose(frame, {mesh, coarse}, roughPose(rough, RegistrationConfig()), RegistrationConfig());
   const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << found.cost;
 }

@@ -32,14 +32,14 @@ void sortByCost(std::vector<PoseHypothesis>* poses) {
 
 CoarseToFineSearch::CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshes& meshes,
                                        const RegistrationConfig& config,
-                                       const std::optional<Eigen::Isometry3d>& preferred)
+                                       const std::optional<RoughPose>& rough)
     : max_cost_(config.max_cost),
       small_(subsampled(frame, kSmallColumns)),
       medium_(subsampled(frame, kMediumColumns)),
       large_(subsampled(frame, kLargeColumns)),
-      alignment_(small_, meshes.coarse, config.distance_scale_m, preferred),
-      refinement_(medium_, meshes.coarse, config.distance_scale_m, preferred),
-      polishing_(large_, meshes.full, config.distance_scale_m, preferred) {}
+      alignment_(small_, meshes.coarse, config.distance_scale_m, rough),
+      refinement_(medium_, meshes.coarse, config.distance_scale_m, rough),
+      polishing_(large_, meshes.full, config.distance_scale_m, rough) {}
 
 Eigen::Isometry3d CoarseToFineSearch::turned(const Eigen::Isometry3d& pose,
                                              const Eigen::Vector3d& turn) const {

@@ -20,9 +20,9 @@ void sortByCost(std::vector<PoseHypothesis>* poses);
 /// must outlive it.
 class CoarseToFineSearch {
  public:
-  /// @param preferred see PoseRefinement.
+  /// @param rough see PoseRefinement.
   CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshes& meshes, const RegistrationConfig& config,
-                     const std::optional<Eigen::Isometry3d>& preferred = std::nullopt);
+                     const std::optional<RoughPose>& rough = std::nullopt);
   CoarseToFineSearch(const CoarseToFineSearch&) = delete;
   CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
 

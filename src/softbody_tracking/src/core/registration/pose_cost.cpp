@@ -12,11 +12,12 @@ namespace {
 
 // Standard deviation of depth at 1 m [m], of usual cameras.
 constexpr double kSigmaAtMetre = 0.0025;
-// Cost of a covered pixel without depth, 0..1: it neither supports nor contradicts a pose.
-constexpr double kUnmeasuredCost = 0.3;
-// Cost of a pixel that another object may explain, 0..1: something nearer hides the body, or something beside
-// it continues its surface. Below the 1 of free space: no object lets the camera look through a body.
-constexpr double kOtherObject = 0.7;
+// Cost of a covered pixel that neither supports nor contradicts a pose, 0..1: without depth, or something
+// nearer hides the body.
+constexpr double kUnseenCost = 0.3;
+// Cost of a pixel just outside the outline where something continues the surface, 0..1. Below the 1 of free
+// space: no object lets the camera look through a body, but others touch it.
+constexpr double kContinuedCost = 0.7;
 
 /// How badly a depth agrees, from 0 to 1 at a distance scale.
 double misfit(double measured, double predicted, double scale) {
@@ -25,9 +26,9 @@ double misfit(double measured, double predicted, double scale) {
 }
 
 double pixelCost(double measured, double predicted, double scale) {
-  if (measured <= 0.0) return kUnmeasuredCost;
+  if (measured <= 0.0) return kUnseenCost;
   const double cost = misfit(measured, predicted, scale);
-  return measured < predicted ? std::min(kOtherObject, cost) : cost;
+  return measured < predicted ? std::min(kUnseenCost, cost) : cost;
 }
 
 /// Pixels just outside the rendered outline.
@@ -69,7 +70,7 @@ double renderedCost(const RgbdFrame& frame, const RasterImage& image, double sca
     }
   }
   if (covered == 0) return 1.0;
-  return (sum + kOtherObject * outlineOf(frame, image, scale).continuing) / covered;
+  return (sum + kContinuedCost * outlineOf(frame, image, scale).continuing) / covered;
 }
 
 }  // namespace
@@ -85,27 +86,36 @@ const RasterImage& PoseCost::render(const Points& vertices) {
   return image_;
 }
 
+const RasterImage& PoseCost::render(const Eigen::Isometry3d& pose) {
+  return render(transformed(mesh_.vertices, pose));
+}
+
 double PoseCost::operator()(const Eigen::Isometry3d& pose) {
-  return renderedCost(frame_, render(transformed(mesh_.vertices, pose)), scale_);
+  return renderedCost(frame_, render(pose), scale_);
 }
 
 PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {
-  const RasterImage& image = render(transformed(mesh_.vertices, pose));
+  const RasterImage& image = render(pose);
   PoseAgreement counts;
   std::vector<double> differences;
+  double misfits = 0.0;
   for (int v = image.region.y; v < image.region.br().y; ++v) {
     for (int u = image.region.x; u < image.region.br().x; ++u) {
       if (image.triangle(v, u) < 0) continue;
       ++counts.covered;
       const double measured = frame_.depth(v, u), difference = measured - image.depth(v, u);
+      const double cost = measured > 0.0 ? misfit(measured, image.depth(v, u), scale_) : kUnseenCost;
+      const bool hidden = measured > 0.0 && difference < 0.0 && cost >= 1.0;
+      if (!hidden) misfits += cost;
       if (measured <= 0.0) continue;
       differences.push_back(std::abs(difference));
-      if (misfit(measured, image.depth(v, u), scale_) < 1.0)
+      if (cost < 1.0)
         ++counts.agreeing;
       else
-        ++(difference > 0.0 ? counts.farther : counts.nearer);
+        ++(hidden ? counts.nearer : counts.farther);
     }
   }
+  if (counts.covered > counts.nearer) counts.misfit = misfits / (counts.covered - counts.nearer);
   counts.difference_m = median(&differences);
   const Outline outline = outlineOf(frame_, image, scale_);
   counts.outline = outline.measured;

@@ -28,6 +28,7 @@ struct PoseAgreement {
   int agreeing = 0;           ///< depth differs by less than a distance scale
   int nearer = 0;             ///< something before the mesh
   int farther = 0;            ///< the camera sees through the mesh
+  double misfit = 1.0;        ///< mean cost of the pixels that nothing hides
   double difference_m = 0.0;  ///< median of the depth's difference, without sign
   int outline = 0;            ///< pixels just outside that have depth
   double continuing = 0.0;    ///< sum of how well it continues the surface, 0..1 each
@@ -53,6 +54,7 @@ class PoseCost {
 
   /// Renders the mesh. @return valid until the next call of any member.
   const RasterImage& render(const Points& vertices);
+  const RasterImage& render(const Eigen::Isometry3d& pose);
 
  private:
   const RgbdFrame& frame_;

@@ -48,11 +48,11 @@ AreaMoments areaMoments(const TriangleMesh& mesh) {
 }  // namespace
 
 PoseRefinement::PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
-                               const std::optional<Eigen::Isometry3d>& preferred)
+                               const std::optional<RoughPose>& rough)
     : frame_(frame),
       mesh_(mesh),
       scale_(distance_scale_m),
-      preferred_(preferred),
+      rough_(rough),
       cost_(frame, mesh, distance_scale_m),
       diameter_m_((mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm()) {
   const AreaMoments moments = areaMoments(mesh);
@@ -69,11 +69,10 @@ double PoseRefinement::scaleAt(const Eigen::Isometry3d& pose) const {
 }
 
 double PoseRefinement::rankedCost(const Eigen::Isometry3d& pose) {
-  if (!preferred_) return cost_(pose);
-  const double turn =
-      Eigen::AngleAxisd(pose.linear().transpose() * preferred_->linear()).angle() / kOtherTurn;
-  // Bounded, so that a poor preference cannot draw the body; depth decides wherever it can.
-  return cost_(pose) + kAlikeCost * saturated(turn * turn);
+  if (!rough_) return cost_(pose);
+  const PoseDeviation off = deviationFrom(*rough_, pose, center_);
+  // Bounded, so that a poor rough pose cannot draw the body; depth decides wherever it can.
+  return cost_(pose) + kAlikeCost * saturated(off.turn * off.turn + off.shift * off.shift);
 }
 
 Eigen::Isometry3d PoseRefinement::moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,

@@ -7,6 +7,7 @@
 #include "prediction/association.h"
 #include "registration/found_pose.h"
 #include "registration/pose_cost.h"
+#include "registration/rough_pose.h"
 
 namespace softbody {
 
@@ -14,12 +15,12 @@ namespace softbody {
 /// along a surface; PoseCost also sees the outline. Frame and mesh must outlive it.
 class PoseRefinement {
  public:
-  /// @param preferred among poses with nearly equal cost, for example those of a torus turned about its axis,
-  /// the nearest to this one wins.
+  /// @param rough among poses with nearly equal cost, for example those of a torus turned about its axis, the
+  /// nearest to this one wins.
   PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
-                 const std::optional<Eigen::Isometry3d>& preferred);
+                 const std::optional<RoughPose>& rough);
 
-  /// PoseCost, plus a small penalty for the turn and the distance from the preferred pose.
+  /// PoseCost, plus a small penalty for the turn and the distance from the rough pose.
   double rankedCost(const Eigen::Isometry3d& pose);
 
   /// PoseCost alone.
@@ -53,7 +54,7 @@ class PoseRefinement {
   const RgbdFrame& frame_;
   const TriangleMesh& mesh_;
   double scale_;
-  std::optional<Eigen::Isometry3d> preferred_;
+  std::optional<RoughPose> rough_;
   PoseCost cost_;
   double diameter_m_;
   Eigen::Vector3d center_;  ///< of the mesh's area

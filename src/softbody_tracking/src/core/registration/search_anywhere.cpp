@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "registration/body_candidates.h"
-#include "registration/body_edges.h"
 #include "registration/coarse_to_fine_search.h"
+#include "registration/pose_evidence.h"
 #include "registration/search_starts.h"
 
 namespace softbody {
@@ -80,17 +80,21 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionCo
 
 SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                              const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
-                             const RegistrationConfig& config) {
+                             const RegistrationConfig& config, const std::optional<RoughPose>& expected) {
   std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config);
   SearchOutcome outcome;
   if (!found.empty()) outcome.best = found.front();
   const auto implausible = [&](const PoseHypothesis& pose) {
-    return pose.cost > config.max_cost ||
-           shareWithoutEdge(frame, meshes.full, pose.pose, config.distance_scale_m) >
-               kLargestShareWithoutEdge;
+    return !isShown(frame, meshes.full, pose.pose, config);
+  };
+  // Without its features the body is taken where it is expected, or where it stands free.
+  const auto is_likely = [&](const Eigen::Isometry3d& pose) {
+    const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
+    if (expected) return deviationFrom(*expected, pose, center).shift <= kDoubt;
+    return confinementOf(frame, meshes.full, pose, config.distance_scale_m).each_way >= kLeastConfinement;
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
-  for (bool first = true; !found.empty(); first = false) {
+  for (bool first = true; !found.empty();) {
     const auto others = groupAlike(meshes, &found);
     AlikePoses alike;
     for (auto pose = found.begin(); pose != others; ++pose) {
@@ -98,7 +102,10 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
       alike.shares.push_back(feature_share(pose->pose));
     }
     if (const std::optional<FoundPose> body = confirmedPose(alike)) return {body, outcome.best};
-    if (first) outcome.found = undecidedPose(alike);
+    if (first && is_likely(alike.poses.front())) {
+      outcome.found = undecidedPose(alike);
+      first = false;
+    }
     found.erase(found.begin(), others);
   }
   return outcome;

@@ -7,6 +7,7 @@
 #include "registration/coarse_mesh.h"
 #include "registration/feature_confirmation.h"
 #include "registration/found_pose.h"
+#include "registration/rough_pose.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tracker_config.h"
 
@@ -25,9 +26,11 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionCo
 /// Finds the body without a pose. Among poses that look alike in depth, the one with the most features wins.
 /// If features contradict a place, or cannot decide, the next place is tried; there the features must confirm
 /// the pose.
-/// @param guesses poses to try as well.
+/// @param guesses poses to try as well. @param expected if given, a pose is taken elsewhere only if features
+/// confirm it; its turn does not matter.
 SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                              const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
-                             const RegistrationConfig& config);
+                             const RegistrationConfig& config,
+                             const std::optional<RoughPose>& expected = std::nullopt);
 
 }  // namespace softbody

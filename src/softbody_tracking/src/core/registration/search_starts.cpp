@@ -54,6 +54,16 @@ std::vector<Eigen::Vector3d> smallTurns() {
   return turns;
 }
 
+std::vector<Eigen::Vector3d> shiftsWithin(double reach_m, double spacing_m) {
+  const double step_m = std::max(spacing_m, 0.5 * reach_m);
+  const int most = static_cast<int>(reach_m / step_m);
+  std::vector<Eigen::Vector3d> shifts;
+  for (int x = -most; x <= most; ++x)
+    for (int y = -most; y <= most; ++y)
+      if (x != 0 || y != 0) shifts.emplace_back(x * step_m, y * step_m, 0.0);
+  return shifts;
+}
+
 std::vector<Eigen::Isometry3d> allOrientations(const SearchMeshes& meshes,
                                                const Eigen::Vector3d& visible_center) {
   std::vector<Eigen::Isometry3d> starts;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "registration/body_candidates.h"
-#include "registration/body_edges.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/pose_cost.h"
+#include "registration/pose_evidence.h"
 #include "registration/search_anywhere.h"
 #include "registration/subsampled_frame.h"
 #include "softbody_common/rigid_fit.h"
@@ -91,18 +91,26 @@ double hiddenShare(const RgbdFrame& image, const RasterImage& mesh, const DepthP
 }
 
 void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseHypothesis& best,
-                 double distance_scale_m, SearchReport* report) {
+                 const std::optional<RoughPose>& rough, double distance_scale_m, SearchReport* report) {
   report->pose = best.pose;
-  report->cost = best.cost;
   const RgbdFrame image = subsampled(frame, kLargeColumns);
   const PoseAgreement seen = PoseCost(image, meshes.full, distance_scale_m).agreement(best.pose);
   const double covered = std::max(1, seen.covered);
+  report->cost = seen.misfit;
   report->agreeing = seen.agreeing / covered;
   report->nearer = seen.nearer / covered;
   report->farther = seen.farther / covered;
   report->difference_m = seen.difference_m;
   report->continuing = seen.continuing / std::max(1, seen.outline);
-  report->without_edge = shareWithoutEdge(frame, meshes.full, best.pose, distance_scale_m);
+  const Confinement confined = confinementOf(frame, meshes.full, best.pose, distance_scale_m);
+  report->confined = rough ? confined.both_ways : confined.each_way;
+  report->near_pose = rough.has_value();
+  if (!rough) return;
+  const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
+  const PoseDeviation off = deviationFrom(*rough, best.pose, center);
+  report->outside = !isNear(*rough, best.pose, center);
+  report->shift_m = off.shift * rough->std_m;
+  report->turn_rad = off.turn * rough->std_rad;
 }
 
 /// The same mesh, larger about the origin of the rest frame.
@@ -148,9 +156,9 @@ bool isWhollyInView(const RgbdFrame& frame, const TriangleMesh& mesh, const Eige
 
 /// Whether the image shows edges all around a posed mesh.
 bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-               double distance_scale_m) {
-  return isWhollyInView(frame, mesh, pose) &&
-         shareWithoutEdge(frame, mesh, pose, distance_scale_m) <= kLargestShareWithoutEdge;
+               const RegistrationConfig& config) {
+  return isWhollyInView(frame, mesh, pose) && isShown(frame, mesh, pose, config) &&
+         confinementOf(frame, mesh, pose, config.distance_scale_m).each_way >= kLeastConfinement;
 }
 
 /// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
@@ -174,16 +182,17 @@ std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colo
 }  // namespace
 
 SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
-                           const std::optional<PoseHypothesis>& best, const RegistrationConfig& config) {
+                           const std::optional<PoseHypothesis>& best, const std::optional<RoughPose>& rough,
+                           const RegistrationConfig& config) {
   SearchReport report;
   report.body_m = sidesOf(meshes.full.vertices);
   report.largest_cost = config.max_cost;
-  report.largest_without_edge = kLargestShareWithoutEdge;
+  report.least_confined = kLeastConfinement;
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   measureDepth(image, &report);
   std::optional<RasterImage> mesh;
   if (best) {
-    measurePose(frame, meshes, *best, config.distance_scale_m, &report);
+    measurePose(frame, meshes, *best, rough, config.distance_scale_m, &report);
     mesh = rendered(image, meshes.full, best->pose);
   }
   const std::vector<DepthPart> parts =
@@ -211,8 +220,7 @@ std::optional<double> fittingScale(const RgbdFrame& frame, const RegionColors& c
   for (const double factor : factors) {
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
     for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config)) {
-      if (pose.cost > highest_cost || !isBounded(frame, other.full, pose.pose, config.distance_scale_m))
-        continue;
+      if (pose.cost > highest_cost || !isBounded(frame, other.full, pose.pose, config)) continue;
       fitting = factor;
       highest_cost = pose.cost;
     }

@@ -5,14 +5,16 @@
 #include "labels/region_colors.h"
 #include "registration/coarse_mesh.h"
 #include "registration/found_pose.h"
+#include "registration/rough_pose.h"
 #include "softbody_tracking/search_report/search_report.h"
 
 namespace softbody {
 
 /// Measures a search. @param best its best pose; empty: no pose was tried. `fitting_scale` stays empty, and
-/// `found` false.
+/// `found` false. @param rough the body was sought only near this pose; empty: anywhere.
 SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
-                           const std::optional<PoseHypothesis>& best, const RegistrationConfig& config);
+                           const std::optional<PoseHypothesis>& best, const std::optional<RoughPose>& rough,
+                           const RegistrationConfig& config);
 
 /// The factor by which the mesh would have to be scaled so that the body is found: the size of the part at
 /// the best pose divided by the size of the mesh there, or the factor between two units of length. Empty if

@@ -1,6 +1,5 @@
 #include "softbody_tracking/search_report/search_report.h"
 
-#include "registration/body_edges.h"
 #include "registration/search_anywhere.h"
 #include "registration/search_near_pose.h"
 #include "search_report/search_measurement.h"
@@ -12,15 +11,19 @@ SearchReport searchForBody(const RgbdFrame& frame, const TriangleMesh& rest_surf
                            const RegistrationConfig& config) {
   const SearchMeshes meshes = makeSearchMeshes(rest_surface);
   const RegionColors colors;
+  std::optional<RoughPose> rough;
   std::vector<Eigen::Isometry3d> guesses;
   SearchOutcome outcome;
   if (initial_pose) {
-    outcome = searchNearAccepted(frame, meshes, *initial_pose, config);
+    rough = roughPose(*initial_pose, config);
+    outcome = searchNearAccepted(frame, meshes, *rough, config);
     guesses.push_back(*initial_pose);
   }
+  const bool anywhere = !rough || (config.anywhere && !outcome.found);
   const auto unknown = [](const Eigen::Isometry3d&) { return -1.0; };  // no features are known
-  if (!outcome.found) outcome = searchAnywhere(frame, colors, meshes, guesses, unknown, config);
-  SearchReport report = measureSearch(frame, colors, meshes, outcome.best, config);
+  if (anywhere) outcome = searchAnywhere(frame, colors, meshes, guesses, unknown, config);
+  if (anywhere) rough.reset();
+  SearchReport report = measureSearch(frame, colors, meshes, outcome.best, rough, config);
   report.found = outcome.found.has_value();
   if (outcome.found) {
     report.pose = outcome.found->pose;

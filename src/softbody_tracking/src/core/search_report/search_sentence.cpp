@@ -10,6 +10,13 @@ namespace {
 
 constexpr char kPoseAdvice[] =
     "or give a rough pose: initial_pose in the object YAML, or pose_marker:=true in rviz";
+constexpr char kOtherPoseAdvice[] =
+    "or correct the rough pose (initial_pose in the object YAML, or pose_marker:=true in rviz), or set "
+    "search: anywhere";
+
+const char* poseAdvice(const SearchReport& report) {
+  return report.near_pose ? kOtherPoseAdvice : kPoseAdvice;
+}
 
 /// "200 x 100 x 40 mm", or in metres if the largest has ten of them.
 std::string sizeText(const Eigen::Vector3d& size_m) {
@@ -67,7 +74,7 @@ std::string disagreement(const SearchReport& report) {
   if (report.part_at_border) return "It reaches the border of the image: move it into the view";
   if (report.hidden > report.largest_cost)
     return fmt::format("Something is before {} % of it: take it away", percent(report.hidden));
-  if (report.continuing > report.largest_without_edge)
+  if (report.continuing > report.largest_cost)
     return fmt::format(
         "The surface goes on beyond {} % of the outline: it touches something, it is bent, or the mesh is "
         "too small. Tracking starts when it stands free near its rest shape",
@@ -81,16 +88,23 @@ std::string highCost(const SearchReport& report) {
       "through it, at {} % something is nearer; the median difference is {:.1f} mm. {}, {}",
       candidateText(report), percent(report.cost), percent(report.largest_cost), percent(report.agreeing),
       percent(report.farther), percent(report.nearer), 1e3 * report.difference_m, disagreement(report),
-      kPoseAdvice);
+      poseAdvice(report));
 }
 
-std::string noEdge(const SearchReport& report) {
+std::string notConfined(const SearchReport& report) {
   return fmt::format(
-      "{}; {} % of its pixels agree, but at {} % of the outline (allowed: {} %) depth runs straight on: it "
-      "lies in a larger surface, or the mesh is too small. Move the body away from it, compare the mesh with "
-      "a ruler, {}",
-      candidateText(report), percent(report.agreeing), percent(report.without_edge),
-      percent(report.largest_without_edge), kPoseAdvice);
+      "{}; {} % of its pixels agree, but only {} % of the edges that would confine it are seen (needed: {} "
+      "%): it lies in a larger surface, most of it is hidden, or the mesh is too small. Move the body away "
+      "from what it touches, compare the mesh with a ruler, {}",
+      candidateText(report), percent(report.agreeing), percent(report.confined),
+      percent(report.least_confined), poseAdvice(report));
+}
+
+std::string elsewhere(const SearchReport& report) {
+  return fmt::format(
+      "{}; the nearest pose that fits is {:.0f} mm and {:.0f} degrees from the rough pose, more than three "
+      "standard deviations (initial_pose_std_m, initial_pose_std_deg). Move the body there, {}",
+      candidateText(report), 1e3 * report.shift_m, report.turn_rad * 180.0 / M_PI, poseAdvice(report));
 }
 
 }  // namespace
@@ -100,10 +114,11 @@ std::string whyNotFound(const SearchReport& report) {
   const auto why = [&] {
     if (report.depth_share == 0.0) return noDepth(report);
     if (report.fitting_scale) return otherScale(report);
-    if (report.cost >= 1.0 || (!report.part_fits && report.cost > report.largest_cost))
+    if (report.cost >= 1.0 || (!report.near_pose && !report.part_fits && report.cost > report.largest_cost))
       return noCandidate(report);
     if (report.cost > report.largest_cost) return highCost(report);
-    if (report.without_edge > report.largest_without_edge) return noEdge(report);
+    if (report.confined < report.least_confined) return notConfined(report);
+    if (report.outside) return elsewhere(report);
     return fmt::format("{}; {} % of its pixels agree, but its colours or features are not those of the body",
                        candidateText(report), percent(report.agreeing));
   };

@@ -11,6 +11,8 @@ namespace {
 
 // Largest cost of a pose that features then have to confirm: a lost body may be bent.
 constexpr double kDeformedCost = 0.5;
+// How fast a body's place becomes uncertain while nobody sees it [m/s], as a standard deviation.
+constexpr double kWandering = 0.05;
 
 }  // namespace
 
@@ -56,6 +58,7 @@ Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* 
 }
 
 void Relocalizer::noteLoss(bool lost, Nanoseconds stamp) {
+  if (!lost) last_seen_ = stamp;
   if (!lost)
     lost_since_.reset();
   else if (!lost_since_)
@@ -82,7 +85,7 @@ void Relocalizer::startTracking(const RgbdFrame& frame, const FoundPose& found) 
   tracked_ = true;
   lost_since_.reset();
   for (Backoff* search : {&depth_search_, &feature_search_}) search->reset();
-  found_at_ = frame.stamp;
+  found_at_ = last_seen_ = frame.stamp;
 }
 
 /// A lost body is found in the first frame that shows enough of its features.
@@ -93,7 +96,8 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   if (!rough) return std::nullopt;
   feature_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
-  const PoseHypothesis found = searchNearPose(frame, meshesOf(observer->model().surface()), *rough, config_);
+  const PoseHypothesis found =
+      searchNearPose(frame, meshesOf(observer->model().surface()), roughPose(*rough, config_), config_);
   // Features distinguish poses that are alike in depth.
   if (found.cost > kDeformedCost || !confirms(observer->featureShare(frame, found.pose))) return std::nullopt;
   return FoundPose{found.pose, 1};
@@ -114,15 +118,25 @@ SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const Search
                                             FrameObserver* observer) const {
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   if (given_ && !recovering_) {
-    const SearchOutcome near = searchNearAccepted(frame, meshes, T_camera_fixed * *given_, config_);
-    if (near.found) return near;
+    const SearchOutcome near =
+        searchNearAccepted(frame, meshes, roughPose(T_camera_fixed * *given_, config_), config_);
+    if (near.found || !searchesAnywhere()) return near;
   }
   std::vector<Eigen::Isometry3d> guesses;
   if (recovering_ || given_) guesses.push_back(T_camera_fixed * pose_);
+  std::optional<RoughPose> expected;
+  if (recovering_) expected = lastPose(frame);
   const auto feature_share = [&](const Eigen::Isometry3d& pose) {
     return observer->featureShare(frame, pose);
   };
-  return searchAnywhere(frame, observer->colors(), meshes, guesses, feature_share, config_);
+  return searchAnywhere(frame, observer->colors(), meshes, guesses, feature_share, config_, expected);
+}
+
+/// Where a lost body may be.
+RoughPose Relocalizer::lastPose(const RgbdFrame& frame) const {
+  RoughPose last = roughPose(frame.T_fixed_camera.inverse() * pose_, config_);
+  last.std_m += kWandering * seconds(frame.stamp - last_seen_);
+  return last;
 }
 
 /// Another scale of the mesh is tried only at the start, because it does not change later; and less and less
@@ -130,7 +144,9 @@ SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const Search
 SearchReport Relocalizer::explained(const RgbdFrame& frame, const SearchMeshes& meshes,
                                     const FrameObserver& observer,
                                     const std::optional<PoseHypothesis>& best) {
-  SearchReport report = measureSearch(frame, observer.colors(), meshes, best, config_);
+  std::optional<RoughPose> rough;
+  if (!searchesAnywhere()) rough = roughPose(frame.T_fixed_camera.inverse() * *given_, config_);
+  SearchReport report = measureSearch(frame, observer.colors(), meshes, best, rough, config_);
   if (recovering_) return report;
   if (scale_search_.isDue(frame.stamp)) {
     fitting_scale_ = fittingScale(frame, observer.colors(), meshes, best, config_);

@@ -6,6 +6,7 @@
 
 #include "registration/coarse_mesh.h"
 #include "registration/found_pose.h"
+#include "registration/rough_pose.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/time.h"
 #include "softbody_tracking/search_report/search_report.h"
@@ -16,8 +17,9 @@
 namespace softbody {
 
 /// Decides when to search for the body, and where: at the start and after a loss, while no prediction exists.
-/// At the start: near the pose of the object's file or of the user, then anywhere. After a loss: where
-/// features are recognised, then anywhere.
+/// At the start: near the pose of the object's file or of the user; anywhere only without one, or if `search`
+/// says so. After a loss: where features are recognised, then anywhere; but far from the last place features
+/// must confirm the pose.
 class Relocalizer {
  public:
   enum class Outcome {
@@ -63,6 +65,8 @@ class Relocalizer {
   std::optional<FoundPose> searchByDepth(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer);
   SearchOutcome searchByDepthNow(const RgbdFrame& frame, const SearchMeshes& meshes,
                                  FrameObserver* observer) const;
+  RoughPose lastPose(const RgbdFrame& frame) const;
+  bool searchesAnywhere() const { return recovering_ || !given_ || config_.anywhere; }
   SearchReport explained(const RgbdFrame& frame, const SearchMeshes& meshes, const FrameObserver& observer,
                          const std::optional<PoseHypothesis>& best);
   const SearchMeshes& meshesOf(const MeshTopology& surface);
@@ -80,6 +84,7 @@ class Relocalizer {
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
   Nanoseconds found_at_ = 0;
   std::optional<Nanoseconds> lost_since_;  ///< stamp of the first frame without the tracked body
+  Nanoseconds last_seen_ = 0;              ///< stamp of the last frame with it
   Backoff depth_search_, feature_search_;
   Backoff scale_search_{kLatestTime};
   std::optional<double> fitting_scale_;  ///< see fittingScale()
