@@ -125,7 +125,9 @@ TEST(SearchNearPose, FindsALargeBodyFarAway) {
   }
   const Eigen::Isometry3d rough =
       Eigen::Translation3d(0.05, -0.04, 0.05) * truth * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
-  const PoseHypothesis found = searchNear(frame, mesh, rough);
+  RegistrationConfig config;
+  config.pose_std_m = 0.05;
+  const PoseHypothesis found = searchNearPose(frame, {mesh, mesh}, roughPose(rough, config), config);
   EXPECT_LT(found.cost, 0.25);
   const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.02);

@@ -14,7 +14,7 @@ namespace softbody {
 struct Confinement {
   double both_ways = 0.0;  ///< mean of a motion and its opposite: a half if one of two ends is hidden or
                            ///< touches something that continues its surface
-  double each_way = 0.0;  ///< of each motion alone: near 0 then
+  double each_way = 0.0;   ///< of each motion alone: near 0 then
 };
 
 Confinement confinementOf(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,

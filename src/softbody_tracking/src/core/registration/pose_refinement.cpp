@@ -12,9 +12,6 @@ namespace {
 // Smallest step of the pattern search [px]; below it the image decides nothing.
 constexpr double kPrecision = 0.1;
 
-/// Like the square, but below 1.
-double saturated(double ratio2) { return ratio2 / (1.0 + ratio2); }
-
 struct AreaMoments {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< about the centre [m^4]
@@ -71,8 +68,8 @@ double PoseRefinement::scaleAt(const Eigen::Isometry3d& pose) const {
 double PoseRefinement::rankedCost(const Eigen::Isometry3d& pose) {
   if (!rough_) return cost_(pose);
   const PoseDeviation off = deviationFrom(*rough_, pose, center_);
-  // Bounded, so that a poor rough pose cannot draw the body; depth decides wherever it can.
-  return cost_(pose) + kAlikeCost * saturated(off.turn * off.turn + off.shift * off.shift);
+  // As the logarithm of the density of rough poses.
+  return cost_(pose) + kAlikeCost * (off.turn * off.turn + off.shift * off.shift);
 }
 
 Eigen::Isometry3d PoseRefinement::moved(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn,

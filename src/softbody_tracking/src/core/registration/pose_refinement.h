@@ -20,7 +20,7 @@ class PoseRefinement {
   PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
                  const std::optional<RoughPose>& rough);
 
-  /// PoseCost, plus a small penalty for the turn and the distance from the rough pose.
+  /// PoseCost, plus a penalty for the turn and the distance from the rough pose, in standard deviations.
   double rankedCost(const Eigen::Isometry3d& pose);
 
   /// PoseCost alone.
