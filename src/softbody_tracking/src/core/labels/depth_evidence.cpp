@@ -21,28 +21,50 @@ double gauss(double x, double deviation) {
   return std::exp(-0.5 * ratio * ratio) / (deviation * std::sqrt(2.0 * M_PI));
 }
 
-/// @param elsewhere density of the surroundings that do not touch.
-double logOddsOf(double difference, double scale, double elsewhere) {
-  const double body = (1.0 - kWrongShare) * gauss(difference, scale * kDeviation) + kWrongShare * kAnywhere;
-  const double other =
-      kTouchingShare * gauss(difference, scale * kTouchingDeviation) + (1.0 - kTouchingShare) * elsewhere;
-  return std::log(body / other);
+double densityOfBody(double difference, double scale) {
+  return (1.0 - kWrongShare) * gauss(difference, scale * kDeviation) + kWrongShare * kAnywhere;
+}
+
+/// Before anything was seen. @param elsewhere density of the surroundings that do not touch.
+double densityAround(double difference, double scale, double elsewhere) {
+  return kTouchingShare * gauss(difference, scale * kTouchingDeviation) + (1.0 - kTouchingShare) * elsewhere;
 }
 
 }  // namespace
 
-std::array<double, 2 * DepthEvidence::kHalf + 1> DepthEvidence::makeTable() {
-  std::array<double, 2 * kHalf + 1> table{};
-  for (int i = 0; i <= 2 * kHalf; ++i)
-    table[static_cast<std::size_t>(i)] = logOddsOf((i - kHalf) * kCell, 1.0, kAnywhere);
-  return table;
+void DepthCounts::add(double scaled) {
+  const auto bin = static_cast<int>(std::floor(scaled / kWidth)) + kBins / 2;
+  all += 1.0f;
+  if (bin >= 0 && bin < kBins) pixels[static_cast<std::size_t>(bin)] += 1.0f;
 }
 
-const std::array<double, 2 * DepthEvidence::kHalf + 1> DepthEvidence::kTable = makeTable();
+void DepthCounts::blend(const DepthCounts& newest, float share) {
+  for (std::size_t bin = 0; bin < pixels.size(); ++bin)
+    pixels[bin] += share * (newest.pixels[bin] - pixels[bin]);
+  all += share * (newest.all - all);
+}
+
+void DepthEvidence::compare(const DepthCounts& around) {
+  const auto count = [&](int bin) {
+    return around.pixels[static_cast<std::size_t>(std::clamp(bin, 0, DepthCounts::kBins - 1))];
+  };
+  for (int i = 0; i <= 2 * kHalf; ++i) {
+    const double difference = (i - kHalf) * kCell;
+    // Between the middles of two bins the density is linear.
+    const double place = difference / DepthCounts::kWidth + 0.5 * DepthCounts::kBins - 0.5;
+    const int bin = static_cast<int>(std::floor(place));
+    const double seen = (count(bin) + (place - bin) * (count(bin + 1) - count(bin))) / DepthCounts::kWidth;
+    const double other =
+        (seen + kFewestAround * densityAround(difference, 1.0, kAnywhere)) / (around.all + kFewestAround);
+    table_[static_cast<std::size_t>(i)] = std::log(densityOfBody(difference, 1.0) / other);
+  }
+}
 
 double DepthEvidence::logOddsBefore(double behind, double measured, double predicted) {
   const double scale = std::max(1.0, predicted);
-  return logOddsOf(measured - predicted, scale, gauss(measured - behind, scale * kDeviation));
+  const double difference = measured - predicted;
+  return std::log(densityOfBody(difference, scale) /
+                  densityAround(difference, scale, gauss(measured - behind, scale * kDeviation)));
 }
 
 /// An occluder lies anywhere before the body, and more often near to it.

@@ -11,19 +11,44 @@ constexpr double kBehindSurface = 0.01;
 /// Step of depth between neighbouring pixels or cells at which a surface ends [m]; far above noise.
 constexpr double kSurfaceEnds = 0.02;
 
+/// Pixels of the surroundings that are worth as much as what is known without any: a few may show anything.
+constexpr double kFewestAround = 100.0;
+
 /// Largest log odds of one pixel by depth: any pixel may be wrong, and depth is ragged at edges.
 constexpr double kDepthLimit = 1.5;
 
-/// How much the depth of a pixel speaks for the body, where the body is predicted. What is not the body is
-/// anywhere within a metre, or touches the body like the table below it.
+/// Differences of depth of pixels that do not show the body.
+struct DepthCounts {
+  static constexpr int kBins = 32;
+  static constexpr double kWidth = 0.004;  ///< of a bin [m]; the middle of all is 0
+
+  std::array<float, kBins> pixels{};
+  float all = 0.0f;  ///< also those outside of all bins
+
+  /// @param scaled difference, see DepthEvidence::scaled().
+  void add(double scaled);
+  /// Takes a share of the newest counts.
+  void blend(const DepthCounts& newest, float share);
+};
+
+/// How much the depth of a pixel speaks for the body, where the body is predicted. What is not the body has
+/// the depth that was seen before; as long as nothing was, it is anywhere within a metre, or touches the body
+/// like the table below it.
 class DepthEvidence {
  public:
+  DepthEvidence() { compare({}); }
+  /// @param around what is not the body.
+  void compare(const DepthCounts& around);
+
+  /// A difference as at up to 1 m; beyond, the deviation grows with the distance.
+  static double scaled(double difference, double predicted) {
+    return predicted > 1.0 ? difference / predicted : difference;
+  }
   /// Log odds of the body against everything else. @param difference measured minus predicted depth [m].
-  /// @param predicted depth of the body [m]; beyond 1 m the deviation grows with the distance.
-  static double logOdds(double difference, double predicted) {
-    const double scaled = predicted > 1.0 ? difference / predicted : difference;
-    const auto cell = static_cast<int>(scaled / kCell + kZero);
-    return cell < 0 ? kTable.front() : kTable[static_cast<std::size_t>(cell < 2 * kHalf ? cell : 2 * kHalf)];
+  /// @param predicted depth of the body [m].
+  double logOdds(double difference, double predicted) const {
+    const auto cell = static_cast<int>(scaled(difference, predicted) / kCell + kZero);
+    return cell < 0 ? table_.front() : table_[static_cast<std::size_t>(cell < 2 * kHalf ? cell : 2 * kHalf)];
   }
 
   /// The same where another part of the body is predicted behind. @param behind its depth [m].
@@ -37,8 +62,7 @@ class DepthEvidence {
   static constexpr int kHalf = 128;             // cells on each side
   static constexpr double kZero = kHalf + 0.5;  // the difference 0 is in the middle of cell kHalf
   static constexpr double kCell = 0.0005;       // [m]
-  static const std::array<double, 2 * kHalf + 1> kTable;
-  static std::array<double, 2 * kHalf + 1> makeTable();
+  std::array<double, 2 * kHalf + 1> table_;
 };
 
 }  // namespace softbody

@@ -42,7 +42,8 @@ Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const S
   labels.region = cv::Rect(cells.origin, cells.grid * cells.size_px) & cv::Rect({}, image);
   labels.label.create(labels.region.size());
   labels.log_odds.create(labels.region.size());
-  const PixelLabeler pixels(frame, surface.image().depth, colors, reach_m);
+  labels.predicted.create(labels.region.size());
+  const PixelLabeler pixels(frame, surface.image(), colors, reach_m);
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.label(area, cell, &labels); });
   tellOccluders(samples, {last, frame.camera.fx, reach_m, error_m, cvRound(kReach * frame.camera.fx)},

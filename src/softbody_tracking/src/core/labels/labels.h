@@ -17,6 +17,8 @@ struct Labels {
   cv::Rect region;     ///< the labelled part of the image [px]
   cv::Mat1b label;     ///< of each pixel of the region, see pixel_labels.h
   cv::Mat1f log_odds;  ///< of the body against everything else, for each pixel of the region
+  cv::Mat1f
+      predicted;  ///< depth of the body at each pixel of the region, beside it that of the nearest part [m]
   LabelMemory memory;  ///< for the next frame
 
   /// labels::kUnknown outside of the region.
@@ -28,6 +30,10 @@ struct Labels {
     cv::Mat1b mask(image, static_cast<std::uint8_t>(0));
     if (!region.empty()) mask(region).setTo(255, label == labels::kBody);
     return mask;
+  }
+  /// 0 outside of the region.
+  float predictedAt(const cv::Point& pixel) const {
+    return region.contains(pixel) && !predicted.empty() ? predicted(pixel - region.tl()) : 0.0f;
   }
   /// 0 outside of the region.
   float logOddsAt(const cv::Point& pixel) const {

@@ -30,14 +30,17 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
     const std::uint8_t* covered = frame_.covered.empty() ? nullptr : frame_.covered[v];
     std::uint8_t* label = labels->label[v - first.y];
     float* log_odds = labels->log_odds[v - first.y];
+    float* expected = labels->predicted[v - first.y];
     for (int u = pixels.x; u < pixels.br().x; ++u) {
       const bool counts = rendered[u] > 0.0f || !cell->onSurface();
       const float predicted = rendered[u] > 0.0f ? rendered[u] : cell->predicted;
-      log_odds[u - first.x] = static_cast<float>(clamped(colors_.logOdds(color[u]), kColorLimit));
+      const int sector = sectors_.of(u, v);
+      expected[u - first.x] = predicted;
+      log_odds[u - first.x] = static_cast<float>(clamped(colors_.logOdds(color[u], sector), kColorLimit));
       label[u - first.x] =
           covered != nullptr && covered[u] != 0
               ? labels::kOccluder
-              : labelOf(measured[u], predicted, &log_odds[u - first.x], counts ? &sums : &ignored);
+              : labelOf(measured[u], predicted, sector, &log_odds[u - first.x], counts ? &sums : &ignored);
     }
   }
   cell->shows_front = sums.front > 0 && 2 * sums.front >= sums.measured;
@@ -47,10 +50,11 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
   cell->body = 2 * sums.body >= sums.front ? 1.0f : 0.0f;
 }
 
-std::uint8_t PixelLabeler::labelOf(float measured, float predicted, float* log_odds, Sums* sums) const {
+std::uint8_t PixelLabeler::labelOf(float measured, float predicted, int sector, float* log_odds,
+                                   Sums* sums) const {
   if (!(measured > 0.0f)) return labels::kUnknown;
   const float of_color = *log_odds, difference = measured - predicted;
-  *log_odds += static_cast<float>(clamped(DepthEvidence::logOdds(difference, predicted), kDepthLimit));
+  *log_odds += static_cast<float>(clamped(colors_.depthLogOdds(difference, predicted, sector), kDepthLimit));
   const bool body = std::abs(difference) <= reach_m_ && *log_odds > 0.0f;
   ++sums->measured;
   if (!body && difference > kBehindSurface) return labels::kBackground;

@@ -3,6 +3,7 @@
 #include "labels/label_cells.h"
 #include "labels/labels.h"
 #include "labels/region_colors.h"
+#include "labels/sectors.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
@@ -11,8 +12,13 @@ namespace softbody {
 class PixelLabeler {
  public:
   /// @param rendered depth of the prediction. @param reach_m the body is not farther from it than this.
-  PixelLabeler(const RgbdFrame& frame, const cv::Mat1f& rendered, const RegionColors& colors, double reach_m)
-      : frame_(frame), rendered_(rendered), colors_(colors), reach_m_(static_cast<float>(reach_m)) {}
+  PixelLabeler(const RgbdFrame& frame, const RasterImage& rendered, const RegionColors& colors,
+               double reach_m)
+      : frame_(frame),
+        rendered_(rendered.depth),
+        sectors_(rendered.region),
+        colors_(colors),
+        reach_m_(static_cast<float>(reach_m)) {}
 
   /// Labels the pixels of a cell, and sums up in the cell what they show. On the surface only those count on
   /// which the body is rendered.
@@ -29,7 +35,7 @@ class PixelLabeler {
   struct Sums;
   /// Label by depth and colour. @param predicted depth of the body there [m]. @param log_odds by colour, then
   /// by both.
-  std::uint8_t labelOf(float measured, float predicted, float* log_odds, Sums* sums) const;
+  std::uint8_t labelOf(float measured, float predicted, int sector, float* log_odds, Sums* sums) const;
 
   static std::uint8_t unmeasuredLabel(const LabelCell& cell, bool on_body, float log_odds);
   std::uint8_t frontLabel(const LabelCell& cell, float measured, float rendered, bool body_alone,
@@ -37,6 +43,7 @@ class PixelLabeler {
 
   const RgbdFrame& frame_;
   const cv::Mat1f& rendered_;
+  Sectors sectors_;
   const RegionColors& colors_;
   float reach_m_;
 };

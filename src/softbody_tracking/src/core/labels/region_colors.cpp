@@ -13,7 +13,7 @@ constexpr int kInside = 3;
 // Every second pixel of every second row is enough for a histogram.
 constexpr int kStep = 2;
 // Pixels on each side, below which nothing is learned: a few pixels may show anything.
-constexpr float kFewest = 100.0f;
+constexpr auto kFewest = static_cast<float>(kFewestAround);
 
 /// Whether the body is rendered at a pixel and around it.
 bool isInside(const cv::Mat1f& rendered, int u, int v) {
@@ -23,47 +23,83 @@ bool isInside(const cv::Mat1f& rendered, int u, int v) {
 
 }  // namespace
 
+/// Pixels on both sides of the outline in one frame.
+struct RegionColors::Counts {
+  std::vector<float> body = std::vector<float>(kBins, 0.0f);
+  std::array<std::vector<float>, Sectors::kCount> around;
+  std::array<DepthCounts, Sectors::kCount> depth;
+  float on_body = 0.0f, beside = 0.0f;
+};
+
 RegionColors::RegionColors() { reset(); }
 
 void RegionColors::reset() {
   body_.clear();
-  surroundings_.clear();
-  log_odds_.assign(kBins, 0.0f);
+  for (auto& sector : around_) sector.assign(kBins, 0.0f);
+  for (auto& sector : log_odds_) sector.assign(kBins, 0.0f);
+  depth_around_.fill({});
+  depth_.fill({});
 }
 
-void RegionColors::blend(const std::vector<float>& counts, double elapsed_s, std::vector<float>* densities) {
-  const float sum = std::accumulate(counts.begin(), counts.end(), 0.0f);
-  const auto rate = static_cast<float>(densities->empty() ? 1.0 : newestShare(elapsed_s, kMemory_s));
-  densities->resize(kBins, 0.0f);
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    (*densities)[i] += rate * (counts[i] / sum - (*densities)[i]);
-}
-
-void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, const Labels& labels,
-                         double elapsed_s) {
-  counts_of_body_.assign(kBins, 0.0f);
-  counts_around_.assign(kBins, 0.0f);
+RegionColors::Counts RegionColors::countsIn(const RgbdFrame& frame, const RasterImage& rendered,
+                                            const Labels& labels) const {
+  Counts counts;
+  counts.around.fill(counts.body);
+  const Sectors sectors(rendered.region);
   const cv::Rect region = labels.region & cv::Rect(kInside, kInside, frame.color.cols - 2 * kInside,
                                                    frame.color.rows - 2 * kInside);
-  float on_body = 0.0f, around = 0.0f;
   for (int v = region.y; v < region.br().y; v += kStep) {
     for (int u = region.x; u < region.br().x; u += kStep) {
       const std::size_t color = bin(frame.color(v, u));
       const std::uint8_t label = labels.at({u, v});
       if (label == labels::kBody && isInside(rendered.depth, u, v)) {
-        counts_of_body_[color] += 1.0f;
-        on_body += 1.0f;
+        counts.body[color] += 1.0f;
+        counts.on_body += 1.0f;
       } else if (label != labels::kBody && (label != labels::kUnknown || rendered.triangle(v, u) < 0)) {
-        counts_around_[color] += 1.0f;
-        around += 1.0f;
+        const auto sector = static_cast<std::size_t>(sectors.of(u, v));
+        counts.around[sector][color] += 1.0f;
+        counts.beside += 1.0f;
+        const double measured = frame.depth(v, u), predicted = labels.predictedAt({u, v});
+        if (measured > 0.0 && predicted > 0.0)
+          counts.depth[sector].add(DepthEvidence::scaled(measured - predicted, predicted));
       }
     }
   }
-  if (on_body < kFewest || around < kFewest) return;
-  blend(counts_of_body_, elapsed_s, &body_);
-  blend(counts_around_, elapsed_s, &surroundings_);
-  for (std::size_t i = 0; i < log_odds_.size(); ++i)
-    log_odds_[i] = std::log((body_[i] + kUnseen) / (surroundings_[i] + kUnseen));
+  return counts;
+}
+
+void RegionColors::learn(const RgbdFrame& frame, const RasterImage& rendered, const Labels& labels,
+                         double elapsed_s) {
+  const Counts counts = countsIn(frame, rendered, labels);
+  if (counts.on_body < kFewest || counts.beside < kFewest) return;
+  const auto share = static_cast<float>(learned() ? newestShare(elapsed_s, kMemory_s) : 1.0);
+  body_.resize(kBins, 0.0f);
+  for (std::size_t i = 0; i < body_.size(); ++i)
+    body_[i] += share * (counts.body[i] / counts.on_body - body_[i]);
+  for (std::size_t sector = 0; sector < around_.size(); ++sector) {
+    for (std::size_t i = 0; i < kBins; ++i)
+      around_[sector][i] += share * (counts.around[sector][i] - around_[sector][i]);
+    depth_around_[sector].blend(counts.depth[sector], share);
+    depth_[sector].compare(depth_around_[sector]);
+  }
+  compareColors();
+}
+
+/// A sector with few pixels is like all of them.
+void RegionColors::compareColors() {
+  std::array<float, Sectors::kCount> pixels{};
+  for (std::size_t sector = 0; sector < around_.size(); ++sector)
+    pixels[sector] = std::accumulate(around_[sector].begin(), around_[sector].end(), 0.0f);
+  const float all = std::accumulate(pixels.begin(), pixels.end(), 0.0f);
+  for (std::size_t i = 0; i < kBins; ++i) {
+    float anywhere = 0.0f;
+    for (const auto& sector : around_) anywhere += sector[i] / all;
+    for (std::size_t sector = 0; sector < around_.size(); ++sector) {
+      const float around = (around_[sector][i] + kFewest * anywhere) / (pixels[sector] + kFewest);
+      log_odds_[sector][i] =
+          body_[i] == 0.0f && around == 0.0f ? 0.0f : std::log((body_[i] + kUnseen) / (around + kUnseen));
+    }
+  }
 }
 
 cv::Mat1b RegionColors::mask(const cv::Mat3b& color, const cv::Rect& region) const {

@@ -1,17 +1,22 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "labels/depth_evidence.h"
 #include "labels/labels.h"
+#include "labels/sectors.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {
 
-/// Statistics of the colours on both sides of the body's outline (Tjaden et al. 2018): how much more often a
-/// colour occurs on the body than in its surroundings. They follow the light from frame to frame.
+/// Statistics of colour and depth on both sides of the body's outline: how much more often a colour, or a
+/// difference of depth, occurs on the body than in its surroundings. The surroundings differ from sector to
+/// sector, as in the local histograms of Tjaden et al. 2018: a thing like the body that lies on one side says
+/// nothing there. They follow the light from frame to frame.
 class RegionColors {
  public:
   RegionColors();
@@ -23,7 +28,14 @@ class RegionColors {
 
   bool learned() const { return !body_.empty(); }
   /// Log odds that a pixel of this colour (blue, green, red) shows the body; 0 before learn().
-  double logOdds(const cv::Vec3b& color) const { return log_odds_[bin(color)]; }
+  double logOdds(const cv::Vec3b& color, int sector) const {
+    return log_odds_[static_cast<std::size_t>(sector)][bin(color)];
+  }
+  /// The same by its depth. @param difference measured minus predicted depth [m]. @param predicted depth of
+  /// the body [m].
+  double depthLogOdds(double difference, double predicted, int sector) const {
+    return depth_[static_cast<std::size_t>(sector)].logOdds(difference, predicted);
+  }
 
   /// Whether a colour occurs on the body; every colour does before learn().
   bool belongs(const cv::Vec3b& color) const { return !learned() || body_[bin(color)] >= kRare; }
@@ -42,10 +54,15 @@ class RegionColors {
   static std::size_t bin(const cv::Vec3b& color) {
     return static_cast<std::size_t>((color[0] >> 4) << 8 | (color[1] >> 4) << 4 | color[2] >> 4);
   }
-  void blend(const std::vector<float>& counts, double elapsed_s, std::vector<float>* densities);
+  struct Counts;
+  Counts countsIn(const RgbdFrame& frame, const RasterImage& rendered, const Labels& labels) const;
+  void compareColors();
 
-  std::vector<float> body_, surroundings_;  ///< share of the pixels in each bin; empty before learn()
-  std::vector<float> log_odds_, counts_of_body_, counts_around_;
+  std::vector<float> body_;  ///< share of the pixels in each bin; empty before learn()
+  std::array<std::vector<float>, Sectors::kCount> around_;  ///< pixels in each bin, mean of the last frames
+  std::array<std::vector<float>, Sectors::kCount> log_odds_;
+  std::array<DepthCounts, Sectors::kCount> depth_around_;  ///< likewise
+  std::array<DepthEvidence, Sectors::kCount> depth_;
 };
 
 }  // namespace softbody

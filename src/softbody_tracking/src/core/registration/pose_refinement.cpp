@@ -101,7 +101,7 @@ std::optional<PoseHypothesis> PoseRefinement::betterNeighbor(const PoseHypothesi
     if (axis < 3)
       turn = sign * shift_m / diameter_m_ * (best.pose.linear() * axes_.col(axis));
     else
-      shift[axis - 3] = sign * shift_m;
+      shift = sign * shift_m * (best.pose.linear() * axes_.col(axis - 3));
     const Eigen::Isometry3d pose = moved(best.pose, turn, shift);
     const double cost = rankedCost(pose);
     if (cost < best.cost) return PoseHypothesis{pose, cost};

@@ -54,9 +54,9 @@ ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predic
   View prediction = render(model_, frame.camera, predicted, view_settings_, &memory_);
   const GuessedBody body{model_,          view_settings_, weights_, usual_error_.meters(),
                          soughtIn(frame), last_labels_,   &memory_};
-  // The first labels know no colours.
+  // The first labels know no colours: then all beside the silhouette are the surroundings.
   if (!colors_.learned())
-    colors_.learn(frame, prediction.surface.image(), labelsOf(body, prediction), elapsed_s_);
+    colors_.learn(frame, prediction.surface.image(), silhouetteLabels(body, prediction), elapsed_s_);
   Guess best = guesses_.best(body, std::move(prediction));
   const double visible_vertices =
       shownVertices(best.view.samples, model_->volume()) * best.features.expected.unoccludedShare();

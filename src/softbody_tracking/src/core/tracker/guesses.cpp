@@ -51,6 +51,14 @@ Labels labelsOf(const GuessedBody& body, const View& view) {
                   body.weights.depth.reach_m, body.usual_error_m);
 }
 
+Labels silhouetteLabels(const GuessedBody& body, const View& view) {
+  Labels labels = labelsOf(body, view);
+  if (labels.region.empty()) return labels;
+  const cv::Mat1f rendered = view.surface.image().depth(labels.region);
+  labels.label.setTo(labels::kBackground, (rendered <= 0.0f) & (labels.label == labels::kBody));
+  return labels;
+}
+
 void Guesses::reset() {
   wide_search_.reset();
   piece_search_.reset();

@@ -38,6 +38,8 @@ struct AlignedGuess {
 
 /// Labels of a frame for one of its views.
 Labels labelsOf(const GuessedBody& body, const View& view);
+/// The same, but nothing beside the rendered body shows it.
+Labels silhouetteLabels(const GuessedBody& body, const View& view);
 
 /// Guesses where the body is in a frame. The first guess is the prediction. If most features are not found
 /// there, the second one is where the features and the depth around the prediction take it. If a piece is
