@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace softbody {
 namespace {
 
@@ -26,6 +28,16 @@ TEST(DepthEvidence, ToleratesMoreFarAway) {
   const DepthEvidence evidence;
   EXPECT_GT(evidence.logOdds(0.02, 2.0), evidence.logOdds(0.02, 0.5));
   EXPECT_NEAR(evidence.logOdds(0.04, 2.0), evidence.logOdds(0.02, 1.0), 1e-9);
+}
+
+TEST(DepthEvidence, KnowsTheDepthOfTheSurroundings) {
+  DepthCounts table;
+  for (int i = 0; i < 100000; ++i) table.add(-0.01 + 1e-7 * i);
+  DepthEvidence evidence;
+  const double before = evidence.logOdds(-0.005, 0.5), farther = evidence.logOdds(0.05, 0.5);
+  evidence.compare(table);
+  EXPECT_LT(evidence.logOdds(-0.005, 0.5), std::min(0.0, before));
+  EXPECT_GT(evidence.logOdds(0.05, 0.5), farther) << "nothing else was seen there";
 }
 
 /// What is nearer than the body usually is stands before it; what is farther does not.

@@ -44,10 +44,16 @@ class RegionColorsTest : public ::testing::Test {
   void learn(double elapsed_s = kFrameInterval_s) {
     colors_.learn(frame_, surface_->image(), labelsAt(frame_, *surface_, colors_), elapsed_s);
   }
+  /// Mean of all sectors.
+  double logOdds(const cv::Vec3b& color) const {
+    double sum = 0.0;
+    for (int sector = 0; sector < Sectors::kCount; ++sector) sum += colors_.logOdds(color, sector);
+    return sum / Sectors::kCount;
+  }
   /// Number of frames until a colour speaks for the body, at most 100.
   int framesUntilBody(const cv::Vec3b& color) {
     int frames = 0;
-    for (; frames < 100 && colors_.logOdds(color) < 1.0; ++frames) learn();
+    for (; frames < 100 && logOdds(color) < 1.0; ++frames) learn();
     return frames;
   }
 
@@ -59,19 +65,19 @@ class RegionColorsTest : public ::testing::Test {
 };
 
 TEST_F(RegionColorsTest, TellTheBodyFromItsSurroundings) {
-  for (const cv::Vec3b& color : {kSkin, kWall}) EXPECT_EQ(colors_.logOdds(color), 0.0) << "nothing is known";
+  for (const cv::Vec3b& color : {kSkin, kWall}) EXPECT_EQ(logOdds(color), 0.0) << "nothing is known";
   EXPECT_FALSE(colors_.learned());
   learn();
   EXPECT_TRUE(colors_.learned());
-  EXPECT_GT(colors_.logOdds(kSkin), 2.0);
-  EXPECT_LT(colors_.logOdds(kWall), -2.0);
-  EXPECT_NEAR(colors_.logOdds(kNeverSeen), 0.0, 1e-6);
+  EXPECT_GT(logOdds(kSkin), 2.0);
+  EXPECT_LT(logOdds(kWall), -2.0);
+  EXPECT_NEAR(logOdds(kNeverSeen), 0.0, 1e-6);
 }
 
 TEST_F(RegionColorsTest, AColorOfBothSidesSaysNothing) {
   frame_.color.setTo(kSkin);
   learn();
-  EXPECT_NEAR(colors_.logOdds(kSkin), 0.0, 1e-6);
+  EXPECT_NEAR(logOdds(kSkin), 0.0, 1e-6);
 }
 
 /// The sign follows the shares of a colour, not the sizes of the regions.
@@ -79,19 +85,36 @@ TEST_F(RegionColorsTest, TheSidesAreComparedByShares) {
   frame_.color(cv::Rect(200, 150, 50, 120)) = kWall;  // a quarter of the body
   frame_.color(cv::Rect(0, 0, 640, 152)) = kSkin;     // less than a half of the surroundings
   learn();
-  EXPECT_GT(colors_.logOdds(kSkin), 0.0);
-  EXPECT_LT(colors_.logOdds(kWall), 0.0);
+  EXPECT_GT(logOdds(kSkin), 0.0);
+  EXPECT_LT(logOdds(kWall), 0.0);
+}
+
+/// A thing like the body, at its depth, lies on its left side.
+TEST_F(RegionColorsTest, AThingLikeTheBodySaysNothingOnItsSideAlone) {
+  const cv::Rect twin(body_.x - 40, body_.y, 40, body_.height);
+  frame_.color(twin) = kSkin;
+  frame_.depth(twin) = kNear;
+  Labels labels = labelsAt(frame_, *surface_, colors_);
+  labels.label.setTo(labels::kBackground, surface_->image().depth(labels.region) <= 0.0f);
+  colors_.learn(frame_, surface_->image(), labels, kFrameInterval_s);
+  const Sectors sectors(surface_->image().region);
+  const int middle = body_.y + body_.height / 2, left = sectors.of(twin.x, middle),
+            right = sectors.of(body_.br().x + 20, middle);
+  ASSERT_NE(left, right);
+  EXPECT_LT(colors_.logOdds(kSkin, left), 0.5);
+  EXPECT_GT(colors_.logOdds(kSkin, right), 2.0);
+  EXPECT_LT(colors_.depthLogOdds(0.0, kNear, left), colors_.depthLogOdds(0.0, kNear, right));
 }
 
 TEST_F(RegionColorsTest, FollowTheLight) {
   learn();
   const cv::Vec3b dark(kSkin[0] / 2, kSkin[1] / 2, kSkin[2] / 2);
   frame_.color(body_) = dark;
-  EXPECT_NEAR(colors_.logOdds(dark), 0.0, 1e-6);
+  EXPECT_NEAR(logOdds(dark), 0.0, 1e-6);
   EXPECT_LT(framesUntilBody(dark), 10);
-  const double before = colors_.logOdds(kSkin);
+  const double before = logOdds(kSkin);
   learn();
-  EXPECT_LT(colors_.logOdds(kSkin), before) << "what was learned in the old light fades";
+  EXPECT_LT(logOdds(kSkin), before) << "what was learned in the old light fades";
 }
 
 /// Two fifths of a second in a new light teaches the same at any frame rate.
@@ -103,7 +126,7 @@ TEST_F(RegionColorsTest, FollowTheLightInTheSameTimeAtAnyRate) {
     learn();
     frame_.color(body_) = kGlove;
     for (int i = 0; i < 2 * rate / 5; ++i) learn(1.0 / rate);
-    odds.push_back(colors_.logOdds(kSkin));
+    odds.push_back(logOdds(kSkin));
   }
   EXPECT_NEAR(odds[0], odds[1], 0.15);
   EXPECT_NEAR(odds[2], odds[1], 1e-3);
@@ -114,8 +137,8 @@ TEST_F(RegionColorsTest, WhatCoversTheBodyIsNotLearned) {
   frame_.color(glove) = kGlove;
   frame_.depth(glove) = kNear - 0.05f;
   for (int i = 0; i < 20; ++i) learn();
-  EXPECT_LE(colors_.logOdds(kGlove), 0.0);
-  EXPECT_GT(colors_.logOdds(kSkin), 2.0);
+  EXPECT_LE(logOdds(kGlove), 0.0);
+  EXPECT_GT(logOdds(kSkin), 2.0);
 }
 
 /// Depth alone would take a hand that touches the body, where the prediction lags behind, for the body.
@@ -123,34 +146,34 @@ TEST_F(RegionColorsTest, AHandAtTheDepthOfTheBodyIsNotLearned) {
   const cv::Rect beside(405, 180, 15, 60), over(340, 180, 60, 60);
   frame_.color(beside) = kGlove;
   learn();
-  ASSERT_LT(colors_.logOdds(kGlove), 0.0);
+  ASSERT_LT(logOdds(kGlove), 0.0);
   show(body_);
   frame_.color(over) = kGlove;
   for (int i = 0; i < 60; ++i) learn();
-  EXPECT_LT(colors_.logOdds(kGlove), -1.0);
-  EXPECT_GT(colors_.logOdds(kSkin), 2.0);
+  EXPECT_LT(logOdds(kGlove), -1.0);
+  EXPECT_GT(logOdds(kSkin), 2.0);
 }
 
 /// A prediction that is wrong by some pixels still learns the right colours: depth tells the sides apart.
 TEST_F(RegionColorsTest, LearnBesideAnInexactPrediction) {
   predict(body_ + cv::Point(8, 0));
   learn();
-  EXPECT_GT(colors_.logOdds(kSkin), 1.0);
-  EXPECT_LT(colors_.logOdds(kWall), -2.0);
+  EXPECT_GT(logOdds(kSkin), 1.0);
+  EXPECT_LT(logOdds(kWall), -2.0);
 }
 
 TEST_F(RegionColorsTest, AFewPixelsTeachNothing) {
   show({300, 200, 10, 10});
   learn();
   EXPECT_FALSE(colors_.learned());
-  EXPECT_EQ(colors_.logOdds(kSkin), 0.0);
+  EXPECT_EQ(logOdds(kSkin), 0.0);
 }
 
 TEST_F(RegionColorsTest, ResetForgets) {
   learn();
   colors_.reset();
   EXPECT_FALSE(colors_.learned());
-  for (const cv::Vec3b& color : {kSkin, kWall}) EXPECT_EQ(colors_.logOdds(color), 0.0);
+  for (const cv::Vec3b& color : {kSkin, kWall}) EXPECT_EQ(logOdds(color), 0.0);
 }
 
 /// A few pixels in a thousand are enough. What is only beside or before the body does not belong to it.
@@ -182,7 +205,7 @@ TEST_F(RegionColorsTest, AnyRegionIsAllowed) {
     show(body);
     learn();
   }
-  EXPECT_GE(colors_.logOdds(kSkin), 0.0);
+  EXPECT_GE(logOdds(kSkin), 0.0);
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ const cv::Vec3b kBodyColor(40, 60, 220), kTableColor(200, 190, 60);
 RegionColors bodyColors() {
   RgbdFrame frame;
   frame.color = cv::Mat3b(100, 100, kTableColor);
+  frame.depth = cv::Mat1f(100, 100, 1.0f);
   frame.color.colRange(0, 50).setTo(kBodyColor);
   Labels labels;
   labels.region = cv::Rect(0, 0, 100, 100);

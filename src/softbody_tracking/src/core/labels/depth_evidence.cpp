@@ -16,6 +16,9 @@ constexpr double kAnywhere = 1.0;
 // Share of pixels whose depth is wrong: filled holes, and edges.
 constexpr double kWrongShare = 0.05;
 
+// Pixels of the surroundings that say as much as what is known without any; many of them show one surface.
+constexpr double kFewestAround = 1000.0;
+
 double gauss(double x, double deviation) {
   const double ratio = x / deviation;
   return std::exp(-0.5 * ratio * ratio) / (deviation * std::sqrt(2.0 * M_PI));

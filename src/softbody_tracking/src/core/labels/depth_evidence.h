@@ -11,9 +11,6 @@ constexpr double kBehindSurface = 0.01;
 /// Step of depth between neighbouring pixels or cells at which a surface ends [m]; far above noise.
 constexpr double kSurfaceEnds = 0.02;
 
-/// Pixels of the surroundings that are worth as much as what is known without any: a few may show anything.
-constexpr double kFewestAround = 100.0;
-
 /// Largest log odds of one pixel by depth: any pixel may be wrong, and depth is ragged at edges.
 constexpr double kDepthLimit = 1.5;
 

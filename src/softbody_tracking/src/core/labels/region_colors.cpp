@@ -13,7 +13,7 @@ constexpr int kInside = 3;
 // Every second pixel of every second row is enough for a histogram.
 constexpr int kStep = 2;
 // Pixels on each side, below which nothing is learned: a few pixels may show anything.
-constexpr auto kFewest = static_cast<float>(kFewestAround);
+constexpr float kFewest = 100.0f;
 
 /// Whether the body is rendered at a pixel and around it.
 bool isInside(const cv::Mat1f& rendered, int u, int v) {

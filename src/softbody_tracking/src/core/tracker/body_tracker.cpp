@@ -55,7 +55,7 @@ struct BodyTracker::Implementation {
 
   const TetTopology& model() const { return observer->model().volume(); }
   std::uint32_t knownFeatures() const { return static_cast<std::uint32_t>(observer->features().size()); }
-  void forgetMotion();
+  void forgetMotion(bool searched);
   bool isAnswer(const MeshState* volume) const;
   Points predict(const RgbdFrame& frame, const MeshState* answer);
   std::vector<Association> associationsOf(const ObservedBody& observed,
@@ -143,8 +143,8 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   stamp = frame.stamp;
   const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
   if (outcome == Relocalizer::Outcome::kNotFound) return waiting(whyNotFound(relocalizer.report()));
-  const bool just_found = outcome == Relocalizer::Outcome::kFound;
-  if (just_found) forgetMotion();
+  const bool just_found = outcome != Relocalizer::Outcome::kTracked;
+  if (just_found) forgetMotion(outcome == Relocalizer::Outcome::kFound);
 
   const auto scope = timer->stage("Feature-Point Tracking", just_found);
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
@@ -214,10 +214,10 @@ void BodyTracker::Implementation::reset() {
 }
 
 /// The body did not move to where it is found: the frames before say nothing about the next one.
-void BodyTracker::Implementation::forgetMotion() {
+void BodyTracker::Implementation::forgetMotion(bool searched) {
   disagreement.reset();
   prediction->reset();
-  observer->foundAgain();
+  observer->foundAgain(searched);
 }
 
 /// Whether a state of the volume answers targets that were sent since the body was found. A state far from

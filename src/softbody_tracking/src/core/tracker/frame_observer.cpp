@@ -32,14 +32,15 @@ void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology&
   tracked_before_.clear();
 }
 
-void FrameObserver::foundAgain() {
+void FrameObserver::foundAgain(bool searched) {
+  searched_ = searched;
   last_labels_ = {};
   usual_error_ = {};
   tracked_before_.clear();
 }
 
 void FrameObserver::reset() {
-  foundAgain();
+  foundAgain(false);
   last_stamp_.reset();
   map_.reset();
   colors_.reset();
@@ -54,9 +55,10 @@ ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predic
   View prediction = render(model_, frame.camera, predicted, view_settings_, &memory_);
   const GuessedBody body{model_,          view_settings_, weights_, usual_error_.meters(),
                          soughtIn(frame), last_labels_,   &memory_};
-  // The first labels know no colours: then all beside the silhouette are the surroundings.
+  // The first labels know no colours. A search compared the silhouette with the frame: beside it is no body.
   if (!colors_.learned())
-    colors_.learn(frame, prediction.surface.image(), silhouetteLabels(body, prediction), elapsed_s_);
+    colors_.learn(frame, prediction.surface.image(),
+                  searched_ ? silhouetteLabels(body, prediction) : labelsOf(body, prediction), elapsed_s_);
   Guess best = guesses_.best(body, std::move(prediction));
   const double visible_vertices =
       shownVertices(best.view.samples, model_->volume()) * best.features.expected.unoccludedShare();

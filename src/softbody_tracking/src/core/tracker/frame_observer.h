@@ -53,7 +53,8 @@ class FrameObserver {
   double usualError() const { return usual_error_.meters(); }  ///< of predictions [m], see UsualError
 
   /// To be called when the body was found again somewhere: the last frame says nothing about the next one.
-  void foundAgain();
+  /// @param searched a search compared its silhouette with the frame.
+  void foundAgain(bool searched);
 
   /// Forgets what was learned.
   void reset();
@@ -73,6 +74,7 @@ class FrameObserver {
   LabelMemory last_labels_;
   DepthNoiseEstimator depth_noise_;
   UsualError usual_error_;
+  bool searched_ = false;  ///< see foundAgain()
   FeatureMap map_;
   RegionColors colors_;
   FeatureFinder finder_;

@@ -41,7 +41,7 @@ Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* 
   if (placed_) {
     placed_ = false;
     startTracking(frame, {frame.T_fixed_camera.inverse() * pose_, 1});
-    return Outcome::kFound;
+    return Outcome::kPlaced;
   }
   if (lost_since_ && frame.stamp - *lost_since_ >= kLongestGap) {
     tracked_ = false;

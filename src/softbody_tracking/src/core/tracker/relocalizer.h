@@ -25,6 +25,7 @@ class Relocalizer {
   enum class Outcome {
     kNotFound,
     kFound,   ///< by a search in this frame
+    kPlaced,  ///< without a search, see placeAt()
     kTracked  ///< no search was necessary: the body was found before and is not lost
   };
 
