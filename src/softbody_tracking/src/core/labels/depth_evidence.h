@@ -16,7 +16,7 @@ constexpr double kDepthLimit = 1.5;
 
 /// Differences of depth of pixels that do not show the body.
 struct DepthCounts {
-  static constexpr int kBins = 32;
+  static constexpr int kBins = 32;         // as wide as the table of DepthEvidence
   static constexpr double kWidth = 0.004;  ///< of a bin [m]; the middle of all is 0
 
   std::array<float, kBins> pixels{};

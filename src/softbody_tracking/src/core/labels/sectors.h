@@ -9,7 +9,7 @@ namespace softbody {
 /// says nothing about the other sides.
 class Sectors {
  public:
-  static constexpr int kCount = 8;
+  static constexpr int kCount = 8;  // each has some hundred pixels of the margin
 
   /// @param box of the rendered body [px].
   explicit Sectors(const cv::Rect& box)

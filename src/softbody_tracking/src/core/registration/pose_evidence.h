@@ -20,10 +20,11 @@ struct Confinement {
 Confinement confinementOf(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
                           double distance_scale_m);
 
-/// Least Confinement of a pose that is accepted: half of what a body has of which one of two ends is hidden.
+/// Least Confinement of a pose that is accepted: less than half of what a body
+/// has of which one of two ends is hidden.
 /// At a place that is expected it counts both ways; elsewhere each way, because edges of other things are
 /// everywhere.
-constexpr double kLeastConfinement = 0.25;
+constexpr double kLeastConfinement = 0.2;
 
 /// Whether the frame shows the body at a pose where it is expected: what nothing hides agrees, and the pose
 /// is confined.
