@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 
+#include "registration/pose_cost.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
@@ -14,7 +16,9 @@ struct RoughPose {
 };
 
 /// A pose with the standard deviations of `config`.
-RoughPose roughPose(const Eigen::Isometry3d& pose, const RegistrationConfig& config);
+inline RoughPose roughPose(const Eigen::Isometry3d& pose, const RegistrationConfig& config) {
+  return {pose, config.pose_std_m, config.pose_std_deg * M_PI / 180.0};
+}
 
 /// How far a pose is from a rough one, in standard deviations.
 struct PoseDeviation {
@@ -23,10 +27,16 @@ struct PoseDeviation {
 };
 
 /// @param center of the body, rest frame [m].
-PoseDeviation deviationFrom(const RoughPose& rough, const Eigen::Isometry3d& pose,
-                            const Eigen::Vector3d& center);
+inline PoseDeviation deviationFrom(const RoughPose& rough, const Eigen::Isometry3d& pose,
+                                   const Eigen::Vector3d& center) {
+  const Eigen::AngleAxisd turn(pose.linear().transpose() * rough.pose.linear());
+  return {(pose * center - rough.pose * center).norm() / rough.std_m, turn.angle() / rough.std_rad};
+}
 
 /// Whether a pose is not farther from a rough one than three standard deviations.
-bool isNear(const RoughPose& rough, const Eigen::Isometry3d& pose, const Eigen::Vector3d& center);
+inline bool isNear(const RoughPose& rough, const Eigen::Isometry3d& pose, const Eigen::Vector3d& center) {
+  const PoseDeviation off = deviationFrom(rough, pose, center);
+  return off.shift <= kDoubt && off.turn <= kDoubt;
+}
 
 }  // namespace softbody
