@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "agreement/pose_cost.h"
 #include "fixtures/synthetic_scene.h"
 #include "registration/box_mesh.h"
-#include "registration/pose_cost.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_tracking/tracker_config.h"
 

@@ -1,4 +1,4 @@
-#include "registration/pose_evidence.h"
+#include "agreement/pose_evidence.h"
 
 #include <gtest/gtest.h>
 

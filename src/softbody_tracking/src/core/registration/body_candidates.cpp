@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "registration/pose_cost.h"
+#include "agreement/pose_cost.h"
 #include "softbody_common/types.h"
 
 namespace softbody {

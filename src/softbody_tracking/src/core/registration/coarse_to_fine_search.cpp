@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "registration/subsampled_frame.h"
+#include "agreement/subsampled_frame.h"
 
 namespace softbody {
 namespace {

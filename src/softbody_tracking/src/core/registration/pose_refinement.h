@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "agreement/pose_cost.h"
 #include "prediction/association.h"
 #include "registration/found_pose.h"
-#include "registration/pose_cost.h"
 #include "registration/rough_pose.h"
 
 namespace softbody {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "registration/pose_cost.h"
+#include "agreement/pose_cost.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agreement/pose_evidence.h"
 #include "registration/body_candidates.h"
 #include "registration/coarse_to_fine_search.h"
-#include "registration/pose_evidence.h"
 #include "registration/search_starts.h"
 
 namespace softbody {

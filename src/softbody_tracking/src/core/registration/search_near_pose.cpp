@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "agreement/pose_evidence.h"
 #include "registration/coarse_to_fine_search.h"
-#include "registration/pose_evidence.h"
 #include "registration/search_starts.h"
 
 namespace softbody {

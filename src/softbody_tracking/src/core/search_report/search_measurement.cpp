@@ -6,12 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "agreement/pose_cost.h"
+#include "agreement/pose_evidence.h"
+#include "agreement/subsampled_frame.h"
 #include "registration/body_candidates.h"
 #include "registration/coarse_to_fine_search.h"
-#include "registration/pose_cost.h"
-#include "registration/pose_evidence.h"
 #include "registration/search_anywhere.h"
-#include "registration/subsampled_frame.h"
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {

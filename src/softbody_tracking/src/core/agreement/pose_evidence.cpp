@@ -1,12 +1,12 @@
-#include "registration/pose_evidence.h"
+#include "agreement/pose_evidence.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "registration/pose_cost.h"
-#include "registration/subsampled_frame.h"
+#include "agreement/pose_cost.h"
+#include "agreement/subsampled_frame.h"
 
 namespace softbody {
 namespace {

@@ -1,4 +1,4 @@
-#include "registration/pose_cost.h"
+#include "agreement/pose_cost.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "registration/subsampled_frame.h"
+#include "agreement/subsampled_frame.h"
 
 #include <algorithm>
 
