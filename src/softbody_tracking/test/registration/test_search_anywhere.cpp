@@ -158,6 +158,23 @@ TEST(SearchAnywhere, DoesNotTakeTheNextPlaceUnlessFeaturesConfirmIt) {
   }
 }
 
+/// After a loss: without its features the body is taken only near its last place, in any turn.
+TEST(SearchAnywhere, TakesAPlaceThatIsNotExpectedOnlyIfFeaturesConfirmIt) {
+  const RegistrationConfig config;
+  const RgbdFrame frame = bodyAt(farPose(), 0.002);
+  const auto searched = [&](const Eigen::Isometry3d& last, double share) {
+    const auto feature_share = [&](const Eigen::Isometry3d&) { return share; };
+    return searchAnywhere(frame, RegionColors(), boxMeshes(), {}, feature_share, config,
+                          roughPose(last, config))
+        .found;
+  };
+  EXPECT_FALSE(searched(nearPose(), -1.0)) << "another thing of this shape";
+  EXPECT_TRUE(searched(nearPose(), 0.9));
+  const Eigen::Isometry3d turned =
+      Eigen::Translation3d(0.02, 0.0, 0.02) * farPose() * Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ());
+  EXPECT_TRUE(searched(turned, -1.0));
+}
+
 TEST(SearchAnywhere, PrefersAnUndecidedPoseToOneWithoutItsFeatures) {
   int asked = 0;
   const auto found =

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "agreement/boxes_on_table.h"
 #include "fixtures/synthetic_scene.h"
 #include "registration/search_near_pose.h"
 #include "softbody_common/rigid_fit.h"
@@ -139,6 +140,67 @@ TEST(SearchNearPose, FindsNoGoodPoseOnABareWall) {
   frame.depth.setTo(1.2f);
   const TriangleMesh mesh{box.surface.rest_vertices, box.surface.triangles};
   EXPECT_GT(searchNear(frame, mesh, boxPose()).cost, 0.5);
+}
+
+SearchOutcome acceptedNear(const RgbdFrame& frame, const Eigen::Isometry3d& rough) {
+  const RegistrationConfig config;
+  return searchNearAccepted(frame, makeSearchMeshes(kMesh), roughPose(rough, config), config);
+}
+
+/// Rough poses about as far from the truth as their standard deviations.
+std::vector<Eigen::Isometry3d> roughPoses() {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const double sign : {1.0, -1.0})
+    poses.push_back(Eigen::Translation3d(0.02 * sign, -0.015, 0.01) * lying() *
+                    Eigen::AngleAxisd(0.15 * sign, Eigen::Vector3d(0.3, 0.2, 1.0).normalized()));
+  return poses;
+}
+
+TEST(SearchNearPose, FindsTheBodyAmongOthers) {
+  struct Scene {
+    std::vector<Eigen::Isometry3d> boxes;
+    double largest_m;  ///< error of a vertex; the hidden half is inferred
+  };
+  const std::vector<Scene> scenes = {
+      {{lying(), lying(0.204)}, 0.006},                    // a twin beside it
+      {{lying(), lying(0.0, 0.104), lying(0.21)}, 0.006},  // two
+      {{lying(), lying(0.133, 0.0, 0.04)}, 0.006},         // something on a third
+      {{lying(), lying(0.1, 0.0, 0.14)}, 0.01},            // half behind something
+  };
+  for (const Scene& scene : scenes) {
+    const RgbdFrame frame = boxesOnTable(scene.boxes);
+    for (const Eigen::Isometry3d& rough : roughPoses()) {
+      const SearchOutcome outcome = acceptedNear(frame, rough);
+      ASSERT_TRUE(outcome.found) << scene.boxes.back().translation().transpose();
+      const Points difference =
+          transformed(kMesh.vertices, outcome.found->pose) - transformed(kMesh.vertices, lying());
+      EXPECT_LT(difference.rowwise().norm().maxCoeff(), scene.largest_m)
+          << scene.boxes.back().translation().transpose();
+    }
+  }
+}
+
+/// Seen from the side, the plane in which the box may slide lies across the axes of the camera.
+TEST(SearchNearPose, DoesNotStopBetweenTwinsSeenFromTheSide) {
+  const Eigen::Isometry3d tilt = Eigen::Translation3d(0.0, 0.0, kTableDepth) *
+                                 Eigen::AngleAxisd(0.9, Eigen::Vector3d(1.0, 0.5, 0.0).normalized()) *
+                                 Eigen::Translation3d(0.0, 0.0, -kTableDepth);
+  const Eigen::Isometry3d truth = tilt * lying();
+  for (const double side : {1.0, -1.0}) {
+    const RgbdFrame frame = boxesOnTable({truth, tilt * lying(0.0, 0.104 * side)}, 1.2);
+    for (const double along : {-0.02, -0.01, 0.01, 0.02}) {
+      const SearchOutcome outcome = acceptedNear(frame, truth * Eigen::Translation3d(0.0, along, 0.0));
+      ASSERT_TRUE(outcome.found) << side << " " << along;
+      const Points difference =
+          transformed(kMesh.vertices, outcome.found->pose) - transformed(kMesh.vertices, truth);
+      EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.006) << side << " " << along;
+    }
+  }
+}
+
+TEST(SearchNearPose, TakesNothingElsewhere) {
+  for (const double x : {0.22, -0.25})
+    EXPECT_FALSE(acceptedNear(boxesOnTable({lying(x)}), lying()).found) << x;
 }
 
 }  // namespace

@@ -101,6 +101,7 @@ SearchReport disagreeing() {
   report.difference_m = 0.012;
   report.confined = 0.8;
   report.least_confined = 0.25;
+  report.largest_without_edge = 0.35;
   return report;
 }
 
@@ -118,6 +119,8 @@ TEST(SearchReport, SaysWhatToDo) {
   report = disagreeing();
   report.cost = 0.1;
   expectWords(report, {"colours or features"});
+  report.without_edge = 0.5;
+  expectWords(report, {"at 50 % of the outline (allowed: 35 %)"});
   report.outside = report.near_pose = true;
   report.shift_m = 0.12;
   expectWords(report, {"120 mm and 0 degrees", "search: anywhere"});

@@ -105,6 +105,21 @@ TEST(FindingTheBody, APoseSetByHandHoldsUntilAReset) {
   EXPECT_LT(distanceTo(tracked.box(), tracked.show(rest), boxPose()), 0.003);
 }
 
+/// A rough pose is meant: a body of this shape in another place is another one, unless `search` says
+/// anywhere.
+TEST(FindingTheBody, LooksOnlyWhereARoughPoseSays) {
+  for (const bool anywhere : {false, true}) {
+    TrackerConfig config;
+    config.registration.anywhere = anywhere;
+    TrackedBox tracked(config);
+    tracked.show(posedBox(tracked.box()));
+    tracked.tracker().restart(Eigen::Translation3d(0.15, 0.0, 0.0) * boxPose());
+    const TrackingResult result = tracked.show(posedBox(tracked.box()));
+    EXPECT_EQ(result.status.state, anywhere ? TrackingState::kTracking : TrackingState::kInitializing);
+    EXPECT_EQ(result.status.reason.find("search: anywhere") == std::string::npos, anywhere);
+  }
+}
+
 TEST(FindingTheBody, RestartEndsBeingLost) {
   TrackedBox tracked;
   tracked.show(posedBox(tracked.box()));

@@ -26,13 +26,15 @@ struct SearchReport {
   bool part_at_border = false;  ///< it reaches the border of the image
 
   /// Of the best pose; a cost of 1: no pose was tried.
-  double cost = 1.0, largest_cost = 0.0;               ///< misfit, see PoseEvidence
+  double cost = 1.0, largest_cost = 0.0;               ///< see docs/pipeline/registration.md
   double agreeing = 0.0, nearer = 0.0, farther = 0.0;  ///< pixels of the mesh; the others have no depth
   double hidden = 0.0;        ///< pixels of the mesh before which another part is nearer
   double difference_m = 0.0;  ///< median difference of depth
   double continuing = 0.0;    ///< pixels just outside the outline whose depth continues the surface
-  double confined = 0.0;      ///< how much of a free body's edges confine the pose, see Confinement
+  double confined = 0.0;      ///< see confinement()
   double least_confined = 0.0;
+  double without_edge = 0.0;  ///< outline at which depth runs straight on
+  double largest_without_edge = 0.0;
   bool near_pose = false;  ///< the body was sought only near a rough pose
   bool outside = false;    ///< the best pose is farther from that one than its uncertainty
   double shift_m = 0.0;    ///< of the best pose from it

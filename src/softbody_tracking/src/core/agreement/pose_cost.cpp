@@ -12,12 +12,6 @@ namespace {
 
 // Standard deviation of depth at 1 m [m], of usual cameras.
 constexpr double kSigmaAtMetre = 0.0025;
-// Cost of a covered pixel that neither supports nor contradicts a pose, 0..1: without depth, or something
-// nearer hides the body.
-constexpr double kUnseenCost = 0.3;
-// Cost of a pixel just outside the outline where something continues the surface, 0..1. Below the 1 of free
-// space: no object lets the camera look through a body, but others touch it.
-constexpr double kContinuedCost = 0.7;
 
 /// How badly a depth agrees, from 0 to 1 at a distance scale.
 double misfit(double measured, double predicted, double scale) {
@@ -25,10 +19,10 @@ double misfit(double measured, double predicted, double scale) {
   return std::min(1.0, ratio * ratio);
 }
 
-double pixelCost(double measured, double predicted, double scale) {
+double pixelCost(double measured, double predicted, double scale, double hidden_cost) {
   if (measured <= 0.0) return kUnseenCost;
   const double cost = misfit(measured, predicted, scale);
-  return measured < predicted ? std::min(kUnseenCost, cost) : cost;
+  return measured < predicted ? std::min(hidden_cost, cost) : cost;
 }
 
 /// Pixels just outside the rendered outline.
@@ -59,18 +53,18 @@ Outline outlineOf(const RgbdFrame& frame, const RasterImage& image, double scale
   return outline;
 }
 
-double renderedCost(const RgbdFrame& frame, const RasterImage& image, double scale) {
+double renderedCost(const RgbdFrame& frame, const RasterImage& image, double scale, double hidden_cost) {
   double sum = 0.0;
   int covered = 0;
   for (int v = image.region.y; v < image.region.br().y; ++v) {
     for (int u = image.region.x; u < image.region.br().x; ++u) {
       if (image.triangle(v, u) < 0) continue;
       ++covered;
-      sum += pixelCost(frame.depth(v, u), image.depth(v, u), scale);
+      sum += pixelCost(frame.depth(v, u), image.depth(v, u), scale, hidden_cost);
     }
   }
   if (covered == 0) return 1.0;
-  return (sum + kContinuedCost * outlineOf(frame, image, scale).continuing) / covered;
+  return (sum + kOtherObject * outlineOf(frame, image, scale).continuing) / covered;
 }
 
 }  // namespace
@@ -91,7 +85,7 @@ const RasterImage& PoseCost::render(const Eigen::Isometry3d& pose) {
 }
 
 double PoseCost::operator()(const Eigen::Isometry3d& pose) {
-  return renderedCost(frame_, render(pose), scale_);
+  return renderedCost(frame_, render(pose), scale_, hidden_cost_);
 }
 
 PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {

@@ -14,6 +14,14 @@ constexpr double kAlikeCost = 0.02;
 /// A difference of more standard deviations is no noise.
 constexpr double kDoubt = 3.0;
 
+/// Cost of a covered pixel that neither supports nor contradicts a pose, 0..1: without depth, or something
+/// nearer hides the body.
+constexpr double kUnseenCost = 0.3;
+/// Cost of a pixel that another object explains, 0..1: it continues the surface just outside the outline, or
+/// hides a body that nobody expects there. Below the 1 of free space: no object lets the camera look through
+/// a body.
+constexpr double kOtherObject = 0.7;
+
 /// Standard deviation of a depth [m]: the noise of a stereo camera grows with the square of the distance.
 /// Below 1 m the camera's calibration and rounding are left.
 double depthSigma(double z);
@@ -37,8 +45,10 @@ struct PoseAgreement {
 /// How badly a posed mesh explains a depth image. Frame and mesh must outlive it.
 class PoseCost {
  public:
-  PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m)
-      : frame_(frame), mesh_(mesh), scale_(distance_scale_m) {}
+  /// @param hidden_cost of a pixel where something is nearer.
+  PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
+           double hidden_cost = kUnseenCost)
+      : frame_(frame), mesh_(mesh), scale_(distance_scale_m), hidden_cost_(hidden_cost) {}
 
   /// Mean cost of the covered pixels, from 0 (perfect) to 1, plus a cost of the outline. A pixel costs the
   /// squared depth difference in distance scales, at most 1. A nearer occluder and missing depth cost less
@@ -59,7 +69,7 @@ class PoseCost {
  private:
   const RgbdFrame& frame_;
   const TriangleMesh& mesh_;
-  double scale_;
+  double scale_, hidden_cost_;
   RasterImage image_;
 };
 

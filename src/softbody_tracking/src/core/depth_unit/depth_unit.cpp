@@ -26,19 +26,17 @@ std::optional<double> depthUnitThatFits(CameraImages images, CameraIngest* inges
                                         const TrackerConfig& config, const TetTopology& volume,
                                         const MeshTopology& surface) {
   const double present = unitOf(images);
-  const auto fits = [&](double unit_m) {
+  for (const double unit_m : kDepthUnits_m) {
+    if (std::abs(unit_m - present) < 1e-3 * present) continue;
     images.depth_unit_m = unit_m;
     BodyTracker tracker(config);
     tracker.setTopologies(volume, surface);
     StageTimer timer;
     const TrackingResult result = tracker.track(ingest->process(images), nullptr, &timer);
-    if (!result.has_targets) return false;
+    if (!result.has_targets) continue;
     const Points vertices = transformed(surface.rest_vertices, result.targets.body_pose);
-    return isWhollyShown(vertices, images.rectified);
-  };
-  if (fits(present)) return std::nullopt;
-  for (const double unit_m : kDepthUnits_m)
-    if (std::abs(unit_m - present) >= 1e-3 * present && fits(unit_m)) return unit_m;
+    if (isWhollyShown(vertices, images.rectified)) return unit_m;
+  }
   return std::nullopt;
 }
 

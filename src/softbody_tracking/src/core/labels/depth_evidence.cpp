@@ -47,19 +47,26 @@ void DepthCounts::blend(const DepthCounts& newest, float share) {
   all += share * (newest.all - all);
 }
 
+DepthEvidence::Table DepthEvidence::tableOf(double (*density)(double difference)) {
+  Table table{};
+  for (int i = 0; i <= 2 * kHalf; ++i) table[static_cast<std::size_t>(i)] = density((i - kHalf) * kCell);
+  return table;
+}
+
 void DepthEvidence::compare(const DepthCounts& around) {
+  static const Table kBody = tableOf([](double difference) { return densityOfBody(difference, 1.0); });
+  static const Table kUnknown =
+      tableOf([](double difference) { return densityAround(difference, 1.0, kAnywhere); });
   const auto count = [&](int bin) {
     return around.pixels[static_cast<std::size_t>(std::clamp(bin, 0, DepthCounts::kBins - 1))];
   };
-  for (int i = 0; i <= 2 * kHalf; ++i) {
-    const double difference = (i - kHalf) * kCell;
+  for (std::size_t i = 0; i < table_.size(); ++i) {
     // Between the middles of two bins the density is linear.
-    const double place = difference / DepthCounts::kWidth + 0.5 * DepthCounts::kBins - 0.5;
+    const double place =
+        (static_cast<int>(i) - kHalf) * kCell / DepthCounts::kWidth + 0.5 * DepthCounts::kBins - 0.5;
     const int bin = static_cast<int>(std::floor(place));
     const double seen = (count(bin) + (place - bin) * (count(bin + 1) - count(bin))) / DepthCounts::kWidth;
-    const double other =
-        (seen + kFewestAround * densityAround(difference, 1.0, kAnywhere)) / (around.all + kFewestAround);
-    table_[static_cast<std::size_t>(i)] = std::log(densityOfBody(difference, 1.0) / other);
+    table_[i] = std::log(kBody[i] * (around.all + kFewestAround) / (seen + kFewestAround * kUnknown[i]));
   }
 }
 

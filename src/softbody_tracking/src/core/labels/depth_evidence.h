@@ -59,7 +59,10 @@ class DepthEvidence {
   static constexpr int kHalf = 128;             // cells on each side
   static constexpr double kZero = kHalf + 0.5;  // the difference 0 is in the middle of cell kHalf
   static constexpr double kCell = 0.0005;       // [m]
-  std::array<double, 2 * kHalf + 1> table_;
+  using Table = std::array<double, 2 * kHalf + 1>;
+  static Table tableOf(double (*density)(double difference));
+
+  Table table_;
 };
 
 }  // namespace softbody

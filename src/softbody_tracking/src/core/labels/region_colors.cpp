@@ -94,10 +94,10 @@ void RegionColors::compareColors() {
   for (std::size_t i = 0; i < kBins; ++i) {
     float anywhere = 0.0f;
     for (const auto& sector : around_) anywhere += sector[i] / all;
+    if (body_[i] == 0.0f && anywhere == 0.0f) continue;  // never seen: its log odds are 0
     for (std::size_t sector = 0; sector < around_.size(); ++sector) {
       const float around = (around_[sector][i] + kFewest * anywhere) / (pixels[sector] + kFewest);
-      log_odds_[sector][i] =
-          body_[i] == 0.0f && around == 0.0f ? 0.0f : std::log((body_[i] + kUnseen) / (around + kUnseen));
+      log_odds_[sector][i] = std::log((body_[i] + kUnseen) / (around + kUnseen));
     }
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agreement/pose_evidence.h"
+#include "agreement/acceptance.h"
 #include "registration/body_candidates.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/search_starts.h"
@@ -91,7 +91,7 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
   const auto is_likely = [&](const Eigen::Isometry3d& pose) {
     const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
     if (expected) return deviationFrom(*expected, pose, center).shift <= kDoubt;
-    return confinementOf(frame, meshes.full, pose, config.distance_scale_m).each_way >= kLeastConfinement;
+    return standsFree(frame, meshes.full, pose, config);
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
   for (bool first = true; !found.empty();) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "agreement/pose_evidence.h"
+#include "agreement/acceptance.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/search_starts.h"
 

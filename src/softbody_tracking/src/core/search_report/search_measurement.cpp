@@ -6,8 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "agreement/acceptance.h"
+#include "agreement/body_edges.h"
+#include "agreement/confinement.h"
 #include "agreement/pose_cost.h"
-#include "agreement/pose_evidence.h"
 #include "agreement/subsampled_frame.h"
 #include "registration/body_candidates.h"
 #include "registration/coarse_to_fine_search.h"
@@ -96,14 +98,14 @@ void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseH
   const RgbdFrame image = subsampled(frame, kLargeColumns);
   const PoseAgreement seen = PoseCost(image, meshes.full, distance_scale_m).agreement(best.pose);
   const double covered = std::max(1, seen.covered);
-  report->cost = seen.misfit;
+  report->cost = rough ? seen.misfit : freeCost(frame, meshes.full, best.pose, distance_scale_m);
   report->agreeing = seen.agreeing / covered;
   report->nearer = seen.nearer / covered;
   report->farther = seen.farther / covered;
   report->difference_m = seen.difference_m;
   report->continuing = seen.continuing / std::max(1, seen.outline);
-  const Confinement confined = confinementOf(frame, meshes.full, best.pose, distance_scale_m);
-  report->confined = rough ? confined.both_ways : confined.each_way;
+  report->confined = confinement(frame, meshes.full, best.pose, distance_scale_m);
+  report->without_edge = shareWithoutEdge(frame, meshes.full, best.pose, distance_scale_m);
   report->near_pose = rough.has_value();
   if (!rough) return;
   const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
@@ -157,8 +159,7 @@ bool isWhollyInView(const RgbdFrame& frame, const TriangleMesh& mesh, const Eige
 /// Whether the image shows edges all around a posed mesh.
 bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
                const RegistrationConfig& config) {
-  return isWhollyInView(frame, mesh, pose) && isShown(frame, mesh, pose, config) &&
-         confinementOf(frame, mesh, pose, config.distance_scale_m).each_way >= kLeastConfinement;
+  return isWhollyInView(frame, mesh, pose) && standsFree(frame, mesh, pose, config);
 }
 
 /// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
@@ -188,6 +189,7 @@ SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, c
   report.body_m = sidesOf(meshes.full.vertices);
   report.largest_cost = config.max_cost;
   report.least_confined = kLeastConfinement;
+  report.largest_without_edge = kLargestShareWithoutEdge;
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   measureDepth(image, &report);
   std::optional<RasterImage> mesh;

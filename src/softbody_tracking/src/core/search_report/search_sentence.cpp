@@ -74,7 +74,7 @@ std::string disagreement(const SearchReport& report) {
   if (report.part_at_border) return "It reaches the border of the image: move it into the view";
   if (report.hidden > report.largest_cost)
     return fmt::format("Something is before {} % of it: take it away", percent(report.hidden));
-  if (report.continuing > report.largest_cost)
+  if (report.continuing > report.largest_without_edge)
     return fmt::format(
         "The surface goes on beyond {} % of the outline: it touches something, it is bent, or the mesh is "
         "too small. Tracking starts when it stands free near its rest shape",
@@ -100,6 +100,15 @@ std::string notConfined(const SearchReport& report) {
       percent(report.least_confined), poseAdvice(report));
 }
 
+std::string noEdge(const SearchReport& report) {
+  return fmt::format(
+      "{}; {} % of its pixels agree, but at {} % of the outline (allowed: {} %) depth runs straight on: it "
+      "lies in a larger surface, or the mesh is too small. Move the body away from it, compare the mesh with "
+      "a ruler, {}",
+      candidateText(report), percent(report.agreeing), percent(report.without_edge),
+      percent(report.largest_without_edge), poseAdvice(report));
+}
+
 std::string elsewhere(const SearchReport& report) {
   return fmt::format(
       "{}; the nearest pose that fits is {:.0f} mm and {:.0f} degrees from the rough pose, more than three "
@@ -118,6 +127,7 @@ std::string whyNotFound(const SearchReport& report) {
       return noCandidate(report);
     if (report.cost > report.largest_cost) return highCost(report);
     if (report.confined < report.least_confined) return notConfined(report);
+    if (!report.near_pose && report.without_edge > report.largest_without_edge) return noEdge(report);
     if (report.outside) return elsewhere(report);
     return fmt::format("{}; {} % of its pixels agree, but its colours or features are not those of the body",
                        candidateText(report), percent(report.agreeing));

@@ -58,11 +58,12 @@ Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* 
 }
 
 void Relocalizer::noteLoss(bool lost, Nanoseconds stamp) {
-  if (!lost) last_seen_ = stamp;
-  if (!lost)
+  if (!lost) {
     lost_since_.reset();
-  else if (!lost_since_)
+    last_seen_ = stamp;
+  } else if (!lost_since_) {
     lost_since_ = stamp;
+  }
   recovering_ = recovering_ && lost;
 }
 

@@ -1,10 +1,10 @@
-#include "agreement/pose_evidence.h"
+#include "agreement/confinement.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "agreement/body_edges.h"
 #include "agreement/pose_cost.h"
 #include "agreement/subsampled_frame.h"
 
@@ -18,17 +18,8 @@ constexpr int kDirections = 4;
 // A free body whose cost rises by a smaller share than in other directions is round about this one.
 constexpr double kRound = 0.1;
 
-/// Smallest extent along a principal axis [m].
-double thinnestSide(const Points& vertices) {
-  const Eigen::RowVector3d center = vertices.colwise().mean();
-  const Points arms = vertices.rowwise() - center;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms.transpose() * arms);
-  const Points along = arms * axes.eigenvectors();
-  return (along.colwise().maxCoeff() - along.colwise().minCoeff()).minCoeff();
-}
-
 /// The frame that would show the posed mesh alone, before nothing.
-RgbdFrame standingFree(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
+RgbdFrame aloneIn(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   constexpr float kFar = 1e3f;  // [m]
   RgbdFrame alone = frame;
   alone.depth = PoseCost(frame, mesh, 1.0).render(pose).depth.clone();
@@ -54,43 +45,32 @@ std::vector<Eigen::Isometry3d> slides(const TriangleMesh& mesh, const Eigen::Iso
   return motions;
 }
 
-/// By how much the cost rises with each motion.
+/// By how much the cost rises with each pair of opposite motions.
 std::vector<double> rises(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
                           double scale_m, const std::vector<Eigen::Isometry3d>& motions) {
   PoseCost cost(frame, mesh, scale_m);
   const double here = cost(pose);
   std::vector<double> result;
-  for (const Eigen::Isometry3d& motion : motions) result.push_back(cost(motion * pose) - here);
+  for (std::size_t i = 0; i < motions.size(); i += 2)
+    result.push_back(0.5 * (cost(motions[i] * pose) + cost(motions[i + 1] * pose)) - here);
   return result;
 }
 
 }  // namespace
 
-Confinement confinementOf(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-                          double distance_scale_m) {
+double confinement(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
+                   double distance_scale_m) {
   const RgbdFrame small = subsampled(frame, kLargeColumns);
-  const double scale_m = std::min(distance_scale_m, thinnestSide(mesh.vertices));
+  const double scale_m = std::min(distance_scale_m, thicknessOf(mesh.vertices));
   const std::vector<Eigen::Isometry3d> motions = slides(mesh, pose);
   const std::vector<double> measured = rises(small, mesh, pose, scale_m, motions);
-  const std::vector<double> ideal = rises(standingFree(small, mesh, pose), mesh, pose, scale_m, motions);
-  const double largest = *std::max_element(ideal.begin(), ideal.end());
-  if (largest <= 0.0) return {};  // nothing is in view
-  Confinement least{1.0, 1.0};
-  for (std::size_t i = 0; i < motions.size(); i += 2) {
-    const double free = 0.5 * (ideal[i] + ideal[i + 1]);
-    if (free < kRound * largest) continue;
-    least.both_ways = std::min(least.both_ways, 0.5 * (measured[i] + measured[i + 1]) / free);
-    least.each_way = std::min(least.each_way, std::min(measured[i], measured[i + 1]) / free);
-  }
-  return least;
-}
-
-bool isShown(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-             const RegistrationConfig& config) {
-  const PoseAgreement seen =
-      PoseCost(subsampled(frame, kLargeColumns), mesh, config.distance_scale_m).agreement(pose);
-  return seen.misfit <= config.max_cost &&
-         confinementOf(frame, mesh, pose, config.distance_scale_m).both_ways >= kLeastConfinement;
+  const std::vector<double> free = rises(aloneIn(small, mesh, pose), mesh, pose, scale_m, motions);
+  const double largest = *std::max_element(free.begin(), free.end());
+  if (largest <= 0.0) return 0.0;  // nothing is in view
+  double least = 1.0;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    if (free[i] >= kRound * largest) least = std::min(least, measured[i] / free[i]);
+  return std::max(0.0, least);
 }
 
 }  // namespace softbody
