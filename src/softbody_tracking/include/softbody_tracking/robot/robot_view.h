@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "softbody_common/types.h"
+
+namespace softbody {
+
+/// Whether the camera is in or at a link, as one that is mounted in a robot's hand: the camera's centre is
+/// inside the link's surface, or nearer than 0.1 m to it, where a depth camera measures nothing. Such a link
+/// would cover everything.
+/// @param camera its centre in the link's frame [m].
+bool holdsCamera(const TriangleMesh& link, const Eigen::Vector3d& camera);
+
+}  // namespace softbody
