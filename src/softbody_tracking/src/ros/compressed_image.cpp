@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "ros/encoded_image.h"
 #include "ros/rvl.h"
+#include "softbody_common/images/encoded_image.h"
 
 namespace softbody {
 namespace {

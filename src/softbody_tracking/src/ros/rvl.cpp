@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "ros/encoded_image.h"
+#include "softbody_common/images/encoded_image.h"
 #include "softbody_common/plausibility.h"
 
 namespace softbody {

@@ -33,8 +33,9 @@ struct PipelineConfig {
   SimulatorConfig simulator;
   CuttingConfig cutting;
   ToolTrackerConfig tool_tracker;
-  bool forces = false;  ///< also estimate the external forces
-  bool placed = false;  ///< the body's initial pose is taken as it is, without a search
+  cv::Mat3b picture = {};  ///< of the object, see BodyTracker
+  bool forces = false;     ///< also estimate the external forces
+  bool placed = false;     ///< the body's initial pose is taken as it is, without a search
 };
 
 /// Trackers, simulator and surface in sequence, without ROS. Each frame uses exactly the previous frame's

@@ -24,7 +24,7 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
       cutting_(config.cutting),
       forces_(config.forces),
       to_be_placed_(config.placed),
-      tracker_(config.tracker),
+      tracker_(config.tracker, config.picture),
       simulator_(makeSimulator(model, config.simulator, &timer_)),
       surface_(makeSurface()) {
   if (to_be_placed_ && !uncut_volume_.has_initial_pose)

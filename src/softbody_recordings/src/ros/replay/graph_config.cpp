@@ -68,7 +68,8 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
         return readCameraIngestConfig(parameters);
       });
   config.pipeline.tracker =
-      readSection(file, "feature_tracker", {{"body_frame", "mask_timeout_s", "tf_timeout_s"}, {"use_mask"}},
+      readSection(file, "feature_tracker",
+                  {{"body_frame", "object", "allow_outside", "mask_timeout_s", "tf_timeout_s"}, {"use_mask"}},
                   warnings, [&config](Parameters& parameters) {
                     config.output_frame = parameters.text("output_frame", "");
                     return readTrackerConfig(parameters);

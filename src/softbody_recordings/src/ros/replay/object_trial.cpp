@@ -1,5 +1,6 @@
 #include "softbody_recordings/ros/object_trial.h"
 
+#include "softbody_common/images/object_texture.h"
 #include "softbody_common/time.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/input_bag.h"
@@ -10,9 +11,13 @@ namespace softbody {
 validation::TrialFacts tryObject(const std::string& path, const BagFramesConfig& config,
                                  const std::string& object, FileScope scope,
                                  const std::function<void(double)>& progress) {
-  const PipelineConfig defaults;
+  PipelineConfig defaults;
+  try {
+    defaults.picture = readObjectTexture(object, scope);
+  } catch (const std::invalid_argument&) {  // it is searched for without the picture, as replay does
+  }
   Pipeline pipeline(buildObjectModel(loadObjectDescription(object, scope)), defaults);
-  BodyTracker tracker(defaults.tracker);
+  BodyTracker tracker(defaults.tracker, defaults.picture);
   tracker.setTopologies(pipeline.volumeTopology(), pipeline.surfaceTopology());
   CameraIngest ingest{CameraIngestConfig()};
   StageTimer timer;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "softbody_common/images/object_texture.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_recordings/pipeline/pipeline.h"
@@ -38,6 +39,24 @@ ObjectModel loadModel(const std::string& object, FileScope scope, const Warn& wa
     warn(fmt::format("{}: pins have no effect in a replay, because there is no live tf", object));
   warnAll(warn, object, model.warnings);
   return model;
+}
+
+/// The body is tracked without its picture, too.
+cv::Mat3b loadPicture(const std::string& object, FileScope scope, const Warn& warn) try {
+  return readObjectTexture(object, scope);
+} catch (const std::invalid_argument& error) {
+  warn(fmt::format("the body is searched for without its picture: {}", error.what()));
+  return {};
+}
+
+GraphConfig configOf(const ReplayOptions& options, const Warn& warn) {
+  std::vector<std::string> warnings;
+  GraphConfig config = readGraphConfig(options.parameters, &warnings);
+  warnAll(warn, "", warnings);
+  config.pipeline.forces = options.forces, config.pipeline.placed = options.placed;
+  if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
+  config.pipeline.picture = loadPicture(options.object, options.scope, warn);
+  return config;
 }
 
 std::optional<ToolDescription> loadTool(const std::string& path, FileScope scope, const Warn& warn) {
@@ -199,11 +218,7 @@ class Replay {
 
 ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
                      const std::function<void(double)>& progress) {
-  std::vector<std::string> warnings;
-  GraphConfig config = readGraphConfig(options.parameters, &warnings);
-  warnAll(warn, "", warnings);
-  config.pipeline.forces = options.forces, config.pipeline.placed = options.placed;
-  if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
+  const GraphConfig config = configOf(options, warn);
   const ObjectModel model = loadModel(options.object, options.scope, warn);
   const rosbag::Bag input = openBag(options.input);
   Replay run(options, model, config, loadTool(options.tool, options.scope, warn), warn);

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "ros/displays/color_conversion.h"
+#include "softbody_common/images/object_texture.h"
 #include "softbody_common/ros/conversions.h"
-#include "texture/object_texture.h"
 
 namespace softbody {
 namespace {

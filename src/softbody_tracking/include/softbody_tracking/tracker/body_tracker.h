@@ -28,7 +28,9 @@ TrackingStatus withoutImages(const TrackingStatus& last, const std::optional<dou
 /// compared in the camera frame; poses are kept in the fixed frame, so the camera may move.
 class BodyTracker {
  public:
-  explicit BodyTracker(const TrackerConfig& config);
+  /// @param picture of the body, to which its texture coordinates refer: blue, green, red. With it the search
+  /// tells poses of the same shape apart. Empty: not known.
+  explicit BodyTracker(const TrackerConfig& config, const cv::Mat3b& picture = cv::Mat3b());
   ~BodyTracker();
 
   /// Sets the body's models. The same ones again change nothing. If their revision is greater, they are the

@@ -12,6 +12,8 @@ namespace {
 constexpr double kSmallestArea = 0.25;
 // Cells along the diameter of the coarse mesh, which is rendered more than a hundred times for each place.
 constexpr double kCoarseCells = 25.0;
+// Samples of the picture along the diameter: a pixel each if the body is half as wide as the image.
+constexpr double kPictureSamples = 160.0;
 
 TriangleMesh clusteredOnce(const TriangleMesh& mesh, double cell_m) {
   std::map<std::tuple<int, int, int>, int> cells;
@@ -69,6 +71,13 @@ SearchMeshes makeSearchMeshes(const TriangleMesh& rest_surface) {
       rest_surface.vertices.colwise().maxCoeff() - rest_surface.vertices.colwise().minCoeff();
   meshes.diameter_m = size.norm();
   meshes.coarse = clustered(rest_surface, meshes.diameter_m / kCoarseCells);
+  return meshes;
+}
+
+SearchMeshes makeSearchMeshes(const MeshTopology& surface, const cv::Mat3b& picture) {
+  SearchMeshes meshes = makeSearchMeshes({surface.rest_vertices, surface.triangles});
+  meshes.picture =
+      BakedPicture(picture, meshes.full, surface.texture_coordinates, meshes.diameter_m / kPictureSamples);
   return meshes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "picture/baked_picture.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
@@ -12,9 +13,13 @@ TriangleMesh clustered(const TriangleMesh& mesh, double cell_m);
 struct SearchMeshes {
   TriangleMesh full;
   TriangleMesh coarse;
-  double diameter_m = 0.0;  ///< diagonal of the bounding box
+  double diameter_m = 0.0;    ///< diagonal of the bounding box
+  BakedPicture picture = {};  ///< of the full mesh; empty: not known
 };
 
 SearchMeshes makeSearchMeshes(const TriangleMesh& rest_surface);
+
+/// The same with the body's picture. @param picture blue, green, red; empty: not known.
+SearchMeshes makeSearchMeshes(const MeshTopology& surface, const cv::Mat3b& picture);
 
 }  // namespace softbody

@@ -46,6 +46,16 @@ Eigen::Isometry3d CoarseToFineSearch::turned(const Eigen::Isometry3d& pose,
   return alignment_.moved(pose, turn, Eigen::Vector3d::Zero());
 }
 
+std::vector<Eigen::Isometry3d> CoarseToFineSearch::quarterTurned(const Eigen::Isometry3d& pose) const {
+  std::vector<Eigen::Isometry3d> result;
+  const Eigen::Matrix3d axes = pose.linear() * polishing_.axes();
+  const Eigen::Vector3d x = M_PI_2 * axes.col(0), y = M_PI_2 * axes.col(1), z = M_PI_2 * axes.col(2);
+  for (const Eigen::Vector3d& side :
+       {Eigen::Vector3d(0.0 * x), x, Eigen::Vector3d(2.0 * x), Eigen::Vector3d(-x), y, Eigen::Vector3d(-y)})
+    for (int quarter = 0; quarter < 4; ++quarter) result.push_back(turned(turned(pose, quarter * z), side));
+  return result;
+}
+
 std::vector<PoseHypothesis> CoarseToFineSearch::align(const std::vector<Eigen::Isometry3d>& starts) {
   std::vector<PoseHypothesis> poses;
   poses.reserve(starts.size());

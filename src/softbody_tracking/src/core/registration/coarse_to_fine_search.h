@@ -29,6 +29,10 @@ class CoarseToFineSearch {
   /// A start turned about the body's centre. @param turn rotation vector [rad].
   Eigen::Isometry3d turned(const Eigen::Isometry3d& pose, const Eigen::Vector3d& turn) const;
 
+  /// The pose turned by quarters of a turn about the body's principal axes, in all 24 ways; the first is the
+  /// pose itself.
+  std::vector<Eigen::Isometry3d> quarterTurned(const Eigen::Isometry3d& pose) const;
+
   /// Step 1: ICP from every start with the coarse mesh on a small image. @return the lowest cost first.
   std::vector<PoseHypothesis> align(const std::vector<Eigen::Isometry3d>& starts);
   /// Step 2: pattern search with the coarse mesh on a medium image.

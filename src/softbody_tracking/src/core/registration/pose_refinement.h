@@ -42,6 +42,9 @@ class PoseRefinement {
   /// rankedCost().
   PoseHypothesis patternSearch(const Eigen::Isometry3d& start, double shift_m);
 
+  /// Principal axes of the mesh's area in the rest frame, one a column.
+  const Eigen::Matrix3d& axes() const { return axes_; }
+
   /// Size of a pixel at the body [m].
   double pixelAt(const Eigen::Isometry3d& pose) const;
   /// Distance scale at the body [m].

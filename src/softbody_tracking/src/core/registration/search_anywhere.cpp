@@ -6,31 +6,16 @@
 #include "agreement/acceptance.h"
 #include "registration/body_candidates.h"
 #include "registration/coarse_to_fine_search.h"
+#include "registration/different_poses.h"
+#include "registration/picture_judgement.h"
 #include "registration/search_starts.h"
 
 namespace softbody {
 namespace {
 
-bool inOnePlace(const SearchMeshes& meshes, const PoseHypothesis& a, const PoseHypothesis& b) {
-  const Eigen::Vector3d center = meshes.full.vertices.colwise().mean().transpose();
-  return (a.pose * center - b.pose * center).norm() <= kOtherPlace * meshes.diameter_m;
-}
-
-/// The first poses that differ from those before them.
-std::vector<PoseHypothesis> distinct(const SearchMeshes& meshes, const std::vector<PoseHypothesis>& poses,
-                                     std::size_t most) {
-  const auto differs = [&](const PoseHypothesis& a, const PoseHypothesis& b) {
-    const Eigen::Isometry3d between = a.pose.inverse() * b.pose;
-    return Eigen::AngleAxisd(between.linear()).angle() > kOtherTurn || !inOnePlace(meshes, a, b);
-  };
-  std::vector<PoseHypothesis> kept;
-  for (const PoseHypothesis& pose : poses) {
-    const bool is_new = std::all_of(kept.begin(), kept.end(),
-                                    [&](const PoseHypothesis& other) { return differs(pose, other); });
-    if (is_new && kept.size() < most) kept.push_back(pose);
-  }
-  return kept;
-}
+// Orientations that are refined at a place where the picture decides: half of the body may be hidden, and
+// then its true pose costs more than some others.
+constexpr std::size_t kKeptWithPicture = 24;
 
 /// The starts at each place where the body may be.
 std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame, const RegionColors& colors,
@@ -45,6 +30,27 @@ std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame
   for (const BodyCandidate& candidate : candidates)
     result.push_back(allOrientations(meshes, candidate.center));
   return result;
+}
+
+/// Adds the poses of one place at which the picture fits best.
+void addPictured(const RgbdFrame& frame, const SearchMeshes& meshes, const RegistrationConfig& config,
+                 const std::vector<PoseHypothesis>& here, std::vector<PoseHypothesis>* poses) {
+  std::vector<PicturedPose> judged = PictureJudge(frame, meshes, config).judged(here);
+  judged.resize(std::min(judged.size(), kKept));
+  for (const PicturedPose& pose : judged) poses->push_back(pose.pose);
+}
+
+/// Leaves out the poses at which something else than the picture is seen. @return where it is seen.
+PicturedPlace judgeByPicture(const RgbdFrame& frame, const SearchMeshes& meshes,
+                             const RegistrationConfig& config, std::vector<PoseHypothesis>* poses) {
+  if (meshes.picture.empty()) return {};
+  const int tried = static_cast<int>(poses->size());
+  const PictureJudge judge(frame, meshes, config);
+  const auto is_another = [&](const PoseHypothesis& pose) {
+    return pictureDisagrees(judge.fitAt(pose.pose), tried);
+  };
+  poses->erase(std::remove_if(poses->begin(), poses->end(), is_another), poses->end());
+  return picturedPlace(meshes, judge.judged(*poses), tried);
 }
 
 /// Moves the poses that are alike with the first one to the front. @return the end of these.
@@ -64,10 +70,12 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionCo
                                           const RegistrationConfig& config) {
   CoarseToFineSearch search(frame, meshes, config);
   std::vector<PoseHypothesis> found, best_of_places;
+  const std::size_t kept = meshes.picture.empty() ? kKept : kKeptWithPicture;
   for (const auto& starts : startsByPlace(search.mediumFrame(), colors, meshes, guesses, config)) {
     const std::vector<PoseHypothesis> here =
-        search.rankRefined(search.refine(distinct(meshes, search.align(starts), kKept)));
+        search.rankRefined(search.refine(distinct(meshes, search.align(starts), kept)));
     best_of_places.push_back(here.front());
+    if (!meshes.picture.empty()) addPictured(frame, meshes, config, here, &best_of_places);
     found.insert(found.end(), here.begin(), here.end());
   }
   found = distinct(meshes, search.rankRefined(std::move(found)), kKept);
@@ -94,6 +102,7 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
     return standsFree(frame, meshes.full, pose, config);
   };
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
+  const PicturedPlace pictured = judgeByPicture(frame, meshes, config, &found);
   for (bool first = true; !found.empty();) {
     const auto others = groupAlike(meshes, &found);
     AlikePoses alike;
@@ -102,12 +111,13 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
       alike.shares.push_back(feature_share(pose->pose));
     }
     if (const std::optional<FoundPose> body = confirmedPose(alike)) return {body, outcome.best};
-    if (first && is_likely(alike.poses.front())) {
+    if (first && !pictured.several && !pictured.body && is_likely(alike.poses.front())) {
       outcome.found = undecidedPose(alike);
       first = false;
     }
     found.erase(found.begin(), others);
   }
+  if (pictured.body && feature_share(pictured.body->pose) < 0.0) outcome.found = pictured.body;
   return outcome;
 }
 

@@ -9,7 +9,8 @@
 namespace softbody {
 
 /// Refines a rough pose of the body: the coarse-to-fine search from this pose, and from small turns and
-/// shifts of it.
+/// shifts of it. If the body's picture is known, it decides between poses that explain the depth equally
+/// well.
 /// @return the best pose with its PoseCost; the caller decides whether it is acceptable.
 PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough,
                               const RegistrationConfig& config);

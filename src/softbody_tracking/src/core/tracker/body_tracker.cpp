@@ -45,8 +45,8 @@ void requireCameraSize(const RgbdFrame& frame) {
 }  // namespace
 
 struct BodyTracker::Implementation {
-  explicit Implementation(const TrackerConfig& tracker_config)
-      : config(tracker_config), knn(config.knn), relocalizer(config.registration) {}
+  Implementation(const TrackerConfig& tracker_config, const cv::Mat3b& picture)
+      : config(tracker_config), knn(config.knn), relocalizer(config.registration, picture) {}
 
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
@@ -105,8 +105,8 @@ TrackingStatus withoutImages(const TrackingStatus& last, const std::optional<dou
   return status;
 }
 
-BodyTracker::BodyTracker(const TrackerConfig& config)
-    : implementation_(std::make_unique<Implementation>(config)) {}
+BodyTracker::BodyTracker(const TrackerConfig& config, const cv::Mat3b& picture)
+    : implementation_(std::make_unique<Implementation>(config, picture)) {}
 BodyTracker::~BodyTracker() = default;
 
 void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& surface) {

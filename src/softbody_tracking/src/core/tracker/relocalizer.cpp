@@ -75,8 +75,7 @@ void Relocalizer::takeInitialPose(const RgbdFrame& frame, const TetTopology& vol
 }
 
 const SearchMeshes& Relocalizer::meshesOf(const MeshTopology& surface) {
-  if (meshes_ == nullptr)
-    meshes_ = std::make_unique<SearchMeshes>(makeSearchMeshes({surface.rest_vertices, surface.triangles}));
+  if (meshes_ == nullptr) meshes_ = std::make_unique<SearchMeshes>(makeSearchMeshes(surface, picture_));
   return *meshes_;
 }
 

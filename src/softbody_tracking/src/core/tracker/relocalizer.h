@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <optional>
+#include <utility>
 
 #include "registration/coarse_mesh.h"
 #include "registration/found_pose.h"
@@ -29,7 +31,9 @@ class Relocalizer {
     kTracked  ///< no search was necessary: the body was found before and is not lost
   };
 
-  explicit Relocalizer(const RegistrationConfig& config) : config_(config) {}
+  /// @param picture of the body: blue, green, red; empty: not known.
+  Relocalizer(const RegistrationConfig& config, cv::Mat3b picture)
+      : config_(config), picture_(std::move(picture)) {}
 
   /// Forgets where the body is.
   void reset();
@@ -74,6 +78,7 @@ class Relocalizer {
   void startTracking(const RgbdFrame& frame, const FoundPose& found);
 
   RegistrationConfig config_;
+  cv::Mat3b picture_;
   std::unique_ptr<SearchMeshes>
       meshes_;               ///< made at the first search, so that a frame after a cut does not wait for it
   bool first_frame_ = true;  ///< no frame since the last reset

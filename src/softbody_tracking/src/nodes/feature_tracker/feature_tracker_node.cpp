@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/images/object_texture.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
@@ -15,6 +16,19 @@ namespace {
 // [s] between two statuses while no image comes: often enough for a person and for a robot's monitor.
 constexpr double kStatusPeriod_s = 1.0;
 constexpr double kSetPoseTimeout_s = 0.5;  // [s] to wait for tf; a person waits for the answer
+
+/// The body is tracked without its picture, too.
+cv::Mat3b loadPicture(Parameters& parameters) {
+  const FileScope scope =
+      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
+  const std::string object = parameters.text("object", "");
+  try {
+    return object.empty() ? cv::Mat3b() : readObjectTexture(object, scope);
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_STREAM("the body is searched for without its picture: " << error.what());
+    return {};
+  }
+}
 
 diagnostic_msgs::DiagnosticStatus::_level_type diagnosticLevel(TrackingState state) {
   using diagnostic_msgs::DiagnosticStatus;
@@ -30,7 +44,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, const ros:
 FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle,
                                        Parameters parameters)
     : output_frame_(parameters),
-      tracker_(readTrackerConfig(parameters)),
+      tracker_(readTrackerConfig(parameters), loadPicture(parameters)),
       publisher_(handle, output_frame_.claim(ownFrame(parameters, "body_frame", private_handle, "softbody"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
       body_(handle, &tracker_),

@@ -6,19 +6,21 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "softbody_common/run_tool.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 #include "softbody_virtual_camera/ros/node.h"
 #include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/painted_object.h"
 
 namespace softbody::virtual_camera {
 namespace {
 
 struct Arguments {
   CameraSetup setup;
-  std::string output;
+  std::string output, object;
   double duration_s = 0.0;
   bool noise = true;
   bool labels = false, small = false;
@@ -49,6 +51,9 @@ void declareScene(CLI::App* app, Arguments* arguments) {
   app->add_option("--tool", setup.tool,
                   "tool YAML for the scenes with a cut; default: the shipped knife.yaml")
       ->check(CLI::ExistingFile);
+  app->add_option("--object", arguments->object,
+                  "folder to write: the body as an object whose picture is its texture; an earlier one is "
+                  "replaced");
   addAllowOutside(app, &setup.scope);
 }
 
@@ -76,10 +81,18 @@ void declareImages(CLI::App* app, Arguments* arguments) {
       ->capture_default_str();
 }
 
+void writeObject(const Actor& body, const std::string& folder) {
+  if (!body.skin.pictures.empty())
+    throw std::invalid_argument("--object: the body has a picture already; give its OBJ to prepare_model");
+  writePaintedObject(body.rest, body.texture, folder);
+}
+
 void write(const Arguments& arguments) {
   std::vector<std::string> warnings;
   VirtualCamera camera = makeCamera(arguments.setup, &warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "virtual_camera: warning: {}\n", warning);
+  if (!arguments.object.empty()) writeObject(camera.scene().actors.at(0), arguments.object);
+  if (arguments.output.empty()) return;
   const double duration_s = arguments.duration_s > 0.0 ? arguments.duration_s : camera.scene().duration_s;
   const int frames = std::max(1, static_cast<int>(std::lround(duration_s * arguments.setup.rate_hz)));
   writeBag(&camera, {arguments.output, frames, arguments.setup.rate_hz, arguments.labels, arguments.small},
@@ -112,7 +125,7 @@ int runVirtualCamera(int argc, char** argv) {
   try {
     if (!arguments.noise) arguments.setup.noise = noNoise();
     for (const std::string& part : arguments.without) switchOff(part, &arguments.setup.noise);
-    if (arguments.output.empty()) return runNode(argc, argv, arguments.setup);
+    if (arguments.output.empty() && arguments.object.empty()) return runNode(argc, argv, arguments.setup);
     removeStagedFilesOnSignal();
     write(arguments);
   } catch (const std::exception& error) {

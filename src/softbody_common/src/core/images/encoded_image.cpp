@@ -1,4 +1,4 @@
-#include "ros/encoded_image.h"
+#include "softbody_common/images/encoded_image.h"
 
 #include <fmt/format.h>
 
@@ -53,6 +53,11 @@ std::optional<EncodedImageHeader> jpegHeader(const std::uint8_t* data, std::size
 
 }  // namespace
 
+bool isTooLarge(const EncodedImageHeader& header) {
+  const auto pixels = static_cast<std::uint64_t>(header.width) * header.height;
+  return pixels > kMostEncodedPixels || std::max(header.width, header.height) > kLargestImageSide;
+}
+
 std::optional<EncodedImageHeader> readEncodedImageHeader(const std::uint8_t* data, std::size_t size) {
   constexpr std::size_t kPngBytes = sizeof(kPngStart) + 8;
   if (size >= kPngBytes && std::equal(std::begin(kPngStart), std::end(kPngStart), data))
@@ -68,8 +73,7 @@ cv::Mat decodeImage(const std::uint8_t* data, std::size_t size) {
     throw std::invalid_argument(
         fmt::format("{} bytes are no whole PNG or JPEG; set the publisher's format to png or jpeg", size));
   }
-  const auto pixels = static_cast<std::uint64_t>(header->width) * header->height;
-  if (pixels > kMostEncodedPixels || std::max(header->width, header->height) > kLargestImageSide) {
+  if (isTooLarge(*header)) {
     throw std::invalid_argument(fmt::format(
         "its {} bytes stand for {}x{} pixels; allowed: up to {} a side and {} in all; send smaller images",
         size, header->width, header->height, kLargestImageSide, kMostEncodedPixels));

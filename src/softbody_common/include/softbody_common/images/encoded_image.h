@@ -16,6 +16,9 @@ struct EncodedImageHeader {
   int scans = 1;  ///< passes over the pixels of a progressive JPEG
 };
 
+/// Whether its pixels are too many: kMostEncodedPixels in all, kLargestImageSide a side.
+bool isTooLarge(const EncodedImageHeader& header);
+
 /// Reads no pixel. @return nullopt: neither PNG nor JPEG, or truncated.
 std::optional<EncodedImageHeader> readEncodedImageHeader(const std::uint8_t* data, std::size_t size);
 
