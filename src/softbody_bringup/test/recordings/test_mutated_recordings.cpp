@@ -80,12 +80,13 @@ class Tools {
                     Verdicts* verdicts) {
     ReplayOptions options;
     options.input = bag;
-    options.object = kObject;
+    options.objects = {kObject};
     options.output = result;
     options.camera = recording.options;
     const ReplaySummary summary = replay(
         options, [](const std::string&) {}, [](double) {});
-    verdicts->tracked = static_cast<double>(summary.states) / static_cast<double>(recording.frames.size());
+    verdicts->tracked =
+        static_cast<double>(summary.bodies.front().states) / static_cast<double>(recording.frames.size());
     evaluation::EvaluatorOptions measure;
     measure.result = result;
     measure.truth = measure.recording = bag;

@@ -45,7 +45,7 @@ class CutReplay : public ::testing::Test {
   static ReplaySummary run(const std::string& output, const std::string& tool, const std::string& journal) {
     ReplayOptions options;
     options.input = folder_ / "cut.bag";
-    options.object = CONFIG_DIR "/sponge.yaml";
+    options.objects = {CONFIG_DIR "/sponge.yaml"};
     options.output = folder_ / output;
     options.tool = tool;
     options.journal = journal.empty() ? "" : (folder_ / journal).string();
@@ -66,11 +66,12 @@ fs::path CutReplay::folder_;
 
 TEST_F(CutReplay, AToolCutsTheBodyInTwoAndItsJournalDoesItAgain) {
   const std::string knife = CONFIG_DIR "/knife.yaml";
-  const ReplaySummary first = run("first.bag", knife, "");
+  const ReplaySummary summary = run("first.bag", knife, "");
+  const BodySummary& first = summary.bodies.front();
   EXPECT_EQ(first.pieces, 2u);
   EXPECT_GT(first.cuts, 1);
   EXPECT_GT(first.tools, 40);
-  EXPECT_EQ(first.states, first.read.frames);
+  EXPECT_EQ(first.states, summary.read.frames);
   const MeshTopology by_blade = lastTopology("first.bag");
   EXPECT_EQ(by_blade.revision, static_cast<std::uint32_t>(first.cuts));
   EXPECT_TRUE(isClosed(by_blade.triangles));
@@ -78,7 +79,7 @@ TEST_F(CutReplay, AToolCutsTheBodyInTwoAndItsJournalDoesItAgain) {
   run("second.bag", knife, "");
   EXPECT_TRUE(bytes(folder_ / "first.bag") == bytes(folder_ / "second.bag"));
 
-  const ReplaySummary again = run("again.bag", "", "first.bag");
+  const BodySummary again = run("again.bag", "", "first.bag").bodies.front();
   EXPECT_EQ(again.cuts, first.cuts);
   EXPECT_EQ(again.pieces, 2u);
   EXPECT_EQ(again.tools, 0);

@@ -57,17 +57,17 @@ class MovingCamera : public ::testing::Test {
     return path;
   }
 
-  static ReplaySummary run(const std::string& input, const std::string& output,
-                           const std::string& tool = "") {
+  static BodySummary run(const std::string& input, const std::string& output, const std::string& tool = "") {
     ReplayOptions options;
     options.input = input;
-    options.object = CONFIG_DIR "/sponge.yaml";
+    options.objects = {CONFIG_DIR "/sponge.yaml"};
     options.output = folder_ / output;
     options.tool = tool;
     options.output_frame = "world";
     warnings_.clear();
     return replay(
-        options, [](const std::string& warning) { warnings_.push_back(warning); }, [](double) {});
+               options, [](const std::string& warning) { warnings_.push_back(warning); }, [](double) {})
+        .bodies.front();
   }
 
   static evaluation::Report measure(const std::string& result) {
@@ -85,7 +85,7 @@ fs::path MovingCamera::folder_;
 std::vector<std::string> MovingCamera::warnings_;
 
 TEST_F(MovingCamera, ABodyAtRestIsAtRestInTheWorld) {
-  const ReplaySummary summary = run(folder_ / "moving.bag", "world.bag");
+  const BodySummary summary = run(folder_ / "moving.bag", "world.bag");
   EXPECT_EQ(summary.states, kFrames);
   EXPECT_EQ(summary.skipped, 0);
   const evaluation::Report report = measure("world.bag");
@@ -98,14 +98,14 @@ TEST_F(MovingCamera, ABodyAtRestIsAtRestInTheWorld) {
 }
 
 TEST_F(MovingCamera, FramesWithoutTfAreLeftOutWithTheReason) {
-  const ReplaySummary gap = run(withoutTf("gap.bag", 20, 36), "gap_result.bag");
+  const BodySummary gap = run(withoutTf("gap.bag", 20, 36), "gap_result.bag");
   EXPECT_EQ(gap.skipped, 16);
   EXPECT_EQ(gap.states, kFrames - 16);
   EXPECT_EQ(gap.frames_by_state.at(TrackingState::kDegraded), 16) << "after the gap it is tracked at once";
   EXPECT_LT(measure("gap_result.bag").vertex_error->all.mean, 0.0015);
   // The straight way over a short gap is good enough.
   EXPECT_EQ(run(withoutTf("short.bag", 20, 24), "short_result.bag").skipped, 0);
-  const ReplaySummary cut_off = run(withoutTf("end.bag", 20, kFrames), "end_result.bag");
+  const BodySummary cut_off = run(withoutTf("end.bag", 20, kFrames), "end_result.bag");
   EXPECT_EQ(cut_off.skipped, kFrames - 20);
   const std::string& reason = cut_off.reasons.at(TrackingState::kDegraded);
   EXPECT_NE(reason.find("camera_color_optical_frame is in output_frame world"), std::string::npos) << reason;
@@ -118,8 +118,7 @@ TEST_F(MovingCamera, TheToolIsSeenWithoutTfToo) {
   const std::string knife = CONFIG_DIR "/knife.yaml";
   const int with_tf = run(folder_ / "knife.bag", "knife_result.bag", knife).tools;
   EXPECT_GT(with_tf, kFrames / 2);
-  const ReplaySummary gap =
-      run(withoutTf("knife_gap.bag", 20, 36, "knife.bag"), "knife_gap_result.bag", knife);
+  const BodySummary gap = run(withoutTf("knife_gap.bag", 20, 36, "knife.bag"), "knife_gap_result.bag", knife);
   EXPECT_EQ(gap.skipped, 16);
   EXPECT_GE(gap.tools, with_tf - 1);
 }

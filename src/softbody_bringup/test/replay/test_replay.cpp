@@ -10,6 +10,7 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/pipeline/pipeline.h"
+#include "softbody_recordings/ros/atomic_bag.h"
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/replay.h"
 #include "softbody_recordings/ros/result_bag.h"
@@ -36,7 +37,8 @@ class ReplayTest : public ::testing::Test {
     Pipeline pipeline(model, PipelineConfig());
     CameraIngest ingest{CameraIngestConfig()};
     const rosbag::Bag input(kBag, rosbag::bagmode::Read);
-    ResultBag result(output, "/softbody");
+    AtomicBag bag(output);
+    ResultBag result(&bag, "/softbody");
     std::vector<FrameOutput> frames;
     const auto use = [&](const RgbdFrame& frame, const std_msgs::Header& header, double) {
       if (frames.empty()) result.writeTopologies(pipeline, header.stamp);
@@ -44,7 +46,7 @@ class ReplayTest : public ::testing::Test {
       result.writeFrame(frames.back(), header);
     };
     readBagFrames(input, BagFramesConfig(), &ingest, use);
-    result.finish();
+    bag.finish();
     return frames;
   }
 
@@ -94,7 +96,7 @@ TEST_F(ReplayTest, EveryStageIsInitializedOnce) {
 TEST_F(ReplayTest, LeavesAnEarlierResultAloneWhenItDoesNotFinish) {
   const fs::path output = folder_ / "result.bag";
   std::ofstream(output) << "an earlier result";
-  { const ResultBag unfinished(output, "/softbody"); }
+  { const AtomicBag unfinished(output); }
   EXPECT_EQ(bytes(output), "an earlier result");
   expectNothingIncomplete();
 }
@@ -122,13 +124,13 @@ std::string bagWithStamp(const fs::path& path, int passes, int frame, const ros:
 
 TEST_F(ReplayTest, OneOddStampCostsItsOwnFrame) {
   ReplayOptions options;
-  options.object = kObject;
+  options.objects = {kObject};
   options.output = folder_ / "result.bag";
   const auto quiet = [](const auto&) {};
   for (const ros::Time& stamp : {ros::Time(4294967295, 0), ros::Time(1, 0), ros::Time()}) {
     options.input = bagWithStamp(folder_ / "odd.bag", 1, 20, stamp);
     const ReplaySummary summary = softbody::replay(options, quiet, quiet);
-    EXPECT_EQ(summary.states, 44) << stamp;
+    EXPECT_EQ(summary.bodies.front().states, 44) << stamp;
     EXPECT_EQ(summary.read.unpaired.outliers + summary.read.unpaired.unstamped, 2) << stamp;
   }
 }
@@ -150,7 +152,7 @@ std::vector<ros::Time> stampsOfLabels(const fs::path& path) {
 TEST_F(ReplayTest, WritesALabelImageForEachFrameWhenAsked) {
   ReplayOptions options;
   options.input = kBag;
-  options.object = kObject;
+  options.objects = {kObject};
   options.output = folder_ / "result.bag";
   const auto quiet = [](const auto&) {};
   softbody::replay(options, quiet, quiet);
@@ -163,25 +165,26 @@ TEST_F(ReplayTest, WritesALabelImageForEachFrameWhenAsked) {
 
 TEST_F(ReplayTest, ARecordingThatLoopsLosesNoFrame) {
   ReplayOptions options;
-  options.object = kObject;
+  options.objects = {kObject};
   options.output = folder_ / "result.bag";
   options.input = bagWithStamp(folder_ / "twice.bag", 2, -1, {});
   const auto quiet = [](const auto&) {};
   const ReplaySummary summary = softbody::replay(options, quiet, quiet);
-  EXPECT_EQ(summary.states, 90);
-  EXPECT_EQ(summary.frames_by_state.at(TrackingState::kTracking), 90);
+  EXPECT_EQ(summary.bodies.front().states, 90);
+  EXPECT_EQ(summary.bodies.front().frames_by_state.at(TrackingState::kTracking), 90);
 }
 
 TEST_F(ReplayTest, SaysInWhichFramesTheToolIsNotSeen) {
   ReplayOptions options;
   options.input = kBag;
-  options.object = kObject;
+  options.objects = {kObject};
   options.tool = CONFIG_DIR "/knife.yaml";
   options.output = folder_ / "result.bag";
   const auto quiet = [](const auto&) {};
-  EXPECT_EQ(softbody::replay(options, quiet, quiet).tool_missed, "45 frames: no marker of the tool is seen");
+  EXPECT_EQ(softbody::replay(options, quiet, quiet).bodies.front().tool_missed,
+            "45 frames: no marker of the tool is seen");
   options.tool.clear();
-  EXPECT_EQ(softbody::replay(options, quiet, quiet).tool_missed, "");
+  EXPECT_EQ(softbody::replay(options, quiet, quiet).bodies.front().tool_missed, "");
 }
 
 TEST_F(ReplayTest, NamesTheMissingTopicAndWhatIsThere) {

@@ -21,7 +21,6 @@
 #include "softbody_evaluation/ros/recording_reader.h"
 #include "softbody_evaluation/ros/result_reader.h"
 #include "softbody_evaluation/ros/surface_reader.h"
-#include "softbody_virtual_camera/ros/messages.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -51,8 +50,8 @@ std::vector<StatusRecord> readStatusesOf(const EvaluatorOptions& options, const 
 }
 
 SurfaceRecord readTruth(const EvaluatorOptions& options) {
-  SurfaceRecord truth = readSurface(options.truth, std::string("/") + virtual_camera::kTruthTopologyTopic,
-                                    std::string("/") + virtual_camera::kTruthStateTopic);
+  SurfaceRecord truth = readSurface(options.truth, options.truth_namespace + "/" + topics::kSurfaceTopology,
+                                    options.truth_namespace + "/" + topics::kSurfaceState);
   if (!truth.notes.empty()) throw std::invalid_argument(truth.notes.front());
   return truth;
 }
@@ -144,9 +143,9 @@ Measured measure(const EvaluatorOptions& options) {
     compareWithTruth(options, result, *truth, unhidden ? &*unhidden : nullptr, &report, &measured.pictures);
     addTool(options, recording, &report);
     report.labels = compareLabels(options.result, options.result_namespace + "/" + topics::kLabels,
-                                  options.truth, std::string("/") + virtual_camera::kTruthLabelsTopic);
+                                  options.truth, options.truth_namespace + "/" + topics::kLabels);
     report.forces = compareForces(options.result, options.result_namespace + "/" + topics::kForces,
-                                  options.truth, std::string("/") + virtual_camera::kTruthForcesTopic);
+                                  options.truth, options.truth_namespace + "/" + topics::kForces);
   }
   if (report.frames.answered == 0) {
     throw std::invalid_argument(fmt::format("{}: no surface has the stamp of a frame in {}", options.result,

@@ -13,6 +13,7 @@ struct EvaluatorOptions {
   std::string unhidden;          ///< bag with the result for the same motion without occluders; empty: none
   std::string report_folder;     ///< empty: no report is written
   std::string result_namespace = "/softbody";
+  std::string truth_namespace = "/ground_truth";  ///< of the body's true surface, labels and forces
   CameraTopics camera = "/camera";
   double occluder_m = 0.03;     ///< see depthResidual
   int window = 100;             ///< frames of a row of the depth residual's table

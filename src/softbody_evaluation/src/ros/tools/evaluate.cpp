@@ -41,6 +41,9 @@ void declareInput(CLI::App* app, EvaluatorOptions* options, Output* output) {
       ->check(CLI::ExistingFile);
   app->add_option("--namespace", options->result_namespace, "namespace of the result's topics")
       ->capture_default_str();
+  app->add_option("--truth-namespace", options->truth_namespace,
+                  "namespace of the body's topics in the truth; /ground_truth/second: of a second body")
+      ->capture_default_str();
   addCameraOptions(app, &options->camera);
 }
 

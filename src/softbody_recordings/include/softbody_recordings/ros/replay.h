@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/types.h"
@@ -11,22 +12,24 @@
 namespace softbody {
 
 struct ReplayOptions {
-  std::string input, object, output;      ///< bag, object YAML, bag
+  std::string input, output;              ///< bags
+  std::vector<std::string> objects;       ///< object YAMLs or folders, at least one
   std::string parameters, tool, journal;  ///< YAML, tool YAML, bag with cuts; empty: none
   CameraTopics camera = "/camera";
-  std::string topic_namespace = "/softbody";  ///< of the output topics
-  std::string output_frame;                   ///< of targets and states; empty: from the parameters
-  std::string simd;                           ///< of the simulator; empty: from the parameters
-  FileScope scope = FileScope::kOwnFolder;    ///< of the files that the YAMLs name
-  bool timing = false;                        ///< also write wall-clock times of the stages
-  bool labels = false;                        ///< also write what each pixel shows
-  bool forces = false;                        ///< also write the external forces
-  bool placed = false;                        ///< take the initial pose as it is, without a search
+  std::string topic_namespace =
+      "/softbody";                          ///< of the output topics of one body; several: objectNamespaces()
+  std::string output_frame;                 ///< of targets and states; empty: from the parameters
+  std::string simd;                         ///< of the simulator; empty: from the parameters
+  FileScope scope = FileScope::kOwnFolder;  ///< of the files that the YAMLs name
+  bool timing = false;                      ///< also write wall-clock times of the stages
+  bool labels = false;                      ///< also write what each pixel shows
+  bool forces = false;                      ///< also write the external forces
+  bool placed = false;                      ///< take the initial pose as it is, without a search
 };
 
-/// The outcome of a replay.
-struct ReplaySummary {
-  BagFramesReport read;
+/// The outcome of a replay for one body.
+struct BodySummary {
+  std::string topic_namespace;
   int states = 0, tools = 0, cuts = 0;  ///< frames with a surface; frames with the tool; cuts made
   int skipped = 0;                      ///< frames without a camera pose in tf
   int failed = 0;                       ///< frames that a stage could not process
@@ -37,10 +40,16 @@ struct ReplaySummary {
   double milliseconds = 0.0;                     ///< of all frames
 };
 
+/// The outcome of a replay.
+struct ReplaySummary {
+  BagFramesReport read;
+  std::vector<BodySummary> bodies;  ///< as the objects
+};
+
 /// Runs the core code of the graph on a bag, every frame in order. If it throws, an earlier output stays
 /// unchanged.
 /// @param warn called with warnings. @param progress called with the finished share, 0..1.
-/// @throw std::exception if a file cannot be used, or no frame gave a surface.
+/// @throw std::exception if a file cannot be used, or no frame gave a surface of any body.
 ReplaySummary replay(const ReplayOptions& options, const std::function<void(const std::string&)>& warn,
                      const std::function<void(double)>& progress);
 

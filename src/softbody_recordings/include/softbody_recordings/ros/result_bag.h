@@ -2,7 +2,6 @@
 
 #include <std_msgs/Header.h>
 
-#include <filesystem>
 #include <string>
 
 #include "softbody_recordings/pipeline/pipeline.h"
@@ -16,15 +15,13 @@ struct ResultBagExtras {
   bool labels = false;  ///< label images
 };
 
-/// Writes the messages of the graph into a bag (lz4). The record time is the header stamp, so the same input
-/// gives the same bytes. The file appears when finish() is called; until then an earlier file stays
-/// unchanged.
+/// Writes the messages of one body's graph into a bag. The record time is the header stamp, so the same input
+/// gives the same bytes.
 class ResultBag {
  public:
+  /// @param bag which the results of other bodies can share; must outlive this object.
   /// @param topic_namespace of the output topics, e.g. "/softbody"; the frames follow it.
-  /// @throw std::runtime_error if the file cannot be written.
-  ResultBag(const std::filesystem::path& output, std::string topic_namespace,
-            const ResultBagExtras& extras = {});
+  ResultBag(AtomicBag* bag, std::string topic_namespace, const ResultBagExtras& extras = {});
 
   /// Writes both topologies, latched. Call it before the first state of a revision, and again every second.
   /// Their stamp stays that of the revision's first frame.
@@ -38,7 +35,6 @@ class ResultBag {
   void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
   /// All outputs of one frame.
   void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
-  void finish() { bag_.finish(); }
 
  private:
   std::string topic(const char* name) const { return namespace_ + "/" + name; }
@@ -52,7 +48,7 @@ class ResultBag {
   ResultBagExtras extras_;
   ros::Time revision_stamp_;  ///< of the first frame with these topologies
   std::uint32_t revision_ = 0;
-  AtomicBag bag_;
+  AtomicBag* bag_;
 };
 
 }  // namespace softbody

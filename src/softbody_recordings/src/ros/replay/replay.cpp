@@ -1,29 +1,22 @@
 #include "softbody_recordings/ros/replay.h"
 
 #include <fmt/format.h>
-#include <tf2/exceptions.h>
 
 #include <algorithm>
-#include <chrono>
+#include <memory>
 #include <stdexcept>
 
+#include "ros/replay/body_run.h"
+#include "ros/replay/camera_poses.h"
 #include "softbody_common/images/object_texture.h"
-#include "softbody_common/ros/conversions.h"
-#include "softbody_common/ros/frame_name.h"
-#include "softbody_recordings/pipeline/pipeline.h"
-#include "softbody_recordings/ros/bag_transforms.h"
-#include "softbody_recordings/ros/cut_journal.h"
+#include "softbody_common/topics.h"
 #include "softbody_recordings/ros/graph_config.h"
 #include "softbody_recordings/ros/input_bag.h"
-#include "softbody_recordings/ros/result_bag.h"
+#include "softbody_recordings/ros/object_namespaces.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"
-#include "softbody_tracking/tool/marker_absence.h"
-#include "softbody_tracking/tool/tool_dropout_monitor.h"
 
 namespace softbody {
 namespace {
-
-constexpr double kTopologyPeriod_s = 1.0;  // as the nodes
 
 using Warn = std::function<void(const std::string&)>;
 
@@ -55,7 +48,6 @@ GraphConfig configOf(const ReplayOptions& options, const Warn& warn) {
   warnAll(warn, "", warnings);
   config.pipeline.forces = options.forces, config.pipeline.placed = options.placed;
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
-  config.pipeline.picture = loadPicture(options.object, options.scope, warn);
   return config;
 }
 
@@ -66,162 +58,117 @@ std::optional<ToolDescription> loadTool(const std::string& path, FileScope scope
   return tool;
 }
 
-CutJournal loadJournal(const ReplayOptions& options) {
-  if (options.journal.empty()) return {};
-  return {openBag(options.journal), options.topic_namespace + "/cut"};
+/// The cuts of each body. One body must have cuts; of several bodies not every one is cut.
+std::vector<CutJournal> loadJournals(const std::string& path, const std::vector<std::string>& namespaces) {
+  std::vector<CutJournal> journals(namespaces.size());
+  if (path.empty()) return journals;
+  const rosbag::Bag bag = openBag(path);
+  std::string why;
+  std::size_t cuts = 0;
+  for (std::size_t k = 0; k < journals.size(); ++k) {
+    try {
+      journals[k] = {bag, namespaces[k] + "/" + topics::kCut};
+    } catch (const std::invalid_argument& error) {
+      why = error.what();
+    }
+    cuts += journals[k].size();
+  }
+  if (cuts == 0) throw std::invalid_argument(why);
+  return journals;
 }
 
-/// The camera's poses in the output frame.
-class CameraPoses {
- public:
-  /// @param output_frame if empty, the camera's frame.
-  CameraPoses(const std::string& bag, const std::string& output_frame)
-      : output_frame_(withoutSlash(output_frame)) {
-    if (!output_frame_.empty()) transforms_.emplace(std::vector<std::string>{bag});
-  }
-
-  /// @throw tf2::TransformException if the bag has no pose for this stamp.
-  Eigen::Isometry3d of(const std_msgs::Header& header) const {
-    if (!transforms_) return Eigen::Isometry3d::Identity();
-    return transforms_->at(output_frame_, header.frame_id, header.stamp);
-  }
-
-  const std::string& outputFrame() const { return output_frame_; }
-  std::vector<std::string> warnings() const {
-    return transforms_ ? transforms_->warnings() : std::vector<std::string>();
-  }
-
- private:
-  std::string output_frame_;
-  std::optional<BagTransforms> transforms_;
-};
-
-/// Processes frames and writes the results into a bag.
+/// The bodies of a replay, frame by frame, and the bag with their results.
 class Replay {
  public:
-  Replay(const ReplayOptions& options, const ObjectModel& model, const GraphConfig& config,
-         const std::optional<ToolDescription>& tool, Warn warn)
+  Replay(const ReplayOptions& options, const GraphConfig& config, Warn warn)
       : warn_(std::move(warn)),
         camera_poses_(options.input,
                       options.output_frame.empty() ? config.output_frame : options.output_frame),
-        pipeline_(model, config.pipeline, tool),
-        journal_(loadJournal(options)),
-        output_(options.output, options.topic_namespace, {options.timing, options.labels}) {
-    for (const std::string& warning : camera_poses_.warnings()) warn_(warning);
-    output_.setOutputFrame(camera_poses_.outputFrame());
-    if (tool) output_.setBlade(tool->blade);
+        output_(options.output) {
+    addBodies(options, config.pipeline);
+    warnAll(warn_, "", camera_poses_.warnings());
   }
 
-  /// A frame that cannot be used leaves the others as they are.
   void process(RgbdFrame frame, const std_msgs::Header& header) {
     try {
       frame.T_fixed_camera = camera_poses_.of(header);
     } catch (const std::exception& error) {
-      return skip(frame, header, error.what());
+      for (auto& body : bodies_) body->skip(frame, header, error.what());
+      return;
     }
-    const auto start = std::chrono::steady_clock::now();
-    FrameOutput result;
-    try {
-      result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
-    } catch (const std::exception& error) {
-      return leaveOut(header, error.what());
-    }
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-    summary_.milliseconds += elapsed.count();
-    countTool(result.tool, header, frame);
-    write(result, header);
+    for (auto& body : bodies_) body->process(frame, header);
   }
 
-  ReplaySummary finish() {
-    const std::size_t left = journal_.size() + pipeline_.waitingCuts();
-    if (left > 0)
-      warn_(fmt::format("{} cuts of the journal were not made, because the body was not tracked after them",
-                        left));
+  std::vector<BodySummary> finish() {
+    std::vector<BodySummary> summaries;
+    for (auto& body : bodies_) summaries.push_back(body->finish());
     output_.finish();
-    const std::vector<std::uint32_t>& pieces = pipeline_.surfaceTopology().triangle_pieces;
-    summary_.tool_missed = tool_dropouts_.missedFrames();
-    if (!tool_dropouts_.cause().empty()) summary_.tool_missed += ". Probably " + tool_dropouts_.cause();
-    summary_.pieces = pieces.empty() ? 0 : 1 + *std::max_element(pieces.begin(), pieces.end());
-    return summary_;
+    return summaries;
   }
 
-  const ReplaySummary& summary() const { return summary_; }
-  const TetTopology& volumeTopology() const { return pipeline_.volumeTopology(); }
-  const MeshTopology& surfaceTopology() const { return pipeline_.surfaceTopology(); }
+  const std::vector<std::unique_ptr<BodyRun>>& bodies() const { return bodies_; }
 
  private:
-  void write(const FrameOutput& result, const std_msgs::Header& header) {
-    for (const std::string& warning : result.warnings)
-      warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), warning));
-    count(result);
-    const double since_s = secondsBetween(topologies_written_, header.stamp);
-    if (since_s < 0.0 || since_s >= kTopologyPeriod_s || !result.cuts.empty()) {
-      output_.writeTopologies(pipeline_, header.stamp);
-      topologies_written_ = header.stamp;
+  void addBodies(const ReplayOptions& options, PipelineConfig config) {
+    const bool alone = options.objects.size() == 1;
+    const std::vector<std::string> namespaces =
+        alone ? std::vector<std::string>{options.topic_namespace} : objectNamespaces(options.objects);
+    std::vector<CutJournal> journals = loadJournals(options.journal, namespaces);
+    const std::optional<ToolDescription> tool = loadTool(options.tool, options.scope, warn_);
+    for (std::size_t k = 0; k < namespaces.size(); ++k) {
+      const Warn warn_of_body =
+          alone ? warn_ : [warn = warn_, name = namespaces[k]](const std::string& text) {
+            warn(fmt::format("{}: {}", name, text));
+          };
+      config.picture = loadPicture(options.objects[k], options.scope, warn_of_body);
+      const ObjectModel model = loadModel(options.objects[k], options.scope, warn_);
+      BodyRunSetup setup{namespaces[k],
+                         camera_poses_.outputFrame(),
+                         {options.timing, options.labels},
+                         tool,
+                         std::move(journals[k])};
+      bodies_.push_back(std::make_unique<BodyRun>(model, config, std::move(setup), &output_, warn_of_body));
     }
-    output_.writeFrame(result, header);
-  }
-
-  void leaveOut(const std_msgs::Header& header, const std::string& why) {
-    if (summary_.failed++ == 0)
-      warn_(fmt::format("frame at {:.3f} s left out: {}", header.stamp.toSec(), why));
-    last_status_.state = TrackingState::kDegraded;
-    last_status_.reason = "frame left out: " + why;
-    count(TrackingStatus(last_status_));
-    output_.writeStatus(last_status_, header);
-  }
-
-  void skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why) {
-    if (summary_.skipped++ == 0)
-      warn_(fmt::format("frame at {:.3f} s skipped: {}", header.stamp.toSec(), why));
-    count(skippedFrame(last_status_, header.frame_id, camera_poses_.outputFrame(), why));
-    output_.writeStatus(last_status_, header);
-    const std::optional<ToolObservation> tool = pipeline_.processUnplaced(frame);
-    countTool(tool, header, frame);
-    if (tool) output_.writeTool(*tool, header);
-  }
-
-  void countTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header,
-                 const RgbdFrame& frame) {
-    if (!pipeline_.toolTracker()) return;
-    summary_.tools += tool && !tool->ambiguous ? 1 : 0;
-    const auto missing = tool_dropouts_.update(
-        toNanoseconds(header.stamp), tool, pipeline_.toolTracker()->reason(),
-        [&] { return whyMarkersAreMissed(pipeline_.toolTracker()->tool(), frame.color); });
-    if (missing) warn_(fmt::format("at {:.3f} s {}", header.stamp.toSec(), *missing));
-  }
-
-  void count(const TrackingStatus& status) {
-    last_status_ = status;
-    ++summary_.frames_by_state[status.state];
-    summary_.reasons[status.state] = status.reason;
-  }
-
-  void count(const FrameOutput& result) {
-    summary_.states += result.surface ? 1 : 0;
-    summary_.cuts += static_cast<int>(result.cuts.size());
-    count(result.tracking.status);
   }
 
   Warn warn_;
   CameraPoses camera_poses_;
-  TrackingStatus last_status_;
-  Pipeline pipeline_;
-  ToolDropoutMonitor tool_dropouts_;
-  CutJournal journal_;
-  ResultBag output_;
-  ReplaySummary summary_;
-  ros::Time topologies_written_;
+  AtomicBag output_;
+  std::vector<std::unique_ptr<BodyRun>> bodies_;
 };
+
+/// What the user can do if a body was found in no frame.
+std::string whyNotFound(const BodyRun& body, const CameraImages& first, CameraIngest* ingest,
+                        const TrackerConfig& config) {
+  const std::optional<double> unit_m =
+      depthUnitThatFits(first, ingest, config, body.volumeTopology(), body.surfaceTopology());
+  return body.summary().reasons.begin()->second +
+         (unit_m
+              ? fmt::format("; depth shows the body in its size if its unit is {} m: set depth_scale to {} "
+                            "(--depth-scale {}, or the parameter of camera_ingest)",
+                            *unit_m, *unit_m, *unit_m)
+              : "");
+}
+
+/// Warns about bodies without a surface. @throw std::runtime_error if no body has one.
+void requireSurface(const Replay& run, const std::string& input, const Warn& warn,
+                    const std::function<std::string(const BodyRun&)>& why) {
+  const auto has_surface = [](const auto& body) { return body->summary().states > 0; };
+  const bool any = std::any_of(run.bodies().begin(), run.bodies().end(), has_surface);
+  for (const auto& body : run.bodies()) {
+    if (has_surface(body)) continue;
+    if (!any) throw std::runtime_error(fmt::format("no frame of {} gave a surface: {}", input, why(*body)));
+    warn(fmt::format("{}: no frame gave a surface: {}", body->summary().topic_namespace, why(*body)));
+  }
+}
 
 }  // namespace
 
 ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
                      const std::function<void(double)>& progress) {
   const GraphConfig config = configOf(options, warn);
-  const ObjectModel model = loadModel(options.object, options.scope, warn);
   const rosbag::Bag input = openBag(options.input);
-  Replay run(options, model, config, loadTool(options.tool, options.scope, warn), warn);
+  Replay run(options, config, warn);
   CameraIngest ingest(config.ingest);
   BagFramesConfig frames{options.camera, config.pairing};
   if (frames.camera.depth_scale == 0.0) frames.camera.depth_scale = config.depth_scale;
@@ -233,23 +180,17 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
     run.process(ingest.process(images), header);
     progress(share);
   };
-  const BagFramesReport read = readBagImages(input, frames, use);
-  if (run.summary().frames_by_state.empty()) {
+  ReplaySummary summary;
+  summary.read = readBagImages(input, frames, use);
+  if (run.bodies().front()->summary().frames_by_state.empty()) {
     throw std::runtime_error(fmt::format("{} holds no usable frame{}{}", options.input,
-                                         read.last_error.empty() ? "" : ": ", read.last_error));
+                                         summary.read.last_error.empty() ? "" : ": ",
+                                         summary.read.last_error));
   }
-  if (run.summary().states == 0) {
-    const std::optional<double> unit_m = depthUnitThatFits(first, &ingest, config.pipeline.tracker,
-                                                           run.volumeTopology(), run.surfaceTopology());
-    throw std::runtime_error(fmt::format(
-        "no frame of {} gave a surface: {}{}", options.input, run.summary().reasons.begin()->second,
-        unit_m ? fmt::format("; depth shows the body in its size if its unit is {} m: set depth_scale to {} "
-                             "(--depth-scale {}, or the parameter of camera_ingest)",
-                             *unit_m, *unit_m, *unit_m)
-               : ""));
-  }
-  ReplaySummary summary = run.finish();
-  summary.read = read;
+  requireSurface(run, options.input, warn, [&](const BodyRun& body) {
+    return whyNotFound(body, first, &ingest, config.pipeline.tracker);
+  });
+  summary.bodies = run.finish();
   return summary;
 }
 

@@ -16,18 +16,17 @@
 
 namespace softbody {
 
-ResultBag::ResultBag(const std::filesystem::path& output, std::string topic_namespace,
-                     const ResultBagExtras& extras)
+ResultBag::ResultBag(AtomicBag* bag, std::string topic_namespace, const ResultBagExtras& extras)
     : namespace_(std::move(topic_namespace)),
       body_frame_(frameInNamespace(namespace_, "softbody")),
       extras_(extras),
-      bag_(output) {}
+      bag_(bag) {}
 
 template <typename Message>
 void ResultBag::write(const std::string& topic, Message message, const std_msgs::Header& header) {
   message.header = header;
   message.header.seq = 0;
-  bag_.write(topic, header.stamp, message);
+  bag_->write(topic, header.stamp, message);
 }
 
 void ResultBag::writeTopologies(const Pipeline& pipeline, const ros::Time& stamp) {
@@ -37,10 +36,10 @@ void ResultBag::writeTopologies(const Pipeline& pipeline, const ros::Time& stamp
   softbody_msgs::TetTopology volume = toMessage(pipeline.volumeTopology());
   volume.header.frame_id = body_frame_;
   volume.header.stamp = revision_stamp_;
-  bag_.writeLatched(topic(topics::kVolumeTopology), stamp, volume);
+  bag_->writeLatched(topic(topics::kVolumeTopology), stamp, volume);
   softbody_msgs::MeshTopology surface = toMessage(pipeline.surfaceTopology());
   surface.header = volume.header;
-  bag_.writeLatched(topic(topics::kSurfaceTopology), stamp, surface);
+  bag_->writeLatched(topic(topics::kSurfaceTopology), stamp, surface);
 }
 
 void ResultBag::writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
@@ -51,7 +50,7 @@ void ResultBag::writeTransform(const Eigen::Isometry3d& pose, const std::string&
   transform.child_frame_id = child;
   tf2_msgs::TFMessage message;
   message.transforms.push_back(transform);
-  bag_.write("/tf", header.stamp, message);
+  bag_->write("/tf", header.stamp, message);
 }
 
 void ResultBag::writeTool(const ToolObservation& tool, const std_msgs::Header& header) {

@@ -15,24 +15,33 @@
 namespace softbody {
 namespace {
 
-void declare(CLI::App* app, ReplayOptions* options) {
+void declareInput(CLI::App* app, ReplayOptions* options) {
   app->add_option("input", options->input, "bag with the camera topics")
       ->required()
       ->check(CLI::ExistingFile | CLI::ExistingDirectory);
-  app->add_option("--object", options->object, "object YAML, or its folder")
+  app->add_option("--object", options->objects,
+                  "object YAML, or its folder; give it again for each further body: each has its own topics, "
+                  "named as its file")
       ->required()
+      ->expected(1)
+      ->take_all()
       ->check(CLI::ExistingPath);
-  app->add_option("--output", options->output, "bag to write")->required();
   app->add_option("--parameters", options->parameters, "YAML with a section of parameters for each node")
       ->check(CLI::ExistingFile);
   CLI::Option* tool =
-      app->add_option("--tool", options->tool, "tool YAML: the tool is tracked, and its blade cuts")
+      app->add_option("--tool", options->tool,
+                      "tool YAML: the tool is tracked, and its blade cuts the bodies that it meets")
           ->check(CLI::ExistingFile);
   app->add_option("--journal", options->journal, "bag with cuts to repeat, instead of a tool")
       ->check(CLI::ExistingFile)
       ->excludes(tool);
   addCameraOptions(app, &options->camera);
-  app->add_option("--namespace", options->topic_namespace, "namespace of the output topics")
+  addAllowOutside(app, &options->scope);
+}
+
+void declareOutput(CLI::App* app, ReplayOptions* options) {
+  app->add_option("--output", options->output, "bag to write")->required();
+  app->add_option("--namespace", options->topic_namespace, "namespace of the output topics of one body")
       ->capture_default_str();
   app->add_option(
       "--output-frame", options->output_frame,
@@ -48,22 +57,18 @@ void declare(CLI::App* app, ReplayOptions* options) {
   app->add_flag("--placed", options->placed,
                 "take the object's initial_pose as it is, without a search: shows how the tracker judges a "
                 "pose or mesh");
-  addAllowOutside(app, &options->scope);
   app->callback([options] { requireOtherFile(options->input, options->output); });
 }
 
-int countOf(const ReplaySummary& summary, TrackingState state) {
+int countOf(const BodySummary& summary, TrackingState state) {
   const auto found = summary.frames_by_state.find(state);
   return found == summary.frames_by_state.end() ? 0 : found->second;
 }
 
-void printFrames(const ReplaySummary& summary) {
-  fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", summary.read.frames,
-             summary.states, summary.read.without_depth, summary.read.unusable + summary.failed,
-             summary.skipped);
-  const UnpairedImages& unpaired = summary.read.unpaired;
+void printLeftOut(const BagFramesReport& read) {
+  const UnpairedImages& unpaired = read.unpaired;
   const std::pair<int, const char*> kinds[] = {
-      {summary.read.undecoded, "compressed images that cannot be decoded"},
+      {read.undecoded, "compressed images that cannot be decoded"},
       {unpaired.unstamped, "images without a stamp"},
       {unpaired.outliers, "images with an odd stamp, far from those before and after"},
       {unpaired.colors_repeated, "colour images with the stamp of the image before"},
@@ -74,23 +79,38 @@ void printFrames(const ReplaySummary& summary) {
       {unpaired.depths_alone, "depth images without a colour image"}};
   for (const auto& [images, kind] : kinds)
     if (images > 0) fmt::print("left out: {} {}\n", images, kind);
+}
+
+void printStates(const BodySummary& body) {
   fmt::print("tracking {}, degraded {}, lost {}, recovering {}, initializing {}\n",
-             countOf(summary, TrackingState::kTracking), countOf(summary, TrackingState::kDegraded),
-             countOf(summary, TrackingState::kLost), countOf(summary, TrackingState::kRecovering),
-             countOf(summary, TrackingState::kInitializing));
-  for (const auto& [state, reason] : summary.reasons) {
+             countOf(body, TrackingState::kTracking), countOf(body, TrackingState::kDegraded),
+             countOf(body, TrackingState::kLost), countOf(body, TrackingState::kRecovering),
+             countOf(body, TrackingState::kInitializing));
+  for (const auto& [state, reason] : body.reasons) {
     if (!reason.empty()) fmt::print("{}: {}\n", nameOf(state), reason);
   }
 }
 
+void print(const BagFramesReport& read, const BodySummary& body, bool with_cuts) {
+  fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", read.frames,
+             body.states, read.without_depth, read.unusable + body.failed, body.skipped);
+  printLeftOut(read);
+  printStates(body);
+  if (!read.last_error.empty()) fmt::print("last unusable frame: {}\n", read.last_error);
+  if (with_cuts)
+    fmt::print("frames with the tool {}, cuts {}, pieces {}\n", body.tools, body.cuts, body.pieces);
+  if (!body.tool_missed.empty()) fmt::print("no usable pose of the tool in {}\n", body.tool_missed);
+}
+
 void print(const ReplaySummary& summary, const ReplayOptions& options) {
-  printFrames(summary);
-  if (!summary.read.last_error.empty()) fmt::print("last unusable frame: {}\n", summary.read.last_error);
-  if (!options.tool.empty() || !options.journal.empty())
-    fmt::print("frames with the tool {}, cuts {}, pieces {}\n", summary.tools, summary.cuts, summary.pieces);
-  if (!summary.tool_missed.empty()) fmt::print("no usable pose of the tool in {}\n", summary.tool_missed);
-  fmt::print(stderr, "replay: {:.1f} ms a frame; wrote {}\n",
-             summary.milliseconds / std::max(1, summary.read.frames), options.output);
+  double milliseconds = 0.0;
+  for (const BodySummary& body : summary.bodies) {
+    if (summary.bodies.size() > 1) fmt::print("{}\n", body.topic_namespace);
+    print(summary.read, body, !options.tool.empty() || !options.journal.empty());
+    milliseconds += body.milliseconds;
+  }
+  fmt::print(stderr, "replay: {:.1f} ms a frame; wrote {}\n", milliseconds / std::max(1, summary.read.frames),
+             options.output);
 }
 
 }  // namespace
@@ -99,7 +119,8 @@ int runReplay(int argc, char** argv) {
   ReplayOptions options;
   CLI::App app(
       "Runs the graph's cores over a bag without a ROS master: every frame, in order, as fast as possible");
-  declare(&app, &options);
+  declareInput(&app, &options);
+  declareOutput(&app, &options);
   return runTool(&app, argc, argv, [&] {
     // One thread: the order of floating-point sums must not depend on scheduling.
     cv::setNumThreads(1);
