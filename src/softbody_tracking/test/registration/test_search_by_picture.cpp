@@ -51,7 +51,11 @@ TEST(SearchByPicture, TakesNoOtherBodyOfTheSameShape) {
       rich(cells(1, 1.0)), other(cells(2, 1.0));
   EXPECT_TRUE(searched(red.frameAt(pose), makeSearchMeshes(red.box.surface, red.picture)).found);
   EXPECT_FALSE(searched(green.frameAt(pose), makeSearchMeshes(red.box.surface, red.picture)).found);
-  EXPECT_FALSE(searched(other.frameAt(pose), makeSearchMeshes(rich.box.surface, rich.picture)).found);
+  const SearchOutcome refused =
+      searched(other.frameAt(pose), makeSearchMeshes(rich.box.surface, rich.picture));
+  EXPECT_FALSE(refused.found);
+  EXPECT_GT(refused.refused.by_picture, 0);
+  EXPECT_LE(refused.refused.by_depth + refused.refused.by_picture, refused.refused.tried);
 }
 
 /// A body without a picture must stand free.
@@ -70,7 +74,9 @@ TEST(SearchByPicture, TakesNoneOfTwoTwins) {
   const PaintedBox rich(cells(1, 1.0));
   const RgbdFrame frame = nearest(rich.frameAt(Eigen::Translation3d(-0.12, 0.0, 0.0) * boxPose()),
                                   rich.frameAt(Eigen::Translation3d(0.13, 0.0, 0.05) * boxPose()));
-  EXPECT_FALSE(searched(frame, makeSearchMeshes(rich.box.surface, rich.picture)).found);
+  const SearchOutcome outcome = searched(frame, makeSearchMeshes(rich.box.surface, rich.picture));
+  EXPECT_FALSE(outcome.found);
+  EXPECT_TRUE(outcome.refused.several);
 }
 
 /// Within the uncertainty of a rough pose the picture decides; beyond it does not count.

@@ -49,6 +49,16 @@ TEST(SearchReport, ABodyThatIsFoundNeedsNoExplanation) {
   EXPECT_NEAR(report.part_distance_m, 0.5, 0.05);
 }
 
+TEST(SearchReport, SaysWhatThePosesOfABodyWithAPictureLack) {
+  SearchReport report = searchIn(bent(12.0));
+  report.fitting_scale.reset();
+  report.pictured = 31, report.refused_by_depth = 20, report.refused_by_picture = 7;
+  expectWords(report,
+              {"Of 31 poses, 20 do not agree", "at 7 something else than the object's picture", "4 neither"});
+  report.several_places = true;
+  expectWords(report, {"several places"});
+}
+
 TEST(SearchReport, AMeshInAnotherUnitIsRecognised) {
   for (const double factor : {1000.0, 100.0, 1.0 / 0.0254, 0.001}) {
     const SearchReport report = searchIn(boxFrame(), scaledBox(factor));

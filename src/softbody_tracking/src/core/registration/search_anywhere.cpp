@@ -101,8 +101,11 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
     if (expected) return deviationFrom(*expected, pose, center).shift <= kDoubt;
     return standsFree(frame, meshes.full, pose, config);
   };
+  const std::size_t tried = found.size();
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
+  const std::size_t plausible = found.size();
   const PicturedPlace pictured = judgeByPicture(frame, meshes, config, &found);
+  const RefusedPoses refused{tried, tried - plausible, plausible - found.size(), pictured.several};
   for (bool first = true; !found.empty();) {
     const auto others = groupAlike(meshes, &found);
     AlikePoses alike;
@@ -110,7 +113,7 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
       alike.poses.push_back(pose->pose);
       alike.shares.push_back(feature_share(pose->pose));
     }
-    if (const std::optional<FoundPose> body = confirmedPose(alike)) return {body, outcome.best};
+    if (const std::optional<FoundPose> body = confirmedPose(alike)) return {body, outcome.best, {}};
     if (first && !pictured.several && !pictured.body && is_likely(alike.poses.front())) {
       outcome.found = undecidedPose(alike);
       first = false;
@@ -118,6 +121,7 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
     found.erase(found.begin(), others);
   }
   if (pictured.body && feature_share(pictured.body->pose) < 0.0) outcome.found = pictured.body;
+  if (!outcome.found && !meshes.picture.empty()) outcome.refused = refused;
   return outcome;
 }
 

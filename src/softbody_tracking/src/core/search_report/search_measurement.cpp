@@ -183,9 +183,14 @@ std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colo
 }  // namespace
 
 SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
-                           const std::optional<PoseHypothesis>& best, const std::optional<RoughPose>& rough,
+                           const SearchOutcome& outcome, const std::optional<RoughPose>& rough,
                            const RegistrationConfig& config) {
+  const std::optional<PoseHypothesis>& best = outcome.best;
   SearchReport report;
+  report.pictured = outcome.refused.tried;
+  report.refused_by_depth = outcome.refused.by_depth;
+  report.refused_by_picture = outcome.refused.by_picture;
+  report.several_places = outcome.refused.several;
   report.body_m = sidesOf(meshes.full.vertices);
   report.largest_cost = config.max_cost;
   report.least_confined = kLeastConfinement;

@@ -10,10 +10,10 @@
 
 namespace softbody {
 
-/// Measures a search. @param best its best pose; empty: no pose was tried. `fitting_scale` stays empty, and
-/// `found` false. @param rough the body was sought only near this pose; empty: anywhere.
+/// Measures a search. @param outcome with its best pose; empty: no pose was tried. `fitting_scale` stays
+/// empty, and `found` false. @param rough the body was sought only near this pose; empty: anywhere.
 SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
-                           const std::optional<PoseHypothesis>& best, const std::optional<RoughPose>& rough,
+                           const SearchOutcome& outcome, const std::optional<RoughPose>& rough,
                            const RegistrationConfig& config);
 
 /// The factor by which the mesh would have to be scaled so that the body is found: the size of the part at

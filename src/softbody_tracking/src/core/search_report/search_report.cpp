@@ -23,7 +23,7 @@ SearchReport searchForBody(const RgbdFrame& frame, const TriangleMesh& rest_surf
   const auto unknown = [](const Eigen::Isometry3d&) { return -1.0; };  // no features are known
   if (anywhere) outcome = searchAnywhere(frame, colors, meshes, guesses, unknown, config);
   if (anywhere) rough.reset();
-  SearchReport report = measureSearch(frame, colors, meshes, outcome.best, rough, config);
+  SearchReport report = measureSearch(frame, colors, meshes, outcome, rough, config);
   report.found = outcome.found.has_value();
   if (outcome.found) {
     report.pose = outcome.found->pose;

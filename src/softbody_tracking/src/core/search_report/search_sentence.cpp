@@ -116,6 +116,20 @@ std::string elsewhere(const SearchReport& report) {
       candidateText(report), 1e3 * report.shift_m, report.turn_rad * 180.0 / M_PI, poseAdvice(report));
 }
 
+/// What the candidates of a body with a picture lack.
+std::string notSeen(const SearchReport& report) {
+  if (report.several_places)
+    return fmt::format("the object's picture is seen in several places. Take the other one away, {}",
+                       kPoseAdvice);
+  const std::size_t others = report.pictured - report.refused_by_depth - report.refused_by_picture;
+  return fmt::format(
+      "{}. Of {} poses, {} do not agree with the depth or may slide; at {} something else than the object's "
+      "picture is seen; {} neither show it clearly nor stand free. Move the body into the view, or away from "
+      "what hides it, compare the picture with the body, {}",
+      candidateText(report), report.pictured, report.refused_by_depth, report.refused_by_picture, others,
+      kPoseAdvice);
+}
+
 }  // namespace
 
 std::string whyNotFound(const SearchReport& report) {
@@ -123,6 +137,7 @@ std::string whyNotFound(const SearchReport& report) {
   const auto why = [&] {
     if (report.depth_share == 0.0) return noDepth(report);
     if (report.fitting_scale) return otherScale(report);
+    if (report.several_places || report.refused_by_picture > 0) return notSeen(report);
     if (report.cost >= 1.0 || (!report.near_pose && !report.part_fits && report.cost > report.largest_cost))
       return noCandidate(report);
     if (report.cost > report.largest_cost) return highCost(report);

@@ -110,7 +110,7 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   const auto scope = timer->stage("Model Registration", true);
   const SearchMeshes& meshes = meshesOf(observer->model().surface());
   const SearchOutcome outcome = searchByDepthNow(frame, meshes, observer);
-  if (!outcome.found) report_ = explained(frame, meshes, *observer, outcome.best);
+  if (!outcome.found) report_ = explained(frame, meshes, *observer, outcome);
   return outcome.found;
 }
 
@@ -142,14 +142,13 @@ RoughPose Relocalizer::lastPose(const RgbdFrame& frame) const {
 /// Another scale of the mesh is tried only at the start, because it does not change later; and less and less
 /// often, because it takes as long as a few searches.
 SearchReport Relocalizer::explained(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                    const FrameObserver& observer,
-                                    const std::optional<PoseHypothesis>& best) {
+                                    const FrameObserver& observer, const SearchOutcome& outcome) {
   std::optional<RoughPose> rough;
   if (!searchesAnywhere()) rough = roughPose(frame.T_fixed_camera.inverse() * *given_, config_);
-  SearchReport report = measureSearch(frame, observer.colors(), meshes, best, rough, config_);
+  SearchReport report = measureSearch(frame, observer.colors(), meshes, outcome, rough, config_);
   if (recovering_) return report;
   if (scale_search_.isDue(frame.stamp)) {
-    fitting_scale_ = fittingScale(frame, observer.colors(), meshes, best, config_);
+    fitting_scale_ = fittingScale(frame, observer.colors(), meshes, outcome.best, config_);
     scale_search_.failed();
   }
   report.fitting_scale = fitting_scale_;

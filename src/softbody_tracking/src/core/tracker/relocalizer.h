@@ -73,7 +73,7 @@ class Relocalizer {
   RoughPose lastPose(const RgbdFrame& frame) const;
   bool searchesAnywhere() const { return recovering_ || !given_ || config_.anywhere; }
   SearchReport explained(const RgbdFrame& frame, const SearchMeshes& meshes, const FrameObserver& observer,
-                         const std::optional<PoseHypothesis>& best);
+                         const SearchOutcome& outcome);
   const SearchMeshes& meshesOf(const MeshTopology& surface);
   void startTracking(const RgbdFrame& frame, const FoundPose& found);
 
