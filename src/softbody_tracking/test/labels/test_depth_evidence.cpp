@@ -32,7 +32,7 @@ TEST(DepthEvidence, ToleratesMoreFarAway) {
 
 TEST(DepthEvidence, KnowsTheDepthOfTheSurroundings) {
   DepthCounts table;
-  for (int i = 0; i < 100000; ++i) table.add(-0.01 + 1e-7 * i);
+  for (int i = 0; i < 100000; ++i) table.add(-0.01 + 1e-7 * i, 1.0f);
   DepthEvidence evidence;
   const double before = evidence.logOdds(-0.005, 0.5), farther = evidence.logOdds(0.05, 0.5);
   evidence.compare(table);

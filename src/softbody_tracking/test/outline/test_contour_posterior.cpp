@@ -9,8 +9,11 @@
 namespace softbody {
 namespace {
 
-constexpr int kReach = 16;     // [px] each way
-constexpr double kSure = 3.0;  // log odds of a pixel that shows clearly what it is
+constexpr int kReach = 16;          // [px] each way
+constexpr double kSure = 3.0;       // log odds of a pixel that shows clearly what it is
+constexpr double kPredicted = 1.0;  // variance of the prediction [px^2]
+
+ContourPosterior posterior(const std::vector<LinePixel>& line) { return contourPosterior(line, kPredicted); }
 
 /// A line whose pixels are the body up to an end. The pixel at the end is blended by its covered share.
 /// @param offset of the pixels' centres from whole distances [px].
@@ -26,33 +29,33 @@ std::vector<LinePixel> lineWithEndAt(double end, double log_odds = kSure, double
 
 TEST(ContourPosterior, FindsAStepBetweenThePixels) {
   for (double end = -8.0; end <= 8.0; end += 0.1) {
-    const ContourPosterior found = contourPosterior(lineWithEndAt(end));
+    const ContourPosterior found = posterior(lineWithEndAt(end));
     EXPECT_FALSE(found.beyond);
-    EXPECT_NEAR(found.mean, end, 0.1);
-    EXPECT_LT(found.variance, 2.0);
+    EXPECT_NEAR(found.end.mean, end, 0.1);
+    EXPECT_LT(found.end.variance, 2.0);
   }
 }
 
 /// Pixels far from the end of the body say nothing about where exactly it is.
 TEST(ContourPosterior, MovesWithTheLine) {
-  const ContourPosterior at_zero = contourPosterior(lineWithEndAt(0.0));
+  const ContourPosterior at_zero = posterior(lineWithEndAt(0.0));
   for (const double shift : {-5.3, -0.25, 0.4, 3.7}) {
-    const ContourPosterior moved = contourPosterior(lineWithEndAt(shift, kSure, shift));
-    EXPECT_NEAR(moved.mean, at_zero.mean + shift, 1e-3);
-    EXPECT_NEAR(moved.variance, at_zero.variance, 1e-3);
+    const ContourPosterior moved = posterior(lineWithEndAt(shift, kSure, shift));
+    EXPECT_NEAR(moved.end.mean, at_zero.end.mean + shift, 1e-3);
+    EXPECT_NEAR(moved.end.variance, at_zero.end.variance, 1e-3);
   }
 }
 
 /// The log odds are constant up to a pixel before the end, where they are zero. Half of them is independent.
 TEST(ContourPosterior, DoubtGrowsWithDistanceAndWithWhatThePixelsKnow) {
-  EXPECT_NEAR(contourPosterior(lineWithEndAt(0.0)).doubt, 0.0, 0.1);
+  EXPECT_NEAR(posterior(lineWithEndAt(0.0)).doubt, 0.0, 0.1);
   for (const double log_odds : {0.5, 1.0, 3.0}) {
     for (const double end : {-9.0, -4.0, 4.0, 9.0}) {
       const double ratio = 0.5 * log_odds * (std::abs(end) - 0.5);
-      EXPECT_NEAR(contourPosterior(lineWithEndAt(end, log_odds)).doubt, std::sqrt(2.0 * ratio), 1e-6);
+      EXPECT_NEAR(posterior(lineWithEndAt(end, log_odds)).doubt, std::sqrt(2.0 * ratio), 1e-6);
     }
   }
-  EXPECT_EQ(contourPosterior(lineWithEndAt(0.0, 0.0)).doubt, 0.0);
+  EXPECT_EQ(posterior(lineWithEndAt(0.0, 0.0)).doubt, 0.0);
 }
 
 TEST(ContourPosterior, BothSidesCountEqually) {
@@ -63,9 +66,9 @@ TEST(ContourPosterior, BothSidesCountEqually) {
     for (LinePixel& pixel : line) pixel.log_odds += noise(random);
     for (auto pixel = line.rbegin(); pixel != line.rend(); ++pixel)
       mirrored.push_back({-pixel->distance, -pixel->log_odds});
-    const ContourPosterior found = contourPosterior(line), other = contourPosterior(mirrored);
-    EXPECT_NEAR(found.mean, -other.mean, 1e-9);
-    EXPECT_NEAR(found.variance, other.variance, 1e-9);
+    const ContourPosterior found = posterior(line), other = posterior(mirrored);
+    EXPECT_NEAR(found.end.mean, -other.end.mean, 1e-9);
+    EXPECT_NEAR(found.end.variance, other.end.variance, 1e-9);
     EXPECT_EQ(found.beyond, other.beyond);
   }
 }
@@ -73,7 +76,7 @@ TEST(ContourPosterior, BothSidesCountEqually) {
 TEST(ContourPosterior, WeakerEvidenceGivesALargerVariance) {
   double last = 0.0;
   for (const double log_odds : {3.0, 1.0, 0.5, 0.2}) {
-    const double variance = contourPosterior(lineWithEndAt(0.3, log_odds)).variance;
+    const double variance = posterior(lineWithEndAt(0.3, log_odds)).end.variance;
     EXPECT_GT(variance, last);
     last = variance;
   }
@@ -81,9 +84,9 @@ TEST(ContourPosterior, WeakerEvidenceGivesALargerVariance) {
 
 /// Without evidence every end on the line is equally probable.
 TEST(ContourPosterior, NoEvidenceGivesTheVarianceOfTheWholeLine) {
-  const ContourPosterior found = contourPosterior(lineWithEndAt(0.0, 0.0));
-  EXPECT_NEAR(found.mean, 0.0, 1e-9);
-  EXPECT_NEAR(found.variance, 4.0 * kReach * kReach / 12.0, 2.0);
+  const ContourPosterior found = posterior(lineWithEndAt(0.0, 0.0));
+  EXPECT_NEAR(found.end.mean, 0.0, 1e-9);
+  EXPECT_NEAR(found.end.variance, 4.0 * kReach * kReach / 12.0, 2.0);
 }
 
 /// On average over many noisy lines the mean is right, and its error is about as large as the variance says.
@@ -104,10 +107,10 @@ TEST(ContourPosterior, TheErrorIsAsLargeAsTheVarianceSays) {
       if (k % 2 == static_cast<std::size_t>(i) % 2) shared = noise(random);
       line[k].log_odds += shared;
     }
-    const ContourPosterior found = contourPosterior(line);
-    sum += found.mean - truth;
-    squares += (found.mean - truth) * (found.mean - truth);
-    variance += found.variance;
+    const ContourPosterior found = posterior(line);
+    sum += found.end.mean - truth;
+    squares += (found.end.mean - truth) * (found.end.mean - truth);
+    variance += found.end.variance;
   }
   EXPECT_NEAR(sum / kLines, 0.0, 0.15);
   EXPECT_GT(variance / squares, 0.5);
@@ -115,9 +118,47 @@ TEST(ContourPosterior, TheErrorIsAsLargeAsTheVarianceSays) {
 }
 
 TEST(ContourPosterior, AnEndOutsideOfTheLineIsBeyond) {
-  EXPECT_TRUE(contourPosterior(lineWithEndAt(2.0 * kReach)).beyond) << "the body everywhere";
-  EXPECT_TRUE(contourPosterior(lineWithEndAt(-2.0 * kReach)).beyond) << "the body nowhere";
-  EXPECT_FALSE(contourPosterior(lineWithEndAt(kReach - 4.0)).beyond);
+  EXPECT_TRUE(posterior(lineWithEndAt(2.0 * kReach)).beyond) << "the body everywhere";
+  EXPECT_TRUE(posterior(lineWithEndAt(-2.0 * kReach)).beyond) << "the body nowhere";
+  EXPECT_FALSE(posterior(lineWithEndAt(kReach - 4.0)).beyond);
+}
+
+/// Log odds that fall linearly make the likelihood of the end a normal distribution. The prediction then does
+/// not matter for what the line adds.
+TEST(ContourPosterior, ANormalLikelihoodIsAddedAsItIs) {
+  for (const double mean : {-1.5, 0.0, 0.8}) {
+    for (const double variance : {0.5, 2.0, 6.0}) {
+      std::vector<LinePixel> line;
+      for (int step = -kReach; step <= kReach; ++step)
+        line.push_back({1.0 * step, -2.0 * (step - mean) / variance});
+      for (const double predicted : {0.5, 2.0, 8.0}) {
+        const ContourEnd added = contourPosterior(line, predicted).added;
+        EXPECT_NEAR(added.mean, mean, 0.02);
+        EXPECT_NEAR(added.variance, variance + 1.0 / 12.0, 0.1);
+      }
+    }
+  }
+}
+
+TEST(ContourPosterior, ALineThatSaysNothingAddsNothing) {
+  for (const double predicted : {0.5, 4.0, 100.0})
+    EXPECT_TRUE(std::isinf(contourPosterior(lineWithEndAt(0.0, 0.0), predicted).added.variance));
+}
+
+/// The body ends at -10, something like it follows from -9 to 1: the end near the prediction counts.
+TEST(ContourPosterior, OfTwoEndsTheOneNearThePredictionIsAdded) {
+  std::vector<LinePixel> line = lineWithEndAt(1.0);
+  for (LinePixel& pixel : line)
+    if (std::abs(pixel.distance + 9.0) < 2.0) pixel.log_odds = -2.0 * kSure;
+  const ContourPosterior found = posterior(line);
+  EXPECT_NEAR(found.together, 1.0, 0.3);
+  EXPECT_NEAR(found.added.mean, 1.0, 0.5);
+  EXPECT_GT(found.end.variance, 4.0 * found.added.variance);
+}
+
+TEST(ContourPosterior, ThePredictionIsAsUncertainAsSuddenMotions) {
+  EXPECT_GT(predictionVariance(0.0), 0.0);
+  for (const double error : {0.5, 2.0, 10.0}) EXPECT_GT(predictionVariance(error), error * error);
 }
 
 }  // namespace

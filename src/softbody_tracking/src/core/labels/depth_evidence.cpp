@@ -35,10 +35,10 @@ double densityAround(double difference, double scale, double elsewhere) {
 
 }  // namespace
 
-void DepthCounts::add(double scaled) {
+void DepthCounts::add(double scaled, float weight) {
   const auto bin = static_cast<int>(std::floor(scaled / kWidth)) + kBins / 2;
-  all += 1.0f;
-  if (bin >= 0 && bin < kBins) pixels[static_cast<std::size_t>(bin)] += 1.0f;
+  all += weight;
+  if (bin >= 0 && bin < kBins) pixels[static_cast<std::size_t>(bin)] += weight;
 }
 
 void DepthCounts::blend(const DepthCounts& newest, float share) {

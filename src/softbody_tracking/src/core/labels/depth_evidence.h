@@ -23,7 +23,7 @@ struct DepthCounts {
   float all = 0.0f;  ///< also those outside of all bins
 
   /// @param scaled difference, see DepthEvidence::scaled().
-  void add(double scaled);
+  void add(double scaled, float weight);
   /// Takes a share of the newest counts.
   void blend(const DepthCounts& newest, float share);
 };

@@ -35,6 +35,7 @@ cv::Mat1f meanOnBody(const cv::Mat1f& log_odds, const cv::Mat1f& rendered) {
 Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const SurfaceSamples& samples,
                 const RegionColors& colors, const LabelMemory& last, double reach_m, double error_m) {
   Labels labels;
+  labels.error_m = error_m;
   if (samples.samples.empty()) return labels;
   const cv::Size image = frame.depth.size();
   const int margin_px = cvRound(kMargin * frame.camera.fx);

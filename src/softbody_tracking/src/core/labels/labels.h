@@ -19,7 +19,8 @@ struct Labels {
   cv::Mat1f log_odds;  ///< of the body against everything else, for each pixel of the region
   cv::Mat1f
       predicted;  ///< depth of the body at each pixel of the region, beside it that of the nearest part [m]
-  LabelMemory memory;  ///< for the next frame
+  LabelMemory memory;    ///< for the next frame
+  double error_m = 0.0;  ///< usual error of the prediction [m]
 
   /// labels::kUnknown outside of the region.
   std::uint8_t at(const cv::Point& pixel) const {

@@ -38,7 +38,7 @@ class RegionColors {
   }
 
   /// Whether a colour occurs on the body; every colour does before learn().
-  bool belongs(const cv::Vec3b& color) const { return !learned() || body_[bin(color)] >= kRare; }
+  bool belongs(const cv::Vec3b& color) const { return !learned() || inside_[bin(color)] >= kRare; }
   /// Mask of the image's size: 255 inside the region at pixels whose colours belong to the body, else 0.
   cv::Mat1b mask(const cv::Mat3b& color, const cv::Rect& region) const;
 
@@ -58,7 +58,8 @@ class RegionColors {
   Counts countsIn(const RgbdFrame& frame, const RasterImage& rendered, const Labels& labels) const;
   void compareColors();
 
-  std::vector<float> body_;  ///< share of the pixels in each bin; empty before learn()
+  std::vector<float> body_;    ///< share of the body's pixels in each bin; empty before learn()
+  std::vector<float> inside_;  ///< the same, without pixels near the outline: they mix both sides
   std::array<std::vector<float>, Sectors::kCount> around_;  ///< pixels in each bin, mean of the last frames
   std::array<std::vector<float>, Sectors::kCount> log_odds_;
   std::array<DepthCounts, Sectors::kCount> depth_around_;  ///< likewise

@@ -20,7 +20,7 @@ ContourGrid contourGrid(const RasterImage& image) {
 }
 
 Association contourAssociation(const Pinhole& camera, const ContourSample& sample,
-                               const Eigen::Vector3d& predicted, const ContourPosterior& end,
+                               const Eigen::Vector3d& predicted, const ContourEnd& end,
                                const ContourWeight& weight, int spacing_px) {
   Association association;
   association.place = sample.place;

@@ -37,7 +37,7 @@ struct ContourWeight {
 /// Only the distance across the contour in the image counts. @param predicted position of the sample, camera
 /// frame [m]. @param end on the line across the sample. @param spacing_px between neighbouring samples.
 Association contourAssociation(const Pinhole& camera, const ContourSample& sample,
-                               const Eigen::Vector3d& predicted, const ContourPosterior& end,
+                               const Eigen::Vector3d& predicted, const ContourEnd& end,
                                const ContourWeight& weight, int spacing_px);
 
 }  // namespace softbody

@@ -20,7 +20,6 @@ constexpr double kGreyNoise = 2.0;   // smallest standard deviation of a channel
 constexpr double kTextureLength =
     8.0;                             // [px] neighbouring pixels of a texture are alike over about this length
 constexpr double kPixelLimit = 8.0;  // largest log odds of a pixel: any pixel may be wrong
-constexpr double kLargestCreaseDeviation = 2.0;  // [px] with more, the crease is nearly anywhere
 
 /// The line in the image where the planes of two sides meet: signed distance from a pixel, and the direction
 /// across.
@@ -177,9 +176,11 @@ std::vector<Association> associateCreases(const RgbdFrame& frame, const Predicte
       const double log_odds = ((to_behind.square() - to_before.square()) / (2.0 * variance)).sum();
       pixels.push_back({line.distances[i], std::clamp(log_odds, -kPixelLimit, kPixelLimit)});
     }
-    const ContourPosterior end = contourPosterior(pixels);
-    if (end.beyond || end.variance > kLargestCreaseDeviation * kLargestCreaseDeviation) continue;
-    associations.push_back(contourAssociation(frame.camera, crease, moved, end, weight, samples.spacing_px));
+    const double pixel_m = moved.z() / frame.camera.fx;
+    const ContourEnd added = contourPosterior(pixels, predictionVariance(labels.error_m / pixel_m)).added;
+    if (std::isinf(added.variance)) continue;
+    associations.push_back(
+        contourAssociation(frame.camera, crease, moved, added, weight, samples.spacing_px));
   }
   return associations;
 }

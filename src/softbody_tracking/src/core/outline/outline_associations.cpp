@@ -110,17 +110,18 @@ OutlineAssociations associateOutline(const RgbdFrame& frame, const RasterImage& 
     if (!(predicted.z() > 0.0)) continue;
     const std::vector<LinePixel>& pixels = line.across(sample, predicted);
     if (pixels.size() < kFewestPixels) continue;
-    const ContourPosterior end = contourPosterior(pixels);
+    const double error_px = labels.error_m * frame.camera.fx / predicted.z();
+    const ContourPosterior found_end = contourPosterior(pixels, predictionVariance(error_px));
+    const ContourEnd& end = found_end.end;
+    if (!std::isinf(found_end.added.variance) && !line.endsOtherPart(found_end.together))
+      found.associations.push_back(
+          contourAssociation(frame.camera, sample, predicted, found_end.added, weight, samples.spacing_px));
     if (end.variance > kLargestDeviation * kLargestDeviation) continue;
     deviations.push_back(std::sqrt(end.variance));
-    if (end.doubt > kContradiction) {
-      const double off_px = end.beyond ? std::copysign(line.reach(), end.mean) : end.mean;
-      apart_px += std::abs(off_px);
-      outside_px += off_px;
-    }
-    if (end.beyond || line.endsOtherPart(end.mean)) continue;
-    found.associations.push_back(
-        contourAssociation(frame.camera, sample, predicted, end, weight, samples.spacing_px));
+    if (found_end.doubt <= kContradiction) continue;
+    const double off_px = found_end.beyond ? std::copysign(line.reach(), end.mean) : end.mean;
+    apart_px += std::abs(off_px);
+    outside_px += off_px;
   }
   const double length_px = static_cast<double>(samples.samples.size()) * samples.spacing_px;
   if (deviations.empty()) return found;
