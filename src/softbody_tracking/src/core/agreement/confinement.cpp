@@ -18,12 +18,13 @@ constexpr int kDirections = 4;
 // A free body whose cost rises by a smaller share than in other directions is round about this one.
 constexpr double kRound = 0.1;
 
-/// The frame that would show the posed mesh alone, before nothing.
+/// The frame that would show the posed mesh alone, before nothing, with the gaps of this frame.
 RgbdFrame aloneIn(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   constexpr float kFar = 1e3f;  // [m]
   RgbdFrame alone = frame;
   alone.depth = PoseCost(frame, mesh, 1.0).render(pose).depth.clone();
   alone.depth.setTo(kFar, alone.depth <= 0.0f);
+  alone.depth.setTo(0.0f, frame.depth <= 0.0f);
   return alone;
 }
 

@@ -27,7 +27,6 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
   for (int v = pixels.y; v < pixels.br().y; ++v) {
     const float *rendered = rendered_[v], *measured = frame_.depth[v];
     const cv::Vec3b* color = frame_.color[v];
-    const std::uint8_t* covered = frame_.covered.empty() ? nullptr : frame_.covered[v];
     std::uint8_t* label = labels->label[v - first.y];
     float* log_odds = labels->log_odds[v - first.y];
     float* expected = labels->predicted[v - first.y];
@@ -37,10 +36,10 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
       const int sector = sectors_.of(u, v);
       expected[u - first.x] = predicted;
       log_odds[u - first.x] = static_cast<float>(clamped(colors_.logOdds(color[u], sector), kColorLimit));
+      const std::optional<std::uint8_t> known = knownLabel(u, v, predicted);
       label[u - first.x] =
-          covered != nullptr && covered[u] != 0
-              ? labels::kOccluder
-              : labelOf(measured[u], predicted, sector, &log_odds[u - first.x], counts ? &sums : &ignored);
+          known ? *known
+                : labelOf(measured[u], predicted, sector, &log_odds[u - first.x], counts ? &sums : &ignored);
     }
   }
   cell->shows_front = sums.front > 0 && 2 * sums.front >= sums.measured;
@@ -48,6 +47,15 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
   cell->difference = sums.difference / static_cast<float>(sums.front);
   cell->color_odds = sums.color_odds / static_cast<float>(sums.front);
   cell->body = 2 * sums.body >= sums.front ? 1.0f : 0.0f;
+}
+
+/// Where nothing is measured, a known surface that is behind the body is not what the pixel shows.
+std::optional<std::uint8_t> PixelLabeler::knownLabel(int u, int v, float predicted) const {
+  if (!frame_.covered.empty() && frame_.covered(v, u) != 0) return labels::kOccluder;
+  const float known = frame_.known.empty() ? 0.0f : frame_.known(v, u);
+  if (!(known > 0.0f)) return std::nullopt;
+  if (known - predicted <= kBehindSurface) return labels::kOccluder;
+  return frame_.depth(v, u) > 0.0f ? std::optional(labels::kBackground) : std::nullopt;
 }
 
 std::uint8_t PixelLabeler::labelOf(float measured, float predicted, int sector, float* log_odds,
@@ -69,8 +77,8 @@ void PixelLabeler::decide(const cv::Rect& pixels, const LabelCell& cell, const c
                           Labels* labels) const {
   for (int v = pixels.y; v < pixels.br().y; ++v) {
     for (int u = pixels.x; u < pixels.br().x; ++u) {
-      if (!frame_.covered.empty() && frame_.covered(v, u) != 0) continue;
       const cv::Point place = cv::Point(u, v) - labels->region.tl();
+      if (knownLabel(u, v, labels->predicted(place))) continue;
       std::uint8_t& label = labels->label(place);
       const float measured = frame_.depth(v, u), rendered = rendered_(v, u);
       if (measured <= 0.0f)

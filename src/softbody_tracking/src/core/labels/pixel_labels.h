@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "labels/label_cells.h"
 #include "labels/labels.h"
 #include "labels/region_colors.h"
@@ -36,6 +38,9 @@ class PixelLabeler {
   /// Label by depth and colour. @param predicted depth of the body there [m]. @param log_odds by colour, then
   /// by both.
   std::uint8_t labelOf(float measured, float predicted, int sector, float* log_odds, Sums* sums) const;
+
+  /// Label of a pixel that shows a known thing. @param predicted depth of the body there [m].
+  std::optional<std::uint8_t> knownLabel(int u, int v, float predicted) const;
 
   static std::uint8_t unmeasuredLabel(const LabelCell& cell, bool on_body, float log_odds);
   std::uint8_t frontLabel(const LabelCell& cell, float measured, float rendered, bool body_alone,

@@ -93,7 +93,9 @@ FoundFeatures FeatureFinder::addFromAfar(const SoughtFeatures& sought, const Pre
 std::vector<Keypoint> FeatureFinder::keypointsOfImage(const SoughtFeatures& sought) const {
   const cv::Mat3b& color = sought.frame.color;
   const cv::Rect image(cv::Point(), color.size());
-  return orb_.extract(color, sought.colors.mask(color, image), image);
+  cv::Mat1b mask = sought.colors.mask(color, image);
+  if (!sought.frame.known.empty()) mask.setTo(0, sought.frame.known > 0.0f);
+  return orb_.extract(color, mask, image);
 }
 
 std::vector<PointPair> FeatureFinder::recognize(const SoughtFeatures& sought, const SurfaceModel& model,

@@ -5,6 +5,7 @@
 #include "registration/search_anywhere.h"
 #include "registration/search_near_pose.h"
 #include "search_report/search_measurement.h"
+#include "softbody_tracking/known/known_surface.h"
 
 namespace softbody {
 namespace {
@@ -96,8 +97,8 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   if (!rough) return std::nullopt;
   feature_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
-  const PoseHypothesis found =
-      searchNearPose(frame, meshesOf(observer->model().surface()), roughPose(*rough, config_), config_);
+  const PoseHypothesis found = searchNearPose(withoutKnownDepth(frame), meshesOf(observer->model().surface()),
+                                              roughPose(*rough, config_), config_);
   // Features distinguish poses that are alike in depth.
   if (found.cost > kDeformedCost || !confirms(observer->featureShare(frame, found.pose))) return std::nullopt;
   return FoundPose{found.pose, 1};
@@ -109,8 +110,9 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   depth_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
   const SearchMeshes& meshes = meshesOf(observer->model().surface());
-  const SearchOutcome outcome = searchByDepthNow(frame, meshes, observer);
-  if (!outcome.found) report_ = explained(frame, meshes, *observer, outcome);
+  const RgbdFrame searched = withoutKnownDepth(frame);
+  const SearchOutcome outcome = searchByDepthNow(searched, meshes, observer);
+  if (!outcome.found) report_ = explained(searched, meshes, *observer, outcome);
   return outcome.found;
 }
 
