@@ -31,12 +31,13 @@ TEST(Parameters, MissingKeysGiveTheFallback) {
     EXPECT_EQ(parameters.text("a", "x"), "x");
     EXPECT_EQ(parameters.choice("a", "x", {"x", "y"}), "x");
     EXPECT_EQ(parameters.numbers("a", {1.0, 2.0}), (std::vector<double>{1.0, 2.0}));
+    EXPECT_TRUE(parameters.texts("a").empty());
     EXPECT_TRUE(parameters.unknown().empty());
   }
 }
 
 TEST(Parameters, GivenValuesAreRead) {
-  Parameters parameters = given("{n: 2, x: 0.25, on: false, word: y, list: [3, 4.5]}");
+  Parameters parameters = given("{n: 2, x: 0.25, on: false, word: y, list: [3, 4.5], words: [/a, b]}");
   EXPECT_EQ(parameters.number("n", 0.0, 0.0, 5.0), 2.0);
   EXPECT_EQ(parameters.number("x", 0.0, 0.0, 5.0), 0.25);
   EXPECT_EQ(parameters.integer("n", 0, 0, 5), 2);
@@ -44,6 +45,7 @@ TEST(Parameters, GivenValuesAreRead) {
   EXPECT_EQ(parameters.choice("word", "x", {"x", "y"}), "y");
   EXPECT_EQ(parameters.requiredText("word"), "y");
   EXPECT_EQ(parameters.numbers("list", {0.0, 0.0}), (std::vector<double>{3.0, 4.5}));
+  EXPECT_EQ(parameters.texts("words"), (std::vector<std::string>{"/a", "b"}));
 }
 
 TEST(Parameters, RangesIncludeTheirEnds) {
@@ -75,6 +77,9 @@ TEST(Parameters, WrongTypesAreRefused) {
   }
   for (const char* bad : {"x: [1]", "x: {a: 1}"}) {
     EXPECT_NE(failure(bad, [](Parameters& p) { p.text("x", ""); }), "") << bad;
+  }
+  for (const char* bad : {"x: word", "x: {a: 1}", "x: [a, '']"}) {
+    EXPECT_NE(failure(bad, [](Parameters& p) { p.texts("x"); }), "") << bad;
   }
   for (const char* bad : {"x: [1, 2, 3]", "x: [1, .nan]", "x: [1, word]"}) {
     EXPECT_NE(failure(bad, [](Parameters& p) { p.numbers("x", {1.0, 2.0}); }), "") << bad;

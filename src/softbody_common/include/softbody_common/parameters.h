@@ -29,6 +29,8 @@ class Parameters {
   /// A list of finite numbers, of the same length as the fallback.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback);
 
+  /// A list of texts, none of them empty; empty if the key is missing.
+  std::vector<std::string> texts(const std::string& key);
   /// A list of maps; empty if the key is missing.
   std::vector<Parameters> maps(const std::string& key);
 

@@ -86,6 +86,15 @@ std::vector<double> Parameters::numbers(const std::string& key, const std::vecto
   return values;
 }
 
+std::vector<std::string> Parameters::texts(const std::string& key) {
+  std::vector<std::string> values = get(key, std::vector<std::string>(), "a list of texts");
+  if (std::find(values.begin(), values.end(), "") != values.end()) {
+    throw std::invalid_argument(
+        fmt::format("parameter {}{} is [{}]; none may be empty", prefix_, key, fmt::join(values, ", ")));
+  }
+  return values;
+}
+
 std::vector<Parameters> Parameters::maps(const std::string& key) {
   std::vector<Parameters> maps;
   const auto values = get(key, YAML::Node(YAML::NodeType::Sequence), "a list of maps");

@@ -49,6 +49,9 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       stamps_(handle.resolveName(topics::kRgbRect)),
       body_(handle, &tracker_),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
+      known_(subscribeToKnown(
+          handle, parameters,
+          [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); })),
       set_pose_(private_handle.advertiseService("set_pose", &FeatureTrackerNode::onSetPose, this)),
       find_again_(private_handle.advertiseService("find_again", &FeatureTrackerNode::onFindAgain, this)),
       mask_synchronizer_(makeMaskSynchronizer(
@@ -116,7 +119,7 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
   RgbdFrame frame = received.frame;
   frame.T_fixed_camera = *T_fixed_camera;
   if (!mask.empty()) frame = masked(frame, mask);
-  frame = blade_.withoutBlade(frame);
+  frame = withKnown(blade_.withoutBlade(frame));
   const MeshState* state = body_.state(output_frame_.fixedHeader(header).frame_id);
   StageTimer timer;
   const TrackingResult result = tracker_.track(frame, state, &timer);
@@ -129,10 +132,19 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
   ROS_ERROR_STREAM_THROTTLE(5.0, "frame " << header.stamp << " cannot be tracked: " << error.what());
 }
 
+/// Marks the pixels that show other known surfaces.
+RgbdFrame FeatureTrackerNode::withKnown(RgbdFrame frame) {
+  std::vector<KnownSurface> surfaces;
+  for (const auto& subscriber : known_)
+    if (std::optional<KnownSurface> surface = subscriber->at(frame)) surfaces.push_back(std::move(*surface));
+  return withKnownSurfaces(std::move(frame), surfaces);
+}
+
 /// A bag has started again: states, blades and frames from the end of it are invalid.
 void FeatureTrackerNode::forgetPass() {
   body_.clearStates();
   blade_.clear();
+  for (const auto& subscriber : known_) subscriber->clearStates();
   if (mask_synchronizer_) mask_synchronizer_->forgetFrames();
 }
 

@@ -8,9 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "nodes/feature_tracker/blade_subscriber.h"
 #include "nodes/feature_tracker/body_subscriber.h"
+#include "nodes/feature_tracker/known_subscriber.h"
 #include "nodes/feature_tracker/mask_synchronizer.h"
 #include "nodes/feature_tracker/tracking_publisher.h"
 #include "nodes/frame_watchdog.h"
@@ -39,6 +41,7 @@ class FeatureTrackerNode {
   bool onFindAgain(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void track(const ReceivedFrame& received, const cv::Mat1b& mask);
+  RgbdFrame withKnown(RgbdFrame frame);
   void forgetPass();
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame, const TrackingResult& result);
@@ -59,6 +62,7 @@ class FeatureTrackerNode {
 
   BodySubscriber body_;
   BladeSubscriber blade_;
+  std::vector<std::unique_ptr<KnownSubscriber>> known_;
   ros::ServiceServer set_pose_;
   ros::ServiceServer find_again_;
   std::unique_ptr<MaskSynchronizer> mask_synchronizer_;  ///< nullptr: no masks are used
