@@ -1,5 +1,6 @@
 #include "nodes/output_frame.h"
 
+#include <fmt/format.h>
 #include <ros/ros.h>
 
 #include <stdexcept>
@@ -35,6 +36,25 @@ Eigen::Isometry3d OutputFrame::poseOf(const std_msgs::Header& header, const std:
   source.frame_id = source.frame_id.empty() ? camera_frame : frameName(source.frame_id, "a pose or blade");
   if (source.frame_id == fixed) return Eigen::Isometry3d::Identity();
   return lookUp(fixed, source, timeout_s);
+}
+
+Eigen::Isometry3d OutputFrame::newestPoseOf(const std_msgs::Header& header, const std::string& camera_frame,
+                                            double longest_age_s) const {
+  const std::string& fixed = name_.empty() ? camera_frame : name_;
+  std_msgs::Header source = header;
+  source.frame_id = withoutSlash(source.frame_id);
+  if (source.frame_id == fixed) return Eigen::Isometry3d::Identity();
+  if (!transforms_.buffer().canTransform(fixed, source.frame_id, source.stamp) &&
+      transforms_.buffer().canTransform(fixed, source.frame_id, ros::Time(0))) {
+    const ros::Time newest =
+        transforms_.buffer().lookupTransform(fixed, source.frame_id, ros::Time(0)).header.stamp;
+    const double age_s = (source.stamp - newest).toSec();
+    if (age_s > longest_age_s)
+      throw tf2::TransformException(
+          fmt::format("the newest transform of {} is {:.1f} s older than the image", source.frame_id, age_s));
+    if (age_s > 0.0) source.stamp = newest;
+  }
+  return lookUp(fixed, source, 0.0);
 }
 
 /// Waits in wall time: ROS time does not advance while a bag is paused.

@@ -41,6 +41,11 @@ class OutputFrame {
   Eigen::Isometry3d poseOf(const std_msgs::Header& header, const std::string& camera_frame,
                            double timeout_s) const;
 
+  /// The same without waiting. If tf does not know it yet, it is the newest one that tf knows.
+  /// @throw tf2::TransformException if this is more than longest_age_s older than the stamp.
+  Eigen::Isometry3d newestPoseOf(const std_msgs::Header& header, const std::string& camera_frame,
+                                 double longest_age_s) const;
+
  private:
   Eigen::Isometry3d lookUp(const std::string& target, const std_msgs::Header& source, double timeout_s) const;
 

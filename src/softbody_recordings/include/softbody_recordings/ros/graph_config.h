@@ -14,7 +14,8 @@ struct GraphConfig {
   CameraIngestConfig ingest;
   double depth_scale = 0.0;  ///< see CameraTopics
   PipelineConfig pipeline;
-  std::string output_frame;  ///< empty: the colour optical frame
+  double robot_deviation_m = 0.003;  ///< see robotSurfaces()
+  std::string output_frame;          ///< empty: the colour optical frame
 };
 
 /// Reads the parameters that a replay uses. Ignores parameters that concern only the live graph.

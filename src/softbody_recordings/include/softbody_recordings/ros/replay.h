@@ -12,9 +12,11 @@
 namespace softbody {
 
 struct ReplayOptions {
-  std::string input, output;              ///< bags
-  std::vector<std::string> objects;       ///< object YAMLs or folders, at least one
-  std::string parameters, tool, journal;  ///< YAML, tool YAML, bag with cuts; empty: none
+  std::string input, output;                ///< bags
+  std::vector<std::string> objects;         ///< object YAMLs or folders, at least one
+  std::string parameters, tool, journal;    ///< YAML, tool YAML, bag with cuts; empty: none
+  std::vector<std::string> known_surfaces;  ///< namespaces of surfaces that the input also has
+  std::string robot;                        ///< URDF; empty: no robot
   CameraTopics camera = "/camera";
   std::string topic_namespace =
       "/softbody";                          ///< of the output topics of one body; several: objectNamespaces()

@@ -23,24 +23,40 @@ BodyRun::BodyRun(const ObjectModel& model, const PipelineConfig& config, BodyRun
       output_frame_(std::move(setup.output_frame)),
       pipeline_(model, config, setup.tool),
       journal_(std::move(setup.journal)),
+      surface_(setup.topic_namespace + "/surface"),
       output_(output, setup.topic_namespace, setup.extras) {
   summary_.topic_namespace = setup.topic_namespace;
   output_.setOutputFrame(output_frame_);
   if (setup.tool) output_.setBlade(setup.tool->blade);
 }
 
-void BodyRun::process(const RgbdFrame& frame, const std_msgs::Header& header) {
+void BodyRun::process(const RgbdFrame& frame, const std_msgs::Header& header,
+                      const std::vector<KnownSurface>& others) {
   const auto start = std::chrono::steady_clock::now();
   FrameOutput result;
   try {
-    result = pipeline_.process(frame, journal_.takeUntil(frame.stamp));
+    result = pipeline_.process(withKnownSurfaces(frame, others), journal_.takeUntil(frame.stamp));
   } catch (const std::exception& error) {
     return leaveOut(header, error.what());
   }
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
   summary_.milliseconds += elapsed.count();
   countTool(result.tool, header, frame);
+  follow(result, frame);
   write(result, header);
+}
+
+std::optional<KnownSurface> BodyRun::surface(const RgbdFrame& frame) const {
+  if (frame.pass != pass_) return std::nullopt;
+  return surface_.at(frame.stamp, frame.T_fixed_camera.inverse());
+}
+
+void BodyRun::follow(const FrameOutput& result, const RgbdFrame& frame) {
+  if (std::exchange(pass_, frame.pass) != frame.pass) surface_.forgetStates();
+  if (!result.surface) return;
+  if (!surface_.hasTopology() || !result.cuts.empty() || result.surface->revision == 0)
+    surface_.setTopology(pipeline_.surfaceTopology());
+  surface_.addState(*result.surface);
 }
 
 void BodyRun::skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why) {

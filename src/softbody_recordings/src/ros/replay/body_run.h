@@ -5,11 +5,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/cut_journal.h"
 #include "softbody_recordings/ros/replay.h"
 #include "softbody_recordings/ros/result_bag.h"
+#include "softbody_tracking/known/followed_surface.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
 
 namespace softbody {
@@ -33,9 +35,13 @@ class BodyRun {
           Warn warn);
 
   /// Processes a frame and writes what comes out. A frame that fails leaves the others as they are.
-  void process(const RgbdFrame& frame, const std_msgs::Header& header);
+  /// @param others surfaces that are known to be in view, in the camera's frame.
+  void process(const RgbdFrame& frame, const std_msgs::Header& header,
+               const std::vector<KnownSurface>& others);
   /// The same for a frame without a camera pose: only the tool is tracked.
   void skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why);
+  /// Where the body is, from its states so far, for the other bodies; nothing while it is not tracked.
+  std::optional<KnownSurface> surface(const RgbdFrame& frame) const;
   /// The summary of all frames.
   const BodySummary& finish();
 
@@ -44,6 +50,7 @@ class BodyRun {
   const MeshTopology& surfaceTopology() const { return pipeline_.surfaceTopology(); }
 
  private:
+  void follow(const FrameOutput& result, const RgbdFrame& frame);
   void write(const FrameOutput& result, const std_msgs::Header& header);
   void leaveOut(const std_msgs::Header& header, const std::string& why);
   void countTool(const std::optional<ToolObservation>& tool, const std_msgs::Header& header,
@@ -57,6 +64,8 @@ class BodyRun {
   Pipeline pipeline_;
   CutJournal journal_;
   ToolDropoutMonitor tool_dropouts_;
+  FollowedSurface surface_;
+  int pass_ = 0;  ///< of the last frame
   ResultBag output_;
   BodySummary summary_;
   ros::Time topologies_written_;

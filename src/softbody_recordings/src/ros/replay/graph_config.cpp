@@ -69,9 +69,11 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
       });
   config.pipeline.tracker =
       readSection(file, "feature_tracker",
-                  {{"body_frame", "object", "allow_outside", "mask_timeout_s", "tf_timeout_s"}, {"use_mask"}},
+                  {{"body_frame", "object", "allow_outside", "mask_timeout_s", "tf_timeout_s"},
+                   {"known_surfaces", "robot", "use_mask"}},
                   warnings, [&config](Parameters& parameters) {
                     config.output_frame = parameters.text("output_frame", "");
+                    config.robot_deviation_m = readRobotDeviation(parameters);
                     return readTrackerConfig(parameters);
                   });
   readSection(file, "pose_marker", {{"frame"}, {}}, warnings, [](Parameters&) { return 0; });

@@ -8,6 +8,8 @@
 
 #include "ros/replay/body_run.h"
 #include "ros/replay/camera_poses.h"
+#include "ros/replay/recorded_robot.h"
+#include "ros/replay/recorded_surface.h"
 #include "softbody_common/images/object_texture.h"
 #include "softbody_common/topics.h"
 #include "softbody_recordings/ros/graph_config.h"
@@ -80,13 +82,18 @@ std::vector<CutJournal> loadJournals(const std::string& path, const std::vector<
 /// The bodies of a replay, frame by frame, and the bag with their results.
 class Replay {
  public:
-  Replay(const ReplayOptions& options, const GraphConfig& config, Warn warn)
+  /// @param input must outlive the replay.
+  Replay(const ReplayOptions& options, const rosbag::Bag& input, const GraphConfig& config, Warn warn)
       : warn_(std::move(warn)),
         camera_poses_(options.input,
                       options.output_frame.empty() ? config.output_frame : options.output_frame),
         output_(options.output) {
     addBodies(options, config.pipeline);
     warnAll(warn_, "", camera_poses_.warnings());
+    if (options.known_surfaces.empty() && options.robot.empty()) return;
+    transforms_.emplace(std::vector<std::string>{options.input});
+    for (const std::string& name : options.known_surfaces) surfaces_.emplace_back(input, name, warn_);
+    if (!options.robot.empty()) robot_.emplace(options.robot, config.robot_deviation_m, warn_);
   }
 
   void process(RgbdFrame frame, const std_msgs::Header& header) {
@@ -96,7 +103,15 @@ class Replay {
       for (auto& body : bodies_) body->skip(frame, header, error.what());
       return;
     }
-    for (auto& body : bodies_) body->process(frame, header);
+    const std::vector<KnownSurface> recorded = recordedSurfaces(frame, header);
+    std::vector<std::optional<KnownSurface>> before;  // of the bodies, by their states of the frame before
+    for (const auto& body : bodies_) before.push_back(body->surface(frame));
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      std::vector<KnownSurface> others = recorded;
+      for (std::size_t other = 0; other < before.size(); ++other)
+        if (other != k && before[other]) others.push_back(*before[other]);
+      bodies_[k]->process(frame, header, others);
+    }
   }
 
   std::vector<BodySummary> finish() {
@@ -109,6 +124,17 @@ class Replay {
   const std::vector<std::unique_ptr<BodyRun>>& bodies() const { return bodies_; }
 
  private:
+  /// Of the recording, in the camera's frame.
+  std::vector<KnownSurface> recordedSurfaces(const RgbdFrame& frame, const std_msgs::Header& header) {
+    std::vector<KnownSurface> known;
+    for (RecordedSurface& surface : surfaces_)
+      if (auto now = surface.at(frame, header.frame_id, *transforms_, warn_))
+        known.push_back(std::move(*now));
+    if (!robot_) return known;
+    for (KnownSurface& link : robot_->at(header, *transforms_)) known.push_back(std::move(link));
+    return known;
+  }
+
   void addBodies(const ReplayOptions& options, PipelineConfig config) {
     const bool alone = options.objects.size() == 1;
     const std::vector<std::string> namespaces =
@@ -133,6 +159,9 @@ class Replay {
 
   Warn warn_;
   CameraPoses camera_poses_;
+  std::optional<BagTransforms> transforms_;  ///< for known surfaces
+  std::vector<RecordedSurface> surfaces_;
+  std::optional<RecordedRobot> robot_;
   AtomicBag output_;
   std::vector<std::unique_ptr<BodyRun>> bodies_;
 };
@@ -168,7 +197,7 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
                      const std::function<void(double)>& progress) {
   const GraphConfig config = configOf(options, warn);
   const rosbag::Bag input = openBag(options.input);
-  Replay run(options, config, warn);
+  Replay run(options, input, config, warn);
   CameraIngest ingest(config.ingest);
   BagFramesConfig frames{options.camera, config.pairing};
   if (frames.camera.depth_scale == 0.0) frames.camera.depth_scale = config.depth_scale;

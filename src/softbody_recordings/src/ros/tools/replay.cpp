@@ -35,6 +35,12 @@ void declareInput(CLI::App* app, ReplayOptions* options) {
   app->add_option("--journal", options->journal, "bag with cuts to repeat, instead of a tool")
       ->check(CLI::ExistingFile)
       ->excludes(tool);
+  app->add_option("--known-surfaces", options->known_surfaces,
+                  "surfaces that the bag also has, e.g. /doll/surface: they are not taken for the body")
+      ->delimiter(',');
+  app->add_option("--robot", options->robot,
+                  "URDF: the robot's links, where the bag's tf says they are, are not taken for the body")
+      ->check(CLI::ExistingFile);
   addCameraOptions(app, &options->camera);
   addAllowOutside(app, &options->scope);
 }

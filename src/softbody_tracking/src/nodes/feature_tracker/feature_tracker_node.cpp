@@ -52,6 +52,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       known_(subscribeToKnown(
           handle, parameters,
           [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); })),
+      robot_(makeRobotLinks(handle, parameters, &output_frame_)),
       set_pose_(private_handle.advertiseService("set_pose", &FeatureTrackerNode::onSetPose, this)),
       find_again_(private_handle.advertiseService("find_again", &FeatureTrackerNode::onFindAgain, this)),
       mask_synchronizer_(makeMaskSynchronizer(
@@ -119,7 +120,7 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
   RgbdFrame frame = received.frame;
   frame.T_fixed_camera = *T_fixed_camera;
   if (!mask.empty()) frame = masked(frame, mask);
-  frame = withKnown(blade_.withoutBlade(frame));
+  frame = withKnown(blade_.withoutBlade(frame), header);
   const MeshState* state = body_.state(output_frame_.fixedHeader(header).frame_id);
   StageTimer timer;
   const TrackingResult result = tracker_.track(frame, state, &timer);
@@ -133,8 +134,9 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
 }
 
 /// Marks the pixels that show other known surfaces.
-RgbdFrame FeatureTrackerNode::withKnown(RgbdFrame frame) {
+RgbdFrame FeatureTrackerNode::withKnown(RgbdFrame frame, const std_msgs::Header& header) {
   std::vector<KnownSurface> surfaces;
+  if (robot_) surfaces = robot_->at(frame, header);
   for (const auto& subscriber : known_)
     if (std::optional<KnownSurface> surface = subscriber->at(frame)) surfaces.push_back(std::move(*surface));
   return withKnownSurfaces(std::move(frame), surfaces);

@@ -14,6 +14,7 @@
 #include "nodes/feature_tracker/body_subscriber.h"
 #include "nodes/feature_tracker/known_subscriber.h"
 #include "nodes/feature_tracker/mask_synchronizer.h"
+#include "nodes/feature_tracker/robot_links.h"
 #include "nodes/feature_tracker/tracking_publisher.h"
 #include "nodes/frame_watchdog.h"
 #include "nodes/node_diagnostics.h"
@@ -41,7 +42,7 @@ class FeatureTrackerNode {
   bool onFindAgain(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void track(const ReceivedFrame& received, const cv::Mat1b& mask);
-  RgbdFrame withKnown(RgbdFrame frame);
+  RgbdFrame withKnown(RgbdFrame frame, const std_msgs::Header& header);
   void forgetPass();
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame, const TrackingResult& result);
@@ -63,6 +64,7 @@ class FeatureTrackerNode {
   BodySubscriber body_;
   BladeSubscriber blade_;
   std::vector<std::unique_ptr<KnownSubscriber>> known_;
+  std::unique_ptr<RobotLinks> robot_;  ///< nullptr: no robot
   ros::ServiceServer set_pose_;
   ros::ServiceServer find_again_;
   std::unique_ptr<MaskSynchronizer> mask_synchronizer_;  ///< nullptr: no masks are used
