@@ -18,6 +18,8 @@ void writeLatched(const VirtualCamera& camera, std::uint32_t revision, const ros
                   AtomicBag* bag) {
   bag->writeLatched("/tf_static", stamp, opticalFrameTransform(stamp));
   bag->writeLatched(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(revision), stamp));
+  if (const auto second = camera.secondTopology())
+    bag->writeLatched(absolute(kSecondTopologyTopic), stamp, topologyMessage(*second, stamp, kSecondFrame));
 }
 
 void writeCuts(const VirtualCamera& camera, std::uint32_t last_revision, std::uint32_t revision,
@@ -34,6 +36,7 @@ void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, AtomicB
   bag->write(absolute(topics::kCameraColor), stamp, messages.color);
   bag->write(absolute(topics::kCameraDepth), stamp, messages.depth);
   bag->write(absolute(kTruthStateTopic), stamp, messages.truth);
+  if (messages.second) bag->write(absolute(kSecondStateTopic), stamp, messages.second);
   if (messages.gripper_closed) bag->write(absolute(kGripperTopic), stamp, messages.gripper_closed);
   if (messages.forces) bag->write(absolute(kTruthForcesTopic), stamp, messages.forces);
   if (messages.tool) bag->write(absolute(kTruthToolPoseTopic), stamp, messages.tool);

@@ -62,6 +62,22 @@ softbody_msgs::ForcesPtr forcesMessage(const std::vector<SurfaceForce>& forces,
   return message;
 }
 
+softbody_msgs::MeshStatePtr truthMessage(const MeshState& truth, const std_msgs::Header& header) {
+  auto message = boost::make_shared<softbody_msgs::MeshState>(toMessage(truth));
+  message->header = header;
+  message->observed = header.stamp;
+  return message;
+}
+
+/// The frames of a second body and of a robot.
+void addOthers(const Capture& capture, const std_msgs::Header& header,
+               std::vector<geometry_msgs::TransformStamped>* transforms) {
+  if (capture.T_camera_second)
+    transforms->push_back(transformMessage(header, kSecondFrame, *capture.T_camera_second));
+  for (const LinkPose& link : capture.links)
+    transforms->push_back(transformMessage(header, link.name.c_str(), link.T_camera_link));
+}
+
 std_msgs::Header headerOf(const ros::Time& stamp, const char* frame_id) {
   std_msgs::Header header;
   header.stamp = stamp;
@@ -85,11 +101,12 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
       cv_bridge::CvImage(header, sensor_msgs::image_encodings::MONO8, capture.labels).toImageMsg();
   messages.info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(camera));
   messages.info->header = header;
-  messages.truth = boost::make_shared<softbody_msgs::MeshState>(toMessage(capture.truth));
-  messages.truth->header = header;
-  if (capture.T_world_camera) messages.truth->header.frame_id = kWorldFrame;
-  messages.truth->observed = stamp;
+  std_msgs::Header truth_header = header;
+  if (capture.T_world_camera) truth_header.frame_id = kWorldFrame;
+  messages.truth = truthMessage(capture.truth, truth_header);
+  if (capture.second) messages.second = truthMessage(*capture.second, truth_header);
   messages.transforms.transforms.push_back(transformMessage(header, kBodyFrame, capture.T_camera_body));
+  addOthers(capture, header, &messages.transforms.transforms);
   if (capture.T_world_camera) {
     messages.transforms.transforms.push_back(transformMessage(
         headerOf(stamp, kWorldFrame), kCameraFrame, *capture.T_world_camera * opticalFrame().inverse()));
@@ -114,14 +131,16 @@ void setStamp(const ros::Time& stamp, CaptureMessages* messages) {
   for (geometry_msgs::TransformStamped& transform : messages->transforms.transforms) {
     transform.header.stamp = stamp;
   }
+  if (messages->second) messages->second->header.stamp = messages->second->observed = stamp;
   if (messages->forces) messages->forces->header.stamp = stamp;
   if (messages->tool) messages->tool->header.stamp = stamp;
 }
 
-softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp) {
+softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp,
+                                            const char* frame_id) {
   softbody_msgs::MeshTopology message = toMessage(topology);
   message.header.stamp = stamp;
-  message.header.frame_id = kBodyFrame;
+  message.header.frame_id = frame_id;
   return message;
 }
 

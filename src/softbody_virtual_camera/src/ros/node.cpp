@@ -10,6 +10,7 @@
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
+#include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/messages.h"
 #include "softbody_virtual_camera/textures/contrast.h"
 
@@ -64,6 +65,10 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
   depth_ = node.advertise<sensor_msgs::Image>(name(topics::kCameraDepth), kQueue);
   depth_info_ = node.advertise<sensor_msgs::CameraInfo>(name(topics::kCameraDepthInfo), kQueue);
   truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(name(kTruthTopologyTopic), 1, true);
+  if (camera_->scene().second) {
+    second_topology_ = node.advertise<softbody_msgs::MeshTopology>(name(kSecondTopologyTopic), 1, true);
+    second_state_ = node.advertise<softbody_msgs::MeshState>(name(kSecondStateTopic), kQueue);
+  }
   truth_labels_ = node.advertise<sensor_msgs::Image>(name(kTruthLabelsTopic), kQueue);
   truth_state_ = node.advertise<softbody_msgs::MeshState>(name(kTruthStateTopic), kQueue);
   if (camera_->scene().state(0.0).forces)
@@ -80,6 +85,8 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
 void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& stamp) {
   if (publish_camera_tf_) tf_static_.publish(opticalFrameTransform(stamp));
   truth_topology_.publish(topologyMessage(camera_->topology(revision), stamp));
+  if (const auto second = camera_->secondTopology())
+    second_topology_.publish(topologyMessage(*second, stamp, kSecondFrame));
 }
 
 bool VirtualCameraNode::hasSubscribers() const {
@@ -122,6 +129,7 @@ void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time
   tf_.publish(messages.transforms);
   if (messages.gripper_closed) gripper_.publish(messages.gripper_closed);
   if (messages.forces) truth_forces_.publish(messages.forces);
+  if (messages.second) second_state_.publish(messages.second);
   if (messages.tool) truth_tool_.publish(messages.tool);
   color_info_.publish(messages.info);
   depth_info_.publish(messages.info);

@@ -19,6 +19,12 @@ TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 /// A closed box around the origin, with the edge lengths `size` [m].
 TriangleMesh box(const Eigen::Vector3d& size);
 
+/// A closed cylinder along z with flat ends, around the origin.
+TriangleMesh cylinder(double radius_m, double length_m);
+
+/// A closed ball around the origin.
+TriangleMesh ball(double radius_m);
+
 /// All meshes in one, with vertices and triangles in their order.
 TriangleMesh merge(const std::vector<TriangleMesh>& meshes);
 

@@ -30,6 +30,9 @@ struct Capture {
   Eigen::Isometry3d T_camera_body;
   std::optional<Eigen::Isometry3d> T_camera_tool;
   std::optional<GripperState> gripper;
+  std::optional<MeshState> second;  ///< the truth of a second soft body
+  std::optional<Eigen::Isometry3d> T_camera_second;
+  std::vector<LinkPose> links;                      ///< of a robot
   std::optional<std::vector<SurfaceForce>> forces;  ///< in the frame of the truth
   std::optional<Eigen::Isometry3d> T_world_camera;  ///< only with a moving camera
 };
@@ -46,6 +49,8 @@ class VirtualCamera {
   const Scene& scene() const { return scene_; }
   /// The soft body at rest. Revision 0 has the vertices of the input mesh, in the same order.
   const MeshTopology& topology(std::uint32_t revision) const { return topologies_.at(revision); }
+  /// A second soft body at rest; none: the scene has no such body.
+  std::optional<MeshTopology> secondTopology() const;
 
  private:
   int imagesAt(double t, const SceneState& state) const;  ///< number of images for motion blur

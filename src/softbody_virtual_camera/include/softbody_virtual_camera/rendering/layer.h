@@ -41,9 +41,9 @@ class Layer {
   /// Draws colour and depth.
   Canvas draw(const Canvas& behind);
 
-  /// Visibility of the first `count` vertices in the last depth: 1 if a triangle at the vertex faces the
-  /// camera and nothing is in front of it, otherwise 0.
-  std::vector<float> visibility(int count, const cv::Mat1f& inverse_z) const;
+  /// Visibility of `count` vertices from `first` on, in the last depth: 1 if a triangle at the vertex faces
+  /// the camera and nothing is in front of it, otherwise 0.
+  std::vector<float> visibility(int first, int count, const cv::Mat1f& inverse_z) const;
 
  private:
   cv::v_float32x4 colorAt(const PixelWeights& triangle, float u, float v) const;

@@ -8,10 +8,11 @@
 namespace softbody::virtual_camera {
 
 struct RenderedImage {
-  cv::Mat3b color;                ///< r, g, b; anti-aliased by 2 by 2 samples per pixel
-  cv::Mat1f depth;                ///< z of the nearest surface at the pixel's centre [m]; 0: nothing
-  cv::Mat1b labels;               ///< of the same surface, as in pixel_labels.h; nothing: background
-  std::vector<float> visibility;  ///< per vertex of the first actor; 1: visible, 0: hidden
+  cv::Mat3b color;                       ///< r, g, b; anti-aliased by 2 by 2 samples per pixel
+  cv::Mat1f depth;                       ///< z of the nearest surface at the pixel's centre [m]; 0: nothing
+  cv::Mat1b labels;                      ///< of the same surface, as in pixel_labels.h; nothing: background
+  std::vector<float> visibility;         ///< per vertex of the first actor; 1: visible, 0: hidden
+  std::vector<float> second_visibility;  ///< the same of a second soft body; empty: there is none
 };
 
 /// Renders a scene on the CPU with baked textures, diffuse light and a z-buffer. Still actors are drawn once;
@@ -30,7 +31,7 @@ class Renderer {
   void place(const SceneState& state);
   void drawDepth(RenderedImage* image);
 
-  int body_vertices_ = 0;
+  int body_vertices_ = 0, second_first_ = 0, second_vertices_ = 0;
   std::vector<char> still_;  ///< per actor
   Layer moving_;
   Canvas backdrop_;  ///< the still actors

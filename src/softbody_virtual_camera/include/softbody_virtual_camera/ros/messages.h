@@ -26,6 +26,10 @@ constexpr char kGripperTopic[] = "gripper/closed";
 
 constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
+/// Of a second soft body, in scenes with one.
+constexpr char kSecondFrame[] = "ground_truth_second";
+constexpr char kSecondTopologyTopic[] = "ground_truth/second/surface/topology";
+constexpr char kSecondStateTopic[] = "ground_truth/second/surface/state";
 constexpr char kTruthLabelsTopic[] = "ground_truth/labels";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
 constexpr char kTruthForcesTopic[] = "ground_truth/forces";  ///< only in scenes that know them
@@ -37,8 +41,9 @@ struct CaptureMessages {
   sensor_msgs::CameraInfoPtr info;     ///< of both images
   sensor_msgs::ImagePtr labels;        ///< mono8, as in pixel_labels.h
   softbody_msgs::MeshStatePtr truth;   ///< in the optical frame, or in the world if the camera moves
-  /// optical frame -> ground_truth_softbody, gripper and its fingers; with a moving camera also
-  /// world -> camera_link
+  softbody_msgs::MeshStatePtr second;  ///< the truth of a second soft body; null without one
+  /// optical frame -> ground_truth_softbody, ground_truth_second, links of a robot, gripper and its fingers;
+  /// with a moving camera also world -> camera_link
   tf2_msgs::TFMessage transforms;
   geometry_msgs::PoseStampedPtr tool;  ///< of the tool in the optical frame; null without a tool
   softbody_msgs::ForcesPtr forces;     ///< in the frame of the truth; null if the scene does not know them
@@ -52,7 +57,8 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
 void setStamp(const ros::Time& stamp, CaptureMessages* messages);
 
 /// The truth's topology in the body's frame.
-softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp);
+softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const ros::Time& stamp,
+                                            const char* frame_id = kBodyFrame);
 
 /// The cut of an edit, in the body's frame. Each cut is a separate stroke.
 softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp);

@@ -33,8 +33,8 @@ class VirtualCameraNode {
   bool loop_ = true, publish_camera_tf_ = true;
   double hold_s_ = 2.0;
   std::optional<VirtualCamera> camera_;
-  ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, truth_labels_,
-      truth_forces_, truth_tool_, truth_cut_, gripper_, tf_, tf_static_;
+  ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, second_topology_,
+      second_state_, truth_labels_, truth_forces_, truth_tool_, truth_cut_, gripper_, tf_, tf_static_;
   ros::Timer timer_;
   int frame_ = 0;
   std::uint32_t revision_ = 0;

@@ -8,6 +8,7 @@
 
 #include "softbody_common/types.h"
 #include "softbody_virtual_camera/bodies/body.h"
+#include "softbody_virtual_camera/scenes/robot.h"
 #include "softbody_virtual_camera/textures/texture.h"
 
 namespace softbody::virtual_camera {
@@ -63,6 +64,8 @@ struct SceneState {
   std::optional<GripperState> gripper = std::nullopt;
   /// All on the body, besides its weight; none: not known.
   std::optional<std::vector<SurfaceForce>> forces = std::nullopt;
+  std::optional<Eigen::Isometry3d> T_camera_second = std::nullopt;  ///< frame of a second body
+  std::vector<LinkPose> links = {};                                 ///< of a robot
   Lights lights = {};
   double brightness = 1.0;  ///< factor of the colour image: the lamp's power
   std::optional<Eigen::Isometry3d> T_world_camera = std::nullopt;  ///< only with a moving camera
@@ -82,28 +85,15 @@ struct Scene {
   double duration_s = 0.0;  ///< of one run; the motion continues after it
   std::vector<Actor> actors;
   double color_noise = 1.0;  ///< factor of the colour camera's noise: its gain in low light
-  std::size_t hands =
-      0;  ///< number of hands, fingers and grippers, the last actors; a tool is not one of them
-  std::vector<Edit> edits;  ///< from revision 1 on; each is one stroke of the blade
+  std::size_t hands = 0;     ///< number of the last actors: hands, grippers and other things, but not a tool
+  std::optional<std::size_t> second;  ///< the actor that is a second soft body with a truth of its own
+  Robot robot;                        ///< empty: none
+  std::vector<Edit> edits;            ///< from revision 1 on; each is one stroke of the blade
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< at the start; z is up
   std::function<SceneState(double t)> state;                         ///< t in seconds from the start
 };
 
-/// The same scene without hands, so that nothing hides the body.
+/// The same scene without hands and other things, so that nothing hides the body.
 Scene withoutHands(Scene scene);
-
-/// The names of all scenes.
-std::vector<std::string> sceneNames();
-
-/// The shipped object of a scene: "doll" if the name starts with "doll_", otherwise "sponge".
-std::string objectOf(const std::string& scene);
-
-/// @param body from 50 mm to 2 m long. The scene is scaled and turned to fit the body's longest axis.
-/// @param seed of the textures. @param tool_file YAML, only for scenes with a tool. @param texture of the
-/// body.
-/// @throw std::invalid_argument with the known names if the scene or the texture is unknown, or if the body
-/// does not fit.
-Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed,
-                const std::string& tool_file = "", const std::string& texture = "rich");
 
 }  // namespace softbody::virtual_camera

@@ -71,6 +71,28 @@ TriangleMesh capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return mesh;
 }
 
+TriangleMesh cylinder(double radius_m, double length_m) {
+  constexpr int kCorners = 48;
+  TriangleMesh mesh{Points(2 * kCorners + 2, 3), Triangles(4 * kCorners, 3)};
+  for (int k = 0; k < kCorners; ++k) {
+    const double angle = 2.0 * kPi * k / kCorners;
+    const int next = (k + 1) % kCorners;
+    mesh.vertices.row(k) << radius_m * std::cos(angle), radius_m * std::sin(angle), -0.5 * length_m;
+    mesh.vertices.row(kCorners + k) = mesh.vertices.row(k) + length_m * Eigen::RowVector3d::UnitZ();
+    mesh.triangles.row(4 * k) << k, next, kCorners + next;
+    mesh.triangles.row(4 * k + 1) << k, kCorners + next, kCorners + k;
+    mesh.triangles.row(4 * k + 2) << 2 * kCorners, next, k;
+    mesh.triangles.row(4 * k + 3) << 2 * kCorners + 1, kCorners + k, kCorners + next;
+  }
+  mesh.vertices.bottomRows(2) << 0.0, 0.0, -0.5 * length_m, 0.0, 0.0, 0.5 * length_m;
+  return mesh;
+}
+
+TriangleMesh ball(double radius_m) {
+  constexpr double kApart = 1e-6;  // [m]; a capsule has an axis
+  return capsule({0.0, 0.0, -kApart}, {0.0, 0.0, kApart}, radius_m);
+}
+
 TriangleMesh merge(const std::vector<TriangleMesh>& meshes) {
   TriangleMesh all{Points(0, 3), Triangles(0, 3)};
   for (const TriangleMesh& mesh : meshes) {

@@ -48,6 +48,8 @@ Scene orbited(const Scene& scene) {
     now.T_camera_body = T_camera_start * now.T_camera_body;
     if (now.T_camera_tool) now.T_camera_tool = T_camera_start * *now.T_camera_tool;
     if (now.forces) now.forces = transformed(T_camera_start, *now.forces);
+    if (now.T_camera_second) now.T_camera_second = T_camera_start * *now.T_camera_second;
+    for (LinkPose& link : now.links) link.T_camera_link = T_camera_start * link.T_camera_link;
     if (now.gripper) now.gripper = transformed(T_camera_start, *now.gripper);
     for (Eigen::Vector3d* to_light : {&now.lights.to_main, &now.lights.to_fill})
       *to_light = T_camera_start.linear() * *to_light;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "softbody_sim/object/object_description.h"
 #include "softbody_virtual_camera/bodies/body.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
+#include "softbody_virtual_camera/catalog/make_scene.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -38,7 +40,10 @@ VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* war
   Warnings ignored;
   const Body body = bodyOf(setup, warnings ? warnings : &ignored);
   const std::string tool = setup.tool.empty() ? setup.config_folder + "/knife.yaml" : setup.tool;
-  const Scene scene = makeScene(setup.scene, body, setup.seed, tool, setup.texture);
+  std::optional<Body> second;
+  if (const std::string object = secondObjectOf(setup.scene); !object.empty())
+    second = readBody(setup.config_folder + "/" + object + ".obj", 1.0, warnings ? warnings : &ignored);
+  const Scene scene = makeScene(setup.scene, body, setup.seed, tool, setup.texture, second);
   const Scene shown = setup.hands ? scene : withoutHands(scene);
   return VirtualCamera(withCameraMotion(setup.camera_motion, shown), d435(setup.width, setup.height),
                        setup.noise, setup.seed);

@@ -37,6 +37,15 @@ double largestMotion(const Pinhole& camera, const SceneState& from, const SceneS
   return largest;
 }
 
+/// The exact shape of an actor, in the frame of the truth.
+MeshState truthOf(const SceneState& state, std::size_t actor, const std::vector<float>& visibility) {
+  const Points& vertices = state.vertices.at(actor);
+  MeshState truth;
+  truth.vertices = state.T_world_camera ? transformed(*state.T_world_camera, vertices) : vertices;
+  truth.confidence = visibility;
+  return truth;
+}
+
 ColorNoiseOptions amplified(ColorNoiseOptions noise, double factor) {
   noise.std_dark *= factor;
   noise.std_bright *= factor;
@@ -98,10 +107,11 @@ Capture VirtualCamera::capture(int frame, double t) {
   depth_noise_.apply(frame, camera_.fx, &image_.depth);
   capture.depth_mm = toMillimetres(image_.depth);
   capture.labels = image_.labels.clone();
+  capture.truth = truthOf(state, 0, image_.visibility);
   capture.truth.revision = state.revision;
-  capture.truth.vertices =
-      state.T_world_camera ? transformed(*state.T_world_camera, state.vertices.at(0)) : state.vertices.at(0);
-  capture.truth.confidence = image_.visibility;
+  if (scene_.second) capture.second = truthOf(state, *scene_.second, image_.second_visibility);
+  capture.T_camera_second = state.T_camera_second;
+  capture.links = state.links;
   capture.T_camera_body = state.T_camera_body;
   capture.T_camera_tool = state.T_camera_tool;
   capture.gripper = state.gripper;
@@ -110,6 +120,12 @@ Capture VirtualCamera::capture(int frame, double t) {
     capture.forces = transformed(*state.T_world_camera, *state.forces);
   capture.T_world_camera = state.T_world_camera;
   return capture;
+}
+
+std::optional<MeshTopology> VirtualCamera::secondTopology() const {
+  if (!scene_.second) return std::nullopt;
+  const Actor& second = scene_.actors.at(*scene_.second);
+  return topologyOf({second.rest, second.skin});
 }
 
 int VirtualCamera::imagesAt(double t, const SceneState& state) const {

@@ -127,15 +127,16 @@ Canvas Layer::draw(const Canvas& behind) {
   return canvas;
 }
 
-std::vector<float> Layer::visibility(int count, const cv::Mat1f& inverse_z) const {
+std::vector<float> Layer::visibility(int first, int count, const cv::Mat1f& inverse_z) const {
   std::vector<char> faces_camera(static_cast<std::size_t>(vertices_.rows()), 0);
   for (const PixelWeights& t : projection_.weights) {
     for (int k = 0; k < 3; ++k) faces_camera[static_cast<std::size_t>(triangles_(t.index, k))] |= t.front;
   }
   std::vector<float> visibility(static_cast<std::size_t>(count), 0.0f);
   for (std::size_t i = 0; i < visibility.size(); ++i) {
-    const Eigen::Vector3d& p = projection_.vertices[i];
-    const bool seen = faces_camera[i] && camera_.contains(p.x(), p.y()) &&
+    const std::size_t vertex = static_cast<std::size_t>(first) + i;
+    const Eigen::Vector3d& p = projection_.vertices[vertex];
+    const bool seen = faces_camera[vertex] && camera_.contains(p.x(), p.y()) &&
                       1.0 / p.z() <= farthestAround(inverse_z, p.x(), p.y()) + kVisibilityMargin;
     visibility[i] = seen ? 1.0f : 0.0f;
   }

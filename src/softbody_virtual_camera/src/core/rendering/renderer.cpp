@@ -31,6 +31,9 @@ Renderer::Renderer(const Scene& scene, const Pinhole& camera)
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     // The body is always in the moving layer, because its visibility is needed.
     still_.push_back(i > 0 && scene.actors[i].still);
+    if (scene.second == i) second_vertices_ = static_cast<int>(scene.actors[i].rest.vertices.rows());
+    if (!still_.back() && i < scene.second.value_or(0))
+      second_first_ += static_cast<int>(scene.actors[i].rest.vertices.rows());
     (still_.back() ? still : moving_).add(scene.actors[i], labelOf(scene, i));
   }
   const SceneState start = scene.state(0.0);
@@ -68,7 +71,8 @@ void Renderer::drawDepth(RenderedImage* image) {
     });
   }
   moving_.drawLabels(&image->labels);
-  image->visibility = moving_.visibility(body_vertices_, inverse_z_);
+  image->visibility = moving_.visibility(0, body_vertices_, inverse_z_);
+  image->second_visibility = moving_.visibility(second_first_, second_vertices_, inverse_z_);
 }
 
 }  // namespace softbody::virtual_camera

@@ -66,6 +66,7 @@ Scene toBodyFrame(const BodyFrame& frame, const Scene& played, const TriangleMes
     return texture(frame.turn * (p - frame.center) / frame.scale);
   };
   scene.T_camera_world.translation() *= frame.scale;
+  scene.robot = scaled(played.robot, frame.scale);
   for (Edit& edit : scene.edits) {
     edit.topology.rest_vertices = ownRows(frame, edit.topology.rest_vertices);
     edit.patch.vertices = ownRows(frame, edit.patch.vertices);
@@ -76,6 +77,8 @@ Scene toBodyFrame(const BodyFrame& frame, const Scene& played, const TriangleMes
     for (Points& vertices : now.vertices) vertices *= frame.scale;
     if (now.T_camera_tool) now.T_camera_tool->translation() *= frame.scale;
     if (now.forces) now.forces = scaled(*now.forces, frame.scale);
+    if (now.T_camera_second) now.T_camera_second->translation() *= frame.scale;
+    for (LinkPose& link : now.links) link.T_camera_link.translation() *= frame.scale;
     if (now.gripper) now.gripper = scaled(*now.gripper, frame.scale);
     return now;
   };

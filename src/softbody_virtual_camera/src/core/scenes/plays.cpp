@@ -109,18 +109,23 @@ Play pushPlay(const Stage& stage) { return stretching("push", stage, -kLargestSt
 
 Play pullPlay(const Stage& stage) { return stretching("pull", stage, kLargestStrain); }
 
-Play tablePlay(const Stage& stage) {
+BodyDeformation shorteningOnTable(const Stage& stage, const Plateau& when, double poisson_ratio) {
   constexpr double kStrain = -0.2;
   const Points& rest = stage.actors.at(0).rest.vertices;
   const double half_length = rest.col(0).cwiseAbs().maxCoeff(), bottom = rest.col(2).minCoeff();
-  Play play;
-  play.name = "table";
-  play.deformation = [=](const Eigen::Vector3d& place, double t) -> Eigen::Vector3d {
-    const double strain = kStrain * plateau(t, {0.5, 1.5, 1.0});
+  return [=](const Eigen::Vector3d& place, double t) -> Eigen::Vector3d {
+    const double strain = kStrain * plateau(t, when);
     const Eigen::Vector3d above(place.x(), place.y(), place.z() - bottom);
     // Both ends come nearer to the middle, which stays in the shadow.
-    return stretch(above, {strain, half_length}) + Eigen::Vector3d(-0.5 * strain * half_length, 0.0, bottom);
+    return stretch(above, {strain, half_length, poisson_ratio}) +
+           Eigen::Vector3d(-0.5 * strain * half_length, 0.0, bottom);
   };
+}
+
+Play tablePlay(const Stage& stage) {
+  Play play;
+  play.name = "table";
+  play.deformation = shorteningOnTable(stage, {0.5, 1.5, 1.0}, 0.2);
   return play;
 }
 

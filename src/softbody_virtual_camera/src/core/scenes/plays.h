@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/stage.h"
+#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 /// The motions of the scenes. They use only the body's rest mesh: x is its length, z points up.
 namespace softbody::virtual_camera {
@@ -18,5 +19,10 @@ Play farPlay(const Stage& stage);    ///< bends, then rests for 3 s
 Play dimPlay(const Stage& stage);    ///< bends in low light from a lamp that flickers
 Play tablePlay(const Stage& stage);  ///< on the table, becomes shorter by 10 %
 Play leavePlay(const Stage& stage);  ///< out of view to the left and back
+
+/// A body on the table becomes shorter by 10 % while the plateau lasts. @param poisson_ratio 0: its sides
+/// stay.
+using BodyDeformation = std::function<Eigen::Vector3d(const Eigen::Vector3d& rest, double t)>;
+BodyDeformation shorteningOnTable(const Stage& stage, const Plateau& when, double poisson_ratio);
 
 }  // namespace softbody::virtual_camera

@@ -141,20 +141,9 @@ KeyStates pressedStates(const HexSolid& solid, const TriangleMesh& body, const P
 
 /// A disc with a rod for a handle; the origin is the middle of its flat side.
 TriangleMesh stampMesh(double radius) {
-  constexpr int kCorners = 48;
   constexpr double kThickness = 0.02, kRod = 0.008, kRodLength = 0.35;  // [m]
-  TriangleMesh disc{Points(2 * kCorners + 2, 3), Triangles(4 * kCorners, 3)};
-  for (int k = 0; k < kCorners; ++k) {
-    const double angle = kCircle * k / kCorners;
-    const int next = (k + 1) % kCorners;
-    disc.vertices.row(k) << radius * std::cos(angle), radius * std::sin(angle), 0.0;
-    disc.vertices.row(kCorners + k) = disc.vertices.row(k) + kThickness * Eigen::RowVector3d::UnitZ();
-    disc.triangles.row(4 * k) << k, next, kCorners + next;
-    disc.triangles.row(4 * k + 1) << k, kCorners + next, kCorners + k;
-    disc.triangles.row(4 * k + 2) << 2 * kCorners, next, k;
-    disc.triangles.row(4 * k + 3) << 2 * kCorners + 1, kCorners + k, kCorners + next;
-  }
-  disc.vertices.bottomRows(2) << 0.0, 0.0, 0.0, 0.0, 0.0, kThickness;
+  TriangleMesh disc = cylinder(radius, kThickness);
+  disc.vertices.col(2).array() += 0.5 * kThickness;
   return merge({disc, capsule({0.0, 0.0, kThickness}, {0.0, 0.0, kRodLength}, kRod)});
 }
 

@@ -66,6 +66,8 @@ Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Plac
                   {table, place.on_table ? withShadow(wood, body.rest, to_light) : wood, 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
   stage.elasticity = body.elasticity;
+  stage.contrast = contrast;
+  stage.seed = seed;
   stage.actors[0].skin = withContrast(body.skin, contrast);
   for (const std::size_t around : {1u, 2u})
     stage.actors[around].still = stage.actors[around].background = true;
@@ -77,6 +79,16 @@ Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Plac
   }
   return stage;
 }
+
+namespace {
+
+std::vector<LinkPose> named(const Robot& robot, const std::vector<Eigen::Isometry3d>& poses) {
+  std::vector<LinkPose> links;
+  for (std::size_t i = 0; i < poses.size(); ++i) links.push_back({robot.at(i).name, poses[i]});
+  return links;
+}
+
+}  // namespace
 
 Prop rigidProp(const Actor& actor, const std::function<Eigen::Isometry3d(double t)>& T_camera_prop) {
   return {actor, [=](double t) { return transformed(T_camera_prop(t), actor.rest.vertices); }};
@@ -91,6 +103,8 @@ Scene perform(const Stage& stage, const Play& play) {
   for (const Prop& prop : play.props) scene.actors.push_back(prop.actor);
   scene.hands = play.props.size();
   scene.color_noise = play.color_noise;
+  scene.robot = play.robot;
+  if (play.T_camera_second) scene.second = stage.actors.size();
   const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
   const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);
   scene.state = [=, rest = stage.actors.at(0).rest.vertices](double time) {
@@ -105,6 +119,8 @@ Scene perform(const Stage& stage, const Play& play) {
     if (play.brightness) state.brightness = play.brightness(t);
     state.T_camera_body = play.T_camera_body ? play.T_camera_body(t) : stage.T_camera_body;
     state.vertices = {transformed(state.T_camera_body, body), table, wall};
+    if (play.T_camera_second) state.T_camera_second = play.T_camera_second(t);
+    if (play.links) state.links = named(play.robot, play.links(t));
     if (play.forces) state.forces = transformed(state.T_camera_body, play.forces(t));
     for (const Prop& prop : play.props) {
       state.vertices.push_back(prop.vertices(t));

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,10 @@ struct Stage {
   Eigen::Isometry3d T_camera_world, T_camera_body;  ///< the body's frame at the start
   std::vector<Actor> actors;                        ///< body, table, wall
   Lights lights;
-  Elasticity elasticity;  ///< of the body
+  Elasticity elasticity;       ///< of the body
+  std::optional<Body> second;  ///< another body, for scenes with two
+  float contrast = 1.0f;       ///< of the bodies' textures
+  std::uint64_t seed = 0;      ///< of what the play chooses by chance
 };
 constexpr double kNear_m = 0.5;  ///< usual distance between camera and body
 /// @param contrast of the body's texture; a body of one colour has a second light, to show its shape.
@@ -45,6 +50,10 @@ struct Play {
   std::function<GripperState(double t)> gripper;  ///< empty: none
   std::function<double(double t)> brightness;     ///< of the colour image; empty: 1
   double color_noise = 1.0;                       ///< factor of the noise of colour
+  /// Pose of the second body, which is the first prop; empty: there is none.
+  std::function<Eigen::Isometry3d(double t)> T_camera_second;
+  Robot robot;  ///< its links are the first props; empty: none
+  std::function<std::vector<Eigen::Isometry3d>(double t)> links;  ///< their poses in the optical frame
 };
 Scene perform(const Stage& stage, const Play& play);
 

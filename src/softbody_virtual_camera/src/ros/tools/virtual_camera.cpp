@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
+#include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 #include "softbody_virtual_camera/ros/node.h"
 #include "softbody_virtual_camera/textures/contrast.h"
@@ -65,7 +67,7 @@ void declareImages(CLI::App* app, Arguments* arguments) {
       ->transform(CLI::CheckedTransformer(on_off));
   app->add_option("--without", arguments->without, "parts of the noise to switch off")
       ->check(CLI::IsMember(noiseParts()));
-  app->add_flag("!--no-hands", setup.hands, "hide the hands; the body moves as with them");
+  app->add_flag("!--no-hands", setup.hands, "no hands and other things; the body moves as with them");
   app->add_flag("--labels", arguments->labels, "also write the true label of each pixel");
   app->add_flag("--small", arguments->small, "compress with bz2: half the size, but slow");
   app->add_option("--duration", arguments->duration_s, "length [s]; default: that of the scene")
@@ -99,6 +101,11 @@ void write(const Arguments& arguments) {
            [&](int done) {
              if (done % 30 == 0) fmt::print(stderr, "frame {} of {}\n", done, frames);
            });
+  if (!camera.scene().robot.empty()) {
+    const std::string urdf = arguments.output + ".urdf";
+    replaceFile(urdf, urdfText(camera.scene().robot));
+    fmt::print(stderr, "{}: the robot of the scene\n", urdf);
+  }
   fmt::print(stderr, "{}: scene {}, {} frames\n", arguments.output, arguments.setup.scene, frames);
 }
 
