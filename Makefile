@@ -10,7 +10,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate figures paper validation sanitize soak error-table api tidy format
+.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate starts figures paper validation sanitize soak error-table api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -53,6 +53,9 @@ fuzz: build  ## give mutated files to every reader and mutated messages to every
 
 evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="bend cut": only these scenes, writes nothing
 	scripts/evaluate $(SCENES)
+
+starts: build  ## start tracking on 100 layouts of cluttered scenes; writes docs/starts.md
+	cd scripts && /usr/bin/python3 -m evaluation.measure_starts $(SCENES)
 
 figures: build  ## draw the paper's Figures 1 to 11 with our models, in docs/images
 	scripts/paper figures

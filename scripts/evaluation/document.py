@@ -4,8 +4,8 @@ import subprocess
 
 from evaluation.goals import goal_table
 from evaluation.summary import summary_table
-from evaluation.tables import (absences, accuracy, cuts, faults, forces, long_runs, moving_camera, noise, stage_times,
-                               toys, volumes)
+from evaluation.tables import (absences, accuracy, cluttered, cuts, faults, forces, long_runs, moving_camera, noise,
+                               stage_times, toys, volumes)
 from evaluation.world_tables import (CALIBRATION_PLOT, plain_bodies, plot_calibration, predicted_errors,
                                      textures, wrong_objects)
 from markdown_lines import paragraph
@@ -37,8 +37,8 @@ def document(root, reports):
              *paragraph("A part of the error comes from the volume (the tets) and its material. Tracking can hardly "
                         "remove this part: [what the volume allows](#what-the-volume-allows)."), "",
              *goal_table(reports)]
-    for part in (accuracy, plain_bodies, textures, noise, moving_camera, volumes, long_runs, absences, cuts, forces,
-                 faults, predicted_errors, wrong_objects, toys, stage_times):
+    for part in (accuracy, plain_bodies, textures, cluttered, noise, moving_camera, volumes, long_runs, absences, cuts,
+                 forces, faults, predicted_errors, wrong_objects, toys, stage_times):
         lines += part(reports)
     return "\n".join(lines).rstrip() + "\n"
 

@@ -11,6 +11,8 @@ OWN_COLOUR = ("touch", "squeeze")
 # Scenes that every texture is measured in, with both bodies.
 TEXTURED = tuple(body + scene for body in ("", "doll_") for scene in (*NOISE_FREE, "far", "fast", "table"))
 TEXTURES = ("weak", "plain")
+# Scenes with other things at the body from the first frame on, or that pass before it.
+CLUTTERED = ("neighbour", "twin", "stack", "clutter", "held", "two_bodies", "arm")
 FALSE_AFTER_S = 1.0
 WRONG_MM = 15.0  # a vertex this far off is not tracked
 STARTS = 20  # rough poses of each plain scene
@@ -78,6 +80,13 @@ def moving_times(reports):
     keys = ("vertex_error", "all", "mean_mm")
     return {name: get(moving, *keys) / get(reports[("scene", name)], *keys)
             for name, moving in of_kind(reports, "moving camera").items()}
+
+
+def cluttered_times(reports, scene, part="all"):
+    """Mean error with other things over that of the same motion without them; None if one was not measured."""
+    cluttered, alone = (get(reports.get((kind, scene)), "vertex_error", part, "mean_mm")
+                        for kind in ("cluttered", "uncluttered"))
+    return cluttered / alone if cluttered is not None and alone else None
 
 
 def fault_times(reports, scene, fault):

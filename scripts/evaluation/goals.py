@@ -1,8 +1,9 @@
 """The goals, and whether they are reached."""
 import math
 
-from evaluation.figures import (DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, fault_times, get,
-                                moving_times, number, tracking_share, worst, wrong_matches)
+from evaluation.figures import (CLUTTERED, DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS,
+                                cluttered_times, fault_times, get, moving_times, number, tracking_share, worst,
+                                wrong_matches)
 from evaluation.world_goals import world_goals
 from markdown_lines import table
 
@@ -81,6 +82,8 @@ def robustness_goals(values):
         (f"{FEW_FEATURES}: the same, worst of {faulty}", "<= 1.2", "times", values.fault(FEW_FEATURES)),
         (f"moving camera: error over that of a fixed camera, worst of {', '.join(MOVING)}", "<= 1.2", "times",
          worst(moving_times(values.reports).get(name) for name in MOVING)),
+        *((f"{scene}: error over that without the other things", "<= 1.2", "times",
+           cluttered_times(values.reports, scene)) for scene in CLUTTERED),
     ]
 
 

@@ -4,7 +4,8 @@ import pathlib
 import re
 import subprocess
 
-from evaluation.figures import DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS, wrong_matches
+from evaluation.figures import (CLUTTERED, DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS,
+                                wrong_matches)
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DEVEL = ROOT / "catkin_ws/devel"
@@ -30,7 +31,7 @@ FINE_CAGE = "300"  # vertices; the shipped sponge has the paper's 132
 HIDDEN = ("occlude", "doll_occlude", "touch", "doll_touch", "squeeze", "doll_squeeze")
 # Scenes with known forces. The tracker is told how well the stiffness is known, so that it says them in newtons.
 PRESSED, STIFFNESS_STD_PA = ("stamp", "doll_stamp"), 200
-FAR, FARTHER_M = ("far", "doll_far"), 0.4
+FARTHER_M = {"far": 0.4, "doll_far": 0.4, "two_bodies": 0.25}  # away from the camera than the rough poses say
 PARAMETERS = {FEW_FEATURES: "feature_tracker: {max_features: 50}\n"}
 
 
@@ -48,7 +49,9 @@ def tool(name, *arguments, package="softbody_bringup"):
 
 
 def all_scenes():
-    return re.search(r"--scene \S*?\{([^}]*)\}", tool("virtual_camera", "--help"))[1].split(",")
+    """Those of a body alone, or with what deforms it."""
+    scenes = re.search(r"--scene \S*?\{([^}]*)\}", tool("virtual_camera", "--help"))[1].split(",")
+    return [scene for scene in scenes if scene.removeprefix("doll_") not in CLUTTERED]
 
 
 def track(name, recording, config, *more):
@@ -97,10 +100,10 @@ def config_of(scene, name):
     if scene in PRESSED:
         return (changed(config, name, r"material: *{", f"material: {{youngs_modulus_std: {STIFFNESS_STD_PA}, "),
                 ("--allow-outside", "--forces"))
-    if scene not in FAR:
+    if scene not in FARTHER_M:
         return config, ()
     pose = pose_of(config)
-    return with_pose(config, name, [*pose[:2], pose[2] + FARTHER_M, *pose[3:]]), ("--allow-outside",)
+    return with_pose(config, name, [*pose[:2], pose[2] + FARTHER_M[scene], *pose[3:]]), ("--allow-outside",)
 
 
 def tool_of(scene):
@@ -128,6 +131,21 @@ def scene_run(kind, scene, *camera_arguments, replay_arguments=()):
     if kind == "scene" and scene in NOISE_FREE:
         reports.update(model_runs(scene, recording, config))
     recording.unlink()  # some 1.2 MB a frame
+    return reports
+
+
+def cluttered_run(scene):
+    """A scene with other things, and the same motion without them; both on the truth with them."""
+    name = f"cluttered_{scene}"
+    config, allowed = config_of(scene, name)
+    recording, alone = OUTPUT / f"{name}.bag", OUTPUT / f"{name}_alone.bag"
+    tool("virtual_camera", "--scene", scene, "--labels", "--output", recording)
+    tool("virtual_camera", "--scene", scene, "--no-hands", "--output", alone)
+    result = track(f"{name}_alone", alone, config, *allowed)
+    reports = {("cluttered", scene): measure(name, recording, config, "--truth", recording, more=allowed),
+               ("uncluttered", scene): json.loads(tool("evaluate", result, "--truth", recording, "--json"))}
+    recording.unlink()
+    alone.unlink()
     return reports
 
 
@@ -210,7 +228,9 @@ def runs(scenes):
     """Every piece of work as (words, function), the longest first."""
     work = [(f"{scene}, {LONG_S} s", lambda scene=scene: scene_run("long", scene, "--duration", LONG_S))
             for scene in LONG if scene in scenes]
-    work += [(scene, lambda scene=scene: scene_run("scene", scene)) for scene in scenes if scene != "toys"]
+    work += [(scene, lambda scene=scene: scene_run("scene", scene)) for scene in scenes
+             if scene not in ("toys", *CLUTTERED)]
+    work += [(scene, lambda scene=scene: cluttered_run(scene)) for scene in CLUTTERED if scene in scenes]
     work += [(f"{scene}, noise off", lambda scene=scene: scene_run("noise off", scene, "--noise", "off"))
              for scene in NOISE_FREE if scene in scenes]
     work += [(f"{scene}, moving camera",

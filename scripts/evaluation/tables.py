@@ -1,8 +1,8 @@
 """The tables of docs/evaluation.md, each with its introduction, from the reports of `evaluate`."""
 import statistics
 
-from evaluation.figures import (PAPER_TIMES_MS, WRONG_MATCH_SEEDS, fault_times, frames, get, moving_times, number,
-                                of_kind, percent, tracking_share, worst)
+from evaluation.figures import (PAPER_TIMES_MS, WRONG_MATCH_SEEDS, cluttered_times, fault_times, frames, get,
+                                moving_times, number, of_kind, percent, tracking_share, worst)
 from markdown_lines import paragraph, table
 
 
@@ -51,6 +51,21 @@ def volumes(reports):
                    "300 tets, as in the paper. All errors are in mm.",
                    ["scene", "p95, tracked", "exact", "finer, tracked", "finer, exact", "mean hidden, tracked", "exact",
                     "finer, tracked", "finer, exact"], rows)
+
+
+def cluttered(reports):
+    rows = []
+    for name, report in of_kind(reports, "cluttered").items():
+        alone = reports[("uncluttered", name)]
+        cells = [cell for part in ("all", "visible") for cell in
+                 (*(number(get(each, "vertex_error", part, "mean_mm")) for each in (alone, report)),
+                  number(cluttered_times(reports, name, part)))]
+        rows.append([name, frames(report), percent(tracking_share(report), 0), *cells])
+    return section("Other things",
+                   "Scenes in which other things touch or hide the body, compared with the same motion without them. "
+                   "The visible vertices are those that the other things do not hide, in both. All errors are in mm.",
+                   ["scene", "frames answered", "tracking [%]", "mean, alone", "with other things", "ratio",
+                    "mean visible, alone", "with other things", "ratio"], rows)
 
 
 def moving_camera(reports):
