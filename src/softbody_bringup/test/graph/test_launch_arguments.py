@@ -18,9 +18,13 @@ GRAPHS = {"track.launch": ["object:=/o.yaml"], "rig.launch": ["object:=/o.yaml"]
           "playback.launch": ["object:=/o.yaml", "bag:=/b.bag"]}
 
 
-def roslaunch(directory, *arguments):
+def run_roslaunch(directory, *arguments, check=True):
     return subprocess.run(["roslaunch", *arguments], cwd=directory, env={**os.environ, "PWD": directory},
-                          capture_output=True, text=True, timeout=120, check=True).stdout
+                          capture_output=True, text=True, timeout=120, check=check)
+
+
+def roslaunch(directory, *arguments):
+    return run_roslaunch(directory, *arguments).stdout
 
 
 class LaunchArguments(unittest.TestCase):
@@ -64,6 +68,36 @@ class LaunchArguments(unittest.TestCase):
             for node in ("feature_tracker", "tool_tracker"):
                 self.assertEqual(parameters.get(f"/softbody/{node}/output_frame"), "base_link", (launch, node))
         self.assertFalse([key for key in self.parameters("track.launch") if key.endswith("output_frame")])
+
+    def test_known_surfaces(self):
+        for launch in ("track.launch", "rig.launch", "playback.launch"):
+            parameters = self.parameters(launch, "known_surfaces:=[/doll/surface, /cup/surface]")
+            self.assertEqual(parameters["/softbody/feature_tracker/known_surfaces"], ["/doll/surface", "/cup/surface"], launch)
+            self.assertEqual(self.parameters(launch)["/softbody/feature_tracker/known_surfaces"], [], launch)
+
+    def test_each_of_several_bodies_knows_the_others(self):
+        parameters = yaml.safe_load(roslaunch(self.directory.name, "--dump-params", "softbody_bringup", "bodies.launch",
+                                              "objects:=a/object.yaml b/a.yaml 2-c.yaml"))
+        files = {"a": "a/object.yaml", "a_2": "b/a.yaml", "body_2_c": "2-c.yaml"}
+        for name, file in files.items():
+            self.assertEqual(parameters[f"/{name}/simulator/object"], f"{self.directory.name}/{file}")
+            self.assertEqual(parameters[f"/{name}/feature_tracker/known_surfaces"],
+                             [f"/{other}/surface" for other in files if other != name])
+        self.assertEqual([key for key in parameters if "camera_ingest" in key and not key.startswith("/a/")], [])
+
+    def test_names_of_several_bodies(self):
+        for arguments, words in ((["objects:=a.yaml a.yaml a_2.yaml"], "two objects have one name"),
+                                 (["objects:=a.yaml b.yaml", "names:=left"], "names must be as many as objects"),
+                                 (["objects:=a.yaml b.yaml", "names:=le-ft right"], "begins with a letter")):
+            result = run_roslaunch(self.directory.name, "--dump-params", "softbody_bringup", "bodies.launch", *arguments,
+                                   check=False)
+            self.assertIn(words, result.stdout + result.stderr)
+            self.assertNotIn("/object: ", result.stdout, arguments)
+
+    def test_the_arguments_of_several_bodies_are_listed(self):
+        listed = roslaunch(self.directory.name, "--ros-args", "softbody_bringup", "bodies.launch")
+        self.assertIn("objects: object YAMLs", listed)
+        self.assertNotIn("undocumented", listed)
 
     def rviz(self, launch, *arguments):
         return roslaunch(self.directory.name, "--args", "/rviz", "softbody_bringup", launch, *GRAPHS[launch], "rviz:=true",

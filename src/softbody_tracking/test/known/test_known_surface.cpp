@@ -135,6 +135,15 @@ class LabelsOfKnown : public ::testing::Test {
 
 TEST_F(LabelsOfKnown, BeforeTheBodyItIsAnOccluder) { EXPECT_EQ(wrong(labels(0.595), labels::kOccluder), 0); }
 
+/// Depth agrees with both surfaces within the noise.
+TEST_F(LabelsOfKnown, ABodyThatLiesOnItIsTheBody) {
+  const Labels shown = labels(0.604);
+  const cv::Mat1b of_body = shownPixels(frame_, boxAt(at(0.0, 0.0, 0.6)))(shown.region);
+  const int all = cv::countNonZero(of_body),
+            wrong = cv::countNonZero(of_body & (shown.label != labels::kBody));
+  EXPECT_LT(wrong, 0.02 * all);
+}
+
 TEST_F(LabelsOfKnown, BehindTheBodyItIsBackground) { EXPECT_EQ(wrong(labels(0.65), labels::kBackground), 0); }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "fixtures/tracked_box.h"
+#include "softbody_tracking/known/known_surface.h"
 
 namespace softbody {
 namespace {
@@ -22,6 +23,27 @@ TEST(FindingTheBody, FindsABodyThatNobodyPointedOut) {
   for (Eigen::Index v = 0; v < found.rows(); ++v)
     EXPECT_LT((truth.rowwise() - found.row(v)).rowwise().norm().minCoeff(), 0.003);
   EXPECT_NE(result.status.reason.find("look alike"), std::string::npos) << result.status.reason;
+}
+
+/// What looks like the body is known to be another one; or a known plate hides all of it.
+TEST(FindingTheBody, DoesNotFindABodyThatAKnownSurfaceHides) {
+  BoxBody box = makeBox();
+  box.volume.initial_pose = boxPose();
+  const Points truth = transformed(box.volume.rest_vertices, boxPose());
+  Points plate = 2.0 * box.surface.rest_vertices;
+  plate.col(2).array() += 0.3;
+  for (const Points& known : {truth, plate}) {
+    RgbdFrame frame = renderFrame(box, truth, 1000);
+    frame.depth = cv::min(frame.depth, renderFrame(box, known, 1000).depth);
+    for (const bool given : {false, true}) {
+      box.volume.has_initial_pose = given;
+      BodyTracker tracker{TrackerConfig()};
+      tracker.setTopologies(box.volume, box.surface);
+      StageTimer timer;
+      const RgbdFrame marked = withKnownSurfaces(frame, {{"other", {known, box.surface.triangles}, 0.001}});
+      EXPECT_FALSE(tracker.track(marked, nullptr, &timer).has_targets) << "given " << given;
+    }
+  }
 }
 
 TEST(FindingTheBody, FindsABodyThatComesBackElsewhereAndTurned) {

@@ -22,9 +22,12 @@ class FollowedSurface {
   /// @throw std::invalid_argument if a triangle names a vertex that is not there; the last topology stays.
   void setTopology(const MeshTopology& topology);
 
+  /// @throw std::invalid_argument if the number of a state's vertices is not the topology's.
+  void requireFits(const MeshState& state) const;
+
   /// A state of another revision than the topology's waits for its topology.
   /// @param state `observed` is its stamp. States come in the order of their stamps.
-  /// @throw std::invalid_argument if the number of vertices is not the topology's; the last state stays.
+  /// @throw std::invalid_argument as requireFits() does; the last state stays.
   void addState(const MeshState& state);
 
   /// The surface at a stamp; nothing before the first state and its topology, and if the newest state is more

@@ -37,11 +37,15 @@ void FollowedSurface::setTopology(const MeshTopology& topology) {
   topology_ = topology;
 }
 
-void FollowedSurface::addState(const MeshState& state) {
+void FollowedSurface::requireFits(const MeshState& state) const {
   if (topology_ && topology_->revision == state.revision &&
       topology_->rest_vertices.rows() != state.vertices.rows())
     throw std::invalid_argument(fmt::format("{} vertices, but the topology has {}", state.vertices.rows(),
                                             topology_->rest_vertices.rows()));
+}
+
+void FollowedSurface::addState(const MeshState& state) {
+  requireFits(state);
   if (newest_ && newest_->observed == state.observed) {
     newest_ = state;
     return;

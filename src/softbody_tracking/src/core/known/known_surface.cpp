@@ -11,9 +11,6 @@
 namespace softbody {
 namespace {
 
-// Standard deviations within which a depth agrees.
-constexpr float kDeviations = 3.0f;
-
 /// Nearest and farthest rendered depth around each pixel of a region [m]; infinite and 0: nothing is
 /// rendered.
 struct DepthRange {
@@ -38,7 +35,7 @@ int shiftInImage(const RgbdFrame& frame, const KnownSurface& known) {
   return 1 + static_cast<int>(known.deviation_m * frame.camera.fx / nearest);
 }
 
-/// Writes the depth of pixels that show a rendered surface.
+/// Writes the rendered depth of pixels that show a surface; beside its outline the measured one.
 void mark(const cv::Mat1f& rendered, const cv::Rect& region, double deviation_m, int around_px,
           RgbdFrame* frame) {
   const DepthRange range = rangeAround(rendered(region), around_px);
@@ -49,12 +46,12 @@ void mark(const cv::Mat1f& rendered, const cv::Rect& region, double deviation_m,
       if (!(range.farthest(v, u) > 0.0f)) continue;
       const float measured = depth[u];
       const float margin =
-          kDeviations * static_cast<float>(std::hypot(depthSigma(range.nearest(v, u)), deviation_m));
+          static_cast<float>(kDoubt * std::hypot(depthSigma(range.nearest(v, u)), deviation_m));
       const bool shown = measured > 0.0f ? measured >= range.nearest(v, u) - margin &&
                                                measured <= range.farthest(v, u) + margin
                                          : behind[u] > 0.0f;
       if (!shown) continue;
-      const float z = measured > 0.0f ? measured : behind[u];
+      const float z = behind[u] > 0.0f ? behind[u] : measured;
       if (known[u] == 0.0f || z < known[u]) known[u] = z;
     }
   }

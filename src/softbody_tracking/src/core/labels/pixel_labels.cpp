@@ -49,13 +49,17 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
   cell->body = 2 * sums.body >= sums.front ? 1.0f : 0.0f;
 }
 
+/// A body that lies on a known surface agrees with it within the noise: the depth that is nearer decides.
 /// Where nothing is measured, a known surface that is behind the body is not what the pixel shows.
 std::optional<std::uint8_t> PixelLabeler::knownLabel(int u, int v, float predicted) const {
   if (!frame_.covered.empty() && frame_.covered(v, u) != 0) return labels::kOccluder;
   const float known = frame_.known.empty() ? 0.0f : frame_.known(v, u);
   if (!(known > 0.0f)) return std::nullopt;
+  const float measured = frame_.depth(v, u);
+  const bool body = rendered_(v, u) > 0.0f && std::abs(measured - predicted) < std::abs(measured - known);
+  if (measured > 0.0f && body) return std::nullopt;
   if (known - predicted <= kBehindSurface) return labels::kOccluder;
-  return frame_.depth(v, u) > 0.0f ? std::optional(labels::kBackground) : std::nullopt;
+  return measured > 0.0f ? std::optional(labels::kBackground) : std::nullopt;
 }
 
 std::uint8_t PixelLabeler::labelOf(float measured, float predicted, int sector, float* log_odds,

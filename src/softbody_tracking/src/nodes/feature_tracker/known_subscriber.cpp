@@ -21,6 +21,14 @@ std::string surfaceOf(const std::string& name) {
   return name;
 }
 
+std::string whyAbsent(const ros::Subscriber& missing, bool has_topology) {
+  const std::string topic = missing.getTopic();
+  if (missing.getNumPublishers() == 0)
+    return "nobody publishes " + topic + "; name the namespace of a surface's topics, e.g. /doll/surface";
+  if (has_topology) return topic + " has no state yet: its body is not found, or its graph gets no images";
+  return topic + " has a publisher, but no usable message has come; rostopic echo " + topic + " shows them";
+}
+
 }  // namespace
 
 KnownSubscriber::KnownSubscriber(ros::NodeHandle handle, const std::string& surface, PoseLookup look_up)
@@ -41,7 +49,10 @@ void KnownSubscriber::onTopology(const softbody_msgs::MeshTopology::ConstPtr& me
 
 void KnownSubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) try {
   MeshState state = fromMessage(*message);
-  if (!stamps_.admits(stampOfImage(*message))) return;
+  const ros::Time stamp = stampOfImage(*message);
+  state.observed = toNanoseconds(stamp);
+  surface_.requireFits(state);  // before its stamp is judged: what is refused must not move time
+  if (!stamps_.admits(stamp)) return;
   surface_.addState(state);
   header_ = message->header;
 } catch (const std::exception& error) {
@@ -63,10 +74,10 @@ std::optional<KnownSurface> KnownSubscriber::at(const RgbdFrame& frame) try {
 
 /// A wrong name looks like a body that is not tracked yet.
 void KnownSubscriber::warnIfAbsent() const {
-  if (surface_.hasTopology() || (ros::SteadyTime::now() - start_).toSec() < kPatience_s) return;
-  ROS_WARN_STREAM_THROTTLE(30.0, "known_surfaces: no usable message on "
-                                     << topology_subscriber_.getTopic()
-                                     << "; name the namespace of a surface's topics, e.g. /doll/surface");
+  if (surface_.hasState() && surface_.hasTopology()) return;
+  if ((ros::SteadyTime::now() - start_).toSec() < kPatience_s) return;
+  const ros::Subscriber& missing = surface_.hasTopology() ? state_subscriber_ : topology_subscriber_;
+  ROS_WARN_STREAM_THROTTLE(30.0, "known_surfaces: " << whyAbsent(missing, surface_.hasTopology()));
 }
 
 std::vector<std::unique_ptr<KnownSubscriber>> subscribeToKnown(const ros::NodeHandle& handle,
