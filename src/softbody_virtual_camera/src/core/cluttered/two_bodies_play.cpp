@@ -20,7 +20,7 @@ std::function<Eigen::Isometry3d(double t)> wayOf(const Stage& stage, const Point
   constexpr double kAside = 0.23, kNearer = 0.20, kLeastHeight = 0.02, kMostTurn = 0.3;  // [m], [rad]
   constexpr double kPi = 3.14159265358979323846;
   Draws draws(hash(stage.seed, 47));
-  const double side = draws.sign(), lift = draws.sign() * draws.between(0.05, 0.07);
+  const double side = draws.sign(), lift = draws.sign() * draws.between(0.03, 0.045);
   const Eigen::Isometry3d T_world_body = stage.T_camera_world.inverse() * stage.T_camera_body;
   const double up = std::max(0.0, kLeastHeight - second.col(2).minCoeff() - T_world_body.translation().z());
   const Eigen::Vector3d start = stage.T_camera_body.translation() + stage.T_camera_world.linear().col(2) * up;
