@@ -17,10 +17,11 @@ constexpr double kShift = 0.1;
 constexpr int kDirections = 4;
 // A free body whose cost rises by a smaller share than in other directions is round about this one.
 constexpr double kRound = 0.1;
+// Depth of what is behind everything [m].
+constexpr float kFar = 1e3f;
 
 /// The frame that would show the posed mesh alone, before nothing, with the gaps of this frame.
 RgbdFrame aloneIn(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
-  constexpr float kFar = 1e3f;  // [m]
   RgbdFrame alone = frame;
   alone.depth = PoseCost(frame, mesh, 1.0).render(pose).depth.clone();
   alone.depth.setTo(kFar, alone.depth <= 0.0f);
@@ -65,9 +66,12 @@ double confinement(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen
   const double scale_m = std::min(distance_scale_m, thicknessOf(mesh.vertices));
   const std::vector<Eigen::Isometry3d> motions = slides(mesh, pose);
   const std::vector<double> measured = rises(small, mesh, pose, scale_m, motions);
-  const std::vector<double> free = rises(aloneIn(small, mesh, pose), mesh, pose, scale_m, motions);
+  const RgbdFrame alone = aloneIn(small, mesh, pose);
+  // The edges of a gap would confine a body of which nothing is measured.
+  if (cv::countNonZero((alone.depth > 0.0f) & (alone.depth < kFar)) == 0) return 0.0;
+  const std::vector<double> free = rises(alone, mesh, pose, scale_m, motions);
   const double largest = *std::max_element(free.begin(), free.end());
-  if (largest <= 0.0) return 0.0;  // nothing is in view
+  if (largest <= 0.0) return 0.0;
   double least = 1.0;
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i] >= kRound * largest) least = std::min(least, measured[i] / free[i]);
