@@ -3,7 +3,7 @@
 
 Usage: bags.py spread RESULT.bag...     how far apart the surfaces of several results are [mm]
        bags.py states RESULT.bag        (time since the first state [s], name of the state) of every frame
-       bags.py pose RECORDING.bag       true pose of the body in the first frame: position [m] and quaternion
+       bags.py pose RECORDING.bag [FRAME]  true pose of a body in the first frame: position [m] and quaternion
 """
 import json
 import sys
@@ -44,11 +44,11 @@ def states(path):
     return [(round(stamp - found[0][0], 3), name) for stamp, name in found]
 
 
-def pose(path):
+def pose(path, frame="ground_truth_softbody"):
     with rosbag.Bag(path) as bag:
         for _, message, _ in bag.read_messages(topics=["/tf"]):
             for transform in message.transforms:
-                if transform.child_frame_id == "ground_truth_softbody":
+                if transform.child_frame_id == frame:
                     place, turn = transform.transform.translation, transform.transform.rotation
                     return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
     return None

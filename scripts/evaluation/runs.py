@@ -48,6 +48,15 @@ def tool(name, *arguments, package="softbody_bringup"):
     return run.stdout
 
 
+def bags(command, *files):
+    """The answer of bags.py."""
+    run = subprocess.run([DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/evaluation/bags.py", command, *files],
+                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    if run.returncode != 0:
+        raise ToolFailed(f"bags.py {command} {' '.join(map(str, files))}\n{run.stderr}")
+    return json.loads(run.stdout)
+
+
 def all_scenes():
     """Those of a body alone, or with what deforms it."""
     scenes = re.search(r"--scene \S*?\{([^}]*)\}", tool("virtual_camera", "--help"))[1].split(",")
@@ -134,6 +143,17 @@ def scene_run(kind, scene, *camera_arguments, replay_arguments=()):
     return reports
 
 
+def with_known(scene, recording, config):
+    """Arguments of `replay` for the other things of a scene that are known, and of `evaluate` for the body."""
+    if scene == "arm":
+        return ("--robot", f"{recording}.urdf"), ()
+    if scene != "two_bodies":
+        return (), ()
+    second = with_pose(ROOT / "config/doll.yaml", f"{config.stem}_second",
+                       bags("pose", recording, "ground_truth_second"))
+    return ("--object", second), ("--namespace", f"/{config.stem}")
+
+
 def cluttered_run(scene):
     """A scene with other things, and the same motion without them; both on the truth with them."""
     name = f"cluttered_{scene}"
@@ -142,7 +162,9 @@ def cluttered_run(scene):
     tool("virtual_camera", "--scene", scene, "--labels", "--output", recording)
     tool("virtual_camera", "--scene", scene, "--no-hands", "--output", alone)
     result = track(f"{name}_alone", alone, config, *allowed)
-    reports = {("cluttered", scene): measure(name, recording, config, "--truth", recording, more=allowed),
+    known, which = with_known(scene, recording, config)
+    reports = {("cluttered", scene): measure(name, recording, config, "--truth", recording, *which,
+                                             more=(*allowed, *known)),
                ("uncluttered", scene): json.loads(tool("evaluate", result, "--truth", recording, "--json"))}
     recording.unlink()
     alone.unlink()

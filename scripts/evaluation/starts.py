@@ -3,8 +3,8 @@ import json
 import math
 import random
 
-from evaluation.runs import OUTPUT, changed, object_of, tool, track, with_pose
-from evaluation.worlds import bags, direction, turned_by
+from evaluation.runs import OUTPUT, bags, changed, object_of, tool, track, with_pose
+from evaluation.worlds import direction, turned_by
 
 SEEDS = range(1, 21)
 TEXTURE, DURATION_S = "weak", "1"

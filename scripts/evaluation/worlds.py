@@ -3,25 +3,14 @@ import json
 import math
 import random
 import re
-import subprocess
 
 from evaluation.figures import OWN_COLOUR, PLAIN, STARTS, TEXTURED, TEXTURES
-from evaluation.runs import (DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, object_of, pose_of, tool, track,
-                             with_pose)
+from evaluation.runs import (OUTPUT, ROOT, bags, config_of, measure, object_of, pose_of, tool, track, with_pose)
 
 PLAIN_CAMERA = {"still": ("--duration", "10")}
 START_M, START_RAD = 0.001, math.radians(0.5)  # from the middle, so starts are within 2 mm and 1 degree of each other
 WRONG_S = "2"
 WRONG_M, WRONG_RAD, WRONG_POSES = 0.02, math.radians(20.0), 4
-
-
-def bags(command, *files):
-    """The answer of bags.py."""
-    run = subprocess.run([DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/evaluation/bags.py", command, *files],
-                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    if run.returncode != 0:
-        raise ToolFailed(f"bags.py {command} {' '.join(map(str, files))}\n{run.stderr}")
-    return json.loads(run.stdout)
 
 
 def turned_by(quaternion, axis, angle):
