@@ -11,6 +11,7 @@
 #include "softbody_common/files/yaml_map_reader.h"
 #include "softbody_common/parameters.h"
 #include "softbody_tracking/ros/camera_reader.h"
+#include "softbody_tracking/ros/robot_reader.h"
 
 namespace softbody {
 namespace {
