@@ -2,8 +2,9 @@
 import json
 import math
 import random
+import shutil
 
-from evaluation.runs import OUTPUT, bags, changed, object_of, tool, track, with_pose
+from evaluation.runs import OUTPUT, bags, object_of, tool, track, with_pose
 from evaluation.worlds import direction, turned_by
 
 SEEDS = range(1, 21)
@@ -65,12 +66,13 @@ def scene_run(scene, seed):
 
 
 def free_run(scene, seed):
-    """(scene, report) of the body that is searched in the whole image."""
+    """(scene, report) of a body with a picture that is searched in the whole image."""
     name = f"starts_free_{scene}_{seed}"
-    recording = record(name, scene, seed)
-    config = changed(object_of(scene), name, r"\n *initial_pose:.*", "")
-    result = track(name, recording, config, "--allow-outside")
+    pictured = OUTPUT / name
+    recording = record(name, scene, seed, "--object", pictured)
+    result = track(name, recording, pictured)
     report = report_of(result, recording)
     recording.unlink()
+    shutil.rmtree(pictured)
     result.unlink()
     return scene, report

@@ -90,7 +90,7 @@ def document(root, starts, free):
              *table(["scene", "started", "error ratio, all", "seen", "mm, all", "seen", f"all goals, of {len(SEEDS)}",
                      "frames elsewhere"], start_rows(starts)),
              "## Without a pose", "",
-             *paragraph("The body is searched in the whole image. Right: it was called TRACKING, and never elsewhere; "
+             *paragraph("The body has a picture, and is searched in the whole image. Right: it was called TRACKING, and never elsewhere; "
                         "wrong: it was called TRACKING elsewhere."), "",
              *table(["scene", "right", "not found", "wrong"], free_rows(free))]
     return "\n".join(lines).rstrip() + "\n"
