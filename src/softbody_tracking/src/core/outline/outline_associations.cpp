@@ -113,7 +113,7 @@ OutlineAssociations associateOutline(const RgbdFrame& frame, const RasterImage& 
     const double error_px = labels.error_m * frame.camera.fx / predicted.z();
     const ContourPosterior found_end = contourPosterior(pixels, predictionVariance(error_px));
     const ContourEnd& end = found_end.end;
-    if (!std::isinf(found_end.added.variance) && !line.endsOtherPart(found_end.together))
+    if (!found_end.beyond && !std::isinf(found_end.added.variance) && !line.endsOtherPart(found_end.together))
       found.associations.push_back(
           contourAssociation(frame.camera, sample, predicted, found_end.added, weight, samples.spacing_px));
     if (end.variance > kLargestDeviation * kLargestDeviation) continue;
