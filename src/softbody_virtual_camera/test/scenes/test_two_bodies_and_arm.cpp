@@ -10,7 +10,7 @@
 namespace softbody::virtual_camera {
 namespace {
 
-constexpr int kSeeds = 4;
+constexpr int kLayouts = 4;
 
 Scene crossing(const std::string& name, int seed) {
   return makeScene(name, shippedBody(objectOf(name)), static_cast<std::uint64_t>(seed), "", "rich",
@@ -52,7 +52,7 @@ TEST(TwoBodies, TheTruthOfTheSecondAgreesWithTheDepthImage) {
 }
 
 TEST(TwoBodies, DoNotTouch) {
-  for (int seed = 1; seed <= kSeeds; ++seed) {
+  for (int seed = 1; seed <= kLayouts; ++seed) {
     const Scene scene = crossing("two_bodies", seed);
     for (const double t : {0.0, 0.9, 1.2, 1.75, 2.3, 3.5}) {
       const std::vector<Points> vertices = scene.state(t).vertices;
@@ -66,7 +66,7 @@ TEST(TwoBodies, DoNotTouch) {
 
 TEST(TwoBodies, AreApartAtTheStartAndTheSecondPassesBeforeTheFirst) {
   for (const std::string name : {"two_bodies", "doll_two_bodies"}) {
-    for (int seed = 1; seed <= kSeeds; ++seed) {
+    for (int seed = 1; seed <= kLayouts; ++seed) {
       const Scene scene = crossing(name, seed);
       EXPECT_EQ(uncoveredShare(scene, 0.0), 1.0) << name << ' ' << seed;
       EXPECT_LT(uncoveredShare(scene, 1.75), 0.7) << name << ' ' << seed;
@@ -91,7 +91,7 @@ TEST(TwoBodies, AreApartAtTheStartAndTheSecondPassesBeforeTheFirst) {
 
 TEST(Arm, HidesMoreThanFortyPercentForAPartOfTheSceneOnly) {
   for (const std::string name : {"arm", "doll_arm"}) {
-    for (int seed = 1; seed <= 2 * kSeeds; ++seed) {
+    for (int seed = 1; seed <= 2 * kLayouts; ++seed) {
       const Scene scene = clutteredScene(name, seed);
       EXPECT_EQ(uncoveredShare(scene, 0.0), 1.0) << name << ' ' << seed;
       EXPECT_EQ(uncoveredShare(scene, scene.duration_s), 1.0) << name << ' ' << seed;
