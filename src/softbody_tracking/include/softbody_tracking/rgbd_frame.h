@@ -19,7 +19,7 @@ struct RgbdFrame {
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
   bool placed = true;  ///< false: T_fixed_camera is unknown
   cv::Mat1b covered =
-      {};        ///< not 0: a known object, such as the blade, occludes the body; empty: no such object
+      {};  ///< not 0: a known object, such as the blade, occludes the body; empty: no such object
   /// Depth of the known surface that a pixel shows [m]; 0: none, empty: no known surface is in view.
   cv::Mat1f known = {};
   int pass = 0;  ///< of the recording: with another one time has jumped back, and tracking starts again
