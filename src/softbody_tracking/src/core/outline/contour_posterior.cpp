@@ -75,6 +75,7 @@ ContourEnd added(const ContourEnd& together, const ContourEnd& prediction) {
 }  // namespace
 
 double predictionVariance(double error_px) {
+  if (error_px == 0.0) return std::numeric_limits<double>::infinity();
   return kModelDeviation * kModelDeviation + kSudden * kSudden * error_px * error_px;
 }
 

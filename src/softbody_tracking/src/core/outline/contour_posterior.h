@@ -32,7 +32,7 @@ struct ContourPosterior {
 };
 
 /// Variance of the predicted outline [px^2]. @param error_px usual error of the prediction; a sudden motion
-/// is several times as large.
+/// is several times as large. 0: it is not known yet, so the prediction says nothing.
 double predictionVariance(double error_px);
 
 /// If the body ends at the distance d, the pixels before d show the body, and those behind show something
