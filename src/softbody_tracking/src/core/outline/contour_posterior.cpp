@@ -18,6 +18,8 @@ constexpr double kLargestAtBorder = 0.05;
 constexpr double kSmallestVariance = 1.0 / 12.0;
 // Standard deviation of a mesh's outline from the body's [px], and the largest motion in usual errors.
 constexpr double kModelDeviation = 0.7, kSudden = 3.0;
+// Beyond this exponent the prediction has no ends: five standard deviations.
+constexpr double kFarthest = 12.5;
 // Precision that a line adds, below which it adds nothing, in shares of that of the prediction: rounding.
 constexpr double kLeastPrecision = 1e-3;
 
@@ -87,10 +89,12 @@ ContourPosterior contourPosterior(const std::vector<LinePixel>& line, double pre
   Moments alone, predicted, together;
   for (const LinePixel& end : ends) {
     const double likelihood = std::exp(end.log_odds - largest);
-    const double prior = std::exp(-0.5 * end.distance * end.distance / prediction_variance);
     alone.add(likelihood, end.distance);
-    predicted.add(prior, end.distance);
+    const double exponent = 0.5 * end.distance * end.distance / prediction_variance;
+    if (exponent > kFarthest) continue;
+    const double prior = std::exp(-exponent);
     together.add(likelihood * prior, end.distance);
+    predicted.add(prior, end.distance);
   }
   ContourPosterior result;
   result.end = alone.end();
