@@ -54,8 +54,7 @@ std::optional<KnownSurface> BodyRun::surface(const RgbdFrame& frame) const {
 void BodyRun::follow(const FrameOutput& result, const RgbdFrame& frame) {
   if (std::exchange(pass_, frame.pass) != frame.pass) surface_.forgetStates();
   if (!result.surface) return;
-  if (!surface_.hasTopology() || !result.cuts.empty() || result.surface->revision == 0)
-    surface_.setTopology(pipeline_.surfaceTopology());
+  if (!surface_.hasTopology(result.surface->revision)) surface_.setTopology(pipeline_.surfaceTopology());
   surface_.addState(*result.surface);
 }
 

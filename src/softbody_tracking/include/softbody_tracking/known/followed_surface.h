@@ -17,6 +17,8 @@ class FollowedSurface {
 
   const std::string& name() const { return name_; }
   bool hasTopology() const { return topology_.has_value(); }
+  /// Whether it has the topology of this revision.
+  bool hasTopology(std::uint32_t revision) const { return topology_ && topology_->revision == revision; }
   bool hasState() const { return newest_.has_value(); }
 
   /// @throw std::invalid_argument if a triangle names a vertex that is not there; the last topology stays.

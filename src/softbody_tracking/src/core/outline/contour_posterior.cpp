@@ -18,8 +18,6 @@ constexpr double kLargestAtBorder = 0.05;
 constexpr double kSmallestVariance = 1.0 / 12.0;
 // Standard deviation of a mesh's outline from the body's [px], and the largest motion in usual errors.
 constexpr double kModelDeviation = 0.7, kSudden = 3.0;
-// Beyond this exponent the prediction has no ends: five standard deviations.
-constexpr double kFarthest = 12.5;
 // Precision that a line adds, below which it adds nothing, in shares of that of the prediction: rounding.
 constexpr double kLeastPrecision = 1e-3;
 
@@ -90,9 +88,7 @@ ContourPosterior contourPosterior(const std::vector<LinePixel>& line, double pre
   for (const LinePixel& end : ends) {
     const double likelihood = std::exp(end.log_odds - largest);
     alone.add(likelihood, end.distance);
-    const double exponent = 0.5 * end.distance * end.distance / prediction_variance;
-    if (exponent > kFarthest) continue;
-    const double prior = std::exp(-exponent);
+    const double prior = std::exp(-0.5 * end.distance * end.distance / prediction_variance);
     together.add(likelihood * prior, end.distance);
     predicted.add(prior, end.distance);
   }

@@ -7,7 +7,7 @@
 namespace softbody {
 namespace {
 
-// A sample is the mean of so many points of the picture along each side of its cell.
+// Points of the picture along each side of a cell. Their mean is the sample.
 constexpr int kPointsASide = 3;
 
 /// The pixel at a texture coordinate. v points upwards; the picture repeats.

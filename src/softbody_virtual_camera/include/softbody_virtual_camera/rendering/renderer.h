@@ -12,7 +12,7 @@ struct RenderedImage {
   cv::Mat1f depth;                       ///< z of the nearest surface at the pixel's centre [m]; 0: nothing
   cv::Mat1b labels;                      ///< of the same surface, as in pixel_labels.h; nothing: background
   std::vector<float> visibility;         ///< per vertex of the first actor; 1: visible, 0: hidden
-  std::vector<float> second_visibility;  ///< the same of a second soft body; empty: there is none
+  std::vector<float> second_visibility;  ///< of the second body's vertices; empty without one
 };
 
 /// Renders a scene on the CPU with baked textures, diffuse light and a z-buffer. Still actors are drawn once;

@@ -50,7 +50,7 @@ struct Play {
   std::function<GripperState(double t)> gripper;  ///< empty: none
   std::function<double(double t)> brightness;     ///< of the colour image; empty: 1
   double color_noise = 1.0;                       ///< factor of the noise of colour
-  /// Pose of the second body, which is the first prop; empty: there is none.
+  /// Pose of the second body. It is the first prop. Empty: the scene has no second body.
   std::function<Eigen::Isometry3d(double t)> T_camera_second;
   Robot robot;  ///< its links are the first props; empty: none
   std::function<std::vector<Eigen::Isometry3d>(double t)> links;  ///< their poses in the optical frame
