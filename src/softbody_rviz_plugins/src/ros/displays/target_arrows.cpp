@@ -52,13 +52,19 @@ void TargetArrows::subscribe(ros::NodeHandle node) {
 void TargetArrows::unsubscribe() {
   subscriber_.shutdown();
   newest_.reset();
+  drawn_.reset();
+}
+
+bool TargetArrows::hasNews() {
+  const std::lock_guard lock(mutex_);
+  return newest_ != drawn_;
 }
 
 void TargetArrows::draw(const TetsModel& tets) {
   softbody_msgs::TargetsConstPtr newest;
   {
     const std::lock_guard lock(mutex_);
-    newest = newest_;
+    newest = drawn_ = newest_;
   }
   if (!shown_->getBool() || !newest || newest->revision != tets.topology().revision) return clear();
   const TargetSet targets = fromMessage(*newest);

@@ -28,6 +28,8 @@ class TargetArrows {
   void subscribe(ros::NodeHandle node);
   void unsubscribe();
 
+  /// Whether targets came since the last draw.
+  bool hasNews();
   /// Draws the newest targets at a state of the tets. @throw std::invalid_argument if they are not valid.
   void draw(const TetsModel& tets);
   void clear();
@@ -50,7 +52,7 @@ class TargetArrows {
   std::array<Kind, 4> kinds_{};
   ros::Subscriber subscriber_;
   std::mutex mutex_;
-  softbody_msgs::TargetsConstPtr newest_;
+  softbody_msgs::TargetsConstPtr newest_, drawn_;
 };
 
 }  // namespace softbody

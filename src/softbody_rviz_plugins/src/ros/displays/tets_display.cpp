@@ -105,6 +105,13 @@ void TetsDisplay::unsubscribe() {
   BodyDisplay::unsubscribe();
 }
 
+void TetsDisplay::update(float wall_dt, float ros_dt) {
+  BodyDisplay::update(wall_dt, ros_dt);
+  if (!model_ || !model_->state() || !arrows_.hasNews()) return;
+  drawArrows();  // targets that came after the state
+  queueRender();
+}
+
 TetColoring TetsDisplay::coloring() const { return static_cast<TetColoring>(coloring_->getOptionInt()); }
 
 void TetsDisplay::setTopology(const softbody_msgs::TetTopology& message) {
@@ -129,6 +136,10 @@ void TetsDisplay::drawState() {
   surface_->place(model_->placedSurface());
   tets_->show(tets_shown_->getBool());
   surface_->show(surface_shown_->getBool());
+  drawArrows();
+}
+
+void TetsDisplay::drawArrows() {
   try {
     arrows_.draw(*model_);
     deleteStatus("Targets");

@@ -28,6 +28,8 @@ class TetsDisplay : public BodyDisplay<softbody_msgs::TetTopology> {
   TetsDisplay();
   ~TetsDisplay() override;
 
+  void update(float wall_dt, float ros_dt) override;
+
  protected:
   void onInitialize() override;
   void subscribe() override;
@@ -49,6 +51,7 @@ class TetsDisplay : public BodyDisplay<softbody_msgs::TetTopology> {
   TetColoring coloring() const;
   void fillTets();
   void drawState();
+  void drawArrows();
   void paint();
 
   rviz::BoolProperty *tets_shown_, *surface_shown_;
