@@ -6,8 +6,8 @@
 #include <iostream>
 
 #include "cage/fill_request.h"
-#include "report/model_folder.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_sim/report/model_folder.h"
 #include "tools/surface_filling.h"
 
 namespace {

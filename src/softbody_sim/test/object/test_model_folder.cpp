@@ -5,9 +5,9 @@
 
 #include "cage/volume_maker.h"
 #include "fixtures/object_model_test.h"
-#include "report/model_folder.h"
 #include "softbody_common/files/input_file.h"
 #include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/report/model_folder.h"
 
 namespace softbody {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/model_folder.h"
+#include "softbody_sim/report/model_folder.h"
 
 #include <fmt/format.h>
 

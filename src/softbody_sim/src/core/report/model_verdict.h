@@ -5,10 +5,9 @@
 
 #include "report/model_quality.h"
 #include "report/model_trial.h"
+#include "softbody_sim/report/model_folder.h"
 
 namespace softbody {
-
-enum class Verdict { kGood, kLookHere, kBad };
 
 /// What one property of a prepared model means for tracking.
 struct Judgement {

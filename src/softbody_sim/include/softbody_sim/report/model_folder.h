@@ -3,10 +3,12 @@
 #include <iosfwd>
 #include <string>
 
-#include "report/model_verdict.h"
 #include "softbody_sim/object/object_model.h"
 
 namespace softbody {
+
+/// What a prepared model is good for.
+enum class Verdict { kGood, kLookHere, kBad };
 
 /// The user's mesh.
 struct ModelSource {

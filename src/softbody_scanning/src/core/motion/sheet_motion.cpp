@@ -1,0 +1,26 @@
+#include "softbody_scanning/motion/sheet_motion.h"
+
+namespace softbody::scanning {
+namespace {
+
+/// Depth on the markers is measured by the same camera as the object: its bias would tilt the object, too.
+ToolTrackerConfig cornersOnly() {
+  ToolTrackerConfig config;
+  config.use_depth = false;
+  return config;
+}
+
+}  // namespace
+
+SheetMotion::SheetMotion(const ToolDescription& sheet) : tracker_(sheet, cornersOnly()) {}
+
+std::optional<CameraPose> SheetMotion::poseOf(const RgbdFrame& frame) {
+  const auto seen = tracker_.track(frame, nullptr);
+  reason_ =
+      seen && seen->ambiguous ? "two poses of the sheet fit equally well" : "no marker of the sheet is seen";
+  if (!seen || seen->bridged || seen->ambiguous) return std::nullopt;
+  reason_.clear();
+  return CameraPose{seen->T_camera_tool, seen->covariance};
+}
+
+}  // namespace softbody::scanning
