@@ -72,5 +72,26 @@ TEST(Evaluate, WindowsOfTheDepthResidualAreARowEach) {
     EXPECT_NE(text.find(row), std::string::npos) << text;
 }
 
+TEST(Evaluate, TwoModelsAreComparedInsteadOfBags) {
+  const std::string sponge = std::string(CONFIG_DIR) + "/sponge.yaml";
+  const nlohmann::json json = nlohmann::json::parse(printed({"--model", sponge, sponge, "--json"}));
+  EXPECT_LT(json["whole"]["true_to_scanned"]["max_mm"], 0.1);
+  EXPECT_NEAR(json["volume_ratio"].get<double>(), 1.0, 1e-9);
+  EXPECT_NE(printed({"--model", sponge, sponge, "--aligned"}).find("whole surface"), std::string::npos);
+}
+
+TEST(Evaluate, NeedsBagsOrModelsAndNotBoth) {
+  const auto code = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "evaluate");
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    return runEvaluate(static_cast<int>(arguments.size()), arguments.data());
+  };
+  EXPECT_EQ(code({}), 2);
+  EXPECT_EQ(code({recording(), "--model", "a.obj", "b.obj"}), 2);
+  EXPECT_EQ(code({"--aligned", recording()}), 2);
+  EXPECT_EQ(code({"--model", "/nowhere/a.obj", "/nowhere/b.obj"}), 1);
+}
+
 }  // namespace
 }  // namespace softbody::evaluation

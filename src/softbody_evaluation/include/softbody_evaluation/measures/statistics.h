@@ -12,7 +12,7 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 /// measurement does not mean zero error.
 struct Summary {
   std::size_t count = 0;
-  double mean = kNothing, rms = kNothing, median = kNothing, p95 = kNothing, max = kNothing;
+  double mean = kNothing, rms = kNothing, median = kNothing, p95 = kNothing, p99 = kNothing, max = kNothing;
 };
 
 /// Summarises values. A percentile is the smallest value that at least this share of the values does not

@@ -28,6 +28,7 @@ Summary summarize(std::vector<float> values) {
   summary.rms = std::sqrt(squares / static_cast<double>(values.size()));
   summary.median = percentile(values, 0.5);
   summary.p95 = percentile(values, 0.95);
+  summary.p99 = percentile(values, 0.99);
   summary.max = values.back();
   return summary;
 }

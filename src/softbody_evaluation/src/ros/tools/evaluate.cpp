@@ -9,7 +9,10 @@
 
 #include "softbody_common/camera_options.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_evaluation/models/model_distance.h"
+#include "softbody_evaluation/models/model_fit.h"
 #include "softbody_evaluation/report/figures.h"
+#include "softbody_evaluation/report/model_report.h"
 #include "softbody_evaluation/report/report_json.h"
 #include "softbody_evaluation/report/report_text.h"
 #include "softbody_evaluation/report/summary_text.h"
@@ -18,17 +21,19 @@
 namespace softbody::evaluation {
 namespace {
 
+constexpr std::uint64_t kModelSeed = 1;  // of the samples: the same figures each time
+
 /// What is printed, and of which results.
 struct Output {
   std::string other_result;  ///< empty: only one result
   bool json = false;
   bool windows = false;
+  std::vector<std::string> models;  ///< empty, or a scanned and a true one
+  bool aligned = false;
 };
 
 void declareInput(CLI::App* app, EvaluatorOptions* options, Output* output) {
-  app->add_option("result", options->result, "bag with the tracker's output")
-      ->required()
-      ->check(CLI::ExistingFile);
+  app->add_option("result", options->result, "bag with the tracker's output")->check(CLI::ExistingFile);
   app->add_option("--truth", options->truth, "bag with /ground_truth/surface/...")->check(CLI::ExistingFile);
   app->add_option("--recording", options->recording,
                   "bag with the camera's topics; default: the truth, if it has these topics")
@@ -69,6 +74,23 @@ void declareMeasures(CLI::App* app, EvaluatorOptions* options, Output* output) {
   app->add_flag("--json", output->json, "prints all figures as JSON, and nothing else");
 }
 
+/// Must come last: models are not measured together with bags.
+void declareModels(CLI::App* app, EvaluatorOptions* options, Output* output) {
+  CLI::Option* models =
+      app->add_option("--model", output->models,
+                      "compares a scanned mesh with the true one instead: mesh files in metres, object YAMLs "
+                      "or their folders")
+          ->expected(2)
+          ->type_name("SCANNED TRUE");
+  for (const char* of_bags : {"result", "--truth", "--recording", "--unhidden", "--compare", "--report"})
+    models->excludes(app->get_option(of_bags));
+  app->add_flag("--aligned", output->aligned, "the two meshes are in one frame: compares them without a fit")
+      ->needs(models);
+  app->callback([options, output] {
+    if (options->result.empty() && output->models.empty()) throw CLI::RequiredError("result, or --model,");
+  });
+}
+
 /// Where the page is, or how to get it.
 std::string pageLine(const EvaluatorOptions& options) {
   if (options.report_folder.empty()) return "page with all figures and pictures: add --report FOLDER\n";
@@ -98,16 +120,34 @@ void printComparison(const EvaluatorOptions& options, const Output& output) {
   fmt::print("{}\n{}", toText(compare(comparison.first, comparison.second)), pageLine(options));
 }
 
+void printModels(const Output& output) {
+  std::vector<std::string> warnings;
+  const Model scanned = readModel(output.models[0], &warnings),
+              truth = readModel(output.models[1], &warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "evaluate: {}\n", warning);
+  const Eigen::Isometry3d pose = output.aligned ? Eigen::Isometry3d::Identity() : fitModel(scanned, truth);
+  const ModelReport report = compareModels(scanned, truth, pose, kModelSeed);
+  if (output.json)
+    fmt::print("{}\n", toJson(report).dump(2));
+  else
+    fmt::print("{}", toText(report));
+}
+
 }  // namespace
 
 int runEvaluate(int argc, char** argv) {
   EvaluatorOptions options;
   Output output;
-  CLI::App app("Measures a tracking result against the truth, or against the depth of its recording");
+  CLI::App app(
+      "Measures a tracking result against the truth, or against the depth of its recording; or a scanned "
+      "mesh against the true one");
   declareInput(&app, &options, &output);
   declareMeasures(&app, &options, &output);
+  declareModels(&app, &options, &output);
   return runTool(&app, argc, argv, [&] {
-    if (output.other_result.empty()) {
+    if (!output.models.empty()) {
+      printModels(output);
+    } else if (output.other_result.empty()) {
       printReport(options, output);
     } else {
       printComparison(options, output);

@@ -18,6 +18,8 @@ struct SurfaceFile {
   std::vector<std::string> materials = {};  ///< names (OBJ) or pictures (PLY)
   std::vector<FileReference> references =
       {};  ///< material files (OBJ), or the picture of each material (PLY)
+  std::vector<float> seen =
+      {};  ///< #V: the property `seen` of a scan's vertices (PLY), 1: was measured; else empty
 };
 
 /// The pictures of a surface.

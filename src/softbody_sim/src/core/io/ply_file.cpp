@@ -61,6 +61,7 @@ class PlyReader {
     SurfaceFile file = triangulated(soup_, path_, ": face ", warnings);
     for (const FileReference& picture : pictures_) file.materials.push_back(picture.name);
     file.references = std::move(pictures_);
+    file.seen = std::move(seen_);
     return file;
   }
 
@@ -195,6 +196,8 @@ class PlyReader {
     const std::vector<double>&u = valuesOf({"s", "u", "texture_u"}), &v = valuesOf({"t", "v", "texture_v"});
     has_vertex_texture_ = !u.empty() && !v.empty();
     if (has_vertex_texture_) soup_.texture.emplace_back(u.front(), v.front(), 0.0);
+    const std::vector<double>& seen = valuesOf({"seen"});
+    if (!seen.empty()) seen_.push_back(static_cast<float>(seen.front()));
   }
 
   /// Texture coordinates of the face's corners come before those of its vertices.
@@ -257,6 +260,7 @@ class PlyReader {
   std::vector<FileReference> pictures_;
   PolygonSoup soup_;
   bool has_vertex_texture_ = false;
+  std::vector<float> seen_;
   const Element* element_ = nullptr;         ///< the current one
   long long item_ = 0;                       ///< its number
   std::vector<std::vector<double>> values_;  ///< of its properties
