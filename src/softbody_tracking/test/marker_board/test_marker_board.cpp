@@ -2,7 +2,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numeric>
 
 #include "softbody_tracking/marker_board/marker_board.h"
 #include "softbody_tracking/marker_board/marker_board_drawing.h"
@@ -71,6 +73,64 @@ TEST(MarkerBoard, PdfAndSvgHaveThePapersSize) {
   std::filesystem::remove(base.string() + ".pdf");
   std::filesystem::remove(base.string() + ".svg");
   EXPECT_THROW(writeBoardPdf(board, "/nowhere/board.pdf"), std::runtime_error);
+}
+
+/// The markers' white margins touch no other marker, the paper's edge or the free middle.
+void expectFreeMargins(const MarkerBoard& sheet) {
+  const auto& markers = sheet.tool.markers;
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    const double reach =
+        markers[i].size_m * (0.5 + 1.0 / markerCells(sheet.tool.dictionary, markers[i].id).cols);
+    const Eigen::Vector3d at = markers[i].T_tool_marker.translation();
+    EXPECT_LT(std::abs(at.x()) + reach, 0.5 * sheet.paper_width_m);
+    EXPECT_LT(std::abs(at.y()) + reach, 0.5 * sheet.paper_height_m);
+    EXPECT_TRUE(std::abs(at.x()) - reach > 0.5 * sheet.free_width_m - 1e-9 ||
+                std::abs(at.y()) - reach > 0.5 * sheet.free_height_m - 1e-9);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Eigen::Vector3d other = markers[j].T_tool_marker.translation();
+      EXPECT_GT((at - other).cwiseAbs().maxCoeff(), 2.0 * reach - 1e-9) << i << ", " << j;
+    }
+  }
+}
+
+TEST(Sheet, EveryMarkerOfTheRingIsDetectedToScaleAroundAFreeMiddle) {
+  for (const std::string& paper : paperNames()) {
+    SCOPED_TRACE(paper);
+    const MarkerBoard sheet = layOutSheet("DICT_4X4_100", {}, 0.0, paper);
+    expectFreeMargins(sheet);
+    EXPECT_GT(sheet.free_width_m, 0.5 * sheet.paper_width_m);
+    const auto detections = MarkerDetector("DICT_4X4_100").detect(boardImage(sheet, kDotsPerInch));
+    ASSERT_EQ(detections.size(), sheet.tool.markers.size());
+    for (const MarkerDetection& detection : detections) {
+      ASSERT_GE(detection.id, 50);
+      const ToolMarker& marker = sheet.tool.markers.at(static_cast<std::size_t>(detection.id - 50));
+      EXPECT_EQ(marker.id, detection.id);
+      EXPECT_LT((detection.corners - onPage(sheet, marker)).cwiseAbs().maxCoeff(), 0.3);
+    }
+  }
+}
+
+TEST(Sheet, IsNotTakenForATool) {
+  const cv::Mat1b image = boardImage(layOutSheet("DICT_4X4_100", {}, 0.0, "a4"), kDotsPerInch);
+  EXPECT_TRUE(MarkerDetector("DICT_4X4_50").detect(image).empty());
+}
+
+TEST(Sheet, TheShippedFileIsThatOfMakeBoard) {
+  std::ifstream file(SOURCE_DIR "/../softbody_bringup/config/sheet.yaml");
+  const std::string shipped(std::istreambuf_iterator<char>(file), {});
+  EXPECT_EQ(shipped, boardYaml(layOutSheet("DICT_4X4_100", {}, 0.0, "a4")));
+}
+
+TEST(Sheet, TakesIdsAndSizesThatFit) {
+  const MarkerBoard usual = layOutSheet("DICT_4X4_100", {}, 0.0, "a5");
+  std::vector<int> ids(usual.tool.markers.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  EXPECT_EQ(layOutSheet("DICT_4X4_50", ids, 0.0, "a5").tool.markers.back().id, ids.back());
+  ids.pop_back();
+  EXPECT_THROW(layOutSheet("DICT_4X4_50", ids, 0.0, "a5"), std::invalid_argument);
+  EXPECT_THROW(layOutSheet("DICT_4X4_100", {}, 0.08, "a4"), std::invalid_argument);
+  EXPECT_THROW(layOutSheet("DICT_4X4_50", {}, 0.0, "a4"), std::invalid_argument);
+  EXPECT_THROW(layOutSheet("DICT_4X4_100", {}, 0.001, "a4"), std::invalid_argument);
 }
 
 TEST(MarkerBoard, WhatDoesNotFitIsRefused) {

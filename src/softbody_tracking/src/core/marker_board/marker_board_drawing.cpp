@@ -30,6 +30,9 @@ void drawText(cairo_t* page, double x, double y, const std::string& text) {
   cairo_show_text(page, text.c_str());
 }
 
+constexpr double kFaint = 0.6;          // grey of what is drawn on the free middle of a sheet
+constexpr double kShortRuler_m = 0.05;  // [m] fits on the free middle of A5
+
 /// Fills the square black, then all white cells as one path, so that no seams show between them.
 void drawMarker(cairo_t* page, const std::string& dictionary, const ToolMarker& marker, double x, double y) {
   const cv::Mat1b cells = markerCells(dictionary, marker.id);
@@ -44,22 +47,57 @@ void drawMarker(cairo_t* page, const std::string& dictionary, const ToolMarker& 
   }
   cairo_set_source_rgb(page, 1, 1, 1);
   cairo_fill(page);
+}
+
+void drawLabel(cairo_t* page, const std::string& dictionary, const ToolMarker& marker, double x, double y) {
+  const double cell = marker.size_m / markerCells(dictionary, marker.id).cols;
   cairo_set_source_rgb(page, 0, 0, 0);
   drawText(page, x, y + marker.size_m + cell + kTextHeight_m,
            fmt::format("{}  id {}  {:g} mm", dictionary, marker.id, 1e3 * marker.size_m));
 }
 
-void drawRuler(cairo_t* page, double x, double y) {
+/// With a tick at each centimetre.
+void drawRuler(cairo_t* page, double x, double y, double length_m) {
   cairo_set_line_width(page, kLine_m);
   cairo_move_to(page, x, y);
-  cairo_line_to(page, x + kRuler_m, y);
-  for (int i = 0; i <= 10; ++i) {
-    cairo_move_to(page, x + 0.1 * i * kRuler_m, y);
-    cairo_line_to(page, x + 0.1 * i * kRuler_m, y - (i % 5 == 0 ? 0.004 : 0.002));
+  cairo_line_to(page, x + length_m, y);
+  for (int i = 0; 0.01 * i <= length_m + kLine_m; ++i) {
+    cairo_move_to(page, x + 0.01 * i, y);
+    cairo_line_to(page, x + 0.01 * i, y - (i % 5 == 0 ? 0.004 : 0.002));
   }
   cairo_stroke(page);
+}
+
+void drawBottom(cairo_t* page, const MarkerBoard& board) {
+  const double x = 0.5 * (board.paper_width_m - kRuler_m), y = board.paper_height_m - kRulerFromBottom_m;
+  drawRuler(page, x, y, kRuler_m);
   drawText(page, x, y + 0.006,
            "Measure this line. If it is not 100 mm long, print again at 100 %, without fitting to the page.");
+}
+
+/// Outline, text and ruler on the free middle, all in grey: the object lies there.
+void drawFreeMiddle(cairo_t* page, const MarkerBoard& sheet) {
+  constexpr double kInset = 0.005, kLineHeight = 0.005;  // [m]
+  const double left = 0.5 * (sheet.paper_width_m - sheet.free_width_m),
+               top = 0.5 * (sheet.paper_height_m - sheet.free_height_m);
+  cairo_set_source_rgb(page, kFaint, kFaint, kFaint);
+  cairo_set_line_width(page, kLine_m);
+  cairo_rectangle(page, left, top, sheet.free_width_m, sheet.free_height_m);
+  cairo_stroke(page);
+  const double x = left + kInset;
+  double y = top + kInset + kTextHeight_m;
+  const std::string name =
+      fmt::format("{}, id {} ..., {:g} mm", sheet.tool.dictionary, sheet.tool.markers.front().id,
+                  1e3 * sheet.tool.markers.front().size_m);
+  for (const std::string& line : {std::string("Put the object here."), name}) {
+    drawText(page, x, y, line);
+    y += kLineHeight;
+  }
+  y = top + sheet.free_height_m - kInset - 3.0 * kLineHeight;
+  drawRuler(page, x, y, kShortRuler_m);
+  for (const char* line :
+       {"Measure: this line is 50 mm long.", "If not, print again at 100 %,", "without fitting to the page."})
+    drawText(page, x, y += kLineHeight, line);
 }
 
 /// @param scale units of the cairo surface per metre.
@@ -69,13 +107,15 @@ void draw(const MarkerBoard& board, double scale, cairo_surface_t* surface) {
   cairo_set_source_rgb(page.get(), 1, 1, 1);
   cairo_paint(page.get());
   cairo_select_font_face(page.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  const bool sheet = board.free_width_m > 0.0;
   for (const ToolMarker& marker : board.tool.markers) {
     const Eigen::Vector3d at = marker.T_tool_marker.translation();
-    drawMarker(page.get(), board.tool.dictionary, marker,
-               0.5 * (board.paper_width_m - marker.size_m) + at.x(),
-               0.5 * (board.paper_height_m - marker.size_m) - at.y());
+    const double x = 0.5 * (board.paper_width_m - marker.size_m) + at.x(),
+                 y = 0.5 * (board.paper_height_m - marker.size_m) - at.y();
+    drawMarker(page.get(), board.tool.dictionary, marker, x, y);
+    if (!sheet) drawLabel(page.get(), board.tool.dictionary, marker, x, y);
   }
-  drawRuler(page.get(), 0.5 * (board.paper_width_m - kRuler_m), board.paper_height_m - kRulerFromBottom_m);
+  sheet ? drawFreeMiddle(page.get(), board) : drawBottom(page.get(), board);
   cairo_show_page(page.get());
 }
 
