@@ -14,7 +14,7 @@ import xml.etree.ElementTree as ElementTree
 
 # A package uses only packages to its left.
 PACKAGES = ["softbody_msgs", "softbody_common", "softbody_python", "softbody_rviz_plugins", "softbody_tracking", "softbody_sim",
-            "softbody_recordings", "softbody_scanning", "softbody_virtual_camera", "softbody_evaluation",
+            "softbody_recordings", "softbody_virtual_camera", "softbody_scanning", "softbody_evaluation",
             "softbody_bringup"]
 MOST_FILES = 25
 MOST_LINES = 350

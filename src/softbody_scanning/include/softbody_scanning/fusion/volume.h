@@ -40,6 +40,12 @@ class Volume {
   const PlaceEvidence& at(const Eigen::Vector3i& index) const { return places_[offset(index)]; }
   /// Signed distance there: that of the evidence, or the reach with the sign of what is taken for it.
   float distance(const Eigen::Vector3i& index) const;
+  /// Takes back what was seen below a plane, where the table and what stands on it are not told apart: it may
+  /// be inside. @param table the table, with its normal up. @param clear_m the height.
+  void forgetBelow(const Eigen::Hyperplane<double, 3>& table, double clear_m);
+  /// Adds the evidence of a volume on the same grid.
+  void add(const Volume& other);
+
   /// The evidence at the nearest grid point.
   const PlaceEvidence& nearest(const Eigen::Vector3d& place) const;
 

@@ -6,27 +6,42 @@
 
 #include "softbody_common/types.h"
 #include "softbody_scanning/key_frames/key_frame.h"
+#include "softbody_scanning/registration/surface_registration.h"
 
 namespace softbody::scanning {
 
-/// What a scan looks at and how finely.
+/// One recording of the object as it stands on a table. Its model frame: z up, the table at z = 0.
+struct PosedRecording {
+  std::string name;
+  std::vector<KeyFrame> frames;
+  Eigen::AlignedBox3d region;  ///< where the object is, model frame [m]
+};
+
 struct ScanSettings {
-  Eigen::AlignedBox3d region;  ///< where the object is, model frame [m]; its floor is the table
-  double voxel_m = 0.0;        ///< 0: 1 mm, or 1/200 of a larger object
+  double voxel_m = 0.0;  ///< 0: 1 mm, or 1/200 of a larger object
   std::function<void(const std::string& step)> progress = [](const std::string&) {};
 };
 
-/// The object's surface in the model frame.
+/// How a further recording, of the object turned over, lies on the first one.
+struct TurnedRecording {
+  std::string name;
+  Registration registration;
+};
+
+/// The object's surface in the model frame of the first recording.
 struct ScannedBody {
-  TriangleMesh mesh;        ///< closed
-  std::vector<float> seen;  ///< #V, 0..1: share of the surface around the vertex that was measured
+  TriangleMesh mesh;             ///< closed
+  std::vector<float> seen;       ///< #V, 0..1: share of the surface around the vertex that was measured
+  std::vector<KeyFrame> frames;  ///< of all recordings, in this model frame
+  std::vector<TurnedRecording> turned;
   double voxel_m = 0.0;
   double depth_std_m = 0.0;  ///< of one pixel at the object, measured
 };
 
-/// Fuses the frames and takes the object out: what stands on the table nearest to the middle.
-/// @throw std::invalid_argument with what is missing and what to do: no depth, no object, one that is larger
-/// than the region.
-ScannedBody scanBody(const std::vector<KeyFrame>& frames, const ScanSettings& settings);
+/// Fuses the recordings and takes the object out: what stands on the table nearest to the middle. The
+/// underside of a single recording is closed flat.
+/// @throw std::invalid_argument with the recording, what is missing and what to do: no depth, no object, one
+/// that is larger than the region, recordings that do not fit together.
+ScannedBody scanBody(std::vector<PosedRecording> recordings, const ScanSettings& settings);
 
 }  // namespace softbody::scanning

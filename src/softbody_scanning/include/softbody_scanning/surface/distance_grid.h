@@ -12,13 +12,18 @@ struct DistanceGrid {
   Eigen::Vector3i size = Eigen::Vector3i::Zero();
   std::vector<float> distances;  ///< x fastest
 
+  Eigen::Vector3d place(const Eigen::Vector3i& i) const {
+    return box.box.min() + box.voxel_m * i.cast<double>();
+  }
   float& at(const Eigen::Vector3i& i) {
     return distances[(static_cast<std::size_t>(i.z()) * size.y() + i.y()) * size.x() + i.x()];
   }
 };
 
-/// The solid of a volume above the table z = 0. @param clear_m height below which the table and what stands
-/// on it are not told apart.
-DistanceGrid solidAbove(const Volume& volume, double clear_m);
+/// The solid of a volume. Nothing reaches the volume's border.
+DistanceGrid solidOf(const Volume& volume);
+
+/// Takes away what is below a height.
+void cutBelow(double height_m, DistanceGrid* grid);
 
 }  // namespace softbody::scanning

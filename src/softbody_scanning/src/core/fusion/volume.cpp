@@ -125,6 +125,33 @@ float Volume::distance(const Eigen::Vector3i& index) const {
   return static_cast<float>(evidence.behind > 0 ? -box_.reach_m : box_.reach_m);
 }
 
+void Volume::forgetBelow(const Eigen::Hyperplane<double, 3>& table, double clear_m) {
+  for (int z = 0; z < size_.z(); ++z)
+    for (int y = 0; y < size_.y(); ++y)
+      for (int x = 0; x < size_.x(); ++x) {
+        const double height = table.signedDistance(place({x, y, z}));
+        if (height > 2.0 * clear_m) continue;
+        PlaceEvidence& evidence = places_[offset({x, y, z})];
+        // It comes back gradually, so that the surface has no step there.
+        const float kept = static_cast<float>(std::clamp(height / clear_m - 1.0, 0.0, 1.0));
+        evidence.weight *= kept;
+        evidence.seen *= kept;
+        if (kept == 0.0f) evidence = {0.0f, 0.0f, 0.0f, 1};
+      }
+}
+
+void Volume::add(const Volume& other) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    PlaceEvidence& mine = places_[i];
+    const PlaceEvidence& more = other.places_[i];
+    const float weight = mine.weight + more.weight;
+    if (weight > 0.0f) mine.distance = (mine.weight * mine.distance + more.weight * more.distance) / weight;
+    mine.weight = weight;
+    mine.seen += more.seen;
+    mine.behind += more.behind;
+  }
+}
+
 const PlaceEvidence& Volume::nearest(const Eigen::Vector3d& place) const {
   const Eigen::Vector3i index = ((place - box_.box.min()) / box_.voxel_m).array().round().cast<int>();
   return at(index.cwiseMax(0).cwiseMin(size_ - Eigen::Vector3i::Ones()));

@@ -44,13 +44,13 @@ void scan(Arguments arguments) {
       readFrames(arguments.recordings.front(), arguments.camera, &motion, ProgressLine("scan_model"));
   fmt::print("{} of {} frames posed, {} key frames\n", recorded.posed, recorded.frames,
              recorded.key_frames.size());
-  arguments.settings.region = regionOf(sheet);
   const auto start = std::chrono::steady_clock::now();
   arguments.settings.progress = [&](const std::string& step) {
     fmt::print("{:6.1f} s {}\n",
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), step);
   };
-  const ScannedBody body = scanBody(recorded.key_frames, arguments.settings);
+  const ScannedBody body =
+      scanBody({{arguments.recordings.front(), recorded.key_frames, regionOf(sheet)}}, arguments.settings);
   fmt::print("{} vertices, voxel {:.2f} mm, depth sigma {:.2f} mm\n", body.mesh.vertices.rows(),
              1e3 * body.voxel_m, 1e3 * body.depth_std_m);
   const StagedFolder staging(arguments.output);
