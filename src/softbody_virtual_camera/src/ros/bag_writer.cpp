@@ -36,6 +36,7 @@ void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, AtomicB
   bag->write(absolute(topics::kCameraColor), stamp, messages.color);
   bag->write(absolute(topics::kCameraDepth), stamp, messages.depth);
   bag->write(absolute(kTruthStateTopic), stamp, messages.truth);
+  bag->write(absolute(kTruthCameraPoseTopic), stamp, messages.camera);
   if (messages.second) bag->write(absolute(kSecondStateTopic), stamp, messages.second);
   if (messages.gripper_closed) bag->write(absolute(kGripperTopic), stamp, messages.gripper_closed);
   if (messages.forces) bag->write(absolute(kTruthForcesTopic), stamp, messages.forces);

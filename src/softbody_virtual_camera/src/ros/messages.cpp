@@ -106,6 +106,9 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
   messages.truth = truthMessage(capture.truth, truth_header);
   if (capture.second) messages.second = truthMessage(*capture.second, truth_header);
   messages.transforms.transforms.push_back(transformMessage(header, kBodyFrame, capture.T_camera_body));
+  messages.camera = boost::make_shared<geometry_msgs::PoseStamped>();
+  messages.camera->header = headerOf(stamp, kBodyFrame);
+  messages.camera->pose = toMessage(capture.T_camera_body.inverse());
   addOthers(capture, header, &messages.transforms.transforms);
   if (capture.T_world_camera) {
     messages.transforms.transforms.push_back(transformMessage(
@@ -128,6 +131,7 @@ void setStamp(const ros::Time& stamp, CaptureMessages* messages) {
     header->stamp = stamp;
   }
   messages->truth->observed = stamp;
+  messages->camera->header.stamp = stamp;
   for (geometry_msgs::TransformStamped& transform : messages->transforms.transforms) {
     transform.header.stamp = stamp;
   }

@@ -26,6 +26,9 @@ CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
   setup.texture = parameters->choice("texture", setup.texture, textureNames());
   setup.body = parameters->text("body", setup.body);
   setup.tool = parameters->text("tool", setup.tool);
+  setup.sheet = parameters->text("sheet", setup.sheet);
+  setup.jerks = parameters->flag("jerks", setup.jerks);
+  setup.camera_tf = parameters->flag("camera_tf", setup.camera_tf);
   setup.unit = parameters->choice("unit", setup.unit, {"m", "cm", "mm", "inch"});
   setup.seed =
       static_cast<std::uint64_t>(parameters->integer("seed", static_cast<int>(setup.seed), 0, 1 << 30));
@@ -69,6 +72,7 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
     second_topology_ = node.advertise<softbody_msgs::MeshTopology>(name(kSecondTopologyTopic), 1, true);
     second_state_ = node.advertise<softbody_msgs::MeshState>(name(kSecondStateTopic), kQueue);
   }
+  truth_camera_ = node.advertise<geometry_msgs::PoseStamped>(name(kTruthCameraPoseTopic), kQueue);
   truth_labels_ = node.advertise<sensor_msgs::Image>(name(kTruthLabelsTopic), kQueue);
   truth_state_ = node.advertise<softbody_msgs::MeshState>(name(kTruthStateTopic), kQueue);
   if (camera_->scene().state(0.0).forces)
@@ -130,6 +134,7 @@ void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time
   if (messages.gripper_closed) gripper_.publish(messages.gripper_closed);
   if (messages.forces) truth_forces_.publish(messages.forces);
   if (messages.second) second_state_.publish(messages.second);
+  truth_camera_.publish(messages.camera);
   if (messages.tool) truth_tool_.publish(messages.tool);
   color_info_.publish(messages.info);
   depth_info_.publish(messages.info);

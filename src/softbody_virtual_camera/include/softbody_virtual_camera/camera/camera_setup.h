@@ -15,8 +15,10 @@ struct CameraSetup {
   std::string body;                         ///< OBJ, PLY, STL or OFF; empty: the scene's body
   std::string unit = "m";                   ///< unit of the body's file: m, cm, mm or inch
   std::string tool;                         ///< tool YAML; empty: knife.yaml
+  std::string sheet;                        ///< of the scans: its YAML, or none; empty: sheet.yaml
+  bool jerks = false, camera_tf = false;    ///< of the scans; see ScanOptions
   FileScope scope = FileScope::kOwnFolder;  ///< of the files that the body's OBJ names
-  std::string config_folder;                ///< folder of the shipped objects and of knife.yaml
+  std::string config_folder;  ///< folder of the shipped objects, of knife.yaml and of sheet.yaml
   std::uint64_t seed = 1;
   int width = 640, height = 480;  ///< [px]
   double rate_hz = 30.0;

@@ -31,6 +31,7 @@ constexpr char kSecondFrame[] = "ground_truth_second";
 constexpr char kSecondTopologyTopic[] = "ground_truth/second/surface/topology";
 constexpr char kSecondStateTopic[] = "ground_truth/second/surface/state";
 constexpr char kTruthLabelsTopic[] = "ground_truth/labels";
+constexpr char kTruthCameraPoseTopic[] = "ground_truth/camera_pose";
 constexpr char kTruthToolPoseTopic[] = "ground_truth/tool/pose";
 constexpr char kTruthForcesTopic[] = "ground_truth/forces";  ///< only in scenes that know them
 constexpr char kTruthCutTopic[] = "ground_truth/cut";
@@ -45,9 +46,10 @@ struct CaptureMessages {
   /// optical frame -> ground_truth_softbody, ground_truth_second, links of a robot, gripper and its fingers;
   /// with a moving camera also world -> camera_link
   tf2_msgs::TFMessage transforms;
-  geometry_msgs::PoseStampedPtr tool;  ///< of the tool in the optical frame; null without a tool
-  softbody_msgs::ForcesPtr forces;     ///< in the frame of the truth; null if the scene does not know them
-  std_msgs::BoolPtr gripper_closed;    ///< null without a gripper
+  geometry_msgs::PoseStampedPtr camera;  ///< optical frame in the frame of the body at rest
+  geometry_msgs::PoseStampedPtr tool;    ///< of the tool in the optical frame; null without a tool
+  softbody_msgs::ForcesPtr forces;       ///< in the frame of the truth; null if the scene does not know them
+  std_msgs::BoolPtr gripper_closed;      ///< null without a gripper
 };
 
 CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const ros::Time& stamp,

@@ -11,7 +11,8 @@
 
 namespace softbody::virtual_camera {
 
-/// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, seed, noise, width,
+/// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, sheet, jerks,
+/// camera_tf, seed, noise, width,
 /// height, rate [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth
 /// (ground_truth/...) and optical frame -> ground_truth_softbody. Each frame is rendered before its time
 /// comes, and gets its stamp when it is sent, as from a real camera.
@@ -34,7 +35,8 @@ class VirtualCameraNode {
   double hold_s_ = 2.0;
   std::optional<VirtualCamera> camera_;
   ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, second_topology_,
-      second_state_, truth_labels_, truth_forces_, truth_tool_, truth_cut_, gripper_, tf_, tf_static_;
+      second_state_, truth_labels_, truth_camera_, truth_forces_, truth_tool_, truth_cut_, gripper_, tf_,
+      tf_static_;
   ros::Timer timer_;
   int frame_ = 0;
   std::uint32_t revision_ = 0;

@@ -34,6 +34,24 @@ Body bodyOf(const CameraSetup& setup, Warnings* warnings) {
   return body;
 }
 
+ScanOptions scanOptions(const CameraSetup& setup) {
+  if (!isScan(setup.scene)) {
+    if (setup.jerks || setup.camera_tf || !setup.sheet.empty())
+      throw std::invalid_argument(
+          fmt::format("sheet, jerks and camera_tf are for the scenes {}, not for '{}'",
+                      fmt::join(scanNames(), ", "), setup.scene));
+    return {};
+  }
+  if (setup.camera_motion != "none")
+    throw std::invalid_argument(fmt::format(
+        "camera motion '{}': the scene '{}' moves the camera itself; camera_tf gives its pose on tf",
+        setup.camera_motion, setup.scene));
+  ScanOptions options{std::nullopt, setup.jerks, setup.camera_tf};
+  const std::string sheet = setup.sheet.empty() ? setup.config_folder + "/sheet.yaml" : setup.sheet;
+  if (sheet != "none") options.sheet = loadToolDescription(sheet, setup.scope);
+  return options;
+}
+
 }  // namespace
 
 VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* warnings) {
@@ -43,7 +61,8 @@ VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* war
   std::optional<Body> second;
   if (const std::string object = secondObjectOf(setup.scene); !object.empty())
     second = readBody(setup.config_folder + "/" + object + ".obj", 1.0, warnings ? warnings : &ignored);
-  const Scene scene = makeScene(setup.scene, body, setup.seed, tool, setup.texture, second);
+  const Scene scene =
+      makeScene(setup.scene, body, setup.seed, tool, setup.texture, second, scanOptions(setup));
   const Scene shown = setup.hands ? scene : withoutHands(scene);
   return VirtualCamera(withCameraMotion(setup.camera_motion, shown), d435(setup.width, setup.height),
                        setup.noise, setup.seed);

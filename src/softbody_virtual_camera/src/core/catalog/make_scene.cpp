@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -75,6 +76,10 @@ const std::map<std::string, CutMaker>& cuts() {
 
 bool isDoll(const std::string& scene) { return scene.compare(0, kDoll.size(), kDoll) == 0; }
 
+std::string withoutPrefix(const std::string& scene) {
+  return isDoll(scene) ? scene.substr(kDoll.size()) : scene;
+}
+
 }  // namespace
 
 std::vector<std::string> sceneNames() {
@@ -82,8 +87,14 @@ std::vector<std::string> sceneNames() {
   for (const std::string& prefix : {std::string(), kDoll}) {
     for (const auto& [name, maker] : plays()) names.push_back(prefix + name);
     for (const auto& [name, maker] : cuts()) names.push_back(prefix + name);
+    for (const std::string& name : scanNames()) names.push_back(prefix + name);
   }
   return names;
+}
+
+bool isScan(const std::string& scene) {
+  const std::vector<std::string> names = scanNames();
+  return std::find(names.begin(), names.end(), withoutPrefix(scene)) != names.end();
 }
 
 std::string objectOf(const std::string& scene) { return isDoll(scene) ? "doll" : "sponge"; }
@@ -95,8 +106,13 @@ std::string secondObjectOf(const std::string& scene) {
 }
 
 Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, const std::string& tool_file,
-                const std::string& texture, const std::optional<Body>& second) {
-  const std::string plain = isDoll(name) ? name.substr(kDoll.size()) : name;
+                const std::string& texture, const std::optional<Body>& second, const ScanOptions& scan) {
+  const std::string plain = withoutPrefix(name);
+  if (isScan(name)) {
+    Scene scene = scanScene(plain, body, seed, contrastOf(texture), scan);
+    scene.name = name;
+    return scene;
+  }
   const auto play = plays().find(plain);
   const auto cut = cuts().find(plain);
   if (play == plays().end() && cut == cuts().end()) {

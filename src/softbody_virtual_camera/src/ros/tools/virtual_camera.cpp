@@ -53,6 +53,13 @@ void declareScene(CLI::App* app, Arguments* arguments) {
   app->add_option("--tool", setup.tool,
                   "tool YAML for the scenes with a cut; default: the shipped knife.yaml")
       ->check(CLI::ExistingFile);
+  app->add_option(
+      "--sheet", setup.sheet,
+      "scans (walk, walk_hand, flip, turntable): YAML of the sheet with markers below the body, or "
+      "none; default: the shipped sheet.yaml");
+  app->add_flag("--jerks", setup.jerks, "scans: the camera is pushed aside at 0.3 m/s, five times");
+  app->add_flag("--camera-tf", setup.camera_tf,
+                "scans: the camera's pose is on /tf, as on an arm; the truth then has the frame world");
   app->add_option("--object", arguments->object,
                   "folder to write: the body as an object whose picture is its texture; an earlier one is "
                   "replaced");
