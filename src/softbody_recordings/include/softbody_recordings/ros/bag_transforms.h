@@ -30,6 +30,9 @@ class BagTransforms {
   Eigen::Isometry3d at(const std::string& target_frame, const std::string& source_frame,
                        const ros::Time& stamp) const;
 
+  /// The frame above a frame that has no parent itself; the frame if it has none.
+  std::string rootOf(const std::string& frame, const ros::Time& stamp) const;
+
   /// One sentence for each frame with transforms that were left out.
   std::vector<std::string> warnings() const;
   /// The same, only for the two frames and all their ancestors.

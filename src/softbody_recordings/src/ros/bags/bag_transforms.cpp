@@ -125,6 +125,10 @@ std::vector<std::string> BagTransforms::ancestors(std::string frame, const ros::
   return way;
 }
 
+std::string BagTransforms::rootOf(const std::string& frame, const ros::Time& stamp) const {
+  return ancestors(withoutSlash(frame), stamp).back();
+}
+
 /// Adds a frame, and its ancestors at any time.
 void BagTransforms::addAbove(const std::string& frame, std::set<std::string>* frames) const {
   if (!frames->insert(frame).second) return;

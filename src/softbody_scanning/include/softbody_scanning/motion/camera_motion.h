@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "softbody_scanning/motion/model_frame.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 
@@ -22,6 +24,9 @@ class CameraMotion {
   /// The frame's pose; nothing: it is not known, and reason() says why.
   virtual std::optional<CameraPose> poseOf(const RgbdFrame& frame) = 0;
   virtual std::string reason() const = 0;
+  /// The model frame, once all frames were seen; the frame of the poses is moved into it.
+  /// @throw std::invalid_argument if it cannot be found.
+  virtual ModelFrame modelFrame(std::vector<KeyFrame>* frames) = 0;
 };
 
 }  // namespace softbody::scanning

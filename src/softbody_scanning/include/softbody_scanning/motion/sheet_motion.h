@@ -14,6 +14,8 @@ class SheetMotion : public CameraMotion {
 
   std::optional<CameraPose> poseOf(const RgbdFrame& frame) override;
   std::string reason() const override { return reason_; }
+  /// The sheet's frame, and the space above the sheet.
+  ModelFrame modelFrame(std::vector<KeyFrame>* frames) override;
 
  private:
   ToolTracker tracker_;

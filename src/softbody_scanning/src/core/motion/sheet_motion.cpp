@@ -23,4 +23,15 @@ std::optional<CameraPose> SheetMotion::poseOf(const RgbdFrame& frame) {
   return CameraPose{seen->T_camera_tool, seen->covariance};
 }
 
+ModelFrame SheetMotion::modelFrame(std::vector<KeyFrame>*) {
+  ModelFrame frame;
+  for (const ToolMarker& marker : tracker_.tool().markers) {
+    const auto corners = markerCorners(marker);
+    for (int k = 0; k < 4; ++k) frame.region.extend(Eigen::Vector3d(corners.col(k)));
+  }
+  frame.region.max().z() = frame.region.sizes().head<2>().norm();
+  frame.region.min().z() = -0.01;
+  return frame;
+}
+
 }  // namespace softbody::scanning

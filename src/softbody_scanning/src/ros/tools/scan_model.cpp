@@ -1,62 +1,144 @@
 #include "softbody_scanning/tools/scan_model.h"
 
 #include <fmt/format.h>
+#include <ros/package.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <map>
 
 #include "softbody_common/camera_options.h"
 #include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
-#include "softbody_scanning/motion/sheet_motion.h"
-#include "softbody_scanning/ros/recorded_frames.h"
-#include "softbody_scanning/scan/scanned_body.h"
+#include "softbody_common/tet_geometry.h"
+#include "softbody_scanning/ros/recording_reader.h"
+#include "softbody_scanning/scan/checked_scan.h"
+#include "softbody_scanning/scan/scan_file.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/report/model_folder.h"
 
 namespace softbody::scanning {
 namespace {
 
+constexpr int kBadVerdict = 3;  ///< exit code, as prepare_model's
+
 struct Arguments {
   std::vector<std::string> recordings;
   std::string output, sheet;
   CameraTopics camera = "/camera";
-  ScanSettings settings;
+  double voxel_mm = 0.0;
+  MotionSource motion = MotionSource::kAuto;
+  std::string fixed_frame;
 };
 
-Eigen::AlignedBox3d regionOf(const ToolDescription& sheet) {
-  Eigen::AlignedBox3d region;
-  for (const ToolMarker& marker : sheet.markers) {
-    const auto corners = markerCorners(marker);
-    for (int k = 0; k < 4; ++k) region.extend(Eigen::Vector3d(corners.col(k)));
-  }
-  region.min().z() = -0.01;
-  region.max().z() = region.sizes().head<2>().maxCoeff() + 0.1;
-  return region;
+void declare(CLI::App* app, Arguments* arguments) {
+  app->add_option(
+         "recording", arguments->recordings,
+         "bag with the camera's topics: the camera moves once round the object. Further bags show the object "
+         "turned over")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app->add_option("--output", arguments->output, "folder to write")->required();
+  app->add_option("--sheet", arguments->sheet,
+                  "YAML of the printed sheet below the object, from make_board --sheet; default: the shipped "
+                  "sheet.yaml, "
+                  "on A4")
+      ->check(CLI::ExistingFile);
+  const std::map<std::string, MotionSource> sources = {{"auto", MotionSource::kAuto},
+                                                       {"sheet", MotionSource::kSheet},
+                                                       {"tf", MotionSource::kTransforms},
+                                                       {"none", MotionSource::kNone}};
+  app->add_option("--motion", arguments->motion,
+                  "where the camera's motion is from: sheet; tf; none (from images and depth alone); auto: "
+                  "the first of "
+                  "these that the recording has")
+      ->transform(CLI::CheckedTransformer(sources))
+      ->default_str("auto");
+  app->add_option("--fixed-frame", arguments->fixed_frame,
+                  "frame of /tf in which the object rests; default: the one above all others");
+  app->add_option("--voxel-mm", arguments->voxel_mm,
+                  "fineness of the model [mm]; default: 1, or 1/200 of its size")
+      ->check(CLI::Range(0.3, 20.0));
+  addCameraOptions(app, &arguments->camera);
 }
 
-void scan(Arguments arguments) {
-  const ToolDescription sheet = loadToolDescription(arguments.sheet);
-  SheetMotion motion(sheet);
-  const RecordedFrames recorded =
-      readFrames(arguments.recordings.front(), arguments.camera, &motion, ProgressLine("scan_model"));
-  fmt::print("{} of {} frames posed, {} key frames\n", recorded.posed, recorded.frames,
-             recorded.key_frames.size());
-  const auto start = std::chrono::steady_clock::now();
-  arguments.settings.progress = [&](const std::string& step) {
-    fmt::print("{:6.1f} s {}\n",
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), step);
-  };
-  const ScannedBody body =
-      scanBody({{arguments.recordings.front(), recorded.key_frames, regionOf(sheet)}}, arguments.settings);
-  fmt::print("{} vertices, voxel {:.2f} mm, depth sigma {:.2f} mm\n", body.mesh.vertices.rows(),
-             1e3 * body.voxel_m, 1e3 * body.depth_std_m);
+/// What was found out about a recording, in a line.
+std::string lineOf(const std::string& bag, const RecordingReport& report) {
+  std::string line = fmt::format("{}: camera motion: {}; {} of {} frames, {} key frames", bag,
+                                 nameOf(report.motion), report.posed, report.frames, report.key_frames);
+  if (report.position_std_m > 0.0) line += fmt::format("; sure to {:.2f} mm", 1e3 * report.position_std_m);
+  if (report.depth_scale > 0.0)
+    line += fmt::format("; depth is {:+.2f} % off the sheet's", 1e2 * (report.depth_scale - 1.0));
+  return line + "\n";
+}
+
+std::string linesOf(const CheckedScan& scan) {
+  const ScannedBody& body = scan.body;
+  const Eigen::Vector3d size =
+      1e3 * (body.mesh.vertices.colwise().maxCoeff() - body.mesh.vertices.colwise().minCoeff());
+  std::string lines = fmt::format(
+      "{:.0f} x {:.0f} x {:.0f} mm, {:.1f} cm^3; {:.0f} % of the surface was seen, {:.0f} % of what did not "
+      "lie on the "
+      "table\n",
+      size.x(), size.y(), size.z(), 1e6 * enclosedVolume(body.mesh.vertices, body.mesh.triangles),
+      1e2 * scan.seen_share, 1e2 * scan.upper_seen_share);
+  for (const TurnedRecording& turned : body.turned) {
+    lines += fmt::format("{}: lies on the first recording to {:.2f} mm", turned.name,
+                         1e3 * turned.registration.distance_m);
+    if (turned.registration.runner_up < 2.0 * turned.registration.misfit)
+      lines += fmt::format(
+          "; warning: another way to turn it over fits nearly as well ({:.2f}, {:.2f}); look at the model",
+          turned.registration.misfit, turned.registration.runner_up);
+    lines += "\n";
+  }
+  if (body.turned.empty())
+    lines += "the underside was not seen: it is closed flat; record the object turned over, too\n";
+  if (scan.left_out > 0)
+    lines += fmt::format("{} key frames did not agree with the others and were left out\n", scan.left_out);
+  return lines;
+}
+
+/// The mesh in the middle of its box, on the ground: the object's own frame.
+void centre(TriangleMesh* mesh) {
+  const Eigen::RowVector3d low = mesh->vertices.colwise().minCoeff(),
+                           high = mesh->vertices.colwise().maxCoeff();
+  mesh->vertices.rowwise() -= 0.5 * (low + high);
+}
+
+int scan(const Arguments& arguments) {
+  RecordingOptions options;
+  options.camera = arguments.camera;
+  options.motion = arguments.motion;
+  options.fixed_frame = arguments.fixed_frame;
+  options.sheet = loadToolDescription(arguments.sheet);
+  std::vector<PosedRecording> recordings;
+  std::string report;
+  for (const std::string& bag : arguments.recordings) {
+    options.bag = bag;
+    RecordingReport found;
+    fmt::print(stderr, "scan_model: read {}\n", bag);
+    recordings.push_back(readRecording(options, ProgressLine("scan_model"), &found));
+    report += lineOf(bag, found);
+    fmt::print("{}", lineOf(bag, found));
+    std::fflush(stdout);
+  }
+  ScanSettings settings;
+  settings.voxel_m = 1e-3 * arguments.voxel_mm;
+  settings.progress = [](const std::string& step) { fmt::print(stderr, "scan_model: {}\n", step); };
+  CheckedScan scan = scanAndCheck(std::move(recordings), settings);
+  report += linesOf(scan);
+  fmt::print("{}", linesOf(scan));
+  centre(&scan.body.mesh);
   const StagedFolder staging(arguments.output);
   const std::string mesh = (staging.path() / "scan.obj").string();
-  writeObj(mesh, body.mesh);
-  prepareModel({mesh}, arguments.output, {0, false}, std::cerr);
+  writeObj(mesh, scan.body.mesh);
+  fmt::print(stderr, "scan_model: prepare the model\n");
+  const Verdict verdict =
+      prepareModel({mesh}, arguments.output, {0, false, ProgressLine("scan_model")}, std::cout);
+  replaceFile(std::filesystem::path(arguments.output) / "scan.ply", scanPly(scan.body.mesh, scan.body.seen));
+  replaceFile(std::filesystem::path(arguments.output) / "report/scan.txt", report);
+  return verdict == Verdict::kBad ? kBadVerdict : 0;
 }
 
 }  // namespace
@@ -64,17 +146,12 @@ void scan(Arguments arguments) {
 int runScanModel(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Makes the model of an object from a recording of it: an object folder as prepare_model's");
-  app.add_option("recording", arguments.recordings, "bag with the camera's topics")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--output", arguments.output, "folder to write")->required();
-  app.add_option("--sheet", arguments.sheet, "tool YAML of the sheet below the object")
-      ->check(CLI::ExistingFile);
-  addCameraOptions(&app, &arguments.camera);
-  return runTool(&app, argc, argv, [&] {
-    scan(arguments);
-    return 0;
-  });
+  arguments.sheet = ros::package::getPath("softbody_bringup") + "/config/sheet.yaml";
+  declare(&app, &arguments);
+  app.footer(
+      "Exit codes: 0 done; 1 no model can be made of it; 2 wrong usage; 3 done, but the model's verdict is "
+      "bad.");
+  return runTool(&app, argc, argv, [&] { return scan(arguments); });
 }
 
 }  // namespace softbody::scanning
