@@ -1,5 +1,6 @@
 #include "softbody_virtual_camera/ros/bag_writer.h"
 
+#include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
@@ -7,7 +8,9 @@
 #include <softbody_msgs/Forces.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -84,13 +87,35 @@ TEST(BagWriter, HoldsTheContractsTopicsWithOneStampAFrame) {
   }
   for (const char* topic :
        {"/camera/color/image_raw", "/camera/color/camera_info", "/camera/aligned_depth_to_color/image_raw",
-        "/camera/aligned_depth_to_color/camera_info", "/ground_truth/surface/state", "/tf"}) {
+        "/camera/aligned_depth_to_color/camera_info", "/ground_truth/surface/state",
+        "/ground_truth/camera_pose", "/tf"}) {
     EXPECT_EQ(count[topic], 35) << topic;
   }
   EXPECT_EQ(count["/ground_truth/surface/topology"], 2);
   EXPECT_EQ(count["/tf_static"], 2);
   EXPECT_EQ(stamps.size(), 35u);
   for (const auto& [stamp, images] : stamps) EXPECT_EQ(images, 3);
+}
+
+TEST(BagWriter, TheCamerasPoseIsTheInverseOfTheBodysPose) {
+  rosbag::Bag bag(write("camera.bag", 1));
+  std::map<ros::Time, Eigen::Vector3d> body, camera;
+  for (const rosbag::MessageInstance& m : rosbag::View(bag)) {
+    if (const auto pose = m.instantiate<geometry_msgs::PoseStamped>()) {
+      EXPECT_EQ(pose->header.frame_id, "ground_truth_softbody");
+      const auto& [p, q] = std::pair(pose->pose.position, pose->pose.orientation);
+      // Where the body's origin is in the camera's frame.
+      camera[pose->header.stamp] =
+          Eigen::Quaterniond(q.w, q.x, q.y, q.z).conjugate() * -Eigen::Vector3d(p.x, p.y, p.z);
+    }
+    const auto transforms = m.getTopic() == "/tf" ? m.instantiate<tf2_msgs::TFMessage>() : nullptr;
+    if (!transforms) continue;
+    const auto& transform = transforms->transforms.at(0);
+    const auto& p = transform.transform.translation;
+    body[transform.header.stamp] = {p.x, p.y, p.z};
+  }
+  ASSERT_EQ(camera.size(), 35u);
+  for (const auto& [stamp, place] : body) EXPECT_TRUE(camera.at(stamp).isApprox(place, 1e-9));
 }
 
 TEST(BagWriter, WritesLabelsWhenAskedWithTheStampOfTheImages) {

@@ -32,18 +32,6 @@ TriangleMesh squares(const Eigen::Vector3d& corner, const Eigen::Vector3d& edge_
   return mesh;
 }
 
-/// Darker near the body, where little light comes.
-float shade(const Footprint& body, const Eigen::Vector3d& place) {
-  constexpr double kSoft = 0.015;  // [m]
-  constexpr float kDarkest = 0.5f;
-  const Eigen::Vector2d beyond = ((place.head<2>() - body.middle).cwiseAbs() - 0.8 * body.half).cwiseMax(0.0);
-  return 1.0f - kDarkest * static_cast<float>(std::exp(-beyond.squaredNorm() / (kSoft * kSoft)));
-}
-
-Texture shaded(const Texture& texture, const Footprint& body) {
-  return [=](const Eigen::Vector3d& place) -> Eigen::Vector3f { return shade(body, place) * texture(place); };
-}
-
 /// Books, boxes and cans, so low that they hide nothing of the body.
 TriangleMesh placedThings(double scale, double table_z, std::uint64_t seed) {
   constexpr int kCount = 9;
@@ -103,30 +91,31 @@ Texture printTexture(const ToolDescription& sheet) {
 
 }  // namespace
 
-std::vector<Actor> deskActors(double scale, double table_z, const Footprint& body, std::uint64_t seed) {
+std::vector<Actor> deskActors(double scale, double table_z, const ContactShadow* shadow, std::uint64_t seed) {
   const double half = 1.5 * scale, high = 1.5 * scale, square = 0.15 * scale;
   const Eigen::Vector3d corner(-half, -half, table_z), x(2.0 * half, 0.0, 0.0), y(0.0, 2.0 * half, 0.0),
       up(0.0, 0.0, high);
   const TriangleMesh walls =
       merge({squares(corner, up, x, 0.5 * scale), squares(corner, y, up, 0.5 * scale),
              squares(corner + x, up, y, 0.5 * scale), squares(corner + y, x, up, 0.5 * scale)});
+  const Texture wood = woodTexture(hash(seed, 2));
   std::vector<Actor> actors = {
-      {squares(corner, x, y, square), shaded(woodTexture(hash(seed, 2)), body), 2.4e-3 * scale},
+      {squares(corner, x, y, square), shadow ? shadow->on(wood) : wood, 2.4e-3 * scale},
       {walls, plasterTexture(hash(seed, 3)), 10.0e-3 * scale},
       {placedThings(scale, table_z, hash(seed, 4)), cellTexture(hash(seed, 5)), 1.2e-3 * scale}};
   for (Actor& actor : actors) actor.background = true;
   return actors;
 }
 
-Actor sheetActor(const ToolDescription& sheet, const Footprint& body) {
+Actor sheetActor(const ToolDescription& sheet, const ContactShadow& shadow) {
   constexpr double kEdge = 0.010, kSquare = 0.04;  // [m] paper beyond the markers
   Eigen::Vector2d half = Eigen::Vector2d::Zero();
   for (const auto& marker : sheet.markers)
     half = half.cwiseMax(markerCorners(marker).topRows<2>().cwiseAbs().rowwise().maxCoeff());
-  half.array() += kEdge;
+  half = sheet.markers.empty() ? Eigen::Vector2d(0.105, 0.1485) : Eigen::Vector2d(half.array() + kEdge);
   Actor actor{
       squares({-half.x(), -half.y(), 0.0}, {2.0 * half.x(), 0.0, 0.0}, {0.0, 2.0 * half.y(), 0.0}, kSquare),
-      shaded(printTexture(sheet), body), kSheetTexel};
+      shadow.on(printTexture(sheet)), kSheetTexel};
   actor.background = true;
   return actor;
 }

@@ -30,11 +30,6 @@ Eigen::Isometry3d lyingPose(const Points& rest, bool flipped) {
   return T_world_body;
 }
 
-Footprint footprintOf(const Points& lying) {
-  const Eigen::Vector3d low = lying.colwise().minCoeff(), high = lying.colwise().maxCoeff();
-  return {0.5 * (high - low).head<2>(), 0.5 * (high + low).head<2>()};
-}
-
 /// Lights that stay in the world.
 struct RoomLights {
   Eigen::Vector3d to_main = Eigen::Vector3d(-0.45, -0.35, 0.82).normalized(),
@@ -73,9 +68,12 @@ Eigen::Isometry3d turntablePose(const Scan& scan, double t) {
       Eigen::AngleAxisd(scan.turns ? kTurns * t / scan.way.duration_s : 0.0, Eigen::Vector3d::UnitZ()));
 }
 
+Eigen::Isometry3d cameraPose(const Scan& scan, double t) {
+  return scan.turns ? standingCamera(scan.way, t) : walkingCamera(scan.way, t);
+}
+
 SceneState stateOf(const Scan& scan, const Points& rest, double t) {
-  const Eigen::Isometry3d T_world_camera =
-      scan.turns ? standingCamera(scan.way, t) : walkingCamera(scan.way, t);
+  const Eigen::Isometry3d T_world_camera = cameraPose(scan, t);
   const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
   const Eigen::Isometry3d T_camera_sheet = T_camera_world * turntablePose(scan, t);
   SceneState state;
@@ -100,6 +98,22 @@ CameraWay wayAround(const Points& lying, std::uint64_t seed, bool jerks) {
   return way;
 }
 
+/// The desk, and the sheet or, on a turntable without one, empty paper.
+void addSurroundings(const TriangleMesh& lying, std::uint64_t seed, const ScanOptions& options, Scene* scene,
+                     Scan* scan) {
+  constexpr double kPaper = 0.3e-3;  // [m] of the paper, with what air is below it
+  const ContactShadow shadow(lying);
+  const bool paper = options.sheet || scan->turns;
+  for (const Actor& actor : deskActors(scan->way.distance_m / kUsualDistance, paper ? -kPaper : 0.0,
+                                       scan->turns ? nullptr : &shadow, seed)) {
+    scan->around.push_back(actor.rest.vertices);
+    scene->actors.push_back(actor);
+  }
+  if (!paper) return;
+  scene->actors.push_back(sheetActor(options.sheet.value_or(ToolDescription{}), shadow));
+  scan->sheet = scene->actors.back().rest.vertices;
+}
+
 }  // namespace
 
 std::vector<std::string> scanNames() { return {"flip", "turntable", "walk", "walk_hand"}; }
@@ -110,36 +124,25 @@ Eigen::Vector3d middleOf(const Points& points) {
 
 Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, float contrast,
                 const ScanOptions& options) {
-  constexpr double kPaper = 0.3e-3;  // [m] of the paper, with what air is below it
   Scan scan;
   scan.T_world_body = lyingPose(body.rest.vertices, name == "flip");
-  const Points lying = transformed(scan.T_world_body, body.rest.vertices);
-  const Footprint footprint = footprintOf(lying);
-  scan.way = wayAround(lying, seed, options.jerks);
+  const TriangleMesh lying{transformed(scan.T_world_body, body.rest.vertices), body.rest.triangles};
+  scan.way = wayAround(lying.vertices, seed, options.jerks);
   scan.lights = roomLights(contrast);
   scan.turns = name == "turntable";
   scan.camera_tf = options.camera_tf;
+  const double beside = lying.vertices.col(0).maxCoeff() + 0.05;  // [m]
+  if (name == "walk_hand") scan.hands = passingHands(scan.way, {beside, middleOf(lying.vertices).y(), 0.0});
   Scene scene;
   scene.name = name;
   scene.duration_s = scan.way.duration_s;
   scene.actors = {{body.rest, withContrast(cellTexture(hash(seed, 1)), contrast)}};
   scene.actors[0].skin = withContrast(body.skin, contrast);
-  for (const Actor& actor :
-       deskActors(scan.way.distance_m / kUsualDistance, options.sheet ? -kPaper : 0.0, footprint, seed)) {
-    scan.around.push_back(actor.rest.vertices);
-    scene.actors.push_back(actor);
-  }
-  if (options.sheet) {
-    scene.actors.push_back(sheetActor(*options.sheet, footprint));
-    scan.sheet = scene.actors.back().rest.vertices;
-  }
-  const Eigen::Vector3d beside(footprint.middle.x() + footprint.half.x() + 0.05, footprint.middle.y(), 0.0);
-  if (name == "walk_hand") scan.hands = passingHands(scan.way, beside);
+  addSurroundings(lying, seed, options, &scene, &scan);
   for (const PassingHand& hand : scan.hands) scene.actors.push_back(hand.actor);
   scene.hands = scan.hands.size();
-  scene.T_camera_world =
-      (scan.turns ? standingCamera(scan.way, 0.0) : walkingCamera(scan.way, 0.0)).inverse();
   scene.state = [scan, rest = body.rest.vertices](double t) { return stateOf(scan, rest, t); };
+  scene.T_camera_world = cameraPose(scan, 0.0).inverse();
   return scene;
 }
 
