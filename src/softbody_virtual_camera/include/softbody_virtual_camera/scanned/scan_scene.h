@@ -27,7 +27,7 @@ std::vector<std::string> scanNames();
 Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, float contrast,
                 const ScanOptions& options);
 
-/// A middle of a body's surface: of its bounding box [m].
+/// The middle of the bounding box [m].
 Eigen::Vector3d middleOf(const Points& points);
 
 }  // namespace softbody::virtual_camera
