@@ -7,6 +7,7 @@
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"
+#include "softbody_sim/io/textured_mesh_file.h"
 
 namespace softbody {
 namespace {
@@ -57,6 +58,35 @@ TEST(WriteObj, ReadsBackBitForBit) {
   EXPECT_EQ(read.mesh.vertices, mesh.vertices);
   EXPECT_EQ(read.mesh.triangles, mesh.triangles);
   EXPECT_TRUE(read.texture_coordinates.isApprox(texture, 1e-8));
+}
+
+TEST(WriteTexturedObj, TheReadersFindThePicture) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = test::torus(1.0, 0.3, 8, 6);
+  const cv::Mat3b picture(5, 7, cv::Vec3b(1, 2, 3));
+  writeTexturedObj(folder.file("a.obj"), mesh, Points::Zero(3 * mesh.triangles.rows(), 3), picture);
+  Warnings warnings;
+  const SurfaceFile read = readSurfaceFile(folder.file("a.obj"), &warnings);
+  const SurfacePictures pictures = surfacePictures(read, FileScope::kOwnFolder, &warnings);
+  EXPECT_EQ(pictures.files, std::vector<std::string>{folder.file("a.png")});
+  EXPECT_EQ(pictures.picture, std::vector<int>(static_cast<std::size_t>(mesh.triangles.rows()), 0));
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_THROW(writeTexturedObj(folder.file("b.obj"), mesh, {}, cv::Mat3b()), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.obj")));
+}
+
+TEST(ReadPly, AScanSaysWhatWasSeen) {
+  const TemporaryFolder folder;
+  Warnings warnings;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string with =
+      header + "property float seen\n" + faces + "0 0 0 1\n1 0 0 0.5\n0 1 0 0\n3 0 1 2\n";
+  const std::string without = header + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(readSurfaceFile(folder.write("a.ply", with), &warnings).seen,
+            (std::vector<float>{1.0f, 0.5f, 0.0f}));
+  EXPECT_TRUE(readSurfaceFile(folder.write("b.ply", without), &warnings).seen.empty());
 }
 
 constexpr const char* kPlyHeader =

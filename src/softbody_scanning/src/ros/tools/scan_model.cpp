@@ -15,13 +15,15 @@
 #include "softbody_scanning/ros/recording_reader.h"
 #include "softbody_scanning/scan/checked_scan.h"
 #include "softbody_scanning/scan/scan_file.h"
-#include "softbody_sim/io/surface_files.h"
+#include "softbody_scanning/texture/painted_mesh.h"
+#include "softbody_sim/io/textured_mesh_file.h"
 #include "softbody_sim/report/model_folder.h"
 
 namespace softbody::scanning {
 namespace {
 
-constexpr int kBadVerdict = 3;  ///< exit code, as prepare_model's
+constexpr int kBadVerdict = 3;        ///< exit code, as prepare_model's
+constexpr double kDepthSigmas = 3.0;  // from the mesh, depth is of something before or behind it
 
 struct Arguments {
   std::vector<std::string> recordings;
@@ -129,10 +131,13 @@ int scan(const Arguments& arguments) {
   CheckedScan scan = scanAndCheck(std::move(recordings), settings);
   report += linesOf(scan);
   fmt::print("{}", linesOf(scan));
+  settings.progress("paint the surface");
+  const PaintedMesh painted =
+      paintMesh(scan.body.mesh, scan.body.frames, {kDepthSigmas * scan.body.depth_std_m + scan.body.voxel_m});
   centre(&scan.body.mesh);
   const StagedFolder staging(arguments.output);
   const std::string mesh = (staging.path() / "scan.obj").string();
-  writeObj(mesh, scan.body.mesh);
+  writeTexturedObj(mesh, scan.body.mesh, painted.texture_coordinates, painted.picture);
   fmt::print(stderr, "scan_model: prepare the model\n");
   const Verdict verdict =
       prepareModel({mesh}, arguments.output, {0, false, ProgressLine("scan_model")}, std::cout);

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "softbody_common/files/staged_output.h"
-#include "softbody_sim/io/surface_files.h"
+#include "softbody_sim/io/textured_mesh_file.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -89,12 +88,8 @@ void writePaintedObject(const TriangleMesh& rest, const Texture& texture,
     paint(rest, texture, f, square, &picture);
     coordinates.middleRows<3>(3 * f) = coordinatesIn(size, square);
   }
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", picture, png);
   StagedFolder staged(folder);
-  writeObj((staged.path() / "visual.obj").string(), rest, coordinates, "visual.mtl");
-  writeBytes(staged.path() / "visual.mtl", "newmtl body\nKd 1 1 1\nmap_Kd visual.png\n");
-  writeBytes(staged.path() / "visual.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+  writeTexturedObj(staged.path() / "visual.obj", rest, coordinates, picture);
   writeBytes(staged.path() / "object.yaml", "object: {visual_mesh: visual.obj, unit: m}\n");
   staged.replaceTarget();
 }
