@@ -11,8 +11,9 @@ namespace softbody::scanning {
 namespace {
 
 constexpr float kOutside = -std::numeric_limits<float>::max();
-// Texels whose centre is so far outside of a triangle are needed to interpolate inside of it.
-constexpr double kAround = 1.5;
+// Texels whose centre is so far outside of a triangle take the image's colour: half of a texel's diagonal, so
+// that each triangle has one. Farther out, the image may show the table.
+constexpr double kAround = 0.75;
 
 /// A triangle in the texels of its chart.
 struct FlatTriangle {
