@@ -14,7 +14,9 @@ class KeyFrameChoice {
  public:
   /// Looks at a frame. The images are kept, not copied.
   void add(KeyFrame frame);
-  /// The chosen frames in the order of time.
+  /// The frames that are chosen so far, in the order of time.
+  const std::vector<KeyFrame>& chosen() const { return chosen_; }
+  /// The same, given away.
   std::vector<KeyFrame> take();
 
  private:

@@ -4,26 +4,19 @@
 #include <ros/package.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <map>
 
 #include "softbody_common/camera_options.h"
-#include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_scanning/output/scanned_model.h"
 #include "softbody_scanning/ros/recording_reader.h"
 #include "softbody_scanning/scan/checked_scan.h"
-#include "softbody_scanning/scan/scan_file.h"
-#include "softbody_scanning/texture/painted_mesh.h"
-#include "softbody_sim/io/textured_mesh_file.h"
-#include "softbody_sim/report/model_folder.h"
 
 namespace softbody::scanning {
 namespace {
 
-constexpr int kBadVerdict = 3;        ///< exit code, as prepare_model's
-constexpr double kDepthSigmas = 3.0;  // from the mesh, depth is of something before or behind it
+constexpr int kBadVerdict = 3;  ///< exit code, as prepare_model's
 
 struct Arguments {
   std::vector<std::string> recordings;
@@ -75,39 +68,6 @@ std::string lineOf(const std::string& bag, const RecordingReport& report) {
   return line + "\n";
 }
 
-std::string linesOf(const CheckedScan& scan) {
-  const ScannedBody& body = scan.body;
-  const Eigen::Vector3d size =
-      1e3 * (body.mesh.vertices.colwise().maxCoeff() - body.mesh.vertices.colwise().minCoeff());
-  std::string lines = fmt::format(
-      "{:.0f} x {:.0f} x {:.0f} mm, {:.1f} cm^3; {:.0f} % of the surface was seen, {:.0f} % of what did not "
-      "lie on the "
-      "table\n",
-      size.x(), size.y(), size.z(), 1e6 * enclosedVolume(body.mesh.vertices, body.mesh.triangles),
-      1e2 * scan.seen_share, 1e2 * scan.upper_seen_share);
-  for (const TurnedRecording& turned : body.turned) {
-    lines += fmt::format("{}: lies on the first recording to {:.2f} mm", turned.name,
-                         1e3 * turned.registration.distance_m);
-    if (turned.registration.runner_up < 2.0 * turned.registration.misfit)
-      lines += fmt::format(
-          "; warning: another way to turn it over fits nearly as well ({:.2f}, {:.2f}); look at the model",
-          turned.registration.misfit, turned.registration.runner_up);
-    lines += "\n";
-  }
-  if (body.turned.empty())
-    lines += "the underside was not seen: it is closed flat; record the object turned over, too\n";
-  if (scan.left_out > 0)
-    lines += fmt::format("{} key frames did not agree with the others and were left out\n", scan.left_out);
-  return lines;
-}
-
-/// The mesh in the middle of its box, on the ground: the object's own frame.
-void centre(TriangleMesh* mesh) {
-  const Eigen::RowVector3d low = mesh->vertices.colwise().minCoeff(),
-                           high = mesh->vertices.colwise().maxCoeff();
-  mesh->vertices.rowwise() -= 0.5 * (low + high);
-}
-
 int scan(const Arguments& arguments) {
   RecordingOptions options;
   options.camera = arguments.camera;
@@ -129,20 +89,11 @@ int scan(const Arguments& arguments) {
   settings.voxel_m = 1e-3 * arguments.voxel_mm;
   settings.progress = [](const std::string& step) { fmt::print(stderr, "scan_model: {}\n", step); };
   CheckedScan scan = scanAndCheck(std::move(recordings), settings);
-  report += linesOf(scan);
-  fmt::print("{}", linesOf(scan));
-  settings.progress("paint the surface");
-  const PaintedMesh painted =
-      paintMesh(scan.body.mesh, scan.body.frames, {kDepthSigmas * scan.body.depth_std_m + scan.body.voxel_m});
-  centre(&scan.body.mesh);
-  const StagedFolder staging(arguments.output);
-  const std::string mesh = (staging.path() / "scan.obj").string();
-  writeTexturedObj(mesh, scan.body.mesh, painted.texture_coordinates, painted.picture);
+  report += reportOf(scan);
+  fmt::print("{}", reportOf(scan));
   fmt::print(stderr, "scan_model: prepare the model\n");
   const Verdict verdict =
-      prepareModel({mesh}, arguments.output, {0, false, ProgressLine("scan_model")}, std::cout);
-  replaceFile(std::filesystem::path(arguments.output) / "scan.ply", scanPly(scan.body.mesh, scan.body.seen));
-  replaceFile(std::filesystem::path(arguments.output) / "report/scan.txt", report);
+      writeModel(std::move(scan), report, arguments.output, ProgressLine("scan_model"), std::cout);
   return verdict == Verdict::kBad ? kBadVerdict : 0;
 }
 

@@ -1,0 +1,171 @@
+#include "nodes/scanner_node.h"
+
+#include <fmt/format.h>
+#include <std_msgs/String.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "softbody_common/ros/conversions.h"
+#include "softbody_common/ros/ros_parameters.h"
+#include "softbody_common/topics.h"
+#include "softbody_scanning/output/scanned_model.h"
+#include "softbody_scanning/scan/preview.h"
+#include "softbody_tracking/ros/conversions.h"
+
+namespace softbody::scanning {
+namespace {
+
+constexpr double kPreviewPeriod_s = 2.0;
+constexpr std::size_t kFewestFrames = 6;  // for a preview
+
+ToolDescription loadSheet(Parameters& parameters) {
+  const FileScope scope =
+      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
+  return loadToolDescription(parameters.requiredText("sheet"), scope);
+}
+
+/// The surface; nothing if too little was seen yet.
+std::optional<RegisteredSurface> tryPreview(const PosedRecording& recording) {
+  try {
+    return previewOf(recording);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+ScannerNode::ScannerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : ScannerNode(handle, private_handle, readParameters(private_handle)) {}
+
+ScannerNode::ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, Parameters parameters)
+    : sheet_(loadSheet(parameters)),
+      output_(parameters.requiredText("output")),
+      frame_id_(parameters.text("scan_frame", "scan")),
+      motion_(sheet_),
+      color_(handle, topics::kRgbRect, 3),
+      depth_(handle, topics::kDepthRect, 3),
+      info_(handle, topics::kRgbInfo, 3),
+      images_(color_, depth_, info_, 6) {
+  topology_ = handle.advertise<softbody_msgs::MeshTopology>("scan/topology", 1, true);
+  state_ = handle.advertise<softbody_msgs::MeshState>("scan/state", 1, true);
+  progress_ = handle.advertise<std_msgs::String>("scan/progress", 1, true);
+  start_ = private_handle.advertiseService("start", &ScannerNode::start, this);
+  finish_ = private_handle.advertiseService("finish", &ScannerNode::finish, this);
+  discard_ = private_handle.advertiseService("discard", &ScannerNode::discard, this);
+  images_.registerCallback(&ScannerNode::onFrame, this);
+  timer_ =
+      handle.createWallTimer(ros::WallDuration(kPreviewPeriod_s), [this](const auto&) { showProgress(); });
+  warnUnknown(parameters);
+}
+
+void ScannerNode::onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
+                          const sensor_msgs::CameraInfoConstPtr& info) try {
+  RgbdFrame frame = frameFromRectified(*color, *depth, *info);
+  frame.placed = false;
+  frame.stamp = toNanoseconds(color->header.stamp);
+  const auto pose = motion_.poseOf(frame);
+  last_error_ = motion_.reason();
+  if (pose) place(color->header, pose->T_camera_model);
+  if (!running_) return;
+  ++frames_;
+  if (!pose) return;
+  ++posed_;
+  choice_.add({frame.stamp, frame.camera, frame.color.clone(), frame.depth.clone(), pose->T_camera_model,
+               sharpnessOf(frame.color)});
+} catch (const std::exception& error) {
+  last_error_ = error.what();
+  ROS_ERROR_STREAM_THROTTLE(5.0, "frame " << color->header.stamp << " cannot be used: " << error.what());
+}
+
+void ScannerNode::place(const std_msgs::Header& header, const Eigen::Isometry3d& T_camera_model) {
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_camera_model);
+  transform.header = header;
+  transform.child_frame_id = frame_id_;
+  transforms_.sendTransform(transform);
+}
+
+std::string ScannerNode::progressText() const {
+  std::string text = fmt::format("{}: {} frames, the sheet in {}, {} views",
+                                 running_ ? "scanning" : "stopped", frames_, posed_, choice_.chosen().size());
+  if (revision_ > 0) text += fmt::format("; {:.0f} % of the surface seen", 1e2 * seen_);
+  if (!last_error_.empty()) text += "; " + last_error_;
+  return text;
+}
+
+void ScannerNode::showProgress() {
+  if (preview_.valid() && preview_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    if (const auto surface = preview_.get()) publish(*surface);
+  std_msgs::String text;
+  text.data = progressText();
+  progress_.publish(text);
+  if (!running_ || preview_.valid() || choice_.chosen().size() < kFewestFrames) return;
+  PosedRecording recording{"scan", choice_.chosen(), motion_.modelFrame(nullptr).region};
+  preview_ =
+      std::async(std::launch::async, [recording = std::move(recording)] { return tryPreview(recording); });
+}
+
+void ScannerNode::publish(const RegisteredSurface& surface) {
+  MeshTopology topology;
+  topology.revision = ++revision_;
+  topology.rest_vertices = surface.mesh.vertices;
+  topology.triangles = surface.mesh.triangles;
+  topology.vertex_parents.assign(static_cast<std::size_t>(surface.mesh.vertices.rows()), -1);
+  topology.triangle_pieces.assign(static_cast<std::size_t>(surface.mesh.triangles.rows()), 0);
+  topology.cut.assign(static_cast<std::size_t>(surface.mesh.triangles.rows()), false);
+  MeshState state;
+  state.revision = revision_;
+  state.vertices = surface.mesh.vertices;
+  state.confidence = surface.seen;
+  seen_ = std::accumulate(surface.seen.begin(), surface.seen.end(), 0.0) /
+          static_cast<double>(surface.seen.size());
+  softbody_msgs::MeshTopology topology_message = toMessage(topology);
+  softbody_msgs::MeshState state_message = toMessage(state);
+  topology_message.header.frame_id = state_message.header.frame_id = frame_id_;
+  topology_message.header.stamp = state_message.header.stamp = state_message.observed = ros::Time::now();
+  topology_.publish(topology_message);
+  state_.publish(state_message);
+}
+
+bool ScannerNode::start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  choice_.take();
+  frames_ = posed_ = 0;
+  running_ = true;
+  response.success = true;
+  response.message = "scanning; earlier views are dropped";
+  return true;
+}
+
+bool ScannerNode::discard(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  choice_.take();
+  frames_ = posed_ = 0;
+  running_ = false;
+  response.success = true;
+  response.message = "stopped; the views are dropped, and nothing was written";
+  return true;
+}
+
+bool ScannerNode::finish(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) try {
+  running_ = false;
+  PosedRecording recording{"scan", choice_.chosen(), motion_.modelFrame(nullptr).region};
+  CheckedScan scan = scanAndCheck({std::move(recording)}, {});
+  const std::string report = progressText() + "\n" + reportOf(scan);
+  std::ostringstream output;
+  writeModel(
+      std::move(scan), report, output_, [](double) {}, output);
+  response.success = true;
+  response.message = fmt::format("{}\n{}written to {}", progressText(), report, output_);
+  ROS_INFO_STREAM(response.message);
+  return true;
+} catch (const std::exception& error) {
+  running_ = true;  // more views may mend it
+  response.success = false;
+  response.message = std::string(error.what()) + "; the scan goes on";
+  ROS_ERROR_STREAM(response.message);
+  return true;
+}
+
+}  // namespace softbody::scanning
