@@ -13,7 +13,7 @@ namespace softbody::scanning {
 struct PlaceEvidence {
   float distance = 0.0f;  ///< signed distance from the surface, outside positive, cut off at the reach [m]
   float weight = 0.0f;    ///< inverse variance of the distance [1/m^2]; 0: no view says anything
-  float seen = 0.0f;      ///< the part of the weight that measured a surface near this place
+  float seen = 0.0f;      ///< the part of the weight that measured a surface at this place, up to noise
   int behind = 0;         ///< number of views in which a surface hides this place
 };
 

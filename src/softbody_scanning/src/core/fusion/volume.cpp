@@ -66,7 +66,8 @@ class Fuser {
     const float cosine = 1.0f / (length * z * ray.norm());
     const float weight = cosine * inverseVariance(z);
     sums->weight += weight;
-    sums->seen += weight;
+    const float sigmas = distance / (cosine * z * z * std::sqrt(variance_));
+    sums->seen += weight * std::exp(-0.5f * sigmas * sigmas);
     sums->weighted_distance += weight * std::min(distance, reach_);
   }
 

@@ -3,6 +3,8 @@
 namespace softbody::scanning {
 namespace {
 
+constexpr double kBesideSheet = 0.25;  // of its size, on each side
+
 /// Depth on the markers is measured by the same camera as the object: its bias would tilt the object, too.
 ToolTrackerConfig cornersOnly() {
   ToolTrackerConfig config;
@@ -29,6 +31,8 @@ ModelFrame SheetMotion::modelFrame(std::vector<KeyFrame>*) {
     const auto corners = markerCorners(marker);
     for (int k = 0; k < 4; ++k) frame.region.extend(Eigen::Vector3d(corners.col(k)));
   }
+  const Eigen::Vector3d beside = kBesideSheet * frame.region.sizes();  // an object may hang over the sheet
+  frame.region = {Eigen::Vector3d(frame.region.min() - beside), Eigen::Vector3d(frame.region.max() + beside)};
   frame.region.max().z() = frame.region.sizes().head<2>().norm();
   frame.region.min().z() = -0.01;
   return frame;
