@@ -11,6 +11,7 @@
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_scanning/key_frames/key_frame_choice.h"
+#include "softbody_scanning/markerless/markerless_motion.h"
 #include "softbody_scanning/motion/sheet_depth.h"
 #include "softbody_scanning/motion/sheet_motion.h"
 #include "softbody_scanning/ros/transform_motion.h"
@@ -130,10 +131,7 @@ std::unique_ptr<CameraMotion> motionOf(const RecordingOptions& options, MotionSo
   if (source == MotionSource::kSheet) return std::make_unique<SheetMotion>(options.sheet);
   if (source == MotionSource::kTransforms)
     return std::make_unique<TransformMotion>(options.bag, options.fixed_frame);
-  throw std::invalid_argument(
-      "neither the sheet is seen nor does /tf have the camera's motion; print config/sheet.pdf, put it below "
-      "the object, "
-      "and record again");
+  return std::make_unique<MarkerlessMotion>();
 }
 
 }  // namespace
