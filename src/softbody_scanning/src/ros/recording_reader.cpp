@@ -19,7 +19,6 @@
 namespace softbody::scanning {
 namespace {
 
-constexpr int kFewestKeyFrames = 12;              // a circle of views 30 degrees apart
 constexpr int kLookFrames = 90, kLookEvery = 10;  // of the beginning
 constexpr double kLargestScaleError = 0.05;       // beyond any camera's calibration and any printer
 
@@ -60,24 +59,21 @@ class Reader {
   double variance_ = 0.0;
 };
 
+/// ", mostly because ..." of the frames without a pose; empty: there are none.
 std::string commonReason(const RecordingReport& report) {
-  std::string reason = "the recording has no frames";
+  std::string reason;
   int most = 0;
   for (const auto& [why, frames] : report.unposed)
-    if (frames > most) reason = why, most = frames;
+    if (frames > most) reason = ", mostly because " + why, most = frames;
   return reason;
 }
 
 void requireFrames(const RecordingReport& report) {
-  if (report.frames > 0 && report.unposed.count("no depth") > 0 &&
-      report.unposed.at("no depth") == report.frames)
+  if (report.key_frames > 0) return;
+  if (report.unposed.count("no depth") > 0 && report.unposed.at("no depth") == report.frames)
     throw std::invalid_argument("no frame has depth; record the depth images, too");
-  if (report.key_frames < kFewestKeyFrames)
-    throw std::invalid_argument(
-        fmt::format("too few views: the camera's pose is known in {} of {} frames, from {} different places "
-                    "({}); walk once round "
-                    "the object and keep the sheet in the image",
-                    report.posed, report.frames, report.key_frames, commonReason(report)));
+  throw std::invalid_argument(
+      fmt::format("the camera's pose is known in none of {} frames{}", report.frames, commonReason(report)));
 }
 
 void requireScale(double scale) {
@@ -168,8 +164,8 @@ PosedRecording readRecording(const RecordingOptions& options, const std::functio
     recording.frames = reader.finish();
     requireFrames(*report);
     recording.region = motion->modelFrame(&recording.frames).region;
-    report->depth_scale =
-        report->motion == MotionSource::kSheet ? depthScale(recording.frames, recording.region) : 0.0;
+    if (report->motion == MotionSource::kSheet)
+      report->depth_scale = depthScale(recording.frames, recording.region);
     requireScale(report->depth_scale);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(options.bag + ": " + error.what());

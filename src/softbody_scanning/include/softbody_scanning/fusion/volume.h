@@ -46,8 +46,8 @@ class Volume {
   /// Adds the evidence of a volume on the same grid.
   void add(const Volume& other);
 
-  /// The evidence at the nearest grid point.
-  const PlaceEvidence& nearest(const Eigen::Vector3d& place) const;
+  /// The most that was seen at the grid points around a place [1/m^2].
+  float seenAround(const Eigen::Vector3d& place) const;
 
  private:
   std::size_t offset(const Eigen::Vector3i& i) const {

@@ -153,9 +153,14 @@ void Volume::add(const Volume& other) {
   }
 }
 
-const PlaceEvidence& Volume::nearest(const Eigen::Vector3d& place) const {
-  const Eigen::Vector3i index = ((place - box_.box.min()) / box_.voxel_m).array().round().cast<int>();
-  return at(index.cwiseMax(0).cwiseMin(size_ - Eigen::Vector3i::Ones()));
+float Volume::seenAround(const Eigen::Vector3d& place) const {
+  const Eigen::Vector3i low = ((place - box_.box.min()) / box_.voxel_m).array().floor().cast<int>();
+  float most = 0.0f;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3i index = low + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2);
+    most = std::max(most, at(index.cwiseMax(0).cwiseMin(size_ - Eigen::Vector3i::Ones())).seen);
+  }
+  return most;
 }
 
 }  // namespace softbody::scanning

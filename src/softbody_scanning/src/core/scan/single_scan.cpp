@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "scan/object_part.h"
@@ -14,9 +15,33 @@
 namespace softbody::scanning {
 namespace {
 
-constexpr double kCoarse_m = 4e-3;    // voxels in which the object is looked for
+constexpr double kCoarse_m = 4e-3;  // voxels in which the object is looked for
+// Depth is measured up to 75 degrees from the normal: in a larger gap lies surface that no view measured.
+constexpr double kLargestGap_rad = 150.0 * M_PI / 180.0;
 constexpr double kReachSigmas = 3.0;  // of one depth: so far from the surface it still counts
 constexpr double kFewestReachVoxels = 3.0;
+
+/// The largest part of the circle round the object without a view [rad].
+double largestGap(const std::vector<KeyFrame>& frames, const Eigen::Vector3d& middle) {
+  std::vector<double> angles;
+  for (const KeyFrame& frame : frames) {
+    const Eigen::Vector3d eye = frame.T_camera_model.inverse().translation() - middle;
+    angles.push_back(std::atan2(eye.y(), eye.x()));
+  }
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + 2.0 * M_PI - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
+  return gap;
+}
+
+void requireCircle(const std::vector<KeyFrame>& frames, const Eigen::Vector3d& middle) {
+  const double gap = largestGap(frames, middle);
+  if (gap <= kLargestGap_rad) return;
+  throw std::invalid_argument(fmt::format(
+      "too few views: {} of them, and none from {:.0f} degrees of the circle round the object; walk "
+      "once round it and keep the sheet in the image",
+      frames.size(), gap * 180.0 / M_PI));
+}
 
 /// Where the object is, found in coarse voxels.
 Eigen::AlignedBox3d findObject(const SingleScan& scan, const Eigen::AlignedBox3d& region) {
@@ -62,6 +87,7 @@ SingleScan prepareScan(const PosedRecording& recording) {
   for (const KeyFrame& frame : recording.frames) square += frame.T_camera_model.translation().squaredNorm();
   scan.depth_std_m = scan.inverse_depth_std * square / static_cast<double>(recording.frames.size());
   scan.box = findObject(scan, recording.region);
+  requireCircle(recording.frames, scan.box.center());
   return scan;
 }
 
@@ -84,7 +110,7 @@ std::vector<float> seenOf(const Volume& volume, const TriangleMesh& mesh, double
   std::vector<float> seen;
   const double one_view = 1.0 / (depth_std_m * depth_std_m);
   for (const auto& p : mesh.vertices.rowwise())
-    seen.push_back(static_cast<float>(std::min(1.0, volume.nearest(p.transpose()).seen / one_view)));
+    seen.push_back(static_cast<float>(std::min(1.0, volume.seenAround(p.transpose()) / one_view)));
   return seen;
 }
 

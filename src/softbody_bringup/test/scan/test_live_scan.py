@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""The scanner shows the surface while the camera walks round the object, and writes the model when it is told to."""
+import os
+import re
+import shutil
+import sys
+import unittest
+
+import rospy
+import rostest
+from softbody_msgs.msg import MeshState, MeshTopology
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+OUTPUT = "/tmp/softbody_test_live_scan"  # as in live_scan.test
+
+
+def views():
+    """Number of views so far."""
+    found = re.search(r"(\d+) views", rospy.wait_for_message("/scan/progress", String, 30.0).data)
+    return int(found.group(1))
+
+
+def wait_for_views(count):
+    while views() < count:
+        rospy.sleep(1.0)
+
+
+class LiveScan(unittest.TestCase):
+    def setUp(self):
+        self.addCleanup(shutil.rmtree, OUTPUT, True)
+
+    def call(self, name):
+        rospy.wait_for_service("/scanner/" + name, 30.0)
+        return rospy.ServiceProxy("/scanner/" + name, Trigger)()
+
+    def test_a_model_is_written_when_the_walk_is_over(self):
+        wait_for_views(3)
+        answer = self.call("finish")
+        self.assertFalse(answer.success)
+        self.assertIn("the scan goes on", answer.message)
+        self.assertFalse(os.path.exists(OUTPUT))
+        wait_for_views(45)
+        topology = rospy.wait_for_message("/scan/topology", MeshTopology, 30.0)
+        state = rospy.wait_for_message("/scan/state", MeshState, 30.0)
+        self.assertEqual(topology.header.frame_id, "scan")
+        self.assertGreater(len(topology.triangles), 500)
+        self.assertGreater(max(state.confidence), 0.9)
+        answer = self.call("finish")
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("written to " + OUTPUT, answer.message)
+        self.assertTrue(os.path.exists(OUTPUT + "/object.yaml"))
+        self.assertTrue(self.call("discard").success)
+        self.assertEqual(views(), 0)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_live_scan")
+    rostest.rosrun("softbody_bringup", "test_live_scan", LiveScan, sys.argv)
