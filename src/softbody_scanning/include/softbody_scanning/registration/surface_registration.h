@@ -13,7 +13,8 @@ struct RegisteredSurface {
   TriangleMesh mesh;        ///< [m]
   std::vector<float> seen;  ///< empty, or #V: 1 measured, 0 never seen
   Points colors;            ///< empty, or #V x 3
-  /// Where the body stood: it was above this plane and touched it.
+  /// Where the body stood: it was above this plane and touched it. If both surfaces have one, the body was
+  /// turned over in between by at least 45 degrees.
   std::optional<Eigen::Hyperplane<double, 3>> table = std::nullopt;
 };
 
@@ -25,11 +26,11 @@ struct Registration {
   double distance_m = 0.0;  ///< median distance of what was seen
 };
 
-/// Finds the motion. It starts at 96 rotations of the principal axes; point-to-plane ICP (Chen and Medioni
-/// 1992) with Geman and McClure's weights, so that what one of the surfaces lacks does not pull. Among
-/// motions that fit alike the colours decide. Places that were never seen do not count.
-/// What the other surface shows of the underside touches the table: walls alone do not tell how high a body
-/// is.
+/// Finds the motion. It starts at 600 rotations about the middle of the volume; point-to-plane ICP (Chen and
+/// Medioni 1992) with Geman and McClure's weights, so that what one of the surfaces lacks does not pull. A
+/// surface that was never seen lies outside of the body: the other surface is on it or inside, and no more is
+/// asked of it. Among motions that fit alike the colours decide. What the other surface shows of the
+/// underside touches the table: walls alone do not tell how high a body is.
 /// @throw std::invalid_argument if the sizes differ by more than three times, or nothing was seen.
 Registration registerSurfaces(const RegisteredSurface& moving, const RegisteredSurface& fixed);
 

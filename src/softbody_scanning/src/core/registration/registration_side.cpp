@@ -4,12 +4,44 @@
 
 namespace softbody::scanning {
 
+namespace {
+
+/// Centre of the volume that a closed mesh encloses.
+Eigen::Vector3d centreOfVolume(const TriangleMesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double volume = 0.0;
+  for (const auto& t : mesh.triangles.rowwise()) {
+    const Eigen::Vector3d a = mesh.vertices.row(t[0]), b = mesh.vertices.row(t[1]),
+                          c = mesh.vertices.row(t[2]);
+    const double part = a.dot(b.cross(c));
+    volume += part;
+    sum += 0.25 * part * (a + b + c);
+  }
+  return sum / volume;
+}
+
+std::vector<Eigen::Vector3d> smoothedSeen(const RegisteredSurface& surface) {
+  Points sums = surface.mesh.vertices;
+  Eigen::VectorXd counts = Eigen::VectorXd::Ones(sums.rows());
+  for (const auto& t : surface.mesh.triangles.rowwise())
+    for (int corner = 0; corner < 3; ++corner) {  // of a closed mesh: each edge once in each direction
+      sums.row(t[corner]) += surface.mesh.vertices.row(t[(corner + 1) % 3]);
+      counts[t[corner]] += 1.0;
+    }
+  std::vector<Eigen::Vector3d> places;
+  for (Eigen::Index v = 0; v < sums.rows(); ++v)
+    if (surface.seen.empty() || surface.seen[v] >= 0.5f) places.push_back(sums.row(v) / counts[v]);
+  return places;
+}
+
+}  // namespace
+
 RegistrationSide::RegistrationSide(const RegisteredSurface& surface, int samples)
     : surface_(surface),
       query_(surface.mesh.vertices, surface.mesh.triangles),
       samples_(sampleSeen(surface, samples)),
-      middle_(0.5 * (surface.mesh.vertices.colwise().minCoeff() + surface.mesh.vertices.colwise().maxCoeff())
-                        .transpose()) {}
+      seen_places_(smoothedSeen(surface)),
+      middle_(centreOfVolume(surface.mesh)) {}
 
 RegistrationSide::Closest RegistrationSide::closest(const Eigen::Vector3d& point) const {
   const SurfacePoint place = query_.closest(point);
@@ -22,15 +54,6 @@ RegistrationSide::Closest RegistrationSide::closest(const Eigen::Vector3d& point
   if (!surface_.seen.empty())
     found.seen = std::min({surface_.seen[t[0]], surface_.seen[t[1]], surface_.seen[t[2]]}) >= 0.5f;
   return found;
-}
-
-Eigen::Matrix3d RegistrationSide::axes() const {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const SurfaceSample& sample : samples_)
-    covariance += (sample.position - middle_) * (sample.position - middle_).transpose();
-  Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
-  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
-  return axes;
 }
 
 double RegistrationSide::diagonal() const {

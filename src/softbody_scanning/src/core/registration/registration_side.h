@@ -20,10 +20,11 @@ class RegistrationSide {
   Closest closest(const Eigen::Vector3d& point) const;
 
   const std::vector<SurfaceSample>& samples() const { return samples_; }
+  /// Seen vertices, each the mean of itself and its neighbours, against noise.
+  const std::vector<Eigen::Vector3d>& seenPlaces() const { return seen_places_; }
+  /// Centre of the volume.
   const Eigen::Vector3d& middle() const { return middle_; }
   const std::optional<Eigen::Hyperplane<double, 3>>& table() const { return surface_.table; }
-  /// Columns: principal axes, right-handed.
-  Eigen::Matrix3d axes() const;
   /// Diagonal of the bounding box [m].
   double diagonal() const;
 
@@ -31,6 +32,7 @@ class RegistrationSide {
   const RegisteredSurface& surface_;
   ClosestPointQuery query_;
   std::vector<SurfaceSample> samples_;
+  std::vector<Eigen::Vector3d> seen_places_;
   Eigen::Vector3d middle_;
 };
 

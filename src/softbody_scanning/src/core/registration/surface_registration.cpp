@@ -13,49 +13,44 @@
 namespace softbody::scanning {
 namespace {
 
-constexpr double kOtherSize = 3.0;        // of the diagonals
-constexpr int kCoarse = 200;              // samples that tell starts apart
-constexpr int kFine = 5000;               // samples of the final fit
-constexpr std::size_t kKept = 12;         // starts that are fitted to the end
-constexpr double kCoarseScale = 0.05;     // of the weights, in diagonals: an error of a few degrees
-constexpr double kFineScale = 0.002;      // 0.5 mm of a body of 250 mm: about what a good scan is wrong by
-constexpr double kOther_rad = 0.35;       // from here on two motions are different answers
-constexpr std::size_t kLowestShare = 50;  // the lowest 2 % of a surface touch the table
+constexpr double kOtherSize = 3.0;     // of the diagonals
+constexpr int kCoarse = 200;           // samples that tell starts apart
+constexpr int kFine = 5000;            // samples of the final fit
+constexpr int kStarts = 600;           // rotations 25 degrees apart
+constexpr std::size_t kKept = 24;      // starts that are fitted to the end
+constexpr double kUnknownCost = 0.5;   // of a place inside the part of the other surface that was not seen
+constexpr double kCoarseScale = 0.05;  // of the weights, in diagonals: an error of a few degrees
+constexpr double kFineScale = 0.002;   // 0.5 mm of a body of 250 mm: about what a good scan is wrong by
+constexpr double kOther_rad = 0.35;    // from here on two motions are different answers
+constexpr double kTurned_cos = 0.7;    // less than 45 degrees are no turn
+constexpr double kContactShare = 0.1;  // of all samples: so much counts that a surface touches a table
 constexpr int kCoarseSteps = 12, kFineSteps = 60;  // the fit ends earlier where it stands still
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// The 24 rotations that take the axes onto the axes.
-std::vector<Eigen::Matrix3d> axisRotations() {
+/// Rotations that are spread evenly (super-Fibonacci spirals, Alexa 2022).
+std::vector<Eigen::Matrix3d> evenRotations(int count) {
+  constexpr double kPhi = 1.4142135623730951, kPsi = 1.5337511687552043;
   std::vector<Eigen::Matrix3d> rotations;
-  for (int x = 0; x < 3; ++x) {
-    for (int y = 0; y < 3; ++y) {
-      for (int signs = 0; x != y && signs < 4; ++signs) {
-        Eigen::Matrix3d R;
-        R.col(0) = ((signs & 1) != 0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(x);
-        R.col(1) = ((signs & 2) != 0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(y);
-        R.col(2) = R.col(0).cross(R.col(1));
-        rotations.push_back(R);
-      }
-    }
+  for (int i = 0; i < count; ++i) {
+    const double s = i + 0.5, r = std::sqrt(s / count), q = std::sqrt(1.0 - s / count);
+    const double alpha = 2.0 * M_PI * s / kPhi, beta = 2.0 * M_PI * s / kPsi;
+    rotations.push_back(
+        Eigen::Quaterniond(q * std::cos(beta), r * std::sin(alpha), r * std::cos(alpha), q * std::sin(beta))
+            .toRotationMatrix());
   }
   return rotations;
 }
 
-/// Starting poses. Turns by 45 degrees, for bodies whose principal axes say nothing.
+/// Starting poses.
 std::vector<Eigen::Isometry3d> starts(const RegistrationSide& moving, const RegistrationSide& fixed) {
-  const Eigen::Matrix3d from = moving.axes(), to = fixed.axes();
   std::vector<Eigen::Isometry3d> poses;
-  for (const Eigen::Matrix3d& R : axisRotations()) {
-    for (int turned = 0; turned < 4; ++turned) {
-      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-      if (turned > 0) turn = Eigen::AngleAxisd(0.25 * M_PI, Eigen::Vector3d::Unit(turned - 1)).matrix();
-      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-      pose.linear() = to * turn * R * from.transpose();
-      pose.translation() = fixed.middle() - pose.linear() * moving.middle();
-      poses.push_back(pose);
-    }
+  for (const Eigen::Matrix3d& R : evenRotations(kStarts)) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = R;
+    pose.translation() = fixed.middle() - R * moving.middle();
+    poses.push_back(pose);
   }
   return poses;
 }
@@ -75,39 +70,28 @@ struct NormalEquations {
 /// Geman and McClure's weight. @param scale distance at which three quarters of it are lost [m].
 double weightOf(double square, double scale) { return std::pow(1.0 + square / (scale * scale), -2.0); }
 
-/// The place at which moved samples touch a plane: the mean of what is as low as the lowest, up to noise.
-Eigen::Vector3d contactOf(const std::vector<SurfaceSample>& samples, const Eigen::Isometry3d& T,
-                          const Eigen::Hyperplane<double, 3>& table, double noise) {
-  std::vector<double> heights;
-  for (const SurfaceSample& sample : samples) heights.push_back(table.signedDistance(T * sample.position));
-  std::vector<double> sorted = heights;
-  const auto low = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / kLowestShare);
-  std::nth_element(sorted.begin(), low, sorted.end());
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double weights = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double above = std::max(0.0, heights[i] - *low), weight = weightOf(above * above, noise);
-    sum += weight * (T * samples[i].position);
-    weights += weight;
-  }
-  return sum / weights;
+/// The lowest moved place above a plane.
+Eigen::Vector3d lowest(const std::vector<Eigen::Vector3d>& places, const Eigen::Isometry3d& T,
+                       const Eigen::Hyperplane<double, 3>& table) {
+  const Eigen::Vector3d up = T.linear().transpose() * table.normal();
+  return T * *std::min_element(places.begin(), places.end(),
+                               [&](const auto& a, const auto& b) { return up.dot(a) < up.dot(b); });
 }
 
-/// Each surface touches the table of the other, as surely as all samples together say anything.
+/// Each surface touches the table of the other.
 void addTables(const RegistrationSide& moving, const RegistrationSide& fixed, const Eigen::Isometry3d& pose,
                NormalEquations* sums) {
-  const double noise = kFineScale * fixed.diagonal();
   const auto add = [&](const Eigen::Vector3d& place, const Eigen::Vector3d& normal, double residual) {
     Vector6 row;
     row << (place - pose * moving.middle()).cross(normal) / fixed.diagonal(), normal;
-    sums->add(static_cast<double>(moving.samples().size()), row, residual);
+    sums->add(kContactShare * static_cast<double>(moving.samples().size()), row, residual);
   };
   if (fixed.table()) {
-    const Eigen::Vector3d place = contactOf(moving.samples(), pose, *fixed.table(), noise);
+    const Eigen::Vector3d place = lowest(moving.seenPlaces(), pose, *fixed.table());
     add(place, fixed.table()->normal(), fixed.table()->signedDistance(place));
   }
   if (moving.table()) {
-    const Eigen::Vector3d place = contactOf(fixed.samples(), pose.inverse(), *moving.table(), noise);
+    const Eigen::Vector3d place = lowest(fixed.seenPlaces(), pose.inverse(), *moving.table());
     add(pose * place, pose.linear() * moving.table()->normal(), -moving.table()->signedDistance(place));
   }
 }
@@ -122,8 +106,8 @@ double improve(const RegistrationSide& moving, const RegistrationSide& fixed, do
   for (const SurfaceSample& sample : moving.samples()) {
     const Eigen::Vector3d moved = *pose * sample.position;
     const RegistrationSide::Closest nearest = fixed.closest(moved);
-    if (!nearest.seen) continue;
     const Eigen::Vector3d offset = moved - nearest.position;
+    if (!nearest.seen && nearest.normal.dot(offset) <= 0.0) continue;
     const double weight = weightOf(offset.squaredNorm(), scale);
     Vector6 row;
     row << (moved - centre).cross(nearest.normal) / size, nearest.normal;  // all entries have one size
@@ -176,17 +160,16 @@ double colorMisfit(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>
 double misfit(const RegistrationSide& from, const RegistrationSide& to, double scale,
               const Eigen::Isometry3d& T, bool with_colors) {
   double sum = 0.0;
-  int counted = 0;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> colors;
   for (const SurfaceSample& sample : from.samples()) {
     const RegistrationSide::Closest nearest = to.closest(T * sample.position);
-    if (!nearest.seen) continue;
-    const double square = (T * sample.position - nearest.position).squaredNorm() / (scale * scale);
-    sum += square / (1.0 + square);
-    ++counted;
-    if (square < 1.0) colors.emplace_back(sample.color, nearest.color);
+    const Eigen::Vector3d offset = T * sample.position - nearest.position;
+    const double square = offset.squaredNorm() / (scale * scale);
+    const bool unknown = !nearest.seen && nearest.normal.dot(offset) <= 0.0;
+    sum += unknown ? kUnknownCost : square / (1.0 + square);
+    if (nearest.seen && square < 1.0) colors.emplace_back(sample.color, nearest.color);
   }
-  const double shape = counted > 0 ? sum / counted : 1.0;
+  const double shape = sum / static_cast<double>(from.samples().size());
   return shape + (with_colors && !colors.empty() ? colorMisfit(colors) : 0.0);
 }
 
@@ -213,15 +196,26 @@ struct Candidate {
 
 bool fitsBetter(const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; }
 
+/// Whether the body stands on another part of it than in the fixed recording.
+bool isTurnedOver(const RegistrationSide& moving, const RegistrationSide& fixed,
+                  const Eigen::Isometry3d& pose) {
+  if (!moving.table() || !fixed.table()) return true;
+  return (pose.linear() * moving.table()->normal()).dot(fixed.table()->normal()) < kTurned_cos;
+}
+
 /// The starts that fit best, each as well as it can.
 std::vector<Candidate> candidatesOf(const RegisteredSurface& moving, const RegisteredSurface& fixed) {
   const RegistrationSide few_moving(moving, kCoarse), few_fixed(fixed, kCoarse);
   const double size = few_fixed.diagonal();
   std::vector<Candidate> candidates;
-  for (Eigen::Isometry3d pose : starts(RegistrationSide(moving, kFine), RegistrationSide(fixed, kFine))) {
+  for (Eigen::Isometry3d pose : starts(few_moving, few_fixed)) {
     for (int i = 0; i < kCoarseSteps; ++i) improve(few_moving, few_fixed, kCoarseScale * size, &pose);
     candidates.push_back({pose, misfitOfBoth(few_moving, few_fixed, kCoarseScale * size, pose, false)});
   }
+  candidates.erase(
+      std::remove_if(candidates.begin(), candidates.end(),
+                     [&](const Candidate& c) { return !isTurnedOver(few_moving, few_fixed, c.pose); }),
+      candidates.end());
   std::stable_sort(candidates.begin(), candidates.end(), fitsBetter);
   candidates.resize(std::min(candidates.size(), kKept));
   const RegistrationSide more_moving(moving, 5 * kCoarse), more_fixed(fixed, 5 * kCoarse);
@@ -242,6 +236,7 @@ Registration registerSurfaces(const RegisteredSurface& moving, const RegisteredS
     throw std::invalid_argument(fmt::format(
         "one surface is {:.4g} m large and the other {:.4g} m: they are not the same body", a, b));
   const std::vector<Candidate> candidates = candidatesOf(moving, fixed);
+  if (candidates.empty()) throw std::invalid_argument("the object was not turned over");
   Registration found{candidates.front().pose, candidates.front().misfit, 2.0, 0.0};
   for (const Candidate& other : candidates) {
     const Eigen::AngleAxisd turn(found.T_fixed_moving.linear().transpose() * other.pose.linear());

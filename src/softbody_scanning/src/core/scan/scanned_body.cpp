@@ -16,7 +16,8 @@
 namespace softbody::scanning {
 namespace {
 
-constexpr double kFitSigmas = 2.0;  // of one depth: median distance of surfaces that fit together
+// Of one depth: median distance of surfaces that fit together. Each is the mean of many views.
+constexpr double kFitSigmas = 0.5;
 
 /// Calls the work and tells of which recording an error is.
 template <typename Work>
