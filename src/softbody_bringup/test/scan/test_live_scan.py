@@ -21,8 +21,9 @@ def views():
     return int(found.group(1))
 
 
-def wait_for_views(count):
-    while views() < count:
+def wait_for(condition):
+    """Ends with the test's time limit."""
+    while not condition():
         rospy.sleep(1.0)
 
 
@@ -35,12 +36,12 @@ class LiveScan(unittest.TestCase):
         return rospy.ServiceProxy("/scanner/" + name, Trigger)()
 
     def test_a_model_is_written_when_the_walk_is_over(self):
-        wait_for_views(3)
+        wait_for(lambda: views() >= 3)
         answer = self.call("finish")
         self.assertFalse(answer.success)
         self.assertIn("the scan goes on", answer.message)
         self.assertFalse(os.path.exists(OUTPUT))
-        wait_for_views(45)
+        wait_for(lambda: views() >= 45)
         topology = rospy.wait_for_message("/scan/topology", MeshTopology, 30.0)
         state = rospy.wait_for_message("/scan/state", MeshState, 30.0)
         self.assertEqual(topology.header.frame_id, "scan")
@@ -51,7 +52,7 @@ class LiveScan(unittest.TestCase):
         self.assertIn("written to " + OUTPUT, answer.message)
         self.assertTrue(os.path.exists(OUTPUT + "/object.yaml"))
         self.assertTrue(self.call("discard").success)
-        self.assertEqual(views(), 0)
+        wait_for(lambda: views() == 0)  # the text is sent every two seconds
 
 
 if __name__ == "__main__":
