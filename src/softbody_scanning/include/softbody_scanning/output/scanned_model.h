@@ -14,7 +14,7 @@ std::string reportOf(const CheckedScan& scan);
 
 /// Writes the object folder of prepareModel, and in it scan.ply with what was seen, and report/scan.txt. The
 /// object's frame has its origin in the middle of the bounding box and the axes of the model frame. If
-/// anything fails, an earlier folder is unchanged.
+/// prepareModel fails, an earlier folder is unchanged.
 /// @param text of report/scan.txt. @param progress gets the finished share, 0..1. @param output gets
 /// prepareModel's report. @throw as prepareModel.
 Verdict writeModel(CheckedScan scan, const std::string& text, const std::string& folder,
