@@ -1,0 +1,143 @@
+#!/usr/bin/python3
+"""Copies the camera's topics of a virtual recording with a fault. Runs in the environment of the built workspace.
+
+Usage: faulty_bags.py FAULT RECORDING.bag OUTPUT.bag     the recording has labels (virtual_camera --labels)
+"""
+import os
+import shutil
+import sys
+
+import numpy
+import rosbag
+
+COLOR, DEPTH, LABELS = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw", "/ground_truth/labels"
+BODY = 3
+FLICKER = 0.4  # largest change of the brightness
+BLACK = 0.08  # of the brightness
+BLOCK_PX, HOLES, WRONG, WRONG_MM = 8, 0.3, 0.1, 60  # of a shiny body: shares of its blocks, largest error
+
+
+def pixels(image):
+    """A copy of the pixels, colour as (rows, columns, 3), depth in mm as (rows, columns)."""
+    if image._type != "sensor_msgs/Image" or image.encoding not in ("rgb8", "bgr8", "16UC1", "mono8"):
+        sys.exit(f"faulty_bags: {image._type} is not an image of the virtual camera")
+    kind = "<u2" if image.encoding == "16UC1" else numpy.uint8
+    channels = (3,) if image.encoding in ("rgb8", "bgr8") else ()
+    return numpy.frombuffer(image.data, kind).reshape(image.height, image.width, *channels).copy()
+
+
+def with_pixels(image, changed):
+    image.data = changed.tobytes()
+    return image
+
+
+def brighter(image, factors):
+    return with_pixels(image, numpy.clip(factors * pixels(image), 0, 255).astype(numpy.uint8))
+
+
+def no_depth(topic, message, _frame):
+    return None if "depth" in topic else message
+
+
+def no_info(topic, message, _frame):
+    return None if topic.endswith("camera_info") else message
+
+
+def millimetres(topic, message, _frame):
+    """The numbers of millimetres, in the encoding of metres."""
+    if topic != DEPTH:
+        return message
+    message = with_pixels(message, pixels(message).astype("<f4"))
+    message.encoding, message.step = "32FC1", 4 * message.width
+    return message
+
+
+def flicker(topic, message, frame):
+    return brighter(message, 1.0 + FLICKER * frame.random.uniform(-1.0, 1.0)) if topic == COLOR else message
+
+
+def black(topic, message, frame):
+    if topic == COLOR:
+        return brighter(message, numpy.where(frame.body(), BLACK, 1.0)[..., None])
+    return with_pixels(message, numpy.where(frame.body(), 0, pixels(message))) if topic == DEPTH else message
+
+
+def shiny(topic, message, frame):
+    if topic != DEPTH:
+        return message
+    depth = pixels(message)
+    blocks = [(side + BLOCK_PX - 1) // BLOCK_PX for side in depth.shape]
+
+    def per_pixel(values):
+        return numpy.kron(values, numpy.ones((BLOCK_PX, BLOCK_PX)))[:depth.shape[0], :depth.shape[1]]
+
+    drawn = per_pixel(frame.random.random(blocks))
+    errors = per_pixel(frame.random.uniform(-WRONG_MM, WRONG_MM, blocks))
+    measured = frame.body() & (depth > 0)
+    depth[measured & (drawn < HOLES)] = 0
+    wrong = measured & (drawn > 1.0 - WRONG)
+    depth[wrong] = (depth + errors)[wrong]
+    return with_pixels(message, depth)
+
+
+def half(_topic, message, frame):
+    return message if frame.share < 0.5 else None
+
+
+def hidden_sheet(topic, message, frame):
+    """Only the body keeps its colour for the middle third of the time."""
+    if topic != COLOR or not 1.0 / 3.0 <= frame.share < 2.0 / 3.0:
+        return message
+    return with_pixels(message, numpy.where(frame.body()[..., None], pixels(message), 128).astype(numpy.uint8))
+
+
+class Frame:
+    """What a fault may know of a message's frame."""
+
+    def __init__(self, stamp, share, bodies):
+        self.stamp, self.share, self.bodies = stamp, share, bodies
+        self.random = numpy.random.default_rng(stamp.to_nsec() // 1000)
+
+    def body(self):
+        """Which pixels show the body."""
+        packed, shape = self.bodies[self.stamp]
+        return numpy.unpackbits(packed, count=shape[0] * shape[1]).reshape(shape).astype(bool)
+
+
+def bodies_of(bag):
+    """Packed masks of the body, with their shape, by stamp."""
+    found = {}
+    for _, message, _ in bag.read_messages(topics=[LABELS]):
+        mask = pixels(message) == BODY
+        found[message.header.stamp] = numpy.packbits(mask), mask.shape
+    return found
+
+
+def cut_off(recording, output):
+    """As if recording had ended in the middle of a write: rosbag writes the index last."""
+    shutil.copyfile(recording, output)
+    os.truncate(output, int(0.6 * os.path.getsize(output)))
+
+
+FAULTS = {function.__name__: function
+          for function in (no_depth, no_info, millimetres, flicker, black, shiny, half, hidden_sheet)}
+
+
+def main():
+    fault, recording, output = sys.argv[1:]
+    if fault == "cut_off":
+        return cut_off(recording, output)
+    with rosbag.Bag(recording) as bag, rosbag.Bag(output, "w", compression="lz4") as changed:
+        bodies, begin, end = bodies_of(bag), bag.get_start_time(), bag.get_end_time()
+        for topic, message, time in bag.read_messages():
+            if topic.startswith("/ground_truth"):
+                continue
+            stamp = message.header.stamp if topic.startswith("/camera") else time
+            message = FAULTS[fault](topic, message, Frame(stamp, (time.to_sec() - begin) / (end - begin), bodies))
+            if message is not None:
+                changed.write(topic, message, time)
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,97 @@
+"""docs/scans.md, from the results of scans.py."""
+import datetime
+import re
+
+from evaluation.figures import number
+from markdown_lines import paragraph, table
+
+# Seen surface, mean and 99 % [mm], with the camera's motion known by the sheet or tf, and without.
+KNOWN_MM, FREE_MM = (0.5, 2.0), (0.8, 3.0)
+CLOSED_FLAT, TURNED_OVER = 0.05, 0.02  # of the volume
+SECONDS, MEMORY_GB = 60.0, 2.0  # of each recording; of all
+WRONG_MM, WRONG_VOLUME, WRONG_UNSEEN_VOLUME = 0.8, 0.05, 0.1
+MOST_SEEN = 90  # [%] of what does not lie on the table; with less, a part was not seen
+
+
+def seen(result):
+    """Distance of the seen surface to the true one: mean and 99 % [mm]."""
+    distance = result["report"]["seen"]["scanned_to_true"]
+    return distance["mean_mm"], distance["p99_mm"]
+
+
+def volume_error(result):
+    return abs(result["report"]["volume_ratio"] - 1.0)
+
+
+def missed(row, result):
+    """The goals that a model misses."""
+    mean, most = KNOWN_MM if row.known_motion else FREE_MM
+    volume = TURNED_OVER if len(row.recordings) > 1 else CLOSED_FLAT
+    seconds = min(result["seconds"], result["cpu_seconds"])
+    checks = {"mean": seen(result)[0] <= mean, "99 %": seen(result)[1] <= most, "volume": volume_error(result) <= volume,
+              "time": seconds <= SECONDS * len(row.recordings), "memory": result["memory_gb"] <= MEMORY_GB}
+    return [name for name, reached in checks.items() if not reached]
+
+
+def wrong(result):
+    share = re.search(r"(\d+) % of what did not lie", result["text"])
+    unseen = share and int(share[1]) < MOST_SEEN
+    return seen(result)[0] > WRONG_MM or volume_error(result) > (WRONG_UNSEEN_VOLUME if unseen else WRONG_VOLUME)
+
+
+def figures(result):
+    report = result["report"]
+    return [*map(number, seen(result)), f"{report['volume_ratio']:.3f}", f"{100.0 * report['whole']['complete_within_2mm']:.1f}"]
+
+
+def refusal(result):
+    return f"{'no model' if result['code'] == 1 else 'CRASH'}: {result['sentence']}"
+
+
+def cost(result):
+    return [f"{result['seconds']:.0f}", f"{result['cpu_seconds']:.0f}", f"{result['memory_gb']:.1f}"]
+
+
+def good_row(row, result):
+    if "report" not in result:
+        return [f"`{row.name}`", row.words, *4 * ["-"], *cost(result), refusal(result), result["commit"]]
+    misses = missed(row, result)
+    return [f"`{row.name}`", row.words, *figures(result), *cost(result), "no: " + ", ".join(misses) if misses else "yes",
+            result["commit"]]
+
+
+def faulty_row(row, result):
+    if "report" not in result:
+        return [f"`{row.name}`", row.words, *4 * ["-"], refusal(result), result["commit"]]
+    return [f"`{row.name}`", row.words, *figures(result), "WRONG model" if wrong(result) else "right model", result["commit"]]
+
+
+COLUMNS = ["row", "recording", "mean [mm]", "99 % [mm]", "volume", "complete [%]"]
+
+
+def document(good, faulty):
+    """The page. @param good, faulty: pairs of row and result."""
+    lines = ["# Scans", "", f"Written by `make scans` on {datetime.date.today()}.", "",
+             *paragraph("`scan_model` with its default settings makes models from recordings of the virtual camera (20 s at "
+                        "30 Hz, 640 x 480), and `evaluate --model` compares them with the true mesh. See [scan an "
+                        "object](scanning.md) and the [scenes](virtual_camera.md#scenes). Each row says at which commit it "
+                        "was measured."), "",
+             *paragraph("Mean, 99 %: distance of the seen surface to the true one. Volume: that of the model over the true "
+                        "one. Complete: share of the whole true surface, with the underside, that is nearer than 2 mm to "
+                        "the model. Time: of `scan_model`; CPU: user and system time. Other work on the machine makes the "
+                        "time longer, but hardly the CPU time. Memory: the peak."), "",
+             "## Recordings", "",
+             *paragraph(f"Goals: with the sheet or tf mean <= {KNOWN_MM[0]} mm, 99 % <= {KNOWN_MM[1]:.0f} mm; with neither "
+                        f"mean <= {FREE_MM[0]} mm, 99 % <= {FREE_MM[1]:.0f} mm; volume within {100 * TURNED_OVER:.0f} % if the "
+                        f"object was turned over, otherwise (it is closed flat) within {100 * CLOSED_FLAT:.0f} %; for each "
+                        f"recording time or CPU time <= {SECONDS:.0f} s; memory <= {MEMORY_GB:.0f} GB."), "",
+             *table([*COLUMNS, "time [s]", "CPU [s]", "memory [GB]", "goals reached", "commit"],
+                    [good_row(*pair) for pair in good]),
+             "## Faulty recordings", "",
+             *paragraph("A walk round the sponge on the sheet, with a fault. A model is wrong if its seen surface is on the "
+                        f"mean more than {WRONG_MM} mm from the true one, or if its volume is off by more than "
+                        f"{100 * WRONG_VOLUME:.0f} % ({100 * WRONG_UNSEEN_VOLUME:.0f} % if less than {MOST_SEEN} % of what does "
+                        "not lie on the table was seen, which `scan_model` says). No model, and a sentence that says what to "
+                        "do, is a good answer."), "",
+             *table([*COLUMNS, "answer", "commit"], [faulty_row(*pair) for pair in faulty])]
+    return "\n".join(lines).rstrip() + "\n"
