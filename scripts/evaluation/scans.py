@@ -3,7 +3,6 @@ import dataclasses
 import datetime
 import json
 import os
-import re
 import shutil
 import subprocess
 import time
@@ -121,12 +120,6 @@ def scan(bags, model, log):
             "memory_gb": 1024e-9 * usage.ru_maxrss, "text": log.read_text()}
 
 
-def sentence_of(text):
-    """Why there is no model: the tool's last line, without paths."""
-    lines = text.strip().splitlines()
-    return re.sub(r"/\S*/", "", lines[-1].removeprefix("scan_model: ")) if lines else "(it said nothing)"
-
-
 def measure(row):
     """Makes what is missing and measures a row; the result is kept in evaluation/scans."""
     for recording in row.recordings:
@@ -140,8 +133,6 @@ def measure(row):
         bags[0].unlink()
     if result["code"] in (0, 3):
         result["report"] = json.loads(tool("evaluate", "--model", model, TRUE[row.body], "--json"))
-    else:
-        result["sentence"] = sentence_of(result["text"])
     (FOLDER / f"{row.name}.json").write_text(json.dumps(result, indent=1))
     return result
 

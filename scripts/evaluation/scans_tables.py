@@ -2,7 +2,7 @@
 import datetime
 import re
 
-from evaluation.figures import number
+from evaluation.figures import number, percent
 from markdown_lines import paragraph, table
 
 # Seen surface, mean and 99 % [mm], with the camera's motion known by the sheet or tf, and without.
@@ -41,11 +41,15 @@ def wrong(result):
 
 def figures(result):
     report = result["report"]
-    return [*map(number, seen(result)), f"{report['volume_ratio']:.3f}", f"{100.0 * report['whole']['complete_within_2mm']:.1f}"]
+    complete = report["whole"]["complete_within_2mm"]
+    return [*map(number, seen(result)), number(report["volume_ratio"], 3), percent(complete)]
 
 
-def refusal(result):
-    return f"{'no model' if result['code'] == 1 else 'CRASH'}: {result['sentence']}"
+def refusal(row, result):
+    """Why there is no model: the tool's last line, without the folder of the recording."""
+    lines = result["text"].strip().splitlines() or ["it said nothing"]
+    sentence = lines[-1].removeprefix("scan_model: ").replace(f"{row.recordings[0].path.parent}/", "")
+    return f"{'no model' if result['code'] == 1 else 'CRASH'}: {sentence}"
 
 
 def cost(result):
@@ -54,16 +58,17 @@ def cost(result):
 
 def good_row(row, result):
     if "report" not in result:
-        return [f"`{row.name}`", row.words, *4 * ["-"], *cost(result), refusal(result), result["commit"]]
+        return [f"`{row.name}`", row.words, *4 * ["-"], *cost(result), refusal(row, result), result["commit"]]
     misses = missed(row, result)
-    return [f"`{row.name}`", row.words, *figures(result), *cost(result), "no: " + ", ".join(misses) if misses else "yes",
-            result["commit"]]
+    reached = "no: " + ", ".join(misses) if misses else "yes"
+    return [f"`{row.name}`", row.words, *figures(result), *cost(result), reached, result["commit"]]
 
 
 def faulty_row(row, result):
     if "report" not in result:
-        return [f"`{row.name}`", row.words, *4 * ["-"], refusal(result), result["commit"]]
-    return [f"`{row.name}`", row.words, *figures(result), "WRONG model" if wrong(result) else "right model", result["commit"]]
+        return [f"`{row.name}`", row.words, *4 * ["-"], refusal(row, result), result["commit"]]
+    answer = "WRONG model" if wrong(result) else "right model"
+    return [f"`{row.name}`", row.words, *figures(result), answer, result["commit"]]
 
 
 COLUMNS = ["row", "recording", "mean [mm]", "99 % [mm]", "volume", "complete [%]"]
