@@ -95,8 +95,8 @@ def document(good, faulty):
              "## Faulty recordings", "",
              *paragraph("A walk round the sponge on the sheet, with a fault. A model is wrong if its seen surface is on the "
                         f"mean more than {WRONG_MM} mm from the true one, or if its volume is off by more than "
-                        f"{100 * WRONG_VOLUME:.0f} % ({100 * WRONG_UNSEEN_VOLUME:.0f} % if less than {MOST_SEEN} % of what does "
-                        "not lie on the table was seen, which `scan_model` says). No model, and a sentence that says what to "
-                        "do, is a good answer."), "",
+                        f"{100 * WRONG_VOLUME:.0f} % ({100 * WRONG_UNSEEN_VOLUME:.0f} % if less than {MOST_SEEN} % of what "
+                        "does not lie on the table was seen, which `scan_model` says). No model, and a sentence that says "
+                        "what to do, is a good answer."), "",
              *table([*COLUMNS, "answer", "commit"], [faulty_row(*pair) for pair in faulty])]
     return "\n".join(lines).rstrip() + "\n"
