@@ -27,12 +27,11 @@ ToolDescription loadSheet(Parameters& parameters) {
   return loadToolDescription(parameters.requiredText("sheet"), scope);
 }
 
-/// The surface; nothing if too little was seen yet.
-std::optional<RegisteredSurface> tryPreview(const PosedRecording& recording) {
+Preview tryPreview(const PosedRecording& recording) {
   try {
-    return previewOf(recording);
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
+    return {previewOf(recording), ""};
+  } catch (const std::invalid_argument& error) {
+    return {std::nullopt, error.what()};
   }
 }
 
@@ -46,6 +45,7 @@ ScannerNode::ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
       output_(parameters.requiredText("output")),
       frame_id_(parameters.text("scan_frame", "scan")),
       motion_(sheet_),
+      clicked_(handle, frame_id_),
       color_(handle, topics::kRgbRect, 3),
       depth_(handle, topics::kDepthRect, 3),
       info_(handle, topics::kRgbInfo, 3),
@@ -91,21 +91,32 @@ void ScannerNode::place(const std_msgs::Header& header, const Eigen::Isometry3d&
 std::string ScannerNode::progressText() const {
   std::string text = fmt::format("{}: {} frames, the sheet in {}, {} views",
                                  running_ ? "scanning" : "stopped", frames_, posed_, choice_.chosen().size());
-  if (revision_ > 0) text += fmt::format("; {:.0f} % of the surface seen", 1e2 * seen_);
-  if (!last_error_.empty()) text += "; " + last_error_;
+  if (!object_.empty())
+    text += fmt::format("; the object{}: {}, {:.0f} % of the surface seen",
+                        clicked_.point() ? " as clicked" : "", object_, 1e2 * seen_);
+  for (const std::string& reason : {last_error_, problem_, clicked_.reason()})
+    if (!reason.empty()) text += "; " + reason;
   return text;
 }
 
 void ScannerNode::showProgress() {
   if (preview_.valid() && preview_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    if (const auto surface = preview_.get()) publish(*surface);
+    show(preview_.get());
   std_msgs::String text;
   text.data = progressText();
   progress_.publish(text);
   if (!running_ || preview_.valid() || choice_.chosen().size() < kFewestFrames) return;
-  PosedRecording recording{"scan", choice_.chosen(), motion_.modelFrame(nullptr).region};
-  preview_ =
-      std::async(std::launch::async, [recording = std::move(recording)] { return tryPreview(recording); });
+  preview_ = std::async(std::launch::async, [recording = recording()] { return tryPreview(recording); });
+}
+
+PosedRecording ScannerNode::recording() {
+  return {"scan", choice_.chosen(), motion_.modelFrame(nullptr).region, clicked_.point()};
+}
+
+void ScannerNode::show(const Preview& preview) {
+  problem_ = preview.problem;
+  object_ = preview.surface ? sizeAndPlaceOf(preview.surface->mesh) : "";
+  if (preview.surface) publish(*preview.surface);
 }
 
 void ScannerNode::publish(const RegisteredSurface& surface) {
@@ -130,9 +141,18 @@ void ScannerNode::publish(const RegisteredSurface& surface) {
   state_.publish(state_message);
 }
 
-bool ScannerNode::start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+/// And the choice of the object: another one may stand there next.
+void ScannerNode::dropViews() {
   choice_.take();
+  preview_ = {};  // waits for a running one
   frames_ = posed_ = 0;
+  object_.clear();
+  problem_.clear();
+  clicked_.forget();
+}
+
+bool ScannerNode::start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  dropViews();
   running_ = true;
   response.success = true;
   response.message = "scanning; earlier views are dropped";
@@ -140,8 +160,7 @@ bool ScannerNode::start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response
 }
 
 bool ScannerNode::discard(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  choice_.take();
-  frames_ = posed_ = 0;
+  dropViews();
   running_ = false;
   response.success = true;
   response.message = "stopped; the views are dropped, and nothing was written";
@@ -150,8 +169,7 @@ bool ScannerNode::discard(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
 
 bool ScannerNode::finish(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) try {
   running_ = false;
-  PosedRecording recording{"scan", choice_.chosen(), motion_.modelFrame(nullptr).region};
-  CheckedScan scan = scanAndCheck({std::move(recording)}, {});
+  CheckedScan scan = scanAndCheck({recording()}, {});
   const std::string report = progressText() + "\n" + reportOf(scan);
   std::ostringstream output;
   writeModel(

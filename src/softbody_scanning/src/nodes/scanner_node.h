@@ -12,12 +12,19 @@
 #include <optional>
 #include <string>
 
+#include "nodes/clicked_object.h"
 #include "softbody_common/parameters.h"
 #include "softbody_scanning/key_frames/key_frame_choice.h"
 #include "softbody_scanning/motion/sheet_motion.h"
-#include "softbody_scanning/registration/surface_registration.h"
+#include "softbody_scanning/scan/scanned_body.h"
 
 namespace softbody::scanning {
+
+/// The surface so far, or why there is none.
+struct Preview {
+  std::optional<RegisteredSurface> surface;
+  std::string problem;
+};
 
 /// Scans an object on a sheet of markers while the camera walks round it: publishes the growing surface, and
 /// writes the model when it is told to finish.
@@ -33,10 +40,13 @@ class ScannerNode {
                const sensor_msgs::CameraInfoConstPtr& info);
   void place(const std_msgs::Header& header, const Eigen::Isometry3d& T_camera_model);
   void showProgress();
+  void show(const Preview& preview);
   void publish(const RegisteredSurface& surface);
   bool start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool finish(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool discard(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+  void dropViews();
+  PosedRecording recording();
   std::string progressText() const;
 
   ToolDescription sheet_;
@@ -45,9 +55,10 @@ class ScannerNode {
   KeyFrameChoice choice_;
   bool running_ = true;
   int frames_ = 0, posed_ = 0;
-  double seen_ = 0.0;  // share of the surface in the last preview
-  std::string last_error_;
-  std::future<std::optional<RegisteredSurface>> preview_;
+  double seen_ = 0.0;                          // share of the surface in the last preview
+  std::string last_error_, object_, problem_;  // of the last frame; of the last preview
+  std::future<Preview> preview_;
+  ClickedObject clicked_;
   std::uint32_t revision_ = 0;
 
   ros::Publisher topology_, state_, progress_;

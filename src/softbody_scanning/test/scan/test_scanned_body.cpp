@@ -92,5 +92,37 @@ TEST(ScannedBody, aSecondRecordingClosesTheUnderside) {
   EXPECT_GT(seen_vertices, 0.99 * static_cast<double>(body.seen.size()));
 }
 
+/// Two blocks on the table: a large one at its middle, and a small one.
+TriangleMesh twoBlocks(const Eigen::Vector3d& small_one) {
+  TriangleMesh small_block = virtual_camera::box({0.03, 0.025, 0.02});
+  small_block.vertices.rowwise() += small_one.transpose();
+  return virtual_camera::merge(
+      {onTable(block(), {0.0, Eigen::Vector3d::UnitX()}, {0.0, 0.0, 0.0}), small_block});
+}
+
+TEST(ScannedBody, isTheThingAtThePoint) {
+  const Eigen::Vector3d small_one(0.07, -0.06, 0.01), on_its_edge(0.056, -0.06, 0.021),
+      nowhere(-0.09, 0.09, 0.05);
+  PosedRecording recording = recordingOf(seen(twoBlocks(small_one), walkAround(24, 0.5), 2e-3, 1));
+  const auto middle = [&]() -> Eigen::Vector3d {
+    const Points vertices = scanBody({recording}, {}).mesh.vertices;
+    return 0.5 * (vertices.colwise().minCoeff() + vertices.colwise().maxCoeff());
+  };
+  EXPECT_LT(middle().head<2>().norm(), 0.01);
+  for (const Eigen::Vector3d& point : {small_one, on_its_edge}) {
+    recording.at = point;
+    EXPECT_LT((middle() - small_one).norm(), 1e-3);
+  }
+  recording.at = nowhere;
+  try {
+    middle();
+    FAIL() << "nothing is there";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("walk: nothing stands at (-0.090, 0.090, 0.050) m"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace softbody::scanning

@@ -9,6 +9,9 @@
 
 namespace softbody::scanning {
 
+/// A mesh's size and the middle of its bounding box, in words.
+std::string sizeAndPlaceOf(const TriangleMesh& mesh);
+
 /// What a user should know about a scan, in sentences.
 std::string reportOf(const CheckedScan& scan);
 

@@ -25,15 +25,19 @@ void centre(TriangleMesh* mesh) {
 
 }  // namespace
 
+std::string sizeAndPlaceOf(const TriangleMesh& mesh) {
+  const Eigen::Vector3d low = mesh.vertices.colwise().minCoeff(), high = mesh.vertices.colwise().maxCoeff();
+  const Eigen::Vector3d size = 1e3 * (high - low), middle = 0.5 * (low + high);
+  return fmt::format("{:.0f} x {:.0f} x {:.0f} mm at ({:.3f}, {:.3f}, {:.3f}) m", size.x(), size.y(),
+                     size.z(), middle.x(), middle.y(), middle.z());
+}
+
 std::string reportOf(const CheckedScan& scan) {
   const ScannedBody& body = scan.body;
-  const Eigen::Vector3d size =
-      1e3 * (body.mesh.vertices.colwise().maxCoeff() - body.mesh.vertices.colwise().minCoeff());
   std::string lines = fmt::format(
-      "{:.0f} x {:.0f} x {:.0f} mm, {:.1f} cm^3; {:.0f} % of the surface was seen, {:.0f} % of what did not "
-      "lie on the "
+      "the object: {}, {:.1f} cm^3; {:.0f} % of the surface was seen, {:.0f} % of what did not lie on the "
       "table\n",
-      size.x(), size.y(), size.z(), 1e6 * enclosedVolume(body.mesh.vertices, body.mesh.triangles),
+      sizeAndPlaceOf(body.mesh), 1e6 * enclosedVolume(body.mesh.vertices, body.mesh.triangles),
       1e2 * scan.seen_share, 1e2 * scan.upper_seen_share);
   for (const TurnedRecording& turned : body.turned) {
     lines += fmt::format("{}: lies on the first recording to {:.2f} mm", turned.name,

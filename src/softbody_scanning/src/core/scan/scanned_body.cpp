@@ -72,7 +72,7 @@ void mergeScans(const std::vector<SingleScan>& scans, const std::vector<Eigen::I
     else
       all = std::move(volume);
   }
-  const auto object = objectPart(isoSurface(solidOf(*all)));
+  const auto object = objectPart(isoSurface(solidOf(*all)), scans.front().at);
   if (!object) throw std::invalid_argument("the recordings together show no surface");
   body->mesh = remeshed(*object, kEdgeVoxels * body->voxel_m);
   body->seen = seenOf(*all, body->mesh, body->depth_std_m);

@@ -48,7 +48,7 @@ Eigen::AlignedBox3d findObject(const SingleScan& scan, const Eigen::AlignedBox3d
   const Volume volume(fusionBox(region, kCoarse_m, scan.depth_std_m), scan.views, scan.inverse_depth_std);
   DistanceGrid solid = solidOf(volume);
   cutBelow(kCoarse_m, &solid);
-  const auto object = objectPart(isoSurface(solid));
+  const auto object = objectPart(isoSurface(solid), scan.at);
   if (!object)
     throw std::invalid_argument(
         "nothing stands on the table in the recording's middle; put the object into the middle of the sheet");
@@ -78,6 +78,7 @@ FusionBox fusionBox(const Eigen::AlignedBox3d& box, double voxel_m, double depth
 SingleScan prepareScan(const PosedRecording& recording) {
   if (recording.frames.empty()) throw std::invalid_argument("no frame of it can be used");
   SingleScan scan;
+  scan.at = recording.at;
   scan.inverse_depth_std = measureInverseDepthNoise(recording.frames);
   scan.views.resize(recording.frames.size());
   tbb::parallel_for(std::size_t{0}, scan.views.size(), [&](std::size_t i) {
@@ -96,7 +97,7 @@ RegisteredSurface surfaceOfScan(const SingleScan& scan, double voxel_m) {
   const double clear = scan.clear(voxel_m);
   DistanceGrid solid = solidOf(volume);
   cutBelow(clear, &solid);
-  auto object = objectPart(isoSurface(solid));
+  auto object = objectPart(isoSurface(solid), scan.at);
   if (!object) throw std::invalid_argument("the object has no surface that several views agree on");
   standOnTable(clear, voxel_m, &*object);
   RegisteredSurface surface{remeshed(*object, kEdgeVoxels * voxel_m), {}, {}};

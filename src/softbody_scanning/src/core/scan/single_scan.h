@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "softbody_scanning/fusion/volume.h"
 #include "softbody_scanning/scan/scanned_body.h"
 
@@ -10,9 +12,10 @@ constexpr double kEdgeVoxels = 2.0;  ///< edge of the final triangles
 /// The depth of one recording, and where its object is.
 struct SingleScan {
   std::vector<DepthView> views;
-  double inverse_depth_std = 0.0;  ///< [1/m]
-  double depth_std_m = 0.0;        ///< of one pixel at the object
-  Eigen::AlignedBox3d box;         ///< around the object, with a margin [m]
+  double inverse_depth_std = 0.0;     ///< [1/m]
+  double depth_std_m = 0.0;           ///< of one pixel at the object
+  Eigen::AlignedBox3d box;            ///< around the object, with a margin [m]
+  std::optional<Eigen::Vector3d> at;  ///< see PosedRecording
 
   /// Height below which the table and what stands on it are not told apart.
   double clear(double voxel_m) const { return std::max(depth_std_m, voxel_m); }

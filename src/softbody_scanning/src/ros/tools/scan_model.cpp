@@ -4,6 +4,7 @@
 #include <ros/package.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <iostream>
 #include <map>
 
@@ -25,7 +26,44 @@ struct Arguments {
   double voxel_mm = 0.0;
   MotionSource motion = MotionSource::kAuto;
   std::string fixed_frame;
+  std::vector<std::array<double, 3>> at;
+  std::vector<std::array<double, 4>> boxes;
 };
+
+/// Which of the things on the table is the object.
+void declareChoice(CLI::App* app, Arguments* arguments) {
+  app->add_option(
+         "--at", arguments->at,
+         "a point on the object [m], in the sheet's frame: origin in its middle, x to the right and y up "
+         "as printed, z towards the viewer. Give it once for all recordings, or once for each. Default: "
+         "what is large and near to the middle")
+      ->type_name("X Y Z")
+      ->allow_extra_args(false);
+  app->add_option(
+         "--box", arguments->boxes,
+         "rectangle on the sheet [m]: only what stands in it is looked at. Once for all recordings, or "
+         "once for each. Default: the sheet and a quarter of its size on each side")
+      ->type_name("X0 Y0 X1 Y1")
+      ->allow_extra_args(false);
+}
+
+/// @throw CLI::ValidationError
+void requireOneForEach(const Arguments& arguments) {
+  const auto require = [&](const char* option, std::size_t count) {
+    if (count > 1 && count != arguments.recordings.size())
+      throw CLI::ValidationError(
+          option, fmt::format("is given {} times for {} recordings; give it once for all, or once for each",
+                              count, arguments.recordings.size()));
+  };
+  require("--at", arguments.at.size());
+  require("--box", arguments.boxes.size());
+  for (const auto& [x0, y0, x1, y1] : arguments.boxes)
+    if (!(x0 < x1 && y0 < y1))
+      throw CLI::ValidationError("--box",
+                                 fmt::format("{} {} {} {} is empty: X0 must be less than X1, and Y0 less "
+                                             "than Y1",
+                                             x0, y0, x1, y1));
+}
 
 void declare(CLI::App* app, Arguments* arguments) {
   app->add_option(
@@ -55,7 +93,9 @@ void declare(CLI::App* app, Arguments* arguments) {
   app->add_option("--voxel-mm", arguments->voxel_mm,
                   "fineness of the model [mm]; default: 1, or 1/200 of its size")
       ->check(CLI::Range(0.3, 20.0));
+  declareChoice(app, arguments);
   addCameraOptions(app, &arguments->camera);
+  app->callback([arguments] { requireOneForEach(*arguments); });
 }
 
 /// What was found out about a recording, in a line.
@@ -66,6 +106,16 @@ std::string lineOf(const std::string& bag, const RecordingReport& report) {
   if (report.depth_scale > 0.0)
     line += fmt::format("; depth is {:+.2f} % off the sheet's", 1e2 * (report.depth_scale - 1.0));
   return line + "\n";
+}
+
+/// Applies --at and --box.
+void choose(const Arguments& arguments, std::size_t i, PosedRecording* recording) {
+  const auto of_this = [i](const auto& values) { return values[values.size() == 1 ? 0 : i]; };
+  if (!arguments.at.empty()) recording->at = Eigen::Vector3d(of_this(arguments.at).data());
+  if (arguments.boxes.empty()) return;
+  const auto [x0, y0, x1, y1] = of_this(arguments.boxes);
+  recording->region.min().head<2>() << x0, y0;
+  recording->region.max().head<2>() << x1, y1;
 }
 
 int scan(const Arguments& arguments) {
@@ -81,6 +131,7 @@ int scan(const Arguments& arguments) {
     RecordingReport found;
     fmt::print(stderr, "scan_model: read {}\n", bag);
     recordings.push_back(readRecording(options, ProgressLine("scan_model"), &found));
+    choose(arguments, recordings.size() - 1, &recordings.back());
     report += lineOf(bag, found);
     fmt::print("{}", lineOf(bag, found));
     std::fflush(stdout);
