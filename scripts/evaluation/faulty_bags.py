@@ -14,7 +14,7 @@ COLOR, DEPTH, LABELS = "/camera/color/image_raw", "/camera/aligned_depth_to_colo
 BODY = 3
 FLICKER = 0.4  # largest change of the brightness
 BLACK = 0.08  # of the brightness
-BLOCK_PX, HOLES, WRONG, WRONG_MM = 8, 0.3, 0.1, 60  # of a shiny body: shares of its blocks, largest error
+HOLES, WRONG, BLOCK_PX, WRONG_MM = 0.3, 0.1, 24, 60  # of a shiny body: shares; blocks with wrong depth, largest error
 
 
 def pixels(image):
@@ -63,20 +63,21 @@ def black(topic, message, frame):
 
 
 def shiny(topic, message, frame):
+    """Where the body is bright there is no depth. Other places have the depth of something that is mirrored."""
+    if topic == COLOR:
+        frame.kept["brightness"] = pixels(message).mean(axis=-1)
     if topic != DEPTH:
         return message
-    depth = pixels(message)
+    depth, body, brightness = pixels(message), frame.body(), frame.kept["brightness"]
     blocks = [(side + BLOCK_PX - 1) // BLOCK_PX for side in depth.shape]
 
     def per_pixel(values):
         return numpy.kron(values, numpy.ones((BLOCK_PX, BLOCK_PX)))[:depth.shape[0], :depth.shape[1]]
 
-    drawn = per_pixel(frame.random.random(blocks))
-    errors = per_pixel(frame.random.uniform(-WRONG_MM, WRONG_MM, blocks))
-    measured = frame.body() & (depth > 0)
-    depth[measured & (drawn < HOLES)] = 0
-    wrong = measured & (drawn > 1.0 - WRONG)
-    depth[wrong] = (depth + errors)[wrong]
+    wrong = body & (depth > 0) & (per_pixel(frame.random.random(blocks)) < WRONG)
+    depth[wrong] = (depth + per_pixel(frame.random.uniform(-WRONG_MM, WRONG_MM, blocks)))[wrong]
+    if body.any():
+        depth[body & (brightness > numpy.quantile(brightness[body], 1.0 - HOLES))] = 0
     return with_pixels(message, depth)
 
 
@@ -94,8 +95,8 @@ def hidden_sheet(topic, message, frame):
 class Frame:
     """What a fault may know of a message's frame."""
 
-    def __init__(self, stamp, share, bodies):
-        self.stamp, self.share, self.bodies = stamp, share, bodies
+    def __init__(self, stamp, share, bodies, kept):
+        self.stamp, self.share, self.bodies, self.kept = stamp, share, bodies, kept
         self.random = numpy.random.default_rng(stamp.to_nsec() // 1000)
 
     def body(self):
@@ -128,12 +129,12 @@ def main():
     if fault == "cut_off":
         return cut_off(recording, output)
     with rosbag.Bag(recording) as bag, rosbag.Bag(output, "w", compression="lz4") as changed:
-        bodies, begin, end = bodies_of(bag), bag.get_start_time(), bag.get_end_time()
+        bodies, begin, end, kept = bodies_of(bag), bag.get_start_time(), bag.get_end_time(), {}
         for topic, message, time in bag.read_messages():
             if topic.startswith("/ground_truth"):
                 continue
             stamp = message.header.stamp if topic.startswith("/camera") else time
-            message = FAULTS[fault](topic, message, Frame(stamp, (time.to_sec() - begin) / (end - begin), bodies))
+            message = FAULTS[fault](topic, message, Frame(stamp, (time.to_sec() - begin) / (end - begin), bodies, kept))
             if message is not None:
                 changed.write(topic, message, time)
     return None
