@@ -95,6 +95,11 @@ TEST_F(ScanModel, poorRecordingsAreRefusedWithWhatToDo) {
   RecordingOptions wrong_unit = optionsOf(half);
   wrong_unit.camera.depth_scale = 0.0005;
   EXPECT_NE(refusal(wrong_unit).find("--depth-scale"), std::string::npos) << refusal(wrong_unit);
+  wrong_unit.camera.depth_scale = 1.0;  // all of it is farther than any camera measures
+  EXPECT_NE(refusal(wrong_unit).find("--depth-scale"), std::string::npos) << refusal(wrong_unit);
+  RecordingOptions no_depth = optionsOf(half);
+  no_depth.camera.depth = "/none";
+  EXPECT_EQ(refusal(no_depth).find(half), refusal(no_depth).rfind(half)) << refusal(no_depth);
 }
 
 TEST_F(ScanModel, aCameraOnAnArmNeedsNoSheet) {

@@ -71,7 +71,10 @@ std::string commonReason(const RecordingReport& report) {
 void requireFrames(const RecordingReport& report) {
   if (report.key_frames > 0) return;
   if (report.unposed.count("no depth") > 0 && report.unposed.at("no depth") == report.frames)
-    throw std::invalid_argument("no frame has depth; record the depth images, too");
+    throw std::invalid_argument(fmt::format(
+        "no frame has depth between {} and {} m; record the depth images, too, and set their unit "
+        "(--depth-scale)",
+        CameraIngestConfig().min_depth_m, CameraIngestConfig().max_depth_m));
   throw std::invalid_argument(
       fmt::format("the camera's pose is known in none of {} frames{}", report.frames, commonReason(report)));
 }
@@ -168,7 +171,9 @@ PosedRecording readRecording(const RecordingOptions& options, const std::functio
       report->depth_scale = depthScale(recording.frames, recording.region);
     requireScale(report->depth_scale);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(options.bag + ": " + error.what());
+    const std::string sentence = error.what();
+    throw std::invalid_argument(sentence.rfind(options.bag, 0) == 0 ? sentence
+                                                                    : options.bag + ": " + sentence);
   }
   return recording;
 }
