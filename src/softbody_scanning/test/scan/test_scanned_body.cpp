@@ -5,7 +5,7 @@
 #include "fixtures/seen_scene.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
-#include "softbody_scanning/scan/scanned_body.h"
+#include "softbody_scanning/scan/checked_scan.h"
 
 namespace softbody::scanning {
 namespace {
@@ -122,6 +122,32 @@ TEST(ScannedBody, isTheThingAtThePoint) {
               std::string::npos)
         << error.what();
   }
+}
+
+/// A recording in which the object is moved or turned after a part of the views.
+PosedRecording movedAfter(int views, const Eigen::Isometry3d& motion) {
+  const TriangleMesh before = onTable(block(), {0.0, Eigen::Vector3d::UnitX()}, Eigen::Vector3d::Zero());
+  TriangleMesh after = before;
+  after.vertices = virtual_camera::transformed(motion, after.vertices);
+  std::vector<KeyFrame> frames = seen(before, walkAround(60, 0.5), 4e-3, 1);
+  const std::vector<KeyFrame> later = seen(after, walkAround(60, 0.5), 4e-3, 2);
+  std::copy(later.begin() + views, later.end(), frames.begin() + views);
+  return recordingOf(frames);
+}
+
+TEST(ScannedBody, anObjectThatMovedMeanwhileGivesNoModel) {
+  const Eigen::Isometry3d aside(Eigen::Translation3d(0.02, 0.0, 0.0)),
+      along(Eigen::Translation3d(0.0, 0.01, 0.0));
+  const Eigen::Isometry3d turned(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()));
+  for (const Eigen::Isometry3d& motion : {aside, along, turned})
+    for (const int views : {20, 30, 40}) {
+      try {
+        scanAndCheck({movedAfter(views, motion)}, {});
+        ADD_FAILURE() << views << " views before";
+      } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("moved"), std::string::npos) << error.what();
+      }
+    }
 }
 
 }  // namespace

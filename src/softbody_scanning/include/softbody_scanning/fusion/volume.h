@@ -15,6 +15,8 @@ struct PlaceEvidence {
   float weight = 0.0f;    ///< inverse variance of the distance [1/m^2]; 0: no view says anything
   float seen = 0.0f;      ///< the part of the weight that measured a surface at this place, up to noise
   int behind = 0;         ///< number of views in which a surface hides this place
+  int measured = 0;       ///< number of views that measured a surface at this place, up to noise
+  int empty = 0;          ///< number of views that looked through this place
 };
 
 /// A block of space that is fused.

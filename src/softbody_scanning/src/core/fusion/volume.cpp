@@ -11,6 +11,8 @@
 namespace softbody::scanning {
 namespace {
 
+// So near it is the surface, so far in front it is empty: noise does not turn one into the other.
+constexpr float kSameSigmas = 1.0f, kEmptySigmas = 6.0f;
 constexpr int kBlock = 8;  // grid points along a block's side
 
 /// A view with what its evidence is computed from.
@@ -24,7 +26,7 @@ struct FusedView {
 /// Sums while the views are added.
 struct Sums {
   float weighted_distance = 0.0f, weight = 0.0f, seen = 0.0f;
-  int behind = 0;
+  int behind = 0, measured = 0, empty = 0;
 };
 
 class Fuser {
@@ -37,6 +39,7 @@ class Fuser {
     const float weight = inverseVariance(z);
     sums->weight += weight;
     sums->weighted_distance += weight * reach_;
+    ++sums->empty;
   }
 
   void add(const FusedView& fused, const Eigen::Vector3f& place, Sums* sums) const {
@@ -68,6 +71,8 @@ class Fuser {
     sums->weight += weight;
     const float sigmas = distance / (cosine * z * z * std::sqrt(variance_));
     sums->seen += weight * std::exp(-0.5f * sigmas * sigmas);
+    if (std::abs(sigmas) < kSameSigmas) ++sums->measured;
+    if (distance > reach_ && sigmas > kEmptySigmas) ++sums->empty;
     sums->weighted_distance += weight * std::min(distance, reach_);
   }
 
@@ -79,7 +84,7 @@ class Fuser {
 
 PlaceEvidence evidenceOf(const Sums& sums) {
   const float distance = sums.weight > 0.0f ? sums.weighted_distance / sums.weight : 0.0f;
-  return {distance, sums.weight, sums.seen, sums.behind};
+  return {distance, sums.weight, sums.seen, sums.behind, sums.measured, sums.empty};
 }
 
 }  // namespace
@@ -150,6 +155,8 @@ void Volume::add(const Volume& other) {
     mine.weight = weight;
     mine.seen += more.seen;
     mine.behind += more.behind;
+    mine.measured += more.measured;
+    mine.empty += more.empty;
   }
 }
 

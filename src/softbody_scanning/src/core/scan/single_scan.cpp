@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scan/contradiction.h"
 #include "scan/object_part.h"
 #include "softbody_scanning/surface/distance_grid.h"
 #include "softbody_scanning/surface/iso_surface.h"
@@ -95,6 +96,7 @@ SingleScan prepareScan(const PosedRecording& recording) {
 RegisteredSurface surfaceOfScan(const SingleScan& scan, double voxel_m) {
   const Volume volume(fusionBox(scan.box, voxel_m, scan.depth_std_m), scan.views, scan.inverse_depth_std);
   const double clear = scan.clear(voxel_m);
+  requireOneSurface(volume, 2.0 * clear);
   DistanceGrid solid = solidOf(volume);
   cutBelow(clear, &solid);
   auto object = objectPart(isoSurface(solid), scan.at);
