@@ -103,7 +103,7 @@ std::optional<SurfaceRecord> readUnhidden(const EvaluatorOptions& options, const
   unhidden.result = options.unhidden;
   SurfaceRecord result = readResult(unhidden, unhidden.result);
   expressIn(truth.frame_id, transformBags(unhidden, recording), &result, "states of the unhidden body");
-  mapMaterial(readStatusesOf(unhidden, unhidden.result), &truth, &result);
+  mapMaterial(unhidden.result, readStatusesOf(unhidden, unhidden.result), &truth, &result);
   return result;
 }
 
@@ -125,7 +125,7 @@ Measured measure(const EvaluatorOptions& options) {
   if (!options.truth.empty()) truth = readTruth(options);
   if (truth) expressIn(truth->frame_id, transformBags(options, recording), &result);
   const std::vector<StatusRecord> statuses = readStatusesOf(options, options.result);
-  report.alike = mapMaterial(statuses, truth ? &*truth : nullptr, &result);
+  report.alike = mapMaterial(options.result, statuses, truth ? &*truth : nullptr, &result);
   report.notes = result.notes;
 
   report.frames = {result.states.size(), result.states.size(), {}};

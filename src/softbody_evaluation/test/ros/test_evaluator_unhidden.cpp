@@ -44,7 +44,7 @@ TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
   EXPECT_NE(with_gaps.notes[0].find("gaps.bag has no state for 10 of 100 frames"), std::string::npos);
 }
 
-TEST(Evaluator, OtherFramesOfAnUnhiddenResultAndOtherMeshesAreRefused) {
+TEST(Evaluator, OtherFramesOfAnUnhiddenResultAndOtherBodiesAreRefused) {
   EvaluatorOptions options;
   options.truth = recording();
   options.result = resultFromTruth("seen.bag", asItIs);
@@ -63,9 +63,11 @@ TEST(Evaluator, OtherFramesOfAnUnhiddenResultAndOtherMeshesAreRefused) {
   const std::string doll = testing::TempDir() + "evaluator_doll.bag";
   writeBag(&camera, {doll, 2, 4.0}, [](int) {});
   options.unhidden = resultFromTruth("other_mesh.bag", asItIs, doll);
-  EXPECT_NE(failure(options).find("other_mesh.bag: the unhidden body is not the mesh"), std::string::npos);
+  EXPECT_NE(failure(options).find("other_mesh.bag: its mesh is not of the body of the truth"),
+            std::string::npos);
   options.result = std::exchange(options.unhidden, "");
-  EXPECT_NE(failure(options).find("other_mesh.bag: the body is not the mesh"), std::string::npos);
+  EXPECT_NE(failure(options).find("other_mesh.bag: its mesh is not of the body of the truth"),
+            std::string::npos);
 }
 
 }  // namespace

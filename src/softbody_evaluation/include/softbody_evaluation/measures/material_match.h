@@ -8,8 +8,9 @@
 
 namespace softbody::evaluation {
 
-/// The motion with its vertices: each vertex of the truth's uncut mesh goes where the mesh is nearest.
-MaterialMap materialMap(const Eigen::Isometry3d& motion, const MeshTopology& truth);
+/// The motion with its vertices: each vertex of an uncut mesh goes where the truth's uncut mesh is nearest.
+/// @param motion from the rest places of `mesh` to those of the truth.
+MaterialMap materialMap(const Eigen::Isometry3d& motion, const MeshTopology& mesh, const MeshTopology& truth);
 
 /// The result's topology with the rest places and file vertices of the truth's material.
 MeshTopology inTruthMaterial(const MaterialMap& map, MeshTopology result);

@@ -15,6 +15,7 @@
 #include "softbody_evaluation/measures/silhouette.h"
 #include "softbody_evaluation/measures/stage_times.h"
 #include "softbody_evaluation/measures/steadiness.h"
+#include "softbody_evaluation/measures/surface_distance.h"
 #include "softbody_evaluation/measures/vertex_error.h"
 #include "softbody_evaluation/measures/volume.h"
 #include "softbody_evaluation/report/alike_poses.h"
@@ -48,6 +49,7 @@ struct Report {
   std::vector<std::string> notes;               ///< what was left out, in sentences
   std::optional<AlikePoses> alike;              ///< if the tracker said that poses look alike
   std::optional<VertexErrorReport> vertex_error;
+  std::optional<SurfaceDistanceReport> surface_distance;
   std::optional<CalibrationReport> calibration;  ///< if the result has standard deviations
   std::optional<PiecesReport> pieces;
   std::optional<CutSurfaceReport> cut_surface;   ///< if the truth is cut

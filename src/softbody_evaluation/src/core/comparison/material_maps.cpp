@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "comparison/other_mesh.h"
 #include "softbody_evaluation/measures/material_match.h"
 #include "softbody_evaluation/measures/rest_symmetry.h"
 #include "softbody_evaluation/measures/vertex_match.h"
@@ -52,7 +53,7 @@ class AlikeComparison {
     const Eigen::Isometry3d taken = motionBetween(pair.rest, pair.result, pair.truth);
     const SelfMap map = nearestSelfMap(mesh, taken);
     const bool same_shape = isSymmetry(map, mesh);
-    MaterialMap material = same_shape ? materialMap(map.motion, *pair.mesh) : MaterialMap();
+    MaterialMap material = same_shape ? materialMap(map.motion, *pair.mesh, *pair.mesh) : MaterialMap();
     material.first = first;
     result->material.push_back(std::move(material));
     const AlikePoses found{poses, true, same_shape, angleOf(same_shape ? map.motion : taken)};
@@ -73,8 +74,9 @@ class AlikeComparison {
 
 }  // namespace
 
-std::optional<AlikePoses> mapMaterial(const std::vector<StatusRecord>& statuses, const SurfaceRecord* truth,
-                                      SurfaceRecord* result) {
+std::optional<AlikePoses> mapMaterial(const std::string& bag, const std::vector<StatusRecord>& statuses,
+                                      const SurfaceRecord* truth, SurfaceRecord* result) {
+  if (truth != nullptr && !isSameMesh(*result, *truth)) return mapOtherMesh(bag, statuses, *truth, result);
   AlikeComparison comparison;
   bool tracked = false, compared = false;
   Nanoseconds found = 0;  // when the tracker found the body last; the first time it counts from the start

@@ -9,6 +9,7 @@
 
 #include "softbody_common/time.h"
 #include "softbody_evaluation/measures/material_match.h"
+#include "softbody_evaluation/measures/surface_distance.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_evaluation/report/plots.h"
 
@@ -129,21 +130,10 @@ std::vector<FrameOcclusion> occlusionsOf(const SurfaceRecord& truth) {
   return occlusions;
 }
 
-/// @throw std::invalid_argument
-void requireSameMesh(const SurfaceRecord& surface, const std::string& whose, const SurfaceRecord& truth,
-                     const std::string& truth_bag) {
-  if (sameMesh(surface.topologies.begin()->second, truth.topologies.begin()->second)) return;
-  throw std::invalid_argument(
-      fmt::format("{} is not the mesh of the truth in {}: at rest, vertices of the same index in the file "
-                  "(vertex_parents) have different positions",
-                  whose, truth_bag));
-}
-
 /// Adds the errors for the same motion without occluders, and a note about missing states.
-/// @throw std::invalid_argument if the mesh is another one, or no frame has a state.
+/// @throw std::invalid_argument if no frame has a state.
 void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden, const SurfaceRecord& truth,
                  std::vector<FrameOcclusion>* occlusions, std::vector<std::string>* notes) {
-  requireSameMesh(unhidden, options.unhidden + ": the unhidden body", truth, options.truth);
   TopologyPairs pairs(options, unhidden, truth);
   std::size_t missing = 0;
   auto occlusion = occlusions->begin();
@@ -166,6 +156,23 @@ void addUnhidden(const EvaluatorOptions& options, const SurfaceRecord& unhidden,
         "{} has no state for {} of {} frames; their normal error is that of the frames before the occlusion",
         options.unhidden, missing, truth.states.size()));
   }
+}
+
+/// Distances from the true surface in all answered frames; empty if the result has no triangles.
+std::optional<SurfaceDistanceReport> surfaceDistances(const SurfaceRecord& result,
+                                                      const SurfaceRecord& truth) {
+  std::map<std::uint32_t, std::vector<SurfaceSample>> places;  // by revision of the result
+  std::vector<FrameSurfaceDistance> distances;
+  for (const auto& [stamp, expected] : truth.states) {
+    const auto answer = result.states.find(stamp);
+    if (answer == result.states.end()) continue;
+    const MeshTopology &surface = topologyOf(result, answer->second), &its = topologyOf(truth, expected);
+    if (surface.triangles.rows() == 0 || its.triangles.rows() == 0) return std::nullopt;
+    const auto [entry, fresh] = places.try_emplace(surface.revision);
+    if (fresh) entry->second = measuredPlaces(surface);
+    distances.push_back(surfaceDistance(entry->second, surface.triangles, answer->second, its, expected));
+  }
+  return summarize(distances);
 }
 
 /// Errors of the volume, if both surfaces are closed.
@@ -221,7 +228,6 @@ void plotCalibration(const CalibrationReport& report, Pictures* pictures) {
 void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
                       const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
                       Pictures* pictures) {
-  requireSameMesh(result, options.result + ": the body", truth, options.truth);
   TopologyPairs pairs(options, result, truth);
   std::vector<FrameVertexError> errors;
   std::vector<FrameOcclusion> occlusions = occlusionsOf(truth);
@@ -243,6 +249,7 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
   if (errors.empty()) return;
   report->vertex_error = summarize(errors);
   report->vertex_error->first_time_s = seconds(errors.front().stamp - truth.states.begin()->first);
+  report->surface_distance = surfaceDistances(result, truth);
   report->calibration = calibration(errors);
   for (const FrameVertexError& error : errors) {
     const auto state = report->state_of.find(error.stamp);

@@ -8,9 +8,9 @@
 namespace softbody::evaluation {
 
 /// Compares the result with the truth: frames answered, vertex errors, pieces, jitter, volume.
-/// @param result in the truth's frame.
+/// @param result in the truth's frame, with its material (mapMaterial).
 /// @param unhidden result for the same motion without occluders, in the truth's frame; may be null.
-/// @throw std::invalid_argument if the result is of another mesh.
+/// @throw std::invalid_argument if no frame has a state of the unhidden body.
 void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
                       const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
                       Pictures* pictures);

@@ -55,15 +55,18 @@ PlaceBetween nearestPlace(const MeshTopology& mesh, const std::vector<int>& tria
 
 }  // namespace
 
-MaterialMap materialMap(const Eigen::Isometry3d& motion, const MeshTopology& truth) {
+MaterialMap materialMap(const Eigen::Isometry3d& motion, const MeshTopology& mesh,
+                        const MeshTopology& truth) {
   MaterialMap map;
   map.motion = motion;
   const ClosestPointQuery query(truth.rest_vertices, truth.triangles);
   const double same_place = samePlaceOf(truth.rest_vertices);
-  for (Eigen::Index v = 0; v < truth.rest_vertices.rows(); ++v) {
-    const int parent = truth.vertex_parents[static_cast<std::size_t>(v)];
-    const Eigen::Vector3d rest = truth.rest_vertices.row(v), place = motion * rest;
-    if ((place - rest).norm() <= same_place) {
+  for (Eigen::Index v = 0; v < mesh.rest_vertices.rows(); ++v) {
+    const int parent = mesh.vertex_parents[static_cast<std::size_t>(v)];
+    const Eigen::Vector3d place = motion * Eigen::Vector3d(mesh.rest_vertices.row(v).transpose());
+    const bool in_both =
+        v < truth.rest_vertices.rows() && truth.vertex_parents[static_cast<std::size_t>(v)] == parent;
+    if (in_both && (place - truth.rest_vertices.row(v).transpose()).norm() <= same_place) {
       map.parents[parent] = parent;
       continue;
     }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "models/surface_samples.h"
 #include "softbody_common/rigid_fit.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_evaluation/measures/corner_weights.h"
+#include "softbody_evaluation/measures/surface_samples.h"
 #include "softbody_evaluation/measures/volume.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 

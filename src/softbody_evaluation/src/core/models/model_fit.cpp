@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "models/surface_samples.h"
+#include "softbody_evaluation/measures/surface_samples.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
 namespace softbody::evaluation {

@@ -39,6 +39,12 @@ void addVertexError(const VertexErrorReport& report, std::vector<Figure>* figure
   figures->push_back({"drift, last / first seconds", "ratio", report.drift_ratio});
 }
 
+void addSurfaceDistance(const SurfaceDistanceReport& report, std::vector<Figure>* figures) {
+  addLengths("surface distance", report.all, figures);
+  addLengths("surface distance, visible", report.visible, figures);
+  addLengths("surface distance, hidden", report.hidden, figures);
+}
+
 void addCalibration(const CalibrationReport& report, std::vector<Figure>* figures) {
   figures->push_back({"visible vertices within their 90 % bound", "%", 100.0 * report.within_visible});
   figures->push_back({"hidden vertices within their 90 % bound", "%", 100.0 * report.within_hidden});
@@ -115,6 +121,7 @@ std::vector<Figure> figures(const Report& report) {
   all.push_back({"frames answered", "%", 100.0 * static_cast<double>(report.frames.answered) / expected});
   if (!report.states.empty()) addStates(report.states, &all);
   if (report.vertex_error) addVertexError(*report.vertex_error, &all);
+  if (report.surface_distance) addSurfaceDistance(*report.surface_distance, &all);
   if (report.calibration) addCalibration(*report.calibration, &all);
   addCut(report, &all);
   addAbsences(report.absences, &all);

@@ -58,6 +58,12 @@ json toJson(const VertexErrorReport& report) {
           {"frame_covered_mean_mm", allInMillimetres(report.frame_covered_means)}};
 }
 
+json toJson(const SurfaceDistanceReport& report) {
+  return {{"all", inMillimetres(report.all)},
+          {"visible", inMillimetres(report.visible)},
+          {"hidden", inMillimetres(report.hidden)}};
+}
+
 json toJson(const ResidualReport& report) {
   return {{"first_frame", report.first_frame},
           {"frames", report.frames},
@@ -190,6 +196,7 @@ json toJson(const Report& report) {
                    {"verdict", toJson(judge(report))},
                    {"volume", toJson(report.volume)}};
   if (report.vertex_error) document["vertex_error"] = toJson(*report.vertex_error);
+  if (report.surface_distance) document["surface_distance"] = toJson(*report.surface_distance);
   if (report.calibration) document["calibration"] = toJson(*report.calibration);
   if (!report.frame_states.empty()) document["frame_states"] = report.frame_states;
   if (!report.notes.empty()) document["notes"] = report.notes;

@@ -36,6 +36,11 @@ std::string vertexErrorTable(const VertexErrorReport& report) {
                      mm(report.drift_m), report.drift_window_s, report.drift_ratio, mm(report.drift_m_per_s));
 }
 
+std::string surfaceDistanceTable(const SurfaceDistanceReport& report) {
+  return "distance from the true surface [mm]\n" + row("all", report.all) + row("visible", report.visible) +
+         row("hidden", report.hidden);
+}
+
 std::string stageTable(const std::map<StageName, Summary>& stages) {
   std::string text =
       fmt::format("stage times [ms] {:>36} {:>9} {:>9} {:>9}\n", "count", "mean", "p95", "max");
@@ -165,6 +170,7 @@ std::string toText(const Report& report) {
   for (const auto& [state, frames] : report.states) text += fmt::format(", {} {}", state, frames);
   text += "\n";
   if (report.vertex_error) text += vertexErrorTable(*report.vertex_error);
+  if (report.surface_distance) text += surfaceDistanceTable(*report.surface_distance);
   text += residualTable(report) + optionalLines(report);
   for (const std::string& note : report.notes) text += "note: " + note + "\n";
   return text + volumeLine(report.volume);

@@ -1,4 +1,4 @@
-#include "models/surface_samples.h"
+#include "softbody_evaluation/measures/surface_samples.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
