@@ -57,7 +57,7 @@ evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="ben
 starts: build  ## start tracking on 100 layouts of cluttered scenes; writes docs/starts.md
 	cd scripts && /usr/bin/python3 -m evaluation.measure_starts $(SCENES)
 
-scans: build  ## scan three virtual bodies and recordings with faults; writes docs/scans.md. KEEP=yes: keeps the recordings
+scans: build  ## scan virtual bodies and faulty recordings, track with the models; writes docs/scans.md. KEEP=yes: keeps the recordings
 	cd scripts && /usr/bin/python3 -m evaluation.measure_scans $(if $(KEEP),--keep) $(SCENES)
 
 figures: build  ## draw the paper's Figures 1 to 11 with our models, in docs/images

@@ -133,11 +133,16 @@ def measure(row):
         bags[0].unlink()
     if result["code"] in (0, 3):
         result["report"] = json.loads(tool("evaluate", "--model", model, TRUE[row.body], "--json"))
-    (FOLDER / f"{row.name}.json").write_text(json.dumps(result, indent=1))
+    path_of(row).write_text(json.dumps(result, indent=1))
     return result
+
+
+def path_of(row):
+    """The file of its result."""
+    return FOLDER / f"{row.name}.json"
 
 
 def measured(rows):
     """(row, result) of those that were measured."""
-    files = [(row, FOLDER / f"{row.name}.json") for row in rows]
+    files = [(row, path_of(row)) for row in rows]
     return [(row, json.loads(file.read_text())) for row, file in files if file.exists()]
