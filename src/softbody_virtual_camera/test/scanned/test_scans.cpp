@@ -200,6 +200,12 @@ TEST(Scans, OptionsThatDoNotFitAreRefused) {
   setup.scene = "bend";
   setup.jerks = true;
   EXPECT_THROW(makeCamera(setup), std::invalid_argument);
+  for (const char* scene : {"turntable", "doll_turntable"}) {
+    setup.scene = scene;
+    EXPECT_THROW(makeCamera(setup), std::invalid_argument) << scene;
+  }
+  setup.jerks = false;
+  EXPECT_NO_THROW(makeCamera(setup));
   setup.scene = "walk";
   setup.camera_motion = "orbit";
   EXPECT_THROW(makeCamera(setup), std::invalid_argument);

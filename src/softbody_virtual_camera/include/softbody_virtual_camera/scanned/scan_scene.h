@@ -23,7 +23,8 @@ std::vector<std::string> scanNames();
 
 /// World frame: the centre of the sheet's print, z up. Actors: body, table, walls, things on the table,
 /// sheet, hands. @param name without prefix. @param contrast of the body's texture.
-/// @throw std::invalid_argument if the body is shorter than 50 mm or longer than 2 m.
+/// @throw std::invalid_argument if the body is shorter than 50 mm or longer than 2 m, or for jerks on a
+/// turntable.
 Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, float contrast,
                 const ScanOptions& options);
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "scanned/desk.h"
 #include "scanned/hand_held.h"
@@ -125,11 +126,14 @@ Eigen::Vector3d middleOf(const Points& points) {
 Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, float contrast,
                 const ScanOptions& options) {
   Scan scan;
+  scan.turns = name == "turntable";
+  if (scan.turns && options.jerks)
+    throw std::invalid_argument(
+        "jerks: the camera before the turntable stands still; leave them out, or take the scene walk");
   scan.T_world_body = lyingPose(body.rest.vertices, name == "flip");
   const TriangleMesh lying{transformed(scan.T_world_body, body.rest.vertices), body.rest.triangles};
   scan.way = wayAround(lying.vertices, seed, options.jerks);
   scan.lights = roomLights(contrast);
-  scan.turns = name == "turntable";
   scan.camera_tf = options.camera_tf;
   const double beside = lying.vertices.col(0).maxCoeff() + 0.05;  // [m]
   if (name == "walk_hand") scan.hands = passingHands(scan.way, {beside, middleOf(lying.vertices).y(), 0.0});
