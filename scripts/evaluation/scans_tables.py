@@ -2,7 +2,7 @@
 import datetime
 import re
 
-from evaluation.figures import number, percent
+from evaluation.figures import get, number, percent
 from markdown_lines import paragraph, table
 
 # Seen surface, mean and 99 % [mm], with the camera's motion known by the sheet or tf, and without.
@@ -76,7 +76,8 @@ COLUMNS = ["row", "recording", "mean [mm]", "99 % [mm]", "volume", "complete [%]
 
 
 TRACKING_COLUMNS = ["row", "scene", "model", "tracked [%]", "true mesh [mm]", "scanned [mm]", "ratio",
-                    "vertices, true mesh [mm]", "vertices, scanned [mm]", "ratio", "goal reached", "commit"]
+                    "vertices, true mesh [mm]", "vertices, scanned [mm]", "ratio", "in bound, true mesh [%]",
+                    "in bound, scanned [%]", "goal reached", "commit"]
 
 
 def visible(report, figure):
@@ -93,10 +94,11 @@ def tracking_rows(scene, result):
     for model, report in result["scanned"].items():
         pairs = [(visible(true, figure), visible(report, figure)) for figure in ("surface_distance", "vertex_error")]
         cells = [number(value) for one, other in pairs for value in (one, other, other / one)]
+        bounds = [percent(get(one, "calibration", "within_90_visible"), 0) for one in (true, report)]
         misses = {"error": pairs[0][1] > LARGER_ERROR * pairs[0][0],
                   "tracked": tracked_percent(report) < tracked_percent(true)}
         missed_goals = [name for name, is_missed in misses.items() if is_missed]
-        rows.append([f"`{scene.name}`", scene.words, f"`{model}`", f"{tracked_percent(report):.0f}", *cells,
+        rows.append([f"`{scene.name}`", scene.words, f"`{model}`", f"{tracked_percent(report):.0f}", *cells, *bounds,
                      "no: " + ", ".join(missed_goals) if missed_goals else "yes", result["commit"]])
     return rows
 
@@ -110,7 +112,8 @@ def tracking_part(tracking):
                        "measured in the same way for every mesh, but it does not see that a surface slides along itself. The "
                        "error of the scan itself is a part of it (first table). Vertices: mean error of the visible "
                        "vertices, which sees sliding; a scanned mesh has [other vertices](figures.md#" + other + "). "
-                       "Tracked: share of the frames, with the scanned model."), "",
+                       "In bound: share of them within their predicted 90 % bound; with less than 90 % the predicted errors "
+                       "are too small. Tracked: share of the frames, with the scanned model."), "",
             *paragraph(f"Goals: the error is at most {LARGER_ERROR} times that with the true mesh; as many frames are "
                        "tracked."), "",
             *table(TRACKING_COLUMNS, [row for pair in tracking for row in tracking_rows(*pair)])]
