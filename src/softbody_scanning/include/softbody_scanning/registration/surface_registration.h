@@ -23,6 +23,7 @@ struct Registration {
   Eigen::Isometry3d T_fixed_moving = Eigen::Isometry3d::Identity();
   double misfit = 0.0;      ///< 0: equal surfaces and colours, 2: nothing fits
   double runner_up = 0.0;   ///< the least misfit of a motion that differs by more than 20 degrees
+  bool ambiguous = false;   ///< neither the misfit nor the colours tell it clearly from such a motion
   double distance_m = 0.0;  ///< median distance of what was seen
 };
 

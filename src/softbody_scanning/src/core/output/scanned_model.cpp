@@ -42,7 +42,7 @@ std::string reportOf(const CheckedScan& scan) {
   for (const TurnedRecording& turned : body.turned) {
     lines += fmt::format("{}: lies on the first recording to {:.2f} mm", turned.name,
                          1e3 * turned.registration.distance_m);
-    if (turned.registration.runner_up < 2.0 * turned.registration.misfit)
+    if (turned.registration.ambiguous)
       lines += fmt::format(
           "; warning: another way to turn it over fits nearly as well ({:.2f}, {:.2f}); look at the model",
           turned.registration.misfit, turned.registration.runner_up);

@@ -22,6 +22,8 @@ constexpr double kUnknownCost = 0.5;   // of a place inside the part of the othe
 constexpr double kCoarseScale = 0.05;  // of the weights, in diagonals: an error of a few degrees
 constexpr double kFineScale = 0.002;   // 0.5 mm of a body of 250 mm: about what a good scan is wrong by
 constexpr double kOther_rad = 0.35;    // from here on two motions are different answers
+constexpr double kClearly = 2.0;       // an answer is clear if the others are worse by this factor
+constexpr double kChanceSigmas = 3.0;  // correlations up to here are chance
 constexpr double kTurned_cos = 0.7;    // less than 45 degrees are no turn
 constexpr double kContactShare = 0.1;  // of all samples: so much counts that a surface touches a table
 constexpr int kCoarseSteps = 12, kFineSteps = 60;  // the fit ends earlier where it stands still
@@ -139,8 +141,14 @@ double typicalDistance(const RegistrationSide& moving, const RegistrationSide& f
   return *middle;
 }
 
-/// 1 minus the correlation of the colours of places that lie on each other; 0 if they have one colour.
-double colorMisfit(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pairs) {
+/// How well two surfaces fit.
+struct Fit {
+  double misfit = 0.0;       ///< as Registration's
+  double correlation = 0.0;  ///< of the colours of places that lie on each other; 1 if they have one colour
+  std::size_t pairs = 0;     ///< number of these places
+};
+
+double colorCorrelation(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pairs) {
   Eigen::Vector3d first = Eigen::Vector3d::Zero(), second = Eigen::Vector3d::Zero();
   for (const auto& [a, b] : pairs) first += a, second += b;
   first /= static_cast<double>(pairs.size());
@@ -153,12 +161,12 @@ double colorMisfit(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>
   }
   const double total = std::sqrt(aa * bb),
                rounding = static_cast<double>(pairs.size());  // one step of 8 bits
-  return (total - ab) / (total + rounding);
+  return (ab + rounding) / (total + rounding);
 }
 
 /// Mean of Geman and McClure's cost in one direction, 0..1, and that of the colours.
-double misfit(const RegistrationSide& from, const RegistrationSide& to, double scale,
-              const Eigen::Isometry3d& T, bool with_colors) {
+Fit fit(const RegistrationSide& from, const RegistrationSide& to, double scale, const Eigen::Isometry3d& T,
+        bool with_colors) {
   double sum = 0.0;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> colors;
   for (const SurfaceSample& sample : from.samples()) {
@@ -170,13 +178,16 @@ double misfit(const RegistrationSide& from, const RegistrationSide& to, double s
     if (nearest.seen && square < 1.0) colors.emplace_back(sample.color, nearest.color);
   }
   const double shape = sum / static_cast<double>(from.samples().size());
-  return shape + (with_colors && !colors.empty() ? colorMisfit(colors) : 0.0);
+  const double correlation = with_colors && !colors.empty() ? colorCorrelation(colors) : 1.0;
+  return {shape + 1.0 - correlation, correlation, colors.size()};
 }
 
-double misfitOfBoth(const RegistrationSide& moving, const RegistrationSide& fixed, double scale,
-                    const Eigen::Isometry3d& T, bool with_colors) {
-  return 0.5 * (misfit(moving, fixed, scale, T, with_colors) +
-                misfit(fixed, moving, scale, T.inverse(), with_colors));
+Fit fitOfBoth(const RegistrationSide& moving, const RegistrationSide& fixed, double scale,
+              const Eigen::Isometry3d& T, bool with_colors) {
+  const Fit there = fit(moving, fixed, scale, T, with_colors),
+            back = fit(fixed, moving, scale, T.inverse(), with_colors);
+  return {0.5 * (there.misfit + back.misfit), 0.5 * (there.correlation + back.correlation),
+          std::min(there.pairs, back.pairs)};
 }
 
 /// From far to near: the scale falls with the distance that is left.
@@ -191,10 +202,10 @@ void refine(const RegistrationSide& moving, const RegistrationSide& fixed, Eigen
 
 struct Candidate {
   Eigen::Isometry3d pose;
-  double misfit;
+  Fit fit;
 };
 
-bool fitsBetter(const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; }
+bool fitsBetter(const Candidate& a, const Candidate& b) { return a.fit.misfit < b.fit.misfit; }
 
 /// Whether the body stands on another part of it than in the fixed recording.
 bool isTurnedOver(const RegistrationSide& moving, const RegistrationSide& fixed,
@@ -210,7 +221,7 @@ std::vector<Candidate> candidatesOf(const RegisteredSurface& moving, const Regis
   std::vector<Candidate> candidates;
   for (Eigen::Isometry3d pose : starts(few_moving, few_fixed)) {
     for (int i = 0; i < kCoarseSteps; ++i) improve(few_moving, few_fixed, kCoarseScale * size, &pose);
-    candidates.push_back({pose, misfitOfBoth(few_moving, few_fixed, kCoarseScale * size, pose, false)});
+    candidates.push_back({pose, fitOfBoth(few_moving, few_fixed, kCoarseScale * size, pose, false)});
   }
   candidates.erase(
       std::remove_if(candidates.begin(), candidates.end(),
@@ -221,10 +232,24 @@ std::vector<Candidate> candidatesOf(const RegisteredSurface& moving, const Regis
   const RegistrationSide more_moving(moving, 5 * kCoarse), more_fixed(fixed, 5 * kCoarse);
   for (Candidate& candidate : candidates) {
     refine(few_moving, few_fixed, &candidate.pose);
-    candidate.misfit = misfitOfBoth(more_moving, more_fixed, 5.0 * kFineScale * size, candidate.pose, true);
+    candidate.fit = fitOfBoth(more_moving, more_fixed, 5.0 * kFineScale * size, candidate.pose, true);
   }
   std::stable_sort(candidates.begin(), candidates.end(), fitsBetter);
   return candidates;
+}
+
+/// Compares the best answer, the first one, with those that are turned by more than 20 degrees against it.
+void compareAnswers(const std::vector<Candidate>& candidates, Registration* found) {
+  const Candidate& best = candidates.front();
+  double correlation = kChanceSigmas / std::sqrt(std::max<double>(1.0, static_cast<double>(best.fit.pairs)));
+  for (const Candidate& other : candidates) {
+    const Eigen::AngleAxisd turn(best.pose.linear().transpose() * other.pose.linear());
+    if (turn.angle() <= kOther_rad) continue;
+    found->runner_up = std::min(found->runner_up, other.fit.misfit);
+    correlation = std::max(correlation, other.fit.correlation);
+  }
+  found->ambiguous =
+      found->runner_up < kClearly * found->misfit && best.fit.correlation < kClearly * correlation;
 }
 
 }  // namespace
@@ -237,11 +262,8 @@ Registration registerSurfaces(const RegisteredSurface& moving, const RegisteredS
         "one surface is {:.4g} m large and the other {:.4g} m: they are not the same body", a, b));
   const std::vector<Candidate> candidates = candidatesOf(moving, fixed);
   if (candidates.empty()) throw std::invalid_argument("the object was not turned over");
-  Registration found{candidates.front().pose, candidates.front().misfit, 2.0, 0.0};
-  for (const Candidate& other : candidates) {
-    const Eigen::AngleAxisd turn(found.T_fixed_moving.linear().transpose() * other.pose.linear());
-    if (turn.angle() > kOther_rad) found.runner_up = std::min(found.runner_up, other.misfit);
-  }
+  Registration found{candidates.front().pose, candidates.front().fit.misfit, 2.0, false, 0.0};
+  compareAnswers(candidates, &found);
   refine(many_moving, many_fixed, &found.T_fixed_moving);
   found.distance_m = typicalDistance(many_moving, many_fixed, found.T_fixed_moving);
   return found;
