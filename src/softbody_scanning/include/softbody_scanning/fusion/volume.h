@@ -48,8 +48,9 @@ class Volume {
   /// Adds the evidence of a volume on the same grid.
   void add(const Volume& other);
 
-  /// The most that was seen at the grid points around a place [1/m^2].
-  float seenAround(const Eigen::Vector3d& place) const;
+  /// Share of what is known about the grid points around a place that measured a surface there, 0..1; less if
+  /// it is less than one view. The best of them counts. @param depth_std_m of one view.
+  float seenAround(const Eigen::Vector3d& place, double depth_std_m) const;
 
  private:
   std::size_t offset(const Eigen::Vector3i& i) const {

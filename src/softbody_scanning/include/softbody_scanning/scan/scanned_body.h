@@ -33,8 +33,9 @@ struct TurnedRecording {
 
 /// The object's surface in the model frame of the first recording.
 struct ScannedBody {
-  TriangleMesh mesh;             ///< closed
-  std::vector<float> seen;       ///< #V, 0..1: share of the surface around the vertex that was measured
+  TriangleMesh mesh;  ///< closed
+  std::vector<float>
+      seen;  ///< #V, 0..1: how far the views agree on the surface there; 0: none measured it, > 0.5: seen
   std::vector<KeyFrame> frames;  ///< of all recordings, in this model frame
   std::vector<TurnedRecording> turned;
   double voxel_m = 0.0;

@@ -13,7 +13,8 @@ namespace {
 
 // So near it is the surface, so far in front it is empty: noise does not turn one into the other.
 constexpr float kSameSigmas = 1.0f, kEmptySigmas = 6.0f;
-constexpr int kBlock = 8;  // grid points along a block's side
+constexpr float kSeenOfNoise = 1.4142f;  // exp(-x^2 / 2) of normal noise is 1 / sqrt(2) on the mean
+constexpr int kBlock = 8;                // grid points along a block's side
 
 /// A view with what its evidence is computed from.
 struct FusedView {
@@ -160,14 +161,18 @@ void Volume::add(const Volume& other) {
   }
 }
 
-float Volume::seenAround(const Eigen::Vector3d& place) const {
+float Volume::seenAround(const Eigen::Vector3d& place, double depth_std_m) const {
+  const float one_view = static_cast<float>(1.0 / (depth_std_m * depth_std_m));
   const Eigen::Vector3i low = ((place - box_.box.min()) / box_.voxel_m).array().floor().cast<int>();
   float most = 0.0f;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3i index = low + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2);
-    most = std::max(most, at(index.cwiseMax(0).cwiseMin(size_ - Eigen::Vector3i::Ones())).seen);
+    const PlaceEvidence& evidence = at(index.cwiseMax(0).cwiseMin(size_ - Eigen::Vector3i::Ones()));
+    if (evidence.weight > 0.0f)
+      most =
+          std::max(most, std::min(evidence.seen / one_view, kSeenOfNoise * evidence.seen / evidence.weight));
   }
-  return most;
+  return std::min(1.0f, most);
 }
 
 }  // namespace softbody::scanning

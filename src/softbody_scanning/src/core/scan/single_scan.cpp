@@ -111,9 +111,7 @@ RegisteredSurface surfaceOfScan(const SingleScan& scan, double voxel_m) {
 
 std::vector<float> seenOf(const Volume& volume, const TriangleMesh& mesh, double depth_std_m) {
   std::vector<float> seen;
-  const double one_view = 1.0 / (depth_std_m * depth_std_m);
-  for (const auto& p : mesh.vertices.rowwise())
-    seen.push_back(static_cast<float>(std::min(1.0, volume.seenAround(p.transpose()) / one_view)));
+  for (const auto& p : mesh.vertices.rowwise()) seen.push_back(volume.seenAround(p.transpose(), depth_std_m));
   return seen;
 }
 
