@@ -5,7 +5,6 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 
 #include "softbody_common/ros/conversions.h"
@@ -131,7 +130,7 @@ void ScannerNode::publish(const RegisteredSurface& surface) {
   state.revision = revision_;
   state.vertices = surface.mesh.vertices;
   state.confidence = surface.seen;
-  seen_ = std::accumulate(surface.seen.begin(), surface.seen.end(), 0.0) /
+  seen_ = static_cast<double>(std::count_if(surface.seen.begin(), surface.seen.end(), isSeen)) /
           static_cast<double>(surface.seen.size());
   softbody_msgs::MeshTopology topology_message = toMessage(topology);
   softbody_msgs::MeshState state_message = toMessage(state);

@@ -31,11 +31,13 @@ struct TurnedRecording {
   Registration registration;
 };
 
+/// Whether a vertex counts as seen. @param agreement how far the views agree on the surface there, 0..1
+inline bool isSeen(float agreement) { return agreement > 0.5f; }
+
 /// The object's surface in the model frame of the first recording.
 struct ScannedBody {
-  TriangleMesh mesh;  ///< closed
-  std::vector<float>
-      seen;  ///< #V, 0..1: how far the views agree on the surface there; 0: none measured it, > 0.5: seen
+  TriangleMesh mesh;             ///< closed
+  std::vector<float> seen;       ///< #V, 0..1: how far the views agree on the surface there; see isSeen()
   std::vector<KeyFrame> frames;  ///< of all recordings, in this model frame
   std::vector<TurnedRecording> turned;
   double voxel_m = 0.0;

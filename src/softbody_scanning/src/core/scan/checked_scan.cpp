@@ -58,7 +58,7 @@ double shareSeen(const ScannedBody& body, bool with_underside) {
     if (!with_underside && !(std::max({a.z(), b.z(), c.z()}) > 0.0)) continue;
     const double area = (b - a).cross(c - a).norm();
     all += area;
-    if ((body.seen[t[0]] + body.seen[t[1]] + body.seen[t[2]]) / 3.0f > 0.5f) seen += area;
+    if (isSeen((body.seen[t[0]] + body.seen[t[1]] + body.seen[t[2]]) / 3.0f)) seen += area;
   }
   return all > 0.0 ? seen / all : 0.0;
 }
