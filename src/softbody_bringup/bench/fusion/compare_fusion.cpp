@@ -103,8 +103,7 @@ std::vector<float> seenOf(const TriangleMesh& mesh, const Volume& evidence, cons
   std::vector<float> seen;
   for (const auto& p : mesh.vertices.rowwise()) {
     const bool below = depth.one_side() && !(p.z() > 0.0);
-    const double weight = below ? 0.0 : evidence.seenAround(p.transpose());
-    seen.push_back(static_cast<float>(std::min(1.0, weight * depth.depth_std_m * depth.depth_std_m)));
+    seen.push_back(below ? 0.0f : evidence.seenAround(p.transpose(), depth.depth_std_m));
   }
   return seen;
 }
