@@ -14,20 +14,22 @@ MODELS = ("sponge_walk", "sponge_flip")  # rows of scans.py
 class Scene:
     name: str
     words: str
-    recordings: tuple
+    recordings: tuple  # of the scene, then those that the models are made from
 
 
 def scenes():
-    return [Scene(f"track_{scene}", words, (scans.Recording("sponge", scene),))
+    scanned = {recording: None for row in scans.good_rows() if row.name in MODELS for recording in row.recordings}
+    return [Scene(f"track_{scene}", words, (scans.Recording("sponge", scene), *scanned))
             for scene, words in (("bend", "sponge: bend"), ("push", "sponge: push"), ("touch", "sponge: touch"))]
 
 
 def scanned_object(model):
-    """The object YAML of a scanned model; one that is missing is made."""
-    description = scans.FOLDER / model / "object.yaml"
-    if not description.exists():
-        scans.measure(next(row for row in scans.good_rows() if row.name == model))
-    return description
+    """The object YAML of a scanned model; one of another commit is made again."""
+    row = next(row for row in scans.good_rows() if row.name == model)
+    made = next((result for _, result in scans.measured([row])), None)
+    if made is None or made["commit"] != commit(ROOT):
+        scans.measure(row)
+    return scans.FOLDER / model / "object.yaml"
 
 
 def track(scene, description):

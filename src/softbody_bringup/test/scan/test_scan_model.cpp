@@ -8,6 +8,7 @@
 #include "softbody_evaluation/models/model_fit.h"
 #include "softbody_scanning/output/scanned_model.h"
 #include "softbody_scanning/ros/recording_reader.h"
+#include "softbody_scanning/tools/scan_model.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 
@@ -99,7 +100,33 @@ TEST_F(ScanModel, poorRecordingsAreRefusedWithWhatToDo) {
   EXPECT_NE(refusal(wrong_unit).find("--depth-scale"), std::string::npos) << refusal(wrong_unit);
   RecordingOptions no_depth = optionsOf(half);
   no_depth.camera.depth = "/none";
+  EXPECT_NE(refusal(no_depth).find(half), std::string::npos) << refusal(no_depth);
   EXPECT_EQ(refusal(no_depth).find(half), refusal(no_depth).rfind(half)) << refusal(no_depth);
+}
+
+/// What scan_model says when it refuses its arguments or recordings.
+std::string refusalOf(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "scan_model");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  testing::internal::CaptureStderr();
+  EXPECT_NE(runScanModel(static_cast<int>(argv.size()), argv.data()), 0);
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST_F(ScanModel, aChoiceThatCannotBeMeantIsRefused) {
+  const std::string bag = record(walk(), 4.0, 2.0), model = (folder_ / "model").string();
+  const auto says = [&](std::vector<std::string> options, const std::string& words) {
+    options.insert(options.begin(), {bag, "--output", model});
+    const std::string refusal = refusalOf(options);
+    EXPECT_NE(refusal.find(words), std::string::npos) << refusal;
+    EXPECT_FALSE(fs::exists(model));
+  };
+  says({"--at", "nan", "0", "0"}, "--at");
+  says({"--at", "0", "0", "0", "--at", "0", "0", "0"}, "2 times for 1 recordings");
+  says({"--box", "0.1", "0", "0", "0.1"}, "is empty");
+  says({"--box", "100", "80", "200", "180"}, "give metres");
+  says({"--box", "0.08", "0.08", "0.09", "0.09"}, "--box larger");
 }
 
 TEST_F(ScanModel, aCameraOnAnArmNeedsNoSheet) {

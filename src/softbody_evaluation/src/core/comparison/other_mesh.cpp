@@ -38,11 +38,11 @@ std::optional<Eigen::Isometry3d> motionTaken(const std::vector<StatusRecord>& st
   for (auto state = result.states.lower_bound(tracked); state != result.states.end(); ++state) {
     const auto expected = truth.states.find(state->first);
     if (expected == truth.states.end()) continue;
-    const Eigen::Isometry3d mine =
+    const Eigen::Isometry3d T_result =
         fitRigid(topologyOf(result, state->second).rest_vertices, state->second.vertices);
-    const Eigen::Isometry3d its =
+    const Eigen::Isometry3d T_truth =
         fitRigid(topologyOf(truth, expected->second).rest_vertices, expected->second.vertices);
-    return its.inverse() * mine;
+    return T_truth.inverse() * T_result;
   }
   return std::nullopt;
 }
@@ -66,22 +66,24 @@ bool isSameMesh(const SurfaceRecord& result, const SurfaceRecord& truth) {
 
 std::optional<AlikePoses> mapOtherMesh(const std::string& bag, const std::vector<StatusRecord>& statuses,
                                        const SurfaceRecord& truth, SurfaceRecord* result) {
-  const MeshTopology &mesh = result->topologies.begin()->second, &its = truth.topologies.begin()->second;
-  const Model model = restModel(bag + ": its mesh", mesh), true_model = restModel("the true mesh", its);
+  const MeshTopology& mesh = result->topologies.begin()->second;
+  const MeshTopology& true_mesh = truth.topologies.begin()->second;
+  const Model model = restModel(bag + ": its mesh", mesh), true_model = restModel("the true mesh", true_mesh);
   const Eigen::Isometry3d fitted = fitModel(model, true_model);
   const Eigen::Isometry3d taken =
       motionTaken(statuses, truth, *result).value_or(fitted) * fitted.inverse();  // of the true mesh
   const SelfMap map = nearestSelfMap(true_model.mesh, taken);
   const bool same_shape = isSymmetry(map, true_model.mesh);
   const Eigen::Isometry3d motion = same_shape ? map.motion * fitted : fitted;
-  const double distance = meanDistance(model.mesh, motion, true_model.mesh);
+  const double distance = std::max(meanDistance(model.mesh, motion, true_model.mesh),
+                                   meanDistance(true_model.mesh, motion.inverse(), model.mesh));
   if (distance > kOtherBody * diagonalOf(true_model.mesh)) {
     throw std::invalid_argument(
         fmt::format("{}: its mesh is not of the body of the truth: laid onto each other at rest, their "
-                    "surfaces are {:.3g} mm apart (mean)",
+                    "surfaces are {:.3g} mm apart (mean); give the truth of this body",
                     bag, 1e3 * distance));
   }
-  result->material = {materialMap(motion, mesh, its)};
+  result->material = {materialMap(motion, mesh, true_mesh)};
   result->notes.push_back(fmt::format(
       "the mesh is not that of the truth: at rest, their surfaces are {:.3f} mm apart (mean), and "
       "each vertex is compared with the nearest place of the true one",

@@ -32,7 +32,7 @@ struct TurnedRecording {
 };
 
 /// Whether a vertex counts as seen. @param agreement how far the views agree on the surface there, 0..1
-inline bool isSeen(float agreement) { return agreement > 0.5f; }
+inline bool isSeen(float agreement) { return agreement >= 0.5f; }
 
 /// The object's surface in the model frame of the first recording.
 struct ScannedBody {

@@ -18,7 +18,8 @@ double relativeDistance(const TriangleMesh& part, const Eigen::Vector3d& at) {
 }
 
 std::optional<TriangleMesh> partAt(const Eigen::Vector3d& at, std::vector<TriangleMesh> parts) {
-  constexpr double kFarthest = 0.5;  // in no body is a place farther from its surface
+  // A place in a body is nearer than this to its surface; a click beside it may miss by as much.
+  constexpr double kFarthest = 0.5;
   std::optional<TriangleMesh> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (TriangleMesh& part : parts) {

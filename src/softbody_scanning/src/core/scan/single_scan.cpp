@@ -51,14 +51,16 @@ Eigen::AlignedBox3d findObject(const SingleScan& scan, const Eigen::AlignedBox3d
   cutBelow(kCoarse_m, &solid);
   const auto object = objectPart(isoSurface(solid), scan.at);
   if (!object)
-    throw std::invalid_argument(
-        "nothing stands on the table in the recording's middle; put the object into the middle of the sheet");
+    throw std::invalid_argument(fmt::format(
+        "nothing stands on the table in the space that is looked at, {:.0f} x {:.0f} mm; put the object into "
+        "its middle, or make --box larger",
+        1e3 * region.sizes().x(), 1e3 * region.sizes().y()));
   const Eigen::AlignedBox3d box = boxOf(*object);
   const Eigen::Vector3d free = (box.min() - region.min()).cwiseMin(region.max() - box.max());
   if (free.head<2>().minCoeff() < 2.0 * kCoarse_m || region.max().z() - box.max().z() < 2.0 * kCoarse_m)
     throw std::invalid_argument(fmt::format(
         "the object reaches the border of the space that is looked at, {:.0f} x {:.0f} x {:.0f} mm; use a "
-        "larger sheet, or put things beside the object away",
+        "larger sheet or --box, or put things beside the object away",
         1e3 * region.sizes().x(), 1e3 * region.sizes().y(), 1e3 * region.max().z()));
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(3.0 * kCoarse_m);
   return {Eigen::Vector3d(box.min() - margin), Eigen::Vector3d(box.max() + margin)};

@@ -62,7 +62,8 @@ TriangleMesh fromSurface(Surface surface) {
 
 TriangleMesh remeshed(const TriangleMesh& mesh, double edge_m) {
   constexpr unsigned kIterations = 3;
-  constexpr double kShift = 1e-4;  // of an edge
+  constexpr double kShift =
+      1e-4;  // of an edge: far above the precision of a triangle's normal, far below noise
   Surface surface = manifoldOf(mesh);
   if (surface.number_of_faces() == 0) throw std::invalid_argument("the surface has no triangles");
   takeOffLines(kShift * edge_m, &surface);

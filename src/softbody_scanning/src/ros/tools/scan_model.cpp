@@ -9,6 +9,7 @@
 #include <map>
 
 #include "softbody_common/camera_options.h"
+#include "softbody_common/plausibility.h"
 #include "softbody_common/run_tool.h"
 #include "softbody_scanning/output/scanned_model.h"
 #include "softbody_scanning/ros/recording_reader.h"
@@ -35,14 +36,15 @@ void declareChoice(CLI::App* app, Arguments* arguments) {
   app->add_option(
          "--at", arguments->at,
          "a point on the object [m], in the sheet's frame: origin in its middle, x to the right and y up "
-         "as printed, z towards the viewer. Give it once for all recordings, or once for each. Default: "
-         "what is large and near to the middle")
+         "as printed, z towards the viewer; without a sheet in the frame of the places that the report "
+         "names. Give it once for all recordings, or once for each. Default: what is large and near to the "
+         "middle")
       ->type_name("X Y Z")
       ->allow_extra_args(false);
   app->add_option(
          "--box", arguments->boxes,
-         "rectangle on the sheet [m]: only what stands in it is looked at. Once for all recordings, or "
-         "once for each. Default: the sheet and a quarter of its size on each side")
+         "rectangle on the table [m], in the frame of --at: only what stands in it is looked at. Once for "
+         "all recordings, or once for each. Default: the sheet and a quarter of its size on each side")
       ->type_name("X0 Y0 X1 Y1")
       ->allow_extra_args(false);
 }
@@ -57,12 +59,15 @@ void requireOneForEach(const Arguments& arguments) {
   };
   require("--at", arguments.at.size());
   require("--box", arguments.boxes.size());
+  for (const auto& at : arguments.at)
+    if (!isPlausible(Eigen::Vector3d(at.data())))
+      throw CLI::ValidationError("--at",
+                                 fmt::format("{} {} {} is no place on a table [m]", at[0], at[1], at[2]));
   for (const auto& [x0, y0, x1, y1] : arguments.boxes)
     if (!(x0 < x1 && y0 < y1))
-      throw CLI::ValidationError("--box",
-                                 fmt::format("{} {} {} {} is empty: X0 must be less than X1, and Y0 less "
-                                             "than Y1",
-                                             x0, y0, x1, y1));
+      throw CLI::ValidationError(
+          "--box",
+          fmt::format("{} {} {} {} is empty: X0 must be less than X1, and Y0 less than Y1", x0, y0, x1, y1));
 }
 
 void declare(CLI::App* app, Arguments* arguments) {
@@ -108,14 +113,27 @@ std::string lineOf(const std::string& bag, const RecordingReport& report) {
   return line + "\n";
 }
 
-/// Applies --at and --box.
-void choose(const Arguments& arguments, std::size_t i, PosedRecording* recording) {
-  const auto of_this = [i](const auto& values) { return values[values.size() == 1 ? 0 : i]; };
+/// Applies --at and --box to the recording with number i.
+/// @throw std::invalid_argument if they cannot be meant for it.
+void choose(const Arguments& arguments, std::size_t i, MotionSource motion, PosedRecording* recording) {
+  const auto of_this = [&](const auto& values) {
+    if (values.size() < arguments.recordings.size() && motion != MotionSource::kSheet)
+      throw std::invalid_argument(
+          recording->name +
+          ": without a sheet each recording has its own frame; give --at or --box once "
+          "for each recording");
+    return values[values.size() == 1 ? 0 : i];
+  };
   if (!arguments.at.empty()) recording->at = Eigen::Vector3d(of_this(arguments.at).data());
   if (arguments.boxes.empty()) return;
   const auto [x0, y0, x1, y1] = of_this(arguments.boxes);
-  recording->region.min().head<2>() << x0, y0;
-  recording->region.max().head<2>() << x1, y1;
+  const Eigen::AlignedBox3d known = recording->region;
+  const Eigen::AlignedBox3d box({x0, y0, known.min().z()}, {x1, y1, known.max().z()});
+  recording->region = known.intersection(box);
+  if (recording->region.isEmpty())
+    throw std::invalid_argument(fmt::format(
+        "{}: --box {} {} {} {} lies beside the recorded space, {:.2f} {:.2f} {:.2f} {:.2f} m; give metres",
+        recording->name, x0, y0, x1, y1, known.min().x(), known.min().y(), known.max().x(), known.max().y()));
 }
 
 int scan(const Arguments& arguments) {
@@ -131,7 +149,7 @@ int scan(const Arguments& arguments) {
     RecordingReport found;
     fmt::print(stderr, "scan_model: read {}\n", bag);
     recordings.push_back(readRecording(options, ProgressLine("scan_model"), &found));
-    choose(arguments, recordings.size() - 1, &recordings.back());
+    choose(arguments, recordings.size() - 1, found.motion, &recordings.back());
     report += lineOf(bag, found);
     fmt::print("{}", lineOf(bag, found));
     std::fflush(stdout);
