@@ -128,7 +128,8 @@ void choose(const Arguments& arguments, std::size_t i, MotionSource motion, Pose
   if (arguments.boxes.empty()) return;
   const auto [x0, y0, x1, y1] = of_this(arguments.boxes);
   const Eigen::AlignedBox3d known = recording->region;
-  const Eigen::AlignedBox3d box({x0, y0, known.min().z()}, {x1, y1, known.max().z()});
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(x0, y0, known.min().z()),
+                                Eigen::Vector3d(x1, y1, known.max().z()));
   recording->region = known.intersection(box);
   if (recording->region.isEmpty())
     throw std::invalid_argument(fmt::format(
