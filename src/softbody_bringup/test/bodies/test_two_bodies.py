@@ -32,8 +32,8 @@ class TwoBodies(unittest.TestCase):
                             first__status=TrackingStatus, second__status=TrackingStatus,
                             ground_truth__surface__state=MeshState, ground_truth__second__surface__state=MeshState)
         for name in ("first", "second"):
-            recorder.wait(lambda seen, name=name: seen[f"{name}/status"][-1].state == TrackingStatus.TRACKING,
-                          f"{name} to be tracked")
+            recorder.wait(lambda seen, name=name: any(status.state == TrackingStatus.TRACKING
+                                                      for status in seen[f"{name}/status"]), f"{name} to be tracked")
         count = None
         while count != len(recorder.messages["ground_truth/surface/state"]):  # the camera ends with the scene
             count = len(recorder.messages["ground_truth/surface/state"])

@@ -9,7 +9,7 @@ import rosgraph
 import rospy
 import rostest
 from sensor_msgs.msg import CameraInfo, Image
-from softbody_msgs.msg import MeshTopology
+from softbody_msgs.msg import MeshTopology, TetTopology, TrackingStatus
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
 sys.path.append(os.path.dirname(os.path.abspath(__file__)))
@@ -40,8 +40,10 @@ class CameraDriver(unittest.TestCase):
         camera.stop()
 
     def test_the_nodes_run_in_the_drivers_manager(self):
-        recorder = Recorder(softbody__surface__topology=MeshTopology)
-        recorder.wait_for("softbody/surface/topology")
+        recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__volume__topology=TetTopology,
+                            softbody__status=TrackingStatus)
+        for topic in recorder.messages:  # the nodelets are loaded one after the other
+            recorder.wait_for(topic)
         publishers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[0])
         for topic in ("rgb/image_rect_color", "status", "volume/topology", "surface/topology"):
             self.assertEqual(publishers[f"/softbody/{topic}"], ["/driver/manager"], topic)
