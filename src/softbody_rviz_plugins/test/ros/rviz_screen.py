@@ -35,8 +35,9 @@ class Rviz:
             "Views": {"Current": view}}, "Window Geometry": {"Width": width, "Height": height}}
         with open(path, "w", encoding="utf-8") as file:
             yaml.safe_dump(config, file)
-        self.process = subprocess.Popen(["/usr/lib/rviz/rviz", "-d", path], env=self.screen.environment,
-                                        start_new_session=True)
+        # Mesa's default, llvmpipe, now and then crashes in its compiler (libLLVM) on a busy machine.
+        environment = {**self.screen.environment, "GALLIUM_DRIVER": "softpipe"}
+        self.process = subprocess.Popen(["/usr/lib/rviz/rviz", "-d", path], env=environment, start_new_session=True)
 
     def end(self):
         self.process.terminate()
