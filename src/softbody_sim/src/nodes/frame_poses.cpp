@@ -3,17 +3,18 @@
 #include <stdexcept>
 
 #include "softbody_common/ros/geometry_messages.h"
+#include "softbody_common/ros/time.h"
 
 namespace softbody {
 
-std::optional<FramePoses::StampedPose> FramePoses::find(const std::string& frame,
-                                                        const std::string& target_frame,
-                                                        const ros::Time& stamp) const {
-  if (frame.empty() || frame == target_frame) return StampedPose{Eigen::Isometry3d::Identity(), stamp};
+std::optional<StampedPose> FramePoses::find(const std::string& frame, const std::string& target_frame,
+                                            const ros::Time& stamp) const {
+  if (frame.empty() || frame == target_frame)
+    return StampedPose{Eigen::Isometry3d::Identity(), toNanoseconds(stamp)};
   for (const ros::Time& time : {stamp, ros::Time()}) {  // time zero: the latest transform
     try {
       const auto transform = transforms_.buffer().lookupTransform(target_frame, frame, time);
-      return StampedPose{fromMessage(transform.transform), transform.header.stamp};
+      return StampedPose{fromMessage(transform.transform), toNanoseconds(transform.header.stamp)};
     } catch (const tf2::TransformException&) {
       continue;
     } catch (const std::invalid_argument& error) {

@@ -2,22 +2,17 @@
 
 #include <ros/ros.h>
 
-#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 
 #include "softbody_common/ros/transform_input.h"
+#include "softbody_sim/surroundings/frame_lookup.h"
 
 namespace softbody {
 
 /// Poses of frames from tf.
 class FramePoses {
  public:
-  struct StampedPose {
-    Eigen::Isometry3d pose;
-    ros::Time stamp;  ///< the stamp that was asked for, or of the last pose that tf has
-  };
-
   /// Pose of a frame at a stamp, or its last pose if tf has none at the stamp. Empty if tf does not know the
   /// frame. An empty name is the target frame.
   std::optional<StampedPose> find(const std::string& frame, const std::string& target_frame,

@@ -38,6 +38,14 @@ softbody_msgs::Forces toMessage(const ForceEstimate& estimate, const std::string
   return message;
 }
 
+geometry_msgs::WrenchStamped toMessage(const NamedReaction& reaction, const std::string& target_frame) {
+  geometry_msgs::WrenchStamped message;
+  message.header.frame_id = reaction.frame.empty() ? target_frame : reaction.frame;
+  message.wrench.force = vectorMessage(reaction.wrench.force);
+  message.wrench.torque = vectorMessage(reaction.wrench.torque);
+  return message;
+}
+
 visualization_msgs::MarkerArray makeForceMarkers(const softbody_msgs::Forces& forces) {
   visualization_msgs::MarkerArray array;
   array.markers.resize(1);

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "nodes/prediction/named_surroundings.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/surroundings/named_surroundings.h"
 
 namespace softbody {
 

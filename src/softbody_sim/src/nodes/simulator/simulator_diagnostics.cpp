@@ -9,7 +9,7 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 namespace {
 
-std::string joined(const SurroundingsTracker::Faults& faults) {
+std::string joined(const SurroundingsFollower::Faults& faults) {
   std::string text;
   for (const auto& [name, sentence] : faults) text += (text.empty() ? "" : "; ") + sentence;
   return text;
@@ -36,7 +36,7 @@ void SimulatorDiagnostics::countStep() {
   if (!simulator_->report().converged) ++steps_not_converged_;
 }
 
-void SimulatorDiagnostics::summarize(const SurroundingsTracker::Faults& faults,
+void SimulatorDiagnostics::summarize(const SurroundingsFollower::Faults& faults,
                                      DiagnosticStatusWrapper* status) const {
   if (refused_ > 0)
     status->summary(DiagnosticStatus::WARN, fmt::format("{} messages with targets were not used", refused_));
@@ -52,7 +52,7 @@ void SimulatorDiagnostics::summarize(const SurroundingsTracker::Faults& faults,
 }
 
 void SimulatorDiagnostics::report(DiagnosticStatusWrapper* status) {
-  const SurroundingsTracker::Faults faults = surroundings_->faults();
+  const SurroundingsFollower::Faults faults = surroundings_->faults();
   summarize(faults, status);
   const StepReport& last = simulator_->report();
   status->add("steps", steps_);

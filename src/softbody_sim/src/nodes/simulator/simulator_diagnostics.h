@@ -21,7 +21,7 @@ class SimulatorDiagnostics {
   void setDropped(int dropped) { dropped_ = dropped; }
 
  private:
-  void summarize(const SurroundingsTracker::Faults& faults,
+  void summarize(const SurroundingsFollower::Faults& faults,
                  diagnostic_updater::DiagnosticStatusWrapper* status) const;
   void report(diagnostic_updater::DiagnosticStatusWrapper* status);
 

@@ -37,7 +37,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
                              const SimulatorOptions& options, const SimulatedObject& object)
     : stall_timeout_s_(options.stall_timeout_s),
       simulator_(makeSimulator(object.model, options.simulator, &timer_)),
-      surroundings_(node, options.obstacles, options.pins),
+      surroundings_(node, options.surroundings),
       stamps_(node.resolveName(topics::kTargets), StampGate::Repeats::kAccepted),
       publisher_(node, options.body_frame),
       forces_(node, options.wrench_frame),
@@ -45,7 +45,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       surroundings_input_(node, private_node, &simulator_, &surroundings_),
       targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }),
       predictions_(node, private_node, [this](const auto& frames) { return present(frames); }) {
-  if (options.gripper) gripper_.emplace(node, private_node, *options.gripper, &simulator_, &surroundings_);
+  if (options.surroundings.gripper)
+    gripper_.emplace(node, private_node, *options.surroundings.gripper, &simulator_, &surroundings_);
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
   publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();

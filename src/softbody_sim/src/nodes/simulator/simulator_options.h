@@ -2,14 +2,12 @@
 
 #include <ros/ros.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "nodes/simulator/surroundings_tracker.h"
-#include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/dynamics/simulator_config.h"
 #include "softbody_sim/object/object_model.h"
+#include "softbody_sim/surroundings/surroundings_config.h"
 
 namespace softbody {
 
@@ -21,10 +19,8 @@ struct SimulatorOptions {
   SimulatorConfig simulator;
   double free_run_rate_hz = 30.0;  ///< 0: no steps without targets
   double stall_timeout_s = 1.0;    ///< time without targets after which the simulation goes on by itself
-  std::vector<ObstacleDescription> obstacles;
-  PinOptions pins;
-  std::string wrench_frame;          ///< of the net external wrench; empty: the frame of the targets
-  std::optional<PinRegion> gripper;  ///< the space between the fingers; the fingers are obstacles
+  SurroundingsConfig surroundings;
+  std::string wrench_frame;  ///< of the net external wrench; empty: the frame of the targets
 };
 
 /// Warns of unknown keys. @throw std::invalid_argument as Parameters does.

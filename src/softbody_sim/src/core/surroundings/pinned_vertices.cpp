@@ -1,4 +1,4 @@
-#include "nodes/simulator/held_region.h"
+#include "softbody_sim/surroundings/pinned_vertices.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::vector<int> stillHeld(const std::vector<int>& before, const std::vector<int
 
 }  // namespace
 
-HeldRegion::HeldRegion(PinRegion region, const Points& rest_vertices) : region_(std::move(region)) {
+PinnedVertices::PinnedVertices(PinRegion region, const Points& rest_vertices) : region_(std::move(region)) {
   if (region_.in_frame) return;
   vertices_ = verticesIn(region_, Eigen::Isometry3d::Identity(), rest_vertices);
   if (vertices_.empty())
@@ -29,7 +29,7 @@ HeldRegion::HeldRegion(PinRegion region, const Points& rest_vertices) : region_(
         fmt::format("the box of pin '{}' contains no vertex of the volume", region_.name));
 }
 
-void HeldRegion::hold(const Eigen::Isometry3d& frame_pose, const Points& vertices) {
+void PinnedVertices::hold(const Eigen::Isometry3d& frame_pose, const Points& vertices) {
   if (region_.in_frame) vertices_ = verticesIn(region_, frame_pose.inverse(), vertices);
   positions_.emplace(static_cast<Eigen::Index>(vertices_.size()), 3);
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
@@ -38,7 +38,7 @@ void HeldRegion::hold(const Eigen::Isometry3d& frame_pose, const Points& vertice
   }
 }
 
-void HeldRegion::updateVertices(const Points& rest_vertices, const Points& vertices) {
+void PinnedVertices::updateVertices(const Points& rest_vertices, const Points& vertices) {
   const std::vector<int> before = vertices_;
   if (region_.in_frame)
     vertices_ = stillHeld(before, verticesIn(region_, frame_pose_.inverse(), vertices), rest_vertices.rows());
@@ -58,12 +58,12 @@ void HeldRegion::updateVertices(const Points& rest_vertices, const Points& verti
   positions_ = std::move(positions);
 }
 
-void HeldRegion::setFramePose(const std::optional<Eigen::Isometry3d>& pose) {
+void PinnedVertices::setFramePose(const std::optional<Eigen::Isometry3d>& pose) {
   acts_ = positions_ && (pose || acts_);
   if (acts_ && pose) frame_pose_ = *pose;
 }
 
-void HeldRegion::appendPins(double accuracy_m, std::vector<Pin>* pins) const {
+void PinnedVertices::appendPins(double accuracy_m, std::vector<Pin>* pins) const {
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
     const Eigen::Vector3d position = positions_->row(static_cast<Eigen::Index>(k));
     pins->push_back({vertices_[k], frame_pose_ * position, accuracy_m});

@@ -12,10 +12,10 @@ namespace softbody {
 
 /// The vertices of a pin region, held at fixed positions in the region's frame. A box in a frame chooses its
 /// vertices when it takes hold.
-class HeldRegion {
+class PinnedVertices {
  public:
   /// @throw std::invalid_argument if no vertex lies in a box in rest space.
-  HeldRegion(PinRegion region, const Points& rest_vertices);
+  PinnedVertices(PinRegion region, const Points& rest_vertices);
 
   const PinRegion& region() const { return region_; }
   std::size_t vertexCount() const { return vertices_.size(); }

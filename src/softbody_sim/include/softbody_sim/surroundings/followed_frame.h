@@ -1,13 +1,12 @@
 #pragma once
 
-#include <ros/time.h>
-
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
 
-#include "nodes/frame_poses.h"
-#include "nodes/simulator/lasting_fault.h"
+#include "softbody_common/types.h"
+#include "softbody_sim/surroundings/frame_lookup.h"
+#include "softbody_sim/surroundings/lasting_fault.h"
 
 namespace softbody {
 
@@ -16,28 +15,29 @@ namespace softbody {
 /// is a fault once it lasts longer than a timeout.
 class FollowedFrame {
  public:
-  /// @param owner what follows, for log messages, like "pin 'grip'".
+  /// @param owner what follows, for log messages, like "pin 'grip'". @param frame empty: that of the targets.
   FollowedFrame(std::string owner, std::string frame, double timeout_s)
       : owner_(std::move(owner)), frame_(std::move(frame)), timeout_s_(timeout_s) {}
 
-  /// Looks the pose up at a stamp, in the target frame.
-  void update(const FramePoses& poses, const std::string& target_frame, const ros::Time& stamp);
+  /// Looks the pose up at a stamp.
+  void update(const FrameLookup& lookup, Nanoseconds stamp, LogLines* log);
 
   /// tf does not know the frame when somebody names it: says so at once.
-  void reportUnknown();
+  void reportUnknown(LogLines* log);
 
+  const std::string& frame() const { return frame_; }
   /// The last one known; empty: there was none yet.
   const std::optional<Eigen::Isometry3d>& pose() const { return pose_; }
   /// In a sentence; empty: none.
   const std::string& fault() const { return fault_.sentence(); }
 
  private:
-  void report(double silence_s);
+  void report(double silence_s, LogLines* log);
 
   std::string owner_, frame_;
   double timeout_s_;
   std::optional<Eigen::Isometry3d> pose_;
-  std::optional<double> seen_s_;  ///< stamp of the last pose, or of the first time that it was missing
+  std::optional<Nanoseconds> seen_;  ///< stamp of the last pose, or of the first time that it was missing
   LastingFault fault_;
 };
 
