@@ -86,10 +86,28 @@ TEST_F(GraphConfigTest, KnowsWhatOnlyALiveGraphUses) {
 TEST_F(GraphConfigTest, SaysWhatAReplayMisses) {
   read(
       "feature_tracker: {use_mask: true}\n"
-      "simulator: {obstacles: [{name: table, shape: plane}]}\n");
+      "simulator: {wrench_frame: world}\n");
   ASSERT_EQ(warnings_.size(), 2u);
   for (const std::string& warning : warnings_)
     EXPECT_NE(warning.find("has no effect in a replay"), std::string::npos) << warning;
+}
+
+TEST_F(GraphConfigTest, ReadsTheSurroundings) {
+  const SurroundingsConfig surroundings =
+      read(
+          "simulator: {obstacles: [{name: table, shape: plane, frame: /world}], gripper_frame: hand, "
+          "gripper_fingers: left right, pin_accuracy_m: 0.003, frame_timeout_s: 2}\n")
+          .pipeline.surroundings;
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+  ASSERT_EQ(surroundings.obstacles.size(), 3u);  // with the fingers
+  EXPECT_EQ(surroundings.obstacles.front().frame, "world");
+  EXPECT_EQ(surroundings.gripper->frame, "hand");
+  EXPECT_EQ(surroundings.pins.accuracy_m, 0.003);
+  EXPECT_EQ(surroundings.pins.frame_timeout_s, 2.0);
+  read("simulator: {obstacles: [{name: table, shape: plane, colour: red}]}\n");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_.front().find("colour"), std::string::npos) << warnings_.front();
+  EXPECT_NE(refusalOf("simulator: {gripper_frame: hand, gripper_finger_size: [0, 1, 1]}\n"), "");
 }
 
 TEST_F(GraphConfigTest, RefusesWhatTheNodeRefuses) {

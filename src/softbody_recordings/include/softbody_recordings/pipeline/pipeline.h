@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "softbody_common/stage_timer.h"
+#include "softbody_recordings/pipeline/body_surroundings.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/object/object_model.h"
@@ -21,10 +22,11 @@ struct FrameOutput {
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
   std::optional<MeshState> volume;  ///< in the fixed frame, as the surface; empty until the body is found
   std::optional<MeshState> surface;
-  std::optional<ForceEstimate> forces;  ///< in the fixed frame; empty if not wanted
+  std::optional<ForceEstimate> forces;   ///< in the fixed frame; empty if not wanted
+  std::vector<NamedReaction> reactions;  ///< of pins and obstacles; without frame: in the fixed frame
   std::optional<ToolObservation> tool;
   std::vector<Cut> cuts;              ///< of this frame; the states have the revision after these cuts
-  std::vector<std::string> warnings;  ///< reasons why a cut was not made
+  std::vector<std::string> warnings;  ///< reasons why a cut was not made; what happens to pins and obstacles
   std::vector<StageTime> times;
 };
 
@@ -33,9 +35,11 @@ struct PipelineConfig {
   SimulatorConfig simulator;
   CuttingConfig cutting;
   ToolTrackerConfig tool_tracker;
-  cv::Mat3b picture = {};  ///< of the object, see BodyTracker
-  bool forces = false;     ///< also estimate the external forces
-  bool placed = false;     ///< the body's initial pose is taken as it is, without a search
+  SurroundingsConfig surroundings;
+  std::vector<PinRegion> pins = {};  ///< of the object
+  cv::Mat3b picture = {};            ///< of the object, see BodyTracker
+  bool forces = false;               ///< also estimate the external forces
+  bool placed = false;               ///< the body's initial pose is taken as it is, without a search
 };
 
 /// Trackers, simulator and surface in sequence, without ROS. Each frame uses exactly the previous frame's
@@ -43,7 +47,8 @@ struct PipelineConfig {
 class Pipeline {
  public:
   /// @param tool to track; its blade cuts. Empty: no tool.
-  /// @throw std::invalid_argument if the body is to be placed, and has no initial pose.
+  /// @throw std::invalid_argument if the body is to be placed, and has no initial pose, or if a pin holds
+  /// nothing.
   Pipeline(const ObjectModel& model, const PipelineConfig& config,
            const std::optional<ToolDescription>& tool = std::nullopt);
 
@@ -52,8 +57,9 @@ class Pipeline {
 
   /// A frame of another pass starts with the uncut body, as the graph's nodes do.
   /// @param cuts of this frame, e.g. from a journal, in addition to the tool's cuts. They wait until the body
-  /// is tracked.
-  FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {});
+  /// is tracked. @param surroundings of this frame.
+  FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {},
+                      const SurroundingsInput& surroundings = {});
 
   /// Tracks only the tool, in the camera's frame. For a frame without a camera pose, which body and blade
   /// need.
@@ -68,7 +74,9 @@ class Pipeline {
  private:
   CuttableSurface makeSurface();
   void startPass();
-  void simulate(const TargetSet& targets, Nanoseconds stamp, FrameOutput* output);
+  void simulate(const TargetSet& targets, Nanoseconds stamp, const SurroundingsInput& input,
+                FrameOutput* output);
+  void addReactions(const TargetSet& targets, FrameOutput* output);
   void makeWaitingCuts(FrameOutput* output);
   std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;
   void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
@@ -84,6 +92,7 @@ class Pipeline {
   BodyTracker tracker_;
   Simulator simulator_;
   CuttableSurface surface_;
+  BodySurroundings surroundings_;
   std::optional<ToolTracker> tool_tracker_;
   ToolMask tool_mask_;
   std::vector<Cut> waiting_cuts_;

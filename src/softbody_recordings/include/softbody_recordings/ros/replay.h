@@ -17,6 +17,9 @@ struct ReplayOptions {
   std::string parameters, tool, journal;    ///< YAML, tool YAML, bag with cuts; empty: none
   std::vector<std::string> known_surfaces;  ///< namespaces of surfaces that the input also has
   std::string robot;                        ///< URDF; empty: no robot
+  std::string gripper_frame;                ///< between the fingers of a gripper; empty: from the parameters
+  std::string gripper_fingers;  ///< frames of the fingers, separated by spaces; empty: from the parameters
+  std::string gripper_closed = "/gripper/closed";  ///< topic (std_msgs/Bool) of the input
   CameraTopics camera = "/camera";
   std::string topic_namespace =
       "/softbody";                          ///< of the output topics of one body; several: objectNamespaces()

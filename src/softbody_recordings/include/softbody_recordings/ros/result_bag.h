@@ -40,6 +40,7 @@ class ResultBag {
   std::string topic(const char* name) const { return namespace_ + "/" + name; }
   template <typename Message>
   void write(const std::string& topic, Message message, const std_msgs::Header& header);
+  void writeReaction(const NamedReaction& reaction, const std_msgs::Header& header);
   void writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
                       const std_msgs::Header& header);
 

@@ -26,7 +26,8 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
       to_be_placed_(config.placed),
       tracker_(config.tracker, config.picture),
       simulator_(makeSimulator(model, config.simulator, &timer_)),
-      surface_(makeSurface()) {
+      surface_(makeSurface()),
+      surroundings_(config.surroundings, config.pins, uncut_volume_.rest_vertices) {
   if (to_be_placed_ && !uncut_volume_.has_initial_pose)
     throw std::invalid_argument("the object has no initial_pose at which it can be placed");
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
@@ -43,10 +44,12 @@ void Pipeline::startPass() {
   simulator_.reset();
   surface_ = makeSurface();
   waiting_cuts_.clear();
+  surroundings_.restart(uncut_volume_.rest_vertices);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
 }
 
-FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts) {
+FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cuts,
+                              const SurroundingsInput& surroundings) {
   FrameOutput output;
   output.image = frame.depth.size();
   output.T_fixed_camera = frame.T_fixed_camera;
@@ -61,7 +64,7 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   output.tracking =
       tracker_.track(tool_mask_.withoutBlade(frame), simulated ? &simulator_.state() : nullptr, &timer_);
   if (output.tracking.has_targets) {
-    simulate(output.tracking.targets, frame.stamp, &output);
+    simulate(output.tracking.targets, frame.stamp, surroundings, &output);
     makeWaitingCuts(&output);
     if (blade) followBlade(*blade, frame.stamp, &output);
     tear(output.tracking.targets, &output);
@@ -78,14 +81,28 @@ std::optional<ToolObservation> Pipeline::processUnplaced(RgbdFrame frame) {
   return tool_tracker_ ? tool_tracker_->track(frame, nullptr) : std::nullopt;
 }
 
-void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, FrameOutput* output) {
+void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, const SurroundingsInput& input,
+                        FrameOutput* output) {
   {
     const auto scope = timer_.stage("Soft-body Simulation");
-    simulator_.step(targets, stamp);
+    simulator_.step(targets, stamp, surroundings_.before(stamp, input, simulator_, targets.reset));
   }
-  if (!forces_) return;
-  const auto scope = timer_.stage("Forces");
-  output->forces = simulator_.externalForces(targets);
+  surroundings_.findConflicts(targets.targets, simulator_);
+  addReactions(targets, output);
+  output->warnings = surroundings_.takeLog();
+}
+
+/// Those of pins are without the springs of the targets.
+void Pipeline::addReactions(const TargetSet& targets, FrameOutput* output) {
+  const Surroundings& around = surroundings_.last();
+  Reactions reactions = simulator_.reactions();
+  if (forces_ || !around.pins.empty()) {
+    const auto scope = timer_.stage("Forces");
+    ForceEstimate forces = simulator_.externalForces(targets, around);
+    if (!targets.targets.empty()) reactions.pins = forces.pins;
+    if (forces_) output->forces = std::move(forces);
+  }
+  output->reactions = surroundings_.named(reactions);
 }
 
 void Pipeline::makeWaitingCuts(FrameOutput* output) {
@@ -146,6 +163,7 @@ void Pipeline::adopt(const Cut& cut, FrameOutput* output) {
     return;
   }
   surface_.confirm(cut.revision);
+  surroundings_.update(simulator_);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
   output->cuts.push_back(cut);
 }

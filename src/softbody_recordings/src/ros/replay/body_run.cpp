@@ -31,11 +31,12 @@ BodyRun::BodyRun(const ObjectModel& model, const PipelineConfig& config, BodyRun
 }
 
 void BodyRun::process(const RgbdFrame& frame, const std_msgs::Header& header,
-                      const std::vector<KnownSurface>& others) {
+                      const std::vector<KnownSurface>& others, const SurroundingsInput& surroundings) {
   const auto start = std::chrono::steady_clock::now();
   FrameOutput result;
   try {
-    result = pipeline_.process(withKnownSurfaces(frame, others), journal_.takeUntil(frame.stamp));
+    result =
+        pipeline_.process(withKnownSurfaces(frame, others), journal_.takeUntil(frame.stamp), surroundings);
   } catch (const std::exception& error) {
     return leaveOut(header, error.what());
   }

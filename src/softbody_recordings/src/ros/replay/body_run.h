@@ -37,7 +37,7 @@ class BodyRun {
   /// Processes a frame and writes what comes out. A frame that fails leaves the others as they are.
   /// @param others surfaces that are known to be in view, in the camera's frame.
   void process(const RgbdFrame& frame, const std_msgs::Header& header,
-               const std::vector<KnownSurface>& others);
+               const std::vector<KnownSurface>& others, const SurroundingsInput& surroundings);
   /// The same for a frame without a camera pose: only the tool is tracked.
   void skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why);
   /// Where the body is, from its states so far, for the other bodies; nothing while it is not tracked.

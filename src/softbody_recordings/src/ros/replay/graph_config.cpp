@@ -10,6 +10,7 @@
 
 #include "softbody_common/files/yaml_map_reader.h"
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_tracking/ros/camera_reader.h"
 #include "softbody_tracking/ros/robot_reader.h"
 
@@ -55,10 +56,24 @@ auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly
   return config;
 }
 
+SurroundingsConfig readSurroundings(Parameters& parameters, const SimulatorConfig& simulator,
+                                    std::vector<std::string>* warnings) {
+  std::vector<std::string> unknown;
+  SurroundingsConfig config = readSurroundingsConfig(parameters, simulator.target_accuracy_m, &unknown);
+  for (const std::string& key : unknown)
+    warnings->push_back(fmt::format("unknown parameter {} is ignored", key));
+  for (ObstacleDescription& obstacle : config.obstacles) obstacle.frame = withoutSlash(obstacle.frame);
+  if (config.gripper) config.gripper->frame = withoutSlash(config.gripper->frame);
+  return config;
+}
+
 }  // namespace
 
-GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings) {
-  const YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
+GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings,
+                            const std::map<std::string, std::string>& simulator) {
+  YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
+  for (const auto& [key, text] : simulator)
+    if (!text.empty() && !file["simulator"].IsScalar()) file["simulator"][key] = text;
   GraphConfig config;
   config.ingest = readSection(
       file, "camera_ingest",
@@ -80,8 +95,12 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
   readSection(file, "pose_marker", {{"frame"}, {}}, warnings, [](Parameters&) { return 0; });
   config.pipeline.simulator = readSection(
       file, "simulator",
-      {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s", "allow_outside"}, {"obstacles"}},
-      warnings, readSimulatorConfig);
+      {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s", "allow_outside"}, {"wrench_frame"}},
+      warnings, [&](Parameters& parameters) {
+        const SimulatorConfig simulator_config = readSimulatorConfig(parameters);
+        config.pipeline.surroundings = readSurroundings(parameters, simulator_config, warnings);
+        return simulator_config;
+      });
   config.pipeline.cutting = readSection(file, "surface", {{"body_frame", "object", "allow_outside"}, {}},
                                         warnings, readCuttingConfig);
   config.pipeline.tool_tracker = readSection(

@@ -11,10 +11,12 @@
 #include "ros/replay/recorded_robot.h"
 #include "ros/replay/recorded_surface.h"
 #include "softbody_common/images/object_texture.h"
+#include "softbody_common/ros/frame_name.h"
 #include "softbody_common/topics.h"
 #include "softbody_recordings/ros/graph_config.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/object_namespaces.h"
+#include "softbody_recordings/ros/recorded_surroundings.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"
 
 namespace softbody {
@@ -27,13 +29,16 @@ void warnAll(const Warn& warn, const std::string& source, const std::vector<std:
     warn(source.empty() ? warning : fmt::format("{}: {}", source, warning));
 }
 
-ObjectModel loadModel(const std::string& object, FileScope scope, const Warn& warn) {
-  const ObjectDescription description = loadObjectDescription(object, scope);
+ObjectModel loadModel(const ObjectDescription& description, const std::string& object, const Warn& warn) {
   ObjectModel model = buildObjectModel(description);
-  if (!description.pins.empty())
-    warn(fmt::format("{}: pins have no effect in a replay, because there is no live tf", object));
   warnAll(warn, object, model.warnings);
   return model;
+}
+
+std::vector<PinRegion> pinsOf(const ObjectDescription& description) {
+  std::vector<PinRegion> pins = description.pins;
+  for (PinRegion& pin : pins) pin.frame = withoutSlash(pin.frame);
+  return pins;
 }
 
 /// The body is tracked without its picture, too.
@@ -46,7 +51,9 @@ cv::Mat3b loadPicture(const std::string& object, FileScope scope, const Warn& wa
 
 GraphConfig configOf(const ReplayOptions& options, const Warn& warn) {
   std::vector<std::string> warnings;
-  GraphConfig config = readGraphConfig(options.parameters, &warnings);
+  GraphConfig config = readGraphConfig(
+      options.parameters, &warnings,
+      {{"gripper_frame", options.gripper_frame}, {"gripper_fingers", options.gripper_fingers}});
   warnAll(warn, "", warnings);
   config.pipeline.forces = options.forces, config.pipeline.placed = options.placed;
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
@@ -89,7 +96,9 @@ class Replay {
                       options.output_frame.empty() ? config.output_frame : options.output_frame),
         output_(options.output) {
     addBodies(options, config.pipeline);
-    warnAll(warn_, "", camera_poses_.warnings());
+    if (!follows_) warnAll(warn_, "", camera_poses_.warnings());
+    if (follows_)
+      surroundings_.emplace(input, config.pipeline.surroundings.gripper ? options.gripper_closed : "", warn_);
     if (options.known_surfaces.empty() && options.robot.empty()) return;
     transforms_.emplace(std::vector<std::string>{options.input});
     for (const std::string& name : options.known_surfaces) surfaces_.emplace_back(input, name, warn_);
@@ -103,6 +112,7 @@ class Replay {
       for (auto& body : bodies_) body->skip(frame, header, error.what());
       return;
     }
+    const SurroundingsInput surroundings = surroundingsAt(header);
     const std::vector<KnownSurface> recorded = recordedSurfaces(frame, header);
     std::vector<std::optional<KnownSurface>> before;  // of the bodies, by their states of the frame before
     for (const auto& body : bodies_) before.push_back(body->surface(frame));
@@ -110,7 +120,7 @@ class Replay {
       std::vector<KnownSurface> others = recorded;
       for (std::size_t other = 0; other < before.size(); ++other)
         if (other != k && before[other]) others.push_back(*before[other]);
-      bodies_[k]->process(frame, header, others);
+      bodies_[k]->process(frame, header, others, surroundings);
     }
   }
 
@@ -124,6 +134,12 @@ class Replay {
   const std::vector<std::unique_ptr<BodyRun>>& bodies() const { return bodies_; }
 
  private:
+  SurroundingsInput surroundingsAt(const std_msgs::Header& header) const {
+    const std::string& fixed = camera_poses_.outputFrame();
+    return surroundings_ ? surroundings_->at(fixed.empty() ? header.frame_id : fixed, header.stamp)
+                         : SurroundingsInput();
+  }
+
   /// Of the recording, in the camera's frame.
   std::vector<KnownSurface> recordedSurfaces(const RgbdFrame& frame, const std_msgs::Header& header) {
     std::vector<KnownSurface> known;
@@ -137,6 +153,7 @@ class Replay {
 
   void addBodies(const ReplayOptions& options, PipelineConfig config) {
     const bool alone = options.objects.size() == 1;
+    follows_ = config.surroundings.gripper || !config.surroundings.obstacles.empty();
     const std::vector<std::string> namespaces =
         alone ? std::vector<std::string>{options.topic_namespace} : objectNamespaces(options.objects);
     std::vector<CutJournal> journals = loadJournals(options.journal, namespaces);
@@ -147,7 +164,10 @@ class Replay {
             warn(fmt::format("{}: {}", name, text));
           };
       config.picture = loadPicture(options.objects[k], options.scope, warn_of_body);
-      const ObjectModel model = loadModel(options.objects[k], options.scope, warn_);
+      const ObjectDescription description = loadObjectDescription(options.objects[k], options.scope);
+      const ObjectModel model = loadModel(description, options.objects[k], warn_);
+      config.pins = pinsOf(description);
+      follows_ = follows_ || !config.pins.empty();
       BodyRunSetup setup{namespaces[k],
                          camera_poses_.outputFrame(),
                          {options.timing, options.labels},
@@ -159,6 +179,8 @@ class Replay {
 
   Warn warn_;
   CameraPoses camera_poses_;
+  bool follows_ = false;  ///< there are pins, obstacles or a gripper
+  std::optional<RecordedSurroundings> surroundings_;
   std::optional<BagTransforms> transforms_;  ///< for known surfaces
   std::vector<RecordedSurface> surfaces_;
   std::optional<RecordedRobot> robot_;

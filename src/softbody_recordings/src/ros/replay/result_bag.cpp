@@ -69,6 +69,13 @@ void ResultBag::writeStatus(const TrackingStatus& status, const std_msgs::Header
   write(topic(topics::kStatus), toMessage(status), header);
 }
 
+void ResultBag::writeReaction(const NamedReaction& reaction, const std_msgs::Header& header) {
+  const geometry_msgs::WrenchStamped message = toMessage(reaction, header.frame_id);
+  std_msgs::Header of_wrench = header;
+  of_wrench.frame_id = message.header.frame_id;
+  write(topic(topics::kReaction) + reaction.name, message, of_wrench);
+}
+
 void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& header) {
   std_msgs::Header fixed = header;
   if (!output_frame_.empty()) fixed.frame_id = output_frame_;
@@ -87,6 +94,7 @@ void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& hea
   if (frame.volume) write(topic(topics::kVolumeState), toMessage(*frame.volume), fixed);
   if (frame.forces) write(topic(topics::kForces), toMessage(*frame.forces, fixed.frame_id), fixed);
   if (frame.surface) write(topic(topics::kSurfaceState), toMessage(*frame.surface), fixed);
+  for (const NamedReaction& reaction : frame.reactions) writeReaction(reaction, fixed);
   if (extras_.timing) write(topic(topics::kTiming), timingMessage("replay", frame.times), header);
 }
 

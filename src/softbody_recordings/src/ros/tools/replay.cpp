@@ -41,6 +41,14 @@ void declareInput(CLI::App* app, ReplayOptions* options) {
   app->add_option("--robot", options->robot,
                   "URDF: the robot's links, where the bag's tf says they are, are not taken for the body")
       ->check(CLI::ExistingFile);
+  app->add_option("--gripper-frame", options->gripper_frame,
+                  "frame between a gripper's fingers, in the bag's tf: what it grips is held; replaces the "
+                  "parameter");
+  app->add_option("--gripper-fingers", options->gripper_fingers,
+                  "frames of the fingers, separated by spaces; replaces the parameter");
+  app->add_option("--gripper-closed", options->gripper_closed,
+                  "topic (std_msgs/Bool) that says when the gripper is closed")
+      ->capture_default_str();
   addCameraOptions(app, &options->camera);
   addAllowOutside(app, &options->scope);
 }
