@@ -3,6 +3,8 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <softbody_msgs/MeshState.h>
+#include <softbody_msgs/Targets.h>
+#include <softbody_msgs/TrackingStatus.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -129,6 +131,25 @@ TEST_F(ReplayedSurroundings, AnUnknownFrameIsSaidAndChangesNothing) {
   run(options);
   EXPECT_EQ(warningsWith("waiting for frame 'nowhere': tf does not know it"), 1);
   EXPECT_TRUE(results<softbody_msgs::MeshState>("/softbody/surface/state") == without);
+}
+
+TEST_F(ReplayedSurroundings, AnOpenLoopGoesOnFromTheLastImage) {
+  ReplayOptions options;
+  options.input = ROSBAGS_DIR "/bend_small.bag";
+  options.objects = {sponge("")};
+  run(options);
+  const auto tracked = results<softbody_msgs::MeshState>("/softbody/surface/state");
+  options.open_loop = 0.2;
+  EXPECT_EQ(run(options).predicted, 9);
+  const auto states = results<softbody_msgs::MeshState>("/softbody/surface/state");
+  ASSERT_EQ(states.size(), tracked.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_EQ(states[k].header.stamp, tracked[k].header.stamp);
+    EXPECT_EQ(states[k].observed, tracked[std::min<std::size_t>(k, 35)].observed);
+    EXPECT_EQ(states[k] == tracked[k], k < 36) << k;
+  }
+  EXPECT_EQ(results<softbody_msgs::Targets>("/softbody/targets").size(), 36U);
+  EXPECT_EQ(results<softbody_msgs::TrackingStatus>("/softbody/status").size(), 36U);
 }
 
 TEST_F(ReplayedSurroundings, APinThatHoldsNothingIsRefused) {

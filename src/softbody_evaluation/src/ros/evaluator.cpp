@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "comparison/open_loop.h"
 #include "comparison/recording_comparison.h"
 #include "comparison/truth_comparison.h"
 #include "softbody_common/topics.h"
@@ -30,6 +32,7 @@ constexpr char kToolPose[] = "/tool/pose", kTrueToolPose[] = "/ground_truth/tool
 /// A report with its pictures.
 struct Measured {
   Report report;
+  Nanoseconds end = std::numeric_limits<Nanoseconds>::max();  ///< of the tracked frames
   Pictures pictures;
   Film film;
 };
@@ -84,7 +87,9 @@ void compareInCamera(const EvaluatorOptions& options, const std::string& recordi
   addNotes(result_in_camera->notes, &measured->report.notes);
   if (truth_in_camera != nullptr) addNotes(truth_in_camera->notes, &measured->report.notes);
   RecordingComparison comparison(options, *result_in_camera, truth_in_camera);
-  readRecording(recording, options.camera, [&](const RecordedFrame& frame) { comparison.add(frame); });
+  readRecording(recording, options.camera, [&](const RecordedFrame& frame) {
+    if (frame.stamp < measured->end) comparison.add(frame);
+  });
   comparison.finish(&measured->report, &measured->pictures);
   measured->film = comparison.film();
 }
@@ -116,6 +121,16 @@ void addTool(const EvaluatorOptions& options, const std::string& recording, Repo
   report->tool = poseError(result.poses, truth.poses);
 }
 
+/// Measures the predicted states at the end, and takes them and their truth away.
+void measureOpenLoop(const EvaluatorOptions& options, SurfaceRecord* result, SurfaceRecord* truth,
+                     Measured* measured) {
+  if (options.open_loop <= 0.0) return;
+  if (truth == nullptr) throw std::invalid_argument("an open loop is measured against a truth: add --truth");
+  measured->end = beginOfOpenLoop(*result, *truth, options.open_loop, options.result);
+  const SurfaceRecord predicted = takeFrom(measured->end, result);
+  measured->report.open_loop = compareOpenLoop(options, predicted, takeFrom(measured->end, truth));
+}
+
 Measured measure(const EvaluatorOptions& options) {
   SurfaceRecord result = readResult(options, options.result);
   Measured measured;
@@ -127,6 +142,7 @@ Measured measure(const EvaluatorOptions& options) {
   const std::vector<StatusRecord> statuses = readStatusesOf(options, options.result);
   report.alike = mapMaterial(options.result, statuses, truth ? &*truth : nullptr, &result);
   report.notes = result.notes;
+  measureOpenLoop(options, &result, truth ? &*truth : nullptr, &measured);
 
   report.frames = {result.states.size(), result.states.size(), {}};
   report.volume = volumeOf(result);

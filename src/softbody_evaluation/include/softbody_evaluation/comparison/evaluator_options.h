@@ -15,6 +15,7 @@ struct EvaluatorOptions {
   std::string result_namespace = "/softbody";
   std::string truth_namespace = "/ground_truth";  ///< of the body's true surface, labels and forces
   CameraTopics camera = "/camera";
+  double open_loop = 0.0;       ///< share of the frames at the end that the result predicts; 0: none
   double occluder_m = 0.03;     ///< see depthResidual
   int window = 100;             ///< frames of a row of the depth residual's table
   double near_cut_m = 0.01;     ///< largest distance of "vertices near a cut", at rest

@@ -40,6 +40,14 @@ struct PiecesReport {
   std::optional<double> delay_s;
 };
 
+/// Errors of the states at the end that were predicted without images [m].
+struct OpenLoopReport {
+  std::size_t frames = 0;
+  double duration_s = 0.0;      ///< from the last image to the last state
+  Summary all;                  ///< over all vertices
+  double last_mean = kNothing;  ///< of the last frame
+};
+
 /// Everything that was measured of a result.
 struct Report {
   FrameCount frames;
@@ -49,6 +57,7 @@ struct Report {
   std::vector<std::string> notes;               ///< what was left out, in sentences
   std::optional<AlikePoses> alike;              ///< if the tracker said that poses look alike
   std::optional<VertexErrorReport> vertex_error;
+  std::optional<OpenLoopReport> open_loop;  ///< if it is asked for; its frames are in no other measure
   std::optional<SurfaceDistanceReport> surface_distance;
   std::optional<CalibrationReport> calibration;  ///< if the result has standard deviations
   std::optional<PiecesReport> pieces;

@@ -225,6 +225,23 @@ void plotCalibration(const CalibrationReport& report, Pictures* pictures) {
 
 }  // namespace
 
+OpenLoopReport compareOpenLoop(const EvaluatorOptions& options, const SurfaceRecord& result,
+                               const SurfaceRecord& truth) {
+  TopologyPairs pairs(options, result, truth);
+  std::vector<FrameVertexError> errors;
+  for (const auto& [stamp, expected] : truth.states) {
+    const auto answer = result.states.find(stamp);
+    if (answer != result.states.end()) errors.push_back(pairs.errorOf(stamp, answer->second, expected));
+  }
+  if (errors.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{}: no predicted state has the stamp of a frame of {}", options.result, options.truth));
+  }
+  const MeshState& last = result.states.rbegin()->second;
+  return {errors.size(), seconds(result.states.rbegin()->first - last.observed), summarize(errors).all,
+          errors.back().mean()};
+}
+
 void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& result,
                       const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
                       Pictures* pictures) {

@@ -15,4 +15,9 @@ void compareWithTruth(const EvaluatorOptions& options, const SurfaceRecord& resu
                       const SurfaceRecord& truth, const SurfaceRecord* unhidden, Report* report,
                       Pictures* pictures);
 
+/// The errors of predicted states. @param result, truth as above, from the first predicted state on.
+/// @throw std::invalid_argument if no frame has a state.
+OpenLoopReport compareOpenLoop(const EvaluatorOptions& options, const SurfaceRecord& result,
+                               const SurfaceRecord& truth);
+
 }  // namespace softbody::evaluation

@@ -20,6 +20,7 @@ constexpr Meaning kMeanings[] = {
     {"hidden vertices", "Distance from the true place, of the vertices that the camera does not see."},
     {"vertices near a cut", "Distance from the true place, of the vertices beside a cut."},
     {"vertices in the right piece", "Vertices that are in the same piece as in the truth."},
+    {"open loop", "Distance of every vertex from its true place, predicted without images."},
     {"surface distance", "Distance of places of the mesh from the nearest place of the true surface."},
     {"piece ", "Distance from the true place, of the vertices of one piece."},
     {"drift", "Error at the end, compared with the error at the start."},

@@ -121,6 +121,7 @@ std::vector<Figure> figures(const Report& report) {
   all.push_back({"frames answered", "%", 100.0 * static_cast<double>(report.frames.answered) / expected});
   if (!report.states.empty()) addStates(report.states, &all);
   if (report.vertex_error) addVertexError(*report.vertex_error, &all);
+  if (report.open_loop) addLengths("open loop", report.open_loop->all, &all);
   if (report.surface_distance) addSurfaceDistance(*report.surface_distance, &all);
   if (report.calibration) addCalibration(*report.calibration, &all);
   addCut(report, &all);

@@ -58,6 +58,13 @@ json toJson(const VertexErrorReport& report) {
           {"frame_covered_mean_mm", allInMillimetres(report.frame_covered_means)}};
 }
 
+json toJson(const OpenLoopReport& report) {
+  return {{"frames", report.frames},
+          {"duration_s", report.duration_s},
+          {"all", inMillimetres(report.all)},
+          {"last_mean_mm", mm(report.last_mean)}};
+}
+
 json toJson(const SurfaceDistanceReport& report) {
   return {{"all", inMillimetres(report.all)},
           {"visible", inMillimetres(report.visible)},
@@ -196,6 +203,7 @@ json toJson(const Report& report) {
                    {"verdict", toJson(judge(report))},
                    {"volume", toJson(report.volume)}};
   if (report.vertex_error) document["vertex_error"] = toJson(*report.vertex_error);
+  if (report.open_loop) document["open_loop"] = toJson(*report.open_loop);
   if (report.surface_distance) document["surface_distance"] = toJson(*report.surface_distance);
   if (report.calibration) document["calibration"] = toJson(*report.calibration);
   if (!report.frame_states.empty()) document["frame_states"] = report.frame_states;

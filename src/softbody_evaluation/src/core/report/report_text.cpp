@@ -36,6 +36,14 @@ std::string vertexErrorTable(const VertexErrorReport& report) {
                      mm(report.drift_m), report.drift_window_s, report.drift_ratio, mm(report.drift_m_per_s));
 }
 
+std::string openLoopLine(const OpenLoopReport& report) {
+  return fmt::format(
+      "open loop: {} frames, {:.2f} s without images: vertex error {:.3f} mm mean, {:.3f} mm p95, {:.3f} mm "
+      "max; {:.3f} mm mean in the last frame\n",
+      report.frames, report.duration_s, mm(report.all.mean), mm(report.all.p95), mm(report.all.max),
+      mm(report.last_mean));
+}
+
 std::string surfaceDistanceTable(const SurfaceDistanceReport& report) {
   return "distance from the true surface [mm]\n" + row("all", report.all) + row("visible", report.visible) +
          row("hidden", report.hidden);
@@ -170,6 +178,7 @@ std::string toText(const Report& report) {
   for (const auto& [state, frames] : report.states) text += fmt::format(", {} {}", state, frames);
   text += "\n";
   if (report.vertex_error) text += vertexErrorTable(*report.vertex_error);
+  if (report.open_loop) text += openLoopLine(*report.open_loop);
   if (report.surface_distance) text += surfaceDistanceTable(*report.surface_distance);
   text += residualTable(report) + optionalLines(report);
   for (const std::string& note : report.notes) text += "note: " + note + "\n";

@@ -61,6 +61,10 @@ void declareMeasures(CLI::App* app, EvaluatorOptions* options, Output* output) {
                   "largest distance of the vertices in the row 'near a cut' [m]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  app->add_option("--open-loop", options->open_loop,
+                  "share of the frames at the end that the result predicts without images (replay "
+                  "--open-loop): their error is a figure of its own")
+      ->check(CLI::Range(0.0, 0.95));
   app->add_option_function<int>(
          "--window",
          [options, output](int frames) {

@@ -17,8 +17,9 @@ namespace softbody {
 
 /// The output of the graph's nodes for one frame.
 struct FrameOutput {
-  TrackingResult tracking;
-  cv::Size image;  ///< size of the frame [px]
+  bool predicted = false;   ///< without an image: only the simulation went on
+  TrackingResult tracking;  ///< empty if predicted
+  cv::Size image;           ///< size of the frame [px]
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();
   std::optional<MeshState> volume;  ///< in the fixed frame, as the surface; empty until the body is found
   std::optional<MeshState> surface;
@@ -61,6 +62,11 @@ class Pipeline {
   FrameOutput process(const RgbdFrame& frame, const std::vector<Cut>& cuts = {},
                       const SurroundingsInput& surroundings = {});
 
+  /// Goes on to a stamp without an image: only elasticity, gravity, pins and obstacles act, and the loads
+  /// that were estimated last. Nothing comes out before the body is tracked.
+  FrameOutput predict(const RgbdFrame& frame, const std::vector<Cut>& cuts,
+                      const SurroundingsInput& surroundings);
+
   /// Tracks only the tool, in the camera's frame. For a frame without a camera pose, which body and blade
   /// need.
   std::optional<ToolObservation> processUnplaced(RgbdFrame frame);
@@ -76,6 +82,7 @@ class Pipeline {
   void startPass();
   void simulate(const TargetSet& targets, Nanoseconds stamp, const SurroundingsInput& input,
                 FrameOutput* output);
+  void addShape(FrameOutput* output);
   void addReactions(const TargetSet& targets, FrameOutput* output);
   void makeWaitingCuts(FrameOutput* output);
   std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;

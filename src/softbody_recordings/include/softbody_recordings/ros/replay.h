@@ -26,6 +26,7 @@ struct ReplayOptions {
   std::string output_frame;                 ///< of targets and states; empty: from the parameters
   std::string simd;                         ///< of the simulator; empty: from the parameters
   FileScope scope = FileScope::kOwnFolder;  ///< of the files that the YAMLs name
+  double open_loop = 0.0;                   ///< last share of the images that is not used, but predicted
   bool timing = false;                      ///< also write wall-clock times of the stages
   bool labels = false;                      ///< also write what each pixel shows
   bool forces = false;                      ///< also write the external forces
@@ -37,6 +38,7 @@ struct BodySummary {
   std::string topic_namespace;
   int states = 0, tools = 0, cuts = 0;  ///< frames with a surface; frames with the tool; cuts made
   int skipped = 0;                      ///< frames without a camera pose in tf
+  int predicted = 0;                    ///< frames that were not tracked, but predicted
   int failed = 0;                       ///< frames that a stage could not process
   std::string tool_missed;              ///< ToolDropoutMonitor::missedFrames() and cause()
   std::size_t pieces = 1;               ///< at the end

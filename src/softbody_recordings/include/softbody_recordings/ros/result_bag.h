@@ -33,7 +33,7 @@ class ResultBag {
   /// The output of a frame without a tracked body. @param header of the colour image, as below.
   void writeStatus(const TrackingStatus& status, const std_msgs::Header& header);
   void writeTool(const ToolObservation& tool, const std_msgs::Header& header);
-  /// All outputs of one frame.
+  /// All outputs of one frame. One that is predicted has no status, because nothing is tracked.
   void writeFrame(const FrameOutput& frame, const std_msgs::Header& header);
 
  private:

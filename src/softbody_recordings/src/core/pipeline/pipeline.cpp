@@ -68,10 +68,29 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
     makeWaitingCuts(&output);
     if (blade) followBlade(*blade, frame.stamp, &output);
     tear(output.tracking.targets, &output);
-    const auto scope = timer_.stage("Resolution Enhancement");
-    output.volume = simulator_.state();
-    output.surface = surface_.surface().apply(simulator_.state());
+    addShape(&output);
   }
+  output.times = timer_.take();
+  return output;
+}
+
+FrameOutput Pipeline::predict(const RgbdFrame& frame, const std::vector<Cut>& cuts,
+                              const SurroundingsInput& surroundings) {
+  FrameOutput output;
+  output.predicted = true;
+  output.T_fixed_camera = frame.T_fixed_camera;
+  waiting_cuts_.insert(waiting_cuts_.end(), cuts.begin(), cuts.end());
+  if (!simulator_.placed()) return output;
+  TargetSet none;
+  none.revision = simulator_.topology().revision;
+  {
+    const auto scope = timer_.stage("Soft-body Simulation");
+    simulator_.stepUnobserved(none, frame.stamp,
+                              surroundings_.before(frame.stamp, surroundings, simulator_, false));
+  }
+  addReactions(none, &output);
+  makeWaitingCuts(&output);
+  addShape(&output);
   output.times = timer_.take();
   return output;
 }
@@ -89,14 +108,20 @@ void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, const Surro
   }
   surroundings_.findConflicts(targets.targets, simulator_);
   addReactions(targets, output);
-  output->warnings = surroundings_.takeLog();
+}
+
+void Pipeline::addShape(FrameOutput* output) {
+  const auto scope = timer_.stage("Resolution Enhancement");
+  output->volume = simulator_.state();
+  output->surface = surface_.surface().apply(simulator_.state());
 }
 
 /// Those of pins are without the springs of the targets.
 void Pipeline::addReactions(const TargetSet& targets, FrameOutput* output) {
+  output->warnings = surroundings_.takeLog();
   const Surroundings& around = surroundings_.last();
   Reactions reactions = simulator_.reactions();
-  if (forces_ || !around.pins.empty()) {
+  if (!output->predicted && (forces_ || !around.pins.empty())) {
     const auto scope = timer_.stage("Forces");
     ForceEstimate forces = simulator_.externalForces(targets, around);
     if (!targets.targets.empty()) reactions.pins = forces.pins;

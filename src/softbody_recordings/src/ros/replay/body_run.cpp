@@ -32,17 +32,27 @@ BodyRun::BodyRun(const ObjectModel& model, const PipelineConfig& config, BodyRun
 
 void BodyRun::process(const RgbdFrame& frame, const std_msgs::Header& header,
                       const std::vector<KnownSurface>& others, const SurroundingsInput& surroundings) {
+  run(frame, header, [&] {
+    return pipeline_.process(withKnownSurfaces(frame, others), journal_.takeUntil(frame.stamp), surroundings);
+  });
+}
+
+void BodyRun::predict(const RgbdFrame& frame, const std_msgs::Header& header,
+                      const SurroundingsInput& surroundings) {
+  run(frame, header, [&] { return pipeline_.predict(frame, journal_.takeUntil(frame.stamp), surroundings); });
+}
+
+void BodyRun::run(const RgbdFrame& frame, const std_msgs::Header& header, const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   FrameOutput result;
   try {
-    result =
-        pipeline_.process(withKnownSurfaces(frame, others), journal_.takeUntil(frame.stamp), surroundings);
+    result = work();
   } catch (const std::exception& error) {
     return leaveOut(header, error.what());
   }
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
   summary_.milliseconds += elapsed.count();
-  countTool(result.tool, header, frame);
+  if (!result.predicted) countTool(result.tool, header, frame);
   follow(result, frame);
   write(result, header);
 }
@@ -119,7 +129,10 @@ void BodyRun::count(const TrackingStatus& status) {
 void BodyRun::count(const FrameOutput& result) {
   summary_.states += result.surface ? 1 : 0;
   summary_.cuts += static_cast<int>(result.cuts.size());
-  count(result.tracking.status);
+  if (result.predicted)
+    summary_.predicted += result.surface ? 1 : 0;
+  else
+    count(result.tracking.status);
 }
 
 }  // namespace softbody

@@ -38,7 +38,9 @@ class BodyRun {
   /// @param others surfaces that are known to be in view, in the camera's frame.
   void process(const RgbdFrame& frame, const std_msgs::Header& header,
                const std::vector<KnownSurface>& others, const SurroundingsInput& surroundings);
-  /// The same for a frame without a camera pose: only the tool is tracked.
+  /// Predicts the body at the stamp of a frame, without its image.
+  void predict(const RgbdFrame& frame, const std_msgs::Header& header, const SurroundingsInput& surroundings);
+  /// A frame without a camera pose: only the tool is tracked.
   void skip(const RgbdFrame& frame, const std_msgs::Header& header, const std::string& why);
   /// Where the body is, from its states so far, for the other bodies; nothing while it is not tracked.
   std::optional<KnownSurface> surface(const RgbdFrame& frame) const;
@@ -50,6 +52,8 @@ class BodyRun {
   const MeshTopology& surfaceTopology() const { return pipeline_.surfaceTopology(); }
 
  private:
+  using Work = std::function<FrameOutput()>;
+  void run(const RgbdFrame& frame, const std_msgs::Header& header, const Work& work);
   void follow(const FrameOutput& result, const RgbdFrame& frame);
   void write(const FrameOutput& result, const std_msgs::Header& header);
   void leaveOut(const std_msgs::Header& header, const std::string& why);

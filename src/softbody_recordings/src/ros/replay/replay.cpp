@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -16,6 +18,7 @@
 #include "softbody_recordings/ros/graph_config.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/object_namespaces.h"
+#include "softbody_recordings/ros/recorded_images.h"
 #include "softbody_recordings/ros/recorded_surroundings.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"
 
@@ -105,6 +108,9 @@ class Replay {
     if (!options.robot.empty()) robot_.emplace(options.robot, config.robot_deviation_m, warn_);
   }
 
+  /// Frames from this number on are predicted.
+  void setObservedFrames(std::size_t count) { observed_frames_ = count; }
+
   void process(RgbdFrame frame, const std_msgs::Header& header) {
     try {
       frame.T_fixed_camera = camera_poses_.of(header);
@@ -113,6 +119,10 @@ class Replay {
       return;
     }
     const SurroundingsInput surroundings = surroundingsAt(header);
+    if (frames_++ >= observed_frames_) {
+      for (auto& body : bodies_) body->predict(frame, header, surroundings);
+      return;
+    }
     const std::vector<KnownSurface> recorded = recordedSurfaces(frame, header);
     std::vector<std::optional<KnownSurface>> before;  // of the bodies, by their states of the frame before
     for (const auto& body : bodies_) before.push_back(body->surface(frame));
@@ -184,9 +194,16 @@ class Replay {
   std::optional<BagTransforms> transforms_;  ///< for known surfaces
   std::vector<RecordedSurface> surfaces_;
   std::optional<RecordedRobot> robot_;
+  std::size_t frames_ = 0, observed_frames_ = std::numeric_limits<std::size_t>::max();
   AtomicBag output_;
   std::vector<std::unique_ptr<BodyRun>> bodies_;
 };
+
+/// The number of frames before the open loop.
+std::size_t observedFrames(const rosbag::Bag& input, const ReplayOptions& options) {
+  rosbag::View images(input, rosbag::TopicQuery(recordedTopics(input, options.camera).color));
+  return static_cast<std::size_t>(std::lround((1.0 - options.open_loop) * images.size()));
+}
 
 /// What the user can do if a body was found in no frame.
 std::string whyNotFound(const BodyRun& body, const CameraImages& first, CameraIngest* ingest,
@@ -220,6 +237,7 @@ ReplaySummary replay(const ReplayOptions& options, const Warn& warn,
   const GraphConfig config = configOf(options, warn);
   const rosbag::Bag input = openBag(options.input);
   Replay run(options, input, config, warn);
+  if (options.open_loop > 0.0) run.setObservedFrames(observedFrames(input, options));
   CameraIngest ingest(config.ingest);
   BagFramesConfig frames{options.camera, config.pairing};
   if (frames.camera.depth_scale == 0.0) frames.camera.depth_scale = config.depth_scale;

@@ -79,7 +79,7 @@ void ResultBag::writeReaction(const NamedReaction& reaction, const std_msgs::Hea
 void ResultBag::writeFrame(const FrameOutput& frame, const std_msgs::Header& header) {
   std_msgs::Header fixed = header;
   if (!output_frame_.empty()) fixed.frame_id = output_frame_;
-  writeStatus(frame.tracking.status, header);
+  if (!frame.predicted) writeStatus(frame.tracking.status, header);
   if (frame.tracking.has_targets) {
     write(topic(topics::kFeatures), makeFeatureCloud(frame.tracking.features), header);
     write(topic(topics::kFeaturesMarker), makeFeatureMarker(frame.tracking.features), header);

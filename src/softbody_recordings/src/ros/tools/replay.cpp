@@ -68,6 +68,10 @@ void declareOutput(CLI::App* app, ReplayOptions* options) {
   app->add_flag("--labels", options->labels,
                 "also write the label of each pixel: background, body or occluder");
   app->add_flag("--forces", options->forces, "also write the external forces on the body; takes longer");
+  app->add_option("--open-loop", options->open_loop,
+                  "last share of the images that is not used: the simulation goes on with pins, gripper and "
+                  "obstacles alone; evaluate --open-loop measures it")
+      ->check(CLI::Range(0.0, 0.95));
   app->add_flag("--placed", options->placed,
                 "take the object's initial_pose as it is, without a search: shows how the tracker judges a "
                 "pose or mesh");
@@ -108,6 +112,7 @@ void printStates(const BodySummary& body) {
 void print(const BagFramesReport& read, const BodySummary& body, bool with_cuts) {
   fmt::print("frames {}, with a surface {}, without depth {}, unusable {}, skipped {}\n", read.frames,
              body.states, read.without_depth, read.unusable + body.failed, body.skipped);
+  if (body.predicted > 0) fmt::print("predicted without images: the last {} frames\n", body.predicted);
   printLeftOut(read);
   printStates(body);
   if (!read.last_error.empty()) fmt::print("last unusable frame: {}\n", read.last_error);

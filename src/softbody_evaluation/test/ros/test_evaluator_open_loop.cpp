@@ -1,0 +1,60 @@
+#include "fixtures/evaluator_bags.h"
+#include "softbody_evaluation/report/figures.h"
+#include "softbody_evaluation/report/report_text.h"
+
+namespace softbody::evaluation {
+namespace {
+
+constexpr int kTracked = 16;
+
+/// The truth moved by 1 mm while it is tracked, and by 2 mm in the last frames, which have no image.
+std::string predicted(const std::string& name) {
+  ros::Time last;
+  return resultFromTruth(name, [&last](softbody_msgs::MeshState* state, int frame) {
+    if (frame < kTracked) last = state->header.stamp;
+    state->observed = last;
+    return shift(state, frame < kTracked ? 1e-3f : 2e-3f);
+  });
+}
+
+TEST(OpenLoop, PredictedFramesAreMeasuredAlone) {
+  EvaluatorOptions options;
+  options.result = predicted("open_loop.bag");
+  options.truth = recording();
+  options.open_loop = 0.2;
+  const Report report = evaluate(options);
+  ASSERT_TRUE(report.open_loop.has_value());
+  EXPECT_EQ(report.open_loop->frames, static_cast<std::size_t>(kFrames - kTracked));
+  EXPECT_NEAR(report.open_loop->duration_s, 1.0, 1e-6);
+  EXPECT_NEAR(report.open_loop->all.mean, 2e-3, 1e-6);
+  EXPECT_NEAR(report.open_loop->last_mean, 2e-3, 1e-6);
+  EXPECT_NEAR(report.vertex_error->all.max, 1e-3, 1e-6);
+  EXPECT_EQ(report.frames.expected, static_cast<std::size_t>(kTracked));
+  EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kTracked));
+  EXPECT_EQ(report.frames.recorded, static_cast<std::size_t>(kTracked));
+  EXPECT_NE(toText(report).find("open loop: 4 frames, 1.00 s without images"), std::string::npos);
+  const std::vector<Figure> all = figures(report);
+  const auto figure =
+      std::find_if(all.begin(), all.end(), [](const Figure& one) { return one.name == "open loop, mean"; });
+  ASSERT_NE(figure, all.end());
+  EXPECT_NEAR(figure->value, 2.0, 1e-3);
+}
+
+TEST(OpenLoop, AResultThatUsedItsImagesIsRefused) {
+  EvaluatorOptions options;
+  options.result = resultFromTruth("closed_loop.bag", asItIs);
+  options.truth = recording();
+  options.open_loop = 0.2;
+  EXPECT_NE(failure(options).find("replay --open-loop 0.2"), std::string::npos) << failure(options);
+  options.result = predicted("open_loop.bag");
+  options.open_loop = 0.5;
+  EXPECT_NE(failure(options).find("4 states at its end are predicted"), std::string::npos)
+      << failure(options);
+  options.open_loop = 0.2;
+  options.truth.clear();
+  options.recording = recording();
+  EXPECT_NE(failure(options).find("add --truth"), std::string::npos) << failure(options);
+}
+
+}  // namespace
+}  // namespace softbody::evaluation
