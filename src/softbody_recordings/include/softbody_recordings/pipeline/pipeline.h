@@ -6,6 +6,7 @@
 
 #include "softbody_common/stage_timer.h"
 #include "softbody_recordings/pipeline/body_surroundings.h"
+#include "softbody_recordings/pipeline/pin_forces.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/object/object_model.h"
@@ -100,6 +101,7 @@ class Pipeline {
   Simulator simulator_;
   CuttableSurface surface_;
   BodySurroundings surroundings_;
+  PinForces pin_forces_;
   std::optional<ToolTracker> tool_tracker_;
   ToolMask tool_mask_;
   std::vector<Cut> waiting_cuts_;

@@ -121,12 +121,14 @@ void Pipeline::addReactions(const TargetSet& targets, FrameOutput* output) {
   output->warnings = surroundings_.takeLog();
   const Surroundings& around = surroundings_.last();
   Reactions reactions = simulator_.reactions();
-  if (!output->predicted && (forces_ || !around.pins.empty())) {
+  const Nanoseconds stamp = simulator_.stamp();
+  if (!output->predicted && (forces_ || pin_forces_.areDue(around.pins, stamp))) {
     const auto scope = timer_.stage("Forces");
     ForceEstimate forces = simulator_.externalForces(targets, around);
-    if (!targets.targets.empty()) reactions.pins = forces.pins;
+    pin_forces_.set(around.pins, stamp, forces.pins);
     if (forces_) output->forces = std::move(forces);
   }
+  if (!targets.targets.empty()) pin_forces_.applyTo(&reactions.pins);
   output->reactions = surroundings_.named(reactions);
 }
 
