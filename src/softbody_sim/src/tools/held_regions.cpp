@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/vertex_region.h"
+#include "softbody_sim/object/vertex_region.h"
 
 namespace softbody {
 namespace {

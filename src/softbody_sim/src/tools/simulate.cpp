@@ -16,7 +16,7 @@
 #include "tools/simulation_problem.h"
 #include "tools/simulation_table.h"
 #include "tools/static_solution.h"
-#include "tools/vertex_region.h"
+#include "softbody_sim/object/vertex_region.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "tools/vertex_region.h"
+#include "softbody_sim/object/vertex_region.h"
 
 namespace softbody {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "fixtures/test_meshes.h"
 #include "softbody_sim/constraints/obstacle_description.h"
-#include "tools/vertex_region.h"
+#include "softbody_sim/object/vertex_region.h"
 
 namespace softbody {
 namespace {

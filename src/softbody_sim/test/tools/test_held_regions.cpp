@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "fixtures/test_meshes.h"
-#include "tools/vertex_region.h"
+#include "softbody_sim/object/vertex_region.h"
 
 namespace softbody {
 namespace {

@@ -21,7 +21,7 @@ void requireUsable(const Material& material) {
   requireWithin("density_kg_m3", material.density_kg_m3, kDensityRange);
   requireWithin("damping", material.damping, kDampingRange);
   if (material.youngs_modulus_std_pa)
-    requireWithin("youngs_modulus_std", *material.youngs_modulus_std_pa, kYoungsModulusStdRange);
+    requireWithin("youngs_modulus_std_pa", *material.youngs_modulus_std_pa, kYoungsModulusStdRange);
   for (const MaterialRegion& region : material.regions) {
     requireWithin("youngs_modulus_pa of a region", region.youngs_modulus_pa, kYoungsModulusRange);
     requireWithin("poisson_ratio of a region", region.poisson_ratio, kPoissonRatioRange);

@@ -32,8 +32,8 @@ Material readMaterial(YamlMapReader& material) {
   result.youngs_modulus_pa = read("youngs_modulus_pa", result.youngs_modulus_pa, kYoungsModulusRange);
   result.poisson_ratio = read("poisson_ratio", result.poisson_ratio, kPoissonRatioRange);
   result.density_kg_m3 = read("density_kg_m3", result.density_kg_m3, kDensityRange);
-  if (material.has("youngs_modulus_std"))
-    result.youngs_modulus_std_pa = read("youngs_modulus_std", 0.0, kYoungsModulusStdRange);
+  for (const char* key : {"youngs_modulus_std", "youngs_modulus_std_pa"})  // the first is its earlier name
+    if (material.has(key)) result.youngs_modulus_std_pa = read(key, 0.0, kYoungsModulusStdRange);
   result.damping = read("damping", result.damping, kDampingRange);
   return result;
 }

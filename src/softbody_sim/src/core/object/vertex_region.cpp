@@ -1,4 +1,4 @@
-#include "tools/vertex_region.h"
+#include "softbody_sim/object/vertex_region.h"
 
 #include <fmt/format.h>
 
