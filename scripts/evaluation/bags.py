@@ -4,6 +4,7 @@
 Usage: bags.py spread RESULT.bag...     how far apart the surfaces of several results are [mm]
        bags.py states RESULT.bag        (time since the first state [s], name of the state) of every frame
        bags.py pose RECORDING.bag [FRAME]  true pose of a body in the first frame: position [m] and quaternion
+       bags.py start RECORDING.bag      the same from the true surface, which is at rest in the first frame
 """
 import json
 import sys
@@ -54,6 +55,30 @@ def pose(path, frame="ground_truth_softbody"):
     return None
 
 
+def start(path):
+    """The rotation of least squares (Kabsch 1976), as a quaternion by its eigenvector (Horn 1987)."""
+    with rosbag.Bag(path) as bag:
+        def first(topic, field):
+            message = next(bag.read_messages(topics=["/ground_truth/surface/" + topic])).message
+            return numpy.array([(p.x, p.y, p.z) for p in getattr(message, field)])
+
+        rest, now = first("topology", "rest_vertices"), first("state", "vertices")
+    center, place = rest.mean(axis=0), now.mean(axis=0)
+    products = (rest - center).T @ (now - place)
+    axis = [products[1, 2] - products[2, 1], products[2, 0] - products[0, 2], products[0, 1] - products[1, 0]]
+    form = numpy.zeros((4, 4))  # for x y z w
+    form[:3, :3] = products + products.T - numpy.trace(products) * numpy.eye(3)
+    form[3, :3] = form[:3, 3] = axis
+    form[3, 3] = numpy.trace(products)
+    turn = numpy.linalg.eigh(form)[1][:, -1]
+    x, y, z, w = turn
+    rotation = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    return [*(place - rotation @ center).tolist(), *turn.tolist()]
+
+
 if __name__ == "__main__":
     command, *files = sys.argv[1:]
-    print(json.dumps(spread(files) if command == "spread" else {"states": states, "pose": pose}[command](*files)))
+    of_one = {"states": states, "pose": pose, "start": start}
+    print(json.dumps(spread(files) if command == "spread" else of_one[command](*files)))

@@ -3,6 +3,7 @@ import datetime
 import subprocess
 
 from evaluation.goals import goal_table
+from evaluation.open_loop import open_loop
 from evaluation.summary import summary_table
 from evaluation.tables import (absences, accuracy, cluttered, cuts, faults, forces, long_runs, moving_camera, noise,
                                stage_times, toys, volumes)
@@ -38,7 +39,7 @@ def document(root, reports):
                         "remove this part: [what the volume allows](#what-the-volume-allows)."), "",
              *goal_table(reports)]
     for part in (accuracy, plain_bodies, textures, cluttered, noise, moving_camera, volumes, long_runs, absences, cuts,
-                 forces, faults, predicted_errors, wrong_objects, toys, stage_times):
+                 forces, open_loop, faults, predicted_errors, wrong_objects, toys, stage_times):
         lines += part(reports)
     return "\n".join(lines).rstrip() + "\n"
 

@@ -4,6 +4,7 @@ import math
 from evaluation.figures import (CLUTTERED, DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS,
                                 cluttered_times, fault_times, get, moving_times, number, tracking_share, worst,
                                 wrong_matches)
+from evaluation.open_loop import open_loop_goals
 from evaluation.world_goals import world_goals
 from markdown_lines import table
 
@@ -137,7 +138,7 @@ def goals(reports):
     """(figure, goal, unit, value): reached if the value is at most, or for a goal with >= at least, the goal."""
     values = Values(reports)
     return [*accuracy_goals(values), *robustness_goals(values), *cut_goals(values), *bound_goals(values),
-            *toy_goals(values)]
+            *open_loop_goals(reports), *toy_goals(values)]
 
 
 def followed(report):
