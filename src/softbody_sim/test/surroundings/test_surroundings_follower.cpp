@@ -152,6 +152,29 @@ TEST_F(FollowedSurroundings, APinAndAnObstacleHaveDifferentNames) {
   EXPECT_THROW(follower_.addPin(table, rest_), std::invalid_argument);
 }
 
+TEST_F(FollowedSurroundings, PinsOfABodyThatIsPlacedHoldItsRestShape) {
+  Simulator simulator(topology_, Material(), SimulatorConfig());
+  follower_.addPin(endIn(""), rest_);
+  TargetSet targets;
+  targets.reset = true;
+  targets.body_pose = randomPose();
+  Target wrong;  // pulls the held end aside
+  wrong.place.tet = 0;
+  wrong.position = targets.body_pose * Eigen::Vector3d(rest_.row(topology_.tets(0, 0)));
+  wrong.position.z() += 0.005;
+  wrong.place.barycentric = {1.0, 0.0, 0.0, 0.0};
+  targets.targets = {wrong};
+  const std::vector<Pin> pins =
+      follower_.surroundingsAt(kFrame, lookup(), verticesToHold(targets, simulator), kFrame).pins;
+  simulator.step(targets, kFrame, follower_.lastSurroundings().all);
+  ASSERT_FALSE(pins.empty());
+  for (const Pin& pin : pins) {
+    const Eigen::Vector3d rest = rest_.row(pin.vertex);
+    EXPECT_LT((pin.position - targets.body_pose * rest).norm(), kLimit_m);
+  }
+  EXPECT_EQ(verticesToHold(targets, simulator).rows(), 0);  // it may be deformed now
+}
+
 /// A sensor in the frame feels the weight, and its moment about the frame's origin.
 TEST_F(FollowedSurroundings, AStillBodyLoadsItsPinWithItsWeight) {
   SimulatorConfig config;

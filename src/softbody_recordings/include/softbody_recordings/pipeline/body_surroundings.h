@@ -22,10 +22,9 @@ class BodySurroundings {
   BodySurroundings(const SurroundingsConfig& config, const std::vector<PinRegion>& pins,
                    const Points& rest_vertices);
 
-  /// What acts in the step to a stamp. @param simulator before the step. @param reset the step places the
-  /// body.
+  /// What acts in the step to a stamp. @param simulator before the step. @param targets of the step.
   const Surroundings& before(Nanoseconds stamp, const SurroundingsInput& input, const Simulator& simulator,
-                             bool reset);
+                             const TargetSet& targets);
   const Surroundings& last() const { return follower_.lastSurroundings().all; }
   void findConflicts(const std::vector<Target>& targets, const Simulator& simulator);
   std::vector<NamedReaction> named(const Reactions& reactions) const { return follower_.named(reactions); }

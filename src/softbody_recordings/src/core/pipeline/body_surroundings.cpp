@@ -15,12 +15,12 @@ BodySurroundings::BodySurroundings(const SurroundingsConfig& config, const std::
 }
 
 const Surroundings& BodySurroundings::before(Nanoseconds stamp, const SurroundingsInput& input,
-                                             const Simulator& simulator, bool reset) {
+                                             const Simulator& simulator, const TargetSet& targets) {
   if (gripper_) followGripper(input, simulator);
-  if (reset) follower_.forgetPinPositions();
-  static const Points kNotPlaced;  // when the body is placed, its pins take their positions after this step
-  return follower_.surroundingsAt(stamp, input.lookup, reset ? kNotPlaced : simulator.state().vertices,
-                                  simulator.stamp());
+  if (!targets.reset)
+    return follower_.surroundingsAt(stamp, input.lookup, simulator.state().vertices, simulator.stamp());
+  follower_.forgetPinPositions();
+  return follower_.surroundingsAt(stamp, input.lookup, verticesToHold(targets, simulator), stamp);
 }
 
 /// Only a change counts.

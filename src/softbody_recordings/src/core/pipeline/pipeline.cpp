@@ -86,7 +86,7 @@ FrameOutput Pipeline::predict(const RgbdFrame& frame, const std::vector<Cut>& cu
   {
     const auto scope = timer_.stage("Soft-body Simulation");
     simulator_.stepUnobserved(none, frame.stamp,
-                              surroundings_.before(frame.stamp, surroundings, simulator_, false));
+                              surroundings_.before(frame.stamp, surroundings, simulator_, none));
   }
   addReactions(none, &output);
   makeWaitingCuts(&output);
@@ -104,7 +104,7 @@ void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, const Surro
                         FrameOutput* output) {
   {
     const auto scope = timer_.stage("Soft-body Simulation");
-    simulator_.step(targets, stamp, surroundings_.before(stamp, input, simulator_, targets.reset));
+    simulator_.step(targets, stamp, surroundings_.before(stamp, input, simulator_, targets));
   }
   surroundings_.findConflicts(targets.targets, simulator_);
   addReactions(targets, output);

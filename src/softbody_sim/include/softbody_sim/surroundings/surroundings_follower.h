@@ -8,6 +8,7 @@
 
 #include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/constraints/surroundings.h"
+#include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/surroundings/followed_frame.h"
 #include "softbody_sim/surroundings/frame_lookup.h"
 #include "softbody_sim/surroundings/lasting_fault.h"
@@ -61,7 +62,8 @@ class SurroundingsFollower {
   void forgetPinPositions();
 
   /// What acts on the body at a stamp.
-  /// @param vertices after the last step; empty if the body is not placed. @param step its stamp.
+  /// @param vertices after the last step, or verticesToHold(); empty if the body is not placed. @param step
+  /// their stamp.
   const Surroundings& surroundingsAt(Nanoseconds stamp, const FrameLookup& lookup, const Points& vertices,
                                      Nanoseconds step);
 
@@ -109,5 +111,9 @@ class SurroundingsFollower {
   NamedSurroundings surroundings_;  ///< of the last surroundingsAt()
   LogLines log_;
 };
+
+/// Where the pins of a body take hold that targets with `reset` place. The first time it is at rest. Placed
+/// again, it may be deformed: empty, and the pins take hold after the step. @param simulator before the step.
+Points verticesToHold(const TargetSet& targets, const Simulator& simulator);
 
 }  // namespace softbody

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "softbody_common/rigid_fit.h"
 #include "softbody_sim/constraints/pin_conflict.h"
 
 namespace softbody {
@@ -249,6 +250,11 @@ void SurroundingsFollower::addPins(const Reactions& reactions, std::vector<Named
     }
     named->push_back({name, pin.held.region().frame, inFrame(pin.held.framePose(), sum)});
   }
+}
+
+Points verticesToHold(const TargetSet& targets, const Simulator& simulator) {
+  if (simulator.placed()) return {};
+  return transformed(simulator.topology().rest_vertices, targets.body_pose);
 }
 
 SurroundingsFollower::Faults SurroundingsFollower::faults() const {

@@ -98,10 +98,12 @@ bool SimulatorNode::step(const softbody_msgs::Targets& message, const std_msgs::
   }
   const auto scope = timer_.stage(kStage);
   if (targets.reset) surroundings_.forgetPinPositions();
-  // When the body is placed, its pins take their positions after this step.
-  const Points& vertices = targets.reset ? Points() : simulator_.state().vertices;
-  simulator_.step(targets, toNanoseconds(header.stamp),
-                  surroundings_.surroundingsAt(header.frame_id, header.stamp, vertices));
+  const Surroundings& surroundings =
+      targets.reset
+          ? surroundings_.surroundingsAt(header.frame_id, header.stamp, verticesToHold(targets, simulator_),
+                                         header.stamp)
+          : surroundings_.surroundingsAt(header.frame_id, header.stamp, simulator_.state().vertices);
+  simulator_.step(targets, toNanoseconds(header.stamp), surroundings);
   if (!publisher_.topologyHasStamp()) publisher_.publishTopology(simulator_.topology(), header.stamp);
   last_ = {simulator_.toCurrentRevision(std::move(targets)), header, ros::Time::now()};
   surroundings_.findConflicts(last_.set.targets, simulator_.topology().tets, simulator_.state().vertices);

@@ -52,8 +52,7 @@ std::size_t SurroundingsTracker::addPin(PinRegion region, const Points& rest_ver
 std::size_t SurroundingsTracker::grip(PinRegion region, const Points& vertices) {
   const std::string name = region.name;
   region.frame = pinFrame(region);
-  const std::size_t count =
-      follower_.grip(std::move(region), lookup(), vertices, toNanoseconds(step_stamp_));
+  const std::size_t count = follower_.grip(std::move(region), lookup(), vertices, toNanoseconds(step_stamp_));
   publishers_.try_emplace(name, node_, name);
   return count;
 }
@@ -94,10 +93,11 @@ std::vector<std::string> SurroundingsTracker::names() const {
 }
 
 const Surroundings& SurroundingsTracker::surroundingsAt(const std::string& frame, const ros::Time& stamp,
-                                                        const Points& vertices) {
+                                                        const Points& vertices,
+                                                        const ros::Time& vertices_stamp) {
   frame_ = frame;
-  const Surroundings& surroundings = follower_.surroundingsAt(toNanoseconds(stamp), lookup(), vertices,
-                                                              toNanoseconds(step_stamp_));
+  const Surroundings& surroundings =
+      follower_.surroundingsAt(toNanoseconds(stamp), lookup(), vertices, toNanoseconds(vertices_stamp));
   writeLog();
   return surroundings;
 }

@@ -42,7 +42,12 @@ class SurroundingsTracker {
   /// @param vertices in `frame`, after the step whose reactions were published last; empty if the body is not
   /// placed.
   const Surroundings& surroundingsAt(const std::string& frame, const ros::Time& stamp,
-                                     const Points& vertices);
+                                     const Points& vertices) {
+    return surroundingsAt(frame, stamp, vertices, step_stamp_);
+  }
+  /// The same with vertices of another stamp.
+  const Surroundings& surroundingsAt(const std::string& frame, const ros::Time& stamp, const Points& vertices,
+                                     const ros::Time& vertices_stamp);
   const NamedSurroundings& lastSurroundings() const { return follower_.lastSurroundings(); }
 
   double pinAccuracy_m() const { return follower_.pinAccuracy_m(); }
