@@ -16,7 +16,9 @@ std::string absolute(const char* topic) { return std::string("/") + topic; }
 
 void writeLatched(const VirtualCamera& camera, std::uint32_t revision, const ros::Time& stamp,
                   AtomicBag* bag) {
-  bag->writeLatched("/tf_static", stamp, opticalFrameTransform(stamp));
+  bag->writeLatched("/tf_static", stamp, staticTransforms(camera.scene(), stamp));
+  if (const auto& material = camera.scene().material)
+    bag->writeLatched(absolute(kTruthMaterialTopic), stamp, materialMessage(*material));
   bag->writeLatched(absolute(kTruthTopologyTopic), stamp, topologyMessage(camera.topology(revision), stamp));
   if (const auto second = camera.secondTopology())
     bag->writeLatched(absolute(kSecondTopologyTopic), stamp, topologyMessage(*second, stamp, kSecondFrame));
@@ -40,6 +42,10 @@ void writeFrame(const CaptureMessages& messages, const ros::Time& stamp, AtomicB
   if (messages.second) bag->write(absolute(kSecondStateTopic), stamp, messages.second);
   if (messages.gripper_closed) bag->write(absolute(kGripperTopic), stamp, messages.gripper_closed);
   if (messages.forces) bag->write(absolute(kTruthForcesTopic), stamp, messages.forces);
+  for (const auto& [name, wrench] : messages.wrenches)
+    bag->write(absolute(kWrenchTopic) + name, stamp, wrench);
+  for (const auto& [name, wrench] : messages.true_wrenches)
+    bag->write(absolute(kTruthWrenchTopic) + name, stamp, wrench);
   if (messages.tool) bag->write(absolute(kTruthToolPoseTopic), stamp, messages.tool);
 }
 

@@ -69,13 +69,15 @@ softbody_msgs::MeshStatePtr truthMessage(const MeshState& truth, const std_msgs:
   return message;
 }
 
-/// The frames of a second body and of a robot.
+/// The frames of a second body, of a robot and of other things.
 void addOthers(const Capture& capture, const std_msgs::Header& header,
                std::vector<geometry_msgs::TransformStamped>* transforms) {
   if (capture.T_camera_second)
     transforms->push_back(transformMessage(header, kSecondFrame, *capture.T_camera_second));
   for (const LinkPose& link : capture.links)
     transforms->push_back(transformMessage(header, link.name.c_str(), link.T_camera_link));
+  for (const FramePose& thing : capture.frames)
+    transforms->push_back(transformMessage(header, thing.name.c_str(), thing.T_camera_frame));
 }
 
 std_msgs::Header headerOf(const ros::Time& stamp, const char* frame_id) {
@@ -83,6 +85,18 @@ std_msgs::Header headerOf(const ros::Time& stamp, const char* frame_id) {
   header.stamp = stamp;
   header.frame_id = frame_id;
   return header;
+}
+
+std::map<std::string, geometry_msgs::WrenchStamped> wrenchMessages(const std::vector<ContactWrench>& wrenches,
+                                                                   const ros::Time& stamp) {
+  std::map<std::string, geometry_msgs::WrenchStamped> messages;
+  for (const ContactWrench& wrench : wrenches) {
+    geometry_msgs::WrenchStamped& message = messages[wrench.name];
+    message.header = headerOf(stamp, wrench.name.c_str());
+    message.wrench.force = vectorMessage(wrench.force);
+    message.wrench.torque = vectorMessage(wrench.torque);
+  }
+  return messages;
 }
 
 }  // namespace
@@ -115,6 +129,8 @@ CaptureMessages toMessages(const Capture& capture, const Pinhole& camera, const 
         headerOf(stamp, kWorldFrame), kCameraFrame, *capture.T_world_camera * opticalFrame().inverse()));
   }
   if (capture.forces) messages.forces = forcesMessage(*capture.forces, messages.truth->header);
+  messages.wrenches = wrenchMessages(capture.wrenches, stamp);
+  messages.true_wrenches = wrenchMessages(capture.true_wrenches, stamp);
   if (capture.gripper) addGripper(*capture.gripper, header, &messages);
   if (capture.T_camera_tool) {
     messages.tool = boost::make_shared<geometry_msgs::PoseStamped>();
@@ -134,6 +150,9 @@ void setStamp(const ros::Time& stamp, CaptureMessages* messages) {
   messages->camera->header.stamp = stamp;
   for (geometry_msgs::TransformStamped& transform : messages->transforms.transforms) {
     transform.header.stamp = stamp;
+  }
+  for (auto* wrenches : {&messages->wrenches, &messages->true_wrenches}) {
+    for (auto& [name, wrench] : *wrenches) wrench.header.stamp = stamp;
   }
   if (messages->second) messages->second->header.stamp = messages->second->observed = stamp;
   if (messages->forces) messages->forces->header.stamp = stamp;
@@ -163,8 +182,18 @@ softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp) {
   return message;
 }
 
-tf2_msgs::TFMessage opticalFrameTransform(const ros::Time& stamp) {
+std_msgs::String materialMessage(const TrueMaterial& material) {
+  std_msgs::String message;
+  message.data = materialText(material);
+  return message;
+}
+
+tf2_msgs::TFMessage staticTransforms(const Scene& scene, const ros::Time& stamp) {
   tf2_msgs::TFMessage message;
+  if (scene.has_weight && !scene.state(0.0).T_world_camera) {
+    message.transforms.push_back(transformMessage(headerOf(stamp, kWorldFrame), kCameraFrame,
+                                                  scene.T_camera_world.inverse() * opticalFrame().inverse()));
+  }
   message.transforms.push_back(
       transformMessage(headerOf(stamp, kCameraFrame), kOpticalFrame, opticalFrame()));
   return message;

@@ -9,6 +9,7 @@
 
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
+#include "softbody_sim/object/material.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/messages.h"
@@ -21,6 +22,9 @@ constexpr int kQueue = 2;
 
 CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
   CameraSetup setup = defaults;
+  const auto optional = [&](const char* key, const MaterialRange& range) {
+    return parameters->optionalNumber(key, range.min, range.max);
+  };
   setup.scene = parameters->choice("scene", setup.scene, sceneNames());
   setup.camera_motion = parameters->choice("camera_motion", setup.camera_motion, cameraMotionNames());
   setup.texture = parameters->choice("texture", setup.texture, textureNames());
@@ -35,6 +39,10 @@ CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
   setup.width = parameters->integer("width", setup.width, 16, 4096);
   setup.height = parameters->integer("height", setup.height, 16, 4096);
   setup.rate_hz = parameters->number("rate", setup.rate_hz, 0.1, 1000.0);
+  setup.youngs_modulus_pa = optional("youngs_modulus", kYoungsModulusRange);
+  setup.poisson_ratio = optional("poisson_ratio", kPoissonRatioRange);
+  setup.density_kg_m3 = optional("density", kDensityRange);
+  setup.damping = optional("damping", {kDampingRange.min, 0.99});
   if (!parameters->flag("noise", true)) setup.noise = noNoise();
   return setup;
 }
@@ -82,12 +90,20 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
     truth_cut_ = node.advertise<softbody_msgs::Cut>(name(kTruthCutTopic), kQueue);
   }
   if (camera_->scene().state(0.0).gripper) gripper_ = node.advertise<std_msgs::Bool>(kGripperTopic, kQueue);
+  if (camera_->scene().material)
+    truth_material_ = node.advertise<std_msgs::String>(name(kTruthMaterialTopic), 1, true);
+  for (const ContactWrench& wrench : camera_->scene().state(0.0).wrenches) {
+    wrenches_[wrench.name] = node.advertise<geometry_msgs::WrenchStamped>(kWrenchTopic + wrench.name, kQueue);
+    true_wrenches_[wrench.name] =
+        node.advertise<geometry_msgs::WrenchStamped>(name(kTruthWrenchTopic) + wrench.name, kQueue);
+  }
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
   if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
 }
 
 void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& stamp) {
-  if (publish_camera_tf_) tf_static_.publish(opticalFrameTransform(stamp));
+  if (publish_camera_tf_) tf_static_.publish(staticTransforms(camera_->scene(), stamp));
+  if (const auto& material = camera_->scene().material) truth_material_.publish(materialMessage(*material));
   truth_topology_.publish(topologyMessage(camera_->topology(revision), stamp));
   if (const auto second = camera_->secondTopology())
     second_topology_.publish(topologyMessage(*second, stamp, kSecondFrame));
@@ -133,6 +149,8 @@ void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time
   tf_.publish(messages.transforms);
   if (messages.gripper_closed) gripper_.publish(messages.gripper_closed);
   if (messages.forces) truth_forces_.publish(messages.forces);
+  for (const auto& [thing, wrench] : messages.wrenches) wrenches_.at(thing).publish(wrench);
+  for (const auto& [thing, wrench] : messages.true_wrenches) true_wrenches_.at(thing).publish(wrench);
   if (messages.second) second_state_.publish(messages.second);
   truth_camera_.publish(messages.camera);
   if (messages.tool) truth_tool_.publish(messages.tool);

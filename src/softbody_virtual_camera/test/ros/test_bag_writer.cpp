@@ -1,6 +1,7 @@
 #include "softbody_virtual_camera/ros/bag_writer.h"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
@@ -8,6 +9,7 @@
 #include <softbody_msgs/Forces.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
+#include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Geometry>
@@ -165,6 +167,45 @@ TEST(BagWriter, WritesTheForcesThatASceneKnows) {
   EXPECT_NEAR(found[1]->wrench.force.y, 0.0, 1e-4);
   rosbag::Bag other(write("no_forces.bag", 1));
   EXPECT_EQ(rosbag::View(other, rosbag::TopicQuery("/ground_truth/forces")).size(), 0u);
+}
+
+TEST(BagWriter, WritesWhatASensorAtTheClampSaysAndTheTruthAboutIt) {
+  CameraSetup setup;
+  setup.scene = "sag";
+  setup.config_folder = CONFIG_DIR;
+  setup.width = 80;
+  setup.height = 60;
+  setup.density_kg_m3 = 80.0;
+  setup.noise.wrench.bias_n = {0.0, 1.0, 0.0};
+  VirtualCamera camera = makeCamera(setup);
+  const std::string path = testing::TempDir() + "wrench.bag";
+  writeBag(&camera, {path, 3, 0.5}, [](int) {});  // at 0, 2 and 4 s
+  rosbag::Bag bag(path);
+  std::vector<geometry_msgs::WrenchStampedConstPtr> sensed, truth;
+  for (const rosbag::MessageInstance& m : rosbag::View(bag)) {
+    if (m.getTopic() == "/wrench/clamp") sensed.push_back(m.instantiate<geometry_msgs::WrenchStamped>());
+    if (m.getTopic() == "/ground_truth/wrench/clamp")
+      truth.push_back(m.instantiate<geometry_msgs::WrenchStamped>());
+    if (m.getTopic() == "/ground_truth/material") {
+      EXPECT_NE(m.instantiate<std_msgs::String>()->data.find("density_kg_m3: 80\n"), std::string::npos);
+    }
+  }
+  ASSERT_EQ(truth.size(), 3u);
+  ASSERT_EQ(sensed.size(), 3u);
+  EXPECT_EQ(truth[2]->header.frame_id, "clamp");
+  EXPECT_NEAR(truth[2]->wrench.force.z, -9.81 * 80.0 * 8e-4, 1e-4);
+  EXPECT_NEAR(sensed[2]->wrench.force.y - truth[2]->wrench.force.y, 1.0, 0.25);
+  EXPECT_NE(sensed[1]->wrench.force.z, truth[1]->wrench.force.z);
+  // The world is known, because the body has weight: z of the clamp is up.
+  std::map<std::string, std::string> parents;
+  for (const rosbag::MessageInstance& m :
+       rosbag::View(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}))) {
+    const auto message = m.instantiate<tf2_msgs::TFMessage>();
+    for (const auto& transform : message->transforms)
+      parents[transform.child_frame_id] = transform.header.frame_id;
+  }
+  EXPECT_EQ(parents["camera_link"], "world");
+  EXPECT_EQ(parents["clamp"], "camera_color_optical_frame");
 }
 
 TEST(BagWriter, WritesWideImagesAtSixtyHertz) {

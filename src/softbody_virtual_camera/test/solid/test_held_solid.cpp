@@ -86,6 +86,54 @@ TEST(HeldSolid, ABentBeamIsAsStiffAsTheorySays) {
   EXPECT_NEAR(pullAt(solid, shape).z(), expected, 0.05 * expected);
 }
 
+/// The weight of a density on all nodes, along -z.
+Eigen::VectorXd weightOn(const HexSolid& solid, double density) {
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(solid.unknowns());
+  for (Eigen::Index i = 0; i < solid.grid().nodes.rows(); ++i)
+    weight[3 * i + 2] = -9.81 * density * solid.nodalVolumes()[i];
+  return weight;
+}
+
+std::vector<bool> leftEndOf(const HexSolid& solid, double half_m) {
+  std::vector<bool> held = endsOf(solid, half_m);
+  for (std::size_t i = 0; i < held.size(); ++i)
+    held[i] = held[i] && solid.grid().nodes(static_cast<Eigen::Index>(i), 0) < 0.0;
+  return held;
+}
+
+TEST(HeldSolid, AClampedBeamSagsAsTheorySays) {
+  constexpr double kLength = 0.2, kWidth = 0.02, kDensity = 2.0;
+  const HexSolid solid = solidOf(box({kLength, kWidth, kWidth}), 0.005, 0.0);
+  const Points shape =
+      asPoints(heldShape(solid, solid.rest(), leftEndOf(solid, 0.0999), weightOn(solid, kDensity)));
+  // Euler and Bernoulli, and Timoshenko's share of shear.
+  const double load = 9.81 * kDensity * kWidth * kWidth, inertia = std::pow(kWidth, 4) / 12.0;
+  const double shear = 0.5 * kModulus_pa * kWidth * kWidth * 5.0 / 6.0;
+  const double expected =
+      load * std::pow(kLength, 4) / (8.0 * kModulus_pa * inertia) + load * kLength * kLength / (2.0 * shear);
+  double tip = 0.0;
+  for (Eigen::Index i = 0; i < shape.rows(); ++i) tip = std::max(tip, solid.grid().nodes(i, 2) - shape(i, 2));
+  EXPECT_NEAR(tip, expected, 0.05 * expected);
+  EXPECT_LT(tip, 0.05 * kLength);
+}
+
+TEST(HeldSolid, WhatHoldsABodyCarriesItsWeight) {
+  const HexSolid solid = solidOf(bar(), 0.02);
+  const std::vector<bool> held = leftEndOf(solid, 0.0999);
+  const Eigen::VectorXd weight = weightOn(solid, 200.0);
+  const Eigen::VectorXd shape = heldShape(solid, solid.rest(), held, weight);
+  const Points forces = asPoints(holdingForces(solid, shape) - weight);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < forces.rows(); ++i) {
+    if (held[static_cast<std::size_t>(i)]) {
+      sum += forces.row(i).transpose();
+    } else {
+      EXPECT_LT(forces.row(i).norm(), 1e-6);
+    }
+  }
+  EXPECT_LT((sum - 9.81 * 200.0 * 8e-4 * Eigen::Vector3d::UnitZ()).norm(), 1e-5);
+}
+
 TEST(KeyStates, PassThroughTheStatesAndRepeatAParabola) {
   std::vector<Points> states;
   for (const double t : {0.0, 1.0, 2.0, 3.0, 4.0}) states.push_back(Points::Constant(2, 3, t * t));

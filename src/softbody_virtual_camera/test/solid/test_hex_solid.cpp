@@ -89,6 +89,15 @@ TEST(CellGrid, EmbedsEveryVertexAtItsPlace) {
   }
 }
 
+TEST(HexSolid, NodalVolumesHaveTheBodysVolumeAndItsMiddle) {
+  const HexSolid solid = solidOf(bar(), 0.01);
+  const Eigen::VectorXd volumes = solid.nodalVolumes();
+  EXPECT_NEAR(volumes.sum(), 0.2 * 0.1 * 0.04, 1e-12);
+  EXPECT_LT((solid.grid().nodes.transpose() * volumes).norm(), 1e-12);
+  EXPECT_NEAR(volumes.minCoeff(), 1e-6 / 8.0, 1e-12);  // a corner has an eighth of a cell
+  EXPECT_NEAR(volumes.maxCoeff(), 1e-6, 1e-12);
+}
+
 TEST(HexSolid, GradientAndStiffnessAreDerivatives) {
   constexpr double kStep = 1e-6;
   const HexSolid solid = solidOf(box({0.02, 0.02, 0.01}), 0.01);

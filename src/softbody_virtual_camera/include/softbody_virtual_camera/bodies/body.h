@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "softbody_common/files/input_file.h"
@@ -11,7 +12,9 @@ namespace softbody::virtual_camera {
 /// Of an elastic body, at small strains.
 struct Elasticity {
   double youngs_modulus_pa = 2.0e4;
-  double poisson_ratio = 0.2;  ///< below 0.5
+  double poisson_ratio = 0.2;                          ///< below 0.5
+  std::optional<double> density_kg_m3 = std::nullopt;  ///< none: the scene chooses it
+  double damping = 0.1;                                ///< share of the velocity that is lost in 1/30 s
 };
 
 /// A soft body at rest. Its vertices are those of the file, in the same order.

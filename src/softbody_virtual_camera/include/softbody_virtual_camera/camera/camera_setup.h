@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct CameraSetup {
   double rate_hz = 30.0;
   bool hands = true;  ///< if false, hands and fingers are hidden; the body moves in the same way
   NoiseOptions noise;
+  /// Of the body in scenes with a solver; none: the shipped object's, or the default of Elasticity.
+  std::optional<double> youngs_modulus_pa, poisson_ratio, density_kg_m3, damping;
 };
 
 /// @param warnings if not null, gets a sentence about each ignored part of the body's file.
@@ -31,7 +34,7 @@ struct CameraSetup {
 /// cannot be read or does not fit the scene.
 VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* warnings = nullptr);
 
-/// The parts of the noise: exposure, blur, color, disparity, quantization, edges, holes.
+/// The parts of the noise: exposure, blur, color, disparity, quantization, edges, holes, wrench.
 std::vector<std::string> noiseParts();
 /// Switches one part off. @throw std::invalid_argument with the known names if the part is unknown.
 void switchOff(const std::string& noise_part, NoiseOptions* noise);

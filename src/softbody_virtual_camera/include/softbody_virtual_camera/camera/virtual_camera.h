@@ -1,5 +1,6 @@
 #pragma once
 
+#include "softbody_virtual_camera/camera/wrench_sensor.h"
 #include "softbody_virtual_camera/rendering/exposure.h"
 #include "softbody_virtual_camera/rendering/noise.h"
 #include "softbody_virtual_camera/rendering/renderer.h"
@@ -16,8 +17,9 @@ struct NoiseOptions {
   MotionBlurOptions blur;
   ColorNoiseOptions color;
   DepthNoiseOptions depth;
+  WrenchSensorOptions wrench;
 };
-/// All parts switched off.
+/// All parts switched off; force/torque sensors without bias and drift.
 NoiseOptions noNoise();
 
 /// One frame and its truth.
@@ -34,6 +36,9 @@ struct Capture {
   std::optional<Eigen::Isometry3d> T_camera_second;
   std::vector<LinkPose> links;                      ///< of a robot
   std::optional<std::vector<SurfaceForce>> forces;  ///< in the frame of the truth
+  std::vector<FramePose> frames;                    ///< of things that hold or touch the body
+  std::vector<ContactWrench> wrenches;              ///< what the body does to them, as their sensors say
+  std::vector<ContactWrench> true_wrenches;         ///< likewise, without the sensors' errors
   std::optional<Eigen::Isometry3d> T_world_camera;  ///< only with a moving camera
 };
 
@@ -64,6 +69,7 @@ class VirtualCamera {
   ExposureDrift exposure_drift_;
   ColorNoise color_noise_;
   DepthNoise depth_noise_;
+  WrenchSensor wrench_sensor_;
   RenderedImage image_;
 };
 

@@ -4,7 +4,9 @@
 #include <ros/publisher.h>
 #include <ros/timer.h>
 
+#include <map>
 #include <optional>
+#include <string>
 
 #include "softbody_virtual_camera/camera/camera_setup.h"
 #include "softbody_virtual_camera/ros/render_ahead.h"
@@ -12,10 +14,10 @@
 namespace softbody::virtual_camera {
 
 /// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, sheet, jerks,
-/// camera_tf, seed, noise, width,
-/// height, rate [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth
-/// (ground_truth/...) and optical frame -> ground_truth_softbody. Each frame is rendered before its time
-/// comes, and gets its stamp when it is sent, as from a real camera.
+/// camera_tf, youngs_modulus [Pa], poisson_ratio, density [kg/m^3], damping, seed, noise, width, height, rate
+/// [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...)
+/// and optical frame -> ground_truth_softbody. Each frame is rendered before its time comes, and gets its
+/// stamp when it is sent, as from a real camera.
 class VirtualCameraNode {
  public:
   /// @param setup defaults of the parameters.
@@ -35,8 +37,9 @@ class VirtualCameraNode {
   double hold_s_ = 2.0;
   std::optional<VirtualCamera> camera_;
   ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, second_topology_,
-      second_state_, truth_labels_, truth_camera_, truth_forces_, truth_tool_, truth_cut_, gripper_, tf_,
-      tf_static_;
+      second_state_, truth_labels_, truth_camera_, truth_forces_, truth_tool_, truth_cut_, truth_material_,
+      gripper_, tf_, tf_static_;
+  std::map<std::string, ros::Publisher> wrenches_, true_wrenches_;  ///< by the name of the thing
   ros::Timer timer_;
   int frame_ = 0;
   std::uint32_t revision_ = 0;

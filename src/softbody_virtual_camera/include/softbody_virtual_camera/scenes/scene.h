@@ -40,6 +40,29 @@ struct GripperState {
   bool closed = false;                                                 ///< it holds the body
 };
 
+/// Where a thing is that holds or touches the body.
+struct FramePose {
+  std::string name;  ///< of its frame on tf
+  Eigen::Isometry3d T_camera_frame;
+};
+
+/// What the body does to a thing, as a sensor there would say it: in the thing's frame, about its origin.
+struct ContactWrench {
+  std::string name;                                  ///< of the thing and of its frame
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]
+};
+
+/// What a scene's solver made its body of.
+struct TrueMaterial {
+  Elasticity elasticity;  ///< with the density
+  double volume_m3 = 0.0;
+
+  double mass() const { return *elasticity.density_kg_m3 * volume_m3; }  ///< [kg]
+};
+/// As YAML: youngs_modulus_pa, poisson_ratio, density_kg_m3, damping, mass_kg.
+std::string materialText(const TrueMaterial& material);
+
 /// The gripper after a change of the camera's frame or of the scale.
 GripperState transformed(const Eigen::Isometry3d& T, GripperState gripper);
 GripperState scaled(GripperState gripper, double factor);
@@ -64,6 +87,8 @@ struct SceneState {
   std::optional<GripperState> gripper = std::nullopt;
   /// All on the body, besides its weight; none: not known.
   std::optional<std::vector<SurfaceForce>> forces = std::nullopt;
+  std::vector<FramePose> frames = {};        ///< of things that hold or touch the body
+  std::vector<ContactWrench> wrenches = {};  ///< on things with a sensor: the same ones at all times
   std::optional<Eigen::Isometry3d> T_camera_second = std::nullopt;  ///< frame of a second body
   std::vector<LinkPose> links = {};                                 ///< of a robot
   Lights lights = {};
@@ -86,9 +111,11 @@ struct Scene {
   std::vector<Actor> actors;
   double color_noise = 1.0;  ///< factor of the colour camera's noise: its gain in low light
   std::size_t hands = 0;     ///< number of the last actors: hands, grippers and other things, but not a tool
-  std::optional<std::size_t> second;  ///< the actor that is a second soft body with a truth of its own
-  Robot robot;                        ///< empty: none
-  std::vector<Edit> edits;            ///< from revision 1 on; each is one stroke of the blade
+  std::optional<std::size_t> second;     ///< the actor that is a second soft body with a truth of its own
+  Robot robot;                           ///< empty: none
+  std::optional<TrueMaterial> material;  ///< none: no solver made this scene
+  bool has_weight = false;               ///< the body hangs in gravity, so the world must be known
+  std::vector<Edit> edits;               ///< from revision 1 on; each is one stroke of the blade
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< at the start; z is up
   std::function<SceneState(double t)> state;                         ///< t in seconds from the start
 };

@@ -50,6 +50,7 @@ Scene orbited(const Scene& scene) {
     if (now.forces) now.forces = transformed(T_camera_start, *now.forces);
     if (now.T_camera_second) now.T_camera_second = T_camera_start * *now.T_camera_second;
     for (LinkPose& link : now.links) link.T_camera_link = T_camera_start * link.T_camera_link;
+    for (FramePose& thing : now.frames) thing.T_camera_frame = T_camera_start * thing.T_camera_frame;
     if (now.gripper) now.gripper = transformed(T_camera_start, *now.gripper);
     for (Eigen::Vector3d* to_light : {&now.lights.to_main, &now.lights.to_fill})
       *to_light = T_camera_start.linear() * *to_light;

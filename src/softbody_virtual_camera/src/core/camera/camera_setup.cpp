@@ -21,16 +21,27 @@ std::map<std::string, bool*> switches(NoiseOptions* noise) {
           {"disparity", &noise->depth.disparity_noise},
           {"quantization", &noise->depth.quantization},
           {"edges", &noise->depth.edge_dropouts},
-          {"holes", &noise->depth.holes}};
+          {"holes", &noise->depth.holes},
+          {"wrench", &noise->wrench.noise}};
 }
 
-/// The user's body, or the shipped one with its material.
-Body bodyOf(const CameraSetup& setup, Warnings* warnings) {
+/// The shape and the material of the user's body, or of the shipped one.
+Body fileBodyOf(const CameraSetup& setup, Warnings* warnings) {
   if (!setup.body.empty()) return readBody(setup.body, metresPer(setup.unit), warnings, setup.scope);
   const std::string shipped = setup.config_folder + "/" + objectOf(setup.scene);
   Body body = readBody(shipped + ".obj", 1.0, warnings, setup.scope);
   const Material material = loadObjectDescription(shipped + ".yaml").material;
-  body.elasticity = {material.youngs_modulus_pa, material.poisson_ratio};
+  body.elasticity = {material.youngs_modulus_pa, material.poisson_ratio, std::nullopt, material.damping};
+  return body;
+}
+
+Body bodyOf(const CameraSetup& setup, Warnings* warnings) {
+  Body body = fileBodyOf(setup, warnings);
+  Elasticity& elasticity = body.elasticity;
+  elasticity.youngs_modulus_pa = setup.youngs_modulus_pa.value_or(elasticity.youngs_modulus_pa);
+  elasticity.poisson_ratio = setup.poisson_ratio.value_or(elasticity.poisson_ratio);
+  elasticity.damping = setup.damping.value_or(elasticity.damping);
+  if (setup.density_kg_m3) elasticity.density_kg_m3 = setup.density_kg_m3;
   return body;
 }
 
@@ -63,6 +74,11 @@ VirtualCamera makeCamera(const CameraSetup& setup, std::vector<std::string>* war
     second = readBody(setup.config_folder + "/" + object + ".obj", 1.0, warnings ? warnings : &ignored);
   const Scene scene =
       makeScene(setup.scene, body, setup.seed, tool, setup.texture, second, scanOptions(setup));
+  const bool given = setup.youngs_modulus_pa || setup.poisson_ratio || setup.density_kg_m3 || setup.damping;
+  if (given && !scene.material && warnings)
+    warnings->push_back(fmt::format(
+        "the scene '{}' has no elastic body; youngs_modulus, poisson_ratio, density and damping do nothing",
+        setup.scene));
   const Scene shown = setup.hands ? scene : withoutHands(scene);
   return VirtualCamera(withCameraMotion(setup.camera_motion, shown), d435(setup.width, setup.height),
                        setup.noise, setup.seed);

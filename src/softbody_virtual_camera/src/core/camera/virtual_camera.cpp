@@ -63,6 +63,7 @@ Pinhole d435(int width, int height) {
 NoiseOptions noNoise() {
   NoiseOptions noise;
   noise.exposure.enabled = noise.blur.enabled = noise.color.enabled = false;
+  noise.wrench.noise = false;
   noise.depth.disparity_noise = noise.depth.quantization = noise.depth.edge_dropouts = noise.depth.holes =
       false;
   return noise;
@@ -75,7 +76,8 @@ VirtualCamera::VirtualCamera(Scene scene, const Pinhole& camera, const NoiseOpti
       blur_(noise.blur),
       exposure_drift_(noise.exposure, hash(seed, 103)),
       color_noise_(amplified(noise.color, scene_.color_noise), hash(seed, 101)),
-      depth_noise_(noise.depth, hash(seed, 102)) {
+      depth_noise_(noise.depth, hash(seed, 102)),
+      wrench_sensor_(noise.wrench, hash(seed, 104)) {
   const Body body{scene_.actors.at(0).rest, scene_.actors.at(0).skin};
   topologies_.push_back(topologyOf(body));
   renderers_.emplace_back(scene_, camera);
@@ -116,6 +118,9 @@ Capture VirtualCamera::capture(int frame, double t) {
   capture.T_camera_tool = state.T_camera_tool;
   capture.gripper = state.gripper;
   capture.forces = state.forces;
+  capture.frames = state.frames;
+  capture.true_wrenches = state.wrenches;
+  capture.wrenches = wrench_sensor_.measured(frame, t, state.wrenches);
   if (state.forces && state.T_world_camera)
     capture.forces = transformed(*state.T_world_camera, *state.forces);
   capture.T_world_camera = state.T_world_camera;

@@ -21,6 +21,21 @@ Eigen::Isometry3d ownPose(const BodyFrame& frame, const Eigen::Isometry3d& T_cam
   return T;
 }
 
+/// The same mass per length, time and elasticity, in the body's own lengths.
+TrueMaterial scaled(TrueMaterial material, double factor) {
+  *material.elasticity.density_kg_m3 /= factor * factor;
+  material.volume_m3 *= factor * factor * factor;
+  return material;
+}
+
+std::vector<ContactWrench> scaled(std::vector<ContactWrench> wrenches, double factor) {
+  for (ContactWrench& wrench : wrenches) {
+    wrench.force *= factor * factor;
+    wrench.torque *= factor * factor * factor;
+  }
+  return wrenches;
+}
+
 /// Of a body with the same elasticity.
 std::vector<SurfaceForce> scaled(std::vector<SurfaceForce> forces, double factor) {
   for (SurfaceForce& force : forces) {
@@ -66,6 +81,7 @@ Scene toBodyFrame(const BodyFrame& frame, const Scene& played, const TriangleMes
     return texture(frame.turn * (p - frame.center) / frame.scale);
   };
   scene.T_camera_world.translation() *= frame.scale;
+  if (scene.material) scene.material = scaled(*scene.material, frame.scale);
   scene.robot = scaled(played.robot, frame.scale);
   for (Edit& edit : scene.edits) {
     edit.topology.rest_vertices = ownRows(frame, edit.topology.rest_vertices);
@@ -77,6 +93,8 @@ Scene toBodyFrame(const BodyFrame& frame, const Scene& played, const TriangleMes
     for (Points& vertices : now.vertices) vertices *= frame.scale;
     if (now.T_camera_tool) now.T_camera_tool->translation() *= frame.scale;
     if (now.forces) now.forces = scaled(*now.forces, frame.scale);
+    for (FramePose& thing : now.frames) thing.T_camera_frame.translation() *= frame.scale;
+    now.wrenches = scaled(std::move(now.wrenches), frame.scale);
     if (now.T_camera_second) now.T_camera_second->translation() *= frame.scale;
     for (LinkPose& link : now.links) link.T_camera_link.translation() *= frame.scale;
     if (now.gripper) now.gripper = scaled(*now.gripper, frame.scale);

@@ -13,8 +13,13 @@ struct Gripper {
   Eigen::Vector3d inner_end;         ///< of the fingers, on the gripper's axis
 };
 
+struct Fingers {
+  double width_m = 0.02;  ///< across the body
+  double depth_m = 0.02;  ///< of the gripper's origin in the body, from its end
+};
+
 /// The fingers take the thinner side of the body. @param outward unit vector from the body to the arm.
-Gripper makeGripper(const TriangleMesh& body, const Eigen::Vector3d& outward);
+Gripper makeGripper(const TriangleMesh& body, const Eigen::Vector3d& outward, const Fingers& fingers = {});
 
 /// @param open 0: the fingers touch the body; 1: they are as far away as they go.
 GripperState posed(const Gripper& gripper, double open);

@@ -1,8 +1,18 @@
 #include "softbody_virtual_camera/scenes/scene.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace softbody::virtual_camera {
+
+std::string materialText(const TrueMaterial& material) {
+  const Elasticity& e = material.elasticity;
+  return fmt::format(
+      "youngs_modulus_pa: {:.9g}\npoisson_ratio: {:.9g}\ndensity_kg_m3: {:.9g}\ndamping: {:.9g}\n"
+      "mass_kg: {:.9g}\n",
+      e.youngs_modulus_pa, e.poisson_ratio, *e.density_kg_m3, e.damping, material.mass());
+}
 
 GripperState transformed(const Eigen::Isometry3d& T, GripperState gripper) {
   gripper.T_camera_gripper = T * gripper.T_camera_gripper;

@@ -25,10 +25,10 @@ Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
 }
 
 /// Height of the body's origin above the table [m]; unless it lies there, with space to bend.
-double heightOf(const TriangleMesh& body, bool on_table) {
-  constexpr double kLeast = 0.08, kClearance = 0.02;
+double heightOf(const TriangleMesh& body, const Place& place) {
+  constexpr double kLeast = 0.08;
   const double below = -body.vertices.col(2).minCoeff();
-  return on_table ? below : std::max(kLeast, kClearance + below);
+  return place.on_table ? below : std::max(kLeast, place.clearance_m + below);
 }
 
 /// The texture of the table around a body that lies on it: darker below the body, and beside it where the
@@ -51,7 +51,7 @@ Texture withShadow(const Texture& texture, const TriangleMesh& body, const Eigen
 
 Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Place& place) {
   constexpr double kElevation = 42.0 * kDegree;
-  const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest, place.on_table));
+  const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest, place));
   const Eigen::Vector3d to_light = Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
   const Eigen::Vector3d eye =
       center + place.distance_m * Eigen::Vector3d(0.0, -std::cos(kElevation), std::sin(kElevation));
@@ -104,6 +104,8 @@ Scene perform(const Stage& stage, const Play& play) {
   scene.hands = play.props.size();
   scene.color_noise = play.color_noise;
   scene.robot = play.robot;
+  scene.material = play.material;
+  scene.has_weight = play.has_weight;
   if (play.T_camera_second) scene.second = stage.actors.size();
   const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
   const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);
@@ -121,6 +123,8 @@ Scene perform(const Stage& stage, const Play& play) {
     state.vertices = {transformed(state.T_camera_body, body), table, wall};
     if (play.T_camera_second) state.T_camera_second = play.T_camera_second(t);
     if (play.links) state.links = named(play.robot, play.links(t));
+    if (play.frames) state.frames = play.frames(t);
+    if (play.wrenches) state.wrenches = play.wrenches(t);
     if (play.forces) state.forces = transformed(state.T_camera_body, play.forces(t));
     for (const Prop& prop : play.props) {
       state.vertices.push_back(prop.vertices(t));

@@ -16,7 +16,8 @@ struct Stage {
   Eigen::Isometry3d T_camera_world, T_camera_body;  ///< the body's frame at the start
   std::vector<Actor> actors;                        ///< body, table, wall
   Lights lights;
-  Elasticity elasticity;       ///< of the body
+  Elasticity elasticity;  ///< of the body
+  double gravity_m_s2 = 9.81;
   std::optional<Body> second;  ///< another body, for scenes with two
   float contrast = 1.0f;       ///< of the bodies' textures
   std::uint64_t seed = 0;      ///< of what the play chooses by chance
@@ -27,6 +28,7 @@ constexpr double kNear_m = 0.5;  ///< usual distance between camera and body
 struct Place {
   double distance_m = kNear_m;  ///< between the camera and the middle of the body
   bool on_table = false;        ///< otherwise it hovers above it
+  double clearance_m = 0.02;    ///< at least, between it and the table
 };
 Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Place& place);
 
@@ -48,8 +50,12 @@ struct Play {
   std::function<Eigen::Isometry3d(double t)> T_camera_body;   ///< empty: the body does not move
   std::vector<Prop> props;
   std::function<GripperState(double t)> gripper;  ///< empty: none
-  std::function<double(double t)> brightness;     ///< of the colour image; empty: 1
-  double color_noise = 1.0;                       ///< factor of the noise of colour
+  std::optional<TrueMaterial> material;           ///< of an elastic body
+  bool has_weight = false;
+  std::function<std::vector<FramePose>(double t)> frames;        ///< empty: none
+  std::function<std::vector<ContactWrench>(double t)> wrenches;  ///< likewise
+  std::function<double(double t)> brightness;                    ///< of the colour image; empty: 1
+  double color_noise = 1.0;                                      ///< factor of the noise of colour
   /// Pose of the second body. It is the first prop. Empty: the scene has no second body.
   std::function<Eigen::Isometry3d(double t)> T_camera_second;
   Robot robot;  ///< its links are the first props; empty: none

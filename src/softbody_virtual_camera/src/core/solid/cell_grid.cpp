@@ -136,9 +136,14 @@ Embedding CellGrid::embed(const Eigen::Vector3d& rest) const {
 }
 
 CellGrid fillWithCells(const TriangleMesh& body, double size_m) {
+  return fillWithCells(body, Eigen::Vector3d::Constant(size_m));
+}
+
+CellGrid fillWithCells(const TriangleMesh& body, const Eigen::Vector3d& size_m) {
   const Eigen::Vector3d low = body.vertices.colwise().minCoeff();
   const Eigen::Vector3d extent = body.vertices.colwise().maxCoeff().transpose() - low;
-  const Index3 count = (extent / size_m - Eigen::Vector3d::Constant(1e-9)).array().ceil().cast<int>();
+  const Index3 count =
+      (extent.cwiseQuotient(size_m) - Eigen::Vector3d::Constant(1e-9)).array().ceil().cast<int>();
   CellGrid grid;
   grid.cell_size = extent.cwiseQuotient(count.cast<double>());
   const Columns columns(body, low, grid.cell_size / kSamples, kSamples * count);

@@ -29,8 +29,9 @@ struct CellGrid {
   Embedding embed(const Eigen::Vector3d& rest) const;
 };
 
-/// @param body closed. @param size_m of a block, at most.
-CellGrid fillWithCells(const TriangleMesh& body, double size_m);
+/// @param body closed. @param size_m edges of a block, at most.
+CellGrid fillWithCells(const TriangleMesh& body, const Eigen::Vector3d& size_m);
+CellGrid fillWithCells(const TriangleMesh& body, double size_m);  ///< the same along all axes
 
 /// Values of the eight corners of a cell at a place in it: 0 to 1 along each axis.
 std::array<double, 8> cornerWeights(const Eigen::Vector3d& place);

@@ -26,6 +26,21 @@ Eigen::VectorXd HexSolid::rest() const {
   return Eigen::Map<const Eigen::VectorXd>(grid_.nodes.data(), unknowns());
 }
 
+Eigen::VectorXd HexSolid::nodalVolumes() const {
+  const double near = 0.5 * (1.0 - 1.0 / std::sqrt(3.0));  // of a Gauss point, as a share of the edge
+  Eigen::VectorXd volumes = Eigen::VectorXd::Zero(grid_.nodes.rows());
+  for (int point = 0; point < 8; ++point) {
+    const Eigen::Vector3d far(point / 4, point / 2 % 2, point % 2);
+    const std::array<double, 8> weights =
+        cornerWeights(far * (1.0 - 2.0 * near) + Eigen::Vector3d::Constant(near));
+    for (std::size_t cell = 0; cell < grid_.cells.size(); ++cell) {
+      for (std::size_t k = 0; k < 8; ++k)
+        volumes[grid_.cells[cell][k]] += weights[k] * grid_.volumes[cell][static_cast<std::size_t>(point)];
+    }
+  }
+  return volumes;
+}
+
 HexSolid::Corners HexSolid::cornersOf(const Eigen::VectorXd& nodes, std::size_t cell) const {
   Corners corners;
   for (int k = 0; k < 8; ++k)

@@ -20,6 +20,8 @@ class HexSolid {
   const CellGrid& grid() const { return grid_; }
   Eigen::Index unknowns() const { return 3 * grid_.nodes.rows(); }
   Eigen::VectorXd rest() const;
+  /// Of the body around each node [m^3]: times the density, the lumped masses.
+  Eigen::VectorXd nodalVolumes() const;
 
   double energy(const Eigen::VectorXd& nodes) const;                                ///< [J]
   void addGradient(const Eigen::VectorXd& nodes, Eigen::VectorXd* gradient) const;  ///< [N]

@@ -40,7 +40,7 @@ std::vector<SurfaceSample> samplesOf(const TriangleMesh& body, const CellGrid& g
 }
 
 PressedSolid::PressedSolid(const HexSolid& solid, const TriangleMesh& body, const Stamp& stamp,
-                           double youngs_modulus_pa)
+                           double youngs_modulus_pa, const std::vector<bool>& held)
     : solid_(solid),
       plane_stiffness_(kPlaneStiffness * youngs_modulus_pa),
       table_m_(body.vertices.col(2).minCoeff()) {
@@ -50,11 +50,14 @@ PressedSolid::PressedSolid(const HexSolid& solid, const TriangleMesh& body, cons
     const Eigen::Vector3d rest = sample.place.in(solid.grid().nodes);
     const bool under_stamp = sample.faces_up && (rest.head<2>() - stamp.center).norm() <= stamp.radius_m;
     if (under_stamp) top = std::max(top, rest.z());
-    if (under_stamp || (!sample.faces_up && rest.z() < table_m_ + kNearTable))
+    if (under_stamp || (held.empty() && !sample.faces_up && rest.z() < table_m_ + kNearTable))
       contacts_.push_back({sample, under_stamp, {}});
   }
   shape_.nodes = solid.rest();
   shape_.stamp_m = top;
+  fixed_.assign(static_cast<std::size_t>(solid.unknowns()) + 1, false);
+  for (std::size_t i = 0; i < held.size(); ++i)
+    std::fill_n(fixed_.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, held[i]);
 }
 
 Eigen::Vector3d PressedSolid::placeOf(const Contact& contact, const Eigen::VectorXd& unknowns) const {
@@ -139,6 +142,7 @@ ContactForce PressedSolid::sumOf(bool on_stamp, const Eigen::VectorXd& unknowns)
     const Eigen::Vector3d force = forceOn(contact, unknowns);
     sum.force += force;
     sum.place += force.norm() * placeOf(contact, unknowns);
+    sum.torque += placeOf(contact, unknowns).cross(force);
     sizes += force.norm();
   }
   sum.place /= std::max(sizes, 1e-12);
@@ -151,13 +155,13 @@ PressedShape PressedSolid::press(double force_n) {
   Eigen::VectorXd unknowns(shape_.nodes.size() + 1);
   unknowns << shape_.nodes, shape_.stamp_m;
   if (first) {
-    for (Eigen::Index z = 2; z < shape_.nodes.size(); z += 3) unknowns[z] -= kFirstDepth;
+    for (Eigen::Index z = 2; z < shape_.nodes.size(); z += 3)
+      if (!fixed_[static_cast<std::size_t>(z)]) unknowns[z] -= kFirstDepth;
     unknowns[shape_.nodes.size()] -= 2.0 * kFirstDepth;
   }
-  const std::vector<bool> fixed(static_cast<std::size_t>(unknowns.size()), false);
   for (int pass = 0; pass < kPasses; ++pass) {
     updateSticking(unknowns);
-    unknowns = minimized(*this, unknowns, fixed, kBalance_n);
+    unknowns = minimized(*this, unknowns, fixed_, kBalance_n);
   }
   shape_ = {unknowns.head(shape_.nodes.size()), unknowns[unknowns.size() - 1], sumOf(true, unknowns),
             sumOf(false, unknowns)};

@@ -17,8 +17,9 @@ std::vector<SurfaceSample> samplesOf(const TriangleMesh& body, const CellGrid& g
 
 /// What presses on a part of the surface.
 struct ContactForce {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the body [N]
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< mean, weighted by the sizes of the forces [m]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< on the body [N]
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< mean, weighted by the sizes of the forces [m]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< on the body, about the origin [N m]
 };
 
 struct PressedShape {
@@ -27,9 +28,9 @@ struct PressedShape {
   ContactForce stamp, table;
 };
 
-/// A body that lies on a table and is pressed by a flat, round stamp. Both are rigid planes with a penalty:
-/// under a pressure of a tenth of Young's modulus the body sinks in by 0.01 mm. The weight is part of the
-/// rest shape. What touches a plane sticks to it.
+/// A body that lies on a table, or is held, and is pressed by a flat, round stamp. Both are rigid planes with
+/// a penalty: under a pressure of a tenth of Young's modulus the body sinks in by 0.01 mm. The weight is part
+/// of the rest shape. What touches a plane sticks to it.
 class PressedSolid : public Objective {
  public:
   struct Stamp {
@@ -37,8 +38,10 @@ class PressedSolid : public Objective {
     double radius_m = 0.0;
   };
 
-  /// @param body at rest; the table is under its lowest point.
-  PressedSolid(const HexSolid& solid, const TriangleMesh& body, const Stamp& stamp, double youngs_modulus_pa);
+  /// @param body at rest; the table is under its lowest point. @param held for each node; if given, these
+  /// nodes stay where they are, and there is no table.
+  PressedSolid(const HexSolid& solid, const TriangleMesh& body, const Stamp& stamp, double youngs_modulus_pa,
+               const std::vector<bool>& held = {});
 
   /// The next shape in balance, from the last one on. @param force_n of the stamp, downwards; above 0.
   /// @throw std::runtime_error if no balance is found.
@@ -67,6 +70,7 @@ class PressedSolid : public Objective {
   const HexSolid& solid_;
   const double plane_stiffness_;  ///< [Pa/m]
   double table_m_ = 0.0, force_n_ = 0.0;
+  std::vector<bool> fixed_;  ///< per unknown
   std::vector<Contact> contacts_;
   PressedShape shape_;
 };

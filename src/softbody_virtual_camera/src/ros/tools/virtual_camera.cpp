@@ -10,6 +10,7 @@
 
 #include "softbody_common/files/staged_output.h"
 #include "softbody_common/run_tool.h"
+#include "softbody_sim/object/material.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
@@ -66,6 +67,13 @@ void declareScene(CLI::App* app, Arguments* arguments) {
   addAllowOutside(app, &setup.scope);
 }
 
+void addVector(CLI::App* app, const char* name, const char* text, Eigen::Vector3d* vector) {
+  app->add_option_function<std::vector<double>>(
+         name, [vector](const std::vector<double>& numbers) { *vector = Eigen::Vector3d(numbers.data()); },
+         text)
+      ->expected(3);
+}
+
 void declareImages(CLI::App* app, Arguments* arguments) {
   CameraSetup& setup = arguments->setup;
   const std::map<std::string, bool> on_off = {{"on", true}, {"off", false}};
@@ -90,6 +98,32 @@ void declareImages(CLI::App* app, Arguments* arguments) {
       ->capture_default_str();
 }
 
+void declareElasticBody(CLI::App* app, Arguments* arguments) {
+  CameraSetup& setup = arguments->setup;
+  WrenchSensorOptions& sensor = setup.noise.wrench;
+  app->add_option("--youngs-modulus", setup.youngs_modulus_pa,
+                  "scenes with a solver: of the body [Pa]; default: that of the shipped object, or 20000")
+      ->check(CLI::Range(kYoungsModulusRange.min, kYoungsModulusRange.max));
+  app->add_option("--poisson", setup.poisson_ratio, "likewise: Poisson's ratio; default 0.2")
+      ->check(CLI::Range(kPoissonRatioRange.min, kPoissonRatioRange.max));
+  app->add_option(
+         "--density", setup.density_kg_m3,
+         "likewise: density [kg/m^3]; default: so that the body sags by a share of its length that the "
+         "scene chooses")
+      ->check(CLI::Range(kDensityRange.min, kDensityRange.max));
+  app->add_option("--damping", setup.damping, "likewise: share of the velocity lost in 1/30 s; default 0.1")
+      ->check(CLI::Range(kDampingRange.min, 0.99));
+  app->add_option(
+         "--wrench-noise", sensor.std_n,
+         "standard deviation of each force of the force/torque sensors [N]; a torque has 0.05 m times it")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  addVector(app, "--wrench-bias", "constant error of the sensors' forces, x y z of the sensor [N]",
+            &sensor.bias_n);
+  addVector(app, "--wrench-drift", "error that grows with time, x y z of the sensor [N/s]",
+            &sensor.drift_n_s);
+}
+
 void writeObject(const Actor& body, const std::string& folder) {
   if (!body.skin.pictures.empty())
     throw std::invalid_argument("--object: the body has a picture already; give its OBJ to prepare_model");
@@ -108,6 +142,8 @@ void write(const Arguments& arguments) {
            [&](int done) {
              if (done % 30 == 0) fmt::print(stderr, "frame {} of {}\n", done, frames);
            });
+  if (const auto& material = camera.scene().material)
+    fmt::print(stderr, "material of the body:\n{}", materialText(*material));
   if (!camera.scene().robot.empty()) {
     const std::string urdf = arguments.output + ".urdf";
     replaceFile(urdf, urdfText(camera.scene().robot));
@@ -129,6 +165,7 @@ int runVirtualCamera(int argc, char** argv) {
   CLI::App app("A virtual RGB-D camera in front of a deforming body, with exact ground truth",
                "virtual_camera");
   declareScene(&app, &arguments);
+  declareElasticBody(&app, &arguments);
   declareImages(&app, &arguments);
   addVersion(&app);
   try {
@@ -137,7 +174,7 @@ int runVirtualCamera(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    if (!arguments.noise) arguments.setup.noise = noNoise();
+    if (!arguments.noise) arguments.without = noiseParts();
     for (const std::string& part : arguments.without) switchOff(part, &arguments.setup.noise);
     if (arguments.output.empty() && arguments.object.empty()) return runNode(argc, argv, arguments.setup);
     removeStagedFilesOnSignal();
