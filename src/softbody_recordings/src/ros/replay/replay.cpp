@@ -112,6 +112,7 @@ class Replay {
   void setObservedFrames(std::size_t count) { observed_frames_ = count; }
 
   void process(RgbdFrame frame, const std_msgs::Header& header) {
+    const bool observed = frames_++ < observed_frames_;
     try {
       frame.T_fixed_camera = camera_poses_.of(header);
     } catch (const std::exception& error) {
@@ -119,7 +120,7 @@ class Replay {
       return;
     }
     const SurroundingsInput surroundings = surroundingsAt(header);
-    if (frames_++ >= observed_frames_) {
+    if (!observed) {
       for (auto& body : bodies_) body->predict(frame, header, surroundings);
       return;
     }
@@ -199,10 +200,10 @@ class Replay {
   std::vector<std::unique_ptr<BodyRun>> bodies_;
 };
 
-/// The number of frames before the open loop.
+/// The number of frames before the open loop, at least one.
 std::size_t observedFrames(const rosbag::Bag& input, const ReplayOptions& options) {
   rosbag::View images(input, rosbag::TopicQuery(recordedTopics(input, options.camera).color));
-  return static_cast<std::size_t>(std::lround((1.0 - options.open_loop) * images.size()));
+  return static_cast<std::size_t>(std::max(1L, std::lround((1.0 - options.open_loop) * images.size())));
 }
 
 /// What the user can do if a body was found in no frame.
