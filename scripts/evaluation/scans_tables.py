@@ -128,8 +128,8 @@ def document(good, faulty, tracking):
                         "was measured."), "",
              *paragraph("Mean, 99 %: distance of the seen surface to the true one. Volume: that of the model over the true "
                         "one. Complete: share of the whole true surface, with the underside, that is nearer than 2 mm to "
-                        "the model. Time: of `scan_model`; CPU: user and system time. Other work on the machine makes the "
-                        "time longer, but hardly the CPU time. Memory: the peak."), "",
+                        "the model. Time: of `scan_model`; CPU: user and system time. Other work on the machine makes "
+                        "both longer. Memory: the peak."), "",
              "## Recordings", "",
              *paragraph(f"Goals: with the sheet or tf mean <= {KNOWN_MM[0]} mm, 99 % <= {KNOWN_MM[1]:.0f} mm; with neither "
                         f"mean <= {FREE_MM[0]} mm, 99 % <= {FREE_MM[1]:.0f} mm; volume within {100 * TURNED_OVER:.0f} % if the "
