@@ -33,6 +33,9 @@ class BagTransforms {
   /// The frame above a frame that has no parent itself; the frame if it has none.
   std::string rootOf(const std::string& frame, const ros::Time& stamp) const;
 
+  /// Whether any transform names a frame.
+  bool has(const std::string& frame) const;
+
   /// One sentence for each frame with transforms that were left out.
   std::vector<std::string> warnings() const;
   /// The same, only for the two frames and all their ancestors.

@@ -129,6 +129,15 @@ std::string BagTransforms::rootOf(const std::string& frame, const ros::Time& sta
   return ancestors(withoutSlash(frame), stamp).back();
 }
 
+bool BagTransforms::has(const std::string& frame) const {
+  const auto is_parent = [&frame](const auto& child) {
+    return withoutSlash(child.second.header.frame_id) == frame;
+  };
+  return fixed_.count(frame) > 0 || moving_.count(frame) > 0 ||
+         std::find(names_.begin(), names_.end(), frame) != names_.end() ||
+         std::any_of(fixed_.begin(), fixed_.end(), is_parent);
+}
+
 /// Adds a frame, and its ancestors at any time.
 void BagTransforms::addAbove(const std::string& frame, std::set<std::string>* frames) const {
   if (!frames->insert(frame).second) return;

@@ -18,9 +18,14 @@ std::string valueText(const EstimatedProperty& property) {
 }
 
 std::string lineOf(const EstimatedProperty& property) {
+  if (property.name == "mass")
+    return fmt::format("mass: {:.4g} times the given one, with a standard error of {:.2g}\n", property.value,
+                       property.standardError());
   if (!property.observable)
-    return fmt::format("{}: not observable: {}; it stays {}\n", property.name, property.why,
-                       valueText(property));
+    return fmt::format(
+        "{}: not observable: {}; it stays {} (standard error {:.2g} from the measurements, {:.2g} from the "
+        "mesh)\n",
+        property.name, property.why, valueText(property), property.statistical, property.mesh);
   const double percent = 100.0 * property.standardError() / std::max(std::abs(property.value), 1e-300);
   return fmt::format(
       "{}: {} with a standard error of {:.2g} ({:.2g} %): {:.2g} from the measurements, {:.2g} from "
@@ -76,12 +81,12 @@ std::string reportOf(const MaterialEstimate& estimate) {
           text += fmt::format("correlation of {} and {}: {:.2f}\n", estimate.properties[b].name,
                               estimate.properties[a].name, estimate.correlation(i, j));
   }
-  if (estimate.material.youngs_modulus_std_pa && estimate.refined_modulus != 1.0)
+  if (estimate.material.youngs_modulus_std_pa)
     text += fmt::format(
-        "These values are for this mesh. Of a much finer mesh, Young's modulus would be {:.4g} Pa ({:+.1f} "
-        "%)\n",
-        estimate.refined_modulus * estimate.material.youngs_modulus_pa,
-        1e2 * (estimate.refined_modulus - 1.0));
+        "These values are for this mesh: with them it deforms as the body. With a finer mesh, Young's "
+        "modulus "
+        "is {:.4g} Pa with a standard error of {:.2g}\n",
+        estimate.refined_modulus_pa, estimate.refined_std_pa);
   text += fmt::format("The body deforms by {:.2g} mm (rms of the measured places)\n",
                       1e3 * estimate.deformation_m);
   return text + observationsText(estimate);

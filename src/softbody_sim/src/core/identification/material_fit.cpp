@@ -18,6 +18,9 @@ constexpr double kHuber = 1.345;
 /// A target cannot be known better than to this share of its stated deviation.
 constexpr double kLeastNoise = 1e-3;
 
+/// A fall of the sum of squares that is none: a fall of 1 is that of one standard error.
+constexpr double kNegligible = 1e-3;
+
 /// Longest step of an unknown in one iteration: beyond it the shape is not linear in it.
 double longestStep(const Unknown& unknown) {
   return unknown.property == Property::kYoungsModulus || unknown.property == Property::kDensity ? 1.0 : 0.2;
@@ -150,8 +153,8 @@ double MaterialFit::misfit(const Eigen::VectorXd& residuals) const {
   return weights_.cwiseProduct(residuals).squaredNorm();
 }
 
-/// One step that lowers the objective. @param change largest change of an unknown, over its standard error.
-bool MaterialFit::improve(double* damping, double* change) {
+/// One step that lowers the objective. @param fall by how much.
+bool MaterialFit::improve(double* damping, double* fall) {
   const auto count = static_cast<Eigen::Index>(unknowns_.size());
   Eigen::VectorXd gradient = jacobian_.transpose() * weightedResiduals();
   gradient.head(count) += priorInformation().head(count).cwiseProduct(state_.values);
@@ -170,11 +173,9 @@ bool MaterialFit::improve(double* damping, double* change) {
     try {
       FitState next = evaluate(
           values, problem_->align ? moved(state_.alignment, step.tail<6>(), center_) : state_.alignment);
-      if (objective(next) > objective(state_)) continue;
-      *change = 0.0;
-      for (Eigen::Index k = 0; k < count; ++k)
-        *change = std::max(
-            *change, std::abs(values[k] - state_.values[k]) / (1e-3 * std::sqrt(covariance_(k, k)) + 1e-9));
+      const double lower = objective(state_) - objective(next);
+      if (lower < 0.0) continue;
+      *fall = lower;
       state_ = std::move(next);
       *damping *= 0.1;
       return true;
@@ -193,8 +194,8 @@ void MaterialFit::run(const std::function<void(double)>& progress) {
     model_.startAt(state_.prediction);
     setWeights();
     linearize();
-    double change = 0.0;
-    if (!improve(&damping, &change) || change < 1.0) break;
+    double fall = 0.0;
+    if (!improve(&damping, &fall) || fall < kNegligible) break;
   }
   model_.startAt(state_.prediction);
   setWeights();

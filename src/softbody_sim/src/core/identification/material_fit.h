@@ -48,7 +48,7 @@ class MaterialFit {
   void align();
   void setWeights();
   void linearize();
-  bool improve(double* damping, double* change);
+  bool improve(double* damping, double* fall);
   double objective(const FitState& state) const;
   Eigen::VectorXd priorInformation() const;
 
