@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "elastic/pressed_states.h"
 #include "fixtures/scene_fixtures.h"
 
 namespace softbody::virtual_camera {
@@ -112,6 +113,17 @@ TEST(Held, APulledBodyPullsAsHookesLawSays) {
   // thinner.
   const double expected = 2.0e4 * 0.2 * 0.1 * 0.04;
   EXPECT_NEAR(scene.state(1.95).wrenches.at(1).force.z(), expected, 0.2 * expected);
+}
+
+TEST(Pressed, TheWrenchOnAStampIsThatOfAForceAtItsPlace) {
+  const Eigen::Vector3d place(0.03, -0.02, 0.05), force(0.4, 0.7, -2.0);
+  const Eigen::Isometry3d T_solver_stamp =
+      Eigen::Translation3d(0.1, 0.2, 0.3) *
+      Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, 2.0, -1.0).normalized());
+  const ContactWrench wrench = wrenchOn("stamp", T_solver_stamp, {force, place, place.cross(force)});
+  const Eigen::Vector3d on_stamp = -(T_solver_stamp.linear().transpose() * force);
+  EXPECT_LT((wrench.force - on_stamp).norm(), 1e-12);
+  EXPECT_LT((wrench.torque - (T_solver_stamp.inverse() * place).cross(on_stamp)).norm(), 1e-12);
 }
 
 TEST(Plates, AreInBalanceWithTheForceOfTheBlock) {
