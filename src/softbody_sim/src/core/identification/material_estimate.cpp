@@ -23,6 +23,22 @@ struct Errors {
 /// took away. Smoothed strains converge faster.
 constexpr double kLeftAfterRefinement = 1.0 / 3.0;
 
+/// The values with which the refined mesh gives the places that this mesh gives with the found ones.
+Eigen::VectorXd refinedValues(const MaterialProblem& problem, const MaterialFit& fit) {
+  constexpr int kRounds = 4;
+  const MaterialProblem fine = refine(problem);
+  ForwardModel finer(fine);
+  Eigen::VectorXd values = fit.state().values;
+  for (int round = 0; round < kRounds; ++round) {
+    const Prediction prediction = finer.predict(materialWith(problem.prior, fit.unknowns(), values));
+    finer.startAt(prediction);
+    const Eigen::VectorXd shift = fit.valuesThatExplain(prediction);
+    values = withinRange(fit.unknowns(), values - shift);
+    if (shift.size() == 0 || shift.cwiseAbs().maxCoeff() < 1e-3) break;
+  }
+  return values;
+}
+
 Errors errorsOf(const MaterialProblem& problem, const MaterialFit& fit) {
   const auto count = static_cast<Eigen::Index>(fit.unknowns().size());
   Errors errors;
@@ -30,9 +46,7 @@ Errors errorsOf(const MaterialProblem& problem, const MaterialFit& fit) {
       correlationFactors(fit.residuals().places(), fit.jacobian(), fit.weightedResiduals(), fit.covariance())
           .head(count);
   errors.statistical = fit.covariance().diagonal().head(count).cwiseProduct(errors.factors).cwiseSqrt();
-  const MaterialProblem fine = refine(problem);
-  ForwardModel finer(fine);
-  errors.mesh_shift = -fit.valuesThatExplain(finer.predict(fit.material()));
+  errors.mesh_shift = refinedValues(problem, fit) - fit.state().values;
   errors.mesh = errors.mesh_shift.cwiseAbs();
   return errors;
 }
