@@ -23,8 +23,9 @@ void expectEqual(const Material& a, const Material& b) {
   EXPECT_NEAR(a.density_kg_m3, b.density_kg_m3, 1e-4 * b.density_kg_m3);
   EXPECT_NEAR(a.damping, b.damping, 1e-5);
   EXPECT_EQ(a.youngs_modulus_std_pa.has_value(), b.youngs_modulus_std_pa.has_value());
-  if (a.youngs_modulus_std_pa && b.youngs_modulus_std_pa)
+  if (a.youngs_modulus_std_pa && b.youngs_modulus_std_pa) {
     EXPECT_NEAR(*a.youngs_modulus_std_pa, *b.youngs_modulus_std_pa, 1e-5 * *b.youngs_modulus_std_pa);
+  }
   ASSERT_EQ(a.regions.size(), b.regions.size());
   for (std::size_t k = 0; k < a.regions.size(); ++k)
     EXPECT_NEAR(a.regions[k].youngs_modulus_pa, b.regions[k].youngs_modulus_pa,
@@ -68,7 +69,7 @@ TEST_F(MaterialYaml, ADeviationThatIsNotKnownGoes) {
 
 TEST_F(MaterialYaml, RegionsKeepTheirBoxes) {
   Material found = kFound;
-  found.regions.push_back({{}, {}, 777.0, 0.4, 55.0});
+  found.regions.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones(), 777.0, 0.4, 55.0});
   std::string result;
   const Material read = roundTrip(
       "object:\n  visual_mesh: visual.obj\n  materials:\n  - {min: [0, 0, 0], max: [1, 1, 1], "

@@ -153,7 +153,9 @@ TEST(Cluttered, TheFistHoldsTheSameEndWhileItMoves) {
     EXPECT_LT((inBody(2.0, 3) - inBody(0.0, 3)).norm(), 1e-9);
     const Points rest = inBody(0.0, 0), moved = inBody(2.0, 0);
     for (Eigen::Index i = 0; i < rest.rows(); ++i) {
-      if (end * rest(i, 0) > 0.056) EXPECT_LT((moved.row(i) - rest.row(i)).norm(), 1e-9);
+      if (end * rest(i, 0) > 0.056) {
+        EXPECT_LT((moved.row(i) - rest.row(i)).norm(), 1e-9);
+      }
     }
     EXPECT_GT((moved - rest).rowwise().norm().maxCoeff(), 0.01);
     EXPECT_LT(uncoveredShare(scene, 0.0), 0.85);
