@@ -12,11 +12,11 @@
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/io/tet_files.h"
 #include "softbody_sim/object/object_description.h"
+#include "softbody_sim/object/vertex_region.h"
 #include "tools/simulate_options.h"
 #include "tools/simulation_problem.h"
 #include "tools/simulation_table.h"
 #include "tools/static_solution.h"
-#include "softbody_sim/object/vertex_region.h"
 
 namespace {
 
