@@ -33,7 +33,7 @@ class ForwardModel {
   Wrench wrenchAt(const MeasuredWrench& measured, const Surroundings& surroundings) const;
 
   const MaterialProblem* problem_;
-  bool in_sequence_;  ///< what the body does depends on how it came there
+  bool in_sequence_;     ///< what the body does depends on how it came there
   const double edge_m_;  ///< mean
   Simulator simulator_;
   std::vector<Points> starts_;
