@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -114,6 +115,20 @@ TEST_P(TetGeometry, EdgeLengthScalesWithTheMesh) {
   const double length = meanEdgeLength(mesh_.vertices, mesh_.tets);
   EXPECT_NEAR(meanEdgeLength(3.0 * mesh_.vertices, mesh_.tets), 3.0 * length, 1e-12);
   EXPECT_EQ(meanEdgeLength(Points(0, 3), Tets(0, 4)), 0.0);
+}
+
+TEST(CornerWeights, APointOfATriangleIsTheWeightedSumOfItsCorners) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::Matrix3d corners = Eigen::Matrix3d::NullaryExpr([&] { return uniform(random); });
+    Eigen::Vector3d weights = Eigen::Vector3d::NullaryExpr([&] { return uniform(random); });
+    weights /= weights.sum();
+    EXPECT_TRUE(cornerWeights(corners * weights, corners.col(0), corners.col(1), corners.col(2))
+                    .isApprox(weights, 1e-6));
+  }
+  const Eigen::Vector3d point = Eigen::Vector3d::Ones();
+  EXPECT_TRUE(cornerWeights(point, point, point, point).isApproxToConstant(1.0 / 3.0));
 }
 
 }  // namespace

@@ -65,4 +65,9 @@ double meanEdgeLength(const Points& vertices, const Tets& tets);
 Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
+/// Barycentric coordinates of a point p of the triangle (a, b, c): areas opposite to the corners, sum 1. A
+/// third each if the triangle has no area.
+Eigen::Vector3d cornerWeights(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                              const Eigen::Vector3d& c);
+
 }  // namespace softbody

@@ -216,4 +216,11 @@ Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3
   return a + vb * scale * ab + vc * scale * ac;
 }
 
+Eigen::Vector3d cornerWeights(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                              const Eigen::Vector3d& c) {
+  const Eigen::Vector3d areas((b - p).cross(c - p).norm(), (c - p).cross(a - p).norm(),
+                              (a - p).cross(b - p).norm());
+  return areas.sum() > 0.0 ? Eigen::Vector3d(areas / areas.sum()) : Eigen::Vector3d::Constant(1.0 / 3.0);
+}
+
 }  // namespace softbody

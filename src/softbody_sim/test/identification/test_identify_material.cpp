@@ -40,10 +40,9 @@ TEST(IdentifyMaterial, NoisySagHasTheTruthWithinTwoStandardErrors) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     SaggingBeam beam;
     beam.random.seed(seed);
-    beam.observe(beam.clamp, 0.5e-3);
+    beam.observe(beam.clamp, 1e-3);
     const EstimatedProperty modulus = propertyOf(identifyMaterial(beam.problem), "youngs_modulus_pa");
     EXPECT_TRUE(modulus.observable);
-    EXPECT_LT(modulus.statistical, 0.1 * modulus.value);
     inside += std::abs(modulus.value - 4e4) < 2.0 * modulus.statistical ? 1 : 0;
   }
   EXPECT_GE(inside, 19);

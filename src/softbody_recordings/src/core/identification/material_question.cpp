@@ -5,30 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_sim/elasticity/body_mass.h"
 
 namespace softbody {
-namespace {
-
-/// The mass of the tets with the densities of a material [kg]. The last region that has a tet's centre
-/// counts.
-double massOf(const TetTopology& topology, const Material& material) {
-  const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
-  double mass = 0.0;
-  for (Eigen::Index t = 0; t < volumes.size(); ++t) {
-    Eigen::Array3d center = Eigen::Array3d::Zero();
-    for (int k = 0; k < 4; ++k)
-      center += 0.25 * topology.rest_vertices.row(topology.tets(t, k)).transpose().array();
-    double density = material.density_kg_m3;
-    for (const MaterialRegion& region : material.regions)
-      if ((center >= region.min.array()).all() && (center <= region.max.array()).all())
-        density = region.density_kg_m3;
-    mass += density * volumes[t];
-  }
-  return mass;
-}
-
-}  // namespace
 
 MaterialProblem problemOf(const ObjectModel& model, const MaterialQuestion& question) {
   MaterialProblem problem;
@@ -38,7 +17,7 @@ MaterialProblem problemOf(const ObjectModel& model, const MaterialQuestion& ques
   problem.simulator = question.simulator;
   problem.free = question.free;
   if (!(question.mass_kg > 0.0)) return problem;
-  const double factor = question.mass_kg / massOf(model.volume, model.material);
+  const double factor = question.mass_kg / bodyMass(model.volume, model.material);
   problem.prior.density_kg_m3 *= factor;
   for (MaterialRegion& region : problem.prior.regions) region.density_kg_m3 *= factor;
   problem.mass_std = question.mass_std_kg > 0.0 ? question.mass_std_kg / question.mass_kg : 0.01;

@@ -8,8 +8,9 @@
 
 namespace softbody {
 
-/// The mean of a sensor's samples in a time, at what has its name; empty if there is none, or nothing of the
-/// name acts. Its deviation is that of the mean of independent samples, but at least the record's.
+/// The mean of a sensor's samples from `begin` to `end`, at the pin or obstacle of its name. Empty if there
+/// is no sample, or if no such pin or obstacle acts. The samples' errors are taken to be independent; the
+/// deviation of the mean is at least the record's.
 std::optional<MeasuredWrench> meanWrench(const WrenchRecord& record, const NamedSurroundings& around,
                                          Nanoseconds begin, Nanoseconds end);
 

@@ -11,7 +11,7 @@ namespace softbody {
 /// Which frames of a recording are used.
 struct ObservationChoice {
   bool moves = false;           ///< all frames in a row: the body swings
-  double noticeable_m = 0.001;  ///< motion below it is none
+  double noticeable_m = 0.001;  ///< deviation of a target: less motion does not show
 };
 
 /// Observations of a recording of a body, and what was chosen, in a sentence.

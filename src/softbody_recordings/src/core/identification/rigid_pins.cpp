@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "softbody_common/median.h"
 #include "softbody_common/rigid_fit.h"
 
 namespace softbody {
@@ -46,12 +47,6 @@ Holds holdsOf(const std::vector<SeenFrame>& frames) {
     }
   }
   return holds;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Componentwise.

@@ -84,10 +84,12 @@ std::optional<SeenFrame> seen(const FrameOutput& output, Nanoseconds stamp) {
   return frame;
 }
 
+/// @param warn of samples that tf does not place.
 WrenchRecord readWrenches(const rosbag::Bag& bag, const WrenchTopic& topic, double least_std_n,
-                          const FrameLookup& lookup) {
+                          const FrameLookup& lookup, const Warn& warn) {
   WrenchRecord record{topic.at, topic.topic, least_std_n, {}, false};
   std::string unplaced;
+  std::size_t left_out = 0;
   rosbag::View view(bag, rosbag::TopicQuery(topic.topic));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instantiate<geometry_msgs::WrenchStamped>(instance, bag);
@@ -99,7 +101,7 @@ WrenchRecord readWrenches(const rosbag::Bag& bag, const WrenchTopic& topic, doub
                       bag.getFileName(), topic.topic));
     const auto pose = lookup(frame, toNanoseconds(message->header.stamp));
     if (!pose) {
-      unplaced = frame;
+      unplaced = frame, ++left_out;
       continue;
     }
     const auto vector = [](const geometry_msgs::Vector3& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
@@ -108,7 +110,12 @@ WrenchRecord readWrenches(const rosbag::Bag& bag, const WrenchTopic& topic, doub
                               pose->pose.translation(),
                               {turn * vector(message->wrench.force), turn * vector(message->wrench.torque)}});
   }
-  if (!record.samples.empty()) return record;
+  if (!record.samples.empty()) {
+    if (left_out > 0)
+      warn(fmt::format("{}: {} of {} messages are left out: tf has no pose of {} at their stamps",
+                       topic.topic, left_out, left_out + record.samples.size(), unplaced));
+    return record;
+  }
   throw std::invalid_argument(
       unplaced.empty() ? fmt::format("{} has no message on {} (geometry_msgs/WrenchStamped)",
                                      bag.getFileName(), topic.topic)
@@ -185,7 +192,7 @@ SeenRecording readRecording(const RecordingQuestion& question, const GraphConfig
   const std::string& fixed = recording.frame.empty() ? camera_frame : recording.frame;
   const FrameLookup lookup = surroundings.at(fixed, ros::Time()).lookup;
   for (const WrenchTopic& topic : question.wrenches)
-    recording.wrenches.push_back(readWrenches(bag, topic, question.wrench_std_n, lookup));
+    recording.wrenches.push_back(readWrenches(bag, topic, question.wrench_std_n, lookup, warn));
   return recording;
 }
 

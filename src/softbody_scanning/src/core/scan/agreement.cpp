@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/median.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_common/rigid_fit.h"
 
@@ -39,12 +40,6 @@ FrameAgreement agreementOf(const TriangleMesh& mesh, const KeyFrame& frame, doub
   return agreement;
 }
 
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 std::vector<FrameAgreement> agreementWith(const TriangleMesh& mesh, const std::vector<KeyFrame>& frames,
@@ -61,7 +56,7 @@ std::vector<bool> disagreeing(const std::vector<FrameAgreement>& frames) {
   for (const FrameAgreement& frame : frames) shares.push_back(frame.through);
   const double usual = medianOf(shares);
   for (const double share : shares) deviations.push_back(std::abs(share - usual));
-  const double limit = std::max(kSurelyRight, usual + kUnusualSigmas * 1.4826 * medianOf(deviations));
+  const double limit = std::max(kSurelyRight, usual + kUnusualSigmas * kMedianToSigma * medianOf(deviations));
   std::vector<bool> unusual;
   for (const double share : shares) unusual.push_back(share > limit);
   return unusual;

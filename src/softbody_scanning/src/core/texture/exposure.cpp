@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/median.h"
+
 namespace softbody::scanning {
 namespace {
 
 constexpr std::size_t kTriangles = 3000;               // are enough for some hundred gains
 constexpr int kRounds = 5;                             // of reweighting
 constexpr float kDarkest = 8.0f, kBrightest = 247.0f;  // beyond, a gain is lost in noise or saturation
-constexpr double kToSigma = 1.4826;  // median of absolute residuals of a normal distribution
-constexpr double kPrior = 1e-3;      // of a view: a frame without overlap keeps its exposure
+constexpr double kPrior = 1e-3;  // of a view: a frame without overlap keeps its exposure
 
 /// One channel of what the frames show of one triangle.
 struct Overlap {
@@ -46,12 +47,6 @@ std::vector<Overlap> overlapsOf(const TriangleViews& views, int channel) {
   return overlaps;
 }
 
-double medianOfLogs(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Medians of what each frame shows, over the triangles' medians: whatever covers less than half of a frame
 /// does not matter.
 Eigen::VectorXd roughGains(const std::vector<Overlap>& overlaps, Eigen::Index frames) {
@@ -61,13 +56,13 @@ Eigen::VectorXd roughGains(const std::vector<Overlap>& overlaps, Eigen::Index fr
     for (const Overlap& overlap : overlaps) {
       std::vector<double> own = overlap.logs;
       for (std::size_t i = 0; i < own.size(); ++i) own[i] -= gains[overlap.frames[i]];
-      const double median = medianOfLogs(own);
+      const double median = medianOf(own);
       for (std::size_t i = 0; i < own.size(); ++i)
         differences[static_cast<std::size_t>(overlap.frames[i])].push_back(overlap.logs[i] - median);
     }
     for (Eigen::Index f = 0; f < frames; ++f) {
       auto& of_frame = differences[static_cast<std::size_t>(f)];
-      if (!of_frame.empty()) gains[f] = medianOfLogs(std::move(of_frame));
+      if (!of_frame.empty()) gains[f] = medianOf(std::move(of_frame));
     }
     gains.array() -= gains.mean();
   }
@@ -104,7 +99,7 @@ void reweigh(const Eigen::VectorXd& gains, std::vector<Overlap>* overlaps) {
       sizes.push_back(std::abs(overlap.logs[i] - gains[overlap.frames[i]] - own));
   }
   if (sizes.empty()) return;
-  const double scale = 2.0 * kToSigma * medianOfLogs(std::move(sizes)) + 1e-4;
+  const double scale = 2.0 * kMedianToSigma * medianOf(std::move(sizes)) + 1e-4;
   for (Overlap& overlap : *overlaps) {
     const double own = overlap.own(gains);
     for (std::size_t i = 0; i < overlap.frames.size(); ++i) {

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/median.h"
+
 namespace softbody::scanning {
 namespace {
 
-constexpr double kNoise = 5.7;             // of a mean colour, in steps of 255 (the paper's variance of 5e-4)
-constexpr double kLimit = 10.2;            // squared distance in standard deviations (the paper's 6e-3)
-constexpr double kMedianToSigma = 1.4826;  // of absolute deviations
+constexpr double kNoise = 5.7;   // of a mean colour, in steps of 255 (the paper's variance of 5e-4)
+constexpr double kLimit = 10.2;  // squared distance in standard deviations (the paper's 6e-3)
 constexpr int kMostRounds = 10;
 constexpr std::size_t kFewest = 3;  // two views can only differ
 constexpr std::size_t kForCovariance = 4;
@@ -26,12 +27,6 @@ struct Agreement {
     return difference.dot(inverse * difference) <= kLimit;
   }
 };
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Agreement medianAgreement(const std::vector<TriangleView>& views) {
   Agreement start;

@@ -28,10 +28,10 @@ SimulatorConfig accurate(const MaterialProblem& problem) {
 /// contacts ends a search long before.
 constexpr double kUnbalanced = 1e-4;
 
-/// Moves below this share of an edge are none.
+/// The body is still if no vertex moves by more than this share of an edge.
 constexpr double kStill = 1e-7;
 
-/// Forces below this share of E times an edge squared are none.
+/// Rounding leaves forces of up to this share of E times an edge squared.
 constexpr double kRounding = 1e-9;
 
 bool dependsOnPath(const MaterialProblem& problem) {

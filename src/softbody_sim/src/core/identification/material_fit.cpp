@@ -18,19 +18,12 @@ constexpr double kHuber = 1.345;
 /// A target cannot be known better than to this share of its stated deviation.
 constexpr double kLeastNoise = 1e-3;
 
-/// A fall of the sum of squares that is none: a fall of 1 is that of one standard error.
+/// The search ends at a smaller fall of the sum of squares. One standard error makes a fall of 1.
 constexpr double kNegligible = 1e-3;
 
 /// Longest step of an unknown in one iteration: beyond it the shape is not linear in it.
 double longestStep(const Unknown& unknown) {
   return unknown.property == Property::kYoungsModulus || unknown.property == Property::kDensity ? 1.0 : 0.2;
-}
-
-/// 1.4826 times the median of the absolute values: the standard deviation of normal errors with outliers.
-double usualSize(std::vector<double> absolute) {
-  const auto middle = absolute.begin() + static_cast<std::ptrdiff_t>(absolute.size() / 2);
-  std::nth_element(absolute.begin(), middle, absolute.end());
-  return 1.4826 * *middle;
 }
 
 Eigen::Vector3d centerOf(const MaterialProblem& problem) {
@@ -98,7 +91,7 @@ void MaterialFit::setWeights() {
   for (std::size_t g = 0; g < usual.size(); ++g) {
     if (absolute[g].empty()) continue;
     const bool is_wrench = g + 1 == usual.size();  // its stated deviation is at least its noise
-    usual[g] = std::max(is_wrench ? 1.0 : kLeastNoise, usualSize(std::move(absolute[g])));
+    usual[g] = std::max(is_wrench ? 1.0 : kLeastNoise, kMedianToSigma * medianOf(std::move(absolute[g])));
   }
   weights_.resize(residuals_.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -109,7 +102,7 @@ void MaterialFit::setWeights() {
   }
 }
 
-/// The mass is known to a deviation. Shifts by more than the body and turns by more than a radian are none.
+/// The mass has a known deviation. The alignment may shift by the body's size and turn by a radian.
 Eigen::VectorXd MaterialFit::priorInformation() const {
   const auto count = static_cast<Eigen::Index>(unknowns_.size());
   Eigen::VectorXd information = Eigen::VectorXd::Zero(count + 6);

@@ -8,17 +8,6 @@
 namespace softbody {
 namespace {
 
-/// Coordinates of a point in a triangle; corners as columns.
-Eigen::Vector3d coordinatesIn(const Eigen::Matrix3d& corners, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d a = corners.col(1) - corners.col(0), b = corners.col(2) - corners.col(0);
-  Eigen::Matrix<double, 3, 2> edges;
-  edges << a, b;
-  const Eigen::Matrix2d gram = edges.transpose() * edges;
-  if (!(gram.determinant() > 0.0)) return Eigen::Vector3d::Constant(1.0 / 3.0);
-  const Eigen::Vector2d uv = gram.inverse() * (edges.transpose() * (point - corners.col(0)));
-  return {1.0 - uv.sum(), uv.x(), uv.y()};
-}
-
 Eigen::Matrix3d cornersOf(const Points& vertices, const Triangles& triangles, int triangle) {
   Eigen::Matrix3d corners;
   for (int k = 0; k < 3; ++k) corners.col(k) = vertices.row(triangles(triangle, k)).transpose();
@@ -43,8 +32,9 @@ std::vector<Target> SurfacePoints::targetsOf(const Points& measured, const Point
     const Eigen::Matrix3d corners = cornersOf(surface, visual_.triangles, closest.triangle);
     const Eigen::Vector3d normal = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
     if (!(normal.norm() > 0.0)) continue;
-    const Eigen::Vector3d rest = cornersOf(visual_.rest_vertices, visual_.triangles, closest.triangle) *
-                                 coordinatesIn(corners, closest.position);
+    const Eigen::Vector3d rest =
+        cornersOf(visual_.rest_vertices, visual_.triangles, closest.triangle) *
+        cornerWeights(closest.position, corners.col(0), corners.col(1), corners.col(2));
     Target target;
     target.kind = TargetKind::kDepth;
     target.place = locator_.locate(rest);

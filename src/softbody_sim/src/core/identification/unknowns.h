@@ -29,9 +29,9 @@ struct Scale {
 
 Scale scaleOf(const MaterialProblem& problem);
 
-/// The unknowns of a problem that the data may show. Without a scale, Young's modulus of the body is none,
-/// but those of its regions are. The mass is one if it is not known exactly and forces or weights can show
-/// it.
+/// The unknowns of a problem that the data may show. Without a scale, Young's modulus of the body is not one
+/// of them; those of its regions are, relative to it. The mass is one if it is not known exactly and forces
+/// or weights can show it.
 std::vector<Unknown> unknownsOf(const MaterialProblem& problem);
 
 /// The material for given values of the unknowns, within the allowed ranges.

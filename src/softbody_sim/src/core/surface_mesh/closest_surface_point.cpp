@@ -19,13 +19,6 @@ Corners cornersOf(const MeshTopology& topology, const Points& vertices, Eigen::I
   return {corner(0), corner(1), corner(2)};
 }
 
-/// Barycentric coordinates of a point of the triangle: areas opposite to the corners.
-Eigen::Vector3d cornerWeights(const Corners& t, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d areas((t.b - p).cross(t.c - p).norm(), (t.c - p).cross(t.a - p).norm(),
-                              (t.a - p).cross(t.b - p).norm());
-  return areas.sum() > 0.0 ? Eigen::Vector3d(areas / areas.sum()) : Eigen::Vector3d::Constant(1.0 / 3.0);
-}
-
 void requireFit(const MeshTopology& topology, const MeshState& state) {
   if (topology.triangles.rows() == 0) throw std::invalid_argument("the surface has no triangle");
   if (state.revision == topology.revision && state.vertices.rows() == topology.rest_vertices.rows()) return;
@@ -53,7 +46,7 @@ ClosestSurfacePoint closestSurfacePoint(const MeshTopology& topology, const Mesh
   const Corners t = cornersOf(topology, state.vertices, closest.triangle);
   closest.piece = topology.triangle_pieces[static_cast<std::size_t>(closest.triangle)];
   closest.normal = (t.b - t.a).cross(t.c - t.a).normalized();
-  const Eigen::Vector3d weights = cornerWeights(t, closest.position);
+  const Eigen::Vector3d weights = cornerWeights(closest.position, t.a, t.b, t.c);
   const auto interpolate = [&](const std::vector<float>& values) {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k)

@@ -1,0 +1,15 @@
+#include <gtest/gtest.h>
+
+#include "softbody_common/median.h"
+
+namespace softbody {
+namespace {
+
+TEST(MedianOf, HalfOfTheValuesAreBelow) {
+  EXPECT_EQ(medianOf({3.0}), 3.0);
+  EXPECT_EQ(medianOf({5.0, 1.0, 4.0, 100.0, -7.0}), 4.0);
+  EXPECT_EQ(medianOf({2.0, 1.0}), 2.0);
+}
+
+}  // namespace
+}  // namespace softbody
