@@ -50,7 +50,7 @@ Holds holdsOf(const std::vector<SeenFrame>& frames) {
 }
 
 /// Componentwise.
-Points medianOf(const std::vector<Points>& all) {
+Points medianPoints(const std::vector<Points>& all) {
   Points median = all.front();
   for (Eigen::Index k = 0; k < median.size(); ++k) {
     std::vector<double> values;
@@ -74,7 +74,7 @@ Points placesInFirst(const std::vector<HeldNow>& hold, const std::vector<int>& v
     if (misfit < noticeable_m) near.push_back(transformed(held_rest, T_first_now * of_body));
     all.push_back(transformed(held_rest, T_first_now * fitRigid(held_rest, rowsOf(seen, vertices))));
   }
-  return medianOf(near.empty() ? all : near);
+  return medianPoints(near.empty() ? all : near);
 }
 
 }  // namespace

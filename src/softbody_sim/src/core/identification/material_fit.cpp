@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/median.h"
+
 namespace softbody {
 namespace {
 
