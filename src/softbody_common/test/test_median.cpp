@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "softbody_common/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

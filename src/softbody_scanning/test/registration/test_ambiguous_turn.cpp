@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "softbody_common/random.h"
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_scanning/registration/surface_registration.h"
 #include "softbody_scanning/surface/remeshing.h"
 #include "softbody_virtual_camera/bodies/shapes.h"

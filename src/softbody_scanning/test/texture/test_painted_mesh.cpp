@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/painted_ball.h"
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "texture/diffused_colors.h"
 #include "texture/pixel_color.h"
 

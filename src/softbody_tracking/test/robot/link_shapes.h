@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <string>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_common/types.h"
 
 namespace softbody {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "fixtures/scene_fixtures.h"
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 #include "softbody_virtual_camera/rendering/renderer.h"
 #include "softbody_virtual_camera/textures/contrast.h"

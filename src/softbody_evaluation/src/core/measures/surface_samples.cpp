@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "softbody_common/median.h"
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

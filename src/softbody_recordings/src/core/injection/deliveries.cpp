@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_common/time.h"
 
 namespace softbody::injection {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_recordings/injection/deliveries.h"
 
 namespace softbody::injection {

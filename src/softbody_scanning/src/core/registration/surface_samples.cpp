@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <stdexcept>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 
 namespace softbody::scanning {
 namespace {

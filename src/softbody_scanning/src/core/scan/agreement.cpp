@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/median.h"
 #include "softbody_common/rasterizer.h"
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody::scanning {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody::scanning {
 namespace {

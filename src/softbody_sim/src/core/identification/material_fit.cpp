@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody_common/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 
 namespace softbody::virtual_camera {
 namespace {

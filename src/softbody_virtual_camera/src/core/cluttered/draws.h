@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 
 namespace softbody::virtual_camera {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 
 namespace softbody::virtual_camera {
 namespace {

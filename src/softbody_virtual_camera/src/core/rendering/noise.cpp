@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cluttered/draws.h"
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_tracking/tool/marker_detector.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {

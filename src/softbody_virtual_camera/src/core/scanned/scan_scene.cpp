@@ -9,7 +9,7 @@
 #include "scanned/hand_held.h"
 #include "scanned/passing_hands.h"
 #include "scenes/body_frame.h"
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/textures/contrast.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/textures/contrast.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "softbody_common/random.h"
+#include "softbody_common/statistics/random.h"
 
 namespace softbody::virtual_camera {
 namespace {
