@@ -182,16 +182,6 @@ softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp) {
   return message;
 }
 
-std::optional<Eigen::Isometry3d> handGoal(const geometry_msgs::PoseStamped& goal) {
-  const geometry_msgs::Point& p = goal.pose.position;
-  const geometry_msgs::Quaternion& q = goal.pose.orientation;
-  const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
-  const Eigen::Vector3d place(p.x, p.y, p.z);
-  if (goal.header.frame_id != kWorldFrame || !place.allFinite() || !(std::abs(turn.norm() - 1.0) < 0.01))
-    return std::nullopt;
-  return Eigen::Translation3d(place) * turn.normalized();
-}
-
 std_msgs::String materialMessage(const TrueMaterial& material) {
   std_msgs::String message;
   message.data = materialText(material);

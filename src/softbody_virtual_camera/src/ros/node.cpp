@@ -63,7 +63,6 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle
 
   // In a manager with a namespace, roscpp does not resolve names of the root namespace.
   advertise(node, ros::names::parentNamespace(private_node.getNamespace()));
-  if (camera_->scene().hand) takeCommands(node);
   publishLatched(0, ros::Time::now());
   ahead_.emplace([this](int frame) { return render(frame); });
   ahead_->start(frame_);
@@ -100,23 +99,6 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
   }
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
   if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
-}
-
-void VirtualCameraNode::takeCommands(ros::NodeHandle node) {
-  const std::shared_ptr<HandCommands> hand = camera_->scene().hand;
-  hand->takeOver();
-  hand_goal_ = node.subscribe<geometry_msgs::PoseStamped>(
-      kHandGoalTopic, 1, [hand](const geometry_msgs::PoseStamped::ConstPtr& goal) {
-        const std::optional<Eigen::Isometry3d> pose = handGoal(*goal);
-        if (pose)
-          hand->moveTo(*pose);
-        else
-          ROS_WARN_THROTTLE(5.0,
-                            "%s: a goal in frame '%s' is not used; needed: frame world and a finite pose",
-                            kHandGoalTopic, goal->header.frame_id.c_str());
-      });
-  hand_close_ = node.subscribe<std_msgs::Bool>(
-      kHandCloseTopic, 1, [hand](const std_msgs::Bool::ConstPtr& close) { hand->close(close->data); });
 }
 
 void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& stamp) {

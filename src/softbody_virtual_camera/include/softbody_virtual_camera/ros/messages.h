@@ -13,7 +13,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "softbody_virtual_camera/camera/virtual_camera.h"
@@ -29,8 +28,6 @@ constexpr char kWorldFrame[] = "world";  ///< only with a moving camera, or if t
 constexpr char kGripperFrame[] = "gripper";
 constexpr const char* kFingerFrames[] = {"left_finger", "right_finger"};
 constexpr char kGripperTopic[] = "gripper/closed";
-constexpr char kHandGoalTopic[] = "hand/goal";
-constexpr char kHandCloseTopic[] = "hand/close";
 
 constexpr char kTruthTopologyTopic[] = "ground_truth/surface/topology";
 constexpr char kTruthStateTopic[] = "ground_truth/surface/state";
@@ -79,10 +76,6 @@ softbody_msgs::MeshTopology topologyMessage(const MeshTopology& topology, const 
 
 /// The cut of an edit, in the body's frame. Each cut is a separate stroke.
 softbody_msgs::Cut cutMessage(const Edit& edit, const ros::Time& stamp);
-
-/// Where a hand is to go, in the world. Empty if the frame is another one, or the pose is not finite or not
-/// rigid.
-std::optional<Eigen::Isometry3d> handGoal(const geometry_msgs::PoseStamped& goal);
 
 /// The material of a scene's solver, as YAML.
 std_msgs::String materialMessage(const TrueMaterial& material);

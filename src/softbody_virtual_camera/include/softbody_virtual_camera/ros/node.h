@@ -2,7 +2,6 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/subscriber.h>
 #include <ros/timer.h>
 
 #include <map>
@@ -17,8 +16,8 @@ namespace softbody::virtual_camera {
 /// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, sheet, jerks,
 /// camera_tf, youngs_modulus [Pa], poisson_ratio, density [kg/m^3], damping, seed, noise, width, height, rate
 /// [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...)
-/// and optical frame -> ground_truth_softbody. In the scene answer, hand/goal and hand/close move the hand.
-/// Each frame is rendered before its time comes, and gets its stamp when it is sent, as from a real camera.
+/// and optical frame -> ground_truth_softbody. Each frame is rendered before its time comes, and gets its
+/// stamp when it is sent, as from a real camera.
 class VirtualCameraNode {
  public:
   /// @param setup defaults of the parameters.
@@ -28,7 +27,6 @@ class VirtualCameraNode {
   double sceneTime(int frame) const;
   CaptureMessages render(int frame);
   void advertise(ros::NodeHandle node, const std::string& name_space);
-  void takeCommands(ros::NodeHandle node);
   bool hasSubscribers() const;
   void publishLatched(std::uint32_t revision, const ros::Time& stamp);
   void onTimer();
@@ -42,7 +40,6 @@ class VirtualCameraNode {
       second_state_, truth_labels_, truth_camera_, truth_forces_, truth_tool_, truth_cut_, truth_material_,
       gripper_, tf_, tf_static_;
   std::map<std::string, ros::Publisher> wrenches_, true_wrenches_;  ///< by the name of the thing
-  ros::Subscriber hand_goal_, hand_close_;
   ros::Timer timer_;
   int frame_ = 0;
   std::uint32_t revision_ = 0;

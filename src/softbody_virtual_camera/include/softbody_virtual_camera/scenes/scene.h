@@ -2,14 +2,12 @@
 
 #include <array>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "softbody_common/types.h"
 #include "softbody_virtual_camera/bodies/body.h"
-#include "softbody_virtual_camera/scenes/hand_commands.h"
 #include "softbody_virtual_camera/scenes/robot.h"
 #include "softbody_virtual_camera/textures/texture.h"
 
@@ -117,7 +115,6 @@ struct Scene {
   Robot robot;                           ///< empty: none
   std::optional<TrueMaterial> material;  ///< none: no solver made this scene
   bool has_weight = false;               ///< the body hangs in gravity, so the world must be known
-  std::shared_ptr<HandCommands> hand;    ///< of a hand that can be commanded; null: none
   std::vector<Edit> edits;               ///< from revision 1 on; each is one stroke of the blade
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< at the start; z is up
   std::function<SceneState(double t)> state;                         ///< t in seconds from the start

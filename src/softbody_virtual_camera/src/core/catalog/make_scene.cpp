@@ -6,7 +6,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "answering/answer_play.h"
 #include "cluttered/arm_play.h"
 #include "cluttered/clutter_play.h"
 #include "cluttered/held_play.h"
@@ -70,7 +69,6 @@ const std::map<std::string, Setting>& plays() {
       {"twist_held", {twistHeldPlay, {}, false}},
       {"push_held", {pushHeldPlay, {}, false}},
       {"press_held", {pressHeldPlay, {}, false}},
-      {"answer", {answerPlay, {kNear_m, true}, false}},
       {"neighbour", {neighbourPlay, {kNear_m, true}}},
       {"twin", {twinPlay, {kNear_m, true}}},
       {"stack", {stackPlay, {kNear_m, true}}},

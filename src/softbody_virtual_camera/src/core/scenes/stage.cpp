@@ -106,7 +106,6 @@ Scene perform(const Stage& stage, const Play& play) {
   scene.robot = play.robot;
   scene.material = play.material;
   scene.has_weight = play.has_weight;
-  scene.hand = play.hand;
   if (play.T_camera_second) scene.second = stage.actors.size();
   const Points table = transformed(stage.T_camera_world, stage.actors.at(1).rest.vertices);
   const Points wall = transformed(stage.T_camera_world, stage.actors.at(2).rest.vertices);

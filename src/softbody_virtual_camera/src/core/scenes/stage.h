@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +50,6 @@ struct Play {
   std::function<Eigen::Isometry3d(double t)> T_camera_body;   ///< empty: the body does not move
   std::vector<Prop> props;
   std::function<GripperState(double t)> gripper;  ///< empty: none
-  std::shared_ptr<HandCommands> hand;             ///< of a hand that can be commanded; null: none
   std::optional<TrueMaterial> material;           ///< of an elastic body
   bool has_weight = false;
   std::function<std::vector<FramePose>(double t)> frames;        ///< empty: none
