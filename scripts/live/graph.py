@@ -1,0 +1,84 @@
+"""A roslaunch with a master of its own, which ends with the measurement however that ends."""
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+POLL_S = 0.1
+PATIENCE_S = 60.0  # roslaunch itself kills a node that does not end within 20 s
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def processes_of(uri):
+    """Ids of the other processes with this master. roslaunch starts each node in a session of its own."""
+    variable = f"ROS_MASTER_URI={uri}".encode()
+    for entry in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{entry}/environ", "rb") as environment:
+                if variable in environment.read().split(b"\0") and int(entry) != os.getpid():
+                    yield int(entry)
+        except OSError:
+            continue  # it has ended, or belongs to somebody else
+
+
+class Graph:
+    """While it is entered, the launch runs, and signals that ask to stop raise SystemExit in sleep()."""
+
+    def __init__(self, arguments):
+        """@param arguments of roslaunch. This process finds the master, too."""
+        port = free_port()
+        self._uri = f"http://127.0.0.1:{port}"
+        self._command = ["roslaunch", "-p", str(port), *arguments]
+        self._launch, self._signal = None, None
+        os.environ.update(ROS_MASTER_URI=self._uri, ROS_IP="127.0.0.1")
+
+    def __enter__(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:  # nohup
+                signal.signal(number, self._note)
+        self._launch = subprocess.Popen(self._command, stdout=subprocess.DEVNULL, start_new_session=True)
+        return self
+
+    def _note(self, number, _):
+        self._signal = number
+
+    @property
+    def pid(self):
+        return self._launch.pid
+
+    def runs(self):
+        return self._launch.poll() is None
+
+    def sleep(self, seconds):
+        end = time.monotonic() + seconds
+        while True:
+            if self._signal:
+                print(f"measure_live: stopped by {signal.Signals(self._signal).name}", file=sys.stderr)
+                sys.exit(128 + self._signal)
+            left = end - time.monotonic()
+            if left <= 0.0:
+                return
+            time.sleep(min(left, POLL_S))
+
+    def __exit__(self, *_):
+        if self.runs():
+            self._launch.send_signal(signal.SIGINT)
+        try:
+            self._launch.wait(PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            print(f"measure_live: roslaunch did not end within {PATIENCE_S:.0f} s and is killed", file=sys.stderr)
+        while left := list(processes_of(self._uri)):
+            for pid in left:
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass  # it has just ended
+            time.sleep(POLL_S)
+        self._launch.wait()
