@@ -64,11 +64,6 @@ void drawPixel(double inverse_z, int index, float* depth, int* triangle) {
   *triangle = index;
 }
 
-void drawSpan(const Linear& inverse_z, int first, int last, int index, float* depth, int* triangle) {
-  for (int i = first; i <= last; ++i)
-    drawPixel(inverse_z.at_first + i * inverse_z.slope, index, depth + i, triangle + i);
-}
-
 constexpr int kFew = 4;           // pixels in a vector
 constexpr double kSliver = 0.01;  // [px^2], twice the area below which the weights need double precision
 
@@ -76,6 +71,22 @@ constexpr double kSliver = 0.01;  // [px^2], twice the area below which the weig
 cv::v_float32x4 atFirstFew(const Linear& function) {
   return cv::v_setall_f32(static_cast<float>(function.at_first)) +
          cv::v_float32x4(0.0f, 1.0f, 2.0f, 3.0f) * cv::v_setall_f32(static_cast<float>(function.slope));
+}
+
+/// Draws pixels whose weights are known to be positive.
+void drawSpan(const Linear& inverse_z, int first, int last, int index, float* depth, int* triangle) {
+  const cv::v_float32x4 one = cv::v_setall_f32(1.0f);
+  const cv::v_int32x4 indices = cv::v_setall_s32(index);
+  int i = first;
+  for (; i + kFew <= last + 1; i += kFew) {
+    const cv::v_float32x4 z = one / atFirstFew({inverse_z.at_first + i * inverse_z.slope, inverse_z.slope});
+    const cv::v_float32x4 before = cv::v_load(depth + i);
+    const cv::v_float32x4 drawn = (before == cv::v_setzero_f32()) | (z < before);
+    cv::v_store(depth + i, cv::v_select(drawn, z, before));
+    cv::v_store(triangle + i,
+                cv::v_select(cv::v_reinterpret_as_s32(drawn), indices, cv::v_load(triangle + i)));
+  }
+  for (; i <= last; ++i) drawPixel(inverse_z.at_first + i * inverse_z.slope, index, depth + i, triangle + i);
 }
 
 void drawFew(const Linear& weight0, const Linear& weight1, const Linear& inverse_z,

@@ -20,8 +20,8 @@ cv::Point centerOf(const LabelMemory& memory, const cv::Point& place) {
 }
 
 TEST(LabelMemory, SaysNothingWithoutCells) {
-  EXPECT_EQ(LabelMemory().logOdds({10, 10}, kDepth, kReachPx), 0.0);
-  EXPECT_EQ(emptyMemory().logOdds({150, 90}, kDepth, kReachPx), 0.0);
+  EXPECT_EQ(LabelRecall(LabelMemory(), kReachPx).logOdds({10, 10}, kDepth), 0.0);
+  EXPECT_EQ(LabelRecall(emptyMemory(), kReachPx).logOdds({150, 90}, kDepth), 0.0);
 }
 
 TEST(LabelMemory, KnowsWhatWasNear) {
@@ -32,7 +32,7 @@ TEST(LabelMemory, KnowsWhatWasNear) {
     memory.body(cells) = body;
     const double sign = body > 0.5f ? 1.0 : -1.0;
     const auto said = [&](const cv::Point& place, float depth) {
-      return sign * memory.logOdds(centerOf(memory, place), depth, kReachPx);
+      return sign * LabelRecall(memory, kReachPx).logOdds(centerOf(memory, place), depth);
     };
     EXPECT_GT(said({12, 10}, kDepth), 1.0);
     EXPECT_GT(said({9, 10}, kDepth), 0.3) << "beside them";
@@ -49,9 +49,9 @@ TEST(LabelMemory, BetweenBothItIsUnsure) {
   LabelMemory memory = emptyMemory();
   memory.depth = kDepth;
   memory.body.colRange(0, 15) = 1.0f;
-  EXPECT_GT(memory.logOdds(centerOf(memory, {10, 10}), kDepth, kReachPx), 1.0);
-  EXPECT_LT(memory.logOdds(centerOf(memory, {19, 10}), kDepth, kReachPx), -1.0);
-  EXPECT_LT(std::abs(memory.logOdds(centerOf(memory, {14, 10}), kDepth, kReachPx)), 0.7);
+  EXPECT_GT(LabelRecall(memory, kReachPx).logOdds(centerOf(memory, {10, 10}), kDepth), 1.0);
+  EXPECT_LT(LabelRecall(memory, kReachPx).logOdds(centerOf(memory, {19, 10}), kDepth), -1.0);
+  EXPECT_LT(std::abs(LabelRecall(memory, kReachPx).logOdds(centerOf(memory, {14, 10}), kDepth)), 0.7);
 }
 
 /// Of small cells only some are looked at: always the one in the same place, also at the border.
@@ -62,7 +62,7 @@ TEST(LabelMemory, KnowsEveryCellItself) {
       LabelMemory memory = emptyMemory(size_px);
       memory.depth(place) = kDepth;
       memory.body(place) = 1.0f;
-      EXPECT_NEAR(memory.logOdds(centerOf(memory, place), kDepth, kReachPx), std::log(3.0), 1e-6)
+      EXPECT_NEAR(LabelRecall(memory, kReachPx).logOdds(centerOf(memory, place), kDepth), std::log(3.0), 1e-6)
           << size_px << " " << place;
     }
   }
@@ -80,8 +80,8 @@ TEST(LabelMemory, IsTheSameFromAllSides) {
     for (cv::Point place(-3, -3); place.y < memory.depth.rows + 3; ++place.y) {
       for (place.x = -3; place.x < memory.depth.cols + 3; ++place.x) {
         const cv::Point opposite = cv::Point(memory.depth.cols - 1, memory.depth.rows - 1) - place;
-        ASSERT_NEAR(memory.logOdds(centerOf(memory, place), kDepth, kReachPx),
-                    mirrored.logOdds(centerOf(mirrored, opposite), kDepth, kReachPx), 1e-4)
+        ASSERT_NEAR(LabelRecall(memory, kReachPx).logOdds(centerOf(memory, place), kDepth),
+                    LabelRecall(mirrored, kReachPx).logOdds(centerOf(mirrored, opposite), kDepth), 1e-4)
             << size_px << " " << place;
       }
     }

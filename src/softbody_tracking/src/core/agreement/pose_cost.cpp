@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "softbody_common/rigid_fit.h"
+#include "softbody_common/tet_geometry.h"
 #include "statistics/median.h"
 
 namespace softbody {
 namespace {
-
-// Standard deviation of depth at 1 m [m], of usual cameras.
-constexpr double kSigmaAtMetre = 0.0025;
 
 /// How badly a depth agrees, from 0 to 1 at a distance scale.
 double misfit(double measured, double predicted, double scale) {
@@ -32,22 +31,27 @@ struct Outline {
 };
 
 Outline outlineOf(const RgbdFrame& frame, const RasterImage& image, double scale) {
-  static constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const cv::Rect inner(2, 2, image.depth.cols - 4, image.depth.rows - 4);
   const cv::Rect region = image.region & inner;
+  const auto stride = static_cast<std::ptrdiff_t>(image.triangle.step1()),
+             measured_stride = static_cast<std::ptrdiff_t>(frame.depth.step1());
   Outline outline;
   for (int v = region.y; v < region.br().y; ++v) {
+    const int* triangle = image.triangle[v];
+    const float *rendered = image.depth[v], *measured = frame.depth[v];
+    const auto lookBeyond = [&](int u, std::ptrdiff_t step, std::ptrdiff_t measured_step) {
+      if (triangle[u + step] >= 0 || triangle[u + 2 * step] >= 0) return;
+      const float z = measured[u + 2 * measured_step];
+      if (z <= 0.0f) return;
+      ++outline.measured;
+      outline.continuing += 1.0 - misfit(z, rendered[u], scale);
+    };
     for (int u = region.x; u < region.br().x; ++u) {
-      if (image.triangle(v, u) < 0) continue;
-      for (const auto& step : kSteps) {
-        const int next_u = u + step[0], next_v = v + step[1], beyond_u = u + 2 * step[0],
-                  beyond_v = v + 2 * step[1];
-        if (image.triangle(next_v, next_u) >= 0 || image.triangle(beyond_v, beyond_u) >= 0) continue;
-        const float z = frame.depth(beyond_v, beyond_u);
-        if (z <= 0.0f) continue;
-        ++outline.measured;
-        outline.continuing += 1.0 - misfit(z, image.depth(v, u), scale);
-      }
+      if (triangle[u] < 0) continue;
+      lookBeyond(u, 1, 1);
+      lookBeyond(u, -1, -1);
+      lookBeyond(u, stride, measured_stride);
+      lookBeyond(u, -stride, -measured_stride);
     }
   }
   return outline;
@@ -57,10 +61,12 @@ double renderedCost(const RgbdFrame& frame, const RasterImage& image, double sca
   double sum = 0.0;
   int covered = 0;
   for (int v = image.region.y; v < image.region.br().y; ++v) {
+    const int* triangle = image.triangle[v];
+    const float *rendered = image.depth[v], *measured = frame.depth[v];
     for (int u = image.region.x; u < image.region.br().x; ++u) {
-      if (image.triangle(v, u) < 0) continue;
+      if (triangle[u] < 0) continue;
       ++covered;
-      sum += pixelCost(frame.depth(v, u), image.depth(v, u), scale, hidden_cost);
+      sum += pixelCost(measured[u], rendered[u], scale, hidden_cost);
     }
   }
   if (covered == 0) return 1.0;
@@ -69,14 +75,16 @@ double renderedCost(const RgbdFrame& frame, const RasterImage& image, double sca
 
 }  // namespace
 
-double depthSigma(double z) { return kSigmaAtMetre * z * std::max(1.0, z); }
-
-double distanceScaleAt(double z, double scale) {
-  return scale * std::max(1.0, depthSigma(z) / kSigmaAtMetre);
-}
+PoseCost::PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
+                   double hidden_cost)
+    : frame_(frame),
+      mesh_(mesh),
+      scale_(distance_scale_m),
+      hidden_cost_(hidden_cost),
+      faces_(isClosed(mesh.triangles) ? Faces::kFront : Faces::kAll) {}
 
 const RasterImage& PoseCost::render(const Points& vertices) {
-  rasterize(frame_.camera, vertices, mesh_.triangles, &image_);
+  rasterize(frame_.camera, vertices, mesh_.triangles, &image_, faces_);
   return image_;
 }
 

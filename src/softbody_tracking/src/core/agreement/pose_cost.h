@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "softbody_common/rasterizer.h"
 #include "softbody_common/types.h"
@@ -22,13 +23,18 @@ constexpr double kUnseenCost = 0.3;
 /// a body.
 constexpr double kOtherObject = 0.7;
 
+/// Standard deviation of depth at 1 m [m], of usual cameras.
+constexpr double kSigmaAtMetre = 0.0025;
+
 /// Standard deviation of a depth [m]: the noise of a stereo camera grows with the square of the distance.
 /// Below 1 m the camera's calibration and rounding are left.
-double depthSigma(double z);
+inline double depthSigma(double z) { return kSigmaAtMetre * z * std::max(1.0, z); }
 
 /// The distance scale grows beyond 1 m as the noise of depth does.
 /// @param scale at up to 1 m [m].
-double distanceScaleAt(double z, double scale);
+inline double distanceScaleAt(double z, double scale) {
+  return scale * std::max(1.0, depthSigma(z) / kSigmaAtMetre);
+}
 
 /// Pixels that a posed mesh covers, counted by what the depth image says there.
 struct PoseAgreement {
@@ -47,8 +53,7 @@ class PoseCost {
  public:
   /// @param hidden_cost of a pixel where something is nearer.
   PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
-           double hidden_cost = kUnseenCost)
-      : frame_(frame), mesh_(mesh), scale_(distance_scale_m), hidden_cost_(hidden_cost) {}
+           double hidden_cost = kUnseenCost);
 
   /// Mean cost of the covered pixels, from 0 (perfect) to 1, plus a cost of the outline. A pixel costs the
   /// squared depth difference in distance scales, at most 1. A nearer occluder and missing depth cost less
@@ -70,6 +75,7 @@ class PoseCost {
   const RgbdFrame& frame_;
   const TriangleMesh& mesh_;
   double scale_, hidden_cost_;
+  Faces faces_;
   RasterImage image_;
 };
 

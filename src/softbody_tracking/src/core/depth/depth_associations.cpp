@@ -42,13 +42,18 @@ BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterIma
   const Offsets rows = offsetsInside(rendered_center.y, center.y, size, frame.depth.rows);
   const auto nearer_by = static_cast<float>(block.predicted) - image.depth(rendered_center);
   const auto gate = static_cast<float>(reach_m);
+  const cv::Rect& labelled = labels.region;
   BlockPixels pixels;
   for (int j = rows.first; j < rows.end; j += step) {
     const float* rendered = image.depth[rendered_center.y + j] + rendered_center.x;
     const float* depth = frame.depth[center.y + j] + center.x;
+    const int row = center.y + j - labelled.y, first = center.x - labelled.x;
+    if (row < 0 || row >= labelled.height) continue;
+    const std::uint8_t* label_row = labels.label[row];
     for (int i = columns.first; i < columns.end; i += step) {
       if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
-      const std::uint8_t label = labels.at(center + cv::Point(i, j));
+      if (first + i < 0 || first + i >= labelled.width) continue;
+      const std::uint8_t label = label_row[first + i];
       if (label == labels::kUnknown) continue;
       ++pixels.measured;
       const float difference = depth[i] - rendered[i] - nearer_by;

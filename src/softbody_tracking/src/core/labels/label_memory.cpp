@@ -12,30 +12,38 @@ namespace {
 constexpr float kSameSurface = 0.016f;
 // Cells of each kind that are always added: few cells of the last frame say little.
 constexpr float kUnsure = 0.5f;
-// Cells that are looked at, each way.
-constexpr int kLooks = 3;
 
 /// Falls smoothly from 1 at 0 to 0 at 1 (biweight kernel).
 float kernel(float squared) { return squared < 1.0f ? (1.0f - squared) * (1.0f - squared) : 0.0f; }
 
 }  // namespace
 
-double LabelMemory::logOdds(const cv::Point& center, float depth_m, int reach_px) const {
-  if (depth.empty()) return 0.0;
-  const cv::Point own(cvFloor(static_cast<double>(center.x - origin.x) / size_px),
-                      cvFloor(static_cast<double>(center.y - origin.y) / size_px));
-  const int reach = std::max(1, reach_px / size_px), step = std::max(1, reach / kLooks);
-  const cv::Rect all({}, depth.size());
+LabelRecall::LabelRecall(const LabelMemory& last, int reach_px) : last_(last) {
+  const int reach = std::max(1, reach_px / last.size_px);
+  step_ = std::max(1, reach / kLooks);
+  auto weight = weights_.begin();
+  for (int j = -kLooks; j <= kLooks; ++j)
+    for (int i = -kLooks; i <= kLooks; ++i)
+      *weight++ =
+          kernel(static_cast<float>(step_ * step_ * (i * i + j * j)) / static_cast<float>(reach * reach));
+}
+
+double LabelRecall::logOdds(const cv::Point& center, float depth_m) const {
+  if (last_.depth.empty()) return 0.0;
+  const cv::Point own(cvFloor(static_cast<double>(center.x - last_.origin.x) / last_.size_px),
+                      cvFloor(static_cast<double>(center.y - last_.origin.y) / last_.size_px));
   float on_body = kUnsure, on_occluder = kUnsure;
-  for (int j = -kLooks * step; j <= kLooks * step; j += step) {
-    for (int i = -kLooks * step; i <= kLooks * step; i += step) {
-      const cv::Point place = own + cv::Point(i, j);
-      if (!all.contains(place) || depth(place) <= 0.0f) continue;
-      const float farther = (depth(place) - depth_m) / kSameSurface;
-      const auto cells = static_cast<float>(i * i + j * j);
-      const float weight = kernel(farther * farther) * kernel(cells / static_cast<float>(reach * reach));
-      on_body += weight * body(place);
-      on_occluder += weight * (1.0f - body(place));
+  for (int j = 0; j < kSide; ++j) {
+    const int v = own.y + (j - kLooks) * step_;
+    if (v < 0 || v >= last_.depth.rows) continue;
+    const float *depth = last_.depth[v], *body = last_.body[v], *near = weights_.data() + j * kSide;
+    for (int i = 0; i < kSide; ++i) {
+      const int u = own.x + (i - kLooks) * step_;
+      if (u < 0 || u >= last_.depth.cols || depth[u] <= 0.0f) continue;
+      const float farther = (depth[u] - depth_m) / kSameSurface;
+      const float weight = kernel(farther * farther) * near[i];
+      on_body += weight * body[u];
+      on_occluder += weight * (1.0f - body[u]);
     }
   }
   return std::log(on_body / on_occluder);

@@ -91,13 +91,14 @@ Field makeField(const Excess& excess, const LabelPrior& prior, const LabelCells&
   const std::size_t count = cells.cells.size(), width = static_cast<std::size_t>(cells.grid.width);
   Field field{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
               std::vector<double>(count)};
+  const LabelRecall recall(prior.last, prior.reach_px);
   for (std::size_t i = 0; i < count; ++i) {
     const LabelCell& cell = cells.cells[i];
     if (!cell.shows_front) continue;
     const cv::Point place(static_cast<int>(i % width), static_cast<int>(i / width));
     const cv::Rect pixels = cells.pixels(place);
     field.own[i] = ownLogOdds(cell, excess, prior, cells.size_px) +
-                   prior.last.logOdds((pixels.tl() + pixels.br()) / 2, cell.measured(), prior.reach_px);
+                   recall.logOdds((pixels.tl() + pixels.br()) / 2, cell.measured());
     const auto alike = [&](std::size_t j) {
       return cells.cells[j].shows_front ? coupling(excess.of(cell) - excess.of(cells.cells[j])) : 0.0;
     };

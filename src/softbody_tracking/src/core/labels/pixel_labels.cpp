@@ -24,22 +24,23 @@ struct PixelLabeler::Sums {
 void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const {
   Sums sums, ignored;
   const cv::Point first = labels->region.tl();
+  const bool on_surface = cell->onSurface();
+  const float beside = cell->predicted;
   for (int v = pixels.y; v < pixels.br().y; ++v) {
     const float *rendered = rendered_[v], *measured = frame_.depth[v];
     const cv::Vec3b* color = frame_.color[v];
-    std::uint8_t* label = labels->label[v - first.y];
-    float* log_odds = labels->log_odds[v - first.y];
-    float* expected = labels->predicted[v - first.y];
+    std::uint8_t* label = labels->label[v - first.y] - first.x;
+    float* log_odds = labels->log_odds[v - first.y] - first.x;
+    float* expected = labels->predicted[v - first.y] - first.x;
     for (int u = pixels.x; u < pixels.br().x; ++u) {
-      const bool counts = rendered[u] > 0.0f || !cell->onSurface();
-      const float predicted = rendered[u] > 0.0f ? rendered[u] : cell->predicted;
+      const bool on_body = rendered[u] > 0.0f;
+      const float predicted = on_body ? rendered[u] : beside;
       const int sector = sectors_.of(u, v);
-      expected[u - first.x] = predicted;
-      log_odds[u - first.x] = static_cast<float>(clamped(colors_.logOdds(color[u], sector), kColorLimit));
-      const std::optional<std::uint8_t> known = knownLabel(u, v, predicted);
-      label[u - first.x] =
-          known ? *known
-                : labelOf(measured[u], predicted, sector, &log_odds[u - first.x], counts ? &sums : &ignored);
+      expected[u] = predicted;
+      log_odds[u] = static_cast<float>(clamped(colors_.logOdds(color[u], sector), kColorLimit));
+      const std::optional<std::uint8_t> known = knows_ ? knownLabel(u, v, predicted) : std::nullopt;
+      Sums* const counted = on_body || !on_surface ? &sums : &ignored;
+      label[u] = known ? *known : labelOf(measured[u], predicted, sector, &log_odds[u], counted);
     }
   }
   cell->shows_front = sums.front > 0 && 2 * sums.front >= sums.measured;
@@ -79,16 +80,18 @@ std::uint8_t PixelLabeler::labelOf(float measured, float predicted, int sector, 
 
 void PixelLabeler::decide(const cv::Rect& pixels, const LabelCell& cell, const cv::Mat1f& mean_odds,
                           Labels* labels) const {
+  const cv::Point first = labels->region.tl();
   for (int v = pixels.y; v < pixels.br().y; ++v) {
+    const float *rendered = rendered_[v], *measured = frame_.depth[v];
+    const float *mean = mean_odds[v - first.y] - first.x, *log_odds = labels->log_odds[v - first.y] - first.x;
+    std::uint8_t* labels_here = labels->label[v - first.y] - first.x;
     for (int u = pixels.x; u < pixels.br().x; ++u) {
-      const cv::Point place = cv::Point(u, v) - labels->region.tl();
-      if (knownLabel(u, v, labels->predicted(place))) continue;
-      std::uint8_t& label = labels->label(place);
-      const float measured = frame_.depth(v, u), rendered = rendered_(v, u);
-      if (measured <= 0.0f)
-        label = unmeasuredLabel(cell, rendered > 0.0f, labels->log_odds(place));
+      if (knows_ && knownLabel(u, v, labels->predicted(v - first.y, u - first.x))) continue;
+      std::uint8_t& label = labels_here[u];
+      if (measured[u] <= 0.0f)
+        label = unmeasuredLabel(cell, rendered[u] > 0.0f, log_odds[u]);
       else if (label != labels::kBackground)
-        label = frontLabel(cell, measured, rendered, label == labels::kBody, mean_odds(place));
+        label = frontLabel(cell, measured[u], rendered[u], label == labels::kBody, mean[u]);
     }
   }
 }

@@ -20,7 +20,8 @@ class PixelLabeler {
         rendered_(rendered.depth),
         sectors_(rendered.region),
         colors_(colors),
-        reach_m_(static_cast<float>(reach_m)) {}
+        reach_m_(static_cast<float>(reach_m)),
+        knows_(!frame.covered.empty() || !frame.known.empty()) {}
 
   /// Labels the pixels of a cell, and sums up in the cell what they show. On the surface only those count on
   /// which the body is rendered.
@@ -51,6 +52,7 @@ class PixelLabeler {
   Sectors sectors_;
   const RegionColors& colors_;
   float reach_m_;
+  bool knows_;  ///< known things are in view
 };
 
 }  // namespace softbody

@@ -103,25 +103,31 @@ bool collect(const RgbdFrame& frame, const PredictedSurface& surface, const Labe
   const RasterImage& image = surface.image();
   const Eigen::Vector2d start = frame.camera.project(moved), rendered_start(crease.pixel.x, crease.pixel.y);
   const cv::Rect inside(cv::Point(), image.depth.size());
-  const auto usable = [&](int step, cv::Point* pixel) {
-    *pixel = {cvRound(start.x() + step * crease.outward.x()), cvRound(start.y() + step * crease.outward.y())};
-    const cv::Point rendered(cvRound(rendered_start.x() + step * crease.outward.x()),
-                             cvRound(rendered_start.y() + step * crease.outward.y()));
-    if (!inside.contains(*pixel) || !inside.contains(rendered)) return false;
+  const auto pixelAt = [&](const Eigen::Vector2d& from, int step) {
+    return cv::Point(cvRound(from.x() + step * crease.outward.x()),
+                     cvRound(from.y() + step * crease.outward.y()));
+  };
+  int known = -1;  // triangle with this normal
+  Eigen::Vector3d normal;
+  const auto isOnSide = [&](int triangle, int step) {
+    if (triangle != known) normal = surface.normal(triangle);
+    known = triangle;
+    return normal.dot(step <= 0 ? crease.before : crease.behind) >= kSameSide;
+  };
+  const auto usable = [&](int step) {
+    const cv::Point pixel = pixelAt(start, step), rendered = pixelAt(rendered_start, step);
+    if (!inside.contains(pixel) || !inside.contains(rendered)) return false;
     const int triangle = image.triangle(rendered);
-    if (triangle < 0) return false;
-    const Eigen::Vector3d normal = surface.normal(triangle);
-    if (normal.dot(step <= 0 ? crease.before : crease.behind) < kSameSide && std::abs(step) > 1) return false;
-    const std::uint8_t label = labels.at(*pixel);
+    if (triangle < 0 || (std::abs(step) > 1 && !isOnSide(triangle, step))) return false;
+    const std::uint8_t label = labels.at(pixel);
     return label == labels::kBody || label == labels::kUnknown;
   };
-  cv::Point pixel;
+  if (!usable(0)) return false;
   int first = 0, last = 0;
-  while (first > -kSideReach && usable(first - 1, &pixel)) --first;
-  while (last < kSideReach && usable(last + 1, &pixel)) ++last;
-  if (!usable(0, &pixel)) return false;
+  while (first > -kSideReach && usable(first - 1)) --first;
+  while (last < kSideReach && usable(last + 1)) ++last;
   for (int step = first; step <= last; ++step) {
-    usable(step, &pixel);
+    const cv::Point pixel = pixelAt(start, step);
     const double distance = (Eigen::Vector2d(pixel.x, pixel.y) - start).dot(crease.outward) - crease.to_edge;
     if (!line->distances.empty() && distance <= line->distances.back()) continue;
     const cv::Vec3b& color = frame.color(pixel);
