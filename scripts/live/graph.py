@@ -5,7 +5,9 @@ import socket
 import subprocess
 import sys
 import time
+import uuid
 
+MARK = "MEASURE_LIVE"  # the variable by which the processes of a graph are known: roslaunch copies it to each node
 POLL_S = 0.1
 PATIENCE_S = 60.0  # roslaunch itself kills a node that does not end within 20 s
 
@@ -16,9 +18,9 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def processes_of(uri):
-    """Ids of the other processes with this master. roslaunch starts each node in a session of its own."""
-    variable = f"ROS_MASTER_URI={uri}".encode()
+def processes_of(mark):
+    """Ids of the other processes of this graph. roslaunch starts each node in a session of its own."""
+    variable = f"{MARK}={mark}".encode()
     for entry in filter(str.isdigit, os.listdir("/proc")):
         try:
             with open(f"/proc/{entry}/environ", "rb") as environment:
@@ -34,10 +36,10 @@ class Graph:
     def __init__(self, arguments):
         """@param arguments of roslaunch. This process finds the master, too."""
         port = free_port()
-        self._uri = f"http://127.0.0.1:{port}"
+        self._mark = str(uuid.uuid4())
         self._command = ["roslaunch", "-p", str(port), *arguments]
         self._launch, self._signal = None, None
-        os.environ.update(ROS_MASTER_URI=self._uri, ROS_IP="127.0.0.1")
+        os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1", **{MARK: self._mark})
 
     def __enter__(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -74,7 +76,7 @@ class Graph:
             self._launch.wait(PATIENCE_S)
         except subprocess.TimeoutExpired:
             print(f"measure_live: roslaunch did not end within {PATIENCE_S:.0f} s and is killed", file=sys.stderr)
-        while left := list(processes_of(self._uri)):
+        while left := list(processes_of(self._mark)):
             for pid in left:
                 try:
                     os.kill(pid, signal.SIGKILL)

@@ -73,6 +73,17 @@ class MeasureLive(unittest.TestCase):
     def test_stopped_when_all_nodes_run(self):
         self.expect_stopped(signal.SIGHUP, "__name:=surface")
 
+    def test_roslaunch_that_leaves_its_nodes(self):
+        """As it does when a signal reaches it between the start of a node and its note of it."""
+        process = self.start("still")
+        self.wait_for("__name:=surface", process)
+        launch, = (pid for pid, line in command_lines(self.mark).items() if "roslaunch" in line and "still" in line)
+        os.kill(launch, signal.SIGKILL)
+        _, said = process.communicate(timeout=PATIENCE_S)
+        self.assertEqual(process.returncode, 1, said)
+        self.assertIn("the launch ended", said)
+        self.expect_nothing_left()
+
     def test_a_bag_that_is_shorter_than_the_warm_up(self):
         short = self.folder / "short.bag"
         with rosbag.Bag(str(ROOT / "rosbags/bend_small.bag")) as whole, rosbag.Bag(str(short), "w") as bag:

@@ -73,19 +73,23 @@ cv::v_float32x4 atFirstFew(const Linear& function) {
          cv::v_float32x4(0.0f, 1.0f, 2.0f, 3.0f) * cv::v_setall_f32(static_cast<float>(function.slope));
 }
 
+/// Draws the next few pixels where it is allowed and nothing nearer is drawn.
+inline void drawVector(const Linear& inverse_z, const cv::v_float32x4& allowed, const cv::v_int32x4& index,
+                       float* depth, int* triangle) {
+  const cv::v_float32x4 z = cv::v_setall_f32(1.0f) / atFirstFew(inverse_z), before = cv::v_load(depth);
+  const cv::v_float32x4 drawn = allowed & ((before == cv::v_setzero_f32()) | (z < before));
+  cv::v_store(depth, cv::v_select(drawn, z, before));
+  cv::v_store(triangle, cv::v_select(cv::v_reinterpret_as_s32(drawn), index, cv::v_load(triangle)));
+}
+
 /// Draws pixels whose weights are known to be positive.
 void drawSpan(const Linear& inverse_z, int first, int last, int index, float* depth, int* triangle) {
-  const cv::v_float32x4 one = cv::v_setall_f32(1.0f);
   const cv::v_int32x4 indices = cv::v_setall_s32(index);
+  const cv::v_float32x4 all = cv::v_reinterpret_as_f32(cv::v_setall_s32(-1));
   int i = first;
-  for (; i + kFew <= last + 1; i += kFew) {
-    const cv::v_float32x4 z = one / atFirstFew({inverse_z.at_first + i * inverse_z.slope, inverse_z.slope});
-    const cv::v_float32x4 before = cv::v_load(depth + i);
-    const cv::v_float32x4 drawn = (before == cv::v_setzero_f32()) | (z < before);
-    cv::v_store(depth + i, cv::v_select(drawn, z, before));
-    cv::v_store(triangle + i,
-                cv::v_select(cv::v_reinterpret_as_s32(drawn), indices, cv::v_load(triangle + i)));
-  }
+  for (; i + kFew <= last + 1; i += kFew)
+    drawVector({inverse_z.at_first + i * inverse_z.slope, inverse_z.slope}, all, indices, depth + i,
+               triangle + i);
   for (; i <= last; ++i) drawPixel(inverse_z.at_first + i * inverse_z.slope, index, depth + i, triangle + i);
 }
 
@@ -96,11 +100,7 @@ void drawFew(const Linear& weight0, const Linear& weight1, const Linear& inverse
   const cv::v_float32x4 one = cv::v_setall_f32(1.0f);
   const cv::v_float32x4 w0 = atFirstFew(weight0), w1 = atFirstFew(weight1);
   const cv::v_float32x4 smallest = cv::v_min(cv::v_min(w0, w1), one - w0 - w1);
-  const cv::v_float32x4 z = one / atFirstFew(inverse_z), before = cv::v_load(depth);
-  const cv::v_float32x4 drawn = (smallest >= cv::v_setall_f32(static_cast<float>(-rounding))) &
-                                ((before == cv::v_setzero_f32()) | (z < before));
-  cv::v_store(depth, cv::v_select(drawn, z, before));
-  cv::v_store(triangle, cv::v_select(cv::v_reinterpret_as_s32(drawn), index, cv::v_load(triangle)));
+  drawVector(inverse_z, smallest >= cv::v_setall_f32(static_cast<float>(-rounding)), index, depth, triangle);
 }
 
 /// Draws a narrow triangle: one vector per row, without branches. Most triangles of a fine mesh are narrow.

@@ -23,8 +23,8 @@ class LabelRecall {
   /// @param last must outlive it. @param reach_px the farthest that anything moves in a frame.
   LabelRecall(const LabelMemory& last, int reach_px);
 
-  /// Log odds that a cell shows the body, by the cells of the last frame that are near in space. 0 if there
-  /// are none. @param center of the cell [px].
+  /// Log odds that a cell shows the body, by the cells of the last frame that are near in space.
+  /// @param center of the cell [px]. @return 0 if no cell is near.
   double logOdds(const cv::Point& center, float depth_m) const;
 
  private:
