@@ -12,7 +12,8 @@ namespace softbody {
 namespace {
 
 PoseHypothesis searchNear(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& rough) {
-  return searchNearPose(frame, {mesh, mesh}, roughPose(rough, RegistrationConfig()), RegistrationConfig());
+  return searchNearPose(frame, {mesh, mesh, mesh}, roughPose(rough, RegistrationConfig()),
+                        RegistrationConfig());
 }
 
 TEST(SearchNearPose, FindsTheBoxFromRoughPoses) {
@@ -37,14 +38,14 @@ TEST(SearchNearPose, FindsTheBoxFromRoughPoses) {
 TEST(SearchNearPose, WorksWithACoarseMesh) {
   const BoxBody box = makeBox(40, 20, 8);
   const TriangleMesh mesh{box.surface.rest_vertices, box.surface.triangles};
-  const TriangleMesh coarse = clustered(mesh, 0.012);
+  const TriangleMesh coarse = clustered(mesh, 0.012, 0.25);
   ASSERT_LT(4 * coarse.triangles.rows(), mesh.triangles.rows());
   const Eigen::Isometry3d truth = boxPose();
   const RgbdFrame frame = renderFrame(box, transformed(mesh.vertices, truth), 1);
   const Eigen::Isometry3d rough = Eigen::Translation3d(0.01, -0.015, 0.01) * truth *
                                   Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 2, -1).normalized());
-  const PoseHypothesis found =
-      searchNearPose(frame, {mesh, coarse}, roughPose(rough, RegistrationConfig()), RegistrationConfig());
+  const PoseHypothesis found = searchNearPose(frame, {mesh, mesh, coarse},
+                                              roughPose(rough, RegistrationConfig()), RegistrationConfig());
   const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << found.cost;
 }
@@ -128,7 +129,7 @@ TEST(SearchNearPose, FindsALargeBodyFarAway) {
       Eigen::Translation3d(0.05, -0.04, 0.05) * truth * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
   RegistrationConfig config;
   config.pose_std_m = 0.05;
-  const PoseHypothesis found = searchNearPose(frame, {mesh, mesh}, roughPose(rough, config), config);
+  const PoseHypothesis found = searchNearPose(frame, {mesh, mesh, mesh}, roughPose(rough, config), config);
   EXPECT_LT(found.cost, 0.25);
   const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.02);

@@ -10,8 +10,10 @@
 namespace softbody {
 namespace {
 
+constexpr char kSimulationStage[] = "Soft-body Simulation";
+
 Simulator makeSimulator(const ObjectModel& model, const SimulatorConfig& config, StageTimer* timer) {
-  const auto scope = timer->stage("Soft-body Simulation", true);
+  const auto scope = timer->stage(kSimulationStage, true);
   return {model.volume, model.material, config};
 }
 
@@ -31,8 +33,12 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
   if (to_be_placed_ && !uncut_volume_.has_initial_pose)
     throw std::invalid_argument("the object has no initial_pose at which it can be placed");
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
-  const auto scope = timer_.stage("Tracker Preparation", true);
-  tracker_.setTopologies(volumeTopology(), surfaceTopology());
+  {
+    const auto scope = timer_.stage("Tracker Preparation", true);
+    tracker_.setTopologies(volumeTopology(), surfaceTopology());
+  }
+  const auto scope = timer_.stage(kSimulationStage, true);
+  simulator_.prepare();
 }
 
 CuttableSurface Pipeline::makeSurface() {
@@ -84,7 +90,7 @@ FrameOutput Pipeline::predict(const RgbdFrame& frame, const std::vector<Cut>& cu
   TargetSet none;
   none.revision = simulator_.topology().revision;
   {
-    const auto scope = timer_.stage("Soft-body Simulation");
+    const auto scope = timer_.stage(kSimulationStage);
     simulator_.stepUnobserved(none, frame.stamp,
                               surroundings_.before(frame.stamp, surroundings, simulator_, none));
   }
@@ -103,7 +109,7 @@ std::optional<ToolObservation> Pipeline::processUnplaced(RgbdFrame frame) {
 void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, const SurroundingsInput& input,
                         FrameOutput* output) {
   {
-    const auto scope = timer_.stage("Soft-body Simulation");
+    const auto scope = timer_.stage(kSimulationStage);
     simulator_.step(targets, stamp, surroundings_.before(stamp, input, simulator_, targets));
   }
   surroundings_.findConflicts(targets.targets, simulator_);

@@ -30,6 +30,9 @@ class Simulator {
   /// False until the first TargetSet with `reset` has placed the body.
   bool placed() const;
 
+  /// Makes what the first step would otherwise make, before somebody waits for it.
+  void prepare();
+
   /// @throw std::invalid_argument if the targets fit neither the present body nor the uncut one.
   void requireUsable(const TargetSet& targets) const;
 

@@ -144,6 +144,10 @@ const Material& Simulator::material() const { return implementation_->material; 
 
 bool Simulator::placed() const { return implementation_->body.placed; }
 
+void Simulator::prepare() {
+  if (implementation_->config.load_fade_s > 0.0) implementation_->model->load_estimator.prepare();
+}
+
 /// The uncut body comes back when a recording starts again.
 void Simulator::requireUsable(const TargetSet& targets) const {
   const Implementation& s = *implementation_;

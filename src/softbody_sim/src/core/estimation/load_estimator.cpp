@@ -66,7 +66,8 @@ LoadEstimator::LoadEstimator(const TetTopology& topology, const TetMaterials& ma
   }
 }
 
-void LoadEstimator::makeModes() {
+void LoadEstimator::prepare() {
+  if (turned_) return;
   modes_ = deformationModes(topology_, materials_.elastic, masses_, kModes);
   unknown_ = covarianceOfUnknownLoads(topology_, materials_, masses_, modes_);
   unknown_precision_ = inverseOf(unknown_);
@@ -178,7 +179,7 @@ std::optional<ShapePosterior> LoadEstimator::update(const std::vector<Target>& t
                                                     const Points& balancing, double elapsed_s,
                                                     LoadEstimate* estimate) {
   if (std::exchange(estimate->edited, false)) return std::nullopt;
-  if (!turned_) makeModes();
+  prepare();
   setSprings(targets, pins);
   ShapePosterior posterior;
   turned_->at(vertices, modes_.shapes, &posterior.motions);

@@ -42,6 +42,9 @@ class LoadEstimator {
   LoadEstimator(const TetTopology& topology, const TetMaterials& materials, const Eigen::VectorXd& masses,
                 const Options& options);
 
+  /// Makes the modes, which takes longer than a step. Without it the first update() does.
+  void prepare();
+
   /// @param targets that acted in the step. @param pins likewise. @param vertices after it, #V by 3 [m].
   /// @param balancing unexplained forces that hold the body in that shape, without gravity, contacts and
   /// known loads, #V by 3 [N].
@@ -59,7 +62,6 @@ class LoadEstimator {
   struct Prior;
   struct Equations;
 
-  void makeModes();
   Prior priorOf(const LoadEstimate& estimate, const Eigen::VectorXd& loads, double elapsed_s) const;
   Equations equationsAt(const Points& vertices, const Points& balancing, const Motions& motions,
                         double elapsed_s, const LoadEstimate& estimate);
@@ -77,7 +79,7 @@ class LoadEstimator {
   std::vector<std::size_t> piece_of_vertex_;    ///< #V
   const double noise_;  ///< energy of a target of weight 1 at its standard deviation [J]
 
-  /// What the first update() makes.
+  /// What prepare() makes.
   DeformationModes modes_;
   Eigen::MatrixXd unknown_;            ///< covariance of loads of which nothing is known
   Eigen::MatrixXd unknown_precision_;  ///< its inverse

@@ -60,6 +60,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
     free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
                                        [this](const ros::TimerEvent&) { onFreeRun(); });
   }
+  simulator_.prepare();  // while the tracker, which has the topology now, prepares itself and finds the body
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {

@@ -83,6 +83,13 @@ PoseCost::PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double dist
       hidden_cost_(hidden_cost),
       faces_(isClosed(mesh.triangles) ? Faces::kFront : Faces::kAll) {}
 
+PoseCost::PoseCost(const PoseCost& other)
+    : frame_(other.frame_),
+      mesh_(other.mesh_),
+      scale_(other.scale_),
+      hidden_cost_(other.hidden_cost_),
+      faces_(other.faces_) {}
+
 const RasterImage& PoseCost::render(const Points& vertices) {
   rasterize(frame_.camera, vertices, mesh_.triangles, &image_, faces_);
   return image_;

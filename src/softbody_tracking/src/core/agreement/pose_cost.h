@@ -54,6 +54,9 @@ class PoseCost {
   /// @param hidden_cost of a pixel where something is nearer.
   PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
            double hidden_cost = kUnseenCost);
+  /// A copy renders into an image of its own, so another thread can use it.
+  PoseCost(const PoseCost& other);
+  PoseCost& operator=(const PoseCost&) = delete;
 
   /// Mean cost of the covered pixels, from 0 (perfect) to 1, plus a cost of the outline. A pixel costs the
   /// squared depth difference in distance scales, at most 1. A nearer occluder and missing depth cost less

@@ -8,10 +8,13 @@
 namespace softbody {
 namespace {
 
-// Smallest share of the surface area that clustering may leave; less would not look like the body.
-constexpr double kSmallestArea = 0.25;
+// Smallest share of the surface area that clustering may leave: of the coarse mesh, less would not look like
+// the body; the fine mesh has its outline up to a pixel.
+constexpr double kSmallestArea = 0.25, kSmallestFineArea = 0.95;
 // Cells along the diameter of the coarse mesh, which is rendered more than a hundred times for each place.
 constexpr double kCoarseCells = 25.0;
+// The same of the fine mesh: two pixels of the large image each if the body is half as wide as it.
+constexpr double kFineCells = 80.0;
 // Samples of the picture along the diameter: a pixel each if the body is half as wide as the image.
 constexpr double kPictureSamples = 160.0;
 
@@ -57,10 +60,10 @@ double area(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh clustered(const TriangleMesh& mesh, double cell_m) {
+TriangleMesh clustered(const TriangleMesh& mesh, double cell_m, double smallest_area) {
   TriangleMesh coarse = clusteredOnce(mesh, cell_m);
   // A thread that lies in one row of cells would lose all its triangles.
-  while (area(coarse) < kSmallestArea * area(mesh)) coarse = clusteredOnce(mesh, cell_m *= 0.5);
+  while (area(coarse) < smallest_area * area(mesh)) coarse = clusteredOnce(mesh, cell_m *= 0.5);
   return coarse;
 }
 
@@ -70,7 +73,8 @@ SearchMeshes makeSearchMeshes(const TriangleMesh& rest_surface) {
   const Eigen::Vector3d size =
       rest_surface.vertices.colwise().maxCoeff() - rest_surface.vertices.colwise().minCoeff();
   meshes.diameter_m = size.norm();
-  meshes.coarse = clustered(rest_surface, meshes.diameter_m / kCoarseCells);
+  meshes.fine = clustered(rest_surface, meshes.diameter_m / kFineCells, kSmallestFineArea);
+  meshes.coarse = clustered(meshes.fine, meshes.diameter_m / kCoarseCells, kSmallestArea);
   return meshes;
 }
 

@@ -1,5 +1,7 @@
 #include "registration/coarse_to_fine_search.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -39,7 +41,7 @@ CoarseToFineSearch::CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshe
       large_(subsampled(frame, kLargeColumns)),
       alignment_(small_, meshes.coarse, config.distance_scale_m, rough),
       refinement_(medium_, meshes.coarse, config.distance_scale_m, rough),
-      polishing_(large_, meshes.full, config.distance_scale_m, rough) {}
+      polishing_(large_, meshes.fine, config.distance_scale_m, rough) {}
 
 Eigen::Isometry3d CoarseToFineSearch::turned(const Eigen::Isometry3d& pose,
                                              const Eigen::Vector3d& turn) const {
@@ -56,26 +58,30 @@ std::vector<Eigen::Isometry3d> CoarseToFineSearch::quarterTurned(const Eigen::Is
   return result;
 }
 
-std::vector<PoseHypothesis> CoarseToFineSearch::align(const std::vector<Eigen::Isometry3d>& starts) {
-  std::vector<PoseHypothesis> poses;
-  poses.reserve(starts.size());
-  for (const Eigen::Isometry3d& start : starts) {
-    const Eigen::Isometry3d pose = alignment_.icp(start, kIterations);
-    poses.push_back({pose, alignment_.rankedCost(pose)});
-  }
+std::vector<PoseHypothesis> CoarseToFineSearch::align(const std::vector<Eigen::Isometry3d>& starts) const {
+  std::vector<PoseHypothesis> poses(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    PoseRefinement alignment = alignment_;
+    poses[i].pose = alignment.icp(starts[i], kIterations);
+    poses[i].cost = alignment.rankedCost(poses[i].pose);
+  });
   sortByCost(&poses);
   return poses;
 }
 
-std::vector<PoseHypothesis> CoarseToFineSearch::refine(std::vector<PoseHypothesis> poses) {
-  for (PoseHypothesis& pose : poses)
-    pose = refinement_.patternSearch(pose.pose, alignment_.scaleAt(pose.pose));
+std::vector<PoseHypothesis> CoarseToFineSearch::refine(std::vector<PoseHypothesis> poses) const {
+  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
+    PoseRefinement refinement = refinement_;
+    poses[i] = refinement.patternSearch(poses[i].pose, alignment_.scaleAt(poses[i].pose));
+  });
   return poses;
 }
 
-std::vector<PoseHypothesis> CoarseToFineSearch::polish(std::vector<PoseHypothesis> poses) {
-  for (PoseHypothesis& pose : poses)
-    pose = polishing_.patternSearch(pose.pose, refinement_.pixelAt(pose.pose));
+std::vector<PoseHypothesis> CoarseToFineSearch::polish(std::vector<PoseHypothesis> poses) const {
+  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
+    PoseRefinement polishing = polishing_;
+    poses[i] = polishing.patternSearch(poses[i].pose, refinement_.pixelAt(poses[i].pose));
+  });
   return poses;
 }
 

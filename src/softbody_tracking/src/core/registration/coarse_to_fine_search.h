@@ -33,12 +33,13 @@ class CoarseToFineSearch {
   /// pose itself.
   std::vector<Eigen::Isometry3d> quarterTurned(const Eigen::Isometry3d& pose) const;
 
-  /// Step 1: ICP from every start with the coarse mesh on a small image. @return the lowest cost first.
-  std::vector<PoseHypothesis> align(const std::vector<Eigen::Isometry3d>& starts);
-  /// Step 2: pattern search with the coarse mesh on a medium image.
-  std::vector<PoseHypothesis> refine(std::vector<PoseHypothesis> poses);
-  /// Step 3: pattern search with the full mesh on a large image.
-  std::vector<PoseHypothesis> polish(std::vector<PoseHypothesis> poses);
+  /// Step 1: ICP from every start with the coarse mesh on a small image, on all cores. @return the lowest
+  /// cost first.
+  std::vector<PoseHypothesis> align(const std::vector<Eigen::Isometry3d>& starts) const;
+  /// Step 2: pattern search with the coarse mesh on a medium image, likewise.
+  std::vector<PoseHypothesis> refine(std::vector<PoseHypothesis> poses) const;
+  /// Step 3: pattern search with the fine mesh on a large image, likewise.
+  std::vector<PoseHypothesis> polish(std::vector<PoseHypothesis> poses) const;
 
   /// Sorted by support in the images of step 2, the most first; then by cost.
   std::vector<PoseHypothesis> rankRefined(std::vector<PoseHypothesis> poses);

@@ -93,13 +93,13 @@ SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors,
   SearchOutcome outcome;
   if (!found.empty()) outcome.best = found.front();
   const auto implausible = [&](const PoseHypothesis& pose) {
-    return !isShown(frame, meshes.full, pose.pose, config);
+    return !isShown(frame, meshes.fine, pose.pose, config);
   };
   // Without its features the body is taken where it is expected, or where it stands free.
   const auto is_likely = [&](const Eigen::Isometry3d& pose) {
     const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
     if (expected) return deviationFrom(*expected, pose, center).shift <= kDoubt;
-    return standsFree(frame, meshes.full, pose, config);
+    return standsFree(frame, meshes.fine, pose, config);
   };
   const std::size_t tried = found.size();
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());

@@ -66,7 +66,7 @@ SearchOutcome searchNearAccepted(const RgbdFrame& frame, const SearchMeshes& mes
                                  const RegistrationConfig& config) {
   const PoseHypothesis best = searchNearPose(frame, meshes, rough, config);
   const bool accepted =
-      isNear(rough, best.pose, centerOf(meshes)) && isShown(frame, meshes.full, best.pose, config);
+      isNear(rough, best.pose, centerOf(meshes)) && isShown(frame, meshes.fine, best.pose, config);
   return {accepted ? std::optional(FoundPose{best.pose, 1}) : std::nullopt, best};
 }
 

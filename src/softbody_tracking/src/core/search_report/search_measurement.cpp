@@ -96,16 +96,16 @@ void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseH
                  const std::optional<RoughPose>& rough, double distance_scale_m, SearchReport* report) {
   report->pose = best.pose;
   const RgbdFrame image = subsampled(frame, kLargeColumns);
-  const PoseAgreement seen = PoseCost(image, meshes.full, distance_scale_m).agreement(best.pose);
+  const PoseAgreement seen = PoseCost(image, meshes.fine, distance_scale_m).agreement(best.pose);
   const double covered = std::max(1, seen.covered);
-  report->cost = rough ? seen.misfit : freeCost(frame, meshes.full, best.pose, distance_scale_m);
+  report->cost = rough ? seen.misfit : freeCost(frame, meshes.fine, best.pose, distance_scale_m);
   report->agreeing = seen.agreeing / covered;
   report->nearer = seen.nearer / covered;
   report->farther = seen.farther / covered;
   report->difference_m = seen.difference_m;
   report->continuing = seen.continuing / std::max(1, seen.outline);
-  report->confined = confinement(frame, meshes.full, best.pose, distance_scale_m);
-  report->without_edge = shareWithoutEdge(frame, meshes.full, best.pose, distance_scale_m);
+  report->confined = confinement(frame, meshes.fine, best.pose, distance_scale_m);
+  report->without_edge = shareWithoutEdge(frame, meshes.fine, best.pose, distance_scale_m);
   report->near_pose = rough.has_value();
   if (!rough) return;
   const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
@@ -168,7 +168,7 @@ std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colo
                                 const SearchMeshes& meshes, const PoseHypothesis& best,
                                 const RegistrationConfig& config) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
-  const RasterImage mesh = rendered(image, meshes.full, best.pose);
+  const RasterImage mesh = rendered(image, meshes.fine, best.pose);
   const std::vector<Eigen::Vector3d> visible = visiblePoints(image, mesh);
   const std::vector<DepthPart> parts =
       findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
@@ -200,7 +200,7 @@ SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, c
   std::optional<RasterImage> mesh;
   if (best) {
     measurePose(frame, meshes, *best, rough, config.distance_scale_m, &report);
-    mesh = rendered(image, meshes.full, best->pose);
+    mesh = rendered(image, meshes.fine, best->pose);
   }
   const std::vector<DepthPart> parts =
       findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
@@ -227,7 +227,7 @@ std::optional<double> fittingScale(const RgbdFrame& frame, const RegionColors& c
   for (const double factor : factors) {
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
     for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config)) {
-      if (pose.cost > highest_cost || !isBounded(frame, other.full, pose.pose, config)) continue;
+      if (pose.cost > highest_cost || !isBounded(frame, other.fine, pose.pose, config)) continue;
       fitting = factor;
       highest_cost = pose.cost;
     }

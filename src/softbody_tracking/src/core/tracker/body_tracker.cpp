@@ -181,11 +181,12 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   if (edited) {
     knn.rebind(model(), volume);
     observer->setTopologies(volume, surface);
+    relocalizer.forgetMeshes();
   } else {
     observer = std::make_unique<FrameObserver>(config, volume, surface);
+    relocalizer.prepareMeshes(surface);
   }
   prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->model().pieces());
-  relocalizer.forgetMeshes();
   hold = std::make_unique<PositionPrior>(volume);
   measured.clear();
   held.reset();

@@ -75,8 +75,12 @@ void Relocalizer::takeInitialPose(const RgbdFrame& frame, const TetTopology& vol
   first_frame_ = false;
 }
 
+void Relocalizer::prepareMeshes(const MeshTopology& surface) {
+  meshes_ = std::make_unique<SearchMeshes>(makeSearchMeshes(surface, picture_));
+}
+
 const SearchMeshes& Relocalizer::meshesOf(const MeshTopology& surface) {
-  if (meshes_ == nullptr) meshes_ = std::make_unique<SearchMeshes>(makeSearchMeshes(surface, picture_));
+  if (meshes_ == nullptr) prepareMeshes(surface);
   return *meshes_;
 }
 

@@ -42,8 +42,10 @@ class Relocalizer {
   void startNear(const Eigen::Isometry3d& rough_pose);
   /// After reset(): the body is there in the next frame, without a search. @param pose in the fixed frame.
   void placeAt(const Eigen::Isometry3d& pose);
-  /// Call it when the body's models change.
+  /// Call it when the body is edited: a frame after a cut does not wait for meshes that only a search needs.
   void forgetMeshes() { meshes_.reset(); }
+  /// Call it when the models come: the first frame does not wait for the meshes that its search needs.
+  void prepareMeshes(const MeshTopology& surface);
 
   /// Searches for the body if it is not tracked and a search is due.
   /// @param observer gives the models, features and colours, and tests poses by features.
@@ -79,10 +81,9 @@ class Relocalizer {
 
   RegistrationConfig config_;
   cv::Mat3b picture_;
-  std::unique_ptr<SearchMeshes>
-      meshes_;               ///< made at the first search, so that a frame after a cut does not wait for it
-  bool first_frame_ = true;  ///< no frame since the last reset
-  bool placed_ = false;      ///< by placeAt(), and no frame since then
+  std::unique_ptr<SearchMeshes> meshes_;  ///< after an edit made at the next search
+  bool first_frame_ = true;               ///< no frame since the last reset
+  bool placed_ = false;                   ///< by placeAt(), and no frame since then
   bool tracked_ = false;
   bool recovering_ = false;
   int alike_ = 1;
