@@ -323,9 +323,7 @@ TargetSet Simulator::toCurrentRevision(TargetSet targets) const {
 }
 
 const MeshState& Simulator::state() const { return implementation_->body.mesh; }
-
 const StepReport& Simulator::report() const { return implementation_->body.report; }
-
 const Reactions& Simulator::reactions() const { return implementation_->body.reactions; }
 
 std::vector<ContactPatch> Simulator::contactPatches() const {
