@@ -49,7 +49,7 @@ void DepthCounts::blend(const DepthCounts& newest, float share) {
 
 DepthEvidence::Table DepthEvidence::tableOf(double (*density)(double difference)) {
   Table table{};
-  for (int i = 0; i <= 2 * kHalf; ++i) table[static_cast<std::size_t>(i)] = density((i - kHalf) * kCell);
+  for (int i = 0; i <= 2 * kHalf; ++i) table[static_cast<std::size_t>(i)] = density((i - kHalf) / kPerMetre);
   return table;
 }
 
@@ -63,10 +63,11 @@ void DepthEvidence::compare(const DepthCounts& around) {
   for (std::size_t i = 0; i < table_.size(); ++i) {
     // Between the middles of two bins the density is linear.
     const double place =
-        (static_cast<int>(i) - kHalf) * kCell / DepthCounts::kWidth + 0.5 * DepthCounts::kBins - 0.5;
+        (static_cast<int>(i) - kHalf) / (kPerMetre * DepthCounts::kWidth) + 0.5 * DepthCounts::kBins - 0.5;
     const int bin = static_cast<int>(std::floor(place));
     const double seen = (count(bin) + (place - bin) * (count(bin + 1) - count(bin))) / DepthCounts::kWidth;
-    table_[i] = std::log(kBody[i] * (around.all + kFewestAround) / (seen + kFewestAround * kUnknown[i]));
+    table_[i] = static_cast<float>(
+        std::log(kBody[i] * (around.all + kFewestAround) / (seen + kFewestAround * kUnknown[i])));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -12,7 +13,7 @@ constexpr double kBehindSurface = 0.01;
 constexpr double kSurfaceEnds = 0.02;
 
 /// Largest log odds of one pixel by depth: any pixel may be wrong, and depth is ragged at edges.
-constexpr double kDepthLimit = 1.5;
+constexpr float kDepthLimit = 1.5f;
 
 /// Differences of depth of pixels that do not show the body.
 struct DepthCounts {
@@ -38,14 +39,14 @@ class DepthEvidence {
   void compare(const DepthCounts& around);
 
   /// A difference as at up to 1 m; beyond, the deviation grows with the distance.
-  static double scaled(double difference, double predicted) {
-    return predicted > 1.0 ? difference / predicted : difference;
+  static float scaled(float difference, float predicted) {
+    return predicted > 1.0f ? difference / predicted : difference;
   }
   /// Log odds of the body against everything else. @param difference measured minus predicted depth [m].
   /// @param predicted depth of the body [m].
-  double logOdds(double difference, double predicted) const {
-    const auto cell = static_cast<int>(scaled(difference, predicted) / kCell + kZero);
-    return cell < 0 ? table_.front() : table_[static_cast<std::size_t>(cell < 2 * kHalf ? cell : 2 * kHalf)];
+  float logOdds(float difference, float predicted) const {
+    const float cell = scaled(difference, predicted) * kPerMetre + kZero;
+    return table_[static_cast<std::size_t>(std::clamp(cell, 0.0f, 2.0f * kHalf))];
   }
 
   /// The same where another part of the body is predicted behind. @param behind its depth [m].
@@ -57,12 +58,12 @@ class DepthEvidence {
 
  private:
   static constexpr int kHalf = 128;             // cells on each side
-  static constexpr double kZero = kHalf + 0.5;  // the difference 0 is in the middle of cell kHalf
-  static constexpr double kCell = 0.0005;       // [m]
+  static constexpr float kZero = kHalf + 0.5f;  // the difference 0 is in the middle of cell kHalf
+  static constexpr float kPerMetre = 2000.0f;   // cells
   using Table = std::array<double, 2 * kHalf + 1>;
   static Table tableOf(double (*density)(double difference));
 
-  Table table_;
+  std::array<float, 2 * kHalf + 1> table_;
 };
 
 }  // namespace softbody

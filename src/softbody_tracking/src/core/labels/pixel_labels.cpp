@@ -9,9 +9,9 @@ namespace softbody {
 namespace {
 
 // Largest log odds of one pixel by colour: any pixel may be wrong.
-constexpr double kColorLimit = 3.0;
+constexpr float kColorLimit = 3.0f;
 
-double clamped(double log_odds, double limit) { return std::clamp(log_odds, -limit, limit); }
+float clamped(float log_odds, float limit) { return std::clamp(log_odds, -limit, limit); }
 
 }  // namespace
 
@@ -21,11 +21,26 @@ struct PixelLabeler::Sums {
   float difference = 0.0f, color_odds = 0.0f;  ///< of the pixels in front
 };
 
-void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const {
+inline std::uint8_t PixelLabeler::labelOf(float measured, float predicted, int sector, float* log_odds,
+                                          Sums* sums) const {
+  if (!(measured > 0.0f)) return labels::kUnknown;
+  const float of_color = *log_odds, difference = measured - predicted;
+  *log_odds += clamped(colors_.depthLogOdds(difference, predicted, sector), kDepthLimit);
+  const bool body = std::abs(difference) <= reach_m_ && *log_odds > 0.0f;
+  const bool front = body || difference <= kBehindSurface;
+  ++sums->measured;
+  sums->front += front ? 1 : 0;
+  sums->body += body ? 1 : 0;
+  sums->difference += front ? difference : 0.0f;
+  sums->color_odds += front ? of_color : 0.0f;
+  return body ? labels::kBody : front ? labels::kOccluder : labels::kBackground;
+}
+
+template <typename SectorAt>
+PixelLabeler::Sums PixelLabeler::labelEach(const cv::Rect& pixels, const LabelCell& cell, SectorAt sector_at,
+                                           Labels* labels) const {
   Sums sums, ignored;
   const cv::Point first = labels->region.tl();
-  const bool on_surface = cell->onSurface();
-  const float beside = cell->predicted;
   for (int v = pixels.y; v < pixels.br().y; ++v) {
     const float *rendered = rendered_[v], *measured = frame_.depth[v];
     const cv::Vec3b* color = frame_.color[v];
@@ -34,15 +49,26 @@ void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels
     float* expected = labels->predicted[v - first.y] - first.x;
     for (int u = pixels.x; u < pixels.br().x; ++u) {
       const bool on_body = rendered[u] > 0.0f;
-      const float predicted = on_body ? rendered[u] : beside;
-      const int sector = sectors_.of(u, v);
+      const float predicted = on_body ? rendered[u] : cell.predicted;
+      const int sector = sector_at(u, v);
       expected[u] = predicted;
-      log_odds[u] = static_cast<float>(clamped(colors_.logOdds(color[u], sector), kColorLimit));
+      log_odds[u] = clamped(colors_.logOdds(color[u], sector), kColorLimit);
       const std::optional<std::uint8_t> known = knows_ ? knownLabel(u, v, predicted) : std::nullopt;
-      Sums* const counted = on_body || !on_surface ? &sums : &ignored;
+      Sums* const counted = on_body || !cell.onSurface() ? &sums : &ignored;
       label[u] = known ? *known : labelOf(measured[u], predicted, sector, &log_odds[u], counted);
     }
   }
+  return sums;
+}
+
+void PixelLabeler::label(const cv::Rect& pixels, LabelCell* cell, Labels* labels) const {
+  if (pixels.empty()) return;
+  const int sector = sectors_.of(pixels.x, pixels.y);
+  const Sums sums = sectors_.areOne(pixels)
+                        ? labelEach(
+                              pixels, *cell, [&](int, int) { return sector; }, labels)
+                        : labelEach(
+                              pixels, *cell, [&](int u, int v) { return sectors_.of(u, v); }, labels);
   cell->shows_front = sums.front > 0 && 2 * sums.front >= sums.measured;
   if (!cell->shows_front) return;
   cell->difference = sums.difference / static_cast<float>(sums.front);
@@ -61,21 +87,6 @@ std::optional<std::uint8_t> PixelLabeler::knownLabel(int u, int v, float predict
   if (measured > 0.0f && body) return std::nullopt;
   if (known - predicted <= kBehindSurface) return labels::kOccluder;
   return measured > 0.0f ? std::optional(labels::kBackground) : std::nullopt;
-}
-
-std::uint8_t PixelLabeler::labelOf(float measured, float predicted, int sector, float* log_odds,
-                                   Sums* sums) const {
-  if (!(measured > 0.0f)) return labels::kUnknown;
-  const float of_color = *log_odds, difference = measured - predicted;
-  *log_odds += static_cast<float>(clamped(colors_.depthLogOdds(difference, predicted, sector), kDepthLimit));
-  const bool body = std::abs(difference) <= reach_m_ && *log_odds > 0.0f;
-  ++sums->measured;
-  if (!body && difference > kBehindSurface) return labels::kBackground;
-  ++sums->front;
-  sums->body += body ? 1 : 0;
-  sums->difference += difference;
-  sums->color_odds += of_color;
-  return body ? labels::kBody : labels::kOccluder;
 }
 
 void PixelLabeler::decide(const cv::Rect& pixels, const LabelCell& cell, const cv::Mat1f& mean_odds,

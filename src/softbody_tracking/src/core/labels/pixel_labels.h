@@ -36,6 +36,9 @@ class PixelLabeler {
 
  private:
   struct Sums;
+  /// @param sector_at gets a pixel, and tells its sector.
+  template <typename SectorAt>
+  Sums labelEach(const cv::Rect& pixels, const LabelCell& cell, SectorAt sector_at, Labels* labels) const;
   /// Label by depth and colour. @param predicted depth of the body there [m]. @param log_odds by colour, then
   /// by both.
   std::uint8_t labelOf(float measured, float predicted, int sector, float* log_odds, Sums* sums) const;

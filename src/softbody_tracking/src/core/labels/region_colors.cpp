@@ -97,8 +97,8 @@ RegionColors::Counts RegionColors::countsIn(const RgbdFrame& frame, const Raster
       if (label == labels::kBody) {
         if (sure > 0.0f) counts.addBody(color, sure, isInside(rendered.depth, u, v));
       } else if (label != labels::kUnknown || rendered.triangle(v, u) < 0) {
-        const double measured = frame.depth(v, u), predicted = labels.predictedAt({u, v});
-        const bool compared = measured > 0.0 && predicted > 0.0;
+        const float measured = frame.depth(v, u), predicted = labels.predictedAt({u, v});
+        const bool compared = measured > 0.0f && predicted > 0.0f;
         counts.addBeside(
             color, static_cast<std::size_t>(sectors.of(u, v)), std::abs(sure),
             compared ? std::optional(DepthEvidence::scaled(measured - predicted, predicted)) : std::nullopt);

@@ -28,12 +28,12 @@ class RegionColors {
 
   bool learned() const { return !body_.empty(); }
   /// Log odds that a pixel of this colour (blue, green, red) shows the body; 0 before learn().
-  double logOdds(const cv::Vec3b& color, int sector) const {
+  float logOdds(const cv::Vec3b& color, int sector) const {
     return log_odds_[static_cast<std::size_t>(sector)][bin(color)];
   }
   /// The same by its depth. @param difference measured minus predicted depth [m]. @param predicted depth of
   /// the body [m].
-  double depthLogOdds(double difference, double predicted, int sector) const {
+  float depthLogOdds(float difference, float predicted, int sector) const {
     return depth_[static_cast<std::size_t>(sector)].logOdds(difference, predicted);
   }
 

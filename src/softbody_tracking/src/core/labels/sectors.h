@@ -15,6 +15,12 @@ class Sectors {
   explicit Sectors(const cv::Rect& box)
       : middle_(2 * box.x + box.width, 2 * box.y + box.height), size_(box.width, box.height) {}
 
+  /// Whether all pixels of a box are in the sector of its first one: sectors are convex.
+  bool areOne(const cv::Rect& pixels) const {
+    const int first = of(pixels.x, pixels.y), u = pixels.br().x - 1, v = pixels.br().y - 1;
+    return of(u, pixels.y) == first && of(pixels.x, v) == first && of(u, v) == first;
+  }
+
   int of(int u, int v) const {
     const int x = (2 * u - middle_.x) * size_.height, y = (2 * v - middle_.y) * size_.width;
     return (x < 0 ? 4 : 0) + (y < 0 ? 2 : 0) + (std::abs(x) < std::abs(y) ? 1 : 0);

@@ -15,7 +15,8 @@ constexpr double kInside = 4.0, kRagged = 1.0;
 
 /// Log odds of a part of the body against another part behind it.
 double logOddsBefore(double behind, double measured, double predicted) {
-  return std::clamp(DepthEvidence::logOddsBefore(behind, measured, predicted), -kDepthLimit, kDepthLimit);
+  return std::clamp<double>(DepthEvidence::logOddsBefore(behind, measured, predicted), -kDepthLimit,
+                            kDepthLimit);
 }
 
 }  // namespace
