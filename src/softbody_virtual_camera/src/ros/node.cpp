@@ -65,8 +65,8 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle
   advertise(node, ros::names::parentNamespace(private_node.getNamespace()));
   publishLatched(0, ros::Time::now());
   ahead_.emplace([this](int frame) { return render(frame); });
-  ahead_->start(frame_);
-  timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), [this](const auto&) { onTimer(); });
+  ahead_->start(frame_, ros::Time::now());
+  timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), &VirtualCameraNode::onTimer, this);
 }
 
 void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_space) {
@@ -124,18 +124,16 @@ CaptureMessages VirtualCameraNode::render(int frame) {
                     static_cast<std::uint32_t>(frame));
 }
 
-void VirtualCameraNode::onTimer() {
+void VirtualCameraNode::onTimer(const ros::TimerEvent& event) {
   if (!hasSubscribers()) return;
   if (!loop_ && sceneTime(frame_) >= camera_->scene().duration_s) {
     ROS_INFO("scene %s is over", setup_.scene.c_str());
     timer_.stop();
     return;
   }
-  CaptureMessages messages = ahead_->take();
-  const ros::Time stamp = ros::Time::now();
-  setStamp(stamp, &messages);
-  publish(messages, stamp);
-  ahead_->start(++frame_);
+  const CaptureMessages messages = ahead_->take();
+  publish(messages, messages.color->header.stamp);
+  ahead_->start(++frame_, event.current_expected + ros::Duration(1.0 / setup_.rate_hz));
 }
 
 void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time& stamp) {

@@ -1,10 +1,21 @@
 #include "softbody_virtual_camera/ros/render_ahead.h"
 
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <utility>
 
 namespace softbody::virtual_camera {
+namespace {
 
-RenderAhead::RenderAhead(Render render) : render_(std::move(render)), thread_([this] { run(); }) {}
+constexpr int kNiceness = 10;
+
+}  // namespace
+
+RenderAhead::RenderAhead(Render render, Clock clock)
+    : render_(std::move(render)), clock_(std::move(clock)), thread_([this] { run(); }) {}
 
 RenderAhead::~RenderAhead() {
   {
@@ -15,28 +26,47 @@ RenderAhead::~RenderAhead() {
   thread_.join();
 }
 
-void RenderAhead::start(int frame) {
+void RenderAhead::start(int frame, const ros::Time& due) {
   {
     const std::lock_guard lock(mutex_);
-    due_ = frame;
+    due_ = {frame, due};
   }
   changed_.notify_all();
 }
 
 CaptureMessages RenderAhead::take() {
   std::unique_lock lock(mutex_);
+  is_wanted_ = true;
+  changed_.notify_all();
   changed_.wait(lock, [this] { return ready_.has_value(); });
-  return *std::exchange(ready_, std::nullopt);
+  is_wanted_ = false;
+  CaptureMessages messages = *std::exchange(ready_, std::nullopt);
+  setStamp(clock_(), &messages);
+  return messages;
+}
+
+void RenderAhead::waitToBegin(const ros::Time& due, std::unique_lock<std::mutex>* lock) {
+  const ros::Duration lead = render_time_ + ros::Duration(kMargin_s);
+  while (!is_wanted_ && !ends_) {
+    const ros::Duration left = due - clock_() - lead;
+    if (left <= ros::Duration(0.0)) return;
+    changed_.wait_for(*lock, std::chrono::nanoseconds(left.toNSec()));
+  }
 }
 
 void RenderAhead::run() {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return due_ || ends_; });
     if (ends_) return;
-    const int frame = *std::exchange(due_, std::nullopt);
+    const Due due = *std::exchange(due_, std::nullopt);
+    waitToBegin(due.time, &lock);
+    if (ends_) return;
     lock.unlock();
-    CaptureMessages messages = render_(frame);
+    const ros::Time begin = clock_();
+    CaptureMessages messages = render_(due.frame);
+    render_time_ = clock_() - begin;
     lock.lock();
     ready_ = std::move(messages);
     changed_.notify_all();

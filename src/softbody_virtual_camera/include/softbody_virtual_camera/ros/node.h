@@ -16,8 +16,8 @@ namespace softbody::virtual_camera {
 /// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, sheet, jerks,
 /// camera_tf, youngs_modulus [Pa], poisson_ratio, density [kg/m^3], damping, seed, noise, width, height, rate
 /// [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...)
-/// and optical frame -> ground_truth_softbody. Each frame is rendered before its time comes, and gets its
-/// stamp when it is sent, as from a real camera.
+/// and optical frame -> ground_truth_softbody. Each frame is rendered just before its time comes, and gets
+/// its stamp when it is sent, as from a real camera.
 class VirtualCameraNode {
  public:
   /// @param setup defaults of the parameters.
@@ -29,7 +29,7 @@ class VirtualCameraNode {
   void advertise(ros::NodeHandle node, const std::string& name_space);
   bool hasSubscribers() const;
   void publishLatched(std::uint32_t revision, const ros::Time& stamp);
-  void onTimer();
+  void onTimer(const ros::TimerEvent& event);
   void publish(const CaptureMessages& messages, const ros::Time& stamp);
 
   CameraSetup setup_;
