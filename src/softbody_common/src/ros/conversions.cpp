@@ -168,6 +168,19 @@ MeshTopology fromMessage(const softbody_msgs::MeshTopology& message) {
   return topology;
 }
 
+bool sameTopology(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopology& b) {
+  return &a == &b || (a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.tets == b.tets &&
+                      a.surface_triangles == b.surface_triangles && a.vertex_parents == b.vertex_parents &&
+                      a.tet_bodies == b.tet_bodies);
+}
+
+bool sameTopology(const softbody_msgs::MeshTopology& a, const softbody_msgs::MeshTopology& b) {
+  return &a == &b ||
+         (a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.triangles == b.triangles &&
+          a.vertex_parents == b.vertex_parents && a.triangle_bodies == b.triangle_bodies &&
+          a.cut_triangles == b.cut_triangles && a.texture_coordinates == b.texture_coordinates);
+}
+
 softbody_msgs::MeshState toMessage(const MeshState& state) {
   softbody_msgs::MeshState message;
   message.observed = toTime(state.observed);

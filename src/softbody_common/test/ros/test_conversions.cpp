@@ -4,6 +4,7 @@
 #include <functional>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "ros/random_bodies.h"
 #include "softbody_common/ros/camera_messages.h"
@@ -33,6 +34,40 @@ TEST_P(RoundTrip, TetTopology) {
   EXPECT_EQ(after.tet_pieces, before.tet_pieces);
   EXPECT_EQ(after.has_initial_pose, before.has_initial_pose);
   EXPECT_TRUE(after.initial_pose.isApprox(before.initial_pose, 1e-12));
+}
+
+/// Every field but header and initial pose makes another topology.
+TEST_P(RoundTrip, SameTopology) {
+  const auto volume = toMessage(randomVolume(GetParam()));
+  auto resent = volume;
+  resent.header.stamp = ros::Time(5.0);
+  resent.initial_pose.position.x += 1.0;
+  EXPECT_TRUE(sameTopology(volume, volume));
+  EXPECT_TRUE(sameTopology(volume, resent));
+  using Volume = softbody_msgs::TetTopology;
+  for (const auto& change : std::vector<std::function<void(Volume&)>>{
+           [](Volume& m) { ++m.revision; }, [](Volume& m) { m.rest_vertices.back().z += 1e-3f; },
+           [](Volume& m) { m.rest_vertices.pop_back(); },
+           [](Volume& m) { ++m.tets.back().vertex_indices[3]; },
+           [](Volume& m) { ++m.surface_triangles.back().vertex_indices[2]; },
+           [](Volume& m) { ++m.vertex_parents.back(); }, [](Volume& m) { ++m.tet_bodies.back(); }}) {
+    auto other = volume;
+    change(other);
+    EXPECT_FALSE(sameTopology(volume, other));
+  }
+  const auto surface = toMessage(randomSurface(GetParam()));
+  EXPECT_TRUE(sameTopology(surface, softbody_msgs::MeshTopology(surface)));
+  using Surface = softbody_msgs::MeshTopology;
+  for (const auto& change : std::vector<std::function<void(Surface&)>>{
+           [](Surface& m) { ++m.revision; }, [](Surface& m) { m.rest_vertices.front().x += 1e-3f; },
+           [](Surface& m) { ++m.triangles.back().vertex_indices[0]; },
+           [](Surface& m) { ++m.vertex_parents.front(); }, [](Surface& m) { ++m.triangle_bodies.back(); },
+           [](Surface& m) { m.cut_triangles.back() ^= 1; },
+           [](Surface& m) { m.texture_coordinates.emplace_back(); }}) {
+    auto other = surface;
+    change(other);
+    EXPECT_FALSE(sameTopology(surface, other));
+  }
 }
 
 TEST_P(RoundTrip, MeshTopology) {

@@ -26,6 +26,12 @@ TetTopology fromMessage(const softbody_msgs::TetTopology& message);
 softbody_msgs::MeshTopology toMessage(const MeshTopology& topology);
 MeshTopology fromMessage(const softbody_msgs::MeshTopology& message);
 
+/// Whether two topologies are the same but for header and initial pose. Topologies are sent again every
+/// second: a message that is known, or equals one, need not be converted. A message is equal to itself at no
+/// cost.
+bool sameTopology(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopology& b);
+bool sameTopology(const softbody_msgs::MeshTopology& a, const softbody_msgs::MeshTopology& b);
+
 softbody_msgs::MeshState toMessage(const MeshState& state);
 MeshState fromMessage(const softbody_msgs::MeshState& message);
 /// Stamp of the last image that went into a state; without one, the stamp of the state. States without images

@@ -10,19 +10,9 @@
 #include <string>
 
 #include "body/shown_body.h"
+#include "softbody_common/ros/conversions.h"
 
 namespace softbody {
-
-/// Whether two topologies draw the same. Their stamps may differ.
-inline bool drawsSame(const softbody_msgs::MeshTopology& a, const softbody_msgs::MeshTopology& b) {
-  return a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.triangles == b.triangles &&
-         a.triangle_bodies == b.triangle_bodies && a.cut_triangles == b.cut_triangles &&
-         a.texture_coordinates == b.texture_coordinates;
-}
-inline bool drawsSame(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopology& b) {
-  return a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.tets == b.tets &&
-         a.surface_triangles == b.surface_triangles && a.tet_bodies == b.tet_bodies;
-}
 
 /// Receives a body's topologies and states in rviz' thread for messages, so that reading them costs the
 /// window nothing. A state that is never drawn is never converted.
@@ -52,7 +42,7 @@ class BodyFeed {
   }
 
   std::optional<News> take() {
-    return body_.take([](const auto& a, const auto& b) { return drawsSame(a, b); });
+    return body_.take([](const auto& a, const auto& b) { return sameTopology(a, b); });
   }
 
   std::optional<unsigned> heldRevision() const { return body_.heldRevision(); }

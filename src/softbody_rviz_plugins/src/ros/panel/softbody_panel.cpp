@@ -117,9 +117,11 @@ void SoftbodyPanel::onTiming(const softbody_msgs::StageTiming& message) {
   times_.add(message.node, toNanoseconds(message.header.stamp), stages);
 }
 
-void SoftbodyPanel::onTopology(const softbody_msgs::TetTopology& message) {
+void SoftbodyPanel::onTopology(const softbody_msgs::TetTopology::ConstPtr& message) {
+  if (topology_ && sameTopology(*topology_, *message)) return;
   try {
-    cut_->setBody(fromMessage(message).rest_vertices);
+    cut_->setBody(fromMessage(*message).rest_vertices);
+    topology_ = message;
   } catch (const std::invalid_argument& error) {
     answer_->setText(QString("The topology was refused: ") + error.what());
   }

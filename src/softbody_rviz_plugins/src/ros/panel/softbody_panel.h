@@ -33,7 +33,7 @@ class SoftbodyPanel : public rviz::Panel {
   void subscribe();
   void onStatus(const softbody_msgs::TrackingStatus& message);
   void onTiming(const softbody_msgs::StageTiming& message);
-  void onTopology(const softbody_msgs::TetTopology& message);
+  void onTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void findAgain();
   void refresh();
 
@@ -44,6 +44,7 @@ class SoftbodyPanel : public rviz::Panel {
   TimeBars* bars_;
   CutControls* cut_;
   FrameTimes times_;
+  softbody_msgs::TetTopology::ConstPtr topology_;  ///< of the cut's controls
   ros::SteadyTime last_status_;
   std::vector<ros::Subscriber> subscribers_;
 };

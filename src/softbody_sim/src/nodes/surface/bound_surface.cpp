@@ -15,9 +15,12 @@ BoundSurface bindTo(const softbody_msgs::TetTopologyConstPtr& volume, const Visu
   return {volume, surface, topology};
 }
 
-bool sameMesh(const softbody_msgs::TetTopology& a, const softbody_msgs::TetTopology& b) {
-  return a.revision == b.revision && a.rest_vertices == b.rest_vertices && a.tets == b.tets &&
-         a.surface_triangles == b.surface_triangles;
+bool setStamp(const ros::Time& stamp, BoundSurface* bound) {
+  if (bound->topology->header.stamp == stamp) return false;
+  const auto stamped = boost::make_shared<softbody_msgs::MeshTopology>(*bound->topology);
+  stamped->header.stamp = stamp;
+  bound->topology = stamped;
+  return true;
 }
 
 bool sameTets(const TetTopology& volume, const softbody_msgs::TetTopology& message) {

@@ -75,7 +75,7 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
     if (!is_published) fromMessage(*message);  // throws if it is no topology
     const bool same_body = editor_.onVolumeTopology(message->revision);
     if (!same_body) startBody(*message);
-    if (!same_body || !is_published) useTopology(message, waited && sameMesh(*waited, *message));
+    if (!same_body || !is_published) useTopology(message, waited && sameTopology(*waited, *message));
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, "the volume's topology of revision "
                                        << message->revision << " is not used: " << error.what()
@@ -87,8 +87,9 @@ void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) 
 /// Topologies are sent again every second. @return whether this one is known; then only its stamp is new.
 bool SurfaceNode::updateStamp(const softbody_msgs::TetTopology& message) {
   for (std::optional<BoundSurface>* known : {&binding_, &next_binding_}) {
-    if (!*known || !sameMesh(*(*known)->volume, message)) continue;
-    (*known)->topology->header.stamp = message.header.stamp;
+    if (!*known || !sameTopology(*(*known)->volume, message)) continue;
+    const bool is_new = setStamp(message.header.stamp, &**known);
+    if (is_new && known == &binding_) publisher_.setTopology(binding_->topology);
     return true;
   }
   return false;

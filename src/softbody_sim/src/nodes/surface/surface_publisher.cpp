@@ -29,8 +29,7 @@ void SurfacePublisher::setTopology(const softbody_msgs::MeshTopologyConstPtr& to
 }
 
 void SurfacePublisher::publishTopology() {
-  // A copy: the stamp may change while nodelets read the message.
-  if (topology_) topology_publisher_.publish(boost::make_shared<softbody_msgs::MeshTopology>(*topology_));
+  if (topology_) topology_publisher_.publish(topology_);
 }
 
 void SurfacePublisher::publishState(const MeshTopology& topology, const MeshState& state,

@@ -16,7 +16,7 @@ class SurfacePublisher {
  public:
   explicit SurfacePublisher(ros::NodeHandle node);
 
-  /// Publishes a topology, now and every second. @param topology its stamp may change afterwards.
+  /// Publishes a topology, now and every second: always the same message, so that nodelets know it again.
   void setTopology(const softbody_msgs::MeshTopologyConstPtr& topology);
 
   /// Marker, mesh and points are published only while somebody subscribes to them.

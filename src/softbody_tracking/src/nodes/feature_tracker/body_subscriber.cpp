@@ -6,7 +6,6 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_common/same_matrix.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
@@ -28,35 +27,40 @@ BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker)
   state_subscriber_ = handle.subscribe(topics::kVolumeState, 1, &BodySubscriber::onState, this);
 }
 
+/// A topology that the tracker refuses is forgotten.
+template <typename Topology>
+void BodySubscriber::adopt(Topology received, std::optional<Topology>* newest) {
+  std::optional<Topology> before = std::exchange(*newest, std::move(received));
+  try {
+    adoptTopologies();
+  } catch (const std::exception&) {
+    *newest = std::move(before);
+    throw;
+  }
+}
+
 void BodySubscriber::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) try {
-  TetTopology topology = fromMessage(*message);
+  // The topology is sent again every second. Only a changed one counts.
+  std::optional<Volume> changed;
+  if (!volume_ || !sameTopology(*volume_->message, *message))
+    changed = Volume{message, fromMessage(*message)};
   // A simulator whose body is not placed has no state: those that came are of an earlier simulation.
   if (message->header.stamp.isZero()) clearStates();
-  // The topology is sent again every second. Only a changed one counts.
-  if (volume_ && topology.revision == volume_->revision &&
-      sameMatrix(topology.rest_vertices, volume_->rest_vertices) && sameMatrix(topology.tets, volume_->tets))
-    return;
-  const auto before = std::exchange(volume_, std::move(topology));
-  adoptTopologiesOr([&] { volume_ = before; });
+  if (changed) adopt(std::move(*changed), &volume_);
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, volume_subscriber_.getTopic() << " is unusable: " << error.what());
 }
 
 void BodySubscriber::onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
-  MeshTopology topology = fromMessage(*message);
-  if (surface_ && topology.revision == surface_->revision &&
-      sameMatrix(topology.rest_vertices, surface_->rest_vertices) &&
-      sameMatrix(topology.triangles, surface_->triangles))
-    return;
-  const auto before = std::exchange(surface_, std::move(topology));
-  adoptTopologiesOr([&] { surface_ = before; });
+  if (surface_ && sameTopology(*surface_->message, *message)) return;
+  adopt(Surface{message, fromMessage(*message)}, &surface_);
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, surface_subscriber_.getTopic() << " is unusable: " << error.what());
 }
 
 void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) try {
   PlacedState state{withoutSlash(message->header.frame_id), fromMessage(*message)};
-  if (volume_) requireVertexCount(state.mesh, *volume_);
+  if (volume_) requireVertexCount(state.mesh, volume_->topology);
   // Without an image the simulator goes on: its states then belong to the image of the last one.
   if (!stamps_.admits(stampOfImage(*message))) return;
   newest_state_ = std::move(state);
@@ -72,23 +76,15 @@ void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) 
                                      << state_subscriber_.getTopic() << " names the sender");
 }
 
-/// A topology that the tracker refuses is forgotten.
-void BodySubscriber::adoptTopologiesOr(const std::function<void()>& forget) try {
-  adoptTopologies();
-} catch (const std::exception&) {
-  forget();
-  throw;
-}
-
 /// Gives the tracker both topologies when their revisions are equal. After an edit it also waits for the
 /// first state of the new revision, unless no state has come at all.
 void BodySubscriber::adoptTopologies() {
   if (!volume_ || !surface_) return;
-  const std::uint32_t revision = volume_->revision;
-  if (surface_->revision != revision) return;
+  const std::uint32_t revision = volume_->topology.revision;
+  if (surface_->topology.revision != revision) return;
   const bool edited = tracker_->ready() && revision > adopted_revision_;
   if (edited && newest_state_ && newest_state_->mesh.revision != revision) return;
-  tracker_->setTopologies(*volume_, *surface_);
+  tracker_->setTopologies(volume_->topology, surface_->topology);
   adopted_revision_ = revision;
   adopted_state_ = edited ? newest_state_ : std::nullopt;
 }

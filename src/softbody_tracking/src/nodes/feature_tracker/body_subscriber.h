@@ -5,8 +5,8 @@
 #include <softbody_msgs/MeshTopology.h>
 #include <softbody_msgs/TetTopology.h>
 
+#include <boost/shared_ptr.hpp>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -35,16 +35,26 @@ class BodySubscriber {
     MeshState mesh;
   };
 
+  /// A topology, and the message that it was converted from.
+  template <typename Topology, typename Message>
+  struct Received {
+    boost::shared_ptr<const Message> message;
+    Topology topology;
+  };
+  using Volume = Received<TetTopology, softbody_msgs::TetTopology>;
+  using Surface = Received<MeshTopology, softbody_msgs::MeshTopology>;
+
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
   void onState(const softbody_msgs::MeshState::ConstPtr& message);
   void adoptTopologies();
-  void adoptTopologiesOr(const std::function<void()>& forget);
+  template <typename Topology>
+  void adopt(Topology received, std::optional<Topology>* newest);
 
   StampGate stamps_;  ///< of the states
   BodyTracker* tracker_;
-  std::optional<TetTopology> volume_;                        ///< newest topology
-  std::optional<MeshTopology> surface_;                      ///< newest topology
+  std::optional<Volume> volume_;                             ///< newest topology
+  std::optional<Surface> surface_;                           ///< newest topology
   std::uint32_t adopted_revision_ = 0;                       ///< of the tracker's topologies
   std::optional<PlacedState> newest_state_, adopted_state_;  ///< of any, and of the adopted revision
   ros::Subscriber volume_subscriber_, surface_subscriber_, state_subscriber_;

@@ -40,7 +40,9 @@ KnownSubscriber::KnownSubscriber(ros::NodeHandle handle, const std::string& surf
 }
 
 void KnownSubscriber::onTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {
+  if (topology_ && sameTopology(*topology_, *message)) return;
   surface_.setTopology(fromMessage(*message));
+  topology_ = message;
 } catch (const std::exception& error) {
   ROS_WARN_STREAM_THROTTLE(5.0, topology_subscriber_.getTopic()
                                     << " is not used: " << error.what() << "; rostopic info "

@@ -41,6 +41,7 @@ class KnownSubscriber {
   void warnIfAbsent() const;
 
   FollowedSurface surface_;
+  softbody_msgs::MeshTopology::ConstPtr topology_;  ///< that the surface has
   PoseLookup look_up_;
   StampGate stamps_;         ///< of the states
   std_msgs::Header header_;  ///< of the newest state

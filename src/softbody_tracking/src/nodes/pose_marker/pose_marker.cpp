@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/geometry_messages.h"
 #include "softbody_tracking/ros/pose_marker_message.h"
 
@@ -49,13 +50,8 @@ void PoseMarker::onFeedback(const Feedback& feedback) {
   server_.applyChanges();  // sends the pose to the other rviz windows too
 }
 
-bool PoseMarker::isSameMesh(const softbody_msgs::MeshTopology& mesh) const {
-  return mesh_ && mesh_->revision == mesh.revision && mesh_->rest_vertices == mesh.rest_vertices &&
-         mesh_->triangles == mesh.triangles;
-}
-
 void PoseMarker::show(const softbody_msgs::MeshTopology::ConstPtr& mesh, const std::string& frame) {
-  if (isSameMesh(*mesh)) return;
+  if (mesh_ && sameTopology(*mesh_, *mesh)) return;
   geometry_msgs::PoseStamped pose = pose_;
   if (!isShown()) {
     pose.header.frame_id = frame;

@@ -36,7 +36,6 @@ class PoseMarker {
   using FeedbackPtr = visualization_msgs::InteractiveMarkerFeedbackConstPtr;
 
   void onFeedback(const Feedback& feedback);
-  bool isSameMesh(const softbody_msgs::MeshTopology& mesh) const;
 
   Callback on_track_;
   softbody_msgs::MeshTopology::ConstPtr mesh_;  ///< that is shown
