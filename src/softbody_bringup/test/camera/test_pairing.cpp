@@ -52,7 +52,10 @@ sensor_msgs::Image depthImage(double stamp_s, int number) {
                {static_cast<std::uint8_t>(number & 255), static_cast<std::uint8_t>(number >> 8)});
 }
 
-int numberOf(float metres) { return static_cast<int>(std::lround(1000.0F * metres)); }
+/// 0 if nothing was measured.
+int numberOf(float metres) {
+  return metres > 0.0F ? static_cast<int>(std::lround(1000.0F * metres)) : kNoDepth;
+}
 
 sensor_msgs::CameraInfo cameraInfo(double stamp_s) {
   sensor_msgs::CameraInfo info;
@@ -150,8 +153,7 @@ class LiveGraph {
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth) {
     const float centre =
         reinterpret_cast<const float*>(depth->data.data())[kHeight / 2 * kWidth + kWidth / 2];
-    frames_.emplace_back(static_cast<Nanoseconds>(color->header.stamp.toNSec()),
-                         numberOf(std::isnan(centre) ? 0.0f : centre));
+    frames_.emplace_back(static_cast<Nanoseconds>(color->header.stamp.toNSec()), numberOf(centre));
   }
 
   template <typename Condition>

@@ -24,6 +24,7 @@ void readRecording(const std::string& path, const CameraTopics& camera,
   BagFramesUse rectify;
   rectify.frame = [&](const CameraImages& images, const std_msgs::Header& header, double) {
     RgbdFrame frame = ingest.process(images);
+    cv::patchNaNs(frame.depth, 0.0);
     if (images.depth.empty()) frame.depth.release();
     use({frame.stamp, header.frame_id, frame.camera, frame.color, frame.depth});
   };

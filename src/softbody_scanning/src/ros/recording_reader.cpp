@@ -29,6 +29,7 @@ class Reader {
 
   void add(RgbdFrame frame) {
     ++report_->frames;
+    cv::patchNaNs(frame.depth, 0.0);
     if (frame.depth.empty() || cv::countNonZero(frame.depth) == 0) {
       ++report_->unposed["no depth"];
       return;

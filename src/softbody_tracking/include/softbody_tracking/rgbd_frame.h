@@ -13,7 +13,7 @@ struct RgbdFrame {
   Nanoseconds stamp = 0;
   Pinhole camera;
   cv::Mat3b color;  ///< BGR
-  cv::Mat1f depth;  ///< z [m]; 0: no depth
+  cv::Mat1f depth;  ///< z [m]; NaN or 0: no depth, so that only z > 0 says that there is one
   /// The camera's pose in the fixed frame, in which the body is simulated. The identity if the fixed frame is
   /// the camera's frame.
   Eigen::Isometry3d T_fixed_camera = Eigen::Isometry3d::Identity();

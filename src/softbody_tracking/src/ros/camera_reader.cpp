@@ -104,6 +104,13 @@ CameraReader::CameraReader(Config config, TransformLookup lookup, Note note)
       note_(std::move(note)) {}
 
 CameraImages CameraReader::read(const CameraMessages& messages) {
+  const cv::Mat3b color = colorFromMessage(messages.color);
+  CameraImages images = readWithoutColor(messages);
+  images.color = color;
+  return images;
+}
+
+CameraImages CameraReader::readWithoutColor(const CameraMessages& messages) {
   const sensor_msgs::Image& color = messages.color;
   const Lens lens =
       lensOf(infoOfImage(messages.color_info, color.width, color.height, "colour"), color_rectified_);
@@ -112,7 +119,6 @@ CameraImages CameraReader::read(const CameraMessages& messages) {
     images.depth = depthFromMessage(*messages.depth);
     images.depth_camera = depthCameraOf(messages, lens, depth_rectified_, lookup_);
   }
-  images.color = colorFromMessage(color);
   images.distortion = lens.distortion;
   images.rectified = lens.rectified;
   images.stamp = toNanoseconds(color.header.stamp);

@@ -17,7 +17,7 @@ namespace enc = sensor_msgs::image_encodings;
 namespace softbody {
 namespace {
 
-constexpr double kFarthestDepth_m = 100.0;  // the largest max_depth_m of camera_ingest
+constexpr float kFarthestDepth_m = 100.0f;  // the largest max_depth_m of camera_ingest
 
 void requireSize(const cv::Mat& image, const Pinhole& camera, const char* name) {
   if (image.cols == camera.width && image.rows == camera.height) return;
@@ -25,11 +25,25 @@ void requireSize(const cv::Mat& image, const Pinhole& camera, const char* name) 
                                           name, image.cols, image.rows, camera.width, camera.height));
 }
 
-/// Depth with 0 in place of NaN, negative and too large values. It is copied only if it has such values.
-cv::Mat1f usableDepth(const cv::Mat& depth) {
-  if (cv::checkRange(depth, true, nullptr, 0.0, kFarthestDepth_m)) return depth;
+/// No camera_ingest sends such a depth. NaN is not wrong: nothing was measured.
+bool isWrong(float z) { return (z < 0.0f) | (z >= kFarthestDepth_m); }
+
+/// Whether all depths are usable or NaN.
+bool isUsable(const cv::Mat1f& depth) {
+  for (int v = 0; v < depth.rows; ++v) {
+    int unusable = 0;
+    for (const float *z = depth[v], *end = z + depth.cols; z != end; ++z)
+      unusable |= static_cast<int>(isWrong(*z));
+    if (unusable != 0) return false;
+  }
+  return true;
+}
+
+/// Depth with 0 in place of negative and too large values. It is copied only if it has such values.
+cv::Mat1f usableDepth(const cv::Mat1f& depth) {
+  if (isUsable(depth)) return depth;
   cv::Mat1f usable = depth.clone();
-  for (float& z : usable) z = z >= 0.0f && z < kFarthestDepth_m ? z : 0.0f;  // false for NaN
+  for (float& z : usable) z = isWrong(z) ? 0.0f : z;
   return usable;
 }
 
@@ -78,6 +92,12 @@ RgbdFrame frameFromRectified(const sensor_msgs::Image& color, const sensor_msgs:
 cv::Mat1b maskFromMessage(const sensor_msgs::Image& image) {
   const cv::Mat1b mask = pixelsAs(image, enc::MONO8, "mask");
   return mask.data == image.data.data() ? cv::Mat1b(mask.clone()) : mask;
+}
+
+bool isUsualColor(const sensor_msgs::Image& image) {
+  if (image.encoding != enc::BGR8 && image.encoding != enc::RGB8) return false;
+  pixelsOf(image, "colour");  // throws
+  return true;
 }
 
 sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const std_msgs::Header& header) {

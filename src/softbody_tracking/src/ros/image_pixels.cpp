@@ -43,13 +43,7 @@ void checkLayout(const sensor_msgs::Image& image, std::size_t row, const char* n
                   image.data.size(), image.step, image.width, image.height, shown(image.encoding)));
 }
 
-bool isSwapped(const sensor_msgs::Image& image) {
-  const std::uint16_t one = 1;
-  std::uint8_t first = 0;
-  std::memcpy(&first, &one, 1);
-  const bool machine_is_big = first == 0;
-  return (image.is_bigendian != 0) != machine_is_big;
-}
+bool isSwapped(const sensor_msgs::Image& image) { return (image.is_bigendian != 0) != isBigEndian(); }
 
 void swapBytes(std::size_t bytes, cv::Mat* pixels) {
   const std::size_t row = pixels->cols * pixels->elemSize();
@@ -60,6 +54,13 @@ void swapBytes(std::size_t bytes, cv::Mat* pixels) {
 }
 
 }  // namespace
+
+bool isBigEndian() {
+  const std::uint16_t one = 1;
+  std::uint8_t first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 0;
+}
 
 std::string usualEncoding(const std::string& encoding) {
   if (encoding == enc::TYPE_8UC3) return enc::BGR8;  // as OpenCV holds colours

@@ -7,6 +7,9 @@
 
 namespace softbody {
 
+/// Whether this machine's numbers begin with the highest byte.
+bool isBigEndian();
+
 /// The encoding by its usual name: drivers and scripts also write BGR8, or only the type of the pixels
 /// (8UC3).
 std::string usualEncoding(const std::string& encoding);

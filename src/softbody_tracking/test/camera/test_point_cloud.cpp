@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -20,6 +21,7 @@ RgbdFrame randomFrame() {
   cv::randu(frame.color, 0, 255);
   cv::randu(frame.depth, 0.4, 0.9);
   frame.depth(cv::Rect(3, 4, 10, 5)) = 0.0f;
+  frame.depth(cv::Rect(20, 9, 6, 5)) = std::numeric_limits<float>::quiet_NaN();
   return frame;
 }
 
@@ -30,7 +32,7 @@ TEST(PointCloud, OrganizedPointsProjectOntoTheirPixels) {
   for (int v = 0; v < 30; ++v) {
     for (int u = 0; u < 40; ++u) {
       const ColoredPoint& p = points[v * 40 + u];
-      EXPECT_EQ(std::isnan(p.z), frame.depth(v, u) == 0.0f);
+      EXPECT_EQ(std::isnan(p.z), !(frame.depth(v, u) > 0.0f));
       if (std::isnan(p.z)) continue;
       EXPECT_LT((frame.camera.project({p.x, p.y, p.z}) - Eigen::Vector2d(u, v)).norm(), 1e-4);
       EXPECT_EQ(p.rgb >> 16, frame.color(v, u)[2]);
@@ -63,6 +65,7 @@ TEST(PointCloud, OneLargeVoxelIsTheMeanOfAllPixels) {
   frame.camera.cx = frame.camera.cy = -10.0;  // all points in the first octant
   const std::vector<ColoredPoint> points = voxelCloud(frame, 100.0);
   ASSERT_EQ(points.size(), 1u);
+  cv::patchNaNs(frame.depth, 0.0);
   const double z = cv::sum(frame.depth)[0] / cv::countNonZero(frame.depth);
   EXPECT_NEAR(points[0].z, z, 1e-5);
 }
@@ -71,7 +74,7 @@ TEST(PointCloud, AThinnedCloudHasPointsOfEveryNthPixelWithDepth) {
   RgbdFrame frame = randomFrame();
   frame.depth(0, 0) = 0.0f;
   const std::vector<ColoredPoint> all = organizedCloud(frame);
-  const auto with_depth = static_cast<std::size_t>(cv::countNonZero(frame.depth));
+  const auto with_depth = static_cast<std::size_t>(cv::countNonZero(frame.depth > 0.0f));
   EXPECT_EQ(thinnedCloud(frame, 30 * 40).size(), with_depth);
   for (const int most : {1, 7, 100, 1199}) {
     const std::vector<ColoredPoint> points = thinnedCloud(frame, most);

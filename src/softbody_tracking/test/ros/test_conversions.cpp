@@ -2,10 +2,13 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "softbody_common/ros/camera_messages.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {
@@ -70,6 +73,38 @@ TEST(TrackingConversions, BigEndianDepthHasTheSameNumbers) {
     for (int v = 0; v < 4; ++v)
       EXPECT_EQ(std::memcmp(depth.ptr(v), expected.ptr(v), 6 * bytes), 0) << encoding << " row " << v;
   }
+}
+
+/// Where nothing must be changed, nothing is copied.
+TEST(TrackingConversions, RectifiedImagesAreReadWhereTheyAre) {
+  const sensor_msgs::CameraInfo info = toMessage(Pinhole{6, 4, 5.0, 5.0, 3.0, 2.0});
+  const sensor_msgs::Image color = imageOf("bgr8", 3);
+  sensor_msgs::Image depth = imageOf("32FC1", 4);
+  cv::Mat1f written(4, 6, reinterpret_cast<float*>(depth.data.data()));
+  written.setTo(0.7f);
+  written.row(1).setTo(std::numeric_limits<float>::quiet_NaN());
+  written.row(2).setTo(0.0f);
+  const RgbdFrame frame = frameFromRectified(color, depth, info);
+  EXPECT_EQ(frame.color.data, color.data.data());
+  EXPECT_EQ(frame.depth.data, depth.data.data());
+  written(0, 3) = -0.5f;
+  written(3, 5) = 1e3f;
+  written(3, 4) = std::numeric_limits<float>::infinity();
+  const RgbdFrame changed = frameFromRectified(color, depth, info);
+  EXPECT_NE(changed.depth.data, depth.data.data());
+  for (const cv::Point& pixel : {cv::Point(3, 0), cv::Point(5, 3), cv::Point(4, 3)})
+    EXPECT_EQ(changed.depth(pixel), 0.0f);
+  EXPECT_EQ(changed.depth(0, 2), 0.7f);
+  EXPECT_TRUE(std::isnan(changed.depth(1, 2)));
+}
+
+TEST(TrackingConversions, ColoursAreHandedOnInBothOrdersAndNothingElse) {
+  for (const char* usual : {"rgb8", "bgr8"}) EXPECT_TRUE(isUsualColor(imageOf(usual, 3, 6, 4, 5))) << usual;
+  for (const char* other : {"BGR8", "8UC3", "bayer_rggb8", "mono8", "rgba8", ""})
+    EXPECT_FALSE(isUsualColor(imageOf(other, 4))) << other;
+  sensor_msgs::Image cut = imageOf("rgb8", 3);
+  cut.data.pop_back();
+  EXPECT_THROW(isUsualColor(cut), std::invalid_argument);
 }
 
 TEST(TrackingConversions, MalformedImagesAreRefused) {

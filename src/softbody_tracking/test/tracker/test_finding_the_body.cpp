@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "fixtures/tracked_box.h"
 #include "softbody_tracking/known/known_surface.h"
@@ -23,6 +25,49 @@ TEST(FindingTheBody, FindsABodyThatNobodyPointedOut) {
   for (Eigen::Index v = 0; v < found.rows(); ++v)
     EXPECT_LT((truth.rowwise() - found.row(v)).rowwise().norm().minCoeff(), 0.003);
   EXPECT_NE(result.status.reason.find("look alike"), std::string::npos) << result.status.reason;
+}
+
+/// Of a box that moves, is away for a while and comes back. In some pixels nothing is measured.
+std::vector<TrackingResult> resultsWith(float no_depth, bool pose_given) {
+  BoxBody box = makeBox();
+  box.volume.has_initial_pose = pose_given;
+  box.volume.initial_pose = boxPose();
+  BodyTracker tracker{TrackerConfig()};
+  tracker.setTopologies(box.volume, box.surface);
+  std::vector<TrackingResult> results;
+  Points before;
+  for (int i = 0; i < 24; ++i) {
+    const Points truth = posedBox(box, 0.001 * i, 0.01 * i);
+    RgbdFrame frame = renderFrame(box, truth, (i + 1) * kFrameInterval);
+    if (i >= 4 && i < 12) frame.depth.setTo(1.2f), frame.color.setTo(cv::Vec3b(200, 190, 60));
+    for (const cv::Rect& gap : {cv::Rect(300, 60, 120, 90), cv::Rect(330, 230, 25, 200)})
+      frame.depth(gap).setTo(no_depth);
+    const MeshState state{box.volume.revision, frame.stamp - kFrameInterval, before, {}};
+    StageTimer timer;
+    const bool followed = !results.empty() && results.back().has_targets;
+    results.push_back(tracker.track(frame, followed ? &state : nullptr, &timer));
+    before = truth;
+  }
+  return results;
+}
+
+/// Cameras and camera_ingest say either.
+TEST(FindingTheBody, NaNIsNoDepthLikeZero) {
+  for (const bool given : {true, false}) {
+    const std::vector<TrackingResult> zero = resultsWith(0.0f, given),
+                                      nan = resultsWith(std::numeric_limits<float>::quiet_NaN(), given);
+    for (std::size_t i = 0; i < zero.size(); ++i) {
+      EXPECT_EQ(nan[i].status.state, zero[i].status.state) << i;
+      EXPECT_EQ(nan[i].status.reason, zero[i].status.reason) << i;
+      ASSERT_EQ(nan[i].targets.targets.size(), zero[i].targets.targets.size()) << i;
+      for (std::size_t k = 0; k < zero[i].targets.targets.size(); ++k) {
+        const Target &a = nan[i].targets.targets[k], &b = zero[i].targets.targets[k];
+        ASSERT_TRUE(a.position == b.position && a.normal == b.normal && a.weight == b.weight)
+            << i << " " << k;
+      }
+    }
+    EXPECT_TRUE(zero.front().has_targets && zero.back().has_targets);
+  }
 }
 
 /// What looks like the body is known to be another one; or a known plate hides all of it.

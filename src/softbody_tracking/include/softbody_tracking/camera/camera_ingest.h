@@ -26,9 +26,16 @@ class CameraIngest {
   explicit CameraIngest(const CameraIngestConfig& config);
   ~CameraIngest();
 
-  /// The frame shares the memory of the colour image if this is already rectified.
+  /// The frame shares the memory of the colour image if this is already rectified. Depth is NaN where nothing
+  /// was measured.
   /// @throw std::invalid_argument if the sizes, the types or the distortion are wrong.
   RgbdFrame process(const CameraImages& images);
+
+  /// The frame's colour alone. @throw std::invalid_argument as process().
+  cv::Mat3b color(const CameraImages& images);
+  /// The frame's depth alone; the colour image may be empty. @param depth its memory is used if it has the
+  /// size of the rectified camera. @throw std::invalid_argument as process().
+  void depth(const CameraImages& images, cv::Mat1f* depth);
 
  private:
   struct Implementation;

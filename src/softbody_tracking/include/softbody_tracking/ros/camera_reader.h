@@ -48,6 +48,8 @@ class CameraReader {
   /// @throw std::invalid_argument with a sentence if the messages do not describe a frame; then nothing has
   /// changed.
   CameraImages read(const CameraMessages& messages);
+  /// The same without the pixels of colour, for those who hand on the message itself.
+  CameraImages readWithoutColor(const CameraMessages& messages);
 
  private:
   void tell(const std::string& sentence);

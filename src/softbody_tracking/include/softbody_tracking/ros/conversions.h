@@ -23,14 +23,18 @@ cv::Mat3b colorFromMessage(const sensor_msgs::Image& image);
 /// it.
 cv::Mat depthFromMessage(const sensor_msgs::Image& image);
 
-/// A frame of rectified images of one size (depth 32FC1 [m]), with an identity T_fixed_camera. Depth that is
-/// not finite, below 0 or beyond 100 m becomes 0. The frame may share the messages' memory, so they must
-/// outlive it.
+/// A frame of rectified images of one size (depth 32FC1 [m]), with an identity T_fixed_camera. Depth below 0
+/// and beyond 100 m becomes 0. The frame may share the messages' memory, so they must outlive it, and nobody
+/// may write into it.
 RgbdFrame frameFromRectified(const sensor_msgs::Image& color, const sensor_msgs::Image& depth,
                              const sensor_msgs::CameraInfo& info);
 
 /// The mask in its own memory: grey, 0 where nothing counts.
 cv::Mat1b maskFromMessage(const sensor_msgs::Image& image);
+
+/// Whether a colour image can be handed on to those who read it with frameFromRectified, as it is: bgr8 or
+/// rgb8. @throw std::invalid_argument if its size and its number of bytes do not fit together.
+bool isUsualColor(const sensor_msgs::Image& image);
 
 /// CV_8UC3 becomes bgr8, CV_32FC1 becomes 32FC1.
 sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const std_msgs::Header& header);

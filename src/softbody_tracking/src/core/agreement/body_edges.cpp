@@ -21,7 +21,7 @@ constexpr double kLeastStep = 0.25;
 bool runsOn(const RgbdFrame& frame, const cv::Point& pixel, const cv::Point& step, double least_step_m) {
   const cv::Mat1f& depth = frame.depth;
   const double inner = depth(pixel - 3 * step), edge = depth(pixel - step);
-  if (inner <= 0.0 || edge <= 0.0) return false;
+  if (!(inner > 0.0 && edge > 0.0)) return false;
   const cv::Rect image({}, depth.size());
   const int reach = std::max(2, cvRound(distanceScaleAt(edge, least_step_m) * frame.camera.fx / edge));
   for (int k = 2; k <= reach && image.contains(pixel + k * step); ++k) {
@@ -58,7 +58,7 @@ double shareWithoutEdge(const RgbdFrame& frame, const TriangleMesh& mesh, const 
       for (const cv::Point& step : kSteps) {
         const cv::Point beyond = pixel + 2 * step;
         if (!shows(pixel) || !shows(pixel - 3 * step) || shows(pixel + step) || shows(beyond)) continue;
-        if (small.depth(beyond) <= 0.0f) continue;
+        if (!(small.depth(beyond) > 0.0f)) continue;
         ++outline;
         without += runsOn(small, pixel, step, least_step_m) ? 1 : 0;
       }

@@ -25,7 +25,7 @@ RgbdFrame aloneIn(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen:
   RgbdFrame alone = frame;
   alone.depth = PoseCost(frame, mesh, 1.0).render(pose).depth.clone();
   alone.depth.setTo(kFar, alone.depth <= 0.0f);
-  alone.depth.setTo(0.0f, frame.depth <= 0.0f);
+  alone.depth.setTo(0.0f, ~(frame.depth > 0.0f));
   return alone;
 }
 

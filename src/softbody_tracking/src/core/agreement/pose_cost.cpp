@@ -19,7 +19,7 @@ double misfit(double measured, double predicted, double scale) {
 }
 
 double pixelCost(double measured, double predicted, double scale, double hidden_cost) {
-  if (measured <= 0.0) return kUnseenCost;
+  if (!(measured > 0.0)) return kUnseenCost;
   const double cost = misfit(measured, predicted, scale);
   return measured < predicted ? std::min(hidden_cost, cost) : cost;
 }
@@ -42,7 +42,7 @@ Outline outlineOf(const RgbdFrame& frame, const RasterImage& image, double scale
     const auto lookBeyond = [&](int u, std::ptrdiff_t step, std::ptrdiff_t measured_step) {
       if (triangle[u + step] >= 0 || triangle[u + 2 * step] >= 0) return;
       const float z = measured[u + 2 * measured_step];
-      if (z <= 0.0f) return;
+      if (!(z > 0.0f)) return;
       ++outline.measured;
       outline.continuing += 1.0 - misfit(z, rendered[u], scale);
     };
@@ -116,7 +116,7 @@ PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {
       const double cost = measured > 0.0 ? misfit(measured, image.depth(v, u), scale_) : kUnseenCost;
       const bool hidden = measured > 0.0 && difference < 0.0 && cost >= 1.0;
       if (!hidden) misfits += cost;
-      if (measured <= 0.0) continue;
+      if (!(measured > 0.0)) continue;
       differences.push_back(std::abs(difference));
       if (cost < 1.0)
         ++counts.agreeing;

@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "camera/depth_kernel.h"
 #include "camera/depth_registration.h"
-#include "camera/flying_pixels.h"
 #include "camera/rectifier.h"
 
 namespace softbody {
@@ -39,20 +39,6 @@ Eigen::AngleAxisd rotation(const Distortion& distortion) {
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(distortion.R.val).eval());
 }
 
-/// Depth in metres, and 0 for depth out of range. NaN fails both comparisons.
-template <typename Depth>
-void metresInRange(const cv::Mat& depth, float unit_m, float min, float max, cv::Mat1f* metres) {
-  metres->create(depth.size());
-  for (int v = 0; v < depth.rows; ++v) {
-    const Depth* in = depth.ptr<Depth>(v);
-    float* out = (*metres)[v];
-    for (int u = 0; u < depth.cols; ++u) {
-      const float z = static_cast<float>(in[u]) * unit_m;
-      out[u] = z >= min && z <= max ? z : 0.0f;
-    }
-  }
-}
-
 }  // namespace
 
 CameraIngestConfig readCameraIngestConfig(Parameters& parameters) {
@@ -64,74 +50,76 @@ CameraIngestConfig readCameraIngestConfig(Parameters& parameters) {
 }
 
 struct CameraIngest::Implementation {
-  explicit Implementation(const CameraIngestConfig& c) : config(c), filter(c.edge_jump_ratio) {}
+  explicit Implementation(const CameraIngestConfig& c) : config(c) {}
 
-  void cleanDepth(const CameraImages& images, cv::Mat1f* result) {
-    const cv::Mat& raw = images.depth;
+  DepthLimits limitsOf(const CameraImages& images) const {
     const auto unit_m = static_cast<float>(unitOf(images));
-    const auto min = config.keep_all_depth ? 0.0f : static_cast<float>(config.min_depth_m);
-    const auto max =
-        config.keep_all_depth ? std::numeric_limits<float>::max() : static_cast<float>(config.max_depth_m);
-    cv::Mat1f* const in_range = config.keep_all_depth ? result : &metres;
-    if (raw.type() == CV_16UC1) {
-      metresInRange<std::uint16_t>(raw, unit_m, min, max, in_range);
-    } else {
-      metresInRange<float>(raw, unit_m, min, max, in_range);
-    }
-    if (!config.keep_all_depth) filter.apply(metres, result);
+    if (config.keep_all_depth) return {unit_m};
+    return {unit_m, static_cast<float>(config.min_depth_m), static_cast<float>(config.max_depth_m),
+            static_cast<float>(config.edge_jump_ratio)};
   }
 
-  /// The result has its own memory, because the caller keeps it. Intermediate images are reused.
-  cv::Mat1f rectifiedDepth(const CameraImages& images, const Rectifier* rectifier) {
-    cv::Mat1f result;
+  /// Intermediate images are reused.
+  void rectify(const CameraImages& images, const Rectifier* rectifier, cv::Mat1f* result) {
     if (rectifier == nullptr || rectifier->isIdentity()) {
-      cleanDepth(images, &result);
-      return result;
+      cleaner.clean(images.depth, limitsOf(images), result);
+    } else {
+      cleaner.clean(images.depth, limitsOf(images), &clean);
+      rectifier->depth(clean, result);
     }
-    cleanDepth(images, &clean);
-    return rectifier->depth(clean);
   }
 
   /// Depth of its own camera, as the rectified colour camera sees it.
-  cv::Mat1f registered(const CameraImages& images) {
+  void registerDepth(const CameraImages& images, cv::Mat1f* result) {
     const DepthCamera& camera = *images.depth_camera;
     depth_rectifier.setCamera(camera.distortion, camera.rectified);
     const Eigen::Isometry3d T_rectified_color(rotation(images.distortion)),
         T_depth_rectified(rotation(camera.distortion).inverse());
-    return registeredDepth(rectifiedDepth(images, &depth_rectifier), camera.rectified,
-                           T_rectified_color * camera.T_color_depth * T_depth_rectified, images.rectified);
+    rectify(images, &depth_rectifier, &own_depth);
+    registeredDepth(own_depth, camera.rectified, T_rectified_color * camera.T_color_depth * T_depth_rectified,
+                    images.rectified)
+        .copyTo(*result);
   }
 
   CameraIngestConfig config;
-  FlyingPixelFilter filter;
+  DepthCleaner cleaner;
   Rectifier rectifier, depth_rectifier;
-  cv::Mat1f metres, clean;
+  cv::Mat1f clean, own_depth;
 };
 
 CameraIngest::CameraIngest(const CameraIngestConfig& config)
     : implementation_(std::make_unique<Implementation>(config)) {}
 CameraIngest::~CameraIngest() = default;
 
-RgbdFrame CameraIngest::process(const CameraImages& images) {
-  const cv::Mat& depth = images.depth;
+cv::Mat3b CameraIngest::color(const CameraImages& images) {
   checkColor(images.color, images.rectified);
-  if (!depth.empty())
-    checkDepth(depth, images.depth_camera ? images.depth_camera->rectified : images.rectified);
+  implementation_->rectifier.setCamera(images.distortion, images.rectified);
+  return implementation_->rectifier.color(images.color);
+}
+
+void CameraIngest::depth(const CameraImages& images, cv::Mat1f* depth) {
+  const cv::Size size(images.rectified.width, images.rectified.height);
+  if (images.depth.empty()) {
+    depth->create(size);
+    depth->setTo(std::numeric_limits<float>::quiet_NaN());
+    return;
+  }
+  checkDepth(images.depth, images.depth_camera ? images.depth_camera->rectified : images.rectified);
   Rectifier& rectifier = implementation_->rectifier;
   rectifier.setCamera(images.distortion, images.rectified);
+  if (images.depth_camera)
+    implementation_->registerDepth(images, depth);
+  else
+    implementation_->rectify(images, images.registered_to_rectified ? nullptr : &rectifier, depth);
+}
+
+RgbdFrame CameraIngest::process(const CameraImages& images) {
   RgbdFrame frame;
   frame.stamp = images.stamp;
   frame.pass = images.pass;
   frame.camera = images.rectified;
-  frame.color = rectifier.color(images.color);
-  if (depth.empty()) {
-    frame.depth = cv::Mat1f::zeros(images.color.size());
-  } else if (images.depth_camera) {
-    frame.depth = implementation_->registered(images);
-  } else {
-    frame.depth =
-        implementation_->rectifiedDepth(images, images.registered_to_rectified ? nullptr : &rectifier);
-  }
+  frame.color = color(images);
+  depth(images, &frame.depth);
   return frame;
 }
 

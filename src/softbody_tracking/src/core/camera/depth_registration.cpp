@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace softbody {
@@ -28,7 +29,7 @@ void drawSquare(const Eigen::Vector3d& point, double half_width, double half_hei
   for (int v = rows.first; v < rows.last; ++v) {
     float* row = (*depth)[v];
     for (int u = columns.first; u < columns.last; ++u)
-      if (row[u] == 0.0f || z < row[u]) row[u] = z;
+      if (!(row[u] <= z)) row[u] = z;
   }
 }
 
@@ -42,11 +43,11 @@ cv::Mat1f registeredDepth(const cv::Mat1f& depth, const Pinhole& from, const Eig
                     depth.rows, from.width, from.height));
   }
   const double width = 0.5 * kOverlap * to.fx / from.fx, height = 0.5 * kOverlap * to.fy / from.fy;
-  cv::Mat1f result = cv::Mat1f::zeros(to.height, to.width);
+  cv::Mat1f result(to.height, to.width, std::numeric_limits<float>::quiet_NaN());
   for (int v = 0; v < depth.rows; ++v) {
     for (int u = 0; u < depth.cols; ++u) {
       const double z = depth(v, u);
-      if (z <= 0.0) continue;
+      if (!(z > 0.0)) continue;
       const Eigen::Vector3d point = T_to_from * from.unproject(u, v, z);
       const double scale = z / point.z();
       // So near that one pixel would fill the image: no camera measures that.

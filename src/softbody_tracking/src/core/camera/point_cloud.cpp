@@ -80,7 +80,7 @@ std::vector<ColoredPoint> voxelCloud(const RgbdFrame& frame, double voxel_size_m
   for (int v = 0; v < frame.depth.rows; ++v) {
     for (int u = 0; u < frame.depth.cols; ++u) {
       const double z = frame.depth(v, u);
-      if (z <= 0.0) continue;
+      if (!(z > 0.0)) continue;
       const Eigen::Vector3d p = frame.camera.unproject(u, v, z);
       const std::uint64_t key = voxelKey(p, voxel_size_m);
       // Neighbouring pixels mostly share a voxel: this saves the look-up.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -37,7 +38,7 @@ cv::Mat1f rotatedDepthScale(const cv::Matx33d& R, const Pinhole& camera) {
     for (int u = 0; u < scale.cols; ++u) {
       const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
       const double raw_z = R(0, 2) * x + R(1, 2) * y + R(2, 2);
-      scale(v, u) = raw_z > 0.0 ? static_cast<float>(1.0 / raw_z) : 0.0f;
+      scale(v, u) = raw_z > 0.0 ? static_cast<float>(1.0 / raw_z) : std::numeric_limits<float>::quiet_NaN();
     }
   }
   return scale;
@@ -106,11 +107,11 @@ cv::Mat3b Rectifier::color(const cv::Mat3b& raw) const {
   return result;
 }
 
-cv::Mat1f Rectifier::depth(const cv::Mat1f& raw) const {
-  if (identity_) return raw;
-  cv::Mat1f result;
-  cv::remap(raw, result, nearest_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
-  return depth_scale_.empty() ? result : cv::Mat1f(result.mul(depth_scale_));
+void Rectifier::depth(const cv::Mat1f& raw, cv::Mat1f* result) const {
+  if (identity_) return raw.copyTo(*result);
+  cv::remap(raw, *result, nearest_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+            cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
+  if (!depth_scale_.empty()) cv::multiply(*result, depth_scale_, *result);
 }
 
 }  // namespace softbody

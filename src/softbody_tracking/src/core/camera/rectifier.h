@@ -15,9 +15,9 @@ class Rectifier {
   bool isIdentity() const { return identity_; }
   /// Bilinear interpolation; black outside of the raw image. Returns raw itself if it is already rectified.
   cv::Mat3b color(const cv::Mat3b& raw) const;
-  /// Nearest neighbour, because depths of two surfaces must not be mixed; 0 outside of the raw image. z is
-  /// given in the rectified camera frame (R).
-  cv::Mat1f depth(const cv::Mat1f& raw) const;
+  /// Nearest neighbour, because depths of two surfaces must not be mixed; NaN outside of the raw image. z
+  /// is given in the rectified camera frame (R). @param raw not the result's memory.
+  void depth(const cv::Mat1f& raw, cv::Mat1f* result) const;
 
  private:
   void makeMaps();

@@ -51,7 +51,7 @@ BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterIma
     if (row < 0 || row >= labelled.height) continue;
     const std::uint8_t* label_row = labels.label[row];
     for (int i = columns.first; i < columns.end; i += step) {
-      if (rendered[i] <= 0.0f || depth[i] <= 0.0f) continue;
+      if (rendered[i] <= 0.0f || !(depth[i] > 0.0f)) continue;
       if (first + i < 0 || first + i >= labelled.width) continue;
       const std::uint8_t label = label_row[first + i];
       if (label == labels::kUnknown) continue;

@@ -47,7 +47,7 @@ double featureDepth(const cv::Mat1f& depth, const cv::Point2f& pixel) {
   const cv::Point center(cvRound(pixel.x), cvRound(pixel.y));
   if (!cv::Rect(cv::Point(), depth.size()).contains(center)) return 0.0;
   const float middle = depth(center);
-  if (middle <= 0.0f) return 0.0;
+  if (!(middle > 0.0f)) return 0.0;
   const cv::Rect window = cv::Rect(center.x - 2, center.y - 2, 5, 5) & cv::Rect(cv::Point(), depth.size());
   const float most = kSameDepth * middle;
   float sum = 0.0f;  // of differences from the middle

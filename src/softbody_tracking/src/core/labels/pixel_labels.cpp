@@ -99,7 +99,7 @@ void PixelLabeler::decide(const cv::Rect& pixels, const LabelCell& cell, const c
     for (int u = pixels.x; u < pixels.br().x; ++u) {
       if (knows_ && knownLabel(u, v, labels->predicted(v - first.y, u - first.x))) continue;
       std::uint8_t& label = labels_here[u];
-      if (measured[u] <= 0.0f)
+      if (!(measured[u] > 0.0f))
         label = unmeasuredLabel(cell, rendered[u] > 0.0f, log_odds[u]);
       else if (label != labels::kBackground)
         label = frontLabel(cell, measured[u], rendered[u], label == labels::kBody, mean[u]);

@@ -53,7 +53,7 @@ Cloud makeCloud(const RgbdFrame& frame, const RegionColors& colors) {
   for (int v = 0; v < frame.depth.rows; ++v) {
     for (int u = 0; u < frame.depth.cols; ++u) {
       const float z = frame.depth(v, u);
-      if (z <= 0.0f) continue;
+      if (!(z > 0.0f)) continue;
       cloud.index(v, u) = static_cast<int>(cloud.points.size());
       cloud.points.push_back(frame.camera.unproject(u, v, z));
       cloud.pixels.emplace_back(u, v);

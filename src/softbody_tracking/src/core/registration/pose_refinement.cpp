@@ -132,7 +132,7 @@ std::vector<Association> PoseRefinement::associations(const Eigen::Isometry3d& p
     for (int u = image.region.x; u < image.region.br().x; ++u) {
       const int f = image.triangle(v, u);
       const float z = frame_.depth(v, u);
-      if (f < 0 || z <= 0.0f || std::abs(z - image.depth(v, u)) > gate) continue;
+      if (f < 0 || !(z > 0.0f) || std::abs(z - image.depth(v, u)) > gate) continue;
       Association a;
       a.predicted = frame_.camera.unproject(u, v, image.depth(v, u));
       a.measured = frame_.camera.unproject(u, v, z);

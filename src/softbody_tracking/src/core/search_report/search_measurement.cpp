@@ -32,7 +32,7 @@ void measureDepth(const RgbdFrame& frame, SearchReport* report) {
   int measured = 0;
   double nearest = std::numeric_limits<double>::max();
   for (const float z : frame.depth) {
-    if (z <= 0.0f) continue;
+    if (!(z > 0.0f)) continue;
     ++measured;
     nearest = std::min<double>(nearest, z);
     report->farthest_m = std::max<double>(report->farthest_m, z);
@@ -122,7 +122,9 @@ TriangleMesh scaled(const TriangleMesh& mesh, double factor) {
 
 /// Width of the view at the farthest depth [m].
 double widestView(const RgbdFrame& image) {
-  const float farthest = *std::max_element(image.depth.begin(), image.depth.end());
+  float farthest = 0.0f;
+  for (const float z : image.depth)
+    if (z > farthest) farthest = z;
   return farthest * image.camera.width / image.camera.fx;
 }
 

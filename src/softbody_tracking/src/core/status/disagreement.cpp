@@ -130,7 +130,7 @@ PatchSums patchSums(const ComparedBody& body) {
     for (int u = 0; u < size.width; ++u) {
       const cv::Point pixel = region.tl() + kStep * cv::Point(u, v);
       const float predicted = rendered(pixel), measured = body.depth(pixel);
-      if (predicted <= 0.0f || measured <= 0.0f || body.labels.at(pixel) != labels::kBody) continue;
+      if (!(predicted > 0.0f && measured > 0.0f) || body.labels.at(pixel) != labels::kBody) continue;
       sums.behind_m(v, u) =
           cosineAt(rendered, pixel, focal_px) * std::clamp(measured - predicted, -kFarthest, kFarthest);
       sums.count(v, u) = 1.0f;

@@ -96,20 +96,40 @@ Eigen::Isometry3d CameraIngestNode::newestTransform(const std::string& target, c
 void CameraIngestNode::process(const Pairer::Frame& images) {
   if (!outputs_->hasSubscriber()) return watch_->noteFrame(images.color->header);
   try {
-    RgbdFrame frame;
-    {
-      const auto stage = timer_.stage("camera ingest");
-      frame = ingest_->process(
-          reader_->read({*images.color, images.depth.get(), *images.info, depth_info_.get()}));
-    }
     std_msgs::Header header = images.color->header;
     header.frame_id = frameName(header.frame_id, color_->topic());
+    IngestedFrame frame;
+    {
+      const auto stage = timer_.stage("camera ingest");
+      frame = ingest(images, header);
+    }
     outputs_->publish(frame, header, &timer_);
     watch_->noteFrame(images.color->header);
   } catch (const std::exception& error) {
     timer_.take();
     watch_->noteRefusal(error.what());
   }
+}
+
+/// The driver's colour is handed on as it is, if it is rectified and every reader understands it.
+IngestedFrame CameraIngestNode::ingest(const Pairer::Frame& images, const std_msgs::Header& header) {
+  CameraImages raw =
+      reader_->readWithoutColor({*images.color, images.depth.get(), *images.info, depth_info_.get()});
+  IngestedFrame result;
+  if (isAlreadyRectified(raw.distortion, raw.rectified) && isUsualColor(*images.color) &&
+      images.color->header.frame_id == header.frame_id)
+    result.color_message = images.color;
+  RgbdFrame& frame = result.frame;
+  frame.stamp = raw.stamp;
+  frame.camera = raw.rectified;
+  if (!result.color_message || outputs_->hasPointSubscriber()) {
+    raw.color = colorFromMessage(*images.color);
+    frame.color = ingest_->color(raw);
+  }
+  result.depth_message = blankDepth(raw.rectified, header);
+  frame.depth = depthIn(result.depth_message.get());
+  ingest_->depth(raw, &frame.depth);
+  return result;
 }
 
 }  // namespace softbody

@@ -40,7 +40,8 @@ class CameraIngestNode {
   void onDepth(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void processCompleteFrames();
-  void process(const Pairer::Frame& frame);
+  void process(const Pairer::Frame& images);
+  IngestedFrame ingest(const Pairer::Frame& images, const std_msgs::Header& header);
   Eigen::Isometry3d newestTransform(const std::string& target, const std::string& source);
 
   std::optional<CameraReader> reader_;

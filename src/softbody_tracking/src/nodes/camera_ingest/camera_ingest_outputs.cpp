@@ -3,12 +3,13 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/image_encodings.h>
 #include <softbody_msgs/StageTiming.h>
 #include <visualization_msgs/Marker.h>
 
 #include <boost/make_shared.hpp>
-#include <limits>
 
+#include "ros/image_pixels.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
@@ -22,14 +23,24 @@ namespace {
 constexpr std::int64_t kMarkerPeriod_ns = 200'000'000;
 constexpr int kMaxMarkerPoints = 20'000;
 
-/// Depth as REP-118 has it: NaN where nothing was measured.
-cv::Mat1f withNaN(const cv::Mat1f& depth) {
-  cv::Mat1f result = depth.clone();
-  result.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0.0f);
-  return result;
+}  // namespace
+
+sensor_msgs::ImagePtr blankDepth(const Pinhole& camera, const std_msgs::Header& header) {
+  const auto image = boost::make_shared<sensor_msgs::Image>();
+  image->header = header;
+  image->width = static_cast<std::uint32_t>(camera.width);
+  image->height = static_cast<std::uint32_t>(camera.height);
+  image->encoding = sensor_msgs::image_encodings::TYPE_32FC1;
+  image->is_bigendian = isBigEndian() ? 1 : 0;
+  image->step = image->width * sizeof(float);
+  image->data.resize(std::size_t{image->step} * image->height);
+  return image;
 }
 
-}  // namespace
+cv::Mat1f depthIn(sensor_msgs::Image* image) {
+  return cv::Mat1f(static_cast<int>(image->height), static_cast<int>(image->width),
+                   reinterpret_cast<float*>(image->data.data()), image->step);
+}
 
 CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m,
                                          std::uint32_t queue_size)
@@ -42,6 +53,10 @@ CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_si
       points_marker_(handle.advertise<visualization_msgs::Marker>(topics::kPointsMarker, 1)),
       timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, queue_size)) {}
 
+bool CameraIngestOutputs::hasPointSubscriber() const {
+  return points_.getNumSubscribers() > 0 || points_marker_.getNumSubscribers() > 0;
+}
+
 bool CameraIngestOutputs::hasSubscriber() const {
   for (const ros::Publisher* publisher :
        {&color_, &info_, &depth_, &depth_info_, &points_, &points_marker_, &timing_}) {
@@ -50,15 +65,18 @@ bool CameraIngestOutputs::hasSubscriber() const {
   return false;
 }
 
-void CameraIngestOutputs::publish(const RgbdFrame& frame, const std_msgs::Header& header, StageTimer* timer) {
-  for (const ros::Publisher* publisher : {&info_, &depth_info_}) {
-    if (publisher->getNumSubscribers() == 0) continue;
-    const auto info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(frame.camera));
-    info->header = header;
-    publisher->publish(info);
-  }
-  if (color_.getNumSubscribers() > 0) color_.publish(toMessage(frame.color, header));
-  if (depth_.getNumSubscribers() > 0) depth_.publish(toMessage(withNaN(frame.depth), header));
+void CameraIngestOutputs::publish(const IngestedFrame& ingested, const std_msgs::Header& header,
+                                  StageTimer* timer) {
+  const RgbdFrame& frame = ingested.frame;
+  const auto info = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(frame.camera));
+  info->header = header;
+  info_.publish(info);
+  depth_info_.publish(info);
+  if (ingested.color_message)
+    color_.publish(ingested.color_message);
+  else if (color_.getNumSubscribers() > 0)
+    color_.publish(toMessage(frame.color, header));
+  depth_.publish(ingested.depth_message);
   if (points_.getNumSubscribers() > 0) {
     const auto stage = timer->stage("point cloud");
     publishPoints(frame, header);

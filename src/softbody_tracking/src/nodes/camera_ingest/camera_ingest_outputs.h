@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <sensor_msgs/Image.h>
 #include <std_msgs/Header.h>
 
 #include <cstdint>
@@ -11,6 +12,18 @@
 
 namespace softbody {
 
+/// A frame, and the messages that hold its images.
+struct IngestedFrame {
+  RgbdFrame frame;                           ///< its depth is in the message; colour may be empty
+  sensor_msgs::ImageConstPtr color_message;  ///< of the driver; null: the frame's colour is another image
+  sensor_msgs::ImagePtr depth_message;
+};
+
+/// A 32FC1 image of a camera, to write depth into.
+sensor_msgs::ImagePtr blankDepth(const Pinhole& camera, const std_msgs::Header& header);
+/// The memory of such a message.
+cv::Mat1f depthIn(sensor_msgs::Image* image);
+
 /// The topics of camera_ingest: rectified colour and depth, their camera_info, points and stage times.
 class CameraIngestOutputs {
  public:
@@ -20,9 +33,11 @@ class CameraIngestOutputs {
   CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m, std::uint32_t queue_size);
 
   bool hasSubscriber() const;
+  /// Whether points are published, which need the frame's colour.
+  bool hasPointSubscriber() const;
 
   /// Publishes what has a subscriber, and the timer's rows with it.
-  void publish(const RgbdFrame& frame, const std_msgs::Header& header, StageTimer* timer);
+  void publish(const IngestedFrame& ingested, const std_msgs::Header& header, StageTimer* timer);
 
  private:
   void publishPoints(const RgbdFrame& frame, const std_msgs::Header& header) const;

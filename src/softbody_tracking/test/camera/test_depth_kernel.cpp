@@ -1,18 +1,25 @@
 #include <gtest/gtest.h>
 
+#include <hwy/highway.h>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <random>
 
-#include "camera/flying_pixels.h"
+#include "camera/depth_kernel.h"
 
 namespace softbody {
 namespace {
 
 constexpr double kRatio = 0.02;
 
+DepthLimits limitsOf(float unit_m, double ratio) { return {unit_m, 0.1f, 5.0f, static_cast<float>(ratio)}; }
+
 cv::Mat1f removeFlyingPixels(const cv::Mat1f& depth, double ratio) {
   cv::Mat1f result;
-  FlyingPixelFilter(ratio).apply(depth, &result);
+  DepthCleaner().clean(depth, limitsOf(1.0f, ratio), &result);
+  cv::patchNaNs(result, 0.0);
   return result;
 }
 
@@ -111,6 +118,85 @@ TEST(FlyingPixels, ObjectsKeepTheirBoundaryToTheBackground) {
   cv::Mat1f depth(50, 50, 1.0f);
   depth(cv::Rect(15, 15, 20, 20)) = 0.5f;
   EXPECT_EQ(cv::norm(removeFlyingPixels(depth, kRatio), depth, cv::NORM_INF), 0.0);
+}
+
+/// The definition, a pixel at a time.
+float cleanAt(const cv::Mat1f& metres, const cv::Point& pixel, float ratio) {
+  const auto at = [&](int u, int v) {
+    const cv::Point place = pixel + cv::Point(u, v);
+    return cv::Rect({}, metres.size()).contains(place) ? metres(place) : 0.0f;
+  };
+  const float z = at(0, 0), none = std::numeric_limits<float>::quiet_NaN();
+  if (!(z > 0.0f) || ratio == 0.0f) return z > 0.0f ? z : none;
+  int near = 0;
+  bool step = false;
+  for (const cv::Point& way : {cv::Point(1, 0), cv::Point(0, 1), cv::Point(1, 1), cv::Point(1, -1)}) {
+    const bool diagonal = way.x != 0 && way.y != 0;
+    const float reach = diagonal ? static_cast<float>(M_SQRT2) * (ratio * z) : ratio * z;
+    const float a = at(way.x, way.y), b = at(-way.x, -way.y);
+    near += static_cast<int>(std::abs(a - z) <= reach) + static_cast<int>(std::abs(b - z) <= reach);
+    step |= std::min(a, b) > 0.0f && std::min(a, b) < z - reach && std::max(a, b) > z + reach;
+  }
+  return near >= 2 && !step ? z : none;
+}
+
+/// Surfaces with gaps, edges and noise, in millimetres or in metres with all that a driver may send.
+cv::Mat randomRaw(bool is_float, const cv::Size& size, std::mt19937* random) {
+  std::uniform_int_distribution<int> kind(0, 9), surface(0, 2);
+  std::normal_distribution<float> noise(0.0f, 0.004f);
+  const float odd[] = {std::numeric_limits<float>::quiet_NaN(),
+                       std::numeric_limits<float>::infinity(),
+                       -1.0f,
+                       0.0f,
+                       7.0f,
+                       0.05f};
+  cv::Mat1f raw(size);
+  float z = 0.6f;
+  for (float& pixel : raw) {
+    if (kind(*random) == 0) z = 0.5f + 0.013f * static_cast<float>(surface(*random));
+    pixel = kind(*random) == 0 ? odd[kind(*random) % 6] : z + noise(*random);
+  }
+  if (is_float) return raw;
+  cv::Mat millimetres;
+  cv::Mat(cv::max(cv::min(raw, 60.0f), 0.0f)).convertTo(millimetres, CV_16U, 1000.0);
+  return millimetres;
+}
+
+class DepthKernel : public testing::TestWithParam<unsigned> {
+ protected:
+  ~DepthKernel() override { hwy::SetSupportedTargetsForTest(0); }
+  std::mt19937 random_{GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(Seeds, DepthKernel, testing::Range(0u, 60u));
+
+/// Of every width, with every vector, from images and into memory that are parts of larger ones.
+TEST_P(DepthKernel, EachPixelIsAsTheDefinitionSaysToTheBit) {
+  const bool is_float = GetParam() % 2 == 0, filters = GetParam() % 3 != 0;
+  const cv::Size size(1 + static_cast<int>(GetParam()), 1 + static_cast<int>(random_() % 9));
+  const cv::Rect part({2, 1}, size);
+  const cv::Mat raw = randomRaw(is_float, size + cv::Size(5, 3), &random_)(part);
+  const DepthLimits limits = limitsOf(is_float ? 1.0f : 0.001f, filters ? kRatio : 0.0);
+  cv::Mat1f metres(size);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const float z = limits.unit_m * (is_float ? raw.at<float>(v, u) : raw.at<std::uint16_t>(v, u));
+      metres(v, u) = z >= limits.min_m && z <= limits.max_m ? z : 0.0f;
+    }
+  }
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    cv::Mat1f around(size + cv::Size(5, 3), -7.0f), clean = around(part);
+    DepthCleaner().clean(raw, limits, &clean);
+    ASSERT_EQ(clean.data, around(part).data);
+    for (int v = 0; v < around.rows; ++v) {
+      for (int u = 0; u < around.cols; ++u) {
+        const float expected =
+            part.contains({u, v}) ? cleanAt(metres, cv::Point(u, v) - part.tl(), limits.jump_ratio) : -7.0f;
+        ASSERT_TRUE(std::isnan(expected) ? std::isnan(around(v, u)) : around(v, u) == expected)
+            << hwy::TargetName(target) << ": " << u << " " << v;
+      }
+    }
+  }
 }
 
 }  // namespace
