@@ -1,12 +1,13 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <ctime>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "bench/thread_time.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
@@ -16,6 +17,7 @@
 namespace {
 
 using namespace softbody;
+using bench::millisecondsOf;
 
 constexpr int kFrames = 60;
 constexpr double kStart_s = 1.0, kRate_hz = 30.0;
@@ -98,25 +100,6 @@ class PlainMatching {
   cv::Mat model_;
 };
 
-double threadTime_ms() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-/// CPU time of this thread; everything runs on it.
-template <typename Work>
-double millisecondsOf(const Work& work) {
-  const double start = threadTime_ms();
-  work();
-  return threadTime_ms() - start;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 struct Times {
   std::vector<double> first, track, whole, region;  ///< [ms]; the first frame is separate
 };
@@ -163,19 +146,19 @@ void trackFrames(benchmark::State& state) {
       state.SkipWithError("the body is not found in every frame");
       return;
     }
-    state.SetIterationTime(1e-3 * median(times.track));
+    state.SetIterationTime(1e-3 * medianOf(times.track));
   }
   const bool doll = state.range(0) != 0;
   const std::string body = doll ? "doll" : "sponge";
-  const double track = median(times.track);
+  const double track = medianOf(times.track);
   state.counters["features"] = result.features;
-  state.counters["ORB and brute force, whole image [ms]"] = median(times.whole);
-  state.counters["ORB and brute force, region [ms]"] = median(times.region);
-  state.counters["summary/tracking/" + body + "/first_frame_ms"] = median(times.first);
+  state.counters["ORB and brute force, whole image [ms]"] = medianOf(times.whole);
+  state.counters["ORB and brute force, region [ms]"] = medianOf(times.region);
+  state.counters["summary/tracking/" + body + "/first_frame_ms"] = medianOf(times.first);
   state.counters["summary/tracking/" + body + "/frame_ms"] = track;
-  state.counters["summary/tracking/" + body + "/ratio_to_region"] = median(times.region) / track;
+  state.counters["summary/tracking/" + body + "/ratio_to_region"] = medianOf(times.region) / track;
   state.counters[doll ? "summary/tracking/doll/ratio" : "summary/tracking_ratio"] =
-      median(times.whole) / track;
+      medianOf(times.whole) / track;
 }
 BENCHMARK(trackFrames)
     ->ArgName("doll")

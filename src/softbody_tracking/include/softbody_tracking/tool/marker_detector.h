@@ -34,8 +34,13 @@ class MarkerDetector {
   explicit MarkerDetector(const std::string& dictionary);
   ~MarkerDetector();
 
-  /// @param region part of the image to search; empty: the whole image.
-  std::vector<MarkerDetection> detect(const cv::Mat1b& gray, const cv::Rect& region = {}) const;
+  /// Cells along a marker's side, with the black border.
+  int cells() const;
+
+  /// @param region part of the image to search; empty: the whole image. @param window_px side of the window
+  /// of the adaptive threshold, odd; 0: three windows one after the other, which takes three times as long.
+  std::vector<MarkerDetection> detect(const cv::Mat1b& gray, const cv::Rect& region = {},
+                                      int window_px = 0) const;
 
  private:
   struct Implementation;

@@ -39,38 +39,33 @@ inline cv::Mat1b markerImage(const Dictionary& dictionary, int id, int side) {
 /// With OpenCV's default, the edge of a bright plate around a marker can suppress the marker.
 constexpr double kMinMarkerDistanceRate = 0.02;
 
+/// How markers are looked for.
+struct Options {
+  int window_px = 0;  ///< side of the adaptive threshold's window, odd; 0: OpenCV's three windows in turn
+  double min_perimeter_rate = 0.03;  ///< as in cv::aruco::DetectorParameters, OpenCV's default
+};
+
 class Detector {
  public:
-  /// @param min_perimeter_rate as in cv::aruco::DetectorParameters.
-  explicit Detector(const Dictionary& dictionary, double min_perimeter_rate = 0.03) {
-#if SOFTBODY_ARUCO_IN_OBJDETECT
+  explicit Detector(const Dictionary& dictionary) : dictionary_(cv::makePtr<Dictionary>(dictionary)) {}
+
+  void detect(const cv::Mat1b& gray, std::vector<std::vector<cv::Point2f>>* corners, std::vector<int>* ids,
+              const Options& options = {}) const {
     cv::aruco::DetectorParameters parameters;
     parameters.minMarkerDistanceRate = kMinMarkerDistanceRate;
-    parameters.minMarkerPerimeterRate = min_perimeter_rate;
-    detector_ = cv::aruco::ArucoDetector(dictionary, parameters);
-#else
-    dictionary_ = cv::makePtr<Dictionary>(dictionary);
-    parameters_->minMarkerDistanceRate = kMinMarkerDistanceRate;
-    parameters_->minMarkerPerimeterRate = min_perimeter_rate;
-#endif
-  }
-
-  void detect(const cv::Mat1b& gray, std::vector<std::vector<cv::Point2f>>* corners,
-              std::vector<int>* ids) const {
+    parameters.minMarkerPerimeterRate = options.min_perimeter_rate;
+    if (options.window_px > 0)
+      parameters.adaptiveThreshWinSizeMin = parameters.adaptiveThreshWinSizeMax = options.window_px;
 #if SOFTBODY_ARUCO_IN_OBJDETECT
-    detector_.detectMarkers(gray, *corners, *ids);
+    cv::aruco::ArucoDetector(*dictionary_, parameters).detectMarkers(gray, *corners, *ids);
 #else
-    cv::aruco::detectMarkers(gray, dictionary_, *corners, *ids, parameters_);
+    cv::aruco::detectMarkers(gray, dictionary_, *corners, *ids,
+                             cv::makePtr<cv::aruco::DetectorParameters>(parameters));
 #endif
   }
 
  private:
-#if SOFTBODY_ARUCO_IN_OBJDETECT
-  cv::aruco::ArucoDetector detector_;
-#else
   cv::Ptr<Dictionary> dictionary_;
-  cv::Ptr<cv::aruco::DetectorParameters> parameters_ = cv::aruco::DetectorParameters::create();
-#endif
 };
 
 }  // namespace softbody::aruco

@@ -24,10 +24,11 @@ struct Found {
   double side_px;
 };
 
-std::vector<Found> found(const cv::Mat1b& gray, const aruco::Detector& detector) {
+std::vector<Found> found(const cv::Mat1b& gray, const aruco::Detector& detector,
+                         const aruco::Options& options = {}) {
   std::vector<std::vector<cv::Point2f>> corners;
   std::vector<int> ids;
-  detector.detect(gray, &corners, &ids);
+  detector.detect(gray, &corners, &ids, options);
   std::vector<Found> markers;
   for (std::size_t i = 0; i < ids.size(); ++i)
     markers.push_back({ids[i], cv::arcLength(corners[i], true) / 4.0});
@@ -103,7 +104,7 @@ class Search {
   std::string small() const {
     cv::Mat1b larger;
     cv::resize(gray_, larger, {}, 2.0, 2.0, cv::INTER_CUBIC);
-    const Found marker = own(found(larger, aruco::Detector(dictionary_, kSmallestPerimeter)));
+    const Found marker = own(found(larger, detector_, {0, kSmallestPerimeter}));
     if (marker.id < 0) return {};
     return fmt::format(
         "marker {} is only {:.0f} pixels wide: bring the camera nearer, print it larger, or use a higher "

@@ -58,13 +58,21 @@ MarkerDetector::MarkerDetector(const std::string& dictionary)
 
 MarkerDetector::~MarkerDetector() = default;
 
-std::vector<MarkerDetection> MarkerDetector::detect(const cv::Mat1b& gray, const cv::Rect& region) const {
+int MarkerDetector::cells() const { return implementation_->cells_a_side; }
+
+std::vector<MarkerDetection> MarkerDetector::detect(const cv::Mat1b& gray, const cv::Rect& region,
+                                                    int window_px) const {
   const cv::Rect all(0, 0, gray.cols, gray.rows);
   const cv::Rect part = region.empty() ? all : region & all;
   if (part.empty()) return {};
   std::vector<std::vector<cv::Point2f>> found;
   std::vector<int> ids;
-  implementation_->detector.detect(gray(part), &found, &ids);
+  aruco::Options options;
+  options.window_px = window_px;
+  // The smallest marker is the same in a part of the image as in all of it.
+  options.min_perimeter_rate *=
+      static_cast<double>(std::max(all.width, all.height)) / std::max(part.width, part.height);
+  implementation_->detector.detect(gray(part), &found, &ids, options);
   std::vector<MarkerDetection> detections;
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (cv::Point2f& corner : found[i]) corner += cv::Point2f(part.tl());

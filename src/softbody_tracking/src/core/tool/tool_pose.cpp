@@ -47,11 +47,7 @@ void addCorners(const MarkerMeasurement& measurement, const Pinhole& camera, con
   for (int k = 0; k < 4; ++k) {
     const Eigen::Vector3d turned = T.linear() * corners.col(k), p = turned + T.translation();
     const Eigen::Vector2d residual = camera.project(p) - measurement.corners.col(k);
-    Eigen::Matrix<double, 2, 3> projection;
-    projection << camera.fx / p.z(), 0.0, -camera.fx * p.x() / (p.z() * p.z()), 0.0, camera.fy / p.z(),
-        -camera.fy * p.y() / (p.z() * p.z());
-    Eigen::Matrix<double, 2, 6> J;
-    J << projection, -projection * cross(turned);
+    const Eigen::Matrix<double, 2, 6> J = pixelByPose(camera, turned, p);
     for (int i = 0; i < 2; ++i) equations->add(J.row(i).transpose(), residual(i), weight);
     equations->cost += weight * residual.squaredNorm();
   }
@@ -169,6 +165,16 @@ double reprojectionRms(const MarkerMeasurement& measurement, const Pinhole& came
     sum += (camera.project(corners.col(k)) - measurement.corners.col(k)).squaredNorm();
   }
   return std::sqrt(sum / 4.0);
+}
+
+Eigen::Matrix<double, 2, 6> pixelByPose(const Pinhole& camera, const Eigen::Vector3d& turned,
+                                        const Eigen::Vector3d& p) {
+  Eigen::Matrix<double, 2, 3> projection;
+  projection << camera.fx / p.z(), 0.0, -camera.fx * p.x() / (p.z() * p.z()), 0.0, camera.fy / p.z(),
+      -camera.fy * p.y() / (p.z() * p.z());
+  Eigen::Matrix<double, 2, 6> J;
+  J << projection, -projection * cross(turned);
+  return J;
 }
 
 PoseEstimate refinePose(const std::vector<const MarkerMeasurement*>& measurements, const Pinhole& camera,

@@ -27,6 +27,11 @@ std::vector<Eigen::Isometry3d> planarPoses(const MarkerMeasurement& measurement,
 double reprojectionRms(const MarkerMeasurement& measurement, const Pinhole& camera,
                        const Eigen::Isometry3d& T_camera_tool);
 
+/// Derivative of a point's pixel by a move of the pose (movedPose), 2 by 6. @param turned the point from the
+/// tool's origin, in the camera's axes [m]. @param p the point in the camera's frame [m].
+Eigen::Matrix<double, 2, 6> pixelByPose(const Pinhole& camera, const Eigen::Vector3d& turned,
+                                        const Eigen::Vector3d& p);
+
 struct PoseEstimate {
   Eigen::Isometry3d T_camera_tool = Eigen::Isometry3d::Identity();
   PoseCovariance covariance = PoseCovariance::Zero();  ///< inverse normal matrix

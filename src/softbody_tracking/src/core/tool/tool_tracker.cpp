@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 
 #include "softbody_common/time.h"
 #include "softbody_tracking/tool/marker_detector.h"
+#include "tool/expected_markers.h"
 #include "tool/pose_motion.h"
 #include "tool/tool_hypotheses.h"
 #include "tool/tool_pose.h"
@@ -15,32 +17,20 @@
 namespace softbody {
 namespace {
 
-constexpr double kRegionMargin = 0.5;  // of the markers' extent in the image, for an error of the prediction
-constexpr double kRegionMargin_px = 24.0;  // [px] smallest margin, for small markers
-constexpr double kMinDepth_m = 0.01;       // [m] a marker nearer to the camera plane has no usable projection
+/// [px] Windows of the adaptive threshold, OpenCV's three: one a frame in the whole image. The one that finds
+/// most markers comes first.
+constexpr int kWindows_px[] = {13, 23, 3};
+constexpr double kWindowCells = 1.0;
 /// Of the blade's length: with a larger standard deviation a stroke would not be where the hand made it.
 constexpr double kMaxBladeStd = 0.1;
+
+/// Side of a window of the adaptive threshold for cells of a side [px], odd.
+int windowFor(double cell_px) { return std::max(3, 2 * static_cast<int>(0.5 * kWindowCells * cell_px) + 1); }
 
 cv::Mat1b grayOf(const cv::Mat3b& color) {
   cv::Mat1b gray;
   cv::cvtColor(color, gray, cv::COLOR_BGR2GRAY);
   return gray;
-}
-
-/// Part of the image in which the markers are expected; empty: the whole image.
-cv::Rect expectedRegion(const ToolDescription& tool, const Pinhole& camera, const Eigen::Isometry3d& T) {
-  Eigen::AlignedBox2d box;
-  for (const ToolMarker& marker : tool.markers) {
-    const Eigen::Matrix<double, 3, 4> corners = T * markerCorners(marker);
-    if (!(corners.row(2).minCoeff() > kMinDepth_m)) return {};
-    for (int k = 0; k < 4; ++k) box.extend(camera.project(corners.col(k)));
-  }
-  const double margin = std::max(kRegionMargin_px, kRegionMargin * box.sizes().maxCoeff());
-  const Eigen::Array2d image(camera.width, camera.height);
-  const Eigen::Array2d low = (box.min().array() - margin).max(0.0).min(image),
-                       high = (box.max().array() + margin).max(0.0).min(image);
-  return {cv::Point(static_cast<int>(low.x()), static_cast<int>(low.y())),
-          cv::Point(static_cast<int>(high.x()), static_cast<int>(high.y()))};
 }
 
 double rmsOver(const ToolHypothesis& hypothesis, const Pinhole& camera) {
@@ -115,9 +105,9 @@ struct ToolTracker::Implementation {
   }
 
   std::vector<MarkerMeasurement> measure(const cv::Mat1b& gray, const RgbdFrame& frame,
-                                         const cv::Rect& region) const {
+                                         const cv::Rect& region, int window_px) const {
     std::vector<MarkerMeasurement> measurements;
-    for (const MarkerDetection& detection : detector.detect(gray, region)) {
+    for (const MarkerDetection& detection : detector.detect(gray, region, window_px)) {
       const auto marker = std::find_if(tool.markers.begin(), tool.markers.end(),
                                        [&](const ToolMarker& m) { return m.id == detection.id; });
       if (marker == tool.markers.end()) continue;
@@ -126,19 +116,26 @@ struct ToolTracker::Implementation {
     return measurements;
   }
 
+  /// Poses from the markers in a part of the image; empty: in all of it.
+  std::vector<ToolHypothesis> search(const cv::Mat1b& gray, const RgbdFrame& frame, const cv::Rect& region,
+                                     int window_px, const std::optional<PoseMotion::Prediction>& predicted) {
+    measurements = measure(gray, frame, region, window_px);
+    return toolHypotheses(measurements, frame.camera, predicted, noise, config);
+  }
+
   /// Searches around the prediction first, then in the whole image.
   std::vector<ToolHypothesis> search(const RgbdFrame& frame) {
     const cv::Mat1b gray = grayOf(frame.color);
     const auto predicted = predict(frame);
-    const cv::Rect region = predicted ? expectedRegion(tool, frame.camera, predicted->pose) : cv::Rect();
-    std::vector<cv::Rect> parts{region};
-    if (!region.empty()) parts.emplace_back();
-    for (const cv::Rect& part : parts) {
-      measurements = measure(gray, frame, part);
-      auto hypotheses = toolHypotheses(measurements, frame.camera, predicted, noise, config);
-      if (!hypotheses.empty()) return hypotheses;
-    }
-    return {};
+    const auto expected =
+        predicted ? expectedMarkers(tool, detector.cells(), frame.camera, *predicted) : std::nullopt;
+    std::vector<ToolHypothesis> hypotheses;
+    if (expected && !expected->region.empty())
+      hypotheses = search(gray, frame, expected->region, windowFor(expected->cell_px), predicted);
+    if (hypotheses.empty())
+      hypotheses = search(gray, frame, {}, kWindows_px[lost_frames % std::size(kWindows_px)], predicted);
+    lost_frames = hypotheses.empty() ? lost_frames + 1 : 0;
+    return hypotheses;
   }
 
   std::optional<ToolObservation> observe(const RgbdFrame& frame) {
@@ -222,6 +219,7 @@ struct ToolTracker::Implementation {
   MarkerDetector detector;
   CornerNoise noise;
   std::optional<PoseMotion> motion;  ///< in the fixed frame
+  std::size_t lost_frames = 0;       ///< since a pose was found
   bool confirmed = false;  ///< two poses in a row, each certain without the motion, began the motion
   std::vector<MarkerMeasurement> measurements;  ///< of the current frame; hypotheses point into it
   int pass = 0;                                 ///< of the last frame
@@ -255,6 +253,7 @@ const std::string& ToolTracker::reason() const { return implementation_->reason;
 
 void ToolTracker::reset() {
   implementation_->motion.reset();
+  implementation_->lost_frames = 0;
   implementation_->reason = "no frame yet";
 }
 

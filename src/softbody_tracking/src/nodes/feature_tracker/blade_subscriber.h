@@ -9,7 +9,7 @@
 
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tool/tool_mask.h"
-#include "tool/blade_buffer.h"
+#include "blade/blade_buffer.h"
 
 namespace softbody {
 

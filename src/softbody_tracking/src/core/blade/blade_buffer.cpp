@@ -1,4 +1,4 @@
-#include "tool/blade_buffer.h"
+#include "blade/blade_buffer.h"
 
 #include <algorithm>
 #include <cstdlib>

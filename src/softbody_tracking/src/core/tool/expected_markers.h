@@ -1,0 +1,24 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "softbody_common/pinhole.h"
+#include "softbody_tracking/tool/tool_description.h"
+#include "tool/pose_motion.h"
+
+namespace softbody {
+
+/// Where and how large the tool's markers are expected in an image.
+struct ExpectedMarkers {
+  cv::Rect region;     ///< part of the image; may be empty
+  double cell_px = 0;  ///< mean side of a cell
+};
+
+/// The region has all markers, with a white margin of one cell, of every pose that follows the motion.
+/// @param cells along a marker's side, with the black border. @return nothing if a marker may come too near
+/// to the camera plane to be projected.
+std::optional<ExpectedMarkers> expectedMarkers(const ToolDescription& tool, int cells, const Pinhole& camera,
+                                               const PoseMotion::Prediction& predicted);
+
+}  // namespace softbody
