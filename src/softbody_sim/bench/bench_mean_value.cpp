@@ -1,11 +1,12 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "bench/doll_size.h"
 #include "bench/mean_value_reference.h"
+#include "bench/wall_time.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_sim/interpolation/tiled_weights.h"
 #include "softbody_sim/mean_value/mean_value_coordinates.h"
 
@@ -14,6 +15,7 @@
 namespace {
 
 using namespace softbody;
+using bench::secondsOf;
 
 const bench::DollSize& doll() {
   static const bench::DollSize kept = bench::makeDollSize();
@@ -28,19 +30,6 @@ template <typename Scalar>
 void makeReferenceWeights(WeightRows* weights) {
   bench::referenceMeanValueCoordinates<Scalar>(doll().points, doll().cage.vertices, doll().cage.triangles,
                                                weights);
-}
-
-template <typename Work>
-double secondsOf(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
 }
 
 /// Largest difference, relative to the largest weight of its row.
@@ -60,7 +49,7 @@ void makeWeights(benchmark::State& state) {
   }
   WeightRows exact;
   makeReferenceWeights<long double>(&exact);
-  state.counters["summary/mvc_weights_ratio"] = median(ratios);
+  state.counters["summary/mvc_weights_ratio"] = medianOf(ratios);
   state.counters["difference"] = relativeDifference(weights, exact);
   state.counters["difference_of_scalar_port"] = relativeDifference(scalar, exact);
 }
@@ -101,7 +90,7 @@ void applyWeights(benchmark::State& state) {
     ratios.push_back(std::min(by_rows, by_columns) / ours);
     state.SetIterationTime(ours);
   }
-  state.counters["summary/mvc_apply_ratio"] = median(ratios);
+  state.counters["summary/mvc_apply_ratio"] = medianOf(ratios);
   state.counters["difference"] = (product.topRows(eigen.rows()) - eigen).array().abs().maxCoeff();
 }
 BENCHMARK(applyWeights)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(200);
