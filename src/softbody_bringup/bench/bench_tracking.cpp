@@ -4,6 +4,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
 #include <optional>
 
 #include "bench/thread_time.h"
@@ -13,7 +14,8 @@
 #include "softbody_virtual_camera/camera/camera_setup.h"
 
 /// Our tracking stage, and the tracking of the paper: ORB features of OpenCV, matched by brute force. Both
-/// take the same frames alternately, on one thread. Argument: 0 sponge, 1 doll.
+/// take the same frames alternately, on one thread. Likewise our features alone, and optical flow (OpenCV's
+/// calcOpticalFlowPyrLK) of the same features. Argument: 0 sponge, 1 doll.
 namespace {
 
 using namespace softbody;
@@ -100,14 +102,60 @@ class PlainMatching {
   cv::Mat model_;
 };
 
+/// Optical flow of OpenCV, with its defaults, from the frame before.
+class PlainFlow {
+ public:
+  /// @param features of this frame, to be followed into the next one.
+  PlainFlow(const RgbdFrame& frame, const std::vector<TrackedFeature>& features) {
+    cv::cvtColor(frame.color, gray_, cv::COLOR_BGR2GRAY);
+    for (const TrackedFeature& feature : features)
+      points_.emplace_back(static_cast<float>(feature.pixel.x()), static_cast<float>(feature.pixel.y()));
+  }
+
+  int follow(const RgbdFrame& next) const {
+    if (points_.empty()) return 0;
+    cv::Mat gray;
+    cv::cvtColor(next.color, gray, cv::COLOR_BGR2GRAY);
+    std::vector<cv::Point2f> found;
+    std::vector<std::uint8_t> status;
+    cv::calcOpticalFlowPyrLK(gray_, gray, points_, found, status, cv::noArray());
+    return cv::countNonZero(status);
+  }
+
+ private:
+  cv::Mat gray_;
+  std::vector<cv::Point2f> points_;
+};
+
 struct Times {
-  std::vector<double> first, track, whole, region;  ///< [ms]; the first frame is separate
+  std::vector<double> first, track, whole, region, features, flow;  ///< [ms]; the first frame is separate
 };
 
 struct PassResult {
   std::uint32_t features = 0;  ///< in the tracker's map at the end
   bool tracked = true;         ///< the body is found in every frame
 };
+
+/// The features alone, without depth and outline, and optical flow of the same ones.
+void passOfFeatures(const Recording& recording, Times* times) {
+  TrackerConfig config;
+  config.use_depth = false;
+  config.outline.weight = 0.0;
+  BodyTracker tracker(config);
+  tracker.setTopologies(recording.volume, recording.surface);
+  std::vector<TrackedFeature> features;
+  for (int i = 0; i < kFrames; ++i) {
+    const RgbdFrame& frame = recording.frames[i];
+    if (i > 0) {
+      const PlainFlow flow(recording.frames[i - 1], features);
+      times->flow.push_back(millisecondsOf([&] { benchmark::DoNotOptimize(flow.follow(frame)); }));
+    }
+    StageTimer timer;
+    const MeshState* before = recording.before[i] ? &*recording.before[i] : nullptr;
+    const double track = millisecondsOf([&] { features = tracker.track(frame, before, &timer).features; });
+    if (i > 0) times->features.push_back(track);
+  }
+}
 
 /// One pass over the recording.
 PassResult pass(const Recording& recording, Times* times) {
@@ -142,6 +190,7 @@ void trackFrames(benchmark::State& state) {
   PassResult result;
   for (auto _ : state) {
     result = pass(recording, &times);
+    passOfFeatures(recording, &times);
     if (!result.tracked) {
       state.SkipWithError("the body is not found in every frame");
       return;
@@ -154,6 +203,10 @@ void trackFrames(benchmark::State& state) {
   state.counters["features"] = result.features;
   state.counters["ORB and brute force, whole image [ms]"] = medianOf(times.whole);
   state.counters["ORB and brute force, region [ms]"] = medianOf(times.region);
+  state.counters["optical flow of the features [ms]"] = medianOf(times.flow);
+  state.counters["summary/tracking/" + body + "/features_ms"] = medianOf(times.features);
+  state.counters["summary/tracking/" + body + "/optical_flow_ratio"] =
+      medianOf(times.flow) / medianOf(times.features);
   state.counters["summary/tracking/" + body + "/first_frame_ms"] = medianOf(times.first);
   state.counters["summary/tracking/" + body + "/frame_ms"] = track;
   state.counters["summary/tracking/" + body + "/ratio_to_region"] = medianOf(times.region) / track;
