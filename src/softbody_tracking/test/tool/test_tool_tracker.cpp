@@ -240,6 +240,20 @@ TEST(ToolTracker, AFrameOfAnotherPassStartsAgain) {
   EXPECT_FALSE(tracker.track(empty, nullptr));
 }
 
+/// The image is searched with one window a frame, and small markers need a small window.
+TEST(ToolTracker, AToolOfAnySizeIsFoundWithinThreeFrames) {
+  const Eigen::Isometry3d pose = facing({0.0, 0.0, 0.6}) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY());
+  for (const double size_m : {0.015, 0.02, 0.04, 0.1, 0.25}) {
+    const ToolDescription tool = oneMarker(size_m);
+    ToolTracker tracker(tool);
+    int frames = 0;
+    std::optional<ToolObservation> found;
+    for (; !found && frames < 3; ++frames)
+      found = tracker.track(renderTool(tool, pose, frames * kFrame, static_cast<unsigned>(frames)), nullptr);
+    EXPECT_TRUE(found) << size_m;
+  }
+}
+
 TEST(ToolTracker, AToolWithoutMarkersIsRefused) {
   EXPECT_THROW(ToolTracker(ToolDescription{"DICT_4X4_50", {}, Points(0, 3), {}}), std::invalid_argument);
 }
