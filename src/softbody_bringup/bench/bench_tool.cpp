@@ -40,7 +40,7 @@ class PlainDetector {
 /// Sums over the frames of all passes.
 struct Sums {
   int frames = 0, seen = 0;
-  double ours_ms = 0.0, plain_ms = 0.0, worst_ms = 0.0, worst_plain_ms = 0.0;
+  double ours_ms = 0.0, seen_ms = 0.0, plain_ms = 0.0, worst_ms = 0.0, worst_plain_ms = 0.0;
   double place_mm = 0.0, angle_deg = 0.0;  ///< errors of the poses that are seen
 
   void add(double ours, double plain) {
@@ -51,8 +51,9 @@ struct Sums {
     worst_plain_ms = std::max(worst_plain_ms, plain);
   }
 
-  void add(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& truth) {
+  void add(double ours, const Eigen::Isometry3d& pose, const Eigen::Isometry3d& truth) {
     ++seen;
+    seen_ms += ours;
     place_mm += 1e3 * (pose.translation() - truth.translation()).norm();
     angle_deg += 180.0 / M_PI * Eigen::AngleAxisd(pose.linear() * truth.linear().transpose()).angle();
   }
@@ -87,7 +88,7 @@ void watchCut(std::uint64_t seed, Sums* sums) {
       plain.push_back(millisecondsOf([&] { detector.detect(frame.color); }));
     }
     sums->add(medianOf(ours), medianOf(plain));
-    if (seen && !seen->bridged) sums->add(seen->T_camera_tool, *capture.T_camera_tool);
+    if (seen && !seen->bridged) sums->add(medianOf(ours), seen->T_camera_tool, *capture.T_camera_tool);
   }
 }
 
@@ -102,6 +103,8 @@ void trackTool(benchmark::State& state) {
   const auto mean = [](double sum, int count) { return sum / count; };
   state.counters["frames"] = sums.frames;
   state.counters["frames with a pose"] = sums.seen;
+  state.counters["frame with a pose [ms]"] = mean(sums.seen_ms, sums.seen);
+  state.counters["frame without [ms]"] = mean(sums.ours_ms - sums.seen_ms, sums.frames - sums.seen);
   state.counters["error of its place, mean [mm]"] = mean(sums.place_mm, sums.seen);
   state.counters["error of its angle, mean [deg]"] = mean(sums.angle_deg, sums.seen);
   state.counters["cv::aruco [ms]"] = mean(sums.plain_ms, sums.frames);

@@ -4,7 +4,6 @@
 
 #include "fixtures/tool_scene.h"
 #include "tool/expected_markers.h"
-#include "tool/tool_hypotheses.h"
 
 namespace softbody {
 namespace {
@@ -27,7 +26,8 @@ PoseCovariance covarianceOf(double place_m, double turn_rad) {
   return covariance;
 }
 
-TEST(ExpectedMarkers, LieInTheRegionForEveryPoseThatFollowsTheMotion) {
+/// Without the margin, so that the turns' nonlinearity does not matter.
+TEST(ExpectedMarkers, LieInTheRegionInNearlyAllPosesThatArePredicted) {
   const ToolDescription tool = twoFaces();
   const Pinhole camera = toolCamera();
   std::mt19937 random(1);
@@ -37,22 +37,23 @@ TEST(ExpectedMarkers, LieInTheRegionForEveryPoseThatFollowsTheMotion) {
     const PoseMotion::Prediction predicted{pose, covarianceOf(place_m, 4.0 * place_m)};
     const auto expected = expectedMarkers(tool, kCells, camera, predicted);
     ASSERT_TRUE(expected);
-    const cv::Rect& region = expected->region;
-    const Eigen::LLT<PoseCovariance> root(predicted.covariance);
-    for (int i = 0; i < 500; ++i) {
-      const Eigen::Matrix<double, 6, 1> direction =
-          Eigen::Matrix<double, 6, 1>::NullaryExpr([&] { return normal(random); });
-      const Eigen::Isometry3d moved =
-          movedPose(pose, root.matrixL() * (std::sqrt(kFollowsMotion) * direction.normalized()));
+    const PoseCovariance root = predicted.covariance.llt().matrixL();
+    int outside = 0;
+    constexpr int kPoses = 3000;
+    for (int i = 0; i < kPoses; ++i) {
+      const Eigen::Isometry3d moved = movedPose(
+          pose,
+          root * Eigen::Matrix<double, 6, 1>::NullaryExpr([&](Eigen::Index) { return normal(random); }));
       for (const ToolMarker& marker : tool.markers) {
         const Eigen::Matrix<double, 3, 4> corners = moved * markerCorners(marker);
         for (int k = 0; k < 4; ++k) {
           const Eigen::Vector2d p = camera.project(corners.col(k));
-          EXPECT_TRUE(region.contains(cv::Point(static_cast<int>(p.x()), static_cast<int>(p.y()))))
-              << place_m << ": " << p.transpose() << " in " << region;
+          const cv::Point pixel(static_cast<int>(p.x()), static_cast<int>(p.y()));
+          outside += expected->region.contains(pixel) ? 0 : 1;
         }
       }
     }
+    EXPECT_LT(outside, 8 * kPoses / 1000) << place_m;
   }
 }
 
@@ -67,8 +68,8 @@ TEST(ExpectedMarkers, RegionOfACertainPoseIsTheMarkersWithOneCellAround) {
   const double side_px = 0.04 / 0.5 * toolCamera().fx, cell_px = side_px / kCells;
   EXPECT_NEAR(certain->cell_px, cell_px, 0.02 * cell_px);
   EXPECT_NEAR(certain->region.width, side_px + 2.0 * cell_px, 1.0);
-  EXPECT_NEAR(uncertain->region.width - certain->region.width,
-              2.0 * std::sqrt(kFollowsMotion) * 0.002 / 0.5 * toolCamera().fx, 2.0);
+  const double sigma_px = 0.002 / 0.5 * toolCamera().fx;
+  EXPECT_NEAR(uncertain->region.width - certain->region.width, 2.0 * 3.5 * sigma_px, 2.0);
 }
 
 TEST(ExpectedMarkers, AMarkerBesideTheCameraHasNoRegionAndOneOutOfViewAnEmptyOne) {

@@ -1,14 +1,13 @@
 #include "tool/expected_markers.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
-#include "tool/tool_hypotheses.h"
 #include "tool/tool_pose.h"
 
 namespace softbody {
 namespace {
 
+constexpr double kSigmas = 3.5;       // of the prediction: 99.95 % along each axis of the image
 constexpr double kMinDepth_m = 0.01;  // [m] a marker nearer to the camera plane has no usable projection
 
 /// Corners of a marker with a margin of one cell, in the tool's frame [m].
@@ -21,7 +20,6 @@ Eigen::Matrix<double, 3, 4> withMargin(ToolMarker marker, int cells) {
 
 std::optional<ExpectedMarkers> expectedMarkers(const ToolDescription& tool, int cells, const Pinhole& camera,
                                                const PoseMotion::Prediction& predicted) {
-  const double sigmas = std::sqrt(kFollowsMotion);
   const Eigen::Isometry3d& T = predicted.pose;
   Eigen::AlignedBox2d box;
   double perimeters_px = 0.0;
@@ -33,7 +31,7 @@ std::optional<ExpectedMarkers> expectedMarkers(const ToolDescription& tool, int 
       if (!(p.z() > kMinDepth_m)) return std::nullopt;
       const Eigen::Matrix<double, 2, 6> J = pixelByPose(camera, turned, p);
       const Eigen::Vector2d reach =
-          sigmas * (J * predicted.covariance * J.transpose()).diagonal().cwiseSqrt();
+          kSigmas * (J * predicted.covariance * J.transpose()).diagonal().cwiseSqrt();
       pixels.col(k) = camera.project(p);
       box.extend(pixels.col(k) - reach).extend(pixels.col(k) + reach);
     }

@@ -15,7 +15,7 @@ struct ExpectedMarkers {
   double cell_px = 0;  ///< mean side of a cell
 };
 
-/// The region has all markers, with a white margin of one cell, of every pose that follows the motion.
+/// The region holds the markers, with a white margin of one cell, in 99.95 % of the poses that are predicted.
 /// @param cells along a marker's side, with the black border. @return nothing if a marker may come too near
 /// to the camera plane to be projected.
 std::optional<ExpectedMarkers> expectedMarkers(const ToolDescription& tool, int cells, const Pinhole& camera,

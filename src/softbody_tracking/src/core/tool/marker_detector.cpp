@@ -63,25 +63,25 @@ int MarkerDetector::cells() const { return implementation_->cells_a_side; }
 std::vector<MarkerDetection> MarkerDetector::detect(const cv::Mat1b& gray, const cv::Rect& region,
                                                     int window_px) const {
   const cv::Rect all(0, 0, gray.cols, gray.rows);
-  const cv::Rect part = region.empty() ? all : region & all;
-  if (part.empty()) return {};
+  const cv::Rect place = region.empty() ? all : region & all;
+  if (place.empty()) return {};
+  const cv::Mat1b part = gray(place);
   std::vector<std::vector<cv::Point2f>> found;
   std::vector<int> ids;
   aruco::Options options;
   options.window_px = window_px;
   // The smallest marker is the same in a part of the image as in all of it.
   options.min_perimeter_rate *=
-      static_cast<double>(std::max(all.width, all.height)) / std::max(part.width, part.height);
-  implementation_->detector.detect(gray(part), &found, &ids, options);
+      static_cast<double>(std::max(all.width, all.height)) / std::max(place.width, place.height);
+  implementation_->detector.detect(part, &found, &ids, options);
   std::vector<MarkerDetection> detections;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    for (cv::Point2f& corner : found[i]) corner += cv::Point2f(part.tl());
-    if (!refineCorners(gray, implementation_->cells_a_side, &found[i])) continue;
+    if (!refineCorners(part, implementation_->cells_a_side, &found[i])) continue;
     MarkerDetection detection;
     detection.id = ids[i];
     for (int k = 0; k < 4; ++k) {
       const cv::Point2f& corner = found[i][static_cast<std::size_t>(k)];
-      detection.corners.col(k) << corner.x, corner.y;
+      detection.corners.col(k) << place.x + corner.x, place.y + corner.y;
     }
     detections.push_back(detection);
   }

@@ -32,22 +32,23 @@ std::optional<double> grayAt(const cv::Mat1b& gray, const Eigen::Vector2d& p) {
 }
 
 /// Distance from p to the edge along the outward direction [px]: the centroid of the slope, because blur is
-/// symmetric.
+/// symmetric. @param slopes memory for the profile.
 std::optional<double> edgeOffset(const cv::Mat1b& gray, const Eigen::Vector2d& p,
-                                 const Eigen::Vector2d& outward, double reach_px) {
-  std::vector<double> slopes;
+                                 const Eigen::Vector2d& outward, double reach_px,
+                                 std::vector<double>* slopes) {
+  slopes->clear();
   std::optional<double> before = grayAt(gray, p - reach_px * outward);
   const int steps = static_cast<int>(2.0 * reach_px / kStep_px);
   for (int i = 1; i <= steps; ++i) {
     const std::optional<double> here = grayAt(gray, p + (i * kStep_px - reach_px) * outward);
     if (!before || !here) return std::nullopt;
-    slopes.push_back(*here - *before);
+    slopes->push_back(*here - *before);
     before = here;
   }
-  const double threshold = kMinSlope * *std::max_element(slopes.begin(), slopes.end());
+  const double threshold = kMinSlope * *std::max_element(slopes->begin(), slopes->end());
   double sum = 0.0, moment = 0.0;
-  for (std::size_t i = 0; i < slopes.size(); ++i) {
-    const double slope = std::max(0.0, slopes[i] - threshold);
+  for (std::size_t i = 0; i < slopes->size(); ++i) {
+    const double slope = std::max(0.0, (*slopes)[i] - threshold);
     sum += slope;
     moment += slope * ((static_cast<double>(i) + 0.5) * kStep_px - reach_px);
   }
@@ -114,9 +115,10 @@ std::optional<Side> findSide(const cv::Mat1b& gray, const Eigen::Vector2d& from,
   side.outward = Eigen::Vector2d(side.chord.y(), -side.chord.x()) / length;
   const int samples = std::max(kMinProfiles, static_cast<int>(length));
   Profile profile;
+  std::vector<double> slopes;
   for (int i = 0; i < samples; ++i) {
     const double place = (1.0 - 2.0 * kCornerMargin) * (i / (samples - 1.0) - 0.5);
-    const auto offset = edgeOffset(gray, from + (place + 0.5) * side.chord, side.outward, reach_px);
+    const auto offset = edgeOffset(gray, from + (place + 0.5) * side.chord, side.outward, reach_px, &slopes);
     if (!offset) continue;
     profile.places.push_back(place);
     profile.offsets.push_back(*offset);

@@ -11,6 +11,7 @@ constexpr double kCoarseGate = 0.5;  // of a marker's side; largest rms error be
 constexpr double kSameRotation_rad = 0.05;   // [rad] rotations that differ by less are the same pose,
 constexpr double kSameRotationSigmas = 4.0;  // as are those within this many standard deviations
 constexpr double kMaxMotionCost = 3.0;  // times the ambiguity: a faster motion than predicted stays possible
+constexpr double kAgrees = 24.1;        // chi squared: 99.95 % of the poses that follow the predicted motion
 
 double side(const Eigen::Matrix<double, 2, 4>& corners) {
   double longest = 0.0;
@@ -71,7 +72,7 @@ void judge(const std::optional<PoseMotion::Prediction>& predicted, double freedo
   estimate.covariance *= std::max(1.0, factor);
   if (predicted) {
     const double cost = motionCost(estimate, *predicted);
-    hypothesis->against_motion = cost > kFollowsMotion;
+    hypothesis->against_motion = cost > kAgrees;
     hypothesis->motion_cost = std::min(cost, kMaxMotionCost * config.ambiguity);
   }
   hypothesis->unlikelihood =

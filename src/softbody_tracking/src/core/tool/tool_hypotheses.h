@@ -10,10 +10,6 @@
 
 namespace softbody {
 
-/// Largest squared Mahalanobis distance from the predicted pose of 99.95 % of the poses that follow the
-/// motion (chi squared).
-constexpr double kFollowsMotion = 24.1;
-
 /// A pose and the markers that agree with it.
 struct ToolHypothesis {
   std::vector<const MarkerMeasurement*> markers;

@@ -17,19 +17,20 @@
 namespace softbody {
 namespace {
 
-/// [px] Windows of the adaptive threshold, OpenCV's three: one a frame in the whole image. The one that finds
-/// most markers comes first.
+/// [px] Windows of the adaptive threshold, OpenCV's three. The whole image is searched with one a frame:
+/// first with the one that finds markers of most sizes.
 constexpr int kWindows_px[] = {13, 23, 3};
-constexpr double kWindowCells = 1.0;
 /// Of the blade's length: with a larger standard deviation a stroke would not be where the hand made it.
 constexpr double kMaxBladeStd = 0.1;
 
-/// Side of a window of the adaptive threshold for cells of a side [px], odd.
-int windowFor(double cell_px) { return std::max(3, 2 * static_cast<int>(0.5 * kWindowCells * cell_px) + 1); }
+/// A window that reaches over one cell on both sides of an edge, odd. Smaller ones see two edges of a thin
+/// border, and larger ones see what is beside the white margin.
+int windowFor(double cell_px) { return std::max(3, 2 * static_cast<int>(std::lround(cell_px)) + 1); }
 
-cv::Mat1b grayOf(const cv::Mat3b& color) {
-  cv::Mat1b gray;
-  cv::cvtColor(color, gray, cv::COLOR_BGR2GRAY);
+/// Only the region is set.
+cv::Mat1b grayOf(const cv::Mat3b& color, const cv::Rect& region) {
+  cv::Mat1b gray(color.size());
+  cv::cvtColor(color(region), gray(region), cv::COLOR_BGR2GRAY);
   return gray;
 }
 
@@ -104,36 +105,32 @@ struct ToolTracker::Implementation {
     if (tool.markers.empty()) throw std::invalid_argument("a tool without markers cannot be tracked");
   }
 
-  std::vector<MarkerMeasurement> measure(const cv::Mat1b& gray, const RgbdFrame& frame,
-                                         const cv::Rect& region, int window_px) const {
-    std::vector<MarkerMeasurement> measurements;
-    for (const MarkerDetection& detection : detector.detect(gray, region, window_px)) {
+  std::vector<MarkerMeasurement> measure(const RgbdFrame& frame, const cv::Rect& region,
+                                         int window_px) const {
+    std::vector<MarkerMeasurement> found;
+    for (const MarkerDetection& detection : detector.detect(grayOf(frame.color, region), region, window_px)) {
       const auto marker = std::find_if(tool.markers.begin(), tool.markers.end(),
                                        [&](const ToolMarker& m) { return m.id == detection.id; });
       if (marker == tool.markers.end()) continue;
-      measurements.push_back({&*marker, detection.corners, depthUnder(detection.corners, frame)});
+      found.push_back({&*marker, detection.corners, depthUnder(detection.corners, frame)});
     }
-    return measurements;
-  }
-
-  /// Poses from the markers in a part of the image; empty: in all of it.
-  std::vector<ToolHypothesis> search(const cv::Mat1b& gray, const RgbdFrame& frame, const cv::Rect& region,
-                                     int window_px, const std::optional<PoseMotion::Prediction>& predicted) {
-    measurements = measure(gray, frame, region, window_px);
-    return toolHypotheses(measurements, frame.camera, predicted, noise, config);
+    return found;
   }
 
   /// Searches around the prediction first, then in the whole image.
   std::vector<ToolHypothesis> search(const RgbdFrame& frame) {
-    const cv::Mat1b gray = grayOf(frame.color);
     const auto predicted = predict(frame);
+    const auto searchIn = [&](const cv::Rect& region, int window_px) {
+      measurements = measure(frame, region, window_px);
+      return toolHypotheses(measurements, frame.camera, predicted, noise, config);
+    };
     const auto expected =
         predicted ? expectedMarkers(tool, detector.cells(), frame.camera, *predicted) : std::nullopt;
     std::vector<ToolHypothesis> hypotheses;
     if (expected && !expected->region.empty())
-      hypotheses = search(gray, frame, expected->region, windowFor(expected->cell_px), predicted);
+      hypotheses = searchIn(expected->region, windowFor(expected->cell_px));
     if (hypotheses.empty())
-      hypotheses = search(gray, frame, {}, kWindows_px[lost_frames % std::size(kWindows_px)], predicted);
+      hypotheses = searchIn({{}, frame.color.size()}, kWindows_px[lost_frames % std::size(kWindows_px)]);
     lost_frames = hypotheses.empty() ? lost_frames + 1 : 0;
     return hypotheses;
   }

@@ -7,9 +7,9 @@
 #include <Eigen/Geometry>
 #include <functional>
 
+#include "blade/blade_buffer.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tool/tool_mask.h"
-#include "blade/blade_buffer.h"
 
 namespace softbody {
 
