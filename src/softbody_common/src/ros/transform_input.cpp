@@ -20,7 +20,8 @@ constexpr char kAuthority[] = "tf";
 TransformInput::TransformInput() : spinner_(1, &queue_) {
   buffer_.setUsingDedicatedThread(true);
   node_.setCallbackQueue(&queue_);
-  moving_ = node_.subscribe("/tf", kQueue, &TransformInput::onMoving, this);
+  moving_ =
+      node_.subscribe("/tf", kQueue, &TransformInput::onMoving, this, ros::TransportHints().tcpNoDelay());
   fixed_ = node_.subscribe<tf2_msgs::TFMessage>("/tf_static", kQueue, [this](const auto& message) {
     for (const auto& transform : message->transforms) add(transform, true);
   });

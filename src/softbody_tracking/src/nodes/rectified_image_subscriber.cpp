@@ -22,15 +22,16 @@ RectifiedImageSubscriber::RectifiedImageSubscriber(ros::NodeHandle handle, Callb
   using sensor_msgs::CameraInfo;
   using sensor_msgs::Image;
   const auto stamp = [](const auto& message) { return toNanoseconds(message->header.stamp); };
-  color_ = handle.subscribe<Image>(topics::kRgbRect, kQueue, [this, stamp](const auto& color) {
-    pass(assembler_.addColor(stamp(color), color));
-  });
-  depth_ = handle.subscribe<Image>(topics::kDepthRect, kQueue, [this, stamp](const auto& depth) {
-    pass(assembler_.addDepth(stamp(depth), depth));
-  });
-  info_ = handle.subscribe<CameraInfo>(topics::kRgbInfo, kQueue, [this, stamp](const auto& info) {
-    pass(assembler_.addInfo(stamp(info), info));
-  });
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  color_ = handle.subscribe<Image>(
+      topics::kRgbRect, kQueue,
+      [this, stamp](const auto& color) { pass(assembler_.addColor(stamp(color), color)); }, {}, hints);
+  depth_ = handle.subscribe<Image>(
+      topics::kDepthRect, kQueue,
+      [this, stamp](const auto& depth) { pass(assembler_.addDepth(stamp(depth), depth)); }, {}, hints);
+  info_ = handle.subscribe<CameraInfo>(
+      topics::kRgbInfo, kQueue,
+      [this, stamp](const auto& info) { pass(assembler_.addInfo(stamp(info), info)); }, {}, hints);
 }
 
 }  // namespace softbody

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <set>
+#include <vector>
+
 #include "fixtures/tracked_box.h"
 
 namespace softbody {
@@ -42,6 +45,34 @@ TEST(BodyTracker, TargetsLieWhereTheBodyIs) {
     EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kDepth), 0.002);
     EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kFeature), 0.009);
   }
+}
+
+/// Found, tracked, lost and sought again.
+TEST(BodyTracker, TargetsAreUsedOnceAndAreThoseOfTheResult) {
+  BoxBody box = makeBox();
+  box.volume.has_initial_pose = true;
+  box.volume.initial_pose = boxPose();
+  BodyTracker tracker{TrackerConfig()};
+  std::set<TrackingState> states;
+  for (int i = 0; i < 20; ++i) {
+    if (i == 1) tracker.setTopologies(box.volume, box.surface);
+    RgbdFrame frame = renderFrame(box, posedBox(box), (i + 1) * kFrameInterval);
+    if (i >= 5) frame.depth.setTo(1.2f), frame.color.setTo(cv::Vec3b(200, 190, 60));
+    std::vector<TargetSet> used;
+    StageTimer timer;
+    const TrackingResult result =
+        tracker.track(frame, nullptr, &timer, [&](const TargetSet& targets) { used.push_back(targets); });
+    states.insert(result.status.state);
+    ASSERT_EQ(used.size(), result.has_targets ? 1u : 0u) << i;
+    if (used.empty()) continue;
+    EXPECT_EQ(used[0].reset, result.targets.reset);
+    EXPECT_EQ(used[0].revision, result.targets.revision);
+    EXPECT_TRUE(used[0].body_pose.isApprox(result.targets.body_pose, 0.0));
+    ASSERT_EQ(used[0].targets.size(), result.targets.targets.size());
+    for (std::size_t k = 0; k < used[0].targets.size(); ++k)
+      EXPECT_EQ(used[0].targets[k].position, result.targets.targets[k].position);
+  }
+  EXPECT_GE(states.size(), 3u);
 }
 
 TEST(BodyTracker, AnOccluderMakesNoTargets) {

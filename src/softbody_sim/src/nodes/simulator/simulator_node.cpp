@@ -75,8 +75,9 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
                                                 << " names the sender");
     return;
   }
-  diagnostics_.setDropped(targets_.dropped());
   publishState(header);
+  surroundings_.findConflicts(last_.set.targets, simulator_.topology().tets, simulator_.state().vertices);
+  diagnostics_.setDropped(targets_.dropped());
 }
 
 Present SimulatorNode::present(const std::set<std::string>& frames) const {
@@ -107,7 +108,6 @@ bool SimulatorNode::step(const softbody_msgs::Targets& message, const std_msgs::
   simulator_.step(targets, toNanoseconds(header.stamp), surroundings);
   if (!publisher_.topologyHasStamp()) publisher_.publishTopology(simulator_.topology(), header.stamp);
   last_ = {simulator_.toCurrentRevision(std::move(targets)), header, ros::Time::now()};
-  surroundings_.findConflicts(last_.set.targets, simulator_.topology().tets, simulator_.state().vertices);
   diagnostics_.countStep();
   return true;
 }

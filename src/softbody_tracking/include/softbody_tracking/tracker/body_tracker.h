@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,12 +42,17 @@ class BodyTracker {
   /// Whether the models are set.
   bool ready() const;
 
+  /// To use the targets of a frame at once; the tracker goes on to learn from the frame afterwards.
+  using UseTargets = std::function<void(const TargetSet& targets)>;
+
   /// Tracks the body in one frame. A frame of another pass resets the tracker.
   /// @param volume newest state of the volume in the fixed frame; nullptr without one, also when the
   /// simulator has started again: the targets then have `reset`. If the states stay out for a second, the
   /// status is DEGRADED and says so.
+  /// @param use is called once if the result has targets, with them.
   /// @throw std::invalid_argument unless colour and depth have the camera's size.
-  TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
+  TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer,
+                       const UseTargets& use = {});
 
   /// Forgets everything but the models; also the pose of restart().
   void reset();

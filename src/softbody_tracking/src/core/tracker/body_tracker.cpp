@@ -48,7 +48,8 @@ struct BodyTracker::Implementation {
   Implementation(const TrackerConfig& tracker_config, const cv::Mat3b& picture)
       : config(tracker_config), knn(config.knn), relocalizer(config.registration, picture) {}
 
-  TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer);
+  TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer,
+                       const UseTargets& use);
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   bool hasTopologies(const TetTopology& volume, const MeshTopology& surface) const;
   void reset();
@@ -66,7 +67,7 @@ struct BodyTracker::Implementation {
   TargetSet targetSetOf(const RgbdFrame& frame, const ObservedBody& observed,
                         const std::vector<Association>& associations, const MeshState* answer) const;
   void learnFeatures(const RgbdFrame& frame, const ObservedBody& observed, const MeshState* answer);
-  TrackingResult waiting(const std::string& reason) const;
+  TrackingResult waiting(const std::string& reason, const UseTargets& use) const;
 
   TrackerConfig config;
   KnnTargets knn;
@@ -129,20 +130,21 @@ void BodyTracker::placeAt(const Eigen::Isometry3d& pose) {
   implementation_->relocalizer.placeAt(pose);
 }
 
-TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer) {
+TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer,
+                                  const UseTargets& use) {
   requireCameraSize(frame);
-  return implementation_->track(frame, volume, timer);
+  return implementation_->track(frame, volume, timer, use);
 }
 
 /// The steps of one frame.
 TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const MeshState* volume,
-                                                  StageTimer* timer) {
-  if (observer == nullptr) return waiting("waiting for the topologies of simulator and surface");
+                                                  StageTimer* timer, const UseTargets& use) {
+  if (observer == nullptr) return waiting("waiting for the topologies of simulator and surface", use);
   if (frame.pass != pass || frame.stamp < stamp) reset();
   pass = frame.pass;
   stamp = frame.stamp;
   const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
-  if (outcome == Relocalizer::Outcome::kNotFound) return waiting(whyNotFound(relocalizer.report()));
+  if (outcome == Relocalizer::Outcome::kNotFound) return waiting(whyNotFound(relocalizer.report()), use);
   const bool just_found = outcome != Relocalizer::Outcome::kTracked;
   if (just_found) forgetMotion(outcome == Relocalizer::Outcome::kFound);
 
@@ -163,10 +165,11 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   const TrackingState state = result.status.state;
   relocalizer.noteLoss(state == TrackingState::kLost, stamp);
   if (state == TrackingState::kLost) prediction->reset();
-  result.features = trackedFeatures(seen, observer->features(), T_camera_fixed);
   result.targets =
       targetSetOf(frame, observed, associations, state == TrackingState::kLost ? nullptr : answer);
   result.targets.reset = answer == nullptr;
+  if (use) use(result.targets);
+  result.features = trackedFeatures(seen, observer->features(), T_camera_fixed);
   result.status = held.report(seen, surface.model().piecesOfSurface(), stamp, std::move(result.status));
   if (state == TrackingState::kTracking) learnFeatures(frame, observed, answer);
   result.status.features_total = knownFeatures();
@@ -253,7 +256,7 @@ std::vector<Association> BodyTracker::Implementation::associationsOf(
   return associations;
 }
 
-TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) const {
+TrackingResult BodyTracker::Implementation::waiting(const std::string& reason, const UseTargets& use) const {
   TrackingResult result;
   const bool recovering = relocalizer.recovering();
   result.status.state = recovering ? TrackingState::kRecovering : TrackingState::kInitializing;
@@ -262,6 +265,7 @@ TrackingResult BodyTracker::Implementation::waiting(const std::string& reason) c
   result.has_targets = recovering;
   result.targets.body_pose = relocalizer.pose();
   if (observer != nullptr) result.targets.revision = model().revision;
+  if (result.has_targets && use) use(result.targets);
   return result;
 }
 

@@ -44,9 +44,11 @@ CameraIngestNode::~CameraIngestNode() {
 void CameraIngestNode::subscribe(ros::NodeHandle handle, const Transports& transports,
                                  std::uint32_t queue_size) {
   const auto refuse = [this](const std::string& why) { watch_->noteRefusal(why); };
-  color_info_ = handle.subscribe(topics::kCameraColorInfo, queue_size, &CameraIngestNode::onInfo, this);
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  color_info_ =
+      handle.subscribe(topics::kCameraColorInfo, queue_size, &CameraIngestNode::onInfo, this, hints);
   depth_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
-      topics::kCameraDepthInfo, queue_size, [this](const auto& info) { depth_info_ = info; });
+      topics::kCameraDepthInfo, queue_size, [this](const auto& info) { depth_info_ = info; }, {}, hints);
   color_.emplace(
       handle, topics::kCameraColor, transports.color, queue_size,
       [this](const auto& image) { onColor(image); }, refuse);

@@ -21,7 +21,8 @@ constexpr int kBladeQueue = 100;  // blades that may arrive while one frame is t
 BladeSubscriber::BladeSubscriber(ros::NodeHandle handle, PoseLookup look_up)
     : look_up_(std::move(look_up)),
       stamps_(handle.resolveName(topics::kToolBlade), StampGate::Repeats::kAccepted) {
-  subscriber_ = handle.subscribe(topics::kToolBlade, kBladeQueue, &BladeSubscriber::onBlade, this);
+  subscriber_ = handle.subscribe(topics::kToolBlade, kBladeQueue, &BladeSubscriber::onBlade, this,
+                                 ros::TransportHints().tcpNoDelay());
 }
 
 void BladeSubscriber::onBlade(const geometry_msgs::PolygonStamped::ConstPtr& message) try {

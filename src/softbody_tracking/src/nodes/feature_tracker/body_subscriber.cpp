@@ -21,10 +21,12 @@ void requireVertexCount(const MeshState& state, const TetTopology& topology) {
 
 BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker)
     : stamps_(handle.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted), tracker_(tracker) {
-  volume_subscriber_ = handle.subscribe(topics::kVolumeTopology, 1, &BodySubscriber::onVolumeTopology, this);
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  volume_subscriber_ =
+      handle.subscribe(topics::kVolumeTopology, 1, &BodySubscriber::onVolumeTopology, this, hints);
   surface_subscriber_ =
-      handle.subscribe(topics::kSurfaceTopology, 1, &BodySubscriber::onSurfaceTopology, this);
-  state_subscriber_ = handle.subscribe(topics::kVolumeState, 1, &BodySubscriber::onState, this);
+      handle.subscribe(topics::kSurfaceTopology, 1, &BodySubscriber::onSurfaceTopology, this, hints);
+  state_subscriber_ = handle.subscribe(topics::kVolumeState, 1, &BodySubscriber::onState, this, hints);
 }
 
 /// A topology that the tracker refuses is forgotten.

@@ -123,9 +123,13 @@ void FeatureTrackerNode::track(const ReceivedFrame& received, const cv::Mat1b& m
   frame = withKnown(blade_.withoutBlade(frame), header);
   const MeshState* state = body_.state(output_frame_.fixedHeader(header).frame_id);
   StageTimer timer;
-  const TrackingResult result = tracker_.track(frame, state, &timer);
+  // The simulator waits for the targets; nobody waits for the rest.
+  const TrackingResult result = tracker_.track(frame, state, &timer, [&](const TargetSet& targets) {
+    publisher_.publishTargets(output_frame_.fixedHeader(header), targets);
+    publisher_.publishBodyPose(header, frame.T_fixed_camera.inverse() * targets.body_pose);
+  });
   watchdog_.frameArrived();  // a search may take seconds
-  publish(header, frame, result);
+  publish(header, frame.depth.size(), result);
   publisher_.publishTiming(header, timer.take());
 } catch (const std::exception& error) {
   const std_msgs::Header& header = received.images.color->header;
@@ -176,7 +180,8 @@ void FeatureTrackerNode::reportSilence() {
   if (watchdog_.isExpired()) report(last_header_, withoutImages(last_status_, watchdog_.silence()));
 }
 
-void FeatureTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& frame,
+/// All but the targets and the pose.
+void FeatureTrackerNode::publish(const std_msgs::Header& header, const cv::Size& image,
                                  const TrackingResult& result) {
   report(header, result.status);
   if (!result.has_targets) {
@@ -184,9 +189,7 @@ void FeatureTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame
     return;
   }
   publisher_.publishFeatures(header, result.features);
-  publisher_.publishLabels(header, result, frame.depth.size());
-  publisher_.publishTargets(output_frame_.fixedHeader(header), result.targets);
-  publisher_.publishBodyPose(header, frame.T_fixed_camera.inverse() * result.targets.body_pose);
+  publisher_.publishLabels(header, result, image);
 }
 
 void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {

@@ -45,7 +45,7 @@ class FeatureTrackerNode {
   RgbdFrame withKnown(RgbdFrame frame, const std_msgs::Header& header);
   void forgetPass();
   std::optional<Eigen::Isometry3d> cameraPose(const std_msgs::Header& header);
-  void publish(const std_msgs::Header& header, const RgbdFrame& frame, const TrackingResult& result);
+  void publish(const std_msgs::Header& header, const cv::Size& image, const TrackingResult& result);
   void report(const std_msgs::Header& header, const TrackingStatus& status);
   void reportSilence();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;

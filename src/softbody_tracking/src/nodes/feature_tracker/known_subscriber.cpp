@@ -36,7 +36,8 @@ KnownSubscriber::KnownSubscriber(ros::NodeHandle handle, const std::string& surf
       look_up_(std::move(look_up)),
       stamps_(surface_.name() + "/state", StampGate::Repeats::kAccepted) {
   topology_subscriber_ = handle.subscribe(surface + "/topology", 1, &KnownSubscriber::onTopology, this);
-  state_subscriber_ = handle.subscribe(surface + "/state", 1, &KnownSubscriber::onState, this);
+  state_subscriber_ = handle.subscribe(surface + "/state", 1, &KnownSubscriber::onState, this,
+                                       ros::TransportHints().tcpNoDelay());
 }
 
 void KnownSubscriber::onTopology(const softbody_msgs::MeshTopology::ConstPtr& message) try {

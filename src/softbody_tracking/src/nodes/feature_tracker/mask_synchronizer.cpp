@@ -31,7 +31,8 @@ RgbdFrame masked(const RgbdFrame& frame, const cv::Mat1b& mask) {
 
 MaskSynchronizer::MaskSynchronizer(ros::NodeHandle handle, double timeout_s, Callback callback)
     : callback_(std::move(callback)), timeout_s_(timeout_s), queue_(timeout_s) {
-  subscriber_ = handle.subscribe(topics::kMask, kMaskQueue, &MaskSynchronizer::onMask, this);
+  subscriber_ = handle.subscribe(topics::kMask, kMaskQueue, &MaskSynchronizer::onMask, this,
+                                 ros::TransportHints().tcpNoDelay());
   timer_ = handle.createWallTimer(ros::WallDuration(kTimerPeriod_s),
                                   [this](const ros::WallTimerEvent&) { passReadyFrames(); });
 }
