@@ -71,9 +71,10 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle
 
 void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_space) {
   const auto name = [&](const char* topic) { return ros::names::append(name_space, topic); };
-  color_ = node.advertise<sensor_msgs::Image>(name(topics::kCameraColor), kQueue);
+  image_transport::ImageTransport images(node);
+  color_ = images.advertise(name(topics::kCameraColor), kQueue);
   color_info_ = node.advertise<sensor_msgs::CameraInfo>(name(topics::kCameraColorInfo), kQueue);
-  depth_ = node.advertise<sensor_msgs::Image>(name(topics::kCameraDepth), kQueue);
+  depth_ = images.advertise(name(topics::kCameraDepth), kQueue);
   depth_info_ = node.advertise<sensor_msgs::CameraInfo>(name(topics::kCameraDepthInfo), kQueue);
   truth_topology_ = node.advertise<softbody_msgs::MeshTopology>(name(kTruthTopologyTopic), 1, true);
   if (camera_->scene().second) {
@@ -81,7 +82,7 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
     second_state_ = node.advertise<softbody_msgs::MeshState>(name(kSecondStateTopic), kQueue);
   }
   truth_camera_ = node.advertise<geometry_msgs::PoseStamped>(name(kTruthCameraPoseTopic), kQueue);
-  truth_labels_ = node.advertise<sensor_msgs::Image>(name(kTruthLabelsTopic), kQueue);
+  truth_labels_ = images.advertise(name(kTruthLabelsTopic), kQueue);
   truth_state_ = node.advertise<softbody_msgs::MeshState>(name(kTruthStateTopic), kQueue);
   if (camera_->scene().state(0.0).forces)
     truth_forces_ = node.advertise<softbody_msgs::Forces>(name(kTruthForcesTopic), kQueue);

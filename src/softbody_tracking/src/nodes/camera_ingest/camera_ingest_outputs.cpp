@@ -45,9 +45,9 @@ cv::Mat1f depthIn(sensor_msgs::Image* image) {
 CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m,
                                          std::uint32_t queue_size)
     : voxel_size_m_(voxel_size_m),
-      color_(handle.advertise<sensor_msgs::Image>(topics::kRgbRect, queue_size)),
+      color_(image_transport::ImageTransport(handle).advertise(topics::kRgbRect, queue_size)),
+      depth_(image_transport::ImageTransport(handle).advertise(topics::kDepthRect, queue_size)),
       info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, queue_size)),
-      depth_(handle.advertise<sensor_msgs::Image>(topics::kDepthRect, queue_size)),
       depth_info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kDepthRectInfo, queue_size)),
       points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, queue_size)),
       points_marker_(handle.advertise<visualization_msgs::Marker>(topics::kPointsMarker, 1)),
@@ -58,10 +58,9 @@ bool CameraIngestOutputs::hasPointSubscriber() const {
 }
 
 bool CameraIngestOutputs::hasSubscriber() const {
-  for (const ros::Publisher* publisher :
-       {&color_, &info_, &depth_, &depth_info_, &points_, &points_marker_, &timing_}) {
+  if (color_.getNumSubscribers() > 0 || depth_.getNumSubscribers() > 0) return true;
+  for (const ros::Publisher* publisher : {&info_, &depth_info_, &points_, &points_marker_, &timing_})
     if (publisher->getNumSubscribers() > 0) return true;
-  }
   return false;
 }
 

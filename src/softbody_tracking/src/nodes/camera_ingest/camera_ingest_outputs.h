@@ -1,5 +1,6 @@
 #pragma once
 
+#include <image_transport/image_transport.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <std_msgs/Header.h>
@@ -46,7 +47,8 @@ class CameraIngestOutputs {
 
   double voxel_size_m_;
   std::optional<std::int64_t> last_marker_;  ///< stamp [ns]
-  ros::Publisher color_, info_, depth_, depth_info_, points_, points_marker_, timing_;
+  image_transport::Publisher color_, depth_;
+  ros::Publisher info_, depth_info_, points_, points_marker_, timing_;
 };
 
 }  // namespace softbody

@@ -19,7 +19,7 @@ TrackingPublisher::TrackingPublisher(ros::NodeHandle handle, std::string body_fr
     : body_frame_(std::move(body_frame)) {
   features_ = handle.advertise<sensor_msgs::PointCloud2>(topics::kFeatures, 1);
   features_marker_ = handle.advertise<visualization_msgs::Marker>(topics::kFeaturesMarker, 1);
-  labels_ = handle.advertise<sensor_msgs::Image>(topics::kLabels, 1);
+  labels_ = image_transport::ImageTransport(handle).advertise(topics::kLabels, 1);
   targets_ = handle.advertise<softbody_msgs::Targets>(topics::kTargets, 1);
   status_ = handle.advertise<softbody_msgs::TrackingStatus>(topics::kStatus, 1, true);
   timing_ = handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, 1);

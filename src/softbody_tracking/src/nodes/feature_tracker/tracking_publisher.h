@@ -1,5 +1,6 @@
 #pragma once
 
+#include <image_transport/image_transport.h>
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -32,7 +33,8 @@ class TrackingPublisher {
 
  private:
   std::string body_frame_;
-  ros::Publisher features_, features_marker_, labels_, targets_, status_, timing_;
+  image_transport::Publisher labels_;
+  ros::Publisher features_, features_marker_, targets_, status_, timing_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/timer.h>
@@ -36,9 +37,9 @@ class VirtualCameraNode {
   bool loop_ = true, publish_camera_tf_ = true;
   double hold_s_ = 2.0;
   std::optional<VirtualCamera> camera_;
-  ros::Publisher color_, color_info_, depth_, depth_info_, truth_topology_, truth_state_, second_topology_,
-      second_state_, truth_labels_, truth_camera_, truth_forces_, truth_tool_, truth_cut_, truth_material_,
-      gripper_, tf_, tf_static_;
+  image_transport::Publisher color_, depth_, truth_labels_;
+  ros::Publisher color_info_, depth_info_, truth_topology_, truth_state_, second_topology_, second_state_,
+      truth_camera_, truth_forces_, truth_tool_, truth_cut_, truth_material_, gripper_, tf_, tf_static_;
   std::map<std::string, ros::Publisher> wrenches_, true_wrenches_;  ///< by the name of the thing
   ros::Timer timer_;
   int frame_ = 0;
