@@ -10,7 +10,7 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate starts scans figures paper validation sanitize soak error-table api tidy format
+.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation sanitize soak error-table api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -56,6 +56,9 @@ evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="ben
 
 starts: build  ## start tracking on 100 layouts of cluttered scenes; writes docs/starts.md
 	cd scripts && /usr/bin/python3 -m evaluation.measure_starts $(SCENES)
+
+latency: build  ## measure latency and CPU times of the live graph in 32 ways (12 minutes); writes docs/latency.md
+	cd scripts && /usr/bin/python3 -m evaluation.measure_latency $(SCENES)
 
 scans: build  ## scan virtual bodies and faulty recordings, track with the models; writes docs/scans.md. KEEP=yes: keeps the recordings
 	cd scripts && /usr/bin/python3 -m evaluation.measure_scans $(if $(KEEP),--keep) $(SCENES)

@@ -21,7 +21,7 @@ def launch_arguments(options):
     arguments = ["softbody_bringup", "playback.launch" if options.bag else "demo.launch", "rviz:=false",
                  "object:=" + os.path.abspath(thing), "nodelets:=" + str(options.nodelets).lower()]
     if options.bag:
-        arguments += ["bag:=" + os.path.abspath(options.bag)]
+        arguments += ["bag:=" + os.path.abspath(options.bag), f"rate:={options.speed}"]
     else:
         arguments += [f"{name}:={getattr(options, name)}" for name in ("scene", "rate", "width", "height")]
     if options.cuts:  # the scene starts 6 s late, when the graph is ready for its only cut
