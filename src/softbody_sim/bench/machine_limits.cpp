@@ -43,11 +43,13 @@ float sum(const float* a, std::size_t count) {
   return hn::GetLane(hn::SumOfLanes(kLanes, all));
 }
 
-/// Ten multiply-adds at once in each round. @param x the start, near 1. @param operations their number.
+/// Ten multiply-adds at once in each round. @param operations their number.
 float multiplyAdd(float x, std::size_t rounds, double* operations) {
   const Vector a = hn::Set(kLanes, 0.5f), b = hn::Set(kLanes, 0.5f);
-  Vector s0 = hn::Set(kLanes, x), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0,
-         s9 = s0;
+  // Different starts: the compiler would merge equal sums.
+  const auto start = [x](float k) { return hn::Set(kLanes, x + k); };
+  Vector s0 = start(0), s1 = start(1), s2 = start(2), s3 = start(3), s4 = start(4), s5 = start(5),
+         s6 = start(6), s7 = start(7), s8 = start(8), s9 = start(9);
   for (std::size_t i = 0; i < rounds; ++i) {
     s0 = hn::MulAdd(s0, a, b), s1 = hn::MulAdd(s1, a, b), s2 = hn::MulAdd(s2, a, b);
     s3 = hn::MulAdd(s3, a, b), s4 = hn::MulAdd(s4, a, b), s5 = hn::MulAdd(s5, a, b);
