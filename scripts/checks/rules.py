@@ -10,7 +10,7 @@ import re
 import sys
 
 CORE = "src/softbody_tracking/src/core"
-NOT_ON_PAGE = {"tool", "marker_board"}
+NOT_ON_PAGE = {"tool", "blade", "marker_board"}
 DECLARATION = re.compile(r"\bconstexpr\s+[\w:<>, ]*?\b(k[A-Z]\w*[^;]*);", re.DOTALL)
 NAME = re.compile(r"\s*(k[A-Z]\w*)\s*(?:\[[^\]]*\])?(.*)", re.DOTALL)
 FOLLOWS = re.compile(r"\bk[A-Z]")
