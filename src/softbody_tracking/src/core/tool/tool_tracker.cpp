@@ -20,6 +20,7 @@ namespace {
 /// [px] Windows of the adaptive threshold, OpenCV's three. The whole image is searched with one a frame:
 /// first with the one that finds markers of most sizes.
 constexpr int kWindows_px[] = {13, 23, 3};
+constexpr std::size_t kSmallWindow = 2;  // comes first after a region: it sees markers at the image's edge
 /// Of the blade's length: with a larger standard deviation a stroke would not be where the hand made it.
 constexpr double kMaxBladeStd = 0.1;
 
@@ -126,11 +127,14 @@ struct ToolTracker::Implementation {
     };
     const auto expected =
         predicted ? expectedMarkers(tool, detector.cells(), frame.camera, *predicted) : std::nullopt;
+    std::size_t turn = lost_frames;
     std::vector<ToolHypothesis> hypotheses;
-    if (expected && !expected->region.empty())
+    if (expected && !expected->region.empty()) {
       hypotheses = searchIn(expected->region, windowFor(expected->cell_px));
+      turn += kSmallWindow;
+    }
     if (hypotheses.empty())
-      hypotheses = searchIn({{}, frame.color.size()}, kWindows_px[lost_frames % std::size(kWindows_px)]);
+      hypotheses = searchIn({{}, frame.color.size()}, kWindows_px[turn % std::size(kWindows_px)]);
     lost_frames = hypotheses.empty() ? lost_frames + 1 : 0;
     return hypotheses;
   }
