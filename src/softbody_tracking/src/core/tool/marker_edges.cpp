@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 namespace softbody {
@@ -23,12 +24,17 @@ constexpr int kIntersectionSteps = 3;  // Newton steps to the corner of two curv
 
 using Line = Eigen::Hyperplane<double, 2>;
 
-std::optional<double> grayAt(const cv::Mat1b& gray, const Eigen::Vector2d& p) {
-  const int u = static_cast<int>(std::floor(p.x())), v = static_cast<int>(std::floor(p.y()));
-  if (u < 0 || v < 0 || u + 1 >= gray.cols || v + 1 >= gray.rows) return std::nullopt;
+/// Whether the four pixels around p are in the image.
+bool isInside(const cv::Mat1b& gray, const Eigen::Vector2d& p) {
+  return p.x() >= 0.0 && p.y() >= 0.0 && p.x() < gray.cols - 1.0 && p.y() < gray.rows - 1.0;
+}
+
+/// Between the four pixels around p, which are in the image.
+double grayAt(const cv::Mat1b& gray, const Eigen::Vector2d& p) {
+  const int u = static_cast<int>(p.x()), v = static_cast<int>(p.y());
   const double a = p.x() - u, b = p.y() - v;
-  return (1 - b) * ((1 - a) * gray(v, u) + a * gray(v, u + 1)) +
-         b * ((1 - a) * gray(v + 1, u) + a * gray(v + 1, u + 1));
+  const std::uint8_t *upper = gray.ptr<std::uint8_t>(v) + u, *lower = gray.ptr<std::uint8_t>(v + 1) + u;
+  return (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
 }
 
 /// Distance from p to the edge along the outward direction [px]: the centroid of the slope, because blur is
@@ -36,13 +42,14 @@ std::optional<double> grayAt(const cv::Mat1b& gray, const Eigen::Vector2d& p) {
 std::optional<double> edgeOffset(const cv::Mat1b& gray, const Eigen::Vector2d& p,
                                  const Eigen::Vector2d& outward, double reach_px,
                                  std::vector<double>* slopes) {
-  slopes->clear();
-  std::optional<double> before = grayAt(gray, p - reach_px * outward);
   const int steps = static_cast<int>(2.0 * reach_px / kStep_px);
+  const auto place = [&](int i) -> Eigen::Vector2d { return p + (i * kStep_px - reach_px) * outward; };
+  if (!isInside(gray, place(0)) || !isInside(gray, place(steps))) return std::nullopt;
+  slopes->clear();
+  double before = grayAt(gray, place(0));
   for (int i = 1; i <= steps; ++i) {
-    const std::optional<double> here = grayAt(gray, p + (i * kStep_px - reach_px) * outward);
-    if (!before || !here) return std::nullopt;
-    slopes->push_back(*here - *before);
+    const double here = grayAt(gray, place(i));
+    slopes->push_back(here - before);
     before = here;
   }
   const double threshold = kMinSlope * *std::max_element(slopes->begin(), slopes->end());
