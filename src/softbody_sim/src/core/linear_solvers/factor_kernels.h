@@ -1,29 +1,14 @@
 #pragma once
 
-#include <vector>
-
+#include "linear_solvers/panel_factor.h"
 #include "simd/simd.h"
 
 namespace softbody {
 
-/// A Cholesky factor in panels of one, two or four adjacent columns with the same rows below them.
+/// y := L^-T L^-1 y for three right-hand sides; y has rows (x, y, z, 0). @param scratch
+/// 28 * factor.largest() numbers.
 template <typename T>
-struct PanelFactor {
-  struct Panel {
-    int first_column;
-    int width;
-    int row_begin, row_end;  ///< in `rows`
-    int value_begin;         ///< in `values`
-    T triangle[4][4];        ///< lower triangle, with reciprocals on the diagonal
-  };
-  std::vector<Panel> panels;
-  std::vector<int> rows;  ///< below the panels' triangles
-  std::vector<T> values;  ///< for each of those rows, the values of the panel's columns
-};
-
-/// y := L^-T L^-1 y for three right-hand sides; y has rows (x, y, z, 0).
-template <typename T>
-using PanelSolve = void (*)(const PanelFactor<T>& factor, T* y);
+using PanelSolve = void (*)(const PanelFactor<T>& factor, T* scratch, T* y);
 template <typename T>
 PanelSolve<T> panelSolve(Simd simd);
 

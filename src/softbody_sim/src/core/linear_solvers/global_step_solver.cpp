@@ -2,47 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace softbody {
 namespace {
 
-/// For larger matrices a dense product takes longer than two sparse triangular solves.
-constexpr int kLargestInverse = 500;
+/// Numbers of PanelSolve's scratch memory for each of PanelFactor::largest().
+constexpr Eigen::Index kScratch = 28;
 
-/// Whether column j + 1 has the rows of column j except j: then both belong to one supernode.
-bool sameRows(const CholeskyView& L, int j) {
-  return j + 1 < L.count && L.row_counts[j] == L.row_counts[j + 1] + 1 && L.rows[L.starts[j] + 1] == j + 1;
-}
-
-int panelWidth(const CholeskyView& L, int first) {
-  int width = 1;
-  while (width < 4 && sameRows(L, first + width - 1)) ++width;
-  return width == 3 ? 2 : width;
-}
-
+/// Half precision needs instructions of AVX2.
 template <typename T>
-void appendPanel(const CholeskyView& L, int first, int width, PanelFactor<T>* factor) {
-  typename PanelFactor<T>::Panel panel{};
-  panel.first_column = first;
-  panel.width = width;
-  panel.row_begin = static_cast<int>(factor->rows.size());
-  panel.value_begin = static_cast<int>(factor->values.size());
-  double scale[4];  // turns a column of L into one of L sqrt(D)
-  for (int c = 0; c < width; ++c) {
-    const double* column = L.values + L.starts[first + c];
-    scale[c] = std::sqrt(column[0]);
-    panel.triangle[c][c] = static_cast<T>(1.0 / scale[c]);
-    for (int r = c + 1; r < width; ++r) panel.triangle[r][c] = static_cast<T>(scale[c] * column[r - c]);
-  }
-  const int last = first + width - 1;
-  for (int k = 1; k < L.row_counts[last]; ++k) {
-    factor->rows.push_back(L.rows[L.starts[last] + k]);
-    for (int c = 0; c < width; ++c) {
-      factor->values.push_back(static_cast<T>(scale[c] * L.values[L.starts[first + c] + k + width - 1 - c]));
-    }
-  }
-  panel.row_end = static_cast<int>(factor->rows.size());
-  factor->panels.push_back(panel);
+bool readsHalves(Simd simd) {
+  return std::is_same_v<T, float> && supportedSimd(simd) != Simd::kSse4;
 }
 
 }  // namespace
@@ -52,6 +23,8 @@ GlobalStepSolver<T>::GlobalStepSolver(const Eigen::SparseMatrix<double>& lower, 
     : factorization_(lower),
       solve_panels_(panelSolve<T>(simd)),
       count_(static_cast<int>(lower.rows())),
+      reads_halves_(readsHalves<T>(simd) && count_ > kLargestInverse),
+      scale_(count_),
       permuted_(Rows<T>::Zero(paddedRows(count_), 4)) {
   factorization_.reserveUpdates(kMaxUpdates);
   if (count_ <= kLargestInverse) inverse_.emplace(lower, simd);
@@ -60,55 +33,93 @@ GlobalStepSolver<T>::GlobalStepSolver(const Eigen::SparseMatrix<double>& lower, 
 template <typename T>
 void GlobalStepSolver<T>::factorize(const Eigen::SparseMatrix<double>& lower) {
   factorization_.factorize(lower);
-  packFactor();
+  sums_.setZero(count_);
+  for (int column = 0; column < count_; ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, column); entry; ++entry) {
+      sums_[entry.row()] += entry.value();
+      if (entry.row() != column) sums_[column] += entry.value();
+    }
+  }
+  for (int k = 0; k < count_; ++k) {
+    const int first = lower.outerIndexPtr()[factorization_.order()[static_cast<std::size_t>(k)]];
+    scale_[k] = static_cast<T>(1.0 / std::sqrt(lower.valuePtr()[first]));  // the diagonal comes first
+  }
+  readFactor();
 }
 
 template <typename T>
 void GlobalStepSolver<T>::update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed) {
   factorization_.update(added, removed);
-  packFactor();
+  addToSums(added, 1.0);
+  addToSums(removed, -1.0);
+  readFactor();
 }
 
 template <typename T>
-void GlobalStepSolver<T>::packFactor() {
-  const CholeskyView L = factorization_.factor();
-  factor_.panels.clear();
-  factor_.rows.clear();
-  factor_.values.clear();
-  for (int first = 0; first < L.count; first += factor_.panels.back().width) {
-    appendPanel(L, first, panelWidth(L, first), &factor_);
+void GlobalStepSolver<T>::addToSums(const std::vector<TetVector>& vectors, double sign) {
+  for (const TetVector& v : vectors) {
+    for (int k = 0; k < 4; ++k) sums_[v.vertices[k]] += sign * v.values.sum() * v.values[k];
   }
+}
+
+template <typename T>
+void GlobalStepSolver<T>::readFactor() {
   solves_ = 0;
   inverted_ = false;
+  factor_.set(factorization_, scale_, reads_halves_);
+  scratch_.resize(kScratch * factor_.largest());
+  if (reads_halves_ && !isAccurate()) factor_.set(factorization_, scale_, false);
+}
+
+/// Whether an iteration of projective dynamics with this factor lowers the energy also along the softest
+/// motions, where it errs most: there the matrix must not be less than half of A. The softest is close to a
+/// translation x = 1, for which A x is known.
+template <typename T>
+bool GlobalStepSolver<T>::isAccurate() {
+  const std::vector<int>& order = factorization_.order();
+  for (int k = 0; k < count_; ++k)
+    permuted_.row(k).setConstant(scale_[k] * static_cast<T>(sums_[order[static_cast<std::size_t>(k)]]));
+  permuted_.col(3).setZero();
+  solve_panels_(factor_, scratch_.data(), permuted_.data());
+  double error = 0.0;
+  for (int k = 0; k < count_; ++k) {
+    const double difference = static_cast<double>(scale_[k] * permuted_(k, 0)) - 1.0;
+    error += difference * difference;
+  }
+  return error < 0.25 * count_;
 }
 
 template <typename T>
 void GlobalStepSolver<T>::solve(const Rows<T>& B, Rows<T>* X) {
   // An inversion costs about count_ / 4 sparse solves and makes a solve two to three times faster.
   if (!inverted_ && inverse_ && ++solves_ > count_ / 2) invert();
-  if (inverted_) {
+  if (inverted_)
     inverse_->multiply(B, X);
-    return;
-  }
-  const int* order = factorization_.factor().order;
-  const auto count = static_cast<std::size_t>(count_);
-  gatherRows(B.data(), order, count, permuted_.data());
-  solve_panels_(factor_, permuted_.data());
-  scatterRows(permuted_.data(), order, count, X->data());
+  else
+    solveSparse(B, X);
 }
 
-/// Four columns at once: the four numbers of a row are four right-hand sides.
+template <typename T>
+template <typename Number>
+void GlobalStepSolver<T>::solveSparse(const Rows<Number>& B, Rows<Number>* X) {
+  const int* order = factorization_.order().data();
+  for (int k = 0; k < count_; ++k) permuted_.row(k) = scale_[k] * B.row(order[k]).template cast<T>();
+  solve_panels_(factor_, scratch_.data(), permuted_.data());
+  for (int k = 0; k < count_; ++k) X->row(order[k]) = (scale_[k] * permuted_.row(k)).template cast<Number>();
+}
+
+/// Three columns at once: the numbers of a row are three right-hand sides.
 template <typename T>
 void GlobalStepSolver<T>::invert() {
-  const int* order = factorization_.factor().order;
-  for (int first = 0; first < count_; first += 4) {
-    const int columns = std::min(4, count_ - first);
+  const std::vector<int>& order = factorization_.order();
+  for (int first = 0; first < count_; first += 3) {
+    const int columns = std::min(3, count_ - first);
     permuted_.setZero();
-    for (int c = 0; c < columns; ++c) permuted_(first + c, c) = T{1};
-    solve_panels_(factor_, permuted_.data());
+    for (int c = 0; c < columns; ++c) permuted_(first + c, c) = scale_[first + c];
+    solve_panels_(factor_, scratch_.data(), permuted_.data());
     for (int c = 0; c < columns; ++c) {
       auto column = inverse_->inverse().col(inverse_->placeOf(order[first + c]));
-      for (int v = 0; v < count_; ++v) column[inverse_->placeOf(order[v])] = permuted_(v, c);
+      for (int v = 0; v < count_; ++v) column[inverse_->placeOf(order[v])] = scale_[v] * permuted_(v, c);
     }
   }
   inverted_ = inverse_->split();
@@ -117,5 +128,6 @@ void GlobalStepSolver<T>::invert() {
 
 template class GlobalStepSolver<float>;
 template class GlobalStepSolver<double>;
+template void GlobalStepSolver<float>::solveSparse(const Rows<double>&, Rows<double>*);
 
 }  // namespace softbody

@@ -9,20 +9,22 @@
 
 namespace softbody {
 
-/// View of a factor: A(order, order) = L D L^T, where L has ones on the diagonal. The rows of each column
-/// ascend, and the diagonal entries hold D.
-struct CholeskyView {
-  int count;
-  const int* order;       ///< #V
-  const int* starts;      ///< per column: first index in `rows` and `values`
-  const int* row_counts;  ///< per column
-  const int* rows;
-  const double* values;
+/// Adjacent columns of a factor that share their rows.
+struct Supernode {
+  using Values = Eigen::Map<const Eigen::MatrixXd>;
+
+  int first;        ///< column
+  const int* rows;  ///< `values.rows()` of them, ascending; the columns' own come first
+  Values values;    ///< one column for each of the factor's; those above the diagonal are arbitrary
+
+  int width() const { return static_cast<int>(values.cols()); }
+  int below() const { return static_cast<int>(values.rows() - values.cols()); }
 };
 
-/// Solves A X = B for sparse symmetric positive definite matrices A of one pattern (CHOLMOD). Results are
-/// reproducible: no threads, no BLAS. Allocates only in the first factorize(), and in updates larger than
-/// reserved.
+/// Solves A X = B for sparse symmetric positive definite matrices A of one pattern (CHOLMOD), by
+/// A(order, order) = L L^T. Small matrices are factored column by column, which allows cheap updates; the
+/// columns of large ones in groups by BLAS, after an order by METIS. Results are reproducible on one machine.
+/// For small matrices, allocates only in the first factorize(), and in updates larger than reserved.
 class PositiveDefiniteSolver {
  public:
   /// Orders and analyses the pattern. @param lower compressed lower triangle of A.
@@ -40,8 +42,11 @@ class PositiveDefiniteSolver {
   /// definite.
   void update(const std::vector<TetVector>& added, const std::vector<TetVector>& removed);
 
-  /// The factor of the last factorize() or update(), valid until the next.
-  CholeskyView factor() const;
+  /// #V: row of A at each position of the factor's order.
+  const std::vector<int>& order() const;
+  int supernodeCount() const;
+  /// Of the last factorize() or update(). Valid until the next call.
+  Supernode supernode(int index) const;
 
   /// X = A^-1 B, both #V by 3.
   void solve(const Points& B, Points* X);

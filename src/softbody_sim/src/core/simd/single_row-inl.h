@@ -37,6 +37,11 @@ struct Row {
     for (int k = 0; k < kParts; ++k) r.part[k] = hn::Mul(part[k], hn::Set(D(), factor));
     return r;
   }
+  HWY_INLINE Row plus(const Row& b) const {
+    Row r;
+    for (int k = 0; k < kParts; ++k) r.part[k] = hn::Add(part[k], b.part[k]);
+    return r;
+  }
   HWY_INLINE Row minus(const Row& b) const {
     Row r;
     for (int k = 0; k < kParts; ++k) r.part[k] = hn::Sub(part[k], b.part[k]);
