@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
 #include "fixtures/test_meshes.h"
 #include "time_step/projective_dynamics.h"
 
@@ -158,6 +162,53 @@ TEST(ProjectiveDynamics, HandlesTargetsThatAppearVanishAndChangeWeight) {
     step.run(withHistory(0, 10), &expected);
     ASSERT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-11) << frame;
   }
+}
+
+/// Targets wander over the body, come and go, and the time step changes: L-BFGS with the factor that it kept
+/// needs about as many iterations as with a new one, and finds the same minimum.
+TEST(ProjectiveDynamics, KeptFactorServesAsWellAsANewOneWithLbfgs) {
+  std::mt19937 random(9);
+  Step step;
+  ProjectiveDynamicsOptions options = withHistory(5, 1000);
+  options.minimizer.tolerance = 1e-8;
+  ProjectiveDynamics kept(step.topology, step.lame, options);
+  int kept_iterations = 0, new_iterations = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    const std::size_t count = frame % 10 < 8 ? 150 : 20;
+    std::vector<Target> targets = testing::vertexTargets(
+        step.topology, step.topology.rest_vertices + randomPoints(step.count, 0.005, &random));
+    for (Target& target : targets) target.weight = std::exp(0.1 * frame) * std::abs(target.position.x());
+    std::shuffle(targets.begin(), targets.end(), random);
+    targets.resize(count);
+    step.potential.targets.set(targets, step.topology.tets, 300.0);
+    step.potential.inertia.setConstant(frame % 4 == 0 ? 0.01 : 2.0);
+    Points x = step.topology.rest_vertices, expected = x;
+    const StepReport report = kept.minimize(step.potential, &x), newly = step.run(options, &expected);
+    EXPECT_TRUE(report.converged && newly.converged) << frame;
+    EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-6) << frame;
+    kept_iterations += report.iterations;
+    new_iterations += newly.iterations;
+  }
+  EXPECT_LT(kept_iterations, 1.5 * new_iterations);
+}
+
+TEST(TargetEnergy, BoundsItsMetricByADiagonal) {
+  std::mt19937 random(10);
+  const Step step;
+  std::vector<Target> targets = testing::vertexTargets(step.topology, step.topology.rest_vertices);
+  for (Target& target : targets) {  // some points are outside of their tet
+    target.place.barycentric = randomPoints(2, 0.5, &random).reshaped().head<4>();
+    target.place.barycentric.array() += 0.25 * (1.0 - target.place.barycentric.sum());
+  }
+  TargetEnergy energy;
+  energy.set(targets, step.topology.tets, 300.0);
+  TetMatrix metric(step.topology.tets, step.count);
+  energy.addMetric(&metric);
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(step.count);
+  energy.addMetricBound(&bound);
+  Eigen::MatrixXd rest = -Eigen::MatrixXd(metric.lower());
+  rest.diagonal() += bound;
+  EXPECT_GT(rest.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-9 * bound.maxCoeff());
 }
 
 TEST(TargetEnergy, ListsTheChangesBetweenTwoMetrics) {

@@ -102,6 +102,19 @@ void TargetEnergy::addMetric(TetMatrix* matrix) const {
   }
 }
 
+/// (s . x)^2 <= sum |s_i| sum |s_i| x_i^2.
+void TargetEnergy::addMetricBound(Eigen::VectorXd* diagonal) const {
+  const auto add = [&](const Eigen::Vector4i& vertices, const Eigen::Vector4d& barycentric,
+                       double stiffness) {
+    const Eigen::Vector4d weights = barycentric.cwiseAbs();
+    for (int k = 0; k < 4; ++k) (*diagonal)[vertices[k]] += stiffness * weights.sum() * weights[k];
+  };
+  for (const Spring& spring : springs_) {
+    add(spring.vertices, spring.barycentric, metricStiffness(spring));
+    if (spring.isCoupled()) add(spring.other_vertices, spring.other_barycentric, metricStiffness(spring));
+  }
+}
+
 bool TargetEnergy::hasContact() const {
   return std::any_of(springs_.begin(), springs_.end(), [](const Spring& spring) { return spring.one_sided; });
 }

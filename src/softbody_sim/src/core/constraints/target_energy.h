@@ -58,6 +58,10 @@ class TargetEnergy {
   /// <= I). For coupled springs, 2 k S_a^T S_a + 2 k S_b^T S_b is an upper bound that couples no tets.
   void addMetric(TetMatrix* matrix) const;
 
+  /// Adds a diagonal matrix that is an upper bound of addMetric's: its sums of absolute values in each row
+  /// [N/m], #V.
+  void addMetricBound(Eigen::VectorXd* diagonal) const;
+
   /// Adds the exact Hessian, without the entries that couple two tets.
   void addHessian(const Points& x, BlockTetMatrix* matrix) const;
 

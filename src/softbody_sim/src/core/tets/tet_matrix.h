@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// A #V vector whose only non-zero entries are at a tet's four vertices.
+/// A #V vector whose only non-zero entries are at a tet's four vertices. They differ where values are not 0.
 struct TetVector {
   Eigen::Vector4i vertices;
   Eigen::Vector4d values;

@@ -1,5 +1,8 @@
 #include "time_step/projective_dynamics.h"
 
+#include <cmath>
+#include <type_traits>
+
 #include "elasticity/elastic_blocks.h"
 #include "linear_solvers/global_step_solver.h"
 #include "tets/tet_matrix.h"
@@ -28,12 +31,18 @@ TetMatrix elasticMetric(const TetTopology& topology, const CorotatedElasticity& 
 /// Limit of consecutive updates, because their rounding errors add up.
 constexpr int kMaxUpdatedFrames = 100;
 
-/// The matrix of the global step, M / h^2 + elasticity + targets. It changes with h, with the targets' places
-/// in the body and with their weights, but not with their positions.
+/// The matrix of the global step, M / h^2 + elasticity + targets, and when to factor it. It changes with h,
+/// with the targets' places in the body and with their weights, but not with their positions. Without a line
+/// search it is followed exactly, and so are the stiff springs of contacts. Else L-BFGS needs no more than
+/// its scale: the targets' part is a diagonal bound, and the factor stays as long as neither a vertex nor,
+/// without its elasticity, the body as a whole becomes more than twice or less than half as stiff.
 class StepMetric {
  public:
-  StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity)
-      : metric_(elasticMetric(topology, elasticity)), elastic_(metric_.values()) {
+  StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity, bool always_exact)
+      : always_exact_(always_exact),
+        metric_(elasticMetric(topology, elasticity)),
+        elastic_(metric_.values()),
+        elastic_diagonal_(metric_.lower().diagonal()) {
     added_.reserve(kMaxUpdates + 2);  // a coupled spring is two terms
     removed_.reserve(kMaxUpdates + 2);
   }
@@ -43,8 +52,11 @@ class StepMetric {
   /// Updates the solver's factor to the potential.
   template <typename T>
   void updateFactor(const IncrementalPotential& potential, GlobalStepSolver<T>* solver) {
-    const bool few = has_factor_ && inertia_ == potential.inertia &&
-                     potential.targets.metricChanges(targets_, kMaxUpdates, &added_, &removed_);
+    const bool exact = always_exact_ || potential.targets.hasContact();
+    diagonal_ = potential.inertia;
+    if (!exact) potential.targets.addMetricBound(&diagonal_);
+    const bool few =
+        has_factor_ && exact == is_exact_ && (exact ? fewTermsChange(potential) : fewVerticesChange());
     if (few && added_.empty() && removed_.empty()) return;
     has_factor_ = false;  // until the factor is complete
     if (few && updated_frames_ < kMaxUpdatedFrames) {
@@ -53,28 +65,59 @@ class StepMetric {
     } else {
       updated_frames_ = 0;
       metric_.values() = elastic_;
-      metric_.addToDiagonal(potential.inertia);
-      potential.targets.addMetric(&metric_);
+      metric_.addToDiagonal(diagonal_);
+      if (exact) potential.targets.addMetric(&metric_);
       solver->factorize(metric_.lower());
+      factored_ = diagonal_;
     }
-    inertia_ = potential.inertia;
-    targets_ = potential.targets;
+    if (exact) targets_ = potential.targets;
+    is_exact_ = exact;
     has_factor_ = true;
   }
 
  private:
   static constexpr std::size_t kMaxUpdates = GlobalStepSolver<double>::kMaxUpdates;
 
+  bool fewTermsChange(const IncrementalPotential& potential) {
+    return factored_ == diagonal_ &&
+           potential.targets.metricChanges(targets_, kMaxUpdates, &added_, &removed_);
+  }
+
+  /// Finds the vertices whose stiffness the factor no longer has the scale of, and takes over theirs.
+  bool fewVerticesChange() {
+    added_.clear();
+    removed_.clear();
+    if (!areAlike(diagonal_.sum(), factored_.sum())) return false;
+    for (int v = 0; v < static_cast<int>(diagonal_.size()); ++v) {
+      if (areAlike(elastic_diagonal_[v] + diagonal_[v], elastic_diagonal_[v] + factored_[v])) continue;
+      const double change = diagonal_[v] - factored_[v];
+      (change > 0.0 ? added_ : removed_).push_back(vertexTerm(v, std::abs(change)));
+      factored_[v] = diagonal_[v];
+      if (added_.size() + removed_.size() > kMaxUpdates) return false;
+    }
+    return true;
+  }
+
+  static bool areAlike(double a, double b) { return a <= 2.0 * b && b <= 2.0 * a; }
+
+  static TetVector vertexTerm(int vertex, double stiffness) {
+    return {Eigen::Vector4i::Constant(vertex), {std::sqrt(stiffness), 0.0, 0.0, 0.0}};
+  }
+
+  const bool always_exact_;
   TetMatrix metric_;
-  const Eigen::VectorXd elastic_;  ///< constant part of the values
-  bool has_factor_ = false;
-  Eigen::VectorXd inertia_;  ///< of the factor
-  TargetEnergy targets_;     ///< of the factor
+  const Eigen::VectorXd elastic_;           ///< constant part of the values
+  const Eigen::VectorXd elastic_diagonal_;  ///< #V [N/m]
+  bool has_factor_ = false, is_exact_ = false;
+  Eigen::VectorXd diagonal_;  ///< what the potential adds to the diagonal alone, #V [N/m]
+  Eigen::VectorXd factored_;  ///< the same of the factor
+  TargetEnergy targets_;      ///< of an exact factor
   std::vector<TetVector> added_, removed_;
   int updated_frames_ = 0;
 };
 
-template <typename T>
+/// @tparam T of positions, energy and gradient. @tparam M of the metric's factor.
+template <typename T, typename M>
 class InPrecision : public ProjectiveDynamics::Precision {
  public:
   InPrecision(const TetTopology& topology, const CorotatedElasticity& elasticity,
@@ -82,7 +125,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
       : options_(options.minimizer),
         elasticity_(topology.rest_vertices, elasticity, options.simd),
         step_(topology.rest_vertices.rows(), options.simd),
-        metric_(topology, elasticity),
+        metric_(topology, elasticity, options.minimizer.history == 0),
         solver_(metric_.lower(), options.simd),
         rigid_(topology),
         minimizer_(paddedRows(topology.rest_vertices.rows())),
@@ -99,7 +142,12 @@ class InPrecision : public ProjectiveDynamics::Precision {
       const auto add = [&](Rows<T>* sum) { return elasticity_.addTo(trial, sum); };
       return balance_.complete(potential, step_.evaluate(trial, gradient), add, gradient);
     };
-    const auto solve = [this](const Rows<T>& B, Rows<T>* X) { solver_.solve(B, X); };
+    const auto solve = [this](const Rows<T>& B, Rows<T>* X) {
+      if constexpr (std::is_same_v<T, M>)
+        solver_.solve(B, X);
+      else
+        solver_.solveSparse(B, X);
+    };
     const auto solve_contact = [&](const Rows<T>& B, Rows<T>* X) { rigid_.solve(solve, B, X); };
     const bool contact = potential.targets.hasContact();
     if (contact) rigid_.linearize(potential, *x);
@@ -122,7 +170,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
   ElasticBlocks<T> elasticity_;
   PackedPotential<T> step_;
   StepMetric metric_;
-  GlobalStepSolver<T> solver_;
+  GlobalStepSolver<M> solver_;
   ForceBalance<Rows<T>> balance_;
   RigidCorrection<T> rigid_;
   QuasiNewton<Rows<T>> minimizer_;
@@ -136,10 +184,15 @@ class InPrecision : public ProjectiveDynamics::Precision {
 ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const ElasticMaterials& materials,
                                        const ProjectiveDynamicsOptions& options)
     : elasticity_(topology.rest_vertices, topology.tets, materials) {
+  // L-BFGS corrects the metric; without it, the metric's precision is that of the result.
+  const bool rough = options.minimizer.history > 0 &&
+                     topology.rest_vertices.rows() > GlobalStepSolver<float>::kLargestInverse;
   if (options.single_precision)
-    implementation_ = std::make_unique<InPrecision<float>>(topology, elasticity_, options);
+    implementation_ = std::make_unique<InPrecision<float, float>>(topology, elasticity_, options);
+  else if (rough)
+    implementation_ = std::make_unique<InPrecision<double, float>>(topology, elasticity_, options);
   else
-    implementation_ = std::make_unique<InPrecision<double>>(topology, elasticity_, options);
+    implementation_ = std::make_unique<InPrecision<double, double>>(topology, elasticity_, options);
 }
 
 ProjectiveDynamics::~ProjectiveDynamics() = default;
