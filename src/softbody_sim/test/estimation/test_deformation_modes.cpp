@@ -12,6 +12,25 @@
 namespace softbody {
 namespace {
 
+/// The modes of all pieces, as motions of the body: 3 #V by #modes.
+DeformationModes joined(const TetTopology& topology, const std::vector<DeformationModes>& modes) {
+  const auto pieces = verticesOfPieces(topology.tets, topology.rest_vertices.rows());
+  Eigen::Index count = 0;
+  for (const DeformationModes& piece : modes) count += piece.stiffness.size();
+  DeformationModes all{Eigen::MatrixXd::Zero(3 * topology.rest_vertices.rows(), count),
+                       Eigen::VectorXd(count)};
+  Eigen::Index first = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Eigen::Index own = modes[p].stiffness.size();
+    all.stiffness.segment(first, own) = modes[p].stiffness;
+    for (std::size_t k = 0; k < pieces[p].size(); ++k)
+      all.shapes.block(3 * pieces[p][k], first, 3, own) =
+          modes[p].shapes.middleRows(3 * static_cast<Eigen::Index>(k), 3);
+    first += own;
+  }
+  return all;
+}
+
 struct Body {
   explicit Body(const TetTopology& topology_in) : topology(topology_in) {}
 
@@ -20,7 +39,7 @@ struct Body {
   const TetMaterials materials = tetMaterials(topology, Material(), 0.7, std::nullopt);
 
   DeformationModes modes(Eigen::Index count) const {
-    return deformationModes(topology, materials.elastic, masses, count);
+    return joined(topology, deformationModes(topology, materials.elastic, masses, count));
   }
   Eigen::MatrixXd gram(const Eigen::MatrixXd& shapes) const {
     const Eigen::VectorXd mass = masses.transpose().replicate(3, 1).reshaped();
@@ -82,7 +101,8 @@ TEST(DeformationModes, DoNotDependOnTheOrderOfPieces) {
   const auto stiffness = [](const TetTopology& topology) {
     const TetMaterials materials = tetMaterials(topology, Material(), 0.7, std::nullopt);
     const Eigen::VectorXd masses = Eigen::VectorXd::Constant(topology.rest_vertices.rows(), 1e-3);
-    Eigen::VectorXd result = deformationModes(topology, materials.elastic, masses, 60).stiffness;
+    Eigen::VectorXd result =
+        joined(topology, deformationModes(topology, materials.elastic, masses, 60)).stiffness;
     std::sort(result.begin(), result.end());
     return result;
   };

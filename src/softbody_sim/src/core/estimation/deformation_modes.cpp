@@ -1,7 +1,7 @@
 #include "estimation/deformation_modes.h"
 
+#include <Eigen/CholmodSupport>
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <vector>
 
@@ -65,9 +65,11 @@ DeformationModes modesOfPiece(const Points& rest, const Eigen::SparseMatrix<doub
   if (modes.stiffness.size() <= kRigid) return {Eigen::MatrixXd(mass.size(), 0), Eigen::VectorXd(0)};
   Eigen::SparseMatrix<double> shifted = K;  // so that rigid modes can be solved for
   shifted.diagonal() += modes.stiffness[kRigid] * mass;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(shifted);
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> solver;
+  solver.cholmod().print = 0;
+  solver.compute(shifted);
   for (int i = 0; i < kIterations; ++i)
-    modes = lowestIn(solver.solve(mass.asDiagonal() * modes.shapes), K, mass);
+    modes = lowestIn(solver.solve(Eigen::MatrixXd(mass.asDiagonal() * modes.shapes)), K, mass);
   modes = lowest(kRigid + count, modes);
   const Eigen::Index found = modes.stiffness.size() - kRigid;
   return {modes.shapes.rightCols(found), modes.stiffness.tail(found)};
@@ -95,34 +97,22 @@ Eigen::SparseMatrix<double> partOf(const Eigen::SparseMatrix<double>& lower, con
   return part;
 }
 
-void append(const DeformationModes& modes, const std::vector<int>& piece, DeformationModes* all) {
-  const Eigen::Index before = all->stiffness.size(), count = modes.stiffness.size();
-  all->stiffness.conservativeResize(before + count);
-  all->stiffness.tail(count) = modes.stiffness;
-  all->shapes.conservativeResize(Eigen::NoChange, before + count);
-  all->shapes.rightCols(count).setZero();
-  for (std::size_t i = 0; i < piece.size(); ++i)
-    all->shapes.block(3 * piece[i], before, 3, count) =
-        modes.shapes.middleRows(3 * static_cast<Eigen::Index>(i), 3);
-}
-
 }  // namespace
 
-DeformationModes deformationModes(const TetTopology& topology, const ElasticMaterials& materials,
-                                  const Eigen::VectorXd& masses, Eigen::Index count) {
+std::vector<DeformationModes> deformationModes(const TetTopology& topology, const ElasticMaterials& materials,
+                                               const Eigen::VectorXd& masses, Eigen::Index count) {
   const FemElasticity elasticity(topology, Elasticity::kCorotated, materials);
   BlockTetMatrix matrix(elasticity.groups(), masses.size());
   elasticity.addHessian(topology.rest_vertices, &matrix);
-  DeformationModes all{Eigen::MatrixXd(3 * masses.size(), 0), Eigen::VectorXd(0)};
+  std::vector<DeformationModes> modes;
   for (const std::vector<int>& piece : verticesOfPieces(topology.tets, masses.size())) {
     const Eigen::Index share =
         std::max<Eigen::Index>(kRigid, count * static_cast<Eigen::Index>(piece.size()) / masses.size());
     const Eigen::VectorXd mass = masses(piece).transpose().replicate(3, 1).reshaped();
-    append(
-        modesOfPiece(topology.rest_vertices(piece, Eigen::all), partOf(matrix.lower(), piece), mass, share),
-        piece, &all);
+    modes.push_back(
+        modesOfPiece(topology.rest_vertices(piece, Eigen::all), partOf(matrix.lower(), piece), mass, share));
   }
-  return all;
+  return modes;
 }
 
 }  // namespace softbody

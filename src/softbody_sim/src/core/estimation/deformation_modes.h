@@ -1,21 +1,23 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "elasticity/strain_smoothing.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
 
-/// The lowest vibration modes of a body at rest: K s = w^2 M s, without those that move pieces rigidly. They
-/// bend, twist and stretch whole sections, and then parts of them.
+/// The lowest vibration modes of a connected piece at rest: K s = w^2 M s, without those that move it
+/// rigidly. They bend, twist and stretch whole sections, and then parts of them.
 struct DeformationModes {
-  Eigen::MatrixXd shapes;     ///< 3 #V by #modes, x y z of each vertex; orthonormal by mass [1/sqrt(kg)]
-  Eigen::VectorXd stiffness;  ///< w^2 of each mode [1/s^2]; ascending for each piece, one after the other
+  Eigen::MatrixXd shapes;     ///< x y z of each of its vertices by #modes; orthonormal by mass [1/sqrt(kg)]
+  Eigen::VectorXd stiffness;  ///< w^2 of each mode, ascending [1/s^2]
 };
 
-/// @param masses lumped, #V [kg]. @param count at most; small bodies have fewer.
-DeformationModes deformationModes(const TetTopology& topology, const ElasticMaterials& materials,
-                                  const Eigen::VectorXd& masses, Eigen::Index count);
+/// The modes of each piece, as verticesOfPieces orders pieces and vertices. @param masses lumped, #V [kg].
+/// @param count of all, by the pieces' numbers of vertices; small pieces have fewer.
+std::vector<DeformationModes> deformationModes(const TetTopology& topology, const ElasticMaterials& materials,
+                                               const Eigen::VectorXd& masses, Eigen::Index count);
 
 }  // namespace softbody

@@ -1,9 +1,11 @@
 #include "estimation/load_estimator.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "estimation/deformation_modes.h"
 #include "estimation/load_field.h"
 #include "softbody_common/tet_geometry.h"
 
@@ -19,33 +21,16 @@ std::vector<Eigen::VectorXi> verticesOf(const Tets& tets) {
   return groups;
 }
 
-/// The product of a symmetric matrix and others; rows stay in the cache. @param lower its lower triangle.
-TurnedModes::Motions timesSymmetric(const Eigen::SparseMatrix<double>& lower,
-                                    const TurnedModes::Motions& motions) {
-  TurnedModes::Motions product = TurnedModes::Motions::Zero(motions.rows(), motions.cols());
-  for (Eigen::Index column = 0; column < lower.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, column); entry; ++entry) {
-      if (entry.value() == 0.0) continue;  // most vertices are not measured
-      product.row(entry.row()) += entry.value() * motions.row(column);
-      if (entry.row() != column) product.row(column) += entry.value() * motions.row(entry.row());
-    }
-  }
-  return product;
-}
-
-Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& positive) {
-  return positive.llt().solve(Eigen::MatrixXd::Identity(positive.rows(), positive.rows()));
+/// The transpose, with padded columns.
+DenseRows<float> transposed(const DenseRows<double>& matrix) {
+  DenseRows<float> result = DenseRows<float>::Zero(matrix.cols(), paddedColumns(matrix.rows()));
+  result.leftCols(matrix.rows()) = matrix.transpose().cast<float>();
+  return result;
 }
 
 }  // namespace
 
-/// Of the loads along the modes.
-struct LoadEstimator::Prior {
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd precision;  ///< inverse of the covariance
-};
-
-/// For the amplitudes of the motions from the present shape.
+/// For the amplitudes of a piece's motions from the present shape.
 struct LoadEstimator::Equations {
   Eigen::MatrixXd hessian;    ///< of springs and prior, lower triangle [N/m]
   Eigen::VectorXd pull;       ///< minus the gradient
@@ -60,17 +45,30 @@ LoadEstimator::LoadEstimator(const TetTopology& topology, const TetMaterials& ma
       options_(options),
       pieces_(verticesOfPieces(topology.tets, masses.size())),
       piece_of_vertex_(static_cast<std::size_t>(masses.size())),
+      place_in_piece_(piece_of_vertex_.size()),
       noise_(options.target_stiffness * options.target_accuracy_m * options.target_accuracy_m) {
   for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
-    for (int v : pieces_[piece]) piece_of_vertex_[static_cast<std::size_t>(v)] = piece;
+    int place = 0;
+    for (int v : pieces_[piece]) {
+      piece_of_vertex_[static_cast<std::size_t>(v)] = piece;
+      place_in_piece_[static_cast<std::size_t>(v)] = place++;
+    }
   }
 }
 
 void LoadEstimator::prepare() {
   if (turned_) return;
-  modes_ = deformationModes(topology_, materials_.elastic, masses_, kModes);
-  unknown_ = covarianceOfUnknownLoads(topology_, materials_, masses_, modes_);
-  unknown_precision_ = inverseOf(unknown_);
+  const std::vector<DeformationModes> modes =
+      deformationModes(topology_, materials_.elastic, masses_, kModes);
+  unknown_ = covariancesOfUnknownLoads(topology_, materials_, masses_, modes);
+  for (const Eigen::MatrixXd& covariance : unknown_) unknown_precision_.push_back(inverseOf(covariance));
+  for (const DeformationModes& piece : modes) {
+    const Eigen::Index rows = piece.shapes.rows(), columns = TurnedModes::kRigid + piece.shapes.cols();
+    stiffness_.push_back(piece.stiffness);
+    motions_.push_back(DenseRows<double>::Zero(rows, paddedColumns(columns)));
+    motions_.back().middleCols(TurnedModes::kRigid, piece.shapes.cols()) = piece.shapes;
+    float_motions_.push_back(motions_.back().leftCols(columns).cast<float>());
+  }
   turned_ = std::make_unique<TurnedModes>(topology_);
   curvature_ = std::make_unique<BlockTetMatrix>(verticesOf(topology_.tets), masses_.size());
 }
@@ -119,45 +117,103 @@ void LoadEstimator::setSprings(const std::vector<Target>& targets, const std::ve
   springs_on_held_.set(measuring_held_, topology_.tets, options_.target_stiffness);
 }
 
-/// The Hessian of springs for the amplitudes of motions, lower triangle [N/m].
-Eigen::MatrixXd LoadEstimator::curvature(const TargetEnergy& springs, const Points& vertices,
-                                         const Motions& motions) {
+/// The motions of a piece at its present shape: only the rigid ones depend on it.
+void LoadEstimator::setRigidMotions(std::size_t piece, const Points& vertices, const Rotations& rotations) {
+  const TurnedModes::Rigid rigid = turned_->rigidMotions(pieces_[piece], vertices, rotations);
+  motions_[piece].leftCols<TurnedModes::kRigid>() = rigid;
+  float_motions_[piece].leftCols<TurnedModes::kRigid>() = rigid.cast<float>();
+}
+
+/// Sets the springs that curvature() is of.
+void LoadEstimator::setCurvature(const TargetEnergy& springs, const Points& vertices) {
   curvature_->setZero();
   springs.addHessian(vertices, curvature_.get());
-  const Motions curved = timesSymmetric(curvature_->lower(), motions);
-  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(motions.cols(), motions.cols());
-  hessian.triangularView<Eigen::Lower>() = motions.transpose() * curved;
-  return hessian;
+  measured_.assign(pieces_.size(), {});
+  measured_place_.assign(piece_of_vertex_.size(), -1);
+  for (const TargetEnergy::Spring& spring : springs.springs()) {
+    for (int v : spring.vertices) {
+      std::vector<int>& measured = measured_[piece_of_vertex_[static_cast<std::size_t>(v)]];
+      if (measured_place_[static_cast<std::size_t>(v)] >= 0) continue;
+      measured_place_[static_cast<std::size_t>(v)] = static_cast<int>(measured.size());
+      measured.push_back(v);
+    }
+  }
 }
 
-/// The prior of the loads along the modes.
-LoadEstimator::Prior LoadEstimator::priorOf(const LoadEstimate& estimate, const Eigen::VectorXd& loads,
-                                            double elapsed_s) const {
+/// The Hessian of the springs for the amplitudes of a piece's motions [N/m].
+Eigen::MatrixXd LoadEstimator::curvature(std::size_t piece, const Rotations& rotations) const {
+  const std::vector<int>& measured = measured_[piece];
+  const DenseRows<double>& motions = motions_[piece];
+  const auto rows = static_cast<Eigen::Index>(3 * measured.size());
+  DenseRows<double> moved(rows, motions.cols()), curved = DenseRows<double>::Zero(rows, motions.cols());
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    const auto v = static_cast<std::size_t>(measured[k]);
+    moved.middleRows<3>(3 * static_cast<Eigen::Index>(k)).noalias() =
+        rotations[v] * motions.middleRows<3>(3 * place_in_piece_[v]);
+  }
+  for (Eigen::Index own = 0; own < rows; ++own) {
+    const Eigen::Index column = 3 * measured[static_cast<std::size_t>(own / 3)] + own % 3;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(curvature_->lower(), column); entry; ++entry) {
+      const int place = measured_place_[static_cast<std::size_t>(entry.row() / 3)];
+      if (place < 0 || entry.value() == 0.0) continue;
+      const Eigen::Index other = 3 * place + entry.row() % 3;
+      curved.row(other) += entry.value() * moved.row(own);
+      if (other != own) curved.row(own) += entry.value() * moved.row(other);
+    }
+  }
+  return symmetricProduct(moved, curved, float_motions_[piece].cols());
+}
+
+/// Forces along the motions of a piece.
+Eigen::MatrixX3d LoadEstimator::along(std::size_t piece, const Rotations& rotations,
+                                      const std::array<const Points*, 3>& forces) const {
+  const std::vector<int>& vertices = pieces_[piece];
+  Eigen::MatrixX3d turned(3 * static_cast<Eigen::Index>(vertices.size()), 3);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const auto to_vertex = rotations[static_cast<std::size_t>(vertices[k])].transpose();
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      turned.block<3, 1>(3 * static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+          to_vertex * forces[i]->row(vertices[k]).transpose();
+  }
+  return motions_[piece].leftCols(float_motions_[piece].cols()).transpose() * turned;
+}
+
+/// Energies are in units of J, and probabilities exp(-energy / noise). @param forces gradient of the springs;
+/// balancing; the last loads [N].
+LoadEstimator::Equations LoadEstimator::equationsOf(std::size_t piece, const Rotations& rotations,
+                                                    const std::array<const Points*, 3>& forces,
+                                                    const LoadEstimate& last, double elapsed_s) const {
+  const auto stiffness = stiffness_[piece].asDiagonal();
+  const Eigen::Index modes = stiffness_[piece].size();
+  const Eigen::MatrixX3d acting = along(piece, rotations, forces);
+  Equations equations{curvature(piece, rotations), -acting.col(0), acting.col(1).tail(modes)};
   const double keep = std::exp(-elapsed_s / options_.fade_s);
-  Eigen::MatrixXd covariance = unknown_;
-  if (estimate.covariance.rows() == unknown_.rows())
-    covariance += keep * keep * (estimate.covariance - unknown_);
-  return {keep * loads, inverseOf(covariance)};
+  const Eigen::VectorXd mean = keep * acting.col(2).tail(modes);
+  Eigen::MatrixXd covariance = unknown_[piece];
+  if (last.covariances.size() == pieces_.size() && last.covariances[piece].rows() == modes)
+    covariance += keep * keep * (last.covariances[piece] - unknown_[piece]);
+  const Eigen::MatrixXd precision = inverseOf(covariance);
+  equations.hessian.bottomRightCorner(modes, modes) += noise_ * (stiffness * precision * stiffness);
+  equations.hessian.diagonal().head(TurnedModes::kRigid).array() += looseness();
+  equations.pull.tail(modes) -= noise_ * (stiffness * (precision * (equations.balancing - mean)));
+  return equations;
 }
 
-/// Energies are in units of J, and probabilities exp(-energy / noise).
-LoadEstimator::Equations LoadEstimator::equationsAt(const Points& vertices, const Points& balancing,
-                                                    const Motions& motions, double elapsed_s,
-                                                    const LoadEstimate& estimate) {
-  const Eigen::Index modes = modes_.stiffness.size();
-  const auto along = [&](const Points& forces) {
-    return Eigen::VectorXd(motions.transpose() * Eigen::VectorXd(forces.reshaped<Eigen::RowMajor>()));
-  };
-  Points pushed = Points::Zero(vertices.rows(), 3);
-  springs_.addTo(vertices, &pushed);
-  Equations equations{curvature(springs_, vertices, motions), -along(pushed), along(balancing).tail(modes)};
-  const Prior prior =
-      priorOf(estimate, along(masses_.asDiagonal() * estimate.per_mass).tail(modes), elapsed_s);
-  const auto stiffness = modes_.stiffness.asDiagonal();
-  equations.hessian.bottomRightCorner(modes, modes) += noise_ * (stiffness * prior.precision * stiffness);
-  equations.hessian.diagonal().head(turned_->rigidCount()).array() += looseness();
-  equations.pull.tail(modes) -= noise_ * (stiffness * (prior.precision * (equations.balancing - prior.mean)));
-  return equations;
+/// @return the loads along the modes.
+Eigen::VectorXd LoadEstimator::estimatePiece(std::size_t piece, const Rotations& rotations,
+                                             const Equations& equations, LoadEstimate* estimate) const {
+  const Eigen::Index modes = stiffness_[piece].size();
+  const auto stiffness = stiffness_[piece].asDiagonal();
+  const Eigen::MatrixXd inverse = inverseOf(equations.hessian);
+  const Eigen::VectorXd loads = equations.balancing + stiffness * (inverse * equations.pull).tail(modes);
+  estimate->covariances[piece] = noise_ * (stiffness * inverse.bottomRightCorner(modes, modes) * stiffness);
+  const Eigen::VectorXd per_mass = motions_[piece].middleCols(TurnedModes::kRigid, modes) * loads;
+  for (std::size_t k = 0; k < pieces_[piece].size(); ++k) {
+    const int v = pieces_[piece][k];
+    estimate->per_mass.row(v) =
+        rotations[static_cast<std::size_t>(v)] * per_mass.segment<3>(3 * static_cast<Eigen::Index>(k));
+  }
+  return loads;
 }
 
 /// Curvature of the energy by a rigid motion of a piece, where nothing is measured [N/m].
@@ -168,10 +224,15 @@ double LoadEstimator::looseness() const {
 /// The mean square of the loads in units of those of which nothing is known, over the part that the
 /// measurements determine (MacKay 1992, Bayesian interpolation, eq. 4.9), and one mode of usual loads beside
 /// it.
-double LoadEstimator::evidence(const Eigen::VectorXd& loads, const Eigen::MatrixXd& covariance) const {
-  const double determined =
-      static_cast<double>(loads.size()) - unknown_precision_.cwiseProduct(covariance).sum();
-  return (loads.dot(unknown_precision_ * loads) + 1.0) / (determined + 1.0);
+double LoadEstimator::evidence(const std::vector<Eigen::VectorXd>& loads,
+                               const LoadEstimate& estimate) const {
+  double size = 0.0, determined = 0.0;
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    size += loads[piece].dot(unknown_precision_[piece] * loads[piece]);
+    determined += static_cast<double>(loads[piece].size()) -
+                  unknown_precision_[piece].cwiseProduct(estimate.covariances[piece]).sum();
+  }
+  return (size + 1.0) / (determined + 1.0);
 }
 
 std::optional<ShapePosterior> LoadEstimator::update(const std::vector<Target>& targets,
@@ -181,24 +242,34 @@ std::optional<ShapePosterior> LoadEstimator::update(const std::vector<Target>& t
   if (std::exchange(estimate->edited, false)) return std::nullopt;
   prepare();
   setSprings(targets, pins);
+  setCurvature(springs_, vertices);
+  Points pushed = Points::Zero(vertices.rows(), 3);
+  springs_.addTo(vertices, &pushed);
   ShapePosterior posterior;
-  turned_->at(vertices, modes_.shapes, &posterior.motions);
-  Equations equations = equationsAt(vertices, balancing, posterior.motions, elapsed_s, *estimate);
-  const Eigen::Index modes = modes_.stiffness.size();
-  const auto stiffness = modes_.stiffness.asDiagonal();
-  const Eigen::MatrixXd inverse = inverseOf(equations.hessian);
-  const Eigen::VectorXd loads = equations.balancing + stiffness * (inverse * equations.pull).tail(modes);
-  estimate->covariance = noise_ * (stiffness * inverse.bottomRightCorner(modes, modes) * stiffness);
-  const Eigen::VectorXd per_mass = posterior.motions.rightCols(modes) * loads;
-  estimate->per_mass = per_mass.reshaped<Eigen::RowMajor>(vertices.rows(), 3);
+  std::vector<Equations> equations;
+  std::vector<Eigen::VectorXd> loads;
+  const LoadEstimate last = *estimate;
+  const Points before = masses_.asDiagonal() * last.per_mass;
+  estimate->covariances.resize(pieces_.size());
+  const Rotations rotations = turned_->rotationsOf(vertices);
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    setRigidMotions(piece, vertices, rotations);
+    equations.push_back(equationsOf(piece, rotations, {&pushed, &balancing, &before}, last, elapsed_s));
+    loads.push_back(estimatePiece(piece, rotations, equations.back(), estimate));
+  }
   balance(vertices, &estimate->per_mass);
-  if (!measuring_held_.empty())  // they say nothing of the loads, but where the piece is
-    equations.hessian += curvature(springs_on_held_, vertices, posterior.motions);
   // The model errs, like its prior, in proportion to the loads; a piece that nothing measures may be
-  // anywhere.
-  const double scale = evidence(loads, estimate->covariance);
-  equations.hessian.diagonal().head(turned_->rigidCount()).array() += (scale - 1.0) * looseness();
-  posterior.covariance = scale * noise_ * inverseOf(equations.hessian);
+  // anywhere. Targets of pinned pieces say nothing of the loads, but where the piece is.
+  const double scale = evidence(loads, *estimate);
+  const bool has_held = !measuring_held_.empty();
+  if (has_held) setCurvature(springs_on_held_, vertices);
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    Eigen::MatrixXd& hessian = equations[piece].hessian;
+    if (has_held) hessian += curvature(piece, rotations);
+    hessian.diagonal().head(TurnedModes::kRigid).array() += (scale - 1.0) * looseness();
+    const DenseRows<double> root = std::sqrt(scale * noise_) * inverseRoot(hessian).leftCols(hessian.cols());
+    posterior.pieces.push_back({&pieces_[piece], &float_motions_[piece], transposed(root)});
+  }
   return posterior;
 }
 

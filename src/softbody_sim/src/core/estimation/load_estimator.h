@@ -1,15 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "constraints/target_energy.h"
 #include "elasticity/tet_materials.h"
-#include "estimation/deformation_modes.h"
 #include "estimation/load_estimate.h"
 #include "estimation/turned_modes.h"
+#include "linear_solvers/dense_kernels.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "tets/block_tet_matrix.h"
@@ -58,17 +59,22 @@ class LoadEstimator {
   void balance(const Points& vertices, Points* loads) const;
 
  private:
-  using Motions = TurnedModes::Motions;
-  struct Prior;
   struct Equations;
+  using Rotations = std::vector<Eigen::Matrix3d>;  ///< of each vertex
 
-  Prior priorOf(const LoadEstimate& estimate, const Eigen::VectorXd& loads, double elapsed_s) const;
-  Equations equationsAt(const Points& vertices, const Points& balancing, const Motions& motions,
-                        double elapsed_s, const LoadEstimate& estimate);
-  double looseness() const;
-  double evidence(const Eigen::VectorXd& loads, const Eigen::MatrixXd& covariance) const;
-  Eigen::MatrixXd curvature(const TargetEnergy& springs, const Points& vertices, const Motions& motions);
   void setSprings(const std::vector<Target>& targets, const std::vector<Pin>& pins);
+  void setRigidMotions(std::size_t piece, const Points& vertices, const Rotations& rotations);
+  void setCurvature(const TargetEnergy& springs, const Points& vertices);
+  Eigen::MatrixXd curvature(std::size_t piece, const Rotations& rotations) const;
+  Eigen::MatrixX3d along(std::size_t piece, const Rotations& rotations,
+                         const std::array<const Points*, 3>& forces) const;
+  Equations equationsOf(std::size_t piece, const Rotations& rotations,
+                        const std::array<const Points*, 3>& forces, const LoadEstimate& last,
+                        double elapsed_s) const;
+  Eigen::VectorXd estimatePiece(std::size_t piece, const Rotations& rotations, const Equations& equations,
+                                LoadEstimate* estimate) const;
+  double looseness() const;
+  double evidence(const std::vector<Eigen::VectorXd>& loads, const LoadEstimate& estimate) const;
   void balancePiece(const std::vector<int>& piece, const Points& vertices, Points* loads) const;
 
   const TetTopology& topology_;
@@ -77,14 +83,21 @@ class LoadEstimator {
   const Options options_;
   const std::vector<std::vector<int>> pieces_;  ///< vertices of each piece
   std::vector<std::size_t> piece_of_vertex_;    ///< #V
+  std::vector<int> place_in_piece_;             ///< #V
   const double noise_;  ///< energy of a target of weight 1 at its standard deviation [J]
 
-  /// What prepare() makes.
-  DeformationModes modes_;
-  Eigen::MatrixXd unknown_;            ///< covariance of loads of which nothing is known
-  Eigen::MatrixXd unknown_precision_;  ///< its inverse
+  /// What prepare() makes; per piece, along its modes.
+  std::vector<Eigen::VectorXd> stiffness_;  ///< see DeformationModes
+  /// x y z of each vertex by paddedColumns(rigid motions and modes), in the axes of the vertex.
+  std::vector<DenseRows<double>> motions_;
+  std::vector<DenseRows<float>> float_motions_;     ///< without the padding
+  std::vector<Eigen::MatrixXd> unknown_;            ///< covariance of loads of which nothing is known
+  std::vector<Eigen::MatrixXd> unknown_precision_;  ///< its inverse
   std::unique_ptr<TurnedModes> turned_;
-  std::unique_ptr<BlockTetMatrix> curvature_;  ///< of the springs
+
+  std::unique_ptr<BlockTetMatrix> curvature_;  ///< of springs
+  std::vector<std::vector<int>> measured_;     ///< vertices that they act on, of each piece
+  std::vector<int> measured_place_;            ///< #V: place in these; -1: none
 
   std::vector<Target> measuring_, measuring_held_;  ///< targets of pieces without and with pins
   TargetEnergy springs_, springs_on_held_;          ///< of these

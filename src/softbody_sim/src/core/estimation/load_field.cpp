@@ -1,5 +1,6 @@
 #include "estimation/load_field.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "linear_solvers/positive_definite_solver.h"
@@ -31,27 +32,56 @@ TetMatrix screenedPoisson(const TetTopology& topology, const Eigen::VectorXd& ma
   return matrix;
 }
 
-}  // namespace
-
-Eigen::MatrixXd covarianceOfUnknownLoads(const TetTopology& topology, const TetMaterials& materials,
-                                         const Eigen::VectorXd& masses, const DeformationModes& modes) {
+/// sqrt(M)^-1 of the forces M (M + l^2 L)^-1 M w of white noise w, for each mode. Pieces do not act on each
+/// other, so one mode of each is solved for at once.
+std::vector<Eigen::MatrixXd> smoothed(const TetTopology& topology, const Eigen::VectorXd& masses,
+                                      const std::vector<DeformationModes>& modes) {
   const Eigen::SparseMatrix<double> matrix = screenedPoisson(topology, masses).lower();
   PositiveDefiniteSolver smoother(matrix);
   smoother.factorize(matrix);
-  // White noise w gives the forces M (M + l^2 L)^-1 M w; `along` holds sqrt(M)^-1 of that for each mode.
-  Eigen::MatrixXd along(modes.shapes.rows(), modes.shapes.cols());
-  Points shape(masses.size(), 3), smooth(masses.size(), 3);
-  for (Eigen::Index i = 0; i < modes.shapes.cols(); ++i) {
-    shape = masses.asDiagonal() * modes.shapes.col(i).reshaped<Eigen::RowMajor>(masses.size(), 3);
-    smoother.solve(shape, &smooth);
-    along.col(i) = (masses.cwiseSqrt().asDiagonal() * smooth).reshaped<Eigen::RowMajor>();
+  const std::vector<std::vector<int>> pieces = verticesOfPieces(topology.tets, masses.size());
+  std::vector<Eigen::MatrixXd> result;
+  Eigen::Index most = 0;
+  for (const DeformationModes& piece : modes) {
+    result.emplace_back(piece.shapes.rows(), piece.shapes.cols());
+    most = std::max(most, piece.shapes.cols());
   }
-  const Eigen::MatrixXd covariance = along.transpose() * along;
-  // Twice the mean elastic energy, of a covariance of 1 and of the usual strain [J].
-  const double energy = (covariance.diagonal().array() / modes.stiffness.array()).sum(),
-               usual = materials.mean_youngs_modulus_pa * kUsualStrain * kUsualStrain *
+  Points shape(masses.size(), 3), smooth(masses.size(), 3);
+  for (Eigen::Index i = 0; i < most; ++i) {
+    shape.setZero();
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      if (i < modes[p].shapes.cols())
+        shape(pieces[p], Eigen::all) = modes[p].shapes.col(i).reshaped<Eigen::RowMajor>(pieces[p].size(), 3);
+    }
+    shape = masses.asDiagonal() * shape;
+    smoother.solve(shape, &smooth);
+    smooth = masses.cwiseSqrt().asDiagonal() * smooth;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      if (i < modes[p].shapes.cols())
+        result[p].col(i) = smooth(pieces[p], Eigen::all).reshaped<Eigen::RowMajor>();
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Eigen::MatrixXd> covariancesOfUnknownLoads(const TetTopology& topology,
+                                                       const TetMaterials& materials,
+                                                       const Eigen::VectorXd& masses,
+                                                       const std::vector<DeformationModes>& modes) {
+  std::vector<Eigen::MatrixXd> covariances;
+  double energy = 0.0;  // twice the mean elastic energy of these covariances [J]
+  for (const Eigen::MatrixXd& along : smoothed(topology, masses, modes)) {
+    const DeformationModes& piece = modes[covariances.size()];
+    covariances.emplace_back(along.transpose() * along);
+    energy += (covariances.back().diagonal().array() / piece.stiffness.array()).sum();
+  }
+  // The same of the usual strain [J].
+  const double usual = materials.mean_youngs_modulus_pa * kUsualStrain * kUsualStrain *
                        tetVolumes(topology.rest_vertices, topology.tets).sum();
-  return usual / energy * covariance;
+  for (Eigen::MatrixXd& covariance : covariances) covariance *= usual / energy;
+  return covariances;
 }
 
 }  // namespace softbody

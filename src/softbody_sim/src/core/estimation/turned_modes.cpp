@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "elasticity/rotation.h"
-#include "softbody_common/tet_geometry.h"
 #include "tets/tet_shape.h"
 
 namespace softbody {
 
-TurnedModes::TurnedModes(const TetTopology& topology)
-    : tets_(topology.tets), pieces_(verticesOfPieces(topology.tets, topology.rest_vertices.rows())) {
+TurnedModes::TurnedModes(const TetTopology& topology) : tets_(topology.tets) {
   for (const auto& tet : tets_.rowwise()) {
     const Eigen::Matrix3d edges = edgesOf(topology.rest_vertices, tet);
     weighted_.emplace_back(edges.determinant() / 6.0 * edges.inverse());
@@ -28,24 +26,23 @@ std::vector<Eigen::Matrix3d> TurnedModes::rotationsOf(const Points& vertices) co
   return rotations;
 }
 
-void TurnedModes::at(const Points& vertices, const Eigen::MatrixXd& shapes, Motions* motions) const {
-  motions->setZero(3 * vertices.rows(), rigidCount() + shapes.cols());
-  const std::vector<Eigen::Matrix3d> rotations = rotationsOf(vertices);
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v)
-    motions->block(3 * v, rigidCount(), 3, shapes.cols()).noalias() =
-        rotations[static_cast<std::size_t>(v)] * shapes.middleRows(3 * v, 3);
-  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
-    const Points places = vertices(pieces_[piece], Eigen::all);
-    const Eigen::RowVector3d center = places.colwise().mean();
-    const double radius =
-        std::sqrt((places.rowwise() - center).squaredNorm() / static_cast<double>(places.rows()));
-    for (int v : pieces_[piece]) {
-      const Eigen::RowVector3d arm = (vertices.row(v) - center) / radius;
-      auto block = motions->block<3, 6>(3 * v, 6 * static_cast<Eigen::Index>(piece));
-      block.leftCols<3>().setIdentity();
-      block.rightCols<3>() << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
-    }
+TurnedModes::Rigid TurnedModes::rigidMotions(const std::vector<int>& piece, const Points& vertices,
+                                             const std::vector<Eigen::Matrix3d>& rotations) const {
+  const Points places = vertices(piece, Eigen::all);
+  const Eigen::RowVector3d center = places.colwise().mean();
+  const double radius =
+      std::sqrt((places.rowwise() - center).squaredNorm() / static_cast<double>(places.rows()));
+  Rigid motions(3 * places.rows(), kRigid);
+  for (Eigen::Index v = 0; v < places.rows(); ++v) {
+    const Eigen::RowVector3d arm = (places.row(v) - center) / radius;
+    Eigen::Matrix3d turns;
+    turns << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
+    const auto to_vertex =
+        rotations[static_cast<std::size_t>(piece[static_cast<std::size_t>(v)])].transpose();
+    motions.block<3, 3>(3 * v, 0) = to_vertex;
+    motions.block<3, 3>(3 * v, 3) = to_vertex * turns;
   }
+  return motions;
 }
 
 }  // namespace softbody

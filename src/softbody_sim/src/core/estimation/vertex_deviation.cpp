@@ -42,15 +42,16 @@ void vertexDeviations(const std::vector<Target>& targets, const Tets& tets, cons
                       const ShapePosterior& posterior, std::vector<float>* deviations) {
   constexpr double kDirections = 3.0;
   const Misfit misfit = misfitOf(targets, tets, vertices);
-  const Eigen::LLT<Eigen::MatrixXd> root(posterior.covariance);
-  const Eigen::MatrixXd spread = posterior.motions * root.matrixL();
   deviations->resize(static_cast<std::size_t>(vertices.rows()));
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const double of_loads = spread.middleRows(3 * v, 3).squaredNorm();
-    const double variance =
-        of_loads + misfit.around.row(v).squaredNorm() + kDirections * misfit.mean_square_m2;
-    (*deviations)[static_cast<std::size_t>(v)] =
-        static_cast<float>(std::min(std::sqrt(variance), ShapePosterior::kUnknown_m));
+  for (const ShapePosterior::Piece& piece : posterior.pieces) {
+    const Eigen::VectorXf along = squaredRowNorms(*piece.motions, piece.root);  // variance along each axis
+    for (std::size_t k = 0; k < piece.vertices->size(); ++k) {
+      const int v = (*piece.vertices)[k];
+      const double variance = along.segment<3>(3 * static_cast<Eigen::Index>(k)).sum() +
+                              misfit.around.row(v).squaredNorm() + kDirections * misfit.mean_square_m2;
+      (*deviations)[static_cast<std::size_t>(v)] =
+          static_cast<float>(std::min(std::sqrt(variance), ShapePosterior::kUnknown_m));
+    }
   }
 }
 
