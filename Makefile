@@ -10,7 +10,8 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation sanitize soak error-table api tidy format
+.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation growth
+.PHONY: sanitize soak error-table api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -71,6 +72,9 @@ paper: build  ## measure the paper's accuracy, tables and times beside ours; wri
 
 validation: build  ## compare the simulator with known solutions; writes docs/validation.md
 	scripts/validate
+
+growth: build  ## measure how time and memory grow with tets, pieces, vertices, pixels and features; writes docs/growth.md
+	scripts/growth
 
 sanitize: dependencies  ## build with sanitizers (address and undefined, thread) and run tests, replay and the live graph (hours)
 	scripts/sanitize

@@ -48,7 +48,7 @@ std::string prefixOf(Strains strains, const std::string& separator) {
 const BentBody& bodyOf(const std::string& name, bool with_volume) {
   static std::map<std::pair<std::string, bool>, BentBody> made;
   const auto key = std::make_pair(name, with_volume);
-  if (made.count(key) == 0) made.emplace(key, bentBody(name, with_volume ? 0.3 : 0.0));
+  if (made.count(key) == 0) made.emplace(key, bentBody(bodyTopology(name), with_volume ? 0.3 : 0.0));
   return made.at(key);
 }
 

@@ -54,11 +54,10 @@ Points bent(const Points& rest, double curvature) {
   return x;
 }
 
-BentBody bentBody(const std::string& name, double poisson_ratio) {
+BentBody bentBody(const TetTopology& topology, double poisson_ratio) {
   std::mt19937 random(1);
   BentBody body;
-  body.name = name;
-  body.topology = bodyTopology(name);
+  body.topology = topology;
   body.lame = lameParameters(kYoungsModulus, poisson_ratio);
   const Points& rest = body.topology.rest_vertices;
   body.edge_length = meanEdgeLength(rest, body.topology.tets);

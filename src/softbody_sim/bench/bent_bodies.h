@@ -11,7 +11,6 @@ namespace softbody::bench {
 
 /// A bent body with random displacements, and a hundred targets that bend it further.
 struct BentBody {
-  std::string name;
   TetTopology topology;
   Lame lame;
   double edge_length = 0.0;  ///< mean [m]
@@ -26,7 +25,7 @@ TetTopology bodyTopology(const std::string& name);
 /// The rest shape bent about y. @param rest #V by 3 [m]. @param curvature [1/m].
 Points bent(const Points& rest, double curvature);
 
-/// @param name as bodyTopology's. @param poisson_ratio 0: no volume term.
-BentBody bentBody(const std::string& name, double poisson_ratio);
+/// @param poisson_ratio 0: no volume term.
+BentBody bentBody(const TetTopology& topology, double poisson_ratio);
 
 }  // namespace softbody::bench
