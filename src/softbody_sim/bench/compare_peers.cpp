@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/bent_bodies.h"
-#include "bench/mass_springs.h"
+#include "bench/peers/mass_springs.h"
 #include "fixtures/test_meshes.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/dynamics/simulator.h"

@@ -1,4 +1,4 @@
-#include "bench/mass_springs.h"
+#include "bench/peers/mass_springs.h"
 
 #include <algorithm>
 #include <map>
