@@ -1,5 +1,7 @@
 """docs/evaluation.md, and the table in README.md, from the reports of `evaluate`."""
 import datetime
+import os
+import re
 import subprocess
 
 from evaluation.goals import goal_table
@@ -22,6 +24,12 @@ def commit(root):
 
     changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs", ":!README.md")
     return (git("describe", "--always").strip() or "unknown") + ("-dirty" if changed else "")
+
+
+def processor():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        found = re.search(r"^model name\s*: (.*)$", file.read(), re.MULTILINE)
+    return f"{found[1] if found else 'unknown processor'}, {os.cpu_count()} cores"
 
 
 def origin(root):

@@ -1,11 +1,10 @@
 """docs/latency.md, from the rows of measure_latency.py."""
 import datetime
 
-from evaluation.document import commit
+from evaluation.document import commit, processor
 from evaluation.figures import number
 from live.streams import SURFACE
 from markdown_lines import paragraph, table
-from paper_parts.tables import processor
 
 NODES = ["camera_ingest", "feature_tracker", "simulator", "surface", "transport"]
 LATENCIES = ["median", "p95", "p99", "worst"]

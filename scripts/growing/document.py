@@ -1,29 +1,26 @@
 """The text of docs/growth.md."""
 import datetime
-import os
-import pathlib
 
-from evaluation.document import commit
+from evaluation.document import commit, processor
 from growing.fit import exponents
 from growing.measurements import UNITS
 from markdown_lines import paragraph, table
-
-
-def processor():
-    names = [line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
-             if line.startswith("model name")]
-    return f"{names[0] if names else 'an unknown processor'}, {os.cpu_count()} cores"
 
 
 def number(value):
     return f"{value:,.0f}" if value >= 1000.0 else f"{value:.3g}"
 
 
+def exponent_text(slope):
+    """@param slope and its standard error; None: too few values."""
+    return f"{slope[0]:.2f} +- {slope[1]:.2f}" if slope else "-"
+
+
 def section(series):
     quantities = list(series.rows[0][1])
     rows = [(f"{size:,}", *(number(values[quantity]) for quantity in quantities)) for size, values in series.rows]
     slopes = exponents(series)
-    rows.append(("exponent", *(f"{slopes[quantity][0]:.2f} +- {slopes[quantity][1]:.2f}" for quantity in quantities)))
+    rows.append(("exponent", *(exponent_text(slopes[quantity]) for quantity in quantities)))
     since = f" Exponents are those from {series.fitted_from:,.0f} on." if series.fitted_from else ""
     heads = [f"{quantity} [{UNITS.get(quantity, 'ms')}]" for quantity in quantities]
     return [f"## By {series.size}", "", *paragraph(series.words + since), "", *table([series.size, *heads], rows)]

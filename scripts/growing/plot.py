@@ -9,7 +9,7 @@ def plot(all_series, path):
     curves = [(series.size, [(math.log10(size / series.rows[0][0]), math.log10(values["frame"] / series.rows[0][1]["frame"]))
                              for size, values in series.rows]) for series in all_series]
     right = math.ceil(max(x for _, points in curves for x, _ in points))
-    top = math.ceil(max(y for _, points in curves for _, y in points))
+    top = max(1, math.ceil(max(y for _, points in curves for _, y in points)))
     x = lambda value: 70 + 620 * value / right
     y = lambda value: 290 - 250 * value / top
     lines = ['<svg xmlns="http://www.w3.org/2000/svg" width="900" height="340" font-family="sans-serif" font-size="13">',

@@ -76,11 +76,15 @@ class Graph:
             self._launch.wait(PATIENCE_S)
         except subprocess.TimeoutExpired:
             print(f"measure_live: roslaunch did not end within {PATIENCE_S:.0f} s and is killed", file=sys.stderr)
+        deadline = time.monotonic() + PATIENCE_S
         while left := list(processes_of(self._mark)):
+            if time.monotonic() > deadline:
+                print(f"measure_live: these processes do not end: {left}", file=sys.stderr)
+                return
             for pid in left:
                 try:
                     os.kill(pid, signal.SIGKILL)
-                except ProcessLookupError:
-                    pass  # it has just ended
+                except OSError:
+                    pass  # it has just ended, or this user may not
+            self._launch.poll()
             time.sleep(POLL_S)
-        self._launch.wait()

@@ -1,7 +1,5 @@
 """The measured tables of docs/paper.md."""
-import os
-import re
-
+from evaluation.document import processor
 from evaluation.figures import PAPER_MEAN_ERROR_MM, PAPER_TIMES_MS, get, number, percent
 from markdown_lines import paragraph, table
 from paper_parts.methods import SCENES, TIMED, compared, counts, parts, timed_kinds
@@ -126,12 +124,6 @@ def stage_time(report, stage, initialization):
     """Median [ms] of a stage; None if it was not measured."""
     return next((entry["median_ms"] for entry in report.get("stages", [])
                  if entry["stage"] == stage and entry["initialization"] == initialization), None)
-
-
-def processor():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        found = re.search(r"^model name\s*: (.*)$", file.read(), re.MULTILINE)
-    return f"{found[1] if found else 'unknown processor'}, {os.cpu_count()} cores"
 
 
 def sum_of(values):

@@ -122,7 +122,7 @@ Run fastFrame(const BentBody& body, const ElasticMaterials& materials,
     benchmark::DoNotOptimize(x.data());
   };
   // As after a few frames: the matrix is factored, and inverted if it is small.
-  for (int k = 0; k < (body.start.rows() > 500 ? 1 : 30); ++k) frame();
+  for (int k = 0; k < (body.start.rows() > GlobalStepSolver<float>::kLargestInverse ? 1 : 30); ++k) frame();
   return frame;
 }
 

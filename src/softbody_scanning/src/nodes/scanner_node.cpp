@@ -64,8 +64,6 @@ ScannerNode::ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
 void ScannerNode::onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                           const sensor_msgs::CameraInfoConstPtr& info) try {
   RgbdFrame frame = frameFromRectified(*color, *depth, *info);
-  frame.depth = frame.depth.clone();  // the message belongs to others, too
-  cv::patchNaNs(frame.depth, 0.0);
   frame.placed = false;
   frame.stamp = toNanoseconds(color->header.stamp);
   const auto pose = motion_.poseOf(frame);
@@ -75,7 +73,9 @@ void ScannerNode::onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_
   ++frames_;
   if (!pose) return;
   ++posed_;
-  choice_.add({frame.stamp, frame.camera, frame.color.clone(), frame.depth, pose->T_camera_model,
+  cv::Mat1f depth_m = frame.depth.clone();  // the message belongs to others, too
+  cv::patchNaNs(depth_m, 0.0);
+  choice_.add({frame.stamp, frame.camera, frame.color.clone(), depth_m, pose->T_camera_model,
                sharpnessOf(frame.color)});
 } catch (const std::exception& error) {
   last_error_ = error.what();

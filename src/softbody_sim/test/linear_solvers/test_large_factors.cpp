@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "elasticity/corotated_elasticity.h"
 #include "fixtures/test_meshes.h"
 #include "linear_solvers/global_step_solver.h"

@@ -26,7 +26,7 @@ void requireSize(const cv::Mat& image, const Pinhole& camera, const char* name) 
 }
 
 /// No camera_ingest sends such a depth. NaN is not wrong: nothing was measured.
-bool isWrong(float z) { return (z < 0.0f) | (z >= kFarthestDepth_m); }
+bool isWrong(float z) { return (z < 0.0f) | (z > kFarthestDepth_m); }
 
 /// Whether all depths are usable or NaN.
 bool isUsable(const cv::Mat1f& depth) {

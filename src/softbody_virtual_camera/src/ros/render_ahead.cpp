@@ -1,18 +1,9 @@
 #include "softbody_virtual_camera/ros/render_ahead.h"
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <utility>
 
 namespace softbody::virtual_camera {
-namespace {
-
-constexpr int kNiceness = 10;
-
-}  // namespace
 
 RenderAhead::RenderAhead(Render render, Clock clock)
     : render_(std::move(render)), clock_(std::move(clock)), thread_([this] { run(); }) {}
@@ -55,7 +46,6 @@ void RenderAhead::waitToBegin(const ros::Time& due, std::unique_lock<std::mutex>
 }
 
 void RenderAhead::run() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return due_ || ends_; });

@@ -30,7 +30,8 @@ class Simulator {
   /// False until the first TargetSet with `reset` has placed the body.
   bool placed() const;
 
-  /// Makes what the first step would otherwise make, before somebody waits for it.
+  /// Makes the modes for loads and standard deviations, which the first step would otherwise make. Nothing if
+  /// load_fade_s is 0. @throw std::runtime_error as step does.
   void prepare();
 
   /// @throw std::invalid_argument if the targets fit neither the present body nor the uncut one.

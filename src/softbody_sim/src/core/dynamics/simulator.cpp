@@ -258,6 +258,7 @@ void Simulator::returnTo(const Simulator& other) {
 void Simulator::reset() {
   Implementation& s = *implementation_;
   s.body = {};
+  s.model->constrained_step.restart(s.model->topology.rest_vertices);
   if (s.model->topology.revision != s.uncut.revision) {
     s.volume = EditedVolume(s.uncut, s.undoBytes());
     s.setTopology(s.uncut);

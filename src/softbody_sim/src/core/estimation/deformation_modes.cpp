@@ -3,6 +3,7 @@
 #include <Eigen/CholmodSupport>
 #include <Eigen/Dense>
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 #include "elasticity/fem_elasticity.h"
@@ -67,7 +68,10 @@ DeformationModes modesOfPiece(const Points& rest, const Eigen::SparseMatrix<doub
   shifted.diagonal() += modes.stiffness[kRigid] * mass;
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> solver;
   solver.cholmod().print = 0;
+  solver.cholmod().nmethods = 1;  // else CHOLMOD may try METIS, which draws random numbers of the process
+  solver.cholmod().method[0].ordering = CHOLMOD_AMD;
   solver.compute(shifted);
+  if (solver.info() != Eigen::Success) throw std::runtime_error("the stiffness of the body is not positive");
   for (int i = 0; i < kIterations; ++i)
     modes = lowestIn(solver.solve(Eigen::MatrixXd(mass.asDiagonal() * modes.shapes)), K, mass);
   modes = lowest(kRigid + count, modes);

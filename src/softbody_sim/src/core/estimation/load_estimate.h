@@ -23,9 +23,10 @@ struct ShapePosterior {
   static constexpr double kUnknown_m = 0.1;
 
   struct Piece {
-    const std::vector<int>* vertices;  ///< of the estimator, until its next update, as the motions
-    const DenseRows<float>* motions;   ///< x y z of each vertex by #amplitudes
-    DenseRows<float> root;             ///< #amplitudes by paddedColumns(); motions of unit amplitude are in m
+    const std::vector<int>*
+        vertices;  ///< of the estimator; valid until its next update, and so are the motions
+    const DenseRows<float>* motions;  ///< x y z of each vertex by #amplitudes
+    DenseRows<float> root;            ///< #amplitudes by paddedColumns(); motions of unit amplitude are in m
   };
   std::vector<Piece> pieces;
 };

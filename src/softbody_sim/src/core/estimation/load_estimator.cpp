@@ -32,7 +32,7 @@ DenseRows<float> transposed(const DenseRows<double>& matrix) {
 
 /// For the amplitudes of a piece's motions from the present shape.
 struct LoadEstimator::Equations {
-  Eigen::MatrixXd hessian;    ///< of springs and prior, lower triangle [N/m]
+  Eigen::MatrixXd hessian;    ///< of springs and prior [N/m]
   Eigen::VectorXd pull;       ///< minus the gradient
   Eigen::VectorXd balancing;  ///< forces along the modes that hold the body in its present shape
 };
@@ -124,7 +124,7 @@ void LoadEstimator::setRigidMotions(std::size_t piece, const Points& vertices, c
   float_motions_[piece].leftCols<TurnedModes::kRigid>() = rigid.cast<float>();
 }
 
-/// Sets the springs that curvature() is of.
+/// Sets the springs of curvature(), and the vertices that they act on.
 void LoadEstimator::setCurvature(const TargetEnergy& springs, const Points& vertices) {
   curvature_->setZero();
   springs.addHessian(vertices, curvature_.get());

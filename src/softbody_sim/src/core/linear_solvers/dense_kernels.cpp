@@ -8,6 +8,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <stdexcept>
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody::HWY_NAMESPACE {
@@ -115,7 +116,9 @@ Eigen::VectorXf squaredRowNorms(const DenseRows<float>& A, const DenseRows<float
 }
 
 DenseRows<double> inverseRoot(const Eigen::MatrixXd& positive) {
-  const DenseRows<double> L = positive.llt().matrixL();
+  const Eigen::LLT<Eigen::MatrixXd> factor(positive);
+  if (factor.info() != Eigen::Success) throw std::runtime_error("a matrix of the estimate is not positive");
+  const DenseRows<double> L = factor.matrixL();
   DenseRows<double> inverse = DenseRows<double>::Zero(L.rows(), paddedColumns(L.cols()));
   HWY_DYNAMIC_DISPATCH(invertLower)(L.data(), L.rows(), inverse.cols(), inverse.data());
   return inverse;

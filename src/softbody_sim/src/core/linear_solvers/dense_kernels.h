@@ -22,9 +22,10 @@ Eigen::VectorXf squaredRowNorms(const DenseRows<float>& A, const DenseRows<float
 
 /// The inverse of the root of a positive definite matrix: W with W^T W its inverse, lower triangular.
 /// @param positive only its lower triangle counts. @return #columns by paddedColumns(#columns).
+/// @throw std::runtime_error if the matrix is not positive definite.
 DenseRows<double> inverseRoot(const Eigen::MatrixXd& positive);
 
-/// The inverse of a positive definite matrix.
+/// The inverse of a positive definite matrix. @throw as inverseRoot does.
 inline Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& positive) {
   const DenseRows<double> root = inverseRoot(positive);
   return symmetricProduct(root, root, positive.cols());

@@ -53,7 +53,8 @@ class GlobalStepSolver {
   bool reads_halves_;
   Eigen::VectorXd sums_;  ///< of the rows of A
   PanelFactor<T> factor_;
-  Eigen::Matrix<T, Eigen::Dynamic, 1> scale_;  ///< of the factor's rows, so that A has a unit diagonal
+  Eigen::Matrix<T, Eigen::Dynamic, 1>
+      scale_;  ///< of the factor's rows, so that A has a unit diagonal, as of the last factorize()
   Eigen::Matrix<T, Eigen::Dynamic, 1> scratch_;
   Rows<T> permuted_;
   int solves_ = 0;  ///< with the current factor

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -126,6 +127,8 @@ cholmod_factor* PositiveDefiniteSolver::Implementation::analyze(const Eigen::Spa
 }
 
 void PositiveDefiniteSolver::Implementation::findOrder(const Eigen::SparseMatrix<double>& lower) {
+  static std::mutex one_at_a_time;  // METIS seeds and draws the random numbers of the process
+  const std::lock_guard lock(one_at_a_time);
   common.nmethods = 1;
   common.method[0].ordering = is_large ? CHOLMOD_METIS : CHOLMOD_AMD;
   cholmod_factor* analysis = analyze(lower, -1, CHOLMOD_SIMPLICIAL);

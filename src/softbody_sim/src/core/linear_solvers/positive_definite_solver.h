@@ -23,7 +23,8 @@ struct Supernode {
 
 /// Solves A X = B for sparse symmetric positive definite matrices A of one pattern (CHOLMOD), by
 /// A(order, order) = L L^T. Small matrices are factored column by column, which allows cheap updates; the
-/// columns of large ones in groups by BLAS, after an order by METIS. Results are reproducible on one machine.
+/// columns of large ones in groups by BLAS, after an order by METIS. Results are reproducible on one machine
+/// with one number of BLAS threads.
 /// For small matrices, allocates only in the first factorize(), and in updates larger than reserved.
 class PositiveDefiniteSolver {
  public:

@@ -5,6 +5,7 @@
 
 #include "elasticity/elastic_blocks.h"
 #include "linear_solvers/global_step_solver.h"
+#include "softbody_common/tet_geometry.h"
 #include "tets/tet_matrix.h"
 #include "time_step/force_balance.h"
 #include "time_step/packed_potential.h"
@@ -16,6 +17,7 @@ class ProjectiveDynamics::Precision {
  public:
   virtual ~Precision() = default;
   virtual StepReport minimize(const IncrementalPotential& potential, Points* x) = 0;
+  virtual void restart() = 0;
   /// Elastic energy [J]; adds its gradient [N]. In double precision.
   virtual double addElasticity(const Points& x, Points* gradient) = 0;
 };
@@ -35,11 +37,12 @@ constexpr int kMaxUpdatedFrames = 100;
 /// with the targets' places in the body and with their weights, but not with their positions. Without a line
 /// search it is followed exactly, and so are the stiff springs of contacts. Else L-BFGS needs no more than
 /// its scale: the targets' part is a diagonal bound, and the factor stays as long as neither a vertex nor,
-/// without its elasticity, the body as a whole becomes more than twice or less than half as stiff.
+/// without its elasticity, a piece as a whole becomes more than twice or less than half as stiff.
 class StepMetric {
  public:
   StepMetric(const TetTopology& topology, const CorotatedElasticity& elasticity, bool always_exact)
       : always_exact_(always_exact),
+        pieces_(verticesOfPieces(topology.tets, topology.rest_vertices.rows())),
         metric_(elasticMetric(topology, elasticity)),
         elastic_(metric_.values()),
         elastic_diagonal_(metric_.lower().diagonal()) {
@@ -48,6 +51,9 @@ class StepMetric {
   }
 
   const Eigen::SparseMatrix<double>& lower() const { return metric_.lower(); }
+
+  /// The next factor does not depend on earlier ones.
+  void forgetFactor() { has_factor_ = false; }
 
   /// Updates the solver's factor to the potential.
   template <typename T>
@@ -87,7 +93,8 @@ class StepMetric {
   bool fewVerticesChange() {
     added_.clear();
     removed_.clear();
-    if (!areAlike(diagonal_.sum(), factored_.sum())) return false;
+    for (const std::vector<int>& piece : pieces_)
+      if (!areAlike(diagonal_(piece).sum(), factored_(piece).sum())) return false;
     for (int v = 0; v < static_cast<int>(diagonal_.size()); ++v) {
       if (areAlike(elastic_diagonal_[v] + diagonal_[v], elastic_diagonal_[v] + factored_[v])) continue;
       const double change = diagonal_[v] - factored_[v];
@@ -105,6 +112,7 @@ class StepMetric {
   }
 
   const bool always_exact_;
+  const std::vector<std::vector<int>> pieces_;  ///< vertices of each
   TetMatrix metric_;
   const Eigen::VectorXd elastic_;           ///< constant part of the values
   const Eigen::VectorXd elastic_diagonal_;  ///< #V [N/m]
@@ -157,6 +165,8 @@ class InPrecision : public ProjectiveDynamics::Precision {
     return report;
   }
 
+  void restart() override { metric_.forgetFactor(); }
+
   double addElasticity(const Points& x, Points* gradient) override {
     double_x_.topLeftCorner(x.rows(), 3) = x;
     double_gradient_.setZero();
@@ -184,7 +194,7 @@ class InPrecision : public ProjectiveDynamics::Precision {
 ProjectiveDynamics::ProjectiveDynamics(const TetTopology& topology, const ElasticMaterials& materials,
                                        const ProjectiveDynamicsOptions& options)
     : elasticity_(topology.rest_vertices, topology.tets, materials) {
-  // L-BFGS corrects the metric; without it, the metric's precision is that of the result.
+  // L-BFGS corrects the metric. Without it, in double precision, the metric is as precise as the result.
   const bool rough = options.minimizer.history > 0 &&
                      topology.rest_vertices.rows() > GlobalStepSolver<float>::kLargestInverse;
   if (options.single_precision)
@@ -200,6 +210,8 @@ ProjectiveDynamics::~ProjectiveDynamics() = default;
 StepReport ProjectiveDynamics::minimize(const IncrementalPotential& potential, Points* x) {
   return implementation_->minimize(potential, x);
 }
+
+void ProjectiveDynamics::restart(const Points& /*x*/) { implementation_->restart(); }
 
 double ProjectiveDynamics::addElasticity(const Points& x, Points* gradient) const {
   return implementation_->addElasticity(x, gradient);

@@ -26,6 +26,7 @@ class ProjectiveDynamics : public StepSolver {
   ~ProjectiveDynamics() override;
 
   StepReport minimize(const IncrementalPotential& potential, Points* x) override;
+  void restart(const Points& x) override;
   double addElasticity(const Points& x, Points* gradient) const override;
 
   class Precision;  ///< everything that depends on the precision

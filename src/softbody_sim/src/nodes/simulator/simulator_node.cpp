@@ -60,7 +60,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
     free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
                                        [this](const ros::TimerEvent&) { onFreeRun(); });
   }
-  simulator_.prepare();  // while the tracker, which has the topology now, prepares itself and finds the body
+  // In a callback: a nodelet manager loads the tracker meanwhile, which finds the body.
+  prepare_timer_ = node.createWallTimer(
+      ros::WallDuration(1e-3),
+      [this](const ros::WallTimerEvent&) {
+        const auto scope = timer_.stage(kStage, true);
+        simulator_.prepare();
+      },
+      true);
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {

@@ -82,6 +82,7 @@ class SimulatorNode {
   ros::Subscriber targets_subscriber_, cut_subscriber_, edits_subscriber_;
   ros::ServiceServer set_material_;
   ros::Timer free_run_timer_;
+  ros::WallTimer prepare_timer_;
   PredictionService predictions_;
 };
 

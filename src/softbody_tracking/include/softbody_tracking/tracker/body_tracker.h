@@ -42,7 +42,8 @@ class BodyTracker {
   /// Whether the models are set.
   bool ready() const;
 
-  /// To use the targets of a frame at once; the tracker goes on to learn from the frame afterwards.
+  /// To use the targets of a frame at once; the tracker goes on to learn from the frame afterwards. If
+  /// track() throws then, they have been used all the same.
   using UseTargets = std::function<void(const TargetSet& targets)>;
 
   /// Tracks the body in one frame. A frame of another pass resets the tracker.

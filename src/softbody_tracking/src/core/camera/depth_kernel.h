@@ -14,8 +14,8 @@ struct DepthLimits {
 };
 
 /// Makes metres from raw depth in one pass over the image, and removes flying pixels: false depths that a
-/// sensor gives between two surfaces. Two pixels are near each other if their depths differ by less than
-/// jump_ratio * z, or sqrt(2) times that along a diagonal. A pixel is kept if
+/// sensor gives between two surfaces. Two pixels are near each other if their depths differ by at most
+/// jump_ratio * z, or 1.5 times that along a diagonal. A pixel is kept if
 /// - at least two of its eight neighbours are near it, as along a thin wire; and
 /// - it is not a step. A pixel is a step if two opposite neighbours (row, column or diagonal) are not near,
 ///   and if one is closer to the camera and the other farther away. A real object before the background has

@@ -108,7 +108,6 @@ cv::Mat3b Rectifier::color(const cv::Mat3b& raw) const {
 }
 
 void Rectifier::depth(const cv::Mat1f& raw, cv::Mat1f* result) const {
-  if (identity_) return raw.copyTo(*result);
   cv::remap(raw, *result, nearest_, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT,
             cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
   if (!depth_scale_.empty()) cv::multiply(*result, depth_scale_, *result);

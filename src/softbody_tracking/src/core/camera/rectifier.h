@@ -17,6 +17,7 @@ class Rectifier {
   cv::Mat3b color(const cv::Mat3b& raw) const;
   /// Nearest neighbour, because depths of two surfaces must not be mixed; NaN outside of the raw image. z
   /// is given in the rectified camera frame (R). @param raw not the result's memory.
+  /// Only if not isIdentity().
   void depth(const cv::Mat1f& raw, cv::Mat1f* result) const;
 
  private:

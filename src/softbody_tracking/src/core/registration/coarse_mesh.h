@@ -13,8 +13,8 @@ TriangleMesh clustered(const TriangleMesh& mesh, double cell_m, double smallest_
 /// The rest surface at the resolutions that the searches for its pose render.
 struct SearchMeshes {
   TriangleMesh full;
-  TriangleMesh fine;          ///< for the last step of a search, and to judge its pose
-  TriangleMesh coarse;        ///< for the steps before
+  TriangleMesh fine;          ///< from full, for the last step of a search, and to judge its pose
+  TriangleMesh coarse;        ///< from fine, for the steps before
   double diameter_m = 0.0;    ///< diagonal of the bounding box
   BakedPicture picture = {};  ///< of the full mesh; empty: not known
 };

@@ -76,11 +76,12 @@ void CameraIngestOutputs::publish(const IngestedFrame& ingested, const std_msgs:
   else if (color_.getNumSubscribers() > 0)
     color_.publish(toMessage(frame.color, header));
   depth_.publish(ingested.depth_message);
-  if (points_.getNumSubscribers() > 0) {
+  const bool has_color = !frame.color.empty();  // not if points are wanted only since ingest()
+  if (has_color && points_.getNumSubscribers() > 0) {
     const auto stage = timer->stage("point cloud");
     publishPoints(frame, header);
   }
-  if (points_marker_.getNumSubscribers() > 0) publishPointsMarker(frame, header);
+  if (has_color && points_marker_.getNumSubscribers() > 0) publishPointsMarker(frame, header);
   const std::vector<StageTime> stages = timer->take();
   if (timing_.getNumSubscribers() > 0) {
     const auto timing =

@@ -12,9 +12,8 @@
 
 namespace softbody::virtual_camera {
 
-/// Renders one frame in its own thread of low priority, while the caller waits for the time to send it. It
-/// begins late, so that a frame is ready just before its time and takes no core from those who work on the
-/// frame before.
+/// Renders one frame in its own thread, while the caller waits for the time to send it. It begins late, so
+/// that a frame is ready just before its time and takes no core from those who work on the frame before.
 class RenderAhead {
  public:
   using Render = std::function<CaptureMessages(int frame)>;
