@@ -293,7 +293,6 @@ bool Simulator::crosses(const Cut& cut, std::string* reason) const {
 const EditHistory& Simulator::edits() const { return implementation_->volume.history().edits(); }
 
 Nanoseconds Simulator::stamp() const { return implementation_->body.stamp; }
-
 const TetTopology& Simulator::uncut() const { return implementation_->uncut; }
 
 void Simulator::setBody(std::uint64_t body) { implementation_->volume.setBody(body); }

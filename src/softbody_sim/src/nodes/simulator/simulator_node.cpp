@@ -60,14 +60,16 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
     free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
                                        [this](const ros::TimerEvent&) { onFreeRun(); });
   }
-  // In a callback: a nodelet manager loads the tracker meanwhile, which finds the body.
-  prepare_timer_ = node.createWallTimer(
-      ros::WallDuration(1e-3),
-      [this](const ros::WallTimerEvent&) {
-        const auto scope = timer_.stage(kStage, true);
-        simulator_.prepare();
-      },
-      true);
+  prepareSoon(&node);
+}
+
+/// In a callback: a nodelet manager loads the tracker meanwhile, which finds the body.
+void SimulatorNode::prepareSoon(ros::NodeHandle* node) {
+  const auto prepare = [this](const ros::WallTimerEvent&) {
+    const auto scope = timer_.stage(kStage, true);
+    simulator_.prepare();
+  };
+  prepare_timer_ = node->createWallTimer(ros::WallDuration(1e-3), prepare, true);
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {

@@ -39,6 +39,7 @@ class SimulatorNode {
   SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const SimulatorOptions& options,
                 const SimulatedObject& object);
 
+  void prepareSoon(ros::NodeHandle* node);
   void onTargets(const softbody_msgs::TargetsConstPtr& message);
   void onCut(const softbody_msgs::CutConstPtr& message);
   void onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message);
