@@ -14,7 +14,9 @@ constexpr char kSimulationStage[] = "Soft-body Simulation";
 
 Simulator makeSimulator(const ObjectModel& model, const SimulatorConfig& config, StageTimer* timer) {
   const auto scope = timer->stage(kSimulationStage, true);
-  return {model.volume, model.material, config};
+  Simulator simulator(model.volume, model.material, config);
+  simulator.prepare();
+  return simulator;
 }
 
 }  // namespace
@@ -33,12 +35,8 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
   if (to_be_placed_ && !uncut_volume_.has_initial_pose)
     throw std::invalid_argument("the object has no initial_pose at which it can be placed");
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
-  {
-    const auto scope = timer_.stage("Tracker Preparation", true);
-    tracker_.setTopologies(volumeTopology(), surfaceTopology());
-  }
-  const auto scope = timer_.stage(kSimulationStage, true);
-  simulator_.prepare();
+  const auto scope = timer_.stage("Tracker Preparation", true);
+  tracker_.setTopologies(volumeTopology(), surfaceTopology());
 }
 
 CuttableSurface Pipeline::makeSurface() {

@@ -22,6 +22,7 @@ class Simulator {
  public:
   /// @throw std::invalid_argument if topology, material or config do not describe a body.
   Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config);
+  Simulator(Simulator&& other) noexcept;
   ~Simulator();
 
   const TetTopology& topology() const;

@@ -136,10 +136,10 @@ void Simulator::Implementation::estimate(const std::vector<Target>& targets, con
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)
     : implementation_(std::make_unique<Implementation>(topology, material, config)) {}
 
+Simulator::Simulator(Simulator&& other) noexcept = default;
 Simulator::~Simulator() = default;
 
 const TetTopology& Simulator::topology() const { return implementation_->model->topology; }
-
 const Material& Simulator::material() const { return implementation_->material; }
 
 bool Simulator::placed() const { return implementation_->body.placed; }

@@ -65,11 +65,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
 
 /// In a callback: a nodelet manager loads the tracker meanwhile, which finds the body.
 void SimulatorNode::prepareSoon(ros::NodeHandle* node) {
-  const auto prepare = [this](const ros::WallTimerEvent&) {
-    const auto scope = timer_.stage(kStage, true);
-    simulator_.prepare();
-  };
-  prepare_timer_ = node->createWallTimer(ros::WallDuration(1e-3), prepare, true);
+  prepare_timer_ = node->createWallTimer(
+      ros::WallDuration(1e-3), [this](const ros::WallTimerEvent&) { simulator_.prepare(); }, true);
 }
 
 void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
