@@ -93,8 +93,11 @@ class StepMetric {
   bool fewVerticesChange() {
     added_.clear();
     removed_.clear();
-    for (const std::vector<int>& piece : pieces_)
-      if (!areAlike(diagonal_(piece).sum(), factored_(piece).sum())) return false;
+    for (const std::vector<int>& piece : pieces_) {
+      double now = 0.0, before = 0.0;
+      for (int v : piece) now += diagonal_[v], before += factored_[v];
+      if (!areAlike(now, before)) return false;
+    }
     for (int v = 0; v < static_cast<int>(diagonal_.size()); ++v) {
       if (areAlike(elastic_diagonal_[v] + diagonal_[v], elastic_diagonal_[v] + factored_[v])) continue;
       const double change = diagonal_[v] - factored_[v];
