@@ -45,7 +45,7 @@ cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,
 demo: build  ## track a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
 	scripts/demo
 
-bench: build  ## run the benchmarks; writes bench/summary.json and docs/benchmarks.md
+bench: build  ## run the benchmarks; writes bench/summary.json and docs/measured/benchmarks.md
 	scripts/bench
 
 fuzz: build  ## give mutated files to every reader and mutated messages to every node, FUZZ_SECONDS=60 each

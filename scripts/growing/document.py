@@ -32,7 +32,7 @@ def document(all_series, root, load):
                         f"with a load of {load:.1f} from others. Times are those of one thread. The last row of a table is "
                         "the exponent: the slope of the logarithm of the value over that of the size, by least squares, and "
                         "its standard error. 1 means that twice the size takes twice as long."), "",
-             "![frame over size](images/growth.svg)", ""]
+             "![frame over size](measured/growth.svg)", ""]
     for series in all_series:
         lines += section(series)
     return "\n".join(lines)
