@@ -93,14 +93,6 @@ void localStep(benchmark::State& state, const std::string& name) {
          [&] { benchmark::DoNotOptimize(blocks.addTo(x, &gradient)); });
 }
 
-TetMatrix metricOf(const BentBody& body) {
-  TetMatrix metric(body.topology.tets, body.start.rows());
-  CorotatedElasticity(body.topology.rest_vertices, body.topology.tets, body.lame).addMetric(&metric);
-  metric.addToDiagonal(body.potential.inertia);
-  body.potential.targets.addMetric(&metric);
-  return metric;
-}
-
 /// Numbers in the factor's lower triangle.
 double factorSize(const TetMatrix& metric) {
   PositiveDefiniteSolver solver(metric.lower());
@@ -115,7 +107,7 @@ double factorSize(const TetMatrix& metric) {
 
 void globalStep(benchmark::State& state, const std::string& name) {
   const BentBody body = bench::bentBody(bench::bodyTopology(name), 0.3);
-  const TetMatrix metric = metricOf(body);
+  const TetMatrix metric = bench::metricOf(body);
   GlobalStepSolver<float> solver(metric.lower(), Simd::kAuto);
   solver.factorize(metric.lower());
   const Rows<float> b = Rows<float>::Ones(paddedRows(body.start.rows()), 4);

@@ -244,16 +244,8 @@ void localStep(State& state, const BentBody& body, Strains strains) {
   for (auto _ : state) benchmark::DoNotOptimize(blocks.addTo(x, &gradient));
 }
 
-TetMatrix metricOf(const BentBody& body) {
-  TetMatrix metric(body.topology.tets, body.start.rows());
-  CorotatedElasticity(body.topology.rest_vertices, body.topology.tets, body.lame).addMetric(&metric);
-  metric.addToDiagonal(body.potential.inertia);
-  body.potential.targets.addMetric(&metric);
-  return metric;
-}
-
 void globalStep(State& state, const BentBody& body, Simd simd) {
-  const TetMatrix metric = metricOf(body);
+  const TetMatrix metric = bench::metricOf(body);
   GlobalStepSolver<float> solver(metric.lower(), simd);
   solver.factorize(metric.lower());
   const Rows<float> b = Rows<float>::Ones(paddedRows(body.start.rows()), 4);
@@ -263,7 +255,7 @@ void globalStep(State& state, const BentBody& body, Simd simd) {
 }
 
 void factorize(State& state, const BentBody& body) {
-  const TetMatrix metric = metricOf(body);
+  const TetMatrix metric = bench::metricOf(body);
   GlobalStepSolver<float> solver(metric.lower(), Simd::kAuto);
   for (auto _ : state) solver.factorize(metric.lower());
 }
@@ -272,7 +264,7 @@ void factorize(State& state, const BentBody& body) {
 /// update is faster than a new factorisation.
 void updates(State& state, const std::string& name) {
   const BentBody& body = bodyOf(name, true);
-  const TetMatrix metric = metricOf(body);
+  const TetMatrix metric = bench::metricOf(body);
   GlobalStepSolver<float> solver(metric.lower(), Simd::kAuto);
   std::vector<Run> runs{[&] { solver.factorize(metric.lower()); }};
   const std::vector<int> counts{1, 2, 4, 8, 16, 32, 64};

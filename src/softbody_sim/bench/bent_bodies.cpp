@@ -78,4 +78,12 @@ BentBody bentBody(const TetTopology& topology, double poisson_ratio) {
   return body;
 }
 
+TetMatrix metricOf(const BentBody& body) {
+  TetMatrix metric(body.topology.tets, body.start.rows());
+  CorotatedElasticity(body.topology.rest_vertices, body.topology.tets, body.lame).addMetric(&metric);
+  metric.addToDiagonal(body.potential.inertia);
+  body.potential.targets.addMetric(&metric);
+  return metric;
+}
+
 }  // namespace softbody::bench

@@ -5,6 +5,7 @@
 
 #include "elasticity/corotated_elasticity.h"
 #include "softbody_common/types.h"
+#include "tets/tet_matrix.h"
 #include "time_step/incremental_potential.h"
 
 namespace softbody::bench {
@@ -27,5 +28,8 @@ Points bent(const Points& rest, double curvature);
 
 /// @param poisson_ratio 0: no volume term.
 BentBody bentBody(const TetTopology& topology, double poisson_ratio);
+
+/// The matrix of its global step, see ProjectiveDynamics.
+TetMatrix metricOf(const BentBody& body);
 
 }  // namespace softbody::bench

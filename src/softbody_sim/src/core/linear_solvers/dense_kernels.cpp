@@ -57,7 +57,7 @@ void squareRows(const float* A, Eigen::Index rows, Eigen::Index columns, const f
   const hn::ScalableTag<float> d;
   const auto lanes = static_cast<Eigen::Index>(hn::Lanes(d));
   for (Eigen::Index row = 0; row < rows; row += kTile) {
-    const float* own[kTile];  // the last row again, where there is none
+    const float* own[kTile];  // beyond the last row: that row
     for (Eigen::Index r = 0; r < kTile; ++r) own[r] = A + std::min(row + r, rows - 1) * columns;
     hn::Vec<decltype(d)> norms[kTile];
     for (auto& norm : norms) norm = hn::Zero(d);
