@@ -43,7 +43,7 @@ cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,
 	scripts/cuts
 
 demo: build  ## track a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
-	scripts/demo
+	catkin_ws/devel/env.sh rosrun softbody_bringup demo
 
 bench: build  ## run the benchmarks; writes bench/summary.json and docs/measured/benchmarks.md
 	scripts/bench
