@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -12,20 +13,41 @@ namespace {
 
 double brightness(const Color& c) { return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue; }
 
-TEST(Color, viridisGetsBrighterAllTheWay) {
-  for (int i = 1; i <= 20; ++i)
-    EXPECT_GT(brightness(colorOf(ColorMap::kViridis, i / 20.0)),
-              brightness(colorOf(ColorMap::kViridis, (i - 1) / 20.0)));
+/// Whether a number is 1, 2 or 5 times a power of ten.
+bool isShort(double number) {
+  const double digit = number / std::pow(10.0, std::floor(std::log10(number) + 1e-9));
+  return std::min({std::abs(digit - 1), std::abs(digit - 2), std::abs(digit - 5)}) < 1e-6;
 }
 
-TEST(Color, turboGoesFromBlueToRed) {
-  const Color low = colorOf(ColorMap::kTurbo, 0.1), high = colorOf(ColorMap::kTurbo, 0.9);
-  EXPECT_GT(low.blue, low.red + 50);
-  EXPECT_GT(high.red, high.blue + 50);
+constexpr ColorMap kMaps[] = {ColorMap::kViridis, ColorMap::kCividis};
+
+TEST(Color, everyMapGetsBrighterAllTheWay) {
+  for (const ColorMap map : kMaps) {
+    for (int i = 1; i <= 100; ++i)
+      EXPECT_GT(brightness(colorOf(map, i / 100.0)), brightness(colorOf(map, (i - 1) / 100.0)));
+  }
+}
+
+TEST(Color, noMapShowsRedAsAnAlarm) {
+  for (const ColorMap map : kMaps) {
+    for (int i = 0; i <= 100; ++i) {
+      const Color color = colorOf(map, i / 100.0);
+      EXPECT_LT(color.red, 1.5 * std::max(color.green, color.blue));
+    }
+  }
+}
+
+TEST(Color, aMapHasNoJump) {
+  for (const ColorMap map : kMaps) {
+    for (int i = 1; i <= 255; ++i) {
+      const Color a = colorOf(map, (i - 1) / 255.0), b = colorOf(map, i / 255.0);
+      EXPECT_LE(std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue), 8);
+    }
+  }
 }
 
 TEST(Color, valuesOutsideTakeTheNearerEndAndNoNumberIsGrey) {
-  for (const ColorMap map : {ColorMap::kViridis, ColorMap::kTurbo}) {
+  for (const ColorMap map : kMaps) {
     EXPECT_EQ(colorOf(map, -3.0), colorOf(map, 0.0));
     EXPECT_EQ(colorOf(map, 3.0), colorOf(map, 1.0));
     const Color none = colorOf(map, std::numeric_limits<double>::quiet_NaN());
@@ -49,8 +71,7 @@ TEST(ScaleMaximum, coversTheValuesWithAShortNumber) {
     const double end = maximum.follow(std::vector<float>(100, static_cast<float>(largest)));
     EXPECT_GE(end, largest * (1.0 - 1e-6));
     EXPECT_LE(end, 2.5 * largest * (1.0 + 1e-6));
-    const double digit = end / std::pow(10.0, std::floor(std::log10(end) + 1e-9));
-    EXPECT_NEAR(std::min({std::abs(digit - 1), std::abs(digit - 2), std::abs(digit - 5)}), 0.0, 1e-6) << end;
+    EXPECT_TRUE(isShort(end)) << end;
   }
 }
 
@@ -66,6 +87,23 @@ TEST(ScaleMaximum, isPositiveWithoutValues) {
   ScaleMaximum maximum;
   EXPECT_GT(maximum.follow({}), 0.0);
   EXPECT_GT(maximum.follow({0.0f, std::numeric_limits<float>::quiet_NaN()}), 0.0);
+}
+
+TEST(Ticks, areShortNumbersFromZeroToTheMaximum) {
+  for (double maximum = 1e-5; maximum < 1e3; maximum *= 1.3) {
+    const std::vector<double> ticks = ticksOf(maximum);
+    ASSERT_GE(ticks.size(), 3u) << maximum;
+    EXPECT_LE(ticks.size(), 6u);
+    EXPECT_EQ(ticks.front(), 0.0);
+    EXPECT_LE(ticks.back(), maximum * (1.0 + 1e-6));
+    EXPECT_GT(ticks.back() + ticks[1], maximum);
+    EXPECT_TRUE(isShort(ticks[1])) << ticks[1];
+  }
+}
+
+TEST(Ticks, reachTheEndOfAScaleThatFollowsValues) {
+  for (const double maximum : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0})
+    EXPECT_NEAR(ticksOf(maximum).back(), maximum, 1e-9);
 }
 
 }  // namespace

@@ -81,8 +81,8 @@ TEST(TetsModel, drawsEachTetInTheColourOfItsValue) {
   model.setState(stateAt(rest));
   std::vector<float> values(6, 0.0f);
   values[2] = 1.0f;
-  const auto colors = model.painted(TetColoring::kStrain, {}, ColorMap::kTurbo, values, 1.0);
-  const auto marked = std::count(colors.begin(), colors.end(), colorOf(ColorMap::kTurbo, 1.0));
+  const auto colors = model.painted(TetColoring::kStrain, {}, ColorMap::kViridis, values, 1.0);
+  const auto marked = std::count(colors.begin(), colors.end(), colorOf(ColorMap::kViridis, 1.0));
   EXPECT_EQ(marked, 2 * 3) << "tet 2 has two faces on the surface";
   EXPECT_EQ(colors.size(), static_cast<std::size_t>(model.topology().surface.size()));
 }

@@ -7,33 +7,51 @@
 namespace softbody {
 namespace {
 
-using Rgb = std::array<double, 3>;
-
 constexpr Color kUnknown{130, 130, 130, 255};
 constexpr double kCounted = 0.995;  // fraction of the values that the scale covers
 constexpr double kFarBelow = 0.4;   // of the scale
 constexpr double kSmallestScale = 1e-6;
+constexpr double kMostSteps = 5.0;  // between the ticks of a scale
 
-/// Coefficients of the powers 0, 1, ... of the value.
-/// Viridis (van der Walt and Smith 2015), polynomials by M. Zucker.
-constexpr std::array<Rgb, 7> kViridis{{{0.2777, 0.0054, 0.3341},
-                                       {0.1051, 1.4046, 1.3846},
-                                       {-0.3309, 0.2148, 0.0951},
-                                       {-4.6342, -5.7991, -19.3324},
-                                       {6.2283, 14.1799, 56.6906},
-                                       {4.7764, -13.7451, -65.3530},
-                                       {-5.4355, 4.6459, 26.3124}}};
-/// Turbo and its polynomials (Mikhailov 2019).
-constexpr std::array<Rgb, 7> kTurbo{{{0.1357, 0.0914, 0.1067},
-                                     {4.6154, 2.1942, 12.6419},
-                                     {-42.6603, 4.8430, -60.5820},
-                                     {132.1311, -14.1850, 110.3628},
-                                     {-152.9424, 4.2773, -89.9031},
-                                     {59.2864, 2.8296, 27.3482},
-                                     {0.0, 0.0, 0.0}}};
+/// Every 17th of the 256 colours of Viridis (van der Walt and Smith 2015) and Cividis (Nuñez, Anderton and
+/// Renslow 2018), as matplotlib has them. Between them the colour is linear.
+constexpr int kColors = 16;
+using ColorTable = std::array<Color, kColors>;
+constexpr ColorTable kViridis{{{68, 1, 84},
+                               {72, 26, 108},
+                               {71, 47, 125},
+                               {65, 68, 135},
+                               {57, 86, 140},
+                               {49, 104, 142},
+                               {42, 120, 142},
+                               {35, 136, 142},
+                               {31, 152, 139},
+                               {34, 168, 132},
+                               {53, 183, 121},
+                               {84, 197, 104},
+                               {122, 209, 81},
+                               {165, 219, 54},
+                               {210, 226, 27},
+                               {253, 231, 37}}};
+constexpr ColorTable kCividis{{{0, 34, 78},
+                               {0, 46, 108},
+                               {30, 58, 111},
+                               {53, 69, 108},
+                               {71, 81, 108},
+                               {87, 93, 109},
+                               {102, 105, 112},
+                               {117, 117, 117},
+                               {132, 130, 121},
+                               {148, 142, 119},
+                               {165, 156, 116},
+                               {183, 169, 110},
+                               {200, 184, 102},
+                               {219, 199, 90},
+                               {238, 214, 73},
+                               {254, 232, 56}}};
 
-std::uint8_t toByte(double value) {
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+std::uint8_t mixed(std::uint8_t a, std::uint8_t b, double share) {
+  return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
 }
 
 /// The least of 1, 2, 5 times a power of ten that is not below the value.
@@ -49,13 +67,12 @@ double roundedUp(double value) {
 
 Color colorOf(ColorMap map, double value) {
   if (std::isnan(value)) return kUnknown;
-  const auto& coefficients = map == ColorMap::kViridis ? kViridis : kTurbo;
-  const double t = std::clamp(value, 0.0, 1.0);
-  Rgb rgb{};
-  for (std::size_t power = coefficients.size(); power-- > 0;) {
-    for (int c = 0; c < 3; ++c) rgb[c] = rgb[c] * t + coefficients[power][c];
-  }
-  return {toByte(rgb[0]), toByte(rgb[1]), toByte(rgb[2]), 255};
+  const ColorTable& table = map == ColorMap::kViridis ? kViridis : kCividis;
+  const double place = std::clamp(value, 0.0, 1.0) * (kColors - 1);
+  const int below = std::min(static_cast<int>(place), kColors - 2);
+  const Color &a = table[below], &b = table[below + 1];
+  const double share = place - below;
+  return {mixed(a.red, b.red, share), mixed(a.green, b.green, share), mixed(a.blue, b.blue, share), 255};
 }
 
 Color pieceColor(std::uint32_t piece) {
@@ -91,6 +108,13 @@ double ScaleMaximum::follow(const std::vector<float>& values) {
   }
   if (reached > maximum_ || reached < kFarBelow * maximum_) maximum_ = roundedUp(reached);
   return maximum_;
+}
+
+std::vector<double> ticksOf(double maximum) {
+  const double step = roundedUp(maximum / kMostSteps);
+  std::vector<double> ticks;
+  for (int k = 0; k * step <= maximum * (1.0 + 1e-9); ++k) ticks.push_back(k * step);
+  return ticks;
 }
 
 }  // namespace softbody

@@ -14,7 +14,8 @@ inline bool operator==(const Color& a, const Color& b) {
   return a.red == b.red && a.green == b.green && a.blue == b.blue && a.alpha == b.alpha;
 }
 
-enum class ColorMap { kViridis, kTurbo };
+/// Maps whose brightness grows with the value. None ends in red, which would look like an alarm.
+enum class ColorMap { kViridis, kCividis };
 
 /// The colour of a value from 0 to 1. Other values get the colour of the nearer end, and NaN is grey.
 Color colorOf(ColorMap map, double value);
@@ -36,5 +37,9 @@ class ScaleMaximum {
  private:
   double maximum_ = 0.0;
 };
+
+/// Values from 0 on at equal steps of 1, 2 or 5 times a power of ten: at most six, none above the maximum.
+/// @param maximum > 0.
+std::vector<double> ticksOf(double maximum);
 
 }  // namespace softbody

@@ -5,10 +5,10 @@
 namespace softbody {
 
 ValueScale::ValueScale(rviz::Property* parent, const char* slot, QObject* receiver, bool left) : left_(left) {
-  map_ = new rviz::EnumProperty("Color Map", "Turbo", "Colours of the values, from 0 to the maximum.", parent,
-                                slot, receiver);
+  map_ = new rviz::EnumProperty("Color Map", "Viridis", "Colours of the values, from 0 to the maximum.",
+                                parent, slot, receiver);
   map_->addOption("Viridis", static_cast<int>(ColorMap::kViridis));
-  map_->addOption("Turbo", static_cast<int>(ColorMap::kTurbo));
+  map_->addOption("Cividis", static_cast<int>(ColorMap::kCividis));
   automatic_ = new rviz::BoolProperty("Automatic Maximum", true, "The scale follows the largest values.",
                                       parent, slot, receiver);
   maximum_ = new rviz::FloatProperty(
@@ -27,8 +27,8 @@ double ValueScale::show(const ValueKind& kind, const std::vector<float>& values)
   if (!automatic_->getBool()) maximum = maximum_->getFloat();
   maximum_->setHidden(automatic_->getBool());
   if (shown_->getBool()) {
-    bar_->show(values.empty() ? QString(kind.title) + ": not estimated" : kind.title,
-               QString::number(maximum * kind.per_unit, 'g', 3) + kind.unit, map());
+    const QString title = QString(kind.title) + (*kind.unit == '\0' ? "" : QString(" [%1]").arg(kind.unit));
+    bar_->show(values.empty() ? title + ": not estimated" : title, maximum * kind.per_unit, map());
   } else {
     bar_->hide();
   }

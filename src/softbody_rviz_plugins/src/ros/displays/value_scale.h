@@ -20,10 +20,10 @@ struct ValueKind {
   bool up_to_one = false;  ///< the scale always ends at 1
 };
 
-constexpr ValueKind kDeviationValues{"standard deviation", 1e3, " mm", false};
+constexpr ValueKind kDeviationValues{"standard deviation", 1e3, "mm", false};
 constexpr ValueKind kConfidenceValues{"confidence", 1.0, "", true};
-constexpr ValueKind kDistanceValues{"distance from rest", 1e3, " mm", false};
-constexpr ValueKind kStrainValues{"strain", 1e2, " %", false};
+constexpr ValueKind kDistanceValues{"distance from rest", 1e3, "mm", false};
+constexpr ValueKind kStrainValues{"strain", 1e2, "%", false};
 constexpr ValueKind kQualityValues{"quality (1: regular)", 1.0, "", true};
 
 /// The properties of a colour scale and its bar in the picture.

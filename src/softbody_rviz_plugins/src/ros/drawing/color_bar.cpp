@@ -12,34 +12,47 @@
 
 #include <QImage>
 #include <QPainter>
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace softbody {
 namespace {
 
-constexpr int kWidth = 300, kHeight = 64, kMargin = 14;  // [pixels]
-constexpr int kBarTop = 28, kBarHeight = 14;
+constexpr int kWidth = 300, kHeight = 68, kMargin = 14, kEdge = 3;  // [pixels]
+constexpr int kBarTop = 28, kBarHeight = 14, kTickHeight = 4, kLabelMiddle = 56;
 
-QImage pictureOf(const QString& title, const QString& largest, ColorMap map) {
+void setFont(QPainter* painter, int pixels) {
+  QFont font = painter->font();
+  font.setPixelSize(pixels);
+  painter->setFont(font);
+}
+
+/// A short line below the bar with its number.
+void drawTick(QPainter* painter, double share, double number) {
+  const int x = kMargin + static_cast<int>(std::lround(share * (kWidth - 2 * kMargin - 1)));
+  painter->drawLine(x, kBarTop + kBarHeight, x, kBarTop + kBarHeight + kTickHeight);
+  QRect label = painter->fontMetrics().boundingRect(QString::number(number, 'g', 3));
+  label.moveCenter(
+      {std::clamp(x, kEdge + label.width() / 2, kWidth - kEdge - label.width() / 2), kLabelMiddle});
+  painter->drawText(label.adjusted(-1, 0, 1, 0), Qt::AlignCenter, QString::number(number, 'g', 3));
+}
+
+QImage pictureOf(const QString& title, double largest, ColorMap map) {
   QImage image(kWidth, kHeight, QImage::Format_RGBA8888);
   image.fill(QColor(20, 22, 26, 170));
   for (int x = kMargin; x < kWidth - kMargin; ++x) {
-    const Color color = colorOf(map, static_cast<double>(x - kMargin) / (kWidth - 2 * kMargin));
+    const Color color = colorOf(map, static_cast<double>(x - kMargin) / (kWidth - 2 * kMargin - 1));
     for (int y = kBarTop; y < kBarTop + kBarHeight; ++y)
       image.setPixelColor(x, y, QColor(color.red, color.green, color.blue));
   }
   QPainter painter(&image);
   painter.setRenderHint(QPainter::TextAntialiasing);
   painter.setPen(Qt::white);
-  QFont font = painter.font();
-  font.setPixelSize(14);
-  painter.setFont(font);
-  const QRect inside(kMargin, 5, kWidth - 2 * kMargin, kHeight - 8);
-  painter.drawText(inside, Qt::AlignLeft | Qt::AlignTop, title);
-  font.setPixelSize(12);
-  painter.setFont(font);
-  painter.drawText(inside, Qt::AlignLeft | Qt::AlignBottom, "0");
-  painter.drawText(inside, Qt::AlignRight | Qt::AlignBottom, largest);
+  setFont(&painter, 14);
+  painter.drawText(QRect(kMargin, 5, kWidth - 2 * kMargin, kBarTop), Qt::AlignLeft | Qt::AlignTop, title);
+  setFont(&painter, 12);
+  for (const double tick : ticksOf(largest)) drawTick(&painter, tick / largest, tick);
   return image;
 }
 
@@ -79,8 +92,9 @@ ColorBar::~ColorBar() {
   Ogre::TextureManager::getSingleton().remove(texture_);
 }
 
-void ColorBar::show(const QString& title, const QString& largest, ColorMap map) {
-  const QString wanted = title + '\n' + largest + '\n' + QString::number(static_cast<int>(map));
+void ColorBar::show(const QString& title, double largest, ColorMap map) {
+  const QString wanted =
+      title + '\n' + QString::number(largest) + '\n' + QString::number(static_cast<int>(map));
   if (wanted != shown_) draw(title, largest, map);
   shown_ = wanted;
   overlay_->show();
@@ -88,7 +102,7 @@ void ColorBar::show(const QString& title, const QString& largest, ColorMap map) 
 
 void ColorBar::hide() { overlay_->hide(); }
 
-void ColorBar::draw(const QString& title, const QString& largest, ColorMap map) {
+void ColorBar::draw(const QString& title, double largest, ColorMap map) {
   QImage image = pictureOf(title, largest, map);
   const Ogre::PixelBox pixels(kWidth, kHeight, 1, Ogre::PF_BYTE_RGBA, image.bits());
   texture_->getBuffer()->blitFromMemory(pixels);

@@ -14,7 +14,7 @@ class PanelOverlayElement;
 
 namespace softbody {
 
-/// The colours of a scale with their values, in a lower corner of the picture.
+/// The colours of a scale with their numbers, in a lower corner of the picture.
 class ColorBar {
  public:
   /// @param left the corner; two displays can each have one.
@@ -23,12 +23,13 @@ class ColorBar {
   ColorBar(const ColorBar&) = delete;
   ColorBar& operator=(const ColorBar&) = delete;
 
-  /// @param title what the colours show. @param largest the value at the end, with its unit.
-  void show(const QString& title, const QString& largest, ColorMap map);
+  /// @param title what the colours show, with the unit of the numbers. @param largest the number at the end,
+  /// > 0.
+  void show(const QString& title, double largest, ColorMap map);
   void hide();
 
  private:
-  void draw(const QString& title, const QString& largest, ColorMap map);
+  void draw(const QString& title, double largest, ColorMap map);
 
   QString shown_;  // title, largest value and map that the texture shows
   Ogre::TexturePtr texture_;
