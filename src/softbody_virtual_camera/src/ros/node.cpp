@@ -15,7 +15,7 @@
 #include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/messages.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

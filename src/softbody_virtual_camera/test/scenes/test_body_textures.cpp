@@ -10,7 +10,7 @@
 #include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 #include "softbody_virtual_camera/rendering/renderer.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -114,6 +114,15 @@ TEST(BodyTexture, WeakHasAContrastOfAFewPercent) {
   EXPECT_LT(contrast("weak"), 0.06);
 }
 
+TEST(BodyTexture, ASpongeIsYellowWithDarkPores) {
+  const auto colors = colorsOf(texturedScene("still", "sponge"), 0.0, onTop);
+  EXPECT_GT(relativeDeviation(colors), 0.1);
+  for (const cv::Vec3b& color : colors) {  // red, green, blue
+    EXPECT_GE(color[0], color[1]);
+    EXPECT_GT(color[1], color[2]);
+  }
+}
+
 TEST(BodyTexture, APlainDollHasOneHue) {
   Scene scene = texturedScene("doll_bend", "plain");
   const SceneState state = scene.state(1.5);
@@ -148,18 +157,18 @@ TEST(BodyTexture, ABodysPicturesFadeAroundTheirMeanAndAreGoneIfPlain) {
   cv::theRNG().state = 5;
   cv::randu(image, 0, 255);
   const UvTexture skin{Points::Zero(3, 3), {0}, {makePicture(image)}};
-  EXPECT_FALSE(withContrast(skin, contrastOf("plain")).covers(0));
-  const UvTexture weak = withContrast(skin, contrastOf("weak"));
+  EXPECT_FALSE(withContrast(skin, paintOf("plain").contrast).covers(0));
+  const UvTexture weak = withContrast(skin, paintOf("weak").contrast);
   ASSERT_TRUE(weak.covers(0));
   cv::Scalar mean, deviation, weak_mean, weak_deviation;
   cv::meanStdDev(image, mean, deviation);
   cv::meanStdDev(weak.pictures[0][0], weak_mean, weak_deviation);
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(weak_mean[k], mean[k], 1.0);
-    EXPECT_NEAR(weak_deviation[k], contrastOf("weak") * deviation[k], 0.5);
+    EXPECT_NEAR(weak_deviation[k], paintOf("weak").contrast * deviation[k], 0.5);
   }
-  EXPECT_EQ(cv::norm(withContrast(skin, contrastOf("rich")).pictures[0][0], image, cv::NORM_INF), 0.0);
-  EXPECT_THROW(contrastOf("glossy"), std::invalid_argument);
+  EXPECT_EQ(cv::norm(withContrast(skin, paintOf("rich").contrast).pictures[0][0], image, cv::NORM_INF), 0.0);
+  EXPECT_THROW(paintOf("glossy"), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "softbody_tracking/tool/tool_description.h"
 #include "softbody_virtual_camera/scenes/scene.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 /// Recordings of a body at rest, from all sides, to make a mesh of it. All lengths are true: nothing is
 /// scaled to the body but the distance of the camera and the size of the room.
@@ -22,10 +23,10 @@ struct ScanOptions {
 std::vector<std::string> scanNames();
 
 /// World frame: the centre of the sheet's print, z up. Actors: body, table, walls, things on the table,
-/// sheet, hands. @param name without prefix. @param contrast of the body's texture.
+/// sheet, hands. @param name without prefix. @param paint of the body.
 /// @throw std::invalid_argument if the body is shorter than 50 mm or longer than 2 m, or for jerks on a
 /// turntable.
-Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, float contrast,
+Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, const BodyPaint& paint,
                 const ScanOptions& options);
 
 /// The middle of the bounding box [m].

@@ -22,7 +22,7 @@
 #include "scenes/plays.h"
 #include "scenes/plays_with_hands.h"
 #include "scenes/tear_scene.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -125,7 +125,7 @@ Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, c
                 const std::string& texture, const std::optional<Body>& second, const ScanOptions& scan) {
   const std::string plain = withoutPrefix(name);
   if (isScan(name)) {
-    Scene scene = scanScene(plain, body, seed, contrastOf(texture), scan);
+    Scene scene = scanScene(plain, body, seed, paintOf(texture), scan);
     scene.name = name;
     return scene;
   }
@@ -139,7 +139,7 @@ Scene makeScene(const std::string& name, const Body& body, std::uint64_t seed, c
   const BodyFrame frame = frameOf(body.rest.vertices);
   Stage stage =
       makeStage({{toSceneFrame(frame, body.rest.vertices), body.rest.triangles}, body.skin, body.elasticity},
-                seed, contrastOf(texture), play != plays().end() ? play->second.place : Place());
+                seed, paintOf(texture), play != plays().end() ? play->second.place : Place());
   stage.gravity_m_s2 /= frame.scale;
   if (auto& density = stage.elasticity.density_kg_m3) *density *= frame.scale * frame.scale;
   if (second)

@@ -8,7 +8,7 @@
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/deformations.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -55,14 +55,13 @@ Play twoBodiesPlay(const Stage& stage) {
   play.repeats = false;
   play.deformation = [](const Eigen::Vector3d& place, double t) { return bent(place, kCurvature, t); };
   play.T_camera_second = pose;
-  Prop second{{rest, withContrast(cellTexture(hash(stage.seed, 4)), stage.contrast)},
-              [=, vertices = rest.vertices](double t) {
+  Prop second{{rest, textureOf(stage.paint, hash(stage.seed, 4))}, [=, vertices = rest.vertices](double t) {
                 Points now = vertices;
                 for (Eigen::Index i = 0; i < now.rows(); ++i)
                   now.row(i) = bent(vertices.row(i), kSecondCurvature, t);
                 return transformed(pose(t), now);
               }};
-  second.actor.skin = withContrast(stage.second->skin, stage.contrast);
+  second.actor.skin = withContrast(stage.second->skin, stage.paint.contrast);
   play.props = {second};
   return play;
 }

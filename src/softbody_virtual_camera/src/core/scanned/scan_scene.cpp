@@ -11,7 +11,7 @@
 #include "scenes/body_frame.h"
 #include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -38,8 +38,8 @@ struct RoomLights {
   float ambient = 0.40f, fill = 0.0f;
 };
 
-RoomLights roomLights(float contrast) {
-  if (contrast > 0.0f) return {};
+RoomLights roomLights(const BodyPaint& paint) {
+  if (paint.contrast > 0.0f) return {};
   RoomLights lights;
   lights.to_fill = Eigen::Vector3d(0.70, -0.65, 0.30).normalized();
   lights.ambient = lights.fill = 0.25f;
@@ -123,7 +123,7 @@ Eigen::Vector3d middleOf(const Points& points) {
   return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff()).transpose();
 }
 
-Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, float contrast,
+Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, const BodyPaint& paint,
                 const ScanOptions& options) {
   Scan scan;
   scan.turns = name == "turntable";
@@ -133,15 +133,15 @@ Scene scanScene(const std::string& name, const Body& body, std::uint64_t seed, f
   scan.T_world_body = lyingPose(body.rest.vertices, name == "flip");
   const TriangleMesh lying{transformed(scan.T_world_body, body.rest.vertices), body.rest.triangles};
   scan.way = wayAround(lying.vertices, seed, options.jerks);
-  scan.lights = roomLights(contrast);
+  scan.lights = roomLights(paint);
   scan.camera_tf = options.camera_tf;
   const double beside = lying.vertices.col(0).maxCoeff() + 0.05;  // [m]
   if (name == "walk_hand") scan.hands = passingHands(scan.way, {beside, middleOf(lying.vertices).y(), 0.0});
   Scene scene;
   scene.name = name;
   scene.duration_s = scan.way.duration_s;
-  scene.actors = {{body.rest, withContrast(cellTexture(hash(seed, 1)), contrast)}};
-  scene.actors[0].skin = withContrast(body.skin, contrast);
+  scene.actors = {{body.rest, textureOf(paint, hash(seed, 1))}};
+  scene.actors[0].skin = withContrast(body.skin, paint.contrast);
   addSurroundings(lying, seed, options, &scene, &scan);
   for (const PassingHand& hand : scan.hands) scene.actors.push_back(hand.actor);
   scene.hands = scan.hands.size();

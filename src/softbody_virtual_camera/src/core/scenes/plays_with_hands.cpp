@@ -7,7 +7,7 @@
 #include "softbody_virtual_camera/bodies/shapes.h"
 #include "softbody_virtual_camera/motion/deformations.h"
 #include "softbody_virtual_camera/motion/motion_profiles.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {
@@ -49,7 +49,7 @@ Texture withShadow(const Texture& texture, const TriangleMesh& body, const Eigen
 
 }  // namespace
 
-Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Place& place) {
+Stage makeStage(const Body& body, std::uint64_t seed, const BodyPaint& paint, const Place& place) {
   constexpr double kElevation = 42.0 * kDegree;
   const Eigen::Vector3d center(0.0, 0.0, heightOf(body.rest, place));
   const Eigen::Vector3d to_light = Eigen::Vector3d(-0.45, -0.35, 0.82).normalized();
@@ -62,18 +62,18 @@ Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Plac
   const TriangleMesh table = rectangle({-0.8, -0.3, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.8, 0.0});
   const TriangleMesh wall = rectangle({-0.8, 0.5, 0.0}, {1.6, 0.0, 0.0}, {0.0, 0.0, 0.8});
   const Texture wood = woodTexture(hash(seed, 2));
-  stage.actors = {{body.rest, withContrast(cellTexture(hash(seed, 1)), contrast)},
+  stage.actors = {{body.rest, textureOf(paint, hash(seed, 1))},
                   {table, place.on_table ? withShadow(wood, body.rest, to_light) : wood, 1.6e-3},
                   {wall, plasterTexture(hash(seed, 3)), 4.0e-3}};
   stage.elasticity = body.elasticity;
-  stage.contrast = contrast;
+  stage.paint = paint;
   stage.seed = seed;
-  stage.actors[0].skin = withContrast(body.skin, contrast);
+  stage.actors[0].skin = withContrast(body.skin, paint.contrast);
   for (const std::size_t around : {1u, 2u})
     stage.actors[around].still = stage.actors[around].background = true;
   const Eigen::Matrix3d R_camera_world = stage.T_camera_world.linear();
   stage.lights.to_main = R_camera_world * to_light;
-  if (contrast == 0.0f) {
+  if (paint.contrast == 0.0f) {
     stage.lights.to_fill = R_camera_world * Eigen::Vector3d(0.70, -0.65, 0.30).normalized();
     stage.lights.ambient = stage.lights.fill = 0.25f;
   }

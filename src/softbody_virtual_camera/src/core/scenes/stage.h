@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "softbody_virtual_camera/scenes/scene.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 /// World frame of the scenes: origin on the table below the body, z up. The camera looks along +y and down.
 namespace softbody::virtual_camera {
@@ -19,18 +20,18 @@ struct Stage {
   Elasticity elasticity;  ///< of the body
   double gravity_m_s2 = 9.81;
   std::optional<Body> second;  ///< another body, for scenes with two
-  float contrast = 1.0f;       ///< of the bodies' textures
+  BodyPaint paint;             ///< of the bodies
   std::uint64_t seed = 0;      ///< of what the play chooses by chance
 };
 constexpr double kNear_m = 0.5;  ///< usual distance between camera and body
-/// @param contrast of the body's texture; a body of one colour has a second light, to show its shape.
+/// @param paint of the body; a body of one colour has a second light, to show its shape.
 /// Where the body is at the start. On the table it lies in its own soft shadow.
 struct Place {
   double distance_m = kNear_m;  ///< between the camera and the middle of the body
   bool on_table = false;        ///< otherwise it hovers above it
   double clearance_m = 0.02;    ///< at least, between it and the table
 };
-Stage makeStage(const Body& body, std::uint64_t seed, float contrast, const Place& place);
+Stage makeStage(const Body& body, std::uint64_t seed, const BodyPaint& paint, const Place& place);
 
 /// A thing that moves in front of the camera.
 struct Prop {

@@ -70,6 +70,16 @@ double valueNoise(const Eigen::Vector3d& p, std::uint64_t seed) {
   return sum;
 }
 
+/// How deep a point is in a round pore: 0 outside, 1 in its middle. @param p in units of the spacing of
+/// pores.
+/// @param largest radius.
+double poreDepth(const Eigen::Vector3d& p, double largest, std::uint64_t seed) {
+  constexpr double kSoftRim = 0.06;
+  const Nearest pore = nearestPoint(p, seed);
+  const double radius = largest * (0.35 + 0.65 * unit(hash(pore.id, 8)));
+  return std::clamp((radius - pore.distance) / kSoftRim, 0.0, 1.0);
+}
+
 Eigen::Vector3f randomColor(std::uint64_t h) {
   return {static_cast<float>(0.15 + 0.8 * unit(hash(h, 3))),
           static_cast<float>(0.15 + 0.8 * unit(hash(h, 4))),
@@ -89,6 +99,18 @@ Texture cellTexture(std::uint64_t seed) {
     color *= static_cast<float>(0.8 + 0.4 * unit(hash(fine.id, 6)));
     const bool pore = unit(hash(middle.id, 7)) < 0.35 && middle.distance < 0.28;
     return clamped(pore ? Eigen::Vector3f(0.2f * color) : color);
+  };
+}
+
+Texture spongeTexture(std::uint64_t seed) {
+  return [seed](const Eigen::Vector3d& p) -> Eigen::Vector3f {
+    const double patches = valueNoise(p / 0.03, hash(seed, 41)),
+                 grain = valueNoise(p / 0.0015, hash(seed, 42));
+    const double depth =
+        std::max(poreDepth(p / 0.012, 0.26, hash(seed, 43)), poreDepth(p / 0.005, 0.24, hash(seed, 44)));
+    const double level = (0.9 + 0.16 * (patches - 0.5) + 0.14 * (grain - 0.5)) * (1.0 - 0.72 * depth);
+    return clamped(static_cast<float>(level) *
+                   Eigen::Vector3f(0.98f, 0.80f, 0.36f - 0.12f * static_cast<float>(depth)));
   };
 }
 

@@ -15,7 +15,7 @@
 #include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 #include "softbody_virtual_camera/ros/node.h"
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 #include "softbody_virtual_camera/textures/painted_object.h"
 
 namespace softbody::virtual_camera {
@@ -40,8 +40,9 @@ void declareScene(CLI::App* app, Arguments* arguments) {
                   "orbit: the camera moves around the body; the truth and /tf then have the frame world")
       ->check(CLI::IsMember(cameraMotionNames()))
       ->capture_default_str();
-  app->add_option("--texture", setup.texture,
-                  "texture of the body: rich; weak, like foam or cloth; plain: one colour")
+  app->add_option(
+         "--texture", setup.texture,
+         "texture of the body: rich; weak, like foam or cloth; plain: one colour; sponge: foam with pores")
       ->check(CLI::IsMember(textureNames()))
       ->capture_default_str();
   app->add_option("--body", setup.body,

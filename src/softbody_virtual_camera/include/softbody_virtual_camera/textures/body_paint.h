@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,21 @@
 
 namespace softbody::virtual_camera {
 
-/// The names of the kinds of texture: rich, weak, plain.
+/// How bodies are painted.
+struct BodyPaint {
+  Texture (*pattern)(std::uint64_t seed) = cellTexture;  ///< of what has no picture
+  float contrast = 1.0f;                                 ///< of pattern and pictures; 0: one colour
+};
+
+/// The names of the kinds of paint: rich, weak, plain, sponge.
 std::vector<std::string> textureNames();
 
-/// Contrast of a kind of texture: 1 for rich, 0.1 for weak (like foam or cloth), 0 for plain (one colour).
-/// @throw std::invalid_argument with the known names if the kind is unknown.
-float contrastOf(const std::string& texture);
+/// rich: cellTexture(); weak: with a contrast of 0.1, like foam or cloth; plain: one colour; sponge:
+/// spongeTexture(). @throw std::invalid_argument with the known names if the kind is unknown.
+BodyPaint paintOf(const std::string& texture);
+
+/// The texture of a body without a picture.
+Texture textureOf(const BodyPaint& paint, std::uint64_t seed);
 
 /// The colour of a plain body (r, g, b in 0..1): about the mean of cellTexture().
 Eigen::Vector3f plainColor();

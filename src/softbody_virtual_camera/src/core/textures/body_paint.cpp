@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/textures/contrast.h"
+#include "softbody_virtual_camera/textures/body_paint.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,10 @@
 namespace softbody::virtual_camera {
 namespace {
 
-const std::pair<const char*, float> kContrasts[] = {{"rich", 1.0f}, {"weak", 0.1f}, {"plain", 0.0f}};
+const std::pair<const char*, BodyPaint> kPaints[] = {{"rich", {cellTexture, 1.0f}},
+                                                     {"weak", {cellTexture, 0.1f}},
+                                                     {"plain", {cellTexture, 0.0f}},
+                                                     {"sponge", {spongeTexture, 1.0f}}};
 
 Picture fadedPicture(const Picture& picture, float contrast) {
   const cv::Scalar mean = cv::mean(picture.front());
@@ -27,16 +30,20 @@ Picture fadedPicture(const Picture& picture, float contrast) {
 
 std::vector<std::string> textureNames() {
   std::vector<std::string> names;
-  for (const auto& [name, contrast] : kContrasts) names.emplace_back(name);
+  for (const auto& [name, paint] : kPaints) names.emplace_back(name);
   return names;
 }
 
-float contrastOf(const std::string& texture) {
-  for (const auto& [name, contrast] : kContrasts) {
-    if (texture == name) return contrast;
+BodyPaint paintOf(const std::string& texture) {
+  for (const auto& [name, paint] : kPaints) {
+    if (texture == name) return paint;
   }
   throw std::invalid_argument(
       fmt::format("there is no texture '{}'; known: {}", texture, fmt::join(textureNames(), ", ")));
+}
+
+Texture textureOf(const BodyPaint& paint, std::uint64_t seed) {
+  return withContrast(paint.pattern(seed), paint.contrast);
 }
 
 Eigen::Vector3f plainColor() { return {0.55f, 0.55f, 0.50f}; }
