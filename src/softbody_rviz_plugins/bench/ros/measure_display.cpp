@@ -1,10 +1,12 @@
 /// Measures how many frames per second rviz draws with each display, one after the other.
-/// scripts/measure_display starts it beside a publisher.
+/// scripts/measure_display starts it beside a publisher. Usage: measure_display [TEXT [plain]]
+/// Only rows whose names contain TEXT; plain: without anti-aliasing.
 #include <OgreFrameListener.h>
 #include <OgreRoot.h>
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <rviz/display.h>
+#include <rviz/ogre_helpers/render_system.h>
 #include <rviz/properties/property.h>
 #include <rviz/properties/property_tree_model.h>
 #include <rviz/render_panel.h>
@@ -95,6 +97,8 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   ros::init(argc, argv, "measure_display", ros::init_options::AnonymousName);
   const ros::NodeHandle handle;
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() > 1) rviz::RenderSystem::disableAntiAliasing();
   rviz::RenderPanel panel;
   rviz::VisualizationManager manager(&panel);
   panel.initialize(manager.getSceneManager(), &manager);
@@ -106,7 +110,7 @@ int main(int argc, char** argv) {
   FrameCounter counter;
   Ogre::Root::getSingleton().addFrameListener(&counter);
   fmt::print("| display | rviz frames per second | CPU time of rviz per frame [ms] |\n| --- | --- | --- |\n");
-  const std::string chosen = argc > 1 ? argv[1] : "";
+  const std::string chosen = arguments.empty() ? "" : arguments.front();
   for (const Row& row : rows()) {
     if (std::string(row.name).find(chosen) != std::string::npos) measure(row, &manager, &counter);
   }
