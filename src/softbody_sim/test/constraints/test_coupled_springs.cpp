@@ -4,7 +4,7 @@
 
 #include "constraints/contact_detection.h"
 #include "constraints/target_energy.h"
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
 #include "time_step/packed_potential.h"
 

@@ -5,7 +5,7 @@
 
 #include "elasticity/corotated_elasticity.h"
 #include "elasticity/elastic_blocks.h"
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
 
 namespace softbody {

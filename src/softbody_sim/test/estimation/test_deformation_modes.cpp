@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "elasticity/fem_elasticity.h"
 #include "elasticity/tet_materials.h"
+#include "fem/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
 
 namespace softbody {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elasticity/fem_elasticity.h"
 #include "estimation/load_estimator.h"
+#include "fem/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
 
 namespace softbody {

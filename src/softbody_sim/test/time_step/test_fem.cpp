@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "elasticity/corotated_elasticity.h"
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
 #include "time_step/fem_solver.h"
 

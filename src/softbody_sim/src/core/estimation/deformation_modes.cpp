@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 #include "softbody_common/tet_geometry.h"
 #include "tets/block_tet_matrix.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "constraints/target_energy.h"
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 #include "forces/sparse_forces.h"
 #include "forces/surface_places.h"
 #include "softbody_sim/elasticity/elasticity.h"

@@ -3,7 +3,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 #include "tets/block_tet_matrix.h"
 #include "time_step/force_balance.h"
 #include "time_step/step_solver.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "elasticity/elastic_blocks.h"
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 #include "linear_solvers/hessian_factor.h"
 #include "tets/block_tet_matrix.h"
 #include "time_step/force_balance.h"

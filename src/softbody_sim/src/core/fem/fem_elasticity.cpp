@@ -1,4 +1,4 @@
-#include "elasticity/fem_elasticity.h"
+#include "fem/fem_elasticity.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

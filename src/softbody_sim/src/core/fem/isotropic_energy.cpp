@@ -1,4 +1,4 @@
-#include "elasticity/isotropic_energy.h"
+#include "fem/isotropic_energy.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "elasticity/isotropic_energy.h"
 #include "elasticity/strain_smoothing.h"
+#include "fem/isotropic_energy.h"
 #include "softbody_common/types.h"
 #include "tets/block_tet_matrix.h"
 
