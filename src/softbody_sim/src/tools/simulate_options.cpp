@@ -36,8 +36,8 @@ void addMaterialOptions(CLI::App& app, SimulateOptions& o) {
          "REGION YOUNG POISSON DENSITY: another material for the tets whose centre lies in a region; may "
          "be repeated, the last one counts")
       ->type_size(4);
-  app.add_option("--elasticity", o.elasticity, "material model; neo_hookean needs the solver fem")
-      ->check(CLI::IsMember({"corotated", "neo_hookean"}))
+  app.add_option("--elasticity", o.elasticity, "material model; neo_hookean and springs need the solver fem")
+      ->check(CLI::IsMember(elasticityNames()))
       ->capture_default_str();
   app.add_option("--strain-smoothing", o.strain_smoothing,
                  "fraction of the shear energy with strains smoothed around the vertices")
@@ -196,7 +196,7 @@ SimulatorConfig configOf(const SimulateOptions& o) {
   config.self_friction = o.self_friction;
   if (o.node_defaults) return config;
   config.solver = o.solver == "fem" ? SolverKind::kFem : SolverKind::kProjectiveDynamics;
-  config.elasticity = o.elasticity == "corotated" ? Elasticity::kCorotated : Elasticity::kNeoHookean;
+  config.elasticity = elasticityFromName(o.elasticity);
   config.strain_smoothing = o.strain_smoothing;
   config.volume_smoothing = o.volume_smoothing;
   // Projective dynamics needs more iterations, the more incompressible the material is; each is cheap.

@@ -7,6 +7,7 @@
 #include "elasticity/corotated_elasticity.h"
 #include "fem/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
+#include "softbody_common/tet_geometry.h"
 #include "time_step/fem_solver.h"
 
 namespace softbody {
@@ -101,23 +102,48 @@ TEST_P(FemEnergies, ForcesHaveNoResultantAndNoMoment) {
   EXPECT_LT(moment.norm(), 1e-10 * gradient.norm());
 }
 
-TEST_P(FemEnergies, AreLinearElasticityForSmallStrains) {
-  // Uniaxial strain: the modulus is lambda + 2 mu along the strain, lambda across.
-  constexpr double kStrain = 1e-6;
-  const IsotropicEnergy density = isotropicEnergy(GetParam().elasticity, {1.0 + kStrain, 1.0, 1.0}, kLame);
-  EXPECT_NEAR(density.gradient[0] / kStrain, kLame.lambda + 2.0 * kLame.mu, 1e-4 * kLame.mu);
-  EXPECT_NEAR(density.gradient[1] / kStrain, kLame.lambda, 1e-4 * kLame.mu);
-  EXPECT_NEAR(isotropicEnergy(GetParam().elasticity, {1.0, 1.0, 1.0}, kLame).flip[0], 2.0 * kLame.mu,
-              1e-9 * kLame.mu);
-  EXPECT_NEAR(isotropicEnergy(GetParam().elasticity, {1.0, 1.0, 1.0}, kLame).twist[0], 0.0, 1e-9 * kLame.mu);
-}
-
 INSTANTIATE_TEST_SUITE_P(Elasticity, FemEnergies,
                          ::testing::Values(Case{"Corotated", Elasticity::kCorotated, {}},
                                            Case{"NeoHookean", Elasticity::kNeoHookean, {}},
+                                           Case{"Springs", Elasticity::kSprings, {}},
                                            Case{"CorotatedSmoothed", Elasticity::kCorotated, {0.7, 1.0}},
                                            Case{"NeoHookeanSmoothed", Elasticity::kNeoHookean, {0.7, 1.0}}),
                          [](const auto& info) { return info.param.name; });
+
+TEST(FemElasticity, IsLinearElasticityForSmallStrains) {
+  // Uniaxial strain: the modulus is lambda + 2 mu along the strain, lambda across.
+  constexpr double kStrain = 1e-6;
+  for (const Elasticity elasticity : {Elasticity::kCorotated, Elasticity::kNeoHookean}) {
+    const IsotropicEnergy density = isotropicEnergy(elasticity, {1.0 + kStrain, 1.0, 1.0}, kLame);
+    const IsotropicEnergy rest = isotropicEnergy(elasticity, {1.0, 1.0, 1.0}, kLame);
+    EXPECT_NEAR(density.gradient[0] / kStrain, kLame.lambda + 2.0 * kLame.mu, 1e-4 * kLame.mu);
+    EXPECT_NEAR(density.gradient[1] / kStrain, kLame.lambda, 1e-4 * kLame.mu);
+    EXPECT_NEAR(rest.flip[0], 2.0 * kLame.mu, 1e-9 * kLame.mu);
+    EXPECT_NEAR(rest.twist[0], 0.0, 1e-9 * kLame.mu);
+  }
+}
+
+TEST(FemElasticity, OfSpringsIsTheirEnergyByLength) {
+  const TetTopology topology = testing::sponge();
+  const double youngs_modulus = 2e4;
+  std::mt19937 random(4);
+  const Points& rest = topology.rest_vertices;
+  const Points x = rest + randomPoints(rest.rows(), 0.005, &random);
+  const Eigen::VectorXd volumes = tetVolumes(rest, topology.tets);
+  double energy = 0.0;
+  for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < a; ++b) {
+        const int from = topology.tets(t, a), to = topology.tets(t, b);
+        const double length = (rest.row(from) - rest.row(to)).norm(), now = (x.row(from) - x.row(to)).norm();
+        energy += 0.5 * youngs_modulus * volumes[t] / (length * length) * std::pow(now - length, 2);
+      }
+    }
+  }
+  Points gradient = Points::Zero(x.rows(), 3);
+  const FemElasticity springs(topology, Elasticity::kSprings, lameParameters(youngs_modulus, 0.3));
+  EXPECT_NEAR(springs.addTo(x, &gradient), energy, 1e-9 * energy);
+}
 
 TEST(FemElasticity, WithoutABulkTermNothingIsSmoothed) {
   const TetTopology topology = testing::sponge();

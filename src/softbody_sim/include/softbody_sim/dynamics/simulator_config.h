@@ -46,8 +46,8 @@ struct SimulatorConfig {
 /// body's own stiffness would be lost in rounding.
 double largestStiffness(const SimulatorConfig& config);
 
-/// @throw std::invalid_argument if the solver does not offer the elasticity, or if targets could be too
-/// stiff.
+/// @throw std::invalid_argument if the solver does not offer the elasticity, if springs are to be smoothed,
+/// or if targets could be too stiff.
 void requireConsistent(const SimulatorConfig& config);
 
 /// The solver for many simulations from one state.

@@ -23,7 +23,14 @@ void requireConsistent(const SimulatorConfig& config) {
         kLargestTargetWeight));
   }
   if (config.solver == SolverKind::kProjectiveDynamics && config.elasticity != Elasticity::kCorotated) {
-    throw std::invalid_argument("elasticity is 'neo_hookean' with solver 'pd'; it needs solver 'fem'");
+    throw std::invalid_argument(
+        fmt::format("elasticity is '{}' with solver 'pd'; it needs solver 'fem'", nameOf(config.elasticity)));
+  }
+  if (config.elasticity == Elasticity::kSprings &&
+      (config.strain_smoothing > 0.0 || config.volume_smoothing != 0.0)) {
+    throw std::invalid_argument(
+        "elasticity is 'springs', whose strains cannot be smoothed; set strain_smoothing and "
+        "volume_smoothing to 0");
   }
 }
 
@@ -41,8 +48,8 @@ SimulatorConfig configForPrediction(SimulatorConfig config) {
 SimulatorConfig readSimulatorConfig(Parameters& parameters) {
   SimulatorConfig config;
   if (parameters.choice("solver", "pd", {"pd", "fem"}) == "fem") config.solver = SolverKind::kFem;
-  if (parameters.choice("elasticity", "corotated", {"corotated", "neo_hookean"}) == "neo_hookean")
-    config.elasticity = Elasticity::kNeoHookean;
+  config.elasticity =
+      elasticityFromName(parameters.choice("elasticity", nameOf(config.elasticity), elasticityNames()));
   config.simulate = parameters.flag("simulate", config.simulate);
   config.iterations = parameters.integer("iterations", config.iterations, 1, 1000);
   config.tolerance = parameters.number("tolerance", config.tolerance, 0.0, 1.0);

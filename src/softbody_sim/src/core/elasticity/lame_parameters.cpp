@@ -16,4 +16,8 @@ Lame lameParameters(double youngs_modulus_pa, double poisson_ratio) {
           youngs_modulus_pa * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio))};
 }
 
+double youngsModulus(const Lame& lame) {
+  return lame.mu * (3.0 * lame.lambda + 2.0 * lame.mu) / (lame.lambda + lame.mu);
+}
+
 }  // namespace softbody

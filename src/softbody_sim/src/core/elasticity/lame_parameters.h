@@ -10,5 +10,7 @@ struct Lame {
 
 /// @throw std::invalid_argument unless E > 0 and 0 <= nu < 0.5.
 Lame lameParameters(double youngs_modulus_pa, double poisson_ratio);
+/// E [Pa].
+double youngsModulus(const Lame& lame);
 
 }  // namespace softbody

@@ -3,13 +3,14 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <cassert>
 
 #include "tets/tet_shape.h"
 
 namespace softbody {
 namespace {
 
-using Matrix9 = Eigen::Matrix<double, 9, 9>;
+using Matrix9 = EdgeSprings::Hessian;
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
 /// F = U diag(stretches) V^T with rotations U and V; the last stretch is negative where F is inverted.
@@ -55,6 +56,13 @@ Matrix9 densityHessian(const IsotropicEnergy& density, const PrincipalAxes& axes
   return hessian;
 }
 
+EdgeSprings springsOf(const Points& rest_vertices, const Eigen::RowVector4i& tet, const Lame& lame) {
+  EdgeSprings::Edges edges;
+  edges.leftCols<3>() = edgesOf(rest_vertices, tet);
+  for (int k = 0; k < 3; ++k) edges.col(3 + k) = edges.col((k + 1) % 3) - edges.col(k);
+  return {edges, youngsModulus(lame)};
+}
+
 }  // namespace
 
 FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity,
@@ -65,8 +73,12 @@ FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity,
     const Eigen::RowVector4i tet = topology.tets.row(t);
     elements_.push_back({tet, shapeGradients(edgesOf(topology.rest_vertices, tet).inverse()), volumes[t],
                          tetPart(materials.of(t))});
+    if (elasticity == Elasticity::kSprings)
+      elements_.back().springs = springsOf(topology.rest_vertices, tet, elements_.back().lame);
   }
-  if (hasPatches(materials)) addPatches(topology, materials);
+  if (!hasPatches(materials)) return;
+  assert(elasticity != Elasticity::kSprings);
+  addPatches(topology, materials);
 }
 
 void FemElasticity::addPatches(const TetTopology& topology, const ElasticMaterials& materials) {
@@ -93,13 +105,25 @@ Eigen::Matrix3d FemElasticity::deformationGradient(const Element& element, const
   return F;
 }
 
+FemElasticity::Density FemElasticity::density(const Element& element, const Eigen::Matrix3d& F) const {
+  if (elasticity_ == Elasticity::kSprings) return {element.springs.energy(F), element.springs.stress(F)};
+  const PrincipalAxes axes = principalAxes(F);
+  const IsotropicEnergy density = isotropicEnergy(elasticity_, axes.stretches, element.lame);
+  return {density.energy, axes.U * density.gradient.asDiagonal() * axes.V.transpose()};
+}
+
+EdgeSprings::Hessian FemElasticity::hessian(const Element& element, const Eigen::Matrix3d& F,
+                                            bool project) const {
+  if (elasticity_ == Elasticity::kSprings) return element.springs.hessian(F, project);
+  const PrincipalAxes axes = principalAxes(F);
+  return densityHessian(isotropicEnergy(elasticity_, axes.stretches, element.lame), axes, project);
+}
+
 double FemElasticity::addTo(const Points& x, Points* gradient) const {
   double energy = 0.0;
   for (const Element& element : elements_) {
-    const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
-    const IsotropicEnergy density = isotropicEnergy(elasticity_, axes.stretches, element.lame);
-    energy += element.volume * density.energy;
-    const Eigen::Matrix3d stress = axes.U * density.gradient.asDiagonal() * axes.V.transpose();
+    const auto [of_volume, stress] = density(element, deformationGradient(element, x));
+    energy += element.volume * of_volume;
     for (Eigen::Index k = 0; k < element.vertices.size(); ++k)
       gradient->row(element.vertices[k]) +=
           element.volume * element.shape_gradients.row(k) * stress.transpose();
@@ -110,9 +134,7 @@ double FemElasticity::addTo(const Points& x, Points* gradient) const {
 void FemElasticity::addHessian(const Points& x, BlockTetMatrix* matrix, bool project) const {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const Element& element = elements_[e];
-    const PrincipalAxes axes = principalAxes(deformationGradient(element, x));
-    const Matrix9 H =
-        densityHessian(isotropicEnergy(elasticity_, axes.stretches, element.lame), axes, project);
+    const Matrix9 H = hessian(element, deformationGradient(element, x), project);
     // d vec(F) / d vertices: column 3 a + c moves component c of vertex a.
     Eigen::MatrixXd B = Eigen::MatrixXd::Zero(9, 3 * element.vertices.size());
     for (Eigen::Index a = 0; a < element.vertices.size(); ++a) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "elasticity/strain_smoothing.h"
+#include "fem/edge_springs.h"
 #include "fem/isotropic_energy.h"
 #include "softbody_common/types.h"
 #include "tets/block_tet_matrix.h"
@@ -11,7 +12,7 @@
 namespace softbody {
 
 /// Elastic energy of linear tets with its gradient and Hessian (Kang et al. 2022, section 5.1). A fraction of
-/// it uses strains smoothed around the vertices, which reduces locking.
+/// it uses strains smoothed around the vertices, which reduces locking; springs cannot be smoothed.
 class FemElasticity {
  public:
   /// @throw std::invalid_argument if the volume of a rest tet is not positive.
@@ -37,9 +38,17 @@ class FemElasticity {
     Eigen::MatrixX3d shape_gradients;  ///< of the vertices' shape functions, averaged over the volume [1/m]
     double volume;                     ///< [m^3]
     Lame lame;
+    EdgeSprings springs = {};  ///< only with springs
+  };
+  /// Energy density [J/m^3] and its derivative by F [Pa].
+  struct Density {
+    double energy;
+    Eigen::Matrix3d stress;
   };
   void addPatches(const TetTopology& topology, const ElasticMaterials& materials);
   Eigen::Matrix3d deformationGradient(const Element& element, const Points& x) const;
+  Density density(const Element& element, const Eigen::Matrix3d& F) const;
+  EdgeSprings::Hessian hessian(const Element& element, const Eigen::Matrix3d& F, bool project) const;
 
   Elasticity elasticity_;
   std::vector<Element> elements_;

@@ -26,7 +26,7 @@ IsotropicEnergy corotatedIsotropicEnergy(const Eigen::Vector3d& stretches, const
 /// follow section 3.4: small strains obey Hooke's law with `lame`. Smooth and finite for every F.
 IsotropicEnergy neoHookeanIsotropicEnergy(const Eigen::Vector3d& stretches, const Lame& lame);
 
-/// The energy of a material model.
+/// The energy of a material model: corotated or neo-Hookean.
 IsotropicEnergy isotropicEnergy(Elasticity elasticity, const Eigen::Vector3d& stretches, const Lame& lame);
 
 }  // namespace softbody
