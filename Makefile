@@ -67,7 +67,7 @@ scans: build  ## scan virtual bodies and faulty recordings, track with the model
 figures: build  ## draw the paper's Figures 1 to 11 with our models, in docs/images
 	scripts/paper figures
 
-paper: build  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": only that part
+paper: build  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": prints only that part
 	scripts/paper $(PARTS)
 
 validation: build  ## compare the simulator with known solutions; writes docs/validation.md

@@ -16,10 +16,11 @@ from paper_figures.drawing import DPI, save  # noqa: E402
 from paper_figures.figures import DRAWN  # noqa: E402
 from paper_figures.film import make_film  # noqa: E402
 from paper_figures.moments import around_cut, at, moments  # noqa: E402
+from paper_figures.torn import around_tear, figure_10  # noqa: E402
 
 MOVED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
 AS_WRITTEN = ("bend", "push", "doll_push")
-OF_DRAW_CUT = (10, 11)
+CUT, BOARD = 10, 11  # figures of draw_cut
 COLUMNS, COLUMN_INCHES, TITLE = 3, 4, 0.09  # of the sheet; the height of a title in widths of a column
 
 
@@ -31,6 +32,7 @@ def read_scenes(folder):
         result = folder / f"{name}_as_written_result.bag"
         scenes[f"{name} as written"] = moments(folder / f"{name}.bag", result, at(stamps))
     scenes["cut"] = moments(folder / "cut.bag", folder / "cut_result.bag", around_cut)
+    scenes["tear"] = moments(folder / "tear.bag", folder / "tear_result.bag", around_tear)
     return scenes
 
 
@@ -63,12 +65,12 @@ def sheet(pictures):
 
 def main():
     folder, output = map(pathlib.Path, sys.argv[1:])
-    pictures = {number: output / f"figure_{number}.webp" for number in (*DRAWN, *OF_DRAW_CUT)}
+    pictures = {number: output / f"figure_{number}.webp" for number in (*DRAWN, CUT, BOARD)}
     scenes = read_scenes(folder)
     for number, draw in DRAWN.items():
         save(draw(scenes), pictures[number])
-    for number in OF_DRAW_CUT:
-        save(full(pyplot.imread(folder / f"figure_{number}.png")), pictures[number])
+    save(figure_10(pyplot.imread(folder / f"figure_{CUT}.png"), scenes["tear"]), pictures[CUT])
+    save(full(pyplot.imread(folder / f"figure_{BOARD}.png")), pictures[BOARD])
     save(sheet(pictures), output / "figures.webp")
     make_film(folder, output / "film.webp")
 

@@ -6,11 +6,15 @@ from evaluation.runs import ROOT
 OURS = "ours"
 PAPER_FILE = ROOT / "config/paper.yaml"
 PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "volume_smoothing": 0.0, "load_fade_s": 0.0, "memory_s": 0.0}
+UNSMOOTHED_FEM = {"solver": "fem", "strain_smoothing": 0.0, "volume_smoothing": 0.0}
+SPRINGS = {**UNSMOOTHED_FEM, "elasticity": "springs"}
 LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0, "memory_s": 0.0}
 TIMED = {"sponge": "bend", "doll": "doll_bend"}
 CUT_THROUGH = ("cut", "doll_cut")
+TEAR = "tear"
 SCENES = ("bend", "push", "doll_bend", "doll_push")
-FEATURES = (0, 10, 25, 50, 100, 300, 1000)
+MOST_FEATURES = 1000  # the default of max_features
+FEATURES = (0, 10, 25, 50, 100, 300, MOST_FEATURES)
 FEWEST_OF_PAPER = 50  # the least that target_mode knn accepts
 FEATURES_ALONE = {"depth_targets": "false"}
 
@@ -63,13 +67,21 @@ def parts():
             "+ smoothed strains": parameters(FEATURES_ALONE, no_loads),
             "+ loads": parameters(FEATURES_ALONE),
             "+ depth": parameters({"outline_weight": 0.0}),
-            "+ outline = ours": "",
-            "ours with FEM instead of projective dynamics": parameters(simulator={"solver": "fem"})}
+            "+ outline = ours": ""}
+
+
+def simulators():
+    """Ours, with other simulators in the whole loop of tracking."""
+    return {"ours: projective dynamics with L-BFGS": "",
+            "finite elements (Newton)": parameters(simulator={"solver": "fem"}),
+            "finite elements (Newton), strains not smoothed": parameters(simulator=UNSMOOTHED_FEM),
+            "mass-spring (Newton)": parameters(simulator=SPRINGS)}
 
 
 def counts():
     """Limits of the number of features, for our tracker and for the paper's."""
-    ours = {f"ours, at most {limit}": parameters({"max_features": limit}) for limit in FEATURES}
+    ours = {f"ours, at most {limit}": parameters({"max_features": limit}) if limit != MOST_FEATURES else ""
+            for limit in FEATURES}
     papers = {f"{WRITTEN_WITH_PD}, at most {limit}": limited(limit) for limit in FEATURES if limit >= FEWEST_OF_PAPER}
     return {**ours, **papers}
 

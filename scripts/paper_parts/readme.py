@@ -1,35 +1,31 @@
-"""The paper's figures beside ours in README.md, from the tables in docs/paper.md."""
+"""The paper's figures beside ours in README.md."""
 from evaluation.figures import PAPER_MEAN_ERROR_MM, number
 from markdown_lines import table
-from paper_parts.methods import OURS, TIMED, WITH_PD, timed_kinds
+from paper_parts.methods import OURS, SCENES, WITH_PD, compared
+from paper_parts.tables import errors
+from paper_parts.time_table import PAPER, totals
 
 WORDS = {"sponge": "sponge", "doll": "soft toy"}
-ERRORS, TIMES = "Accuracy", "Table 2: times"
+SHOWN = {PAPER: PAPER, "its method here": WITH_PD, OURS: OURS}  # columns: kind of time, method of accuracy
 
 
-def rows_of(text):
-    """Cells of the first table in a text, without its head."""
-    lines = [line for line in text.splitlines() if line.startswith("|")]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+def error_rows(reports):
+    """One row for each body, of the two scenes that it has."""
+    means = {method: errors(reports, text) for method, text in compared().items()}
+    rows = []
+    for first, words in zip(range(0, len(SCENES), 2), WORDS.values()):
+        ours = (" / ".join(means[method][first:first + 2]) for kind, method in SHOWN.items() if kind != PAPER)
+        rows.append([f"{words}, mean error of scenes {' / '.join(SCENES[first:first + 2])} [mm]",
+                     number(PAPER_MEAN_ERROR_MM), *ours])
+    return rows
 
 
-def of_body(cells, body, count):
-    """The cells of one body, which has so many of them."""
-    first = list(TIMED).index(body) * count
-    return cells[first:first + count]
+def time_row(reports, what, initialization):
+    times = totals(reports, initialization)
+    return [f"{' / '.join(WORDS.values())}, {what} [ms]",
+            *(" / ".join(number(times[(body, kind)]) for body in WORDS) for kind in SHOWN)]
 
 
-def readme_lines(sections):
-    """The table, from the sections of docs/paper.md by their headings."""
-    errors = {row[0]: row[1:] for row in rows_of(sections[ERRORS])}
-    times = {(row[0], row[1]): row[2:] for row in rows_of(sections[TIMES])}
-    rows = [[f"{words}, mean error, bent / pushed [mm]", number(PAPER_MEAN_ERROR_MM),
-             *(" / ".join(of_body(errors[method], body, 2)) for method in (WITH_PD, OURS))]
-            for body, words in WORDS.items()]
-    kinds = ["paper", *timed_kinds()]
-    shown = [kinds.index(kind) for kind in ("paper", "its method here", OURS)]
-    for part, what in (("per frame", "time of a frame"), ("Init.", "initialization without registration")):
-        bodies = [of_body(times[(part, "Total")], body, len(kinds)) for body in WORDS]
-        rows.append([f"{' / '.join(WORDS.values())}, {what} [ms]",
-                     *(" / ".join(cells[column] for cells in bodies) for column in shown)])
-    return table(["", "paper", "its method here", "ours"], rows)
+def readme_lines(reports):
+    return table(["", *SHOWN], [*error_rows(reports), time_row(reports, "time of a frame", False),
+                                time_row(reports, "initialization without registration", True)])

@@ -1,118 +1,121 @@
-"""Records and tracks the scenes of `make paper`."""
+"""Records and tracks the scenes of `make paper`. Every scene is recorded once, and equal runs are made once."""
 import concurrent.futures
 import json
 import shutil
 import subprocess
 import sys
+import time
+import typing
 
-from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, config_of, measure, tool, tool_of
-from paper_parts.methods import CUT_THROUGH, SCENES, TIMED, timed_kinds
+from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, object_of, tool, tool_of
+from paper_parts.methods import CUT_THROUGH, TEAR
+
+FOLDER = OUTPUT / "paper"
+BOARD = "cut_board"  # scene cut; the marked board itself is the blade
+BOARD_TOOL = ("--tool", ROOT / "config/board.yaml")
+COARSE = "coarse"  # the doll with as many cage vertices as the paper's
+COARSE_VERTICES = "128"
 
 
-def recording_of(scene):
-    path = OUTPUT / f"paper_{scene}.bag"
-    tool("virtual_camera", "--scene", scene, "--output", path)
+class Run(typing.NamedTuple):
+    """One scene, tracked with one text of parameters."""
+
+    scene: str
+    text: str = ""
+    model: str = ""  # empty: the shipped object
+
+
+def perform(runs, timed, kept, jobs):
+    """Reports by run: those of `evaluate`, with more that is read from the result. Runs in `timed` have the machine for
+    themselves. The results of runs in `kept` and the recordings stay until clear_bags(); the reports name them.
+    """
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir(parents=True)
+    if any(run.model for run in runs):
+        tool("prepare_model", ROOT / "config/doll.obj", "--cage-vertices", COARSE_VERTICES, "--output", FOLDER / COARSE,
+             package="softbody_sim")
+    recordings = recorded(dict.fromkeys(run.scene for run in runs), jobs)
+    say, reports = progress(len(runs)), {}
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        pending = {pool.submit(measure, number, run, recordings[run.scene], run in kept): run
+                   for number, run in enumerate(runs) if run not in timed}
+        for run, report in as_they_end(pool, pending):
+            reports[run] = report
+            say(run.scene)
+    for number, run in enumerate(runs):
+        if run in timed:
+            reports[run] = measure(number, run, recordings[run.scene], run in kept)
+            say(f"{run.scene}, alone")
+    return reports
+
+
+def as_they_end(pool, pending):
+    """(what it is for, its result) of every future. If one fails, those that wait are not begun."""
+    try:
+        for future in concurrent.futures.as_completed(pending):
+            yield pending[future], future.result()
+    except ToolFailed:
+        pool.shutdown(cancel_futures=True)
+        raise
+
+
+def clear_bags():
+    for bag in FOLDER.glob("*.bag"):
+        bag.unlink()
+
+
+def progress(count):
+    """A function that says how many of so many runs are done."""
+    start, done = time.monotonic(), []
+
+    def say(words):
+        done.append(words)
+        print(f"[{len(done)}/{count}, {time.monotonic() - start:.0f} s] {words}", file=sys.stderr, flush=True)
+
+    return say
+
+
+def recorded(scenes, jobs):
+    """{scene: recording}"""
+    say = progress(len(scenes))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        pending, found = {pool.submit(record, scene): scene for scene in scenes}, {}
+        for scene, found[scene] in as_they_end(pool, pending):
+            say(f"{scene} recorded")
+    return found
+
+
+def record(scene):
+    path = FOLDER / f"{scene}.bag"
+    played = ("cut", *BOARD_TOOL) if scene == BOARD else (scene,)
+    tool("virtual_camera", "--scene", *played, "--output", path)
     return path
 
 
-def run(scene, recording, number, text):
-    """The report of one scene with one text of parameters."""
-    name = f"paper_{scene}_{number}"
-    file = OUTPUT / f"{name}.yaml"
-    file.write_text(text)
-    config, allowed = config_of(scene, name)
-    more = ("--parameters", file) if text else ()
-    report = measure(name, recording, config, "--truth", recording, more=(*allowed, *more))
-    result = OUTPUT / f"{name}_result.bag"
-    report["features"] = read_by("feature_counts.py", result)
-    result.unlink()
+def measure(number, run, recording, keep):
+    """The report of one run."""
+    name = f"{run.scene}_{number}"
+    parameters, result = FOLDER / f"{name}.yaml", FOLDER / f"{name}_result.bag"
+    parameters.write_text(run.text)
+    config = FOLDER / COARSE / "object.yaml" if run.model else object_of(run.scene)
+    knife = BOARD_TOOL if run.scene == BOARD else tool_of(run.scene)
+    tool("replay", recording, "--object", config, "--output", result, "--timing", *knife,
+         *(("--parameters", parameters) if run.text else ()))
+    report = json.loads(tool("evaluate", result, "--truth", recording, "--json"))
+    report |= {"recording": str(recording), "result": str(result), **read_by("counts.py", result)}
+    if run.scene in CUT_THROUGH:
+        report["quality"] = read_by("cut_quality.py", result)
+    if run.scene == TEAR:
+        report["times"] = read_by("tear_times.py", result, recording)
+    (FOLDER / f"{name}.json").write_text(json.dumps(report))
+    if not keep:
+        result.unlink()
     return report
-
-
-def accuracy_runs(texts, jobs):
-    """Reports by (scene, parameters); equal parameters run once."""
-    reports, pending = {}, {}
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        recordings = dict(zip(SCENES, pool.map(recording_of, SCENES)))
-        for scene in SCENES:
-            for number, text in enumerate(texts):
-                pending[pool.submit(run, scene, recordings[scene], number, text)] = (scene, text)
-        for future in concurrent.futures.as_completed(pending):
-            reports[pending[future]] = future.result()
-            print(f"[{len(reports)}/{len(pending)}] {pending[future][0]}", file=sys.stderr, flush=True)
-    for recording in recordings.values():
-        recording.unlink()
-    return reports
-
-
-def timed_runs():
-    """Reports by (body, kind), one run at a time."""
-    reports = {}
-    for body, scene in TIMED.items():
-        recording = recording_of(scene)
-        for kind, text in timed_kinds().items():
-            reports[(body, kind)] = run(scene, recording, "time", text)
-        recording.unlink()
-    return reports
 
 
 def peer_runs():
     """{body: {simulator: error and time}}"""
     return json.loads(tool("compare_peers", package="development/softbody_sim"))
-
-
-def cut_runs():
-    """Reports of the scenes with a cut through a body, with the shape of the triangles at the cut."""
-    reports = {}
-    for scene in CUT_THROUGH:
-        recording, name = recording_of(scene), f"paper_{scene}"
-        config, _ = config_of(scene, name)
-        reports[scene] = measure(name, recording, config, "--truth", recording, more=tool_of(scene))
-        reports[scene]["quality"] = read_by("cut_quality.py", OUTPUT / f"{name}_result.bag")
-        recording.unlink()
-        (OUTPUT / f"{name}_result.bag").unlink()
-    return reports
-
-
-def tear_run():
-    """The report of scene `tear`, with the times of the tears."""
-    recording = recording_of("tear")
-    report = measure("paper_tear", recording, ROOT / "config/sponge.yaml", "--truth", recording,
-                     more=("--parameters", ROOT / "config/tear.yaml"))
-    report["times"] = read_by("tear_times.py", OUTPUT / "paper_tear_result.bag", recording)
-    recording.unlink()
-    (OUTPUT / "paper_tear_result.bag").unlink()
-    return report
-
-
-def coarse_doll_runs():
-    """{scene: report} of the doll with as many cage vertices as the paper's."""
-    model, reports = OUTPUT / "paper_coarse_doll", {}
-    shutil.rmtree(model, ignore_errors=True)
-    tool("prepare_model", ROOT / "config/doll.obj", "--cage-vertices", "128", "--output", model, package="softbody_sim")
-    for scene in SCENES:
-        if not scene.startswith("doll_"):
-            continue
-        name, recording = f"paper_coarse_{scene}", recording_of(scene)
-        reports[scene] = measure(name, recording, model / "object.yaml", "--truth", recording)
-        result = OUTPUT / f"{name}_result.bag"
-        reports[scene]["sizes"] = read_by("sizes.py", result)
-        recording.unlink()
-        result.unlink()
-    return reports
-
-
-def model_sizes():
-    """{body: {model: [vertices, polygons]}} from the topologies that the graph publishes."""
-    sizes = {}
-    for body, scene in TIMED.items():
-        recording, result = OUTPUT / f"paper_{body}_model.bag", OUTPUT / f"paper_{body}_model_result.bag"
-        tool("virtual_camera", "--scene", scene, "--duration", "0.2", "--output", recording)
-        tool("replay", recording, "--object", ROOT / f"config/{body}.yaml", "--output", result)
-        sizes[body] = read_by("sizes.py", result)
-        recording.unlink()
-        result.unlink()
-    return sizes
 
 
 def read_by(script, result, *more):

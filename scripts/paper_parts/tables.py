@@ -1,11 +1,11 @@
 """The measured tables of docs/paper.md."""
-from evaluation.document import processor
-from evaluation.figures import PAPER_MEAN_ERROR_MM, PAPER_TIMES_MS, get, number, percent
+from evaluation.figures import PAPER_MEAN_ERROR_MM, get, number, percent
 from markdown_lines import paragraph, table
-from paper_parts.methods import SCENES, TIMED, compared, counts, parts, timed_kinds
+from paper_parts import methods
+from paper_parts.methods import CUT_THROUGH, SCENES, TEAR, TIMED, compared, counts, parts
+from paper_parts.runs import COARSE, Run
 
-FIRST = " (initialization)"
-STAGES = ("Feature-Point Tracking", "Soft-body Simulation", "Resolution Enhancement")
+COARSE_SCENES = tuple(scene for scene in SCENES if scene.startswith("doll_"))
 # Table 1 of the paper: vertices and polygons.
 PAPER_SIZES = {"High-resolution": {"sponge": (522, 1040), "doll": (18650, 7190)},
                "Low-resolution": {"sponge": (132, 260), "doll": (128, 252)},
@@ -16,12 +16,18 @@ def section(title, words, columns, rows):
     return [f"### {title}", "", *paragraph(words), "", *table(columns, rows)]
 
 
+def error(report):
+    return number(get(report, "vertex_error", "all", "mean_mm"))
+
+
 def errors(reports, text):
-    return [number(get(reports[(scene, text)], "vertex_error", "all", "mean_mm")) for scene in SCENES]
+    return [error(reports[Run(scene, text)]) for scene in SCENES]
 
 
-def found_features(reports, text):
-    return [number(get(reports[(scene, text)], "features", "median"), 0) for scene in SCENES]
+def counted_features(reports, text):
+    """Matched and bound features of each scene."""
+    found = [reports[Run(scene, text)]["features"] for scene in SCENES]
+    return [f"{number(count['matched'], 0)} of {number(count['bound'], 0)}" for count in found]
 
 
 def accuracy(reports):
@@ -37,22 +43,33 @@ def accuracy(reports):
 def worth(reports):
     rows = [[words, *errors(reports, text)] for words, text in parts().items()]
     return section("What each part is worth", "Mean error of all vertices [mm]. Each row adds one part to the row "
-                                              "above. The last row is another simulator under the same targets.",
-                   ["method", *SCENES], rows)
+                                              "above.", ["method", *SCENES], rows)
+
+
+def simulators(reports):
+    rows = [[words, *errors(reports, text)] for words, text in methods.simulators().items()]
+    return section("Other simulators in the tracker's place", "Mean error of all vertices [mm] of the whole tracker "
+                   "with another simulator inside: its shape is the prediction of the next frame. Targets, loads and "
+                   "memory are the same. Mass-spring: springs along the edges of the tets.",
+                   ["simulator", *SCENES], rows)
 
 
 def features(reports):
     rows = []
     for words, text in counts().items():
-        cells = zip(errors(reports, text), found_features(reports, text))
+        cells = zip(errors(reports, text), counted_features(reports, text))
         rows.append([words, *(f"{error} ({found})" for error, found in cells)])
     return section("Number of features", "Mean error of all vertices [mm] for limits of `max_features`. In brackets: "
-                                         "the median number of features found in a frame. Our tracker itself stops "
-                                         "at four features for each visible vertex of the volume, or at 300.",
+                                         "features *matched* in a frame, without outliers, *of* the features *bound* "
+                                         "to the body so far, those on hidden sides too (medians over the frames). The "
+                                         "limit is for the features in view, so N_p = 1000 is reached when 1000 are "
+                                         "bound. Our tracker itself stops at four features in view for each visible "
+                                         "vertex of the volume, or at 300.",
                    ["features", *SCENES], rows)
 
 
-def sizes(models):
+def sizes(reports):
+    models = {body: reports[Run(scene)]["sizes"] for body, scene in TIMED.items()}
     rows = [[model, *(f"{of_paper[body][item]} / {models[body][model][item]}"
                       for body in ("sponge", "doll") for item in (0, 1))] for model, of_paper in PAPER_SIZES.items()]
     return section("Table 1: models", "Each cell: paper / ours. For the volume, polygons are tets.",
@@ -76,7 +93,8 @@ def peers(compared_bodies):
 def cutting(reports):
     """One row for each scene."""
     rows = []
-    for scene, report in reports.items():
+    for scene in CUT_THROUGH:
+        report = reports[Run(scene)]
         quality, surface = report["quality"], report["cut_surface"]
         sides = quality["before"], quality["after"]
         rows.append([scene, " / ".join(str(side["triangles"]) for side in sides),
@@ -94,7 +112,8 @@ def cutting(reports):
                     "error, mean / max [mm]"], rows)
 
 
-def tearing(report):
+def tearing(reports):
+    report = reports[Run(TEAR)]
     times, surface = report["times"], report["cut_surface"]
     pieces = report["pieces"]
     rows = [[number(times["truth_s"]), ", ".join(number(time) for time in times["tears_s"]),
@@ -111,59 +130,10 @@ def tearing(report):
 
 
 def coarse_doll(reports):
-    first = next(iter(reports.values()))["sizes"]
-    rows = [[f"{first['Low-resolution'][0]}", f"{first['Volumetric'][1]}",
-             *(number(get(report, "vertex_error", "all", "mean_mm")) for report in reports.values())]]
+    found = [reports[Run(scene, model=COARSE)] for scene in COARSE_SCENES]
+    models = found[0]["sizes"]
+    rows = [[models["Low-resolution"][0], models["Volumetric"][1], *map(error, found)]]
     return section("The doll with the paper's resolution", "Mean error of all vertices [mm] of the doll with "
                    "`prepare_model --cage-vertices 128`, found without a rough pose. The paper's doll has 128 vertices "
                    "and 494 tets. Our mesher adds inner vertices, so it has more tets.",
-                   ["cage vertices", "tets", *reports], rows)
-
-
-def stage_time(report, stage, initialization):
-    """Median [ms] of a stage; None if it was not measured."""
-    return next((entry["median_ms"] for entry in report.get("stages", [])
-                 if entry["stage"] == stage and entry["initialization"] == initialization), None)
-
-
-def sum_of(values):
-    return None if None in values else sum(values)
-
-
-def time_rows(timed, words, initialization):
-    """Rows of the paper's three stages and their total; the totals."""
-    rows, stages = [], []
-    for stage in STAGES:
-        cells = []
-        for body in TIMED:
-            cells += [PAPER_TIMES_MS[stage + FIRST * initialization][body],
-                      *(stage_time(timed[(body, kind)], stage, initialization) for kind in timed_kinds())]
-        stages.append(cells)
-        rows.append([words, stage, *map(number, cells)])
-    totals = [sum_of(cells) for cells in zip(*stages)]
-    return [*rows, [words, "Total", *map(number, totals)]], totals
-
-
-def extra_row(timed, stage, words):
-    """A stage of the initialization that the paper does not have."""
-    times = [[stage_time(timed[(body, kind)], stage, True) for kind in timed_kinds()] for body in TIMED]
-    return ["Init.", words, *(cell for row in times for cell in ("-", *map(number, row)))]
-
-
-def times(timed):
-    initial, _ = time_rows(timed, "Init.", True)
-    per_frame, totals = time_rows(timed, "per frame", False)
-    more = [extra_row(timed, "Model Registration", "Model Registration"),
-            extra_row(timed, "Tracker Preparation", "Tracker Preparation")]
-    rates = [number(None if not total else 1000 / total, 0) for total in totals]
-    columns = ["", "stage", *(f"{body}, {whose}" for body in TIMED for whose in ("paper", *timed_kinds()))]
-    return section("Table 2: times", f"Median time of a frame [ms] of scenes bend and doll_bend, on {processor()}, no "
-                                     "GPU. The paper: Intel Core i7-6700K with GeForce GTX 1080 Ti. \"Its method\" is "
-                                     "config/paper.yaml with plain projective dynamics: no depth between features, no "
-                                     "outline, no prediction. \"Features alone\" is ours without depth and outline. "
-                                     "Init. of the simulation is building the simulator; Init. of the features is "
-                                     "their first frame. Two lines are not in the Total, because the paper does not "
-                                     "have them. Registration: the paper sets the rotation by hand. Tracker "
-                                     "Preparation happens before the first image; it is mostly OpenCV's tables of "
-                                     "colours.",
-                   columns, [*initial, *more, *per_frame, ["", "frames a second", *rates]])
+                   ["cage vertices", "tets", *COARSE_SCENES], rows)

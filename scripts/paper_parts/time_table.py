@@ -1,0 +1,57 @@
+"""Table 2 of docs/paper.md."""
+from evaluation.document import processor
+from evaluation.figures import PAPER_TIMES_MS, number
+from paper_parts.methods import TIMED, timed_kinds
+from paper_parts.runs import Run
+from paper_parts.tables import section
+
+FIRST = " (initialization)"
+STAGES = ("Feature-Point Tracking", "Soft-body Simulation", "Resolution Enhancement")
+PAPER = "paper"
+COLUMNS = [(body, whose) for body in TIMED for whose in (PAPER, *timed_kinds())]
+
+
+def stage_time(report, stage, initialization):
+    """Median [ms] of a stage; None if it was not measured."""
+    return next((entry["median_ms"] for entry in report.get("stages", [])
+                 if entry["stage"] == stage and entry["initialization"] == initialization), None)
+
+
+def stage_times(reports, stage, initialization):
+    """Of each column."""
+    of_paper = PAPER_TIMES_MS.get(stage + FIRST * initialization, {})
+    return [of_paper.get(body) if whose == PAPER else
+            stage_time(reports[Run(TIMED[body], timed_kinds()[whose])], stage, initialization)
+            for body, whose in COLUMNS]
+
+
+def sum_of(values):
+    return None if None in values else sum(values)
+
+
+def totals(reports, initialization):
+    """Sums [ms] of the paper's three stages, by (body, whose)."""
+    stages = [stage_times(reports, stage, initialization) for stage in STAGES]
+    return dict(zip(COLUMNS, map(sum_of, zip(*stages))))
+
+
+def rows_of(reports, words, initialization, stages=STAGES):
+    return [[words, stage, *map(number, stage_times(reports, stage, initialization))] for stage in stages]
+
+
+def times(reports):
+    initial, per_frame = (totals(reports, initialization).values() for initialization in (True, False))
+    rows = [*rows_of(reports, "Init.", True), ["Init.", "Total", *map(number, initial)],
+            *rows_of(reports, "Init.", True, ("Model Registration", "Tracker Preparation")),
+            *rows_of(reports, "per frame", False), ["per frame", "Total", *map(number, per_frame)],
+            ["", "frames a second", *(number(None if not total else 1000 / total, 0) for total in per_frame)]]
+    return section("Table 2: times", f"Median time of a frame [ms] of scenes bend and doll_bend, on {processor()}, no "
+                                     "GPU, with nothing else running. The paper: Intel Core i7-6700K with GeForce GTX "
+                                     "1080 Ti. \"Its method\" is config/paper.yaml with plain projective dynamics: no "
+                                     "depth between features, no outline, no prediction. \"Features alone\" is ours "
+                                     "without depth and outline. Init. of the simulation is building the simulator; "
+                                     "Init. of the features is their first frame. Two lines are not in the Total, "
+                                     "because the paper does not have them. Registration: the paper sets the rotation "
+                                     "by hand. Tracker Preparation happens before the first image; it is mostly "
+                                     "OpenCV's tables of colours.",
+                   ["", "stage", *(f"{body}, {whose}" for body, whose in COLUMNS)], rows)
