@@ -1,7 +1,7 @@
 """The tables of docs/evaluation.md, each with its introduction, from the reports of `evaluate`."""
 import statistics
 
-from evaluation.figures import (PAPER_TIMES_MS, WRONG_MATCH_SEEDS, cluttered_times, fault_times, frames, get,
+from evaluation.figures import (WRONG_MATCH_SEEDS, cluttered_times, fault_times, frames, get,
                                 moving_times, number, of_kind, percent, tracking_share, worst)
 from markdown_lines import paragraph, table
 
@@ -192,14 +192,12 @@ def stage_times(reports):
     times = median_times(reports)
     bodies = sorted({body for of_body in times.values() for body in of_body},
                     key=lambda body: (body != "sponge", body))
-    paper = [body for body in bodies if any(body in of_body for of_body in PAPER_TIMES_MS.values())]
-    rows = [[words, *(number(of_body.get(body)) for body in bodies),
-             *(number(PAPER_TIMES_MS.get(words, {}).get(body)) for body in paper)] for words, of_body in times.items()]
-    return section("Time",
-                   "Median time of each stage in a frame [ms]. The machine had no GPU, and ran two replays at the "
-                   "same time. The paper's times are from its Table 2. They were measured on an Intel Core i7-6700K "
-                   "with a GeForce GTX 1080 Ti.",
-                   ["stage", *bodies, *(f"paper, {body}" for body in paper)], rows)
+    rows = [[words, *(number(of_body.get(body)) for body in bodies)] for words, of_body in times.items()]
+    return section("Time with two replays side by side",
+                   "Median time of each stage in a frame over all scenes [ms]. Two replays shared the machine, and also "
+                   "said what each pixel shows. [Table 2](paper.md#table-2-times) has the times of a replay alone, "
+                   "beside those of the paper.",
+                   ["stage", *bodies], rows)
 
 
 def toys(reports):
