@@ -5,7 +5,6 @@
 namespace softbody {
 
 using diagnostic_msgs::DiagnosticStatus;
-using diagnostic_updater::DiagnosticStatusWrapper;
 
 namespace {
 
@@ -22,14 +21,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(const ros::NodeHandle& node, const ro
                                            const SurroundingsTracker* surroundings)
     : simulator_(simulator),
       surroundings_(surroundings),
-      updater_(node, private_node, private_node.getNamespace()) {
-  updater_.setHardwareID("none");
-  updater_.add("simulation", [this](DiagnosticStatusWrapper& status) { report(&status); });
-  // A timer in wall time instead of the updater's own: with use_sim_time that one stops when a bag starts
-  // again.
-  timer_ = ros::NodeHandle(node).createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-}
+      diagnostics_(node, private_node, "simulation", [this](auto& status) { report(&status); }) {}
 
 void SimulatorDiagnostics::countStep() {
   ++steps_;
@@ -37,7 +29,7 @@ void SimulatorDiagnostics::countStep() {
 }
 
 void SimulatorDiagnostics::summarize(const SurroundingsFollower::Faults& faults,
-                                     DiagnosticStatusWrapper* status) const {
+                                     NodeDiagnostics::Status* status) const {
   if (refused_ > 0)
     status->summary(DiagnosticStatus::WARN, fmt::format("{} messages with targets were not used", refused_));
   else if (!simulator_->placed())
@@ -51,7 +43,7 @@ void SimulatorDiagnostics::summarize(const SurroundingsFollower::Faults& faults,
     status->summary(DiagnosticStatus::OK, fmt::format("all {} steps converged", steps_));
 }
 
-void SimulatorDiagnostics::report(DiagnosticStatusWrapper* status) {
+void SimulatorDiagnostics::report(NodeDiagnostics::Status* status) {
   const SurroundingsFollower::Faults faults = surroundings_->faults();
   summarize(faults, status);
   const StepReport& last = simulator_->report();

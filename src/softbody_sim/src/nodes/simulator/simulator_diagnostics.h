@@ -1,9 +1,9 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include "nodes/simulator/surroundings_tracker.h"
+#include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
@@ -21,16 +21,14 @@ class SimulatorDiagnostics {
   void setDropped(int dropped) { dropped_ = dropped; }
 
  private:
-  void summarize(const SurroundingsFollower::Faults& faults,
-                 diagnostic_updater::DiagnosticStatusWrapper* status) const;
-  void report(diagnostic_updater::DiagnosticStatusWrapper* status);
+  void summarize(const SurroundingsFollower::Faults& faults, NodeDiagnostics::Status* status) const;
+  void report(NodeDiagnostics::Status* status);
 
   const Simulator* simulator_;
   const SurroundingsTracker* surroundings_;
   int steps_ = 0, steps_not_converged_ = 0, refused_ = 0;  ///< since the last report
   int dropped_ = 0;
-  diagnostic_updater::Updater updater_;
-  ros::WallTimer timer_;
+  NodeDiagnostics diagnostics_;
 };
 
 }  // namespace softbody

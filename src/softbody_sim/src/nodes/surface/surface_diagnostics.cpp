@@ -11,7 +11,6 @@
 namespace softbody {
 
 using diagnostic_msgs::DiagnosticStatus;
-using diagnostic_updater::DiagnosticStatusWrapper;
 
 namespace {
 
@@ -34,14 +33,8 @@ SurfaceLimits readSurfaceLimits(Parameters& parameters) {
 
 SurfaceDiagnostics::SurfaceDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                        const SurfaceLimits& limits)
-    : limits_(limits), updater_(node, private_node, private_node.getNamespace()) {
-  updater_.setHardwareID("none");
-  updater_.add("visual mesh", [this](DiagnosticStatusWrapper& status) { report(&status); });
-  // A timer in wall time instead of the updater's own: with use_sim_time that one stops when a bag starts
-  // again.
-  timer_ = ros::NodeHandle(node).createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-}
+    : limits_(limits),
+      diagnostics_(node, private_node, "visual mesh", [this](auto& status) { report(&status); }) {}
 
 void SurfaceDiagnostics::onState(const MeshTopology& topology, const MeshState& state,
                                  const ros::Time& stamp) {
@@ -77,7 +70,7 @@ std::string SurfaceDiagnostics::warning() const {
   return "";
 }
 
-void SurfaceDiagnostics::report(DiagnosticStatusWrapper* status) {
+void SurfaceDiagnostics::report(NodeDiagnostics::Status* status) {
   const ros::WallTime now = ros::WallTime::now();
   const double rate_hz = states_ / std::max(1e-3, (now - reported_).toSec());
   const std::string fault = warning();

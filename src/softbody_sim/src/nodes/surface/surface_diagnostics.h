@@ -1,12 +1,12 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include <optional>
 #include <string>
 
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_common/types.h"
 
 namespace softbody {
@@ -40,15 +40,13 @@ class SurfaceDiagnostics {
   };
 
   std::string warning() const;
-  void report(diagnostic_updater::DiagnosticStatusWrapper* status);
+  void report(NodeDiagnostics::Status* status);
 
   const SurfaceLimits limits_;
   std::optional<Figures> figures_;  ///< of the first state since the last report
   int states_ = 0, refused_ = 0;    ///< since the last report
   ros::WallTime reported_ = ros::WallTime::now();
-  diagnostic_updater::Updater updater_;
-  // Last, so that callbacks end before the members that they use.
-  ros::WallTimer timer_;
+  NodeDiagnostics diagnostics_;
 };
 
 }  // namespace softbody

@@ -14,11 +14,10 @@
 namespace softbody {
 namespace {
 
-constexpr double kCheckPeriod_s = 0.5;  // half of kDiagnosisPeriod_s, so that no diagnosis is late by much
-constexpr double kDiagnosisPeriod_s = 1.0;  // as diagnostic_updater's own
-constexpr double kRemarkPeriod_s = 60.0;    // a remark holds for a whole run: not in every screen of the log
-constexpr double kLongestLatency_s = 2.0;   // more is not a slow machine: the clocks differ
-constexpr double kLongestLead_s = 0.1;      // a stamp ahead of the clock by more: the clocks differ
+constexpr double kCheckPeriod_s = 0.5;
+constexpr double kRemarkPeriod_s = 60.0;   // a remark holds for a whole run: not in every screen of the log
+constexpr double kLongestLatency_s = 2.0;  // more is not a slow machine: the clocks differ
+constexpr double kLongestLead_s = 0.1;     // a stamp ahead of the clock by more: the clocks differ
 constexpr char kSilentClock[] =
     "use_sim_time is set, but /clock is silent, so the nodes' timers stand still. For a live camera run "
     "rosparam "
@@ -52,9 +51,8 @@ CameraIngestWatch::CameraIngestWatch(const ros::NodeHandle& handle, const ros::N
       monitor_(pairing.exact ? 0 : pairing.tolerance, nanoseconds(silence_timeout_s)),
       start_(ros::WallTime::now()),
       last_diagnosis_(start_),
-      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
-  diagnostics_.setHardwareID("RGB-D camera");
-  diagnostics_.add("frames", this, &CameraIngestWatch::diagnose);
+      diagnostics_(
+          handle, private_handle, "frames", [this](auto& status) { diagnose(status); }, "RGB-D camera") {
   // Wall time: without /clock a simulated timer never fires, and that must be reported.
   timer_ = handle.createWallTimer(ros::WallDuration(kCheckPeriod_s), [this](const auto&) { check(); });
 }
@@ -164,10 +162,9 @@ void CameraIngestWatch::check() {
     else
       throttle_.warn("silence", silence());
   }
-  if ((ros::WallTime::now() - last_diagnosis_).toSec() >= kDiagnosisPeriod_s) diagnostics_.force_update();
 }
 
-void CameraIngestWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void CameraIngestWatch::diagnose(NodeDiagnostics::Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   const double period = (ros::WallTime::now() - last_diagnosis_).toSec();
   const double rate = frames_ / std::max(period, 1e-3);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
 
@@ -12,6 +11,7 @@
 
 #include "nodes/camera_ingest/throttled_log.h"
 #include "nodes/frame_watchdog.h"
+#include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/camera/stream_monitor.h"
 
@@ -41,7 +41,7 @@ class CameraIngestWatch {
   };
 
   void check();
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnose(NodeDiagnostics::Status& status);
   void logDropped(Stream stream, const RefusedStamp& refused);
   bool hasFrames() const { return watchdog_.silence().has_value(); }
   double secondsWithoutFrame() const;
@@ -63,7 +63,7 @@ class CameraIngestWatch {
   double latency_s_ = 0.0;   ///< from the last frame's stamp to its completion; below 0: clocks differ
   std::string color_frame_;  ///< frame_id in the last frame
   ros::WallTime last_diagnosis_;
-  diagnostic_updater::Updater diagnostics_;
+  NodeDiagnostics diagnostics_;
   ros::WallTimer timer_;
 };
 

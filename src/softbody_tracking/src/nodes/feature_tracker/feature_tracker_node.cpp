@@ -192,7 +192,7 @@ void FeatureTrackerNode::publish(const std_msgs::Header& header, const cv::Size&
   publisher_.publishLabels(header, result, image);
 }
 
-void FeatureTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void FeatureTrackerNode::diagnose(NodeDiagnostics::Status& status) const {
   if (watchdog_.isExpired()) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, FrameWatchdog::message());
     return;

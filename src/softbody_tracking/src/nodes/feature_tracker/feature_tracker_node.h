@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <softbody_msgs/SetPose.h>
 #include <std_srvs/Trigger.h>
@@ -17,10 +16,10 @@
 #include "nodes/feature_tracker/robot_links.h"
 #include "nodes/feature_tracker/tracking_publisher.h"
 #include "nodes/frame_watchdog.h"
-#include "nodes/node_diagnostics.h"
 #include "nodes/output_frame.h"
 #include "nodes/rectified_image_subscriber.h"
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 #include "status/state_announcer.h"
@@ -48,7 +47,7 @@ class FeatureTrackerNode {
   void publish(const std_msgs::Header& header, const cv::Size& image, const TrackingResult& result);
   void report(const std_msgs::Header& header, const TrackingStatus& status);
   void reportSilence();
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void diagnose(NodeDiagnostics::Status& status) const;
 
   // Subscribers, services and timers come last, so that they are the first to be destroyed.
   OutputFrame output_frame_;

@@ -75,7 +75,7 @@ void ToolTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& f
     publisher_.publishTrail(output_frame_.fixedHeader(header), frame.T_fixed_camera * last_->T_camera_tool);
 }
 
-void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void ToolTrackerNode::diagnose(NodeDiagnostics::Status& status) const {
   using diagnostic_msgs::DiagnosticStatus;
   if (watchdog_.isExpired()) return status.summary(DiagnosticStatus::WARN, FrameWatchdog::message());
   if (!frame_error_.empty())
@@ -99,7 +99,7 @@ void ToolTrackerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   diagnoseObservation(status);
 }
 
-void ToolTrackerNode::diagnoseObservation(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void ToolTrackerNode::diagnoseObservation(NodeDiagnostics::Status& status) const {
   status.add("markers", last_->markers);
   status.add("reprojection rms [px]", last_->reprojection_px);
   status.add("depth offset [m]", last_->depth_offset_m);

@@ -1,17 +1,16 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include <optional>
 #include <string>
 
 #include "nodes/frame_watchdog.h"
-#include "nodes/node_diagnostics.h"
 #include "nodes/output_frame.h"
 #include "nodes/rectified_image_subscriber.h"
 #include "nodes/tool_tracker/tool_publisher.h"
 #include "softbody_common/parameters.h"
+#include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
 #include "softbody_tracking/tool/tool_tracker.h"
@@ -31,8 +30,8 @@ class ToolTrackerNode {
   void onFrame(const RectifiedImages& images);
   void placeCamera(const std_msgs::Header& header, RgbdFrame* frame);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame);
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  void diagnoseObservation(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void diagnose(NodeDiagnostics::Status& status) const;
+  void diagnoseObservation(NodeDiagnostics::Status& status) const;
 
   // Subscribers and timers come last, so that they are the first to be destroyed.
   OutputFrame output_frame_;
