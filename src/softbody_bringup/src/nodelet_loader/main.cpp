@@ -6,6 +6,7 @@
 
 #include "nodelet_loader/nodelet_loader.h"
 #include "softbody_common/package_version.h"
+#include "softbody_common/ros/run_node.h"
 
 int main(int argc, char** argv) {
   std::vector<std::string> arguments;
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: nodelet_loader PACKAGE/TYPE MANAGER\n", stderr);
     return 2;
   }
+  softbody::logLineByLine();
   ros::init(argc, argv, "nodelet_loader", ros::init_options::NoSigintHandler);
   // This handle outlives the loader, because the last handle shuts down ROS.
   const ros::NodeHandle handle;

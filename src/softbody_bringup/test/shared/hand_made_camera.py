@@ -38,6 +38,8 @@ class Camera:
     def stop(self):
         self.on = False
         self.thread.join()
+        for publisher in self.publishers.values():
+            publisher.unregister()
 
     def publish(self):
         messages = {

@@ -23,6 +23,9 @@ void keepFreedImages() {
 
 }  // namespace
 
+// rosconsole has read ROSCONSOLE_STDOUT_LINE_BUFFERED before main.
+void logLineByLine() { std::setvbuf(stdout, nullptr, _IOLBF, 0); }
+
 int runNode(int argc, char** argv, const char* name, NodeMaker make) {
   std::vector<std::string> words;
   ros::removeROSArgs(argc, argv, words);
@@ -37,6 +40,7 @@ int runNode(int argc, char** argv, const char* name, NodeMaker make) {
     return 0;
   }
   keepFreedImages();
+  logLineByLine();
   ros::init(argc, argv, name);
   // This handle outlives the node, because the last handle shuts down ROS and the log.
   const ros::NodeHandle handle;

@@ -1,6 +1,11 @@
 #include "softbody_recordings/ros/injector_node.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sensor_msgs/CameraInfo.h>
+
+#include <string>
+#include <vector>
 
 #include "nodes/live_stream.h"
 #include "softbody_common/ros/ros_parameters.h"
@@ -39,6 +44,7 @@ InjectorNode::InjectorNode(ros::NodeHandle handle, const ros::NodeHandle& privat
   relayInfos(&handle);
   color_ = stream(topics::kCameraColor, false);
   depth_ = stream(topics::kCameraDepth, true);
+  diagnostics_.emplace(handle, private_handle, "faults", [this](auto& status) { diagnose(status); });
 }
 
 InjectorNode::~InjectorNode() = default;
@@ -52,6 +58,25 @@ void InjectorNode::readFaults(Parameters* parameters) {
     const std::string key = option.unit.empty() ? option.name : option.name + "_" + option.unit;
     *option.value = parameters->number(key, *option.value, option.least, option.most);
   }
+}
+
+void InjectorNode::diagnose(NodeDiagnostics::Status& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "images pass, with faults");
+  std::vector<std::string> silent;
+  for (LiveStream* stream : {color_.get(), depth_.get()}) {
+    const LiveStream::Counts counts = stream->takeCounts();
+    if (counts.in == 0) silent.push_back(stream->topic());
+    status.add(stream->topic() + ", images in", counts.in);
+    status.add(stream->topic() + ", images out", counts.out);
+    status.add(stream->topic() + ", images refused", counts.refused);
+    if (counts.refused > 0)
+      status.mergeSummary(DiagnosticStatus::WARN,
+                          fmt::format("{} images of {} cannot be used", counts.refused, stream->topic()));
+  }
+  if (!silent.empty())
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        fmt::format("no image in the last second on {}", fmt::join(silent, ", ")));
 }
 
 void InjectorNode::relayInfos(ros::NodeHandle* handle) {

@@ -27,6 +27,7 @@ LiveStream::LiveStream(ros::NodeHandle* handle, const std::string& in, const std
 }
 
 void LiveStream::onImage(const sensor_msgs::ImageConstPtr& original) {
+  ++counts_.in;
   if (timeline_.judge(toNanoseconds(original->header.stamp)).kind == StampVerdict::kJumpedBack) restart();
   const ImageDelivery delivery = deliveryOf(images_.count(), deliveries_);
   try {
@@ -38,6 +39,7 @@ void LiveStream::onImage(const sensor_msgs::ImageConstPtr& original) {
     overtaken_.reset();
     if (delivery.after_next) overtaken_ = held;
   } catch (const std::invalid_argument& error) {
+    ++counts_.refused;
     ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s, error.what());
   }
 }
@@ -61,6 +63,7 @@ void LiveStream::send(const Held& held) {
 
 void LiveStream::publish(const Held& held) {
   for (int i = 0; i < held.delivery.copies; ++i) publisher_.publish(held.image);
+  counts_.out += held.delivery.copies;
 }
 
 }  // namespace softbody::injection

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "ros/injection/faulty_images.h"
 #include "softbody_common/timeline.h"
@@ -16,8 +17,17 @@ namespace softbody::injection {
 /// One stream of live images: publishes the images with their faults.
 class LiveStream {
  public:
+  /// Images that came, that were published, and that could not be used.
+  struct Counts {
+    int in = 0, out = 0, refused = 0;
+  };
+
   LiveStream(ros::NodeHandle* handle, const std::string& in, const std::string& out, bool is_depth,
              const DeliveryFaults& deliveries, const ImageFaults& images);
+
+  const std::string& topic() const { return topic_; }
+  /// Since the last call.
+  Counts takeCounts() { return std::exchange(counts_, {}); }
 
  private:
   struct Held {
@@ -41,6 +51,7 @@ class LiveStream {
   std::optional<Held> overtaken_;           ///< waits until the next image was sent
   std::map<std::size_t, ros::Timer> late_;  ///< timers of delayed images, by number
   std::size_t next_timer_ = 0;
+  Counts counts_;
   ros::Publisher publisher_;
   ros::Subscriber subscriber_;
 };

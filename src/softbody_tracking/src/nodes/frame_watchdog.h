@@ -6,15 +6,24 @@
 #include <optional>
 #include <string>
 
+#include "softbody_common/parameters.h"
 #include "softbody_common/ros/time.h"
 
 namespace softbody {
+
+/// Time without a frame [s] after which a node says so. @throw std::invalid_argument as Parameters does.
+inline double readSilenceTimeout(Parameters& parameters) {
+  return parameters.number("silence_timeout_s", 2.0, 0.1, 3600.0);
+}
 
 /// Notices that camera_ingest sends no frames. It uses the arrival times in ROS time, not the stamps: a
 /// paused bag is not a fault, and the camera's clock may differ from ours. Only while /clock is silent, it
 /// uses the machine's clock.
 class FrameWatchdog {
  public:
+  /// @param timeout_s longest time without a frame.
+  explicit FrameWatchdog(double timeout_s) : timeout_s_(timeout_s) {}
+
   /// Call it when a frame arrives, and again when it has been processed.
   void frameArrived() {
     last_ = ros::Time::now();
@@ -31,16 +40,13 @@ class FrameWatchdog {
     return secondsBetween(last_, now);
   }
 
-  /// True before the first frame, and after a silence of more than kTimeout_s.
-  bool isExpired() const { return silence().value_or(kTimeout_s + 1.0) > kTimeout_s; }
+  /// True before the first frame, and after a silence that is longer than the timeout.
+  bool isExpired() const { return silence().value_or(timeout_s_ + 1.0) > timeout_s_; }
 
-  static std::string message() {
-    return fmt::format("no frame from camera_ingest for over {} s", kTimeout_s);
-  }
+  std::string message() const { return fmt::format("no frame from camera_ingest for over {} s", timeout_s_); }
 
  private:
-  static constexpr double kTimeout_s = 2.0;  // [s] far longer than any camera's frame period
-
+  double timeout_s_;
   mutable ros::Time last_;
   ros::SteadyTime last_on_machine_;
 };

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "camera/frame_assembler.h"
 #include "softbody_common/ros/newest_only.h"
@@ -34,6 +35,9 @@ class RectifiedImageSubscriber {
 
   /// Frames since the start that did not wait.
   int dropped() const { return frames_.dropped(); }
+  std::string topic() const { return color_.getTopic(); }
+  /// Whether a camera_ingest is connected.
+  bool hasPublisher() const { return color_.getNumPublishers() > 0; }
 
  private:
   using Assembler = FrameAssembler<sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <fmt/format.h>
 #include <ros/init.h>
 #include <ros/names.h>
 #include <ros/package.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 
 #include "softbody_common/ros/ros_parameters.h"
+#include "softbody_common/ros/run_node.h"
 #include "softbody_common/topics.h"
 #include "softbody_sim/object/material.h"
 #include "softbody_virtual_camera/camera/camera_motion.h"
@@ -69,6 +71,7 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle
   ahead_.emplace([this](int frame) { return render(frame); });
   ahead_->start(frame_, ros::Time::now());
   timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), &VirtualCameraNode::onTimer, this);
+  diagnostics_.emplace(node, private_node, "frames", [this](auto& status) { diagnose(status); });
 }
 
 void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_space) {
@@ -132,11 +135,38 @@ void VirtualCameraNode::onTimer(const ros::TimerEvent& event) {
   if (!loop_ && sceneTime(frame_) >= camera_->scene().duration_s) {
     ROS_INFO("scene %s is over", setup_.scene.c_str());
     timer_.stop();
+    over_ = true;
     return;
   }
   const CaptureMessages messages = ahead_->take();
   publish(messages, messages.color->header.stamp);
-  ahead_->start(++frame_, event.current_expected + ros::Duration(1.0 / setup_.rate_hz));
+  const ros::Duration period(1.0 / setup_.rate_hz);
+  ++published_;
+  late_ += ros::Time::now() - event.current_expected > period ? 1 : 0;
+  ahead_->start(++frame_, event.current_expected + period);
+}
+
+void VirtualCameraNode::diagnose(NodeDiagnostics::Status& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const ros::WallTime now = ros::WallTime::now();
+  const double rate_hz = published_ / std::max(1e-3, (now - last_diagnosis_).toSec());
+  if (over_)
+    status.summary(DiagnosticStatus::OK, "the scene is over");
+  else if (!hasSubscribers())
+    status.summary(DiagnosticStatus::OK, "nobody subscribes, so no frame is made");
+  else if (late_ > 0)
+    status.summary(
+        DiagnosticStatus::WARN,
+        fmt::format("{} of {} frames came late: this machine is too slow for {:g} frames a second of "
+                    "{}x{}; set a lower rate, width or height",
+                    late_, published_, setup_.rate_hz, setup_.width, setup_.height));
+  else
+    status.summary(DiagnosticStatus::OK, fmt::format("{:.1f} frames a second", rate_hz));
+  status.add("scene", setup_.scene);
+  status.add("frames per second", fmt::format("{:.1f}", rate_hz));
+  status.add("frames late", late_);
+  published_ = late_ = 0;
+  last_diagnosis_ = now;
 }
 
 void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time& stamp) {
@@ -173,6 +203,7 @@ int runNode(int argc, char** argv, const CameraSetup& setup) {
   // A real camera takes no time from the tracker. Threads that OpenCV makes later inherit it.
   constexpr int kNiceness = 10;
   setpriority(PRIO_PROCESS, 0, kNiceness);
+  logLineByLine();
   ros::init(argc, argv, "virtual_camera");
   VirtualCameraNode node(ros::NodeHandle(), ros::NodeHandle("~"), setup);
   ros::spin();

@@ -6,7 +6,9 @@
 #include <ros/timer.h>
 
 #include <memory>
+#include <optional>
 
+#include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_recordings/injection/deliveries.h"
 #include "softbody_recordings/injection/image_faults.h"
 
@@ -29,6 +31,7 @@ class InjectorNode {
  private:
   void readFaults(Parameters* parameters);
   void relayInfos(ros::NodeHandle* handle);
+  void diagnose(NodeDiagnostics::Status& status);
 
   DeliveryFaults deliveries_;
   ImageFaults images_;
@@ -36,6 +39,7 @@ class InjectorNode {
   std::unique_ptr<LiveStream> color_, depth_;
   ros::Publisher color_info_, depth_info_;
   ros::Subscriber color_info_subscriber_, depth_info_subscriber_;
+  std::optional<NodeDiagnostics> diagnostics_;
 };
 
 }  // namespace softbody::injection

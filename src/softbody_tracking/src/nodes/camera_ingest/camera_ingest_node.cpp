@@ -12,7 +12,7 @@ CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::Nod
   Parameters parameters = readParameters(private_handle);
   const PairingConfig pairing = readPairingConfig(parameters);
   const double voxel_size_m = parameters.number("voxel_size_m", 0.0, 0.0, 1.0);
-  const double silence_timeout_s = parameters.number("silence_timeout_s", 2.0, 0.1, 3600.0);
+  const WatchLimits limits = readWatchLimits(parameters);
   ingest_.emplace(readCameraIngestConfig(parameters));
   const double depth_scale = readDepthScale(parameters);
   const std::string transport = parameters.text("image_transport", "raw");
@@ -21,7 +21,7 @@ CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::Nod
   warnUnknown(parameters);
   pairer_.emplace(pairing);
   outputs_.emplace(handle, voxel_size_m, static_cast<std::uint32_t>(pairing.queue_size));
-  watch_.emplace(handle, private_handle, pairing, silence_timeout_s, [this] { return streamTopics(); });
+  watch_.emplace(handle, private_handle, pairing, limits, [this] { return streamTopics(); });
   const auto lookup = [this](const auto& target, const auto& source, const auto&) {
     return newestTransform(target, source);
   };

@@ -15,9 +15,7 @@ namespace softbody {
 namespace {
 
 constexpr double kCheckPeriod_s = 0.5;
-constexpr double kRemarkPeriod_s = 60.0;   // a remark holds for a whole run: not in every screen of the log
-constexpr double kLongestLatency_s = 2.0;  // more is not a slow machine: the clocks differ
-constexpr double kLongestLead_s = 0.1;     // a stamp ahead of the clock by more: the clocks differ
+constexpr double kRemarkPeriod_s = 60.0;  // a remark holds for a whole run: not in every screen of the log
 constexpr char kSilentClock[] =
     "use_sim_time is set, but /clock is silent, so the nodes' timers stand still. For a live camera run "
     "rosparam "
@@ -42,17 +40,29 @@ bool clockIsSilent() { return ros::Time::isSimTime() && ros::Time::now().isZero(
 
 }  // namespace
 
+WatchLimits readWatchLimits(Parameters& parameters) {
+  WatchLimits limits;
+  limits.silence_timeout_s = readSilenceTimeout(parameters);
+  limits.latency_s = parameters.number("latency_limit_s", limits.latency_s, 0.0, 3600.0);
+  limits.lead_s = parameters.number("lead_limit_s", limits.lead_s, 0.0, 3600.0);
+  return limits;
+}
+
 CameraIngestWatch::CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                                     const PairingConfig& pairing, double silence_timeout_s,
+                                     const PairingConfig& pairing, const WatchLimits& limits,
                                      std::function<StreamTopics()> topics)
-    : silence_timeout_s_(silence_timeout_s),
+    : limits_(limits),
+      tolerance_(pairing.exact ? 0 : pairing.tolerance),
       topics_(std::move(topics)),
       own_namespace_(handle.getNamespace()),
-      monitor_(pairing.exact ? 0 : pairing.tolerance, nanoseconds(silence_timeout_s)),
+      monitor_(tolerance_, nanoseconds(limits.silence_timeout_s)),
+      sync_(tolerance_),
+      watchdog_(limits.silence_timeout_s),
       start_(ros::WallTime::now()),
       last_diagnosis_(start_),
       diagnostics_(
           handle, private_handle, "frames", [this](auto& status) { diagnose(status); }, "RGB-D camera") {
+  diagnostics_.add("sync offset", [this](auto& status) { diagnoseSync(status); });
   // Wall time: without /clock a simulated timer never fires, and that must be reported.
   timer_ = handle.createWallTimer(ros::WallDuration(kCheckPeriod_s), [this](const auto&) { check(); });
 }
@@ -68,7 +78,9 @@ void CameraIngestWatch::noteImage(Stream stream, const ros::Time& stamp, const S
       ROS_INFO_STREAM("time jumped back by " << -seconds(verdict.gap) << " s: a new pass starts");
     monitor_.noteFrame();
   }
-  monitor_.noteArrival(stream, time, toNanoseconds(ros::Time::now()));
+  const Nanoseconds now = toNanoseconds(ros::Time::now());
+  monitor_.noteArrival(stream, time, now);
+  stream == Stream::kColor ? sync_.noteColor(time, now) : sync_.noteDepth(time, now);
 }
 
 void CameraIngestWatch::logDropped(Stream stream, const RefusedStamp& refused) {
@@ -104,8 +116,8 @@ double CameraIngestWatch::secondsWithoutFrame() const {
 bool CameraIngestWatch::isStarting() const {
   if (hasFrames()) return false;
   // Images that arrive but make no frame are a fault.
-  if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < silence_timeout_s_;
-  return secondsWithoutFrame() < kStartTimeouts * silence_timeout_s_;
+  if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < limits_.silence_timeout_s;
+  return secondsWithoutFrame() < kStartTimeouts * limits_.silence_timeout_s;
 }
 
 std::string CameraIngestWatch::silence() const {
@@ -145,7 +157,7 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
                                  "the driver's optical frame",
                                  color)});
   // A simulated clock is made of the stamps, and lags behind them.
-  if (!ros::Time::isSimTime() && (latency_s_ > kLongestLatency_s || latency_s_ < -kLongestLead_s))
+  if (!ros::Time::isSimTime() && (latency_s_ > limits_.latency_s || latency_s_ < -limits_.lead_s))
     remarks.push_back(
         {"clock", fmt::format("stamps are {:.1f} s {} this machine's clock, which tf and timers use: "
                               "synchronise the camera's clock; a bag needs use_sim_time and --clock",
@@ -156,7 +168,7 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
 void CameraIngestWatch::check() {
   if (both_came_.isZero() && monitor_.hasArrived(Stream::kColor) && monitor_.hasArrived(Stream::kDepth))
     both_came_ = ros::WallTime::now();
-  if (secondsWithoutFrame() > silence_timeout_s_) {
+  if (secondsWithoutFrame() > limits_.silence_timeout_s) {
     if (isStarting())
       throttle_.info("start", silence());
     else
@@ -173,7 +185,7 @@ void CameraIngestWatch::diagnose(NodeDiagnostics::Status& status) {
     throttle_.warn(remark.kind, remark.sentence, kRemarkPeriod_s);
     odd.push_back(remark.sentence);
   }
-  if (secondsWithoutFrame() > silence_timeout_s_) {
+  if (secondsWithoutFrame() > limits_.silence_timeout_s) {
     status.summary(isStarting() ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR, silence());
   } else if (refused_ > 0) {
     status.summary(DiagnosticStatus::WARN,
@@ -191,6 +203,30 @@ void CameraIngestWatch::diagnose(NodeDiagnostics::Status& status) {
   status.add("depth", topics[static_cast<std::size_t>(Stream::kDepth)].name);
   frames_ = refused_ = 0;
   last_diagnosis_ = ros::WallTime::now();
+}
+
+void CameraIngestWatch::diagnoseSync(NodeDiagnostics::Status& status) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  const SyncMonitor::Offsets offsets = sync_.offsets(toNanoseconds(ros::Time::now()));
+  const double mean_ms = 1e3 * offsets.mean_s, worst_ms = 1e3 * offsets.worst_s,
+               allowed_ms = 1e-6 * tolerance_;
+  if (offsets.colors == 0) {
+    status.summary(DiagnosticStatus::WARN, "colour and depth have not come together in the last seconds");
+  } else if (offsets.beyond > 0) {
+    status.summary(
+        DiagnosticStatus::WARN,
+        fmt::format("{} of {} colour images have no depth image within {:.1f} ms; mean offset {:.1f} "
+                    "ms, worst {:.1f} ms: switch on the driver's synchronization",
+                    offsets.beyond, offsets.colors, allowed_ms, mean_ms, worst_ms));
+  } else {
+    status.summary(DiagnosticStatus::OK,
+                   fmt::format("colour and depth are {:.1f} ms apart, at most {:.1f} ms", mean_ms, worst_ms));
+  }
+  status.add("mean offset [ms]", fmt::format("{:.2f}", mean_ms));
+  status.add("worst offset [ms]", fmt::format("{:.2f}", worst_ms));
+  status.add("tolerance [ms]", fmt::format("{:.2f}", allowed_ms));
+  status.add("colour images", offsets.colors);
+  status.add("colour images without depth", offsets.beyond);
 }
 
 }  // namespace softbody

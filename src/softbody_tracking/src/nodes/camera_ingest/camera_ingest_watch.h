@@ -9,22 +9,34 @@
 #include <string>
 #include <vector>
 
-#include "nodes/camera_ingest/throttled_log.h"
 #include "nodes/frame_watchdog.h"
+#include "nodes/throttled_log.h"
+#include "softbody_common/parameters.h"
 #include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/camera/stream_monitor.h"
+#include "softbody_tracking/camera/sync_monitor.h"
 
 namespace softbody {
 
+/// Times above which camera_ingest warns.
+struct WatchLimits {
+  double silence_timeout_s = 0.0;  ///< without a frame
+  /// From an image's stamp to its complete frame. More is not a slow machine: the clocks differ.
+  double latency_s = 2.0;
+  double lead_s = 0.1;  ///< of a stamp before this machine's clock
+};
+
+/// @throw std::invalid_argument as Parameters does.
+WatchLimits readWatchLimits(Parameters& parameters);
+
 /// Watches the streams of camera_ingest: explains in the log and in /diagnostics why no frame comes, what is
-/// wrong with the frames that come, their rate and their latency.
+/// wrong with the frames that come, their rate and their latency, and how far colour and depth are apart.
 class CameraIngestWatch {
  public:
-  /// @param silence_timeout_s without a frame, after which the reason is logged.
   /// @param topics of the streams at the moment.
   CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                    const PairingConfig& pairing, double silence_timeout_s,
+                    const PairingConfig& pairing, const WatchLimits& limits,
                     std::function<StreamTopics()> topics);
 
   /// An image reached the pairer. Logs why it was dropped.
@@ -42,6 +54,7 @@ class CameraIngestWatch {
 
   void check();
   void diagnose(NodeDiagnostics::Status& status);
+  void diagnoseSync(NodeDiagnostics::Status& status) const;
   void logDropped(Stream stream, const RefusedStamp& refused);
   bool hasFrames() const { return watchdog_.silence().has_value(); }
   double secondsWithoutFrame() const;
@@ -51,10 +64,12 @@ class CameraIngestWatch {
   std::map<std::string, std::string> publishedTopics() const;
   std::vector<Remark> remarks() const;
 
-  double silence_timeout_s_;
+  const WatchLimits limits_;
+  const Nanoseconds tolerance_;  ///< largest difference of the stamps of colour and depth; 0: none
   std::function<StreamTopics()> topics_;
   std::string own_namespace_;
   StreamMonitor monitor_;
+  SyncMonitor sync_;
   std::array<RefusedStamps, 3> refused_stamps_;  ///< in the order of Stream
   ThrottledLog throttle_;
   FrameWatchdog watchdog_;

@@ -15,6 +15,8 @@ namespace {
 
 // [s] between two statuses while no image comes: often enough for a person and for a robot's monitor.
 constexpr double kStatusPeriod_s = 1.0;
+// [s] the nodes of a launch file start within this time, or are started again.
+constexpr double kConnectionTimeout_s = 3.0;
 constexpr double kSetPoseTimeout_s = 0.5;  // [s] to wait for tf; a person waits for the answer
 
 /// The body is tracked without its picture, too.
@@ -47,6 +49,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       tracker_(readTrackerConfig(parameters), loadPicture(parameters)),
       publisher_(handle, output_frame_.claim(ownFrame(parameters, "body_frame", private_handle, "softbody"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
+      watchdog_(readSilenceTimeout(parameters)),
       body_(handle, &tracker_),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
       known_(subscribeToKnown(
@@ -177,7 +180,14 @@ void FeatureTrackerNode::report(const std_msgs::Header& header, const TrackingSt
 
 /// Without images nothing else says that the last state has become invalid.
 void FeatureTrackerNode::reportSilence() {
-  if (watchdog_.isExpired()) report(last_header_, withoutImages(last_status_, watchdog_.silence()));
+  if (!watchdog_.isExpired()) return;
+  report(last_header_, withoutImages(last_status_, watchdog_.silence()));
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (images_.hasPublisher())
+    last_publisher_ = now;
+  else if ((now - last_publisher_).toSec() > kConnectionTimeout_s)
+    log_.warn("no publisher", "feature_tracker waits for images: nobody publishes " + images_.topic() +
+                                  ". camera_ingest is not running, and its last message says why");
 }
 
 /// All but the targets and the pose.
@@ -194,7 +204,7 @@ void FeatureTrackerNode::publish(const std_msgs::Header& header, const cv::Size&
 
 void FeatureTrackerNode::diagnose(NodeDiagnostics::Status& status) const {
   if (watchdog_.isExpired()) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, FrameWatchdog::message());
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, watchdog_.message());
     return;
   }
   const std::string reason = last_status_.reason.empty() ? "" : ": " + last_status_.reason;

@@ -18,6 +18,7 @@
 #include "nodes/frame_watchdog.h"
 #include "nodes/output_frame.h"
 #include "nodes/rectified_image_subscriber.h"
+#include "nodes/throttled_log.h"
 #include "softbody_common/parameters.h"
 #include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_common/ros/stamp_gate.h"
@@ -59,6 +60,8 @@ class FeatureTrackerNode {
   std::string camera_frame_;  ///< of the last frame; empty before the first
   StampGate stamps_;          ///< of the frames
   FrameWatchdog watchdog_;
+  ros::SteadyTime last_publisher_ = ros::SteadyTime::now();  ///< when somebody sent images, or the start
+  ThrottledLog log_;
 
   BodySubscriber body_;
   BladeSubscriber blade_;

@@ -1,5 +1,6 @@
 #include "nodes/pose_marker/pose_marker_node.h"
 
+#include <fmt/format.h>
 #include <softbody_msgs/SetPose.h>
 
 #include <stdexcept>
@@ -13,7 +14,7 @@ namespace softbody {
 namespace {
 
 constexpr char kService[] = "feature_tracker/set_pose";  // ~set_pose of the feature tracker in this namespace
-constexpr double kWarningPeriod_s = 5.0;                 // [s] between two warnings about a missing input
+constexpr double kWarningPeriod_s = 4.0;                 // [s] between two warnings about a missing input
 
 bool isGiven(const geometry_msgs::Pose& pose) {
   const geometry_msgs::Quaternion& q = pose.orientation;
@@ -24,7 +25,8 @@ bool isGiven(const geometry_msgs::Pose& pose) {
 
 PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle)
     : set_pose_(handle.serviceClient<softbody_msgs::SetPose>(kService)),
-      marker_(handle, [this](const auto& feedback) { restartTracking(feedback); }) {
+      marker_(handle, [this](const auto& feedback) { restartTracking(feedback); }),
+      diagnostics_(handle, private_handle, "marker", [this](auto& status) { diagnose(status); }) {
   Parameters parameters = readParameters(private_handle);
   frame_ = frameName(parameters.text("frame", ""), "parameter frame");
   warnUnknown(parameters);
@@ -38,14 +40,30 @@ PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& pr
       handle.createWallTimer(ros::WallDuration(kWarningPeriod_s), [this](const auto&) { warnIfNotShown(); });
 }
 
-/// The marker needs the body's shape and a frame.
-void PoseMarkerNode::warnIfNotShown() {
-  if (marker_.isShown()) return warning_timer_.stop();
+/// The marker needs the body's shape and a frame. Empty: it is shown.
+std::string PoseMarkerNode::whyNotShown() const {
+  if (marker_.isShown()) return "";
   const bool has_frame = !frame_.empty();
   const ros::Subscriber& missing = has_frame ? surface_topology_subscriber_ : info_subscriber_;
-  ROS_WARN_STREAM("the marker waits for " << (has_frame ? "the body's shape, " : "the images' frame, ")
-                                          << missing.getTopic()
-                                          << " (publishers: " << missing.getNumPublishers() << ")");
+  return fmt::format("the marker waits for {}, {} (publishers: {})",
+                     has_frame ? "the body's shape" : "the images' frame", missing.getTopic(),
+                     missing.getNumPublishers());
+}
+
+void PoseMarkerNode::warnIfNotShown() {
+  const std::string why = whyNotShown();
+  if (why.empty()) return warning_timer_.stop();
+  ROS_WARN_STREAM(why);
+}
+
+void PoseMarkerNode::diagnose(NodeDiagnostics::Status& status) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  const std::string why = whyNotShown();
+  if (why.empty())
+    status.summary(DiagnosticStatus::OK, "the marker is shown");
+  else
+    status.summary(DiagnosticStatus::WARN, why);
+  status.add("frame", frame_);
 }
 
 void PoseMarkerNode::onInfo(const sensor_msgs::CameraInfo::ConstPtr& message) {

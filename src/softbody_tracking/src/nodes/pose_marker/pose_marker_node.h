@@ -8,6 +8,7 @@
 #include <string>
 
 #include "nodes/pose_marker/pose_marker.h"
+#include "softbody_common/ros/node_diagnostics.h"
 
 namespace softbody {
 
@@ -21,7 +22,9 @@ class PoseMarkerNode {
   void onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message);
   void onSurfaceTopology(const softbody_msgs::MeshTopology::ConstPtr& message);
   void onInfo(const sensor_msgs::CameraInfo::ConstPtr& message);
+  std::string whyNotShown() const;
   void warnIfNotShown();
+  void diagnose(NodeDiagnostics::Status& status) const;
   void restartTracking(const PoseMarker::Feedback& feedback);
 
   // Subscribers and timers come last, so that they are the first to be destroyed.
@@ -30,6 +33,7 @@ class PoseMarkerNode {
   PoseMarker marker_;
   ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, info_subscriber_;
   ros::WallTimer warning_timer_;
+  NodeDiagnostics diagnostics_;
 };
 
 }  // namespace softbody

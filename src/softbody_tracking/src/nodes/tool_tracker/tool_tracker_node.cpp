@@ -31,6 +31,7 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
       publisher_(handle, tracker_.tool().blade,
                  output_frame_.claim(ownFrame(parameters, "tool_frame", private_handle, "tool"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
+      watchdog_(readSilenceTimeout(parameters)),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
       diagnostics_(handle, private_handle, "tool", [this](auto& status) { diagnose(status); }) {
   warnUnknown(parameters);
@@ -77,7 +78,7 @@ void ToolTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& f
 
 void ToolTrackerNode::diagnose(NodeDiagnostics::Status& status) const {
   using diagnostic_msgs::DiagnosticStatus;
-  if (watchdog_.isExpired()) return status.summary(DiagnosticStatus::WARN, FrameWatchdog::message());
+  if (watchdog_.isExpired()) return status.summary(DiagnosticStatus::WARN, watchdog_.message());
   if (!frame_error_.empty())
     return status.summary(DiagnosticStatus::ERROR, "frames come, but cannot be used: " + frame_error_);
   status.add("frames dropped to keep up", images_.dropped());

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 #include "softbody_virtual_camera/ros/render_ahead.h"
 
@@ -32,6 +33,7 @@ class VirtualCameraNode {
   void publishLatched(std::uint32_t revision, const ros::Time& stamp);
   void onTimer(const ros::TimerEvent& event);
   void publish(const CaptureMessages& messages, const ros::Time& stamp);
+  void diagnose(NodeDiagnostics::Status& status);
 
   CameraSetup setup_;
   bool loop_ = true, publish_camera_tf_ = true;
@@ -44,7 +46,11 @@ class VirtualCameraNode {
   ros::Timer timer_;
   int frame_ = 0;
   std::uint32_t revision_ = 0;
-  std::optional<RenderAhead> ahead_;  ///< last, because its thread uses the members above
+  bool over_ = false;             ///< the scene, without loop
+  int published_ = 0, late_ = 0;  ///< frames since the last diagnosis, and those sent a frame's time too late
+  ros::WallTime last_diagnosis_ = ros::WallTime::now();
+  std::optional<RenderAhead> ahead_;  ///< near the end, because its thread uses the members above
+  std::optional<NodeDiagnostics> diagnostics_;
 };
 
 /// The camera's setup with the files that softbody_bringup ships.
