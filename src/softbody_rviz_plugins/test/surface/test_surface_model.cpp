@@ -90,6 +90,23 @@ TEST(SurfaceModel, cutFacesHaveTheirOwnColourUnlessColoursShowValues) {
   for (const Color& color : colors) EXPECT_EQ(color, colorOf(paint.map, 1.0));
 }
 
+TEST(SurfaceModel, theTextureIsWhiteOrTheColoursOfTheMeshFile) {
+  MeshTopology box = boxSurface(2);
+  box.cut[0] = true;
+  SurfaceModel model(box, 1.0);
+  model.setState(stateAt(box.rest_vertices));
+  SurfacePaint paint;
+  paint.coloring = SurfaceColoring::kTexture;
+  for (const std::uint32_t i : model.layout().parts[0])
+    EXPECT_EQ(model.painted(paint, {})[i], (Color{255, 255, 255, 255}));
+  for (Eigen::Index v = 0; v < box.rest_vertices.rows(); ++v)
+    paint.own.push_back({static_cast<std::uint8_t>(v), 7, 200});
+  const auto colors = model.painted(paint, {});
+  for (const std::uint32_t i : model.layout().parts[0])
+    EXPECT_EQ(colors[i], (Color{static_cast<std::uint8_t>(model.layout().vertices[i]), 7, 200, 255}));
+  for (const std::uint32_t i : model.layout().parts[1]) EXPECT_EQ(colors[i], paint.cut);
+}
+
 TEST(SurfaceModel, aDeviationThatIsNotEstimatedIsGrey) {
   SurfaceModel model(boxSurface(2), 1.0);
   MeshState state = stateAt(model.topology().rest_vertices);

@@ -52,7 +52,7 @@ TEST(WriteObj, ReadsBackBitForBit) {
   const TriangleMesh mesh = test::torus(1.0 / 3.0, 0.1, 17, 9);
   const Points texture = Points::Random(3 * mesh.triangles.rows(), 3).array().rowwise() *
                          Eigen::Array3d(1.0, 1.0, 0.0).transpose();
-  writeObj(folder.file("torus.obj"), mesh, texture);
+  writeObj(folder.file("torus.obj"), mesh, {texture});
   Warnings warnings;
   const SurfaceFile read = readSurfaceFile(folder.file("torus.obj"), &warnings);
   EXPECT_EQ(read.mesh.vertices, mesh.vertices);

@@ -49,7 +49,7 @@ TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
   const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
   const auto prepare = [&](const std::string& materials) {
     folder_.write("skin.mtl", materials);
-    writeObj(folder_.file("skinned.obj"), torus, Points::Random(3 * torus.triangles.rows(), 3), "skin.mtl");
+    writeObj(folder_.file("skinned.obj"), torus, {Points::Random(3 * torus.triangles.rows(), 3), "skin.mtl"});
     std::ostringstream output;
     prepareModel({folder_.file("skinned.obj")}, folder_.file("out"), {}, output);
     return output.str();
@@ -70,6 +70,17 @@ TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
   EXPECT_NE(prepare("newmtl body\nmap_Kd gone.png\n").find("map_Kd names 'gone.png', but there is no file"),
             std::string::npos);
   EXPECT_EQ(readFile(folder_.file("out/visual.obj")).find("mtllib"), std::string::npos);
+}
+
+TEST_F(ObjectModelTest, TheColoursOfTheVerticesAreKept) {
+  const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
+  VertexColors colors;
+  for (Eigen::Index v = 0; v < torus.vertices.rows(); ++v)
+    colors.push_back({static_cast<std::uint8_t>(v % 256), 90, static_cast<std::uint8_t>(255 - v % 256)});
+  writeObj(folder_.file("colored.obj"), torus, {{}, "", colors});
+  std::ostringstream output;
+  prepareModel({folder_.file("colored.obj")}, folder_.file("out"), {}, output);
+  EXPECT_EQ(readVertexColors(folder_.file("out/visual.obj")), colors);
 }
 
 TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {

@@ -8,6 +8,14 @@
 
 namespace softbody {
 
+namespace {
+
+constexpr Color kWhite{255, 255, 255, 255};
+
+Color toColor(const VertexColors::value_type& rgb) { return {rgb[0], rgb[1], rgb[2], 255}; }
+
+}  // namespace
+
 bool showsValues(SurfaceColoring coloring) { return coloring >= SurfaceColoring::kStandardDeviation; }
 
 SurfaceModel::SurfaceModel(MeshTopology topology, double crease_angle)
@@ -53,8 +61,10 @@ std::vector<Color> SurfaceModel::painted(const SurfacePaint& paint, const std::v
       colors[i] = paint.cut;
     } else if (paint.coloring == SurfaceColoring::kPiece) {
       colors[i] = pieceColor(topology_.triangle_pieces[triangle]);
+    } else if (paint.coloring == SurfaceColoring::kTexture) {
+      colors[i] = paint.own.empty() ? kWhite : toColor(paint.own[layout_.vertices[i]]);
     } else {
-      colors[i] = paint.coloring == SurfaceColoring::kTexture ? Color{255, 255, 255, 255} : paint.skin;
+      colors[i] = paint.skin;
     }
   }
   return colors;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "colors/color.h"
+#include "softbody_common/images/vertex_colors.h"
 #include "softbody_common/types.h"
 #include "surface/mesh_layout.h"
 #include "surface/strain.h"
@@ -12,7 +13,7 @@ namespace softbody {
 
 /// What the colours of a surface show.
 enum class SurfaceColoring {
-  kTexture,  ///< white, for an image to multiply
+  kTexture,  ///< those of the mesh file; else white, for an image to multiply
   kOneColor,
   kPiece,
   kStandardDeviation,  ///< [m]
@@ -26,7 +27,8 @@ struct SurfacePaint {
   Color skin{225, 150, 90, 255};
   Color cut{190, 45, 45, 255};  ///< faces that fill cuts, unless colours show values
   ColorMap map = ColorMap::kViridis;
-  double maximum = 1.0;  ///< value at the end of the colour map
+  double maximum = 1.0;   ///< value at the end of the colour map
+  VertexColors own = {};  ///< of the mesh's vertices, or empty
 };
 
 /// True if colours show a number per vertex.

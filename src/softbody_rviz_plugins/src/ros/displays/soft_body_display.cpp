@@ -27,6 +27,11 @@ const ValueKind& kindOf(SurfaceColoring coloring) {
   }
 }
 
+/// The name that a topic begins with: that of its node.
+std::string parentOf(const ros::NodeHandle& node, const rviz::RosTopicProperty& topic) {
+  return ros::names::parentNamespace(node.resolveName(topic.getTopicStd()));
+}
+
 }  // namespace
 
 SoftBodyDisplay::SoftBodyDisplay() {
@@ -60,8 +65,9 @@ void SoftBodyDisplay::addColoringProperties() {
                                        this, SLOT(updateColors()), this);
   image_ = new rviz::StringProperty(
       "Texture Image", "",
-      "File with the image of the texture. Empty: the image that the object's OBJ names; the node 'surface' "
-      "has the object YAML as a parameter. Squares if there is none.",
+      "File with the image of the texture. Empty: the image that the object's OBJ names, or the colours of "
+      "the "
+      "mesh's vertices; the node 'surface' has the object YAML as a parameter. Squares if there is none.",
       this, SLOT(updateColors()), this);
   scale_ = std::make_unique<ValueScale>(this, SLOT(updateColors()), this, true);
 }
@@ -82,6 +88,9 @@ void SoftBodyDisplay::addLookProperties() {
       this, SLOT(updateLayout()), this);
   crease_angle_->setMin(0.0f);
   crease_angle_->setMax(180.0f);
+  only_on_images_ = new rviz::BoolProperty("Only On Images", false,
+                                           "Draws the mesh in Camera displays only, not in the 3-D view.",
+                                           this, SLOT(updateVisibility()), this);
 }
 
 void SoftBodyDisplay::onInitialize() {
@@ -122,12 +131,14 @@ void SoftBodyDisplay::setState(const softbody_msgs::MeshState& message) {
   model_->setState(fromMessage(message));
   if (first || showsValues(coloring())) paint();
   mesh_->place(model_->placed());
+  if (first) updateVisibility();
 }
 
 void SoftBodyDisplay::paint() {
   if (!model_ || !model_->state()) return;
-  SurfacePaint paint{coloring(), toColor(color_->getColor()), toColor(cut_color_->getColor()), scale_->map(),
-                     1.0};
+  SurfacePaint paint{
+      coloring(), toColor(color_->getColor()), toColor(cut_color_->getColor()), scale_->map(), 1.0,
+      own_colors_};
   const std::vector<float> values = model_->values(paint.coloring);
   if (showsValues(paint.coloring)) {
     paint.maximum = scale_->show(kindOf(paint.coloring), values);
@@ -168,36 +179,62 @@ void SoftBodyDisplay::updateLayout() {
   model_->setState(*state);
   paint();
   mesh_->place(model_->placed());
+  updateVisibility();
+  queueRender();
+}
+
+/// rviz gives each view a bit; the 3-D view has the default one.
+void SoftBodyDisplay::updateVisibility() {
+  if (!skin_material_) return;
+  if (only_on_images_->getBool()) {
+    unsetVisibilityBits(context_->getDefaultVisibilityBit());
+  } else {
+    setVisibilityBits(context_->getDefaultVisibilityBit());
+  }
   queueRender();
 }
 
 void SoftBodyDisplay::loadTexture() {
   texture_.clear();
+  own_colors_.clear();
   deleteStatus("Texture");
   if (coloring() != SurfaceColoring::kTexture || !model_) return;
-  if (model_->layout().texture.empty()) {
-    setStatus(rviz::StatusProperty::Warn, "Texture", "the mesh has no texture coordinates");
-    return;
-  }
   try {
-    const std::string image = image_->getStdString().empty() ? objectImage() : image_->getStdString();
-    if (!image.empty()) texture_.load(image);
-    accept("Texture", image.empty() ? "squares: the object names no image" : image);
+    accept("Texture", loadOwnLook());
   } catch (const std::exception& error) {
     setStatusStd(rviz::StatusProperty::Warn, "Texture", error.what());
   }
-  if (!texture_.get()) texture_.makeChequers();
+  if (!texture_.get() && own_colors_.empty() && !model_->layout().texture.empty()) texture_.makeChequers();
 }
 
-std::string SoftBodyDisplay::objectImage() const {
-  // The parameters of the node that publishes the topology, "/softbody/surface" by default.
-  const std::string node =
-      ros::names::parentNamespace(update_nh_.resolveName(topology_topic_->getTopicStd()));
+/// The image or else the colours of the vertices. @return what it found. @throw std::invalid_argument
+std::string SoftBodyDisplay::loadOwnLook() {
+  const bool has_coordinates = !model_->layout().texture.empty();
+  const std::string yaml = objectYaml();
+  std::string image = has_coordinates ? image_->getStdString() : "";
+  if (has_coordinates && image.empty() && !yaml.empty()) image = textureImageOf(yaml, objectScope());
+  if (!image.empty()) {
+    texture_.load(image);
+    return image;
+  }
+  if (!yaml.empty())
+    own_colors_ = colorsOfVertices(model_->topology(), readObjectColors(yaml, objectScope()));
+  if (!own_colors_.empty()) return "colours of the vertices in the mesh file";
+  if (has_coordinates) return "squares: the object has no image, and its vertices have no colours";
+  throw std::invalid_argument("the mesh has no texture coordinates, and its vertices have no colours");
+}
+
+/// Parameter of the node that publishes the topology, "/softbody/surface" by default; or empty.
+std::string SoftBodyDisplay::objectYaml() const {
   std::string yaml;
+  update_nh_.getParam(parentOf(update_nh_, *topology_topic_) + "/object", yaml);
+  return yaml;
+}
+
+FileScope SoftBodyDisplay::objectScope() const {
   bool anywhere = false;
-  if (!update_nh_.getParam(node + "/object", yaml)) return {};
-  update_nh_.getParam(node + "/allow_outside", anywhere);
-  return textureImageOf(yaml, anywhere ? FileScope::kAnywhere : FileScope::kOwnFolder);
+  update_nh_.getParam(parentOf(update_nh_, *topology_topic_) + "/allow_outside", anywhere);
+  return anywhere ? FileScope::kAnywhere : FileScope::kOwnFolder;
 }
 
 std::string SoftBodyDisplay::topologyText() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
@@ -41,6 +42,7 @@ class SoftBodyDisplay : public BodyDisplay<softbody_msgs::MeshTopology> {
   void updateLook();    // materials and texture
   void updateColors();  // of the vertices
   void updateLayout();  // crease angle
+  void updateVisibility();
 
  private:
   void addLookProperties();
@@ -48,7 +50,9 @@ class SoftBodyDisplay : public BodyDisplay<softbody_msgs::MeshTopology> {
   SurfaceColoring coloring() const;
   void fillMesh();
   void loadTexture();
-  std::string objectImage() const;
+  std::string loadOwnLook();
+  std::string objectYaml() const;
+  FileScope objectScope() const;
   void paint();
   VertexRows rowsOf(int vertex) const;
 
@@ -56,10 +60,12 @@ class SoftBodyDisplay : public BodyDisplay<softbody_msgs::MeshTopology> {
   rviz::ColorProperty *color_, *cut_color_, *edge_color_;
   rviz::FloatProperty *alpha_, *crease_angle_;
   rviz::StringProperty* image_;
+  rviz::BoolProperty* only_on_images_;
   std::unique_ptr<ValueScale> scale_;
 
   std::optional<SurfaceModel> model_;
   BodyTexture texture_;
+  VertexColors own_colors_;  // of the mesh file, if there is no image
   std::unique_ptr<BodyMaterial> skin_material_, cut_material_;
   std::unique_ptr<DynamicMesh> mesh_;
   boost::shared_ptr<VertexSelection> selection_;

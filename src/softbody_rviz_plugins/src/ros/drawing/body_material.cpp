@@ -79,13 +79,15 @@ Ogre::Pass* addPass(Ogre::Technique* technique, const Look& look) {
   return pass;
 }
 
+/// What is drawn later is drawn only on the nearest faces.
+void addDepth(Ogre::Technique* technique, const Look& look) {
+  Ogre::Pass* pass = addPass(technique, look);
+  pass->setColourWriteEnabled(false);
+  setVertexProgram(pass, look);
+  setFlatColor(pass, look.edge_color);
+}
+
 void addFaces(Ogre::Technique* technique, const Look& look) {
-  if (look.alpha < 1.0) {  // the nearest faces only: first their depth, then their colour
-    Ogre::Pass* depth = addPass(technique, look);
-    depth->setColourWriteEnabled(false);
-    setVertexProgram(depth, look);
-    setFlatColor(depth, look.edge_color);
-  }
   Ogre::Pass* pass = addPass(technique, look);
   setVertexProgram(pass, look);
   if (look.texture) {
@@ -132,6 +134,7 @@ BodyMaterial::~BodyMaterial() { Ogre::MaterialManager::getSingleton().remove(mat
 void BodyMaterial::set(const Look& look) {
   material_->removeAllTechniques();
   Ogre::Technique* technique = material_->createTechnique();
+  if (look.style == Style::kEdges ? look.closed : look.alpha < 1.0) addDepth(technique, look);
   if (look.style != Style::kEdges) addFaces(technique, look);
   if (look.style != Style::kFaces) addEdges(technique, look);
   addPickTechnique(material_.get());

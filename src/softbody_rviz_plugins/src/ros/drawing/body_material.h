@@ -6,7 +6,11 @@
 
 namespace softbody {
 
-enum class Style { kFaces, kFacesAndEdges, kEdges };
+enum class Style {
+  kFaces,
+  kFacesAndEdges,
+  kEdges  ///< of a closed mesh only those that are not hidden
+};
 
 /// How a mesh is drawn. Its vertices' colours multiply the texture's.
 struct Look {

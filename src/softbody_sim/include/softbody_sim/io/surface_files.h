@@ -5,6 +5,7 @@
 
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/files/obj_materials.h"
+#include "softbody_common/images/vertex_colors.h"
 #include "softbody_common/types.h"
 #include "softbody_sim/io/warnings.h"
 
@@ -37,9 +38,14 @@ SurfaceFile readSurfaceFile(const std::string& path, Warnings* warnings);
 /// that is missing or outside of its scope gives a warning.
 SurfacePictures surfacePictures(const SurfaceFile& file, FileScope scope, Warnings* warnings);
 
-/// Writes an OBJ with 17 significant digits. @param material_file named in mtllib; empty: none.
-/// @throw std::runtime_error if the file cannot be written.
-void writeObj(const std::string& path, const TriangleMesh& mesh, const Points& texture_coordinates = Points(),
-              const std::string& material_file = "");
+/// What an OBJ says beside its triangles. Each part may be empty.
+struct ObjLook {
+  Points texture_coordinates = {};  ///< 3 #F rows
+  std::string material_file = {};   ///< named in mtllib
+  VertexColors colors = {};         ///< #V
+};
+
+/// Writes an OBJ with 17 significant digits. @throw std::runtime_error if the file cannot be written.
+void writeObj(const std::string& path, const TriangleMesh& mesh, const ObjLook& look = {});
 
 }  // namespace softbody

@@ -66,18 +66,22 @@ SurfacePictures surfacePictures(const SurfaceFile& file, FileScope scope, Warnin
   return pictures;
 }
 
-void writeObj(const std::string& path, const TriangleMesh& mesh, const Points& texture_coordinates,
-              const std::string& material_file) {
+void writeObj(const std::string& path, const TriangleMesh& mesh, const ObjLook& look) {
   std::ostringstream stream;
-  if (!material_file.empty()) stream << fmt::format("mtllib {}\nusemtl body\n", material_file);
+  if (!look.material_file.empty()) stream << fmt::format("mtllib {}\nusemtl body\n", look.material_file);
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    stream << fmt::format("v {:.17g} {:.17g} {:.17g}\n", mesh.vertices(v, 0), mesh.vertices(v, 1),
+    stream << fmt::format("v {:.17g} {:.17g} {:.17g}", mesh.vertices(v, 0), mesh.vertices(v, 1),
                           mesh.vertices(v, 2));
+    if (!look.colors.empty()) {
+      for (const double byte : look.colors[static_cast<std::size_t>(v)])
+        stream << fmt::format(" {:.4g}", byte / 255.0);
+    }
+    stream << '\n';
   }
-  for (Eigen::Index t = 0; t < texture_coordinates.rows(); ++t) {
-    stream << fmt::format("vt {:.9g} {:.9g}\n", texture_coordinates(t, 0), texture_coordinates(t, 1));
-  }
-  const bool textured = texture_coordinates.rows() > 0;
+  const Points& texture = look.texture_coordinates;
+  for (Eigen::Index t = 0; t < texture.rows(); ++t)
+    stream << fmt::format("vt {:.9g} {:.9g}\n", texture(t, 0), texture(t, 1));
+  const bool textured = texture.rows() > 0;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     stream << 'f';
     for (int k = 0; k < 3; ++k) {

@@ -18,7 +18,7 @@ void writeTexturedObj(const std::filesystem::path& obj, const TriangleMesh& mesh
   std::vector<std::uint8_t> bytes;
   if (picture.empty() || !cv::imencode(".png", picture, bytes))
     throw std::runtime_error(fmt::format("{}: the picture cannot be written", png.string()));
-  writeObj(obj.string(), mesh, texture_coordinates, materials.filename().string());
+  writeObj(obj.string(), mesh, {texture_coordinates, materials.filename().string()});
   writeBytes(materials, fmt::format("newmtl body\nKd 1 1 1\nmap_Kd {}\n", png.filename().string()));
   writeBytes(png, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

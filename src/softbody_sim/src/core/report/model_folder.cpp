@@ -128,7 +128,8 @@ Verdict prepareModel(const ModelSource& source, const std::string& folder, const
   fs::create_directories(staging.path() / "report");
   const std::string material_file = writeSkin(source.mesh, staging.path(), &model.warnings);
   writeObj((staging.path() / "visual.obj").string(), {model.visual.rest_vertices, model.visual.triangles},
-           model.visual.texture_coordinates, material_file);
+           {model.visual.texture_coordinates, material_file,
+            colorsOfVertices(model.visual, readVertexColors(source.mesh))});
   writeObj((staging.path() / "cage.obj").string(), cage);
   writeVtu((staging.path() / "tets.vtu").string(), {model.volume.rest_vertices, model.volume.tets});
   const ModelQuality quality = measureModel(model);

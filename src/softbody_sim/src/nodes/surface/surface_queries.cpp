@@ -111,7 +111,8 @@ void SurfaceQueries::save(const std::string& name, softbody_msgs::SaveMesh::Resp
   if (std::filesystem::exists(path))
     throw std::invalid_argument(fmt::format("{} exists already; choose another name", path.string()));
   StagedFile file(path);
-  writeObj(file.path(), {last.state.vertices, last.topology->triangles}, last.topology->texture_coordinates);
+  writeObj(file.path(), {last.state.vertices, last.topology->triangles},
+           {last.topology->texture_coordinates});
   file.commit();
   response->path = path;
   response->frame_id = last.header.frame_id;
