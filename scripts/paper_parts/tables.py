@@ -50,7 +50,8 @@ def simulators(reports):
     rows = [[words, *errors(reports, text)] for words, text in methods.simulators().items()]
     return section("Other simulators in the tracker's place", "Mean error of all vertices [mm] of the whole tracker "
                    "with another simulator inside: its shape is the prediction of the next frame. Targets, loads and "
-                   "memory are the same. Mass-spring: springs along the edges of the tets.",
+                   "memory are the same. Mass-spring: springs along the edges of the tets. Their strains cannot be "
+                   "smoothed, so finite elements without smoothing stand above them.",
                    ["simulator", *SCENES], rows)
 
 
