@@ -1,8 +1,11 @@
 #include "ros/displays/soft_body_display.h"
 
 #include <OgreSceneNode.h>
+#include <OgreViewport.h>
 #include <fmt/format.h>
 #include <rviz/display_context.h>
+#include <rviz/render_panel.h>
+#include <rviz/view_manager.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <cmath>
@@ -183,13 +186,16 @@ void SoftBodyDisplay::updateLayout() {
   queueRender();
 }
 
-/// rviz gives each view a bit; the 3-D view has the default one.
+/// rviz gives each view a bit, and every display has all bits. But the 3-D view ignores its own one until it
+/// is told.
 void SoftBodyDisplay::updateVisibility() {
   if (!skin_material_) return;
+  const uint32_t view = context_->getDefaultVisibilityBit();
   if (only_on_images_->getBool()) {
-    unsetVisibilityBits(context_->getDefaultVisibilityBit());
+    context_->getViewManager()->getRenderPanel()->getViewport()->setVisibilityMask(view);
+    unsetVisibilityBits(view);
   } else {
-    setVisibilityBits(context_->getDefaultVisibilityBit());
+    setVisibilityBits(view);
   }
   queueRender();
 }
