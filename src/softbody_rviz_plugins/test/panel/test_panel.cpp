@@ -1,3 +1,5 @@
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <softbody_msgs/CutBody.h>
@@ -10,6 +12,7 @@
 #include <QComboBox>
 #include <QDir>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
 #include <QTemporaryDir>
@@ -70,6 +73,16 @@ class Panel : public testing::Test {
           out.volumes = {2e-6, 1e-6};
           return true;
         })));
+    using Reconfigure = dynamic_reconfigure::Reconfigure;
+    servers_.push_back(node_.advertiseService<Reconfigure::Request, Reconfigure::Response>(
+        "simulator/set_parameters",
+        boost::function<bool(Reconfigure::Request&, Reconfigure::Response&)>([this](auto& in, auto&) {
+          const auto& number = in.config.doubles.at(0);
+          if (accept_) parameters_[number.name] = number.value;
+          publishParameters();
+          return accept_;
+        })));
+    updates_ = node_.advertise<dynamic_reconfigure::Config>("simulator/parameter_updates", 1, true);
     topology_ = node_.advertise<softbody_msgs::TetTopology>("volume/topology", 1, true);
     state_ = node_.advertise<softbody_msgs::MeshState>("surface/state", 1, true);
     panel_.onInitialize();
@@ -119,12 +132,35 @@ class Panel : public testing::Test {
     EXPECT_TRUE(waitFor([&] { return says(words); })) << text.toStdString();
   }
 
+  void publishParameters() {
+    dynamic_reconfigure::Config config;
+    for (const auto& [name, value] : parameters_) {
+      config.doubles.emplace_back();
+      config.doubles.back().name = name;
+      config.doubles.back().value = value;
+    }
+    updates_.publish(config);
+  }
+
+  /// The field of a parameter shows a text. Sliders and fields are named after their parameters.
+  bool shows(const QString& parameter, const QString& text) {
+    return panel_.findChild<QLineEdit*>(parameter)->text() == text;
+  }
+
+  void enter(const QString& parameter, const QString& text) {
+    auto* field = panel_.findChild<QLineEdit*>(parameter);
+    ASSERT_TRUE(waitFor([&] { return field->isEnabled(); }));
+    field->setText(text);
+    QMetaObject::invokeMethod(field, "returnPressed");
+  }
+
   ros::NodeHandle node_{"/softbody"};
+  std::map<std::string, double> parameters_{{"target_stiffness", 10.0}, {"youngs_modulus_pa", 2e4}};
   std::vector<std::string> called_;  // services
   double place_ = 0.0, direction_ = 0.0;
   bool accept_ = true;
   std::vector<ros::ServiceServer> servers_;
-  ros::Publisher topology_, state_;
+  ros::Publisher topology_, state_, updates_;
   SoftbodyPanel panel_;
 };
 
@@ -133,7 +169,8 @@ TEST_F(Panel, EveryButtonCallsItsServiceAndShowsTheAnswer) {
   topology_.publish(body());
   expectAnswer("Preview", "Preview: 2 pieces of 2.0, 1.0 cm3");
   panel_.findChild<QComboBox*>()->setCurrentIndex(1);
-  panel_.findChild<QSlider*>()->setValue(panel_.findChild<QSlider*>()->maximum() / 4);
+  auto* slider = panel_.findChild<QSlider*>("position");
+  slider->setValue(slider->maximum() / 4);
   expectAnswer("Cut", "Cut; revision 7");
   EXPECT_NEAR(place_, 0.05, 1e-6);  // a quarter of 0.2 m along y
   EXPECT_EQ(direction_, 1.0);
@@ -153,6 +190,35 @@ TEST_F(Panel, EveryButtonCallsItsServiceAndShowsTheAnswer) {
                                           "feature_tracker/find_again",
                                           "surface/undo"};
   EXPECT_EQ(called_, expected);
+}
+
+TEST_F(Panel, StiffnessesAreThoseOfTheGraphAndCanBeChanged) {
+  auto* slider = panel_.findChild<QSlider*>("target_stiffness");
+  EXPECT_FALSE(slider->isEnabled());  // nothing is known yet
+  publishParameters();
+  ASSERT_TRUE(waitFor([&] { return shows("target_stiffness", "10") && shows("youngs_modulus_pa", "20"); }));
+  const int place = slider->value();
+  ASSERT_TRUE(waitFor([&] { return slider->isEnabled(); }));
+  slider->setValue(slider->maximum());
+  EXPECT_TRUE(waitFor([&] { return parameters_["target_stiffness"] == 1000.0; }));
+  EXPECT_TRUE(waitFor([&] { return shows("target_stiffness", "1000"); }));
+  enter("youngs_modulus_pa", "7.5");
+  EXPECT_TRUE(waitFor([&] { return parameters_["youngs_modulus_pa"] == 7500.0; }));
+  EXPECT_EQ(parameters_["target_stiffness"], 1000.0);
+  parameters_["target_stiffness"] = 10.0;  // another program changes it
+  publishParameters();
+  EXPECT_TRUE(waitFor([&] { return slider->value() == place; }));
+}
+
+TEST_F(Panel, ARefusedStiffnessGoesBack) {
+  publishParameters();
+  accept_ = false;
+  ASSERT_TRUE(waitFor([&] { return shows("target_stiffness", "10"); }));
+  enter("target_stiffness", "-3");
+  EXPECT_TRUE(waitFor([&] { return says("Not changed: target_stiffness = -3 is refused"); }));
+  EXPECT_TRUE(waitFor([&] { return shows("target_stiffness", "10"); }));
+  enter("target_stiffness", "soft");
+  EXPECT_TRUE(shows("target_stiffness", "10"));
 }
 
 TEST_F(Panel, TheRecordButtonWritesABagThatIsWhole) {

@@ -46,6 +46,7 @@ void CutControls::addPlane(QLayout* layout) {
   axis_->addItems({"x", "y", "z"});
   axis_->setToolTip("Axis of the body at rest, across which the plane lies");
   slider_ = new QSlider(Qt::Horizontal);
+  slider_->setObjectName("position");
   slider_->setRange(0, kSteps);
   slider_->setValue(kSteps / 2);
   place_ = new QLabel;

@@ -57,7 +57,9 @@ SoftbodyPanel::SoftbodyPanel(QWidget* parent) : Panel(parent) {
   cut_ = new CutControls(node_, &caller_, this);
   rows->addWidget(cut_);
   answer_ = addLabel(rows);
+  stiffness_ = new StiffnessControls(node_, &caller_, this);
   rows->insertWidget(rows->indexOf(cut_), new RecordButton(node_, answer_));
+  rows->insertWidget(rows->indexOf(cut_), stiffness_);
   rows->addStretch();
 }
 
@@ -93,7 +95,8 @@ void SoftbodyPanel::onInitialize() {
 void SoftbodyPanel::subscribe() {
   subscribers_ = {node_.subscribe(topics::kStatus, 1, &SoftbodyPanel::onStatus, this),
                   node_.subscribe(topics::kTiming, 50, &SoftbodyPanel::onTiming, this),
-                  node_.subscribe(topics::kVolumeTopology, 1, &SoftbodyPanel::onTopology, this)};
+                  node_.subscribe(topics::kVolumeTopology, 1, &SoftbodyPanel::onTopology, this),
+                  node_.subscribe("simulator/parameter_updates", 1, &StiffnessControls::show, stiffness_)};
 }
 
 void SoftbodyPanel::onStatus(const softbody_msgs::TrackingStatus& message) {
@@ -146,7 +149,11 @@ void SoftbodyPanel::refresh() {
       period ? fmt::format("{:.1f} Hz", 1e3 / *period) : "none")));
   if (!last_status_.isZero() && (ros::SteadyTime::now() - last_status_).toSec() > kSilent_s)
     setBanner(state_, "Silent: no status for some seconds", "#666666");
-  if (const auto answer = caller_.take()) answer_->setText(QString::fromStdString(*answer));
+  if (const auto answer = caller_.take()) {
+    answer_->setText(QString::fromStdString(*answer));
+    stiffness_->restore();
+  }
+  stiffness_->setBusy(caller_.isBusy());
   cut_->setBusy(caller_.isBusy());
   find_->setEnabled(!caller_.isBusy());
 }

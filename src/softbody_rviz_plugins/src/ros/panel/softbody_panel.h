@@ -13,12 +13,14 @@
 
 #include "ros/panel/cut_controls.h"
 #include "ros/panel/service_caller.h"
+#include "ros/panel/stiffness_controls.h"
 #include "ros/panel/time_bars.h"
 #include "timing/frame_times.h"
 
 namespace softbody {
 
-/// State of the tracker in words, times of the stages, and buttons for the services of the graph.
+/// State of the tracker in words, times of the stages, sliders for stiffness, and buttons for the services of
+/// the graph.
 class SoftbodyPanel : public rviz::Panel {
   Q_OBJECT
 
@@ -42,6 +44,7 @@ class SoftbodyPanel : public rviz::Panel {
   QLabel *state_, *reason_, *numbers_, *latency_, *answer_;
   QPushButton* find_;
   TimeBars* bars_;
+  StiffnessControls* stiffness_;
   CutControls* cut_;
   FrameTimes times_;
   softbody_msgs::TetTopology::ConstPtr topology_;  ///< of the cut's controls
