@@ -67,4 +67,12 @@ Points inSinglePrecision(const Points& points) {
   return single.cast<double>();
 }
 
+// Volatile, because g++ 12 drops the conversion of neighbouring coordinates at -O3.
+Eigen::Vector3d rounded(const Eigen::Vector3d& point) {
+  return point.unaryExpr([](double coordinate) {
+    const volatile auto single = static_cast<float>(coordinate);
+    return static_cast<double>(single);
+  });
+}
+
 }  // namespace softbody

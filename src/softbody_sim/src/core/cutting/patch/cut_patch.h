@@ -22,7 +22,8 @@ CutPatch joined(const CutPatch& first, const CutPatch& second);
 /// removes degenerate cases. All models of a body are cut by the same moved patch.
 CutPatch inGeneralPosition(CutPatch patch);
 
-/// Coordinates rounded to the precision of Point32.
+/// Coordinates rounded to the precision of Point32, as they are published.
 Points inSinglePrecision(const Points& points);
+Eigen::Vector3d rounded(const Eigen::Vector3d& point);
 
 }  // namespace softbody

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "cutting/fill/cut_fill.h"
 #include "cutting/split/split_surface.h"
-#include "cutting/surface/cut_fill.h"
 
 namespace softbody {
 

@@ -133,14 +133,6 @@ void Compaction::writeTexture() {
 
 }  // namespace
 
-// Volatile, because g++ 12 drops the conversion of neighbouring coordinates at -O3.
-Eigen::Vector3d rounded(const Eigen::Vector3d& point) {
-  return point.unaryExpr([](double coordinate) {
-    const volatile auto single = static_cast<float>(coordinate);
-    return static_cast<double>(single);
-  });
-}
-
 SurfaceCut compacted(const MeshTopology& before, const SplitSurface& surface,
                      const StitchedSurface& stitched) {
   return Compaction(before, surface, stitched).run();

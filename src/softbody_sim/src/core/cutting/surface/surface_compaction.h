@@ -6,9 +6,6 @@
 
 namespace softbody {
 
-/// A point rounded to Point32, as it is published.
-Eigen::Vector3d rounded(const Eigen::Vector3d& point);
-
 /// The published form of a cut mesh: without unused vertices and triangles, with numbered pieces.
 /// @param before the mesh of which `surface` is the divided and `stitched` the opened form.
 SurfaceCut compacted(const MeshTopology& before, const SplitSurface& surface,

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cutting/fill/cut_fill.h"
+#include "cutting/fill/cut_fill_edits.h"
 #include "cutting/split/curve_snapping.h"
 #include "cutting/split/cut_curve.h"
 #include "cutting/split/cut_refused.h"
 #include "cutting/split/manifold_mesh.h"
 #include "cutting/split/split_surface.h"
 #include "cutting/surface/coplanar_faces.h"
-#include "cutting/surface/cut_fill.h"
-#include "cutting/surface/cut_fill_edits.h"
 #include "cutting/surface/surface_compaction.h"
 #include "cutting/surface/surface_stitching.h"
 

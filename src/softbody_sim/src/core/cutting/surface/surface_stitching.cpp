@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "cutting/fill/cut_fill_edits.h"
 #include "cutting/split/cut_refused.h"
-#include "cutting/surface/cut_fill_edits.h"
 
 namespace softbody {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cutting/surface/cut_fill.h"
+#include "cutting/fill/cut_fill.h"
 
 /// Edits of a fill that keep its outline.
 namespace softbody {

@@ -1,4 +1,4 @@
-#include "cutting/surface/cut_fill.h"
+#include "cutting/fill/cut_fill.h"
 
 #include <algorithm>
 #include <map>

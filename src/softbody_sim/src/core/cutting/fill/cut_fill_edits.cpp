@@ -1,4 +1,4 @@
-#include "cutting/surface/cut_fill_edits.h"
+#include "cutting/fill/cut_fill_edits.h"
 
 #include "cutting/split/curve_snapping.h"
 
