@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Shape of the triangles at the cut, holes, and times of the cuts in a bag of `replay --timing`, as JSON. Runs in the
-environment of the workspace.
+"""Shape of the triangles at the cut, holes, change of the volume, and times of the cuts in a bag of `replay --timing`,
+as JSON. Runs in the environment of the workspace.
 
 Usage: cut_quality.py RESULT.bag
 "Before" are the triangles of the uncut surface that a plane through the cut splits. "After" are the triangles of the
-skin that touch the cut.
+skin that touch the cut. "Faces" are the triangles of the faces of the cut.
 """
 import json
 import sys
@@ -14,6 +14,7 @@ import rosbag
 import softbody
 
 SHARP_DEG = 10.0
+NARROW_DEG = 20.0
 
 
 def least_angles(corners):
@@ -52,6 +53,17 @@ def after(cut):
     return cut.rest_vertices[cut.triangles[touches]].astype(float)
 
 
+def faces(cut):
+    """Triangles of the faces of the cut."""
+    return cut.rest_vertices[cut.triangles[cut.cut_triangles]].astype(float)
+
+
+def volume(surface):
+    """[m^3]"""
+    corners = surface.rest_vertices[surface.triangles].astype(float)
+    return float(np.linalg.det(corners).sum() / 6)
+
+
 def holes(cut):
     """Edges that do not belong to exactly two triangles."""
     edges = np.sort(np.concatenate([cut.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
@@ -68,7 +80,8 @@ def cut_times(result):
 
 def of_triangles(corners):
     angles = least_angles(corners)
-    return {"triangles": len(angles), "least_deg": angles.min(), "sharp_share": float((angles < SHARP_DEG).mean())}
+    return {"triangles": len(angles), "least_deg": angles.min(), "sharp_share": float((angles < SHARP_DEG).mean()),
+            "narrow_share": float((angles < NARROW_DEG).mean())}
 
 
 def main():
@@ -76,7 +89,8 @@ def main():
     uncut, cut = topologies[0], topologies[-1]
     times = cut_times(sys.argv[1])
     print(json.dumps({"before": of_triangles(before(uncut, cut)), "after": of_triangles(after(cut)),
-                      "holes": holes(cut), "cuts": len(times), "median_ms": float(np.median(times)),
+                      "faces": of_triangles(faces(cut)), "holes": holes(cut),
+                      "volume_change": volume(cut) / volume(uncut) - 1, "cuts": len(times), "median_ms": float(np.median(times)),
                       "worst_ms": max(times)}))
 
 

@@ -97,20 +97,22 @@ def cutting(reports):
     for scene in CUT_THROUGH:
         report = reports[Run(scene)]
         quality, surface = report["quality"], report["cut_surface"]
-        sides = quality["before"], quality["after"]
+        sides = quality["before"], quality["after"], quality["faces"]
         rows.append([scene, " / ".join(str(side["triangles"]) for side in sides),
                      " / ".join(number(side["least_deg"]) for side in sides),
-                     " / ".join(percent(side["sharp_share"]) for side in sides), quality["holes"], quality["cuts"],
+                     " / ".join(percent(side["sharp_share"]) for side in sides),
+                     " / ".join(percent(side["narrow_share"]) for side in sides),
+                     number(1e6 * quality["volume_change"]), quality["holes"], quality["cuts"],
                      f"{number(quality['median_ms'])} / {number(quality['worst_ms'])}",
                      f"{number(get(surface, 'distance', 'mean_mm'))} / {number(get(surface, 'distance', 'max_mm'))}"])
     return section("Cutting", "Before: triangles of the uncut surface, split by one plane through the cut. After: "
-                              "triangles of the skin that touch the tracked cut. This cut consists of several patches, "
-                              "so its line has bends and more triangles. Holes: edges that do not have exactly two "
-                              "triangles. Time: of the frames in which the knife cut. Error: distance of the cut "
+                              "triangles of the skin that touch the tracked cut. Faces: triangles that fill the cut. "
+                              "Volume: change by the cut, in parts per million. Holes: edges that do not have exactly "
+                              "two triangles. Time: of the frames in which the knife cut. Error: distance of the cut "
                               "surface from the true one.",
-                   ["scene", "triangles, before / after", "least angle, before / after [degrees]",
-                    "below 10 degrees, before / after [%]", "holes", "cuts", "time, median / worst [ms]",
-                    "error, mean / max [mm]"], rows)
+                   ["scene", "triangles, before / after / faces", "least angle, before / after / faces [degrees]",
+                    "below 10 degrees, before / after / faces [%]", "below 20 degrees, before / after / faces [%]",
+                    "volume [ppm]", "holes", "cuts", "time, median / worst [ms]", "error, mean / max [mm]"], rows)
 
 
 def tearing(reports):

@@ -48,7 +48,7 @@ struct CutBody {
   CutBody(const std::string& name, double reach)
       : model(buildObjectModel(loadObjectDescription(kConfig + name))),
         surface(model.visual, model.volume),
-        sources(ownSources(model.visual)),
+        sources(ownSources(model.visual.rest_vertices.rows())),
         manifold(manifoldOf(model.visual)),
         uncut(static_cast<std::size_t>(model.volume.surface.rows()), false),
         patch(planeThrough(model.visual, reach)) {
@@ -66,7 +66,7 @@ struct CutBody {
 
   ObjectModel model;
   VisualSurface surface;
-  MeshSources sources;
+  std::vector<int> sources;
   ManifoldMesh manifold;
   std::vector<bool> uncut;
   CutPatch patch;

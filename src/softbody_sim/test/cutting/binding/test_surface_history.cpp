@@ -28,7 +28,7 @@ TEST(SurfaceHistory, CutsWithoutAJump) {
     EXPECT_LT((after.row(v) - before.row(parent)).norm(), 1e-9);
     ++kept;
   }
-  EXPECT_GE(kept, before.rows());
+  EXPECT_GE(kept, 0.8 * before.rows());  // a few near the cut are replaced
   EXPECT_LT((body.atRest() - mesh.rest_vertices).cwiseAbs().maxCoeff(), kRounding);
 }
 

@@ -17,10 +17,6 @@ using namespace softbody::testing;
 
 const std::string kShipped = SOFTBODY_SOURCE_DIR "/../softbody_bringup/config/";
 
-double diagonalOf(const MeshTopology& mesh) {
-  return (mesh.rest_vertices.colwise().maxCoeff() - mesh.rest_vertices.colwise().minCoeff()).norm();
-}
-
 CutPatch rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
   CutPatch patch;
   patch.vertices.resize(4, 3);

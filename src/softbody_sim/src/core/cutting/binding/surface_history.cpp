@@ -49,8 +49,12 @@ SurfaceCut SurfaceHistory::preview(const CutPatch& patch, std::uint32_t stroke) 
 
 SurfaceCut SurfaceHistory::uncutPreview(std::uint32_t stroke) const {
   const MeshTopology& mesh = versions_[hasVersion(stroke) ? at_ - 1 : at_]->surface.topology();
-  MeshSources sources = ownSources(mesh);
-  return {CutOutcome::kMissed, "", mesh, std::move(sources.vertices), std::move(sources.triangles), {}};
+  return {CutOutcome::kMissed,
+          "",
+          mesh,
+          ownSources(mesh.rest_vertices.rows()),
+          ownSources(mesh.triangles.rows()),
+          {}};
 }
 
 void SurfaceHistory::advance(const CutPatch& patch, std::uint32_t stroke) {
@@ -62,8 +66,8 @@ void SurfaceHistory::advance(const CutPatch& patch, std::uint32_t stroke) {
 void SurfaceHistory::cut(const CutPatch& patch, std::uint32_t stroke, SurfaceCut cut, const TetEdit& edit,
                          const MeshState& volume) {
   advance(patch, stroke);
-  if (!stroke_has_version_) sources_ = ownSources(surface().topology());
-  MeshSources sources{cut.vertex_sources, cut.triangle_sources};
+  if (!stroke_has_version_) sources_ = ownSources(surface().topology().rest_vertices.rows());
+  std::vector<int> sources = cut.vertex_sources;
   std::optional<ManifoldMesh> manifold = versions_[stroke_has_version_ ? at_ - 1 : at_]->manifold;
   if (cut.outcome == CutOutcome::kCut) manifold = std::move(cut.manifold);
   VisualSurface rebound = rebindSurface(surface(), sources_, std::move(cut), edit, volume);

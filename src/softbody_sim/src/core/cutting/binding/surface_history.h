@@ -70,8 +70,8 @@ class SurfaceHistory {
   /// The uncut surface, then one version per stroke; null: dropped.
   std::vector<std::shared_ptr<const Version>> versions_;
   std::size_t at_ = 0;
-  MeshSources sources_;  ///< of the surface, in the mesh before the current stroke
-  CutPatch stroke_;      ///< whole current stroke
+  std::vector<int> sources_;  ///< of the surface's vertices, in the mesh before the current stroke
+  CutPatch stroke_;           ///< whole current stroke
   std::optional<std::uint32_t> stroke_number_;
   bool stroke_has_version_ = false;
 };

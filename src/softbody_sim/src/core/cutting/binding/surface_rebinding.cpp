@@ -1,6 +1,5 @@
 #include "cutting/binding/surface_rebinding.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <numeric>
 
 #include "cutting/binding/side_placement.h"
+#include "cutting/binding/surface_spots.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_common/tet_locator.h"
 
@@ -46,6 +46,7 @@ class Counterparts {
   Range of(int source, const Eigen::RowVector3d& rest) const {
     if (source >= 0) {
       const auto s = static_cast<std::size_t>(source);
+      if (s + 1 >= first_.size()) return {nullptr, nullptr};
       return {kept_.data() + first_[s], kept_.data() + first_[s + 1]};
     }
     const auto found = made_.find({rest[0], rest[1], rest[2]});
@@ -60,13 +61,12 @@ class Counterparts {
 
 class Rebinding {
  public:
-  Rebinding(const VisualSurface& now, const MeshSources& sources, const SurfaceCut& cut, const TetEdit& edit,
-            const MeshState& volume)
+  Rebinding(const VisualSurface& now, const std::vector<int>& sources, const SurfaceCut& cut,
+            const TetEdit& edit, const MeshState& volume)
       : now_(now),
-        sources_(sources),
         cut_(cut),
         edit_(edit),
-        counterparts_(now.topology().rest_vertices, sources.vertices),
+        counterparts_(now.topology().rest_vertices, sources),
         shown_(now.apply(volume).vertices) {
     const TetTopology& before = now.binding().volume();
     vertices_ = applyBinding(edit.vertex_origins, volume.vertices, before.tets);
@@ -83,29 +83,14 @@ class Rebinding {
   }
 
  private:
-  /// A position of a vertex on a triangle of the earlier surface.
-  struct Spot {
-    double outside = 0.0;         ///< distance beyond the triangle's border, in barycentric coordinates
-    Eigen::RowVector3d position;  ///< in the given state
-    double distance = 0.0;        ///< from the position by the vertex's tet
-    bool isBetterThan(const Spot& other) const {
-      constexpr double kRounding = 1e-3;
-      if (std::max(outside, other.outside) > kRounding) return outside < other.outside;
-      return distance < other.distance;
-    }
-  };
-
   Counterparts::Range counterpartsOf(Eigen::Index v) const {
     return counterparts_.of(cut_.vertex_sources[static_cast<std::size_t>(v)], cut_.mesh.rest_vertices.row(v));
   }
   std::vector<MaterialPoint> knownPlaces() const;
   void placeOldVertices();
-  std::vector<std::vector<int>> newVerticesBySource() const;
   void placeNewVertices();
-  Spot spotOn(const Eigen::RowVector3i& triangle, int v) const;
 
   const VisualSurface& now_;
-  const MeshSources& sources_;
   const SurfaceCut& cut_;
   const TetEdit& edit_;
   Counterparts counterparts_;
@@ -141,66 +126,24 @@ void Rebinding::placeOldVertices() {
   }
 }
 
-/// Per triangle of the mesh before the stroke, the new vertices on it.
-std::vector<std::vector<int>> Rebinding::newVerticesBySource() const {
-  std::vector<std::vector<int>> made;
-  for (Eigen::Index t = 0; t < cut_.mesh.triangles.rows(); ++t) {
-    const int source = cut_.triangle_sources[static_cast<std::size_t>(t)];
-    if (source < 0) continue;
-    for (const int v : cut_.mesh.triangles.row(t)) {
-      if (cut_.vertex_sources[static_cast<std::size_t>(v)] >= 0 || counterpartsOf(v).size() > 0) continue;
-      if (made.size() <= static_cast<std::size_t>(source)) made.resize(static_cast<std::size_t>(source) + 1);
-      made[static_cast<std::size_t>(source)].push_back(v);
-    }
-  }
-  return made;
-}
-
-/// Puts each new vertex on the earlier triangle that contains it at rest. Of two triangles beside a slit,
-/// takes the one nearest to the position by the vertex's tet.
+/// Puts vertices without counterparts on the earlier surface, if they lie on it at rest.
 void Rebinding::placeNewVertices() {
-  const MeshTopology& before = now_.topology();
-  const std::vector<std::vector<int>> made = newVerticesBySource();
-  std::map<int, Spot> spots;
-  for (Eigen::Index t = 0; t < before.triangles.rows(); ++t) {
-    const auto source = static_cast<std::size_t>(sources_.triangles[static_cast<std::size_t>(t)]);
-    if (source >= made.size()) continue;
-    for (const int v : made[source]) {
-      const Spot spot = spotOn(before.triangles.row(t), v);
-      const auto [entry, is_first] = spots.emplace(v, spot);
-      if (!is_first && spot.isBetterThan(entry->second)) entry->second = spot;
-    }
+  std::vector<int> made;
+  for (int v = 0; v < static_cast<int>(positions_.rows()); ++v) {
+    if (counterpartsOf(v).size() == 0) made.push_back(v);
   }
-  for (const auto& [v, spot] : spots) positions_.row(v) = spot.position;
-}
-
-Rebinding::Spot Rebinding::spotOn(const Eigen::RowVector3i& triangle, int v) const {
-  const Points& rest = now_.topology().rest_vertices;
-  Eigen::Matrix<double, 3, 2> edges;
-  edges << (rest.row(triangle[1]) - rest.row(triangle[0])).transpose(),
-      (rest.row(triangle[2]) - rest.row(triangle[0])).transpose();
-  const Eigen::Vector3d offset = (cut_.mesh.rest_vertices.row(v) - rest.row(triangle[0])).transpose();
-  const Eigen::Vector2d w = edges.colPivHouseholderQr().solve(offset);
-  Spot spot;
-  spot.outside = std::max({0.0, -w[0], -w[1], w[0] + w[1] - 1.0});
-  spot.position = (1.0 - w.sum()) * shown_.row(triangle[0]) + w[0] * shown_.row(triangle[1]) +
-                  w[1] * shown_.row(triangle[2]);
-  spot.distance = (spot.position - positions_.row(v)).norm();
-  return spot;
+  moveWithSurface(now_.topology(), shown_, made, cut_.mesh.rest_vertices, &positions_);
 }
 
 }  // namespace
 
-MeshSources ownSources(const MeshTopology& mesh) {
-  MeshSources sources;
-  sources.vertices.resize(static_cast<std::size_t>(mesh.rest_vertices.rows()));
-  sources.triangles.resize(static_cast<std::size_t>(mesh.triangles.rows()));
-  std::iota(sources.vertices.begin(), sources.vertices.end(), 0);
-  std::iota(sources.triangles.begin(), sources.triangles.end(), 0);
+std::vector<int> ownSources(Eigen::Index count) {
+  std::vector<int> sources(static_cast<std::size_t>(count));
+  std::iota(sources.begin(), sources.end(), 0);
   return sources;
 }
 
-VisualSurface rebindSurface(const VisualSurface& now, const MeshSources& sources, SurfaceCut cut,
+VisualSurface rebindSurface(const VisualSurface& now, const std::vector<int>& sources, SurfaceCut cut,
                             const TetEdit& edit, const MeshState& volume) {
   TetBinding binding = Rebinding(now, sources, cut, edit, volume).binding();
   cut.mesh.revision = edit.topology.revision;

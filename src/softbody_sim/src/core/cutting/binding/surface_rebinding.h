@@ -8,20 +8,16 @@
 
 namespace softbody {
 
-/// The sources of a mesh's vertices and triangles in another mesh, as in SurfaceCut.
-struct MeshSources {
-  std::vector<int> vertices, triangles;
-};
-
-/// The identity: a mesh as its own source.
-MeshSources ownSources(const MeshTopology& mesh);
+/// 0 to count - 1: the elements of a mesh as their own sources, as in SurfaceCut.
+std::vector<int> ownSources(Eigen::Index count);
 
 /// Binds the cut visual surface to the tets after an edit, without a jump: in the given state, earlier
 /// vertices keep their positions, and new ones lie on the earlier surface. At rest all vertices are at their
 /// rest positions.
-/// @param now the surface before the edit; @param sources of its mesh in the mesh before the current stroke;
+/// @param now the surface before the edit; @param sources of its vertices in the mesh before the current
+/// stroke;
 /// @param cut of that mesh along the whole stroke; @param volume a state of the tets before the edit.
-VisualSurface rebindSurface(const VisualSurface& now, const MeshSources& sources, SurfaceCut cut,
+VisualSurface rebindSurface(const VisualSurface& now, const std::vector<int>& sources, SurfaceCut cut,
                             const TetEdit& edit, const MeshState& volume);
 
 }  // namespace softbody

@@ -71,6 +71,23 @@ void flipTexture(int h, double along, SplitSurface* surface) {
   texture[3 * e] = at_b, texture[3 * e + 1] = at_apex, texture[3 * e + 2] = at_opposite;
 }
 
+/// Gives the corners at the start of a half-edge the texture coordinates of its end. Corners on another side
+/// of a seam keep theirs.
+void moveTexture(int half_edge, SplitSurface* surface) {
+  constexpr double kSameTexture = 1e-6;  // well above rounding
+  const int mate = surface->mates[half_edge];
+  auto& texture = surface->texture;
+  const Eigen::Vector2d from = texture[half_edge], from_mate = texture[nextHalfEdge(mate)],
+                        to = texture[nextHalfEdge(half_edge)], to_mate = texture[mate];
+  for (const int h : starOf(*surface, half_edge)) {
+    if ((texture[h] - from).norm() < kSameTexture) {
+      texture[h] = to;
+    } else if ((texture[h] - from_mate).norm() < kSameTexture) {
+      texture[h] = to_mate;
+    }
+  }
+}
+
 }  // namespace
 
 bool collapseEdge(int half_edge, SplitSurface* surface) {
@@ -84,6 +101,7 @@ bool collapseEdge(int half_edge, SplitSurface* surface) {
   if (std::abs(joinedFlow(*surface, half_edge)) > 1 || std::abs(joinedFlow(*surface, mate)) > 1) return false;
 
   const int removed = startOf(surface->triangles, half_edge), kept = endOf(surface->triangles, half_edge);
+  if (!surface->texture.empty()) moveTexture(half_edge, surface);
   for (const int h : starOf(*surface, half_edge)) surface->triangles[h / 3][h % 3] = kept;
   removeTriangle(half_edge, surface);
   removeTriangle(mate, surface);

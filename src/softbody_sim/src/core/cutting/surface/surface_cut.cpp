@@ -7,6 +7,7 @@
 
 #include "cutting/fill/cut_fill.h"
 #include "cutting/fill/cut_fill_edits.h"
+#include "cutting/remesh/cut_remeshing.h"
 #include "cutting/split/curve_snapping.h"
 #include "cutting/split/cut_curve.h"
 #include "cutting/split/cut_refused.h"
@@ -23,6 +24,7 @@ namespace {
 constexpr double kSnapDistance = 1.0 / 20000.0;
 constexpr double kLowestTriangle = 1.0 / 400000.0;
 constexpr double kFlatness = 1.0 / 100000.0;
+constexpr double kRemeshDistance = 1.0 / 2000.0;
 constexpr double kCoplanarDistance = 3.0 * kSnapDistance;
 constexpr double kOfLowTriangle = 0.01;
 constexpr int kAttempts = 6;
@@ -144,7 +146,8 @@ SurfaceCut SurfaceCutter::attempt(const CutPatch& patch) const {
     return withoutCut(mesh_, CutOutcome::kMissed, "the patch only grazes the surface");
   }
   if (coplanar.count > 0) throw CutIsCoplanar(coplanar.outward);
-  const StitchedSurface stitched = stitch(surface, fill);
+  remeshCut(mesh_.cut, kRemeshDistance * diagonal_, &surface, &fill);
+  const StitchedSurface stitched = stitch(surface, std::move(fill));
   checkHeights(mesh_, surface, stitched, kLowestTriangle * diagonal_);
   SurfaceCut result = compacted(mesh_, surface, stitched);
   checkPieces(result.mesh, snap_distance);
